@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/command.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <mutex>
+#include <stop_token>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace spindrift::cli {
+namespace {
+
+/// One line on the terminal that is written over; cleared at the end.
+class TerminalProgress final : public ProgressSink {
+ public:
+  ~TerminalProgress() override {
+    if (shown_) std::fputs("\r\033[K", stderr);
+  }
+  void report(double fraction, std::string_view stage) override {
+    const std::scoped_lock lock(mutex_);
+    const int percent = static_cast<int>(fraction * 100.0);
+    if (shown_ && percent == last_percent_ && stage == last_stage_) return;
+    last_percent_ = percent;
+    last_stage_ = std::string(stage);
+    shown_ = true;
+    std::fprintf(stderr, "\r\033[K%3d %%  %s", percent, last_stage_.c_str());
+    std::fflush(stderr);
+  }
+
+ private:
+  std::mutex mutex_;
+  bool shown_ = false;
+  int last_percent_ = -1;
+  std::string last_stage_;
+};
+
+std::stop_source& interruption() {
+  static std::stop_source source;
+  return source;
+}
+
+void onInterrupt(int) {
+  // request_stop without registered callbacks only sets an atomic flag.
+  interruption().request_stop();
+  std::signal(SIGINT, SIG_DFL);
+}
+
+}  // namespace
+
+CLI::App* addCommand(CLI::App& parent, CommandLine& line, const std::string& name, const std::string& description,
+                     std::function<CommandResult(JobContext&)> run) {
+  CLI::App* command = parent.add_subcommand(name, description);
+  command
+      ->add_option("--json", line.json_file, "Write the machine-readable result to FILE, or to standard output with -")
+      ->type_name("FILE");
+  command->callback([&line, run = std::move(run)] { line.selected = run; });
+  return command;
+}
+
+int runSelected(CommandLine& line) {
+  const bool json_to_stdout = line.json_file == "-";
+  try {
+    std::signal(SIGINT, onInterrupt);
+    CommandResult result;
+    {
+      TerminalProgress progress;
+      JobContext job(interruption().get_token(), ::isatty(STDERR_FILENO) != 0 ? &progress : nullptr);
+      result = line.selected(job);
+    }
+    if (json_to_stdout) {
+      std::cout << result.json.dump(1) << '\n';
+    } else {
+      if (!line.json_file.empty()) writeFileAtomically(line.json_file, result.json.dump(1) + "\n");
+      std::cout << result.summary;
+      if (!result.summary.empty() && !result.summary.ends_with('\n')) std::cout << '\n';
+    }
+    std::cout.flush();
+    return result.exit_status;
+  } catch (const InputError& error) {
+    std::cerr << "spindrift-cli: " << error.what() << '\n';
+    return BadInput;
+  } catch (const Cancelled&) {
+    std::cerr << "spindrift-cli: cancelled; nothing was written\n";
+    return NotGoodEnough;
+  } catch (const std::exception& error) {
+    std::cerr << "spindrift-cli: internal error: " << error.what() << '\n';
+    return InternalFailure;
+  }
+}
+
+}  // namespace spindrift::cli

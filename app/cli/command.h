@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The frame of every command: --json, progress, exit status. Each commands_<domain>.cpp registers its commands here and
+// calls functions of core; it computes nothing itself.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/base/job_context.h"
+
+namespace spindrift::cli {
+
+/// Exit status as in FORMATS.md.
+enum ExitStatus { Done = 0, NotGoodEnough = 1, BadInput = 2, InternalFailure = 3 };
+
+/// What a command gives back: JSON for `--json`, a summary for people, and 0 or 1 (not good enough; the summary says
+/// why).
+struct CommandResult {
+  nlohmann::json json = nlohmann::json::object();
+  std::string summary;
+  int exit_status = Done;
+};
+
+/// Shared by all commands of one run of the program.
+struct CommandLine {
+  std::function<CommandResult(JobContext&)> selected;  ///< set by the subcommand that was given
+  std::string json_file;                               ///< "", "-" or a path
+};
+
+/// Adds a subcommand with `--json`; returns it so that the caller adds its options. `run` is called after parsing.
+CLI::App* addCommand(CLI::App& parent, CommandLine& line, const std::string& name, const std::string& description,
+                     std::function<CommandResult(JobContext&)> run);
+
+/// Runs the selected command: progress on standard error if that is a terminal, JSON and summary as FORMATS.md says,
+/// errors as one sentence on standard error. Returns the exit status.
+int runSelected(CommandLine& line);
+
+void addDiscrepancyCommands(CLI::App& app, CommandLine& line);
+void addEvaluateCommands(CLI::App& app, CommandLine& line);
+void addImagingCommands(CLI::App& app, CommandLine& line);
+void addKinematicsCommands(CLI::App& app, CommandLine& line);
+void addProbingCommands(CLI::App& app, CommandLine& line);
+void addReportingCommands(CLI::App& app, CommandLine& line);
+void addScanningCommands(CLI::App& app, CommandLine& line);
+void addSimulationCommands(CLI::App& app, CommandLine& line);
+void addThermalCommands(CLI::App& app, CommandLine& line);
+
+}  // namespace spindrift::cli

@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs what is missing, builds and starts the desktop program on the demo session of the virtual machine. Without a
+# display the same guided work runs on the offscreen platform; pictures and report are in build/tour.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+. resources/setup.sh -DSPINDRIFT_TESTS=OFF
+if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
+  exec build/bin/spindrift --demo "$@"
+fi
+QT_QPA_PLATFORM=offscreen build/bin/spindrift --tour build/tour "$@"
+echo "No display: the guided tour ran off-screen. Pictures and report: build/tour"

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace spindrift {
+namespace {
+
+std::string withMinusSign(std::string text) {
+  if (!text.empty() && text.front() == '-') text.replace(0, 1, "\u2212");
+  return text;
+}
+
+}  // namespace
+
+std::string withUncertainty(double value, double standard_uncertainty, std::string_view unit) {
+  std::string text;
+  if (!std::isfinite(value)) {
+    text = "not determined";
+    return text;
+  }
+  if (std::isfinite(standard_uncertainty) && standard_uncertainty > 0.0) {
+    const double exponent = std::floor(std::log10(standard_uncertainty));
+    const double leading = standard_uncertainty / std::pow(10.0, exponent);
+    const int significant = leading < 2.95 ? 2 : 1;
+    const int decimals = std::clamp(static_cast<int>(-exponent) + significant - 1, 0, 12);
+    text = withMinusSign(fmt::format("{:.{}f}", value, decimals)) + " \u00b1 " +
+           fmt::format("{:.{}f}", standard_uncertainty, decimals);
+  } else {
+    text = withMinusSign(fmt::format("{:.6g}", value));
+  }
+  if (!unit.empty()) text.append(" ").append(unit);
+  return text;
+}
+
+std::string exactNumber(double value) {
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, result.ptr};
+}
+
+std::string joinedList(std::span<const std::string> items, std::string_view last_word) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) text += i + 1 == items.size() ? fmt::format(" {} ", last_word) : std::string(", ");
+    text += items[i];
+  }
+  return text;
+}
+
+std::vector<std::string> splitList(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  while (!text.empty()) {
+    const std::size_t end = text.find(separator);
+    const std::string_view part = trimmed(text.substr(0, end));
+    if (!part.empty()) parts.emplace_back(part);
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+  }
+  return parts;
+}
+
+std::string_view trimmed(std::string_view text) noexcept {
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+bool parseNumber(std::string_view text, double& value) noexcept {
+  text = trimmed(text);
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  if (text.empty()) return false;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  return result.ec == std::errc() && result.ptr == text.data() + text.size() && std::isfinite(value);
+}
+
+std::string escapedXml(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+}  // namespace spindrift

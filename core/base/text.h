@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers and lists as people read them.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace spindrift {
+
+/// "12.4 ± 0.3 um": digits follow the uncertainty (two significant digits if its first digit is 1 or 2, else one), true
+/// minus sign. Without a usable uncertainty (not finite or <= 0): six significant digits of the value alone.
+[[nodiscard]] std::string withUncertainty(double value, double standard_uncertainty, std::string_view unit);
+
+/// A number for a file: shortest text that reads back to the same double, C locale.
+[[nodiscard]] std::string exactNumber(double value);
+
+/// "F1, F2 and F3".
+[[nodiscard]] std::string joinedList(std::span<const std::string> items, std::string_view last_word = "and");
+
+/// Splits at `separator`, trims blanks, drops empty parts: "F1, F2" -> {"F1", "F2"}.
+[[nodiscard]] std::vector<std::string> splitList(std::string_view text, char separator = ',');
+
+[[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
+
+/// A finite number that fills the whole text (C locale), or nothing.
+[[nodiscard]] bool parseNumber(std::string_view text, double& value) noexcept;
+
+/// Escapes &, <, > and quotes for HTML and SVG.
+[[nodiscard]] std::string escapedXml(std::string_view text);
+
+}  // namespace spindrift

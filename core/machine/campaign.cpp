@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/machine/campaign.h"
+
+#include <fmt/format.h>
+
+#include <regex>
+
+namespace spindrift {
+
+Campaign Campaign::read(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder)) {
+    throw InputError({folder, ""}, "is not a folder; allowed: a campaign folder with campaign.json and machine.json.");
+  }
+  Campaign campaign;
+  campaign.folder = folder;
+  const JsonNode root = JsonNode::read(folder / "campaign.json");
+  root.requireFormat("spindrift-campaign", 1);
+  campaign.name = root.at("name").name();
+  const JsonNode start = root.at("start_utc");
+  campaign.start_utc = start.string();
+  static const std::regex utc(R"(\d{4}-\d{2}-\d{2}T\d{2}:\d{2}:\d{2}(\.\d+)?Z)");
+  if (!std::regex_match(campaign.start_utc, utc)) start.reject("a UTC time such as \"2026-01-31T08:00:00Z\"");
+  campaign.simulation = root.stringOr("simulation", "");
+  if (const auto gain = root.find("simulation_gain_uncertainty")) {
+    campaign.simulation_gain_uncertainty = gain->nonNegativeNumber();
+  }
+  campaign.machine = MachineDescription::read(folder / "machine.json");
+  if (std::filesystem::exists(folder / "log.csv")) campaign.log = OperatingLog::read(folder / "log.csv");
+  if (std::filesystem::exists(folder / "observations.csv")) {
+    campaign.observations = ObservationSet::read(folder / "observations.csv");
+  }
+  return campaign;
+}
+
+std::optional<std::filesystem::path> Campaign::captureList(std::string_view file_name) const {
+  const std::filesystem::path file = folder / "captures" / file_name;
+  return std::filesystem::exists(file) ? std::optional(file) : std::nullopt;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every instrument ends in and every model predicts: one component of the deviation, at a position, at a time.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/machine/component.h"
+
+namespace spindrift {
+
+/// How an observation may be used. `Holdout` only reports: it never selects and is never fitted.
+enum class ObservationUse { Fit, Holdout, Exclude };
+
+[[nodiscard]] std::string_view toString(ObservationUse use) noexcept;
+
+/// One row of observations.csv. `value` and `sigma` in um (EX, EY, EZ) or urad (EA, EB, EC); deviation = actual minus
+/// commanded position of the tool relative to the table, up to an unknown constant per point and component.
+struct Observation {
+  double time_s = 0.0;
+  std::string state;                                      ///< thermal state or cycle: M0, M1, ...
+  std::string point;                                      ///< id of the point
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< where the deviation holds, MCF
+  double c_deg = 0.0;                                     ///< rotation of the table about +Z
+  Component component = Component::EX;
+  double value = 0.0;
+  double sigma = 0.0;  ///< one standard uncertainty, > 0
+  std::string instrument;
+  ObservationUse use = ObservationUse::Fit;
+  Eigen::Vector3d approach = Eigen::Vector3d::Zero();        ///< direction of approach, -1, 0 or +1 per axis
+  Eigen::Vector3d tool_offset_mm = Eigen::Vector3d::Zero();  ///< tool point minus spindle reference
+};
+
+/// Extra covariance between two observations (observations.cov.csv). Rows count from 0 here, from 1 in the file.
+struct CovarianceEntry {
+  std::size_t row = 0;
+  std::size_t column = 0;
+  double covariance = 0.0;
+};
+
+struct ObservationSet {
+  std::vector<Observation> rows;
+  /// Sparse, beyond the diagonal sigma^2; symmetric entries are given once. A diagonal entry replaces sigma^2.
+  std::vector<CovarianceEntry> covariance;
+  std::filesystem::path file;
+
+  /// Reads observations.csv and, if it stands beside it, <stem>.cov.csv. Throws InputError: missing column, unknown
+  /// component or use, sigma that is not positive, time that runs backwards for a point, a duplicate row.
+  [[nodiscard]] static ObservationSet read(const std::filesystem::path& file);
+  /// Writes observations.csv, and <stem>.cov.csv if there is a covariance. Exact numbers, atomic.
+  void write(const std::filesystem::path& file) const;
+  /// The text `write` puts into observations.csv.
+  [[nodiscard]] std::string csv() const;
+
+  /// States in order of first appearance.
+  [[nodiscard]] std::vector<std::string> states() const;
+  /// Points in order of first appearance.
+  [[nodiscard]] std::vector<std::string> points() const;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laser scans (captures/scans.csv) evaluated into observations.
+#pragma once
+
+#include "core/base/job_context.h"
+#include "core/machine/campaign.h"
+#include "core/machine/instrument_evaluation.h"
+
+namespace spindrift {
+
+/// Bad captures are listed with their reason, the rest is evaluated. Throws InputError if the list itself cannot be
+/// read.
+[[nodiscard]] InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& scan_model,
+                                                 JobContext& job);
+
+}  // namespace spindrift

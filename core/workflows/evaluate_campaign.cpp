@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/evaluate_campaign.h"
+
+#include <fmt/format.h>
+
+#include "core/imaging/evaluate_fiducials.h"
+#include "core/probing/evaluate_touches.h"
+#include "core/scanning/evaluate_scans.h"
+
+namespace spindrift {
+
+nlohmann::json CampaignEvaluation::json() const {
+  nlohmann::json out = nlohmann::json::object();
+  nlohmann::json rejected = nlohmann::json::array();
+  nlohmann::json warnings = nlohmann::json::array();
+  nlohmann::json names = nlohmann::json::array();
+  for (const InstrumentEvaluation& instrument : instruments) {
+    names.push_back(instrument.instrument);
+    for (const auto& [key, value] : instrument.details.items()) {
+      if (out.contains(key) && out[key].is_array() && value.is_array()) {
+        out[key].insert(out[key].end(), value.begin(), value.end());
+      } else {
+        out[key] = value;
+      }
+    }
+    for (const RejectedCapture& r : instrument.rejected)
+      rejected.push_back({{"capture", r.capture}, {"reason", r.reason}});
+    for (const std::string& w : instrument.warnings) warnings.push_back(w);
+  }
+  out["instruments"] = names;
+  out["rejected"] = rejected;
+  out["warnings"] = warnings;
+  out["observation_count"] = observations.rows.size();
+  return out;
+}
+
+std::string CampaignEvaluation::summary() const {
+  std::string text;
+  for (const InstrumentEvaluation& instrument : instruments) {
+    text += instrument.summary;
+    if (!text.empty() && text.back() != '\n') text += '\n';
+    for (const RejectedCapture& r : instrument.rejected) text += fmt::format("rejected {}: {}\n", r.capture, r.reason);
+    for (const std::string& w : instrument.warnings) text += fmt::format("note: {}\n", w);
+  }
+  text += fmt::format("{} observations\n", observations.rows.size());
+  return text;
+}
+
+CampaignEvaluation evaluateCampaign(const Campaign& campaign, const EvaluateOptions& options, JobContext& job) {
+  CampaignEvaluation evaluation;
+  const auto fiducials = campaign.captureList("fiducials.csv");
+  const auto touches = campaign.captureList("touches.csv");
+  const auto scans = campaign.captureList("scans.csv");
+  if (!fiducials && !touches && !scans) {
+    throw InputError({campaign.path("captures"), ""},
+                     "holds no list of captures; allowed: fiducials.csv, touches.csv or scans.csv.");
+  }
+  if (fiducials) evaluation.instruments.push_back(evaluateFiducials(campaign, job));
+  if (touches) evaluation.instruments.push_back(evaluateTouches(campaign, job));
+  if (scans) evaluation.instruments.push_back(evaluateScans(campaign, options.scan_model, job));
+  for (const InstrumentEvaluation& instrument : evaluation.instruments) {
+    const std::size_t offset = evaluation.observations.rows.size();
+    for (const Observation& row : instrument.observations.rows) evaluation.observations.rows.push_back(row);
+    for (CovarianceEntry entry : instrument.observations.covariance) {
+      entry.row += offset;
+      entry.column += offset;
+      evaluation.observations.covariance.push_back(entry);
+    }
+    evaluation.good_enough = evaluation.good_enough && instrument.good_enough;
+  }
+  return evaluation;
+}
+
+ObservationSet observationsOf(const Campaign& campaign, const std::filesystem::path& file,
+                              const EvaluateOptions& options, JobContext& job) {
+  if (!file.empty()) return ObservationSet::read(file);
+  if (campaign.observations) return *campaign.observations;
+  return evaluateCampaign(campaign, options, job).observations;
+}
+
+}  // namespace spindrift

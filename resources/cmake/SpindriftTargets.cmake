@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Helpers that give every target the same flags and names.
+
+# Flags shared by everything that is compiled here.
+add_library(spindrift_options INTERFACE)
+target_include_directories(spindrift_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(
+  spindrift_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+                              $<$<BOOL:${SPINDRIFT_WARNINGS_AS_ERRORS}>:-Werror>)
+# g++ 12 reports false positives of these kinds from inside Eigen and the standard library when it inlines.
+target_compile_options(spindrift_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow
+                                                   -Wno-restrict)
+if(SPINDRIFT_SANITIZE)
+  target_compile_options(spindrift_options INTERFACE -fsanitize=${SPINDRIFT_SANITIZE} -fno-omit-frame-pointer
+                                                     -fno-sanitize-recover=undefined)
+  target_link_options(spindrift_options INTERFACE -fsanitize=${SPINDRIFT_SANITIZE})
+endif()
+target_compile_definitions(spindrift_options INTERFACE SPINDRIFT_VERSION="${PROJECT_VERSION}")
+
+# spindrift_core_library(<folder> SOURCES a.cpp ... [LINK lib ...] [PRIVATE_LINK lib ...] [SYSTEM dir ...])
+# One static library per core folder, named spindrift_<folder>, alias Spindrift::<folder>.
+function(spindrift_core_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PRIVATE_LINK;SYSTEM" ${ARGN})
+  add_library(spindrift_${name} STATIC ${ARG_SOURCES})
+  add_library(Spindrift::${name} ALIAS spindrift_${name})
+  target_link_libraries(spindrift_${name} PUBLIC spindrift_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  if(ARG_SYSTEM)
+    target_include_directories(spindrift_${name} SYSTEM PRIVATE ${ARG_SYSTEM})
+  endif()
+endfunction()
+
+# spindrift_test(<name> SOURCES a_test.cpp ... LINK lib ... [TIMEOUT seconds] [LABELS l ...])
+# One GoogleTest program, registered with ctest as <name>.
+function(spindrift_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_test_support)
+  target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
+                                             SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  add_test(NAME ${name} COMMAND ${name})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}" ENVIRONMENT
+                                          "QT_QPA_PLATFORM=offscreen;LC_ALL=C.UTF-8")
+endfunction()
+
+# spindrift_benchmark(<name> SOURCES a.cpp ... LINK lib ...): a program of its own in build/benchmarks, not run by ctest.
+function(spindrift_benchmark name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_options)
+  target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
+                                             SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/benchmarks)
+endfunction()
