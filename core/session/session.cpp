@@ -1,2 +1,275 @@
 // SPDX-License-Identifier: Apache-2.0
-namespace spindrift {}
+#include "core/session/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/json_reader.h"
+#include "core/base/log.h"
+#include "core/session/fingerprint.h"
+#include "core/session/session_database.h"
+#include "core/session/session_lock.h"
+
+namespace spindrift {
+namespace {
+
+constexpr const char* version_file = "spindrift-session.json";
+constexpr const char* database_file = "session.sqlite";
+
+/// A folder name that is safe everywhere: letters, digits, - and _.
+std::string folderName(const std::string& name) {
+  std::string safe;
+  for (const char c : name) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    if (plain) {
+      safe += c;
+    } else if (!safe.empty() && safe.back() != '_') {
+      safe += '_';
+    }
+  }
+  return safe.empty() ? "campaign" : safe.substr(0, 60);
+}
+
+std::filesystem::path freshFolder(const std::filesystem::path& parent, const std::string& name) {
+  std::filesystem::path folder = parent / folderName(name);
+  for (int i = 2; std::filesystem::exists(folder); ++i) folder = parent / fmt::format("{}_{}", folderName(name), i);
+  return folder;
+}
+
+void copyFolder(const std::filesystem::path& source, const std::filesystem::path& target, JobContext& job) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source)) {
+    if (entry.is_regular_file()) files.push_back(std::filesystem::relative(entry.path(), source));
+  }
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    job.report(static_cast<double>(i) / static_cast<double>(files.size()), "copying the campaign into the session");
+    job.throwIfCancelled();
+    std::filesystem::create_directories((target / files[i]).parent_path());
+    std::filesystem::copy_file(source / files[i], target / files[i]);
+  }
+}
+
+}  // namespace
+
+std::string utcNow() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+Session::Session(std::filesystem::path folder, std::unique_ptr<SessionLock> lock,
+                 std::unique_ptr<SessionDatabase> database)
+    : folder_(std::move(folder)), lock_(std::move(lock)), database_(std::move(database)) {}
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+bool Session::isSession(const std::filesystem::path& folder) {
+  return std::filesystem::is_regular_file(folder / version_file);
+}
+
+Session Session::create(const std::filesystem::path& wanted) {
+  const std::filesystem::path folder = std::filesystem::absolute(wanted);
+  std::error_code error;
+  if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder, error)) {
+    throw InputError({folder, ""}, "is not empty; allowed: a new or an empty folder for a new session.");
+  }
+  std::filesystem::create_directories(folder / "campaigns", error);
+  if (error) throw InputError({folder, ""}, fmt::format("cannot be made: {}.", error.message()));
+  auto lock = std::make_unique<SessionLock>(folder);
+  std::vector<std::string> messages;
+  auto database = std::make_unique<SessionDatabase>(folder / database_file, messages);
+  // The version file comes last: a session that was interrupted while it was made is not taken for one.
+  writeFileAtomically(folder / version_file, fmt::format("{{\"format\":\"spindrift-session\",\"version\":{}}}\n",
+                                                         SessionDatabase::newest_version));
+  log(LogLevel::Info, "made session " + folder.string());
+  return {folder, std::move(lock), std::move(database)};
+}
+
+Session Session::open(const std::filesystem::path& wanted) {
+  const std::filesystem::path folder = std::filesystem::absolute(wanted);
+  if (!isSession(folder)) {
+    throw InputError({folder, ""}, fmt::format("is not a session; allowed: a folder with {}.", version_file));
+  }
+  const JsonNode root = JsonNode::read(folder / version_file);
+  root.requireFormat("spindrift-session", SessionDatabase::newest_version);
+  const int version = root.at("version").integer();
+  auto lock = std::make_unique<SessionLock>(folder);
+  if (!std::filesystem::exists(folder / database_file)) {
+    throw InputError({folder, ""},
+                     fmt::format("has lost its file {}; put it back from a copy of the session.", database_file));
+  }
+  if (version < SessionDatabase::newest_version) {
+    std::filesystem::copy_file(folder / database_file, folder / fmt::format("session.version{}.sqlite", version),
+                               std::filesystem::copy_options::skip_existing);
+  }
+  std::vector<std::string> messages;
+  auto database = std::make_unique<SessionDatabase>(folder / database_file, messages);
+  if (version < SessionDatabase::newest_version) {
+    writeFileAtomically(folder / version_file, fmt::format("{{\"format\":\"spindrift-session\",\"version\":{}}}\n",
+                                                           SessionDatabase::newest_version));
+  }
+  // A campaign that was being imported when the program died has no row: its half copy is of no use.
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "campaigns", ignored)) {
+    if (entry.path().filename().string().starts_with(".importing")) std::filesystem::remove_all(entry.path(), ignored);
+  }
+  Session session(folder, std::move(lock), std::move(database));
+  session.migration_messages_ = std::move(messages);
+  log(LogLevel::Info, "opened session " + folder.string());
+  return session;
+}
+
+std::int64_t Session::importCampaign(const std::filesystem::path& source, JobContext& job) {
+  const Campaign checked = Campaign::read(source);
+  const std::string fingerprint = fingerprintOfFolder(source);
+  for (const CampaignRecord& record : campaigns()) {
+    if (record.fingerprint == fingerprint) return record.id;
+  }
+  const std::filesystem::path parent = folder_ / "campaigns";
+  const std::filesystem::path target = freshFolder(parent, checked.name);
+  const std::filesystem::path working = parent / (".importing-" + target.filename().string());
+  std::error_code error;
+  std::filesystem::remove_all(working, error);
+  try {
+    copyFolder(source, working, job);
+    std::filesystem::rename(working, target);
+  } catch (const std::filesystem::filesystem_error& failure) {
+    std::filesystem::remove_all(working, error);
+    throw InputError({source, ""}, fmt::format("cannot be copied into the session: {}.", failure.code().message()));
+  } catch (...) {
+    std::filesystem::remove_all(working, error);
+    throw;
+  }
+  const std::int64_t id =
+      database_->addCampaign(checked.name, std::filesystem::relative(target, folder_).generic_string(), fingerprint);
+  log(LogLevel::Info, fmt::format("imported campaign \"{}\" from {}", checked.name, source.string()));
+  return id;
+}
+
+std::int64_t Session::newCampaign(const std::string& name, const std::string& start_utc,
+                                  const std::string& machine_json) {
+  const std::filesystem::path target = freshFolder(folder_ / "campaigns", name);
+  const nlohmann::json head = {
+      {"format", "spindrift-campaign"}, {"version", 1}, {"name", name}, {"start_utc", start_utc}};
+  writeFileAtomically(target / "campaign.json", head.dump(1) + "\n");
+  writeFileAtomically(target / "machine.json", machine_json);
+  try {
+    (void)Campaign::read(target);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove_all(target, ignored);
+    throw;
+  }
+  return database_->addCampaign(name, std::filesystem::relative(target, folder_).generic_string(),
+                                fingerprintOfFolder(target));
+}
+
+std::vector<CampaignRecord> Session::campaigns() const {
+  std::vector<CampaignRecord> list = database_->campaigns();
+  for (CampaignRecord& record : list) record.folder = folder_ / record.folder;
+  return list;
+}
+
+CampaignRecord Session::campaign(std::int64_t id) const {
+  for (CampaignRecord& record : campaigns()) {
+    if (record.id == id) return record;
+  }
+  SPINDRIFT_ASSERT(false, "unknown campaign id");
+  return {};
+}
+
+void Session::removeCampaign(std::int64_t id) {
+  const CampaignRecord record = campaign(id);
+  const std::filesystem::path target = freshFolder(folder_ / "removed", record.name);
+  std::error_code error;
+  std::filesystem::create_directories(target.parent_path(), error);
+  std::filesystem::rename(record.folder, target, error);
+  if (error) throw InputError({record.folder, ""}, fmt::format("cannot be moved away: {}.", error.message()));
+  database_->removeCampaign(id);
+}
+
+void Session::addCapture(std::int64_t id, const std::string& list, const std::string& header, const std::string& row,
+                         const std::filesystem::path& source, const std::string& relative_name) {
+  const CampaignRecord record = campaign(id);
+  const std::filesystem::path list_file = record.folder / "captures" / list;
+  if (!source.empty()) writeFileAtomically(record.folder / "captures" / relative_name, readFile(source));
+  std::string text = std::filesystem::exists(list_file) ? readFile(list_file) : header + "\n";
+  if (!text.ends_with('\n')) text += '\n';
+  writeFileAtomically(list_file, text + row + "\n");
+  database_->setCampaignFingerprint(id, Fingerprint().add(record.fingerprint).add(row).text());
+}
+
+std::string Session::inputsFingerprint(std::int64_t id, const nlohmann::json& options) const {
+  Fingerprint fingerprint;
+  fingerprint.add(campaign(id).fingerprint).add(options.dump()).add(SPINDRIFT_VERSION);
+  for (const Exclusion& exclusion : exclusions(id)) fingerprint.add(exclusion.item);
+  return fingerprint.text();
+}
+
+std::int64_t Session::addResult(std::int64_t id, const std::string& kind, const nlohmann::json& options,
+                                const nlohmann::json& payload) {
+  StoredResult result;
+  result.campaign = id;
+  result.kind = kind;
+  result.payload = payload;
+  result.provenance = {SPINDRIFT_VERSION, utcNow(), inputsFingerprint(id, options), options};
+  return database_->addResult(result);
+}
+
+std::optional<StoredResult> Session::latestResult(std::int64_t id, const std::string& kind) const {
+  std::vector<StoredResult> list = database_->results(id, kind);
+  if (list.empty()) return std::nullopt;
+  return std::move(list.back());
+}
+
+std::vector<StoredResult> Session::results(std::int64_t id) const {
+  return database_->results(id, "");
+}
+void Session::removeResult(std::int64_t result) {
+  database_->removeResult(result);
+}
+
+bool Session::isCurrent(const StoredResult& result) const {
+  return result.provenance.inputs_fingerprint == inputsFingerprint(result.campaign, result.provenance.options);
+}
+
+void Session::exclude(std::int64_t id, const std::string& item, const std::string& reason) {
+  database_->exclude(id, {item, reason, utcNow()});
+}
+void Session::restore(std::int64_t id, const std::string& item) {
+  database_->restore(id, item);
+}
+std::vector<Exclusion> Session::exclusions(std::int64_t id) const {
+  return database_->exclusions(id);
+}
+
+std::int64_t Session::addNote(std::int64_t id, const std::string& step, const std::string& text) {
+  return database_->addNote(id, {0, step, text, utcNow()});
+}
+void Session::removeNote(std::int64_t note) {
+  database_->removeNote(note);
+}
+std::vector<Note> Session::notes(std::int64_t id) const {
+  return database_->notes(id);
+}
+
+void Session::setSetting(const std::string& key, const nlohmann::json& value) {
+  database_->setSetting(key, value.dump());
+}
+
+std::optional<nlohmann::json> Session::setting(const std::string& key) const {
+  const auto text = database_->setting(key);
+  return text ? std::optional(nlohmann::json::parse(*text)) : std::nullopt;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// A session: everything a user keeps about one or more campaigns, in one folder that can be copied to another computer.
+//
+//   spindrift-session.json   {"format":"spindrift-session","version":1}, the only file every version can read
+//   session.sqlite           results with provenance, exclusions with reasons, notes, settings (one transaction a
+//   change) campaigns/<name>/        imported campaigns: plain files, copied once, never altered by an evaluation lock
+//   held by the one process that works on the session
+//
+// Every change is on the disk when the call returns: a crash loses at most the call in progress.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/job_context.h"
+#include "core/machine/campaign.h"
+
+namespace spindrift {
+
+/// Where a result comes from. A result is current while `inputs_fingerprint` is what `Session::inputsFingerprint` gives
+/// for the same campaign and options now.
+struct Provenance {
+  std::string program_version;
+  std::string created_utc;
+  std::string inputs_fingerprint;
+  nlohmann::json options = nlohmann::json::object();  ///< everything that influenced the result, seed included
+};
+
+struct StoredResult {
+  std::int64_t id = 0;
+  std::int64_t campaign = 0;
+  std::string kind;  ///< "evaluate", "fit", "discrepancy", ...
+  Provenance provenance;
+  nlohmann::json payload;
+};
+
+struct CampaignRecord {
+  std::int64_t id = 0;
+  std::string name;
+  std::filesystem::path folder;  ///< absolute; inside the session unless the campaign is only referred to
+  std::string fingerprint;       ///< of the content at import (capture adds to it as it goes)
+  std::string imported_utc;
+};
+
+/// Something the user took out, and why: a capture ("captures/images/a.jpg") or an observation ("M1/F3/EX").
+struct Exclusion {
+  std::string item;
+  std::string reason;
+  std::string created_utc;
+};
+
+struct Note {
+  std::int64_t id = 0;
+  std::string step;
+  std::string text;
+  std::string created_utc;
+};
+
+class SessionDatabase;
+class SessionLock;
+
+/// Not thread-safe: one thread (in the desktop program the GUI thread) owns it; jobs get copies of what they need.
+class Session {
+ public:
+  /// Makes a new session in a folder that does not exist or is empty. Throws InputError.
+  [[nodiscard]] static Session create(const std::filesystem::path& folder);
+  /// Opens a session; one of an older version is migrated first (a copy of the old database stays beside it). Throws
+  /// InputError: no session there, a newer version, in use by another process, damaged.
+  [[nodiscard]] static Session open(const std::filesystem::path& folder);
+  /// True if the folder holds a session of any version.
+  [[nodiscard]] static bool isSession(const std::filesystem::path& folder);
+
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+  ~Session();
+
+  [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
+  /// Sentences about what a migration did; empty if there was none.
+  [[nodiscard]] const std::vector<std::string>& migrationMessages() const noexcept { return migration_messages_; }
+
+  // Campaigns -----------------------------------------------------------------------------------------------------
+  /// Checks a campaign folder by reading it and copies it into the session. Cancelling leaves no trace. A campaign with
+  /// the same content is not imported twice: its existing id is returned.
+  std::int64_t importCampaign(const std::filesystem::path& source, JobContext& job);
+  /// A new, empty campaign inside the session for capturing into; `machine_json` is the text of machine.json.
+  std::int64_t newCampaign(const std::string& name, const std::string& start_utc, const std::string& machine_json);
+  [[nodiscard]] std::vector<CampaignRecord> campaigns() const;
+  /// Throws InternalError for an unknown id.
+  [[nodiscard]] CampaignRecord campaign(std::int64_t id) const;
+  /// Takes a campaign and its results out of the session. Its files are moved to `removed/` inside the session.
+  void removeCampaign(std::int64_t id);
+  /// Adds one captured item: copies `source` to `captures/<relative_name>` (atomically) and appends `row` to
+  /// `captures/<list>` (with `header` if the list is new). Either both are there afterwards or the row is not.
+  void addCapture(std::int64_t campaign, const std::string& list, const std::string& header, const std::string& row,
+                  const std::filesystem::path& source, const std::string& relative_name);
+
+  // Results -------------------------------------------------------------------------------------------------------
+  /// What a result of this campaign with these options depends on: files, exclusions, options, program version.
+  [[nodiscard]] std::string inputsFingerprint(std::int64_t campaign, const nlohmann::json& options) const;
+  std::int64_t addResult(std::int64_t campaign, const std::string& kind, const nlohmann::json& options,
+                         const nlohmann::json& payload);
+  [[nodiscard]] std::optional<StoredResult> latestResult(std::int64_t campaign, const std::string& kind) const;
+  [[nodiscard]] std::vector<StoredResult> results(std::int64_t campaign) const;
+  void removeResult(std::int64_t result);
+  /// False: inputs, exclusions, options or program have changed since.
+  [[nodiscard]] bool isCurrent(const StoredResult& result) const;
+
+  // Exclusions, notes, settings -------------------------------------------------------------------------------------
+  void exclude(std::int64_t campaign, const std::string& item, const std::string& reason);
+  void restore(std::int64_t campaign, const std::string& item);
+  [[nodiscard]] std::vector<Exclusion> exclusions(std::int64_t campaign) const;
+  std::int64_t addNote(std::int64_t campaign, const std::string& step, const std::string& text);
+  void removeNote(std::int64_t note);
+  [[nodiscard]] std::vector<Note> notes(std::int64_t campaign) const;
+  void setSetting(const std::string& key, const nlohmann::json& value);
+  [[nodiscard]] std::optional<nlohmann::json> setting(const std::string& key) const;
+
+ private:
+  Session(std::filesystem::path folder, std::unique_ptr<SessionLock> lock, std::unique_ptr<SessionDatabase> database);
+
+  std::filesystem::path folder_;
+  std::unique_ptr<SessionLock> lock_;
+  std::unique_ptr<SessionDatabase> database_;
+  std::vector<std::string> migration_messages_;
+};
+
+/// Now, as "2026-01-31T08:00:00Z".
+[[nodiscard]] std::string utcNow();
+
+}  // namespace spindrift

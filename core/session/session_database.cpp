@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/session/session_database.h"
+
+#include <fmt/format.h>
+#include <soci/soci.h>
+#include <soci/sqlite3/soci-sqlite3.h>
+
+#include "core/base/error.h"
+
+namespace spindrift {
+
+struct SessionDatabase::Connection {
+  mutable soci::session sql;
+};
+
+namespace {
+
+/// Schema of version 1. Later versions add a function to `migrations` and never change an older one.
+void makeVersion1(soci::session& sql) {
+  sql << "create table campaign (id integer primary key, name text not null, folder text not null unique, "
+         "fingerprint text not null, imported_utc text not null)";
+  sql << "create table result (id integer primary key, campaign integer not null references campaign(id) on delete "
+         "cascade, kind text not null, program_version text not null, created_utc text not null, inputs_fingerprint "
+         "text "
+         "not null, options text not null, payload text not null)";
+  sql << "create index result_by_kind on result (campaign, kind, id)";
+  sql << "create table exclusion (campaign integer not null references campaign(id) on delete cascade, item text not "
+         "null, reason text not null, created_utc text not null, primary key (campaign, item))";
+  sql << "create table note (id integer primary key, campaign integer not null references campaign(id) on delete "
+         "cascade, "
+         "step text not null, text text not null, created_utc text not null)";
+  sql << "create table setting (name text primary key, value text not null)";
+}
+
+using Migration = void (*)(soci::session&);
+constexpr Migration migrations[] = {makeVersion1};
+static_assert(std::size(migrations) == SessionDatabase::newest_version);
+
+/// Runs `body` and turns what SOCI throws into the sentence a user gets.
+template <typename Body>
+auto guarded(const std::filesystem::path& file, Body body) -> decltype(body()) {
+  try {
+    return body();
+  } catch (const soci::soci_error& error) {
+    throw InputError({file, ""}, fmt::format("the session's database cannot be used: {}.", error.get_error_message()));
+  }
+}
+
+}  // namespace
+
+SessionDatabase::SessionDatabase(const std::filesystem::path& file, std::vector<std::string>& messages)
+    : file_(file), connection_(std::make_unique<Connection>()) {
+  guarded(file_, [&] {
+    soci::session& sql = connection_->sql;
+    sql.open(soci::sqlite3, fmt::format("db=\"{}\" timeout=5", file_.string()));
+    sql << "pragma foreign_keys = on";
+    sql << "pragma synchronous = full";
+    int version = 0;
+    sql << "pragma user_version", soci::into(version);
+    if (version > newest_version) {
+      throw InputError({file_, ""},
+                       fmt::format("has version {}; allowed: 1 to {}. It was made by a newer program; open "
+                                   "it there or install the newer version.",
+                                   version, newest_version));
+    }
+    if (version < newest_version) {
+      const int before = version;
+      soci::transaction transaction(sql);
+      while (version < newest_version) migrations[version++](sql);
+      sql << fmt::format("pragma user_version = {}", newest_version);
+      transaction.commit();
+      if (before > 0) {
+        messages.push_back(fmt::format("The session was brought from version {} to {}.", before, newest_version));
+      }
+    }
+  });
+}
+
+SessionDatabase::~SessionDatabase() = default;
+
+std::int64_t SessionDatabase::addCampaign(const std::string& name, const std::string& folder,
+                                          const std::string& fingerprint) {
+  return guarded(file_, [&] {
+    const std::string now = utcNow();
+    soci::session& sql = connection_->sql;
+    sql << "insert into campaign (name, folder, fingerprint, imported_utc) values (:n, :f, :p, :t)", soci::use(name),
+        soci::use(folder), soci::use(fingerprint), soci::use(now);
+    long long id = 0;
+    sql << "select last_insert_rowid()", soci::into(id);
+    return static_cast<std::int64_t>(id);
+  });
+}
+
+void SessionDatabase::setCampaignFingerprint(std::int64_t id, const std::string& fingerprint) {
+  guarded(file_, [&] {
+    const long long key = id;
+    connection_->sql << "update campaign set fingerprint = :p where id = :i", soci::use(fingerprint), soci::use(key);
+  });
+}
+
+std::vector<CampaignRecord> SessionDatabase::campaigns() const {
+  return guarded(file_, [&] {
+    std::vector<CampaignRecord> list;
+    const soci::rowset<soci::row> rows =
+        (connection_->sql.prepare << "select cast(id as text), name, folder, fingerprint, imported_utc from campaign "
+                                     "order by id");
+    for (const soci::row& row : rows) {
+      list.push_back({std::stoll(row.get<std::string>(0)), row.get<std::string>(1), row.get<std::string>(2),
+                      row.get<std::string>(3), row.get<std::string>(4)});
+    }
+    return list;
+  });
+}
+
+void SessionDatabase::removeCampaign(std::int64_t id) {
+  guarded(file_, [&] {
+    const long long key = id;
+    connection_->sql << "delete from campaign where id = :i", soci::use(key);
+  });
+}
+
+std::int64_t SessionDatabase::addResult(const StoredResult& result) {
+  return guarded(file_, [&] {
+    const long long campaign = result.campaign;
+    const std::string options = result.provenance.options.dump();
+    const std::string payload = result.payload.dump();
+    soci::session& sql = connection_->sql;
+    sql << "insert into result (campaign, kind, program_version, created_utc, inputs_fingerprint, options, payload) "
+           "values (:c, :k, :v, :t, :f, :o, :p)",
+        soci::use(campaign), soci::use(result.kind), soci::use(result.provenance.program_version),
+        soci::use(result.provenance.created_utc), soci::use(result.provenance.inputs_fingerprint), soci::use(options),
+        soci::use(payload);
+    long long id = 0;
+    sql << "select last_insert_rowid()", soci::into(id);
+    return static_cast<std::int64_t>(id);
+  });
+}
+
+std::vector<StoredResult> SessionDatabase::results(std::int64_t campaign, const std::string& kind) const {
+  return guarded(file_, [&] {
+    const long long key = campaign;
+    std::vector<StoredResult> list;
+    const soci::rowset<soci::row> rows =
+        (connection_->sql.prepare << "select cast(id as text), kind, program_version, created_utc, inputs_fingerprint, "
+                                     "options, payload from result where campaign = :c and (:k1 = '' or kind = :k2) "
+                                     "order by id",
+         soci::use(key), soci::use(kind), soci::use(kind));
+    for (const soci::row& row : rows) {
+      StoredResult result;
+      result.id = std::stoll(row.get<std::string>(0));
+      result.campaign = campaign;
+      result.kind = row.get<std::string>(1);
+      result.provenance.program_version = row.get<std::string>(2);
+      result.provenance.created_utc = row.get<std::string>(3);
+      result.provenance.inputs_fingerprint = row.get<std::string>(4);
+      result.provenance.options = nlohmann::json::parse(row.get<std::string>(5));
+      result.payload = nlohmann::json::parse(row.get<std::string>(6));
+      list.push_back(std::move(result));
+    }
+    return list;
+  });
+}
+
+void SessionDatabase::removeResult(std::int64_t id) {
+  guarded(file_, [&] {
+    const long long key = id;
+    connection_->sql << "delete from result where id = :i", soci::use(key);
+  });
+}
+
+void SessionDatabase::exclude(std::int64_t campaign, const Exclusion& exclusion) {
+  guarded(file_, [&] {
+    const long long key = campaign;
+    connection_->sql
+        << "insert into exclusion (campaign, item, reason, created_utc) values (:c, :i, :r, :t) on conflict "
+           "(campaign, item) do update set reason = excluded.reason, created_utc = excluded.created_utc",
+        soci::use(key), soci::use(exclusion.item), soci::use(exclusion.reason), soci::use(exclusion.created_utc);
+  });
+}
+
+void SessionDatabase::restore(std::int64_t campaign, const std::string& item) {
+  guarded(file_, [&] {
+    const long long key = campaign;
+    connection_->sql << "delete from exclusion where campaign = :c and item = :i", soci::use(key), soci::use(item);
+  });
+}
+
+std::vector<Exclusion> SessionDatabase::exclusions(std::int64_t campaign) const {
+  return guarded(file_,
+                 [&] {
+                   const long long key = campaign;
+                   std::vector<Exclusion> list;
+                   const soci::rowset<soci::row> rows =
+                       (connection_->sql.prepare
+                            << "select item, reason, created_utc from exclusion where campaign = :c order by item",
+                        soci::use(key));
+                   for (const soci::row& row : rows) {
+                     list.push_back({row.get<std::string>(0), row.get<std::string>(1), row.get<std::string>(2)});
+                   }
+                   return list;
+                 });
+}
+
+std::int64_t SessionDatabase::addNote(std::int64_t campaign, const Note& note) {
+  return guarded(file_, [&] {
+    const long long key = campaign;
+    soci::session& sql = connection_->sql;
+    sql << "insert into note (campaign, step, text, created_utc) values (:c, :s, :x, :t)", soci::use(key),
+        soci::use(note.step), soci::use(note.text), soci::use(note.created_utc);
+    long long id = 0;
+    sql << "select last_insert_rowid()", soci::into(id);
+    return static_cast<std::int64_t>(id);
+  });
+}
+
+void SessionDatabase::removeNote(std::int64_t id) {
+  guarded(file_, [&] {
+    const long long key = id;
+    connection_->sql << "delete from note where id = :i", soci::use(key);
+  });
+}
+
+std::vector<Note> SessionDatabase::notes(std::int64_t campaign) const {
+  return guarded(file_, [&] {
+    const long long key = campaign;
+    std::vector<Note> list;
+    const soci::rowset<soci::row> rows =
+        (connection_->sql.prepare << "select cast(id as text), step, text, created_utc from note where campaign = :c "
+                                     "order by id",
+         soci::use(key));
+    for (const soci::row& row : rows) {
+      list.push_back({std::stoll(row.get<std::string>(0)), row.get<std::string>(1), row.get<std::string>(2),
+                      row.get<std::string>(3)});
+    }
+    return list;
+  });
+}
+
+void SessionDatabase::setSetting(const std::string& key, const std::string& json) {
+  guarded(file_, [&] {
+    connection_->sql << "insert into setting (name, value) values (:n, :v) on conflict (name) do update set value = "
+                        "excluded.value",
+        soci::use(key), soci::use(json);
+  });
+}
+
+std::optional<std::string> SessionDatabase::setting(const std::string& key) const {
+  return guarded(file_, [&]() -> std::optional<std::string> {
+    std::string value;
+    soci::session& sql = connection_->sql;
+    sql << "select value from setting where name = :n", soci::use(key), soci::into(value);
+    if (!sql.got_data()) return std::nullopt;
+    return value;
+  });
+}
+
+}  // namespace spindrift

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of a session behind plain C++ types. SOCI stays in the .cpp; every SOCI failure becomes an InputError that
+// names the session's database file.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/session/session.h"
+
+namespace spindrift {
+
+class SessionDatabase {
+ public:
+  /// Newest schema this program writes.
+  static constexpr int newest_version = 1;
+
+  /// Opens or makes the database file and brings it to `newest_version`; `messages` receives what a migration did.
+  SessionDatabase(const std::filesystem::path& file, std::vector<std::string>& messages);
+  ~SessionDatabase();
+  SessionDatabase(const SessionDatabase&) = delete;
+  SessionDatabase& operator=(const SessionDatabase&) = delete;
+
+  /// `folder` is stored relative to the session.
+  std::int64_t addCampaign(const std::string& name, const std::string& folder, const std::string& fingerprint);
+  void setCampaignFingerprint(std::int64_t id, const std::string& fingerprint);
+  [[nodiscard]] std::vector<CampaignRecord> campaigns() const;
+  void removeCampaign(std::int64_t id);
+
+  std::int64_t addResult(const StoredResult& result);
+  [[nodiscard]] std::vector<StoredResult> results(std::int64_t campaign, const std::string& kind) const;
+  void removeResult(std::int64_t id);
+
+  void exclude(std::int64_t campaign, const Exclusion& exclusion);
+  void restore(std::int64_t campaign, const std::string& item);
+  [[nodiscard]] std::vector<Exclusion> exclusions(std::int64_t campaign) const;
+
+  std::int64_t addNote(std::int64_t campaign, const Note& note);
+  void removeNote(std::int64_t id);
+  [[nodiscard]] std::vector<Note> notes(std::int64_t campaign) const;
+
+  void setSetting(const std::string& key, const std::string& json);
+  [[nodiscard]] std::optional<std::string> setting(const std::string& key) const;
+
+ private:
+  struct Connection;
+  std::filesystem::path file_;
+  std::unique_ptr<Connection> connection_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/session/session_lock.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace spindrift {
+
+SessionLock::SessionLock(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "lock";
+  handle_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (handle_ < 0) {
+    throw InputError({folder, ""}, fmt::format("cannot be opened for work: {}; allowed: a folder you may write to.",
+                                               std::strerror(errno)));
+  }
+  if (::flock(handle_, LOCK_EX | LOCK_NB) != 0) {
+    char text[256] = {};
+    const ssize_t count = ::pread(handle_, text, sizeof text - 1, 0);
+    ::close(handle_);
+    handle_ = -1;
+    const std::string owner(trimmed(std::string_view(text, count > 0 ? static_cast<std::size_t>(count) : 0)));
+    throw InputError({folder, ""}, fmt::format("is open in another window ({}). Close it there first; nothing was "
+                                               "changed here.",
+                                               owner.empty() ? "unknown process" : owner));
+  }
+  char host[128] = {};
+  ::gethostname(host, sizeof host - 1);
+  const std::string owner = fmt::format("process {} on {}\n", ::getpid(), host);
+  // The text only serves the message above; a failure to write it changes nothing.
+  if (::ftruncate(handle_, 0) != 0 || ::pwrite(handle_, owner.data(), owner.size(), 0) < 0) return;
+}
+
+SessionLock::~SessionLock() {
+  if (handle_ >= 0) ::close(handle_);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/session.h"
+
+#include <gmock/gmock.h>
+#include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/session/fingerprint.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+using ::spindrift::testing::TempFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr const char* machine_json =
+    R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-t]",
+        "axes":[{"name":"X","travel_mm":[0,300]}]})";
+
+std::filesystem::path writeCampaign(const TempFolder& folder, const std::string& name) {
+  folder.write(name + "/campaign.json",
+               R"({"format":"spindrift-campaign","version":1,"name":"warm-up 1","start_utc":"2026-01-31T08:00:00Z"})");
+  folder.write(name + "/machine.json", machine_json);
+  folder.write(name + "/captures/images/a.jpg", "not really an image");
+  return folder / name;
+}
+
+TEST(Session, ReopensWithEverythingThatWasPutIn) {
+  const TempFolder folder;
+  const auto source = writeCampaign(folder, "source");
+  const std::string before = fingerprintOfFolder(source);
+  JobContext job;
+  std::int64_t campaign = 0;
+  {
+    Session session = Session::create(folder / "a session with blanks");
+    campaign = session.importCampaign(source, job);
+    session.exclude(campaign, "captures/images/a.jpg", "blurred");
+    session.addNote(campaign, "Capture", "door was open");
+    session.setSetting("theme", "dark");
+    session.addResult(campaign, "fit", {{"points", {"F1", "F2"}}}, {{"rms_um", 1.25}});
+  }
+  Session session = Session::open(folder / "a session with blanks");
+  ASSERT_EQ(session.campaigns().size(), 1U);
+  EXPECT_EQ(session.campaigns()[0].name, "warm-up 1");
+  EXPECT_EQ(Campaign::read(session.campaigns()[0].folder).machine.name, "mill");
+  ASSERT_EQ(session.exclusions(campaign).size(), 1U);
+  EXPECT_EQ(session.exclusions(campaign)[0].reason, "blurred");
+  ASSERT_EQ(session.notes(campaign).size(), 1U);
+  EXPECT_EQ(session.notes(campaign)[0].text, "door was open");
+  EXPECT_EQ(session.setting("theme"), nlohmann::json("dark"));
+  const auto result = session.latestResult(campaign, "fit");
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->payload.at("rms_um"), 1.25);
+  EXPECT_EQ(result->provenance.program_version, SPINDRIFT_VERSION);
+  EXPECT_TRUE(session.isCurrent(*result));
+  EXPECT_EQ(fingerprintOfFolder(source), before) << "an import must not touch its source";
+}
+
+TEST(Session, ResultTurnsOutdatedWhenAnExclusionChangesAndCurrentAgainWhenItIsTakenBack) {
+  const TempFolder folder;
+  JobContext job;
+  Session session = Session::create(folder / "s");
+  const auto campaign = session.importCampaign(writeCampaign(folder, "source"), job);
+  session.addResult(campaign, "fit", nlohmann::json::object(), {{"x", 1}});
+  const auto result = session.latestResult(campaign, "fit").value();
+  EXPECT_TRUE(session.isCurrent(result));
+  session.exclude(campaign, "captures/images/a.jpg", "blurred");
+  EXPECT_FALSE(session.isCurrent(result));
+  session.restore(campaign, "captures/images/a.jpg");
+  EXPECT_TRUE(session.isCurrent(result));
+}
+
+TEST(Session, SameContentIsImportedOnce) {
+  const TempFolder folder;
+  JobContext job;
+  Session session = Session::create(folder / "s");
+  const auto first = session.importCampaign(writeCampaign(folder, "one"), job);
+  EXPECT_EQ(session.importCampaign(writeCampaign(folder, "two"), job), first);
+  EXPECT_EQ(session.campaigns().size(), 1U);
+}
+
+TEST(Session, SecondProcessIsRefusedPolitely) {
+  const TempFolder folder;
+  const auto place = folder / "s";
+  Session session = Session::create(place);
+  const pid_t child = fork();
+  if (child == 0) {
+    try {
+      (void)Session::open(place);
+      _exit(1);
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      _exit(text.find("another window") != std::string::npos && text.find("process") != std::string::npos ? 0 : 2);
+    } catch (...) {
+      _exit(3);
+    }
+  }
+  int status = -1;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(Session, KilledProcessLeavesASessionThatOpens) {
+  const TempFolder folder;
+  const auto place = folder / "s";
+  const auto source = writeCampaign(folder, "source");
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    JobContext job;
+    Session session = Session::create(place);
+    const auto id = session.importCampaign(source, job);
+    session.addCapture(id, "fiducials.csv", "time_s,image", "0,captures/b.jpg", source / "captures/images/a.jpg",
+                       "b.jpg");
+    if (write(ready[1], "x", 1) != 1) _exit(1);
+    for (int i = 0;; ++i) session.setSetting("counter", i);
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  Session session = Session::open(place);
+  ASSERT_EQ(session.campaigns().size(), 1U);
+  EXPECT_EQ(readFile(session.campaigns()[0].folder / "captures/fiducials.csv"), "time_s,image\n0,captures/b.jpg\n");
+  EXPECT_EQ(readFile(session.campaigns()[0].folder / "captures/b.jpg"), "not really an image");
+}
+
+TEST(Session, CopiedFolderOpensElsewhere) {
+  const TempFolder folder;
+  JobContext job;
+  {
+    Session session = Session::create(folder / "s");
+    session.importCampaign(writeCampaign(folder, "source"), job);
+  }
+  std::filesystem::copy(folder / "s", folder / "elsewhere", std::filesystem::copy_options::recursive);
+  std::filesystem::remove_all(folder / "s");
+  const Session copy = Session::open(folder / "elsewhere");
+  EXPECT_EQ(Campaign::read(copy.campaigns().at(0).folder).name, "warm-up 1");
+}
+
+TEST(Session, RefusesNewerVersionAndForeignFolder) {
+  const TempFolder folder;
+  { (void)Session::create(folder / "s"); }
+  folder.write("s/spindrift-session.json", R"({"format":"spindrift-session","version":99})");
+  try {
+    (void)Session::open(folder / "s");
+    FAIL() << "a newer session must be refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("$.version: 99 is not allowed"));
+  }
+  EXPECT_THROW((void)Session::open(folder.path()), InputError);
+  EXPECT_THROW((void)Session::create(folder.path()), InputError);
+}
+
+TEST(Session, RefusesDatabaseOfNewerVersionAndLeavesItAlone) {
+  const TempFolder folder;
+  { (void)Session::create(folder / "s"); }
+  sqlite3* handle = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / "s/session.sqlite").c_str(), &handle), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(handle, "pragma user_version = 7", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(handle);
+  const std::string before = readFile(folder / "s/session.sqlite");
+  EXPECT_THROW((void)Session::open(folder / "s"), InputError);
+  EXPECT_EQ(readFile(folder / "s/session.sqlite"), before);
+}
+
+TEST(Session, DamagedDatabaseIsOneSentence) {
+  const TempFolder folder;
+  { (void)Session::create(folder / "s"); }
+  folder.write("s/session.sqlite", std::string(4096, 'x'));
+  try {
+    (void)Session::open(folder / "s");
+    FAIL() << "a damaged database must be refused";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("session.sqlite"));
+  }
+}
+
+TEST(Session, CancelledImportLeavesNoTrace) {
+  const TempFolder folder;
+  Session session = Session::create(folder / "s");
+  std::stop_source stop;
+  stop.request_stop();
+  JobContext job(stop.get_token(), nullptr);
+  EXPECT_THROW(session.importCampaign(writeCampaign(folder, "source"), job), Cancelled);
+  EXPECT_TRUE(session.campaigns().empty());
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "s/campaigns"));
+}
+
+TEST(Session, NewCampaignChecksTheMachine) {
+  const TempFolder folder;
+  Session session = Session::create(folder / "s");
+  EXPECT_THROW(session.newCampaign("c", "2026-01-31T08:00:00Z", "{}"), InputError);
+  EXPECT_TRUE(session.campaigns().empty());
+  const auto id = session.newCampaign("c", "2026-01-31T08:00:00Z", machine_json);
+  EXPECT_EQ(Campaign::read(session.campaign(id).folder).machine.name, "mill");
+}
+
+TEST(Session, RemovedCampaignKeepsItsFilesAside) {
+  const TempFolder folder;
+  JobContext job;
+  Session session = Session::create(folder / "s");
+  const auto id = session.importCampaign(writeCampaign(folder, "source"), job);
+  session.addResult(id, "fit", nlohmann::json::object(), 1);
+  session.removeCampaign(id);
+  EXPECT_TRUE(session.campaigns().empty());
+  EXPECT_TRUE(std::filesystem::exists(folder / "s/removed/warm-up_1/machine.json"));
+}
+
+TEST(Fingerprint, TellsPartsApart) {
+  EXPECT_NE(Fingerprint().add("ab").add("c").text(), Fingerprint().add("a").add("bc").text());
+  EXPECT_EQ(Fingerprint().add("ab").text(), Fingerprint().add("ab").text());
+}
+
+}  // namespace
+}  // namespace spindrift
