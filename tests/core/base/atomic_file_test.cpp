@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/atomic_file.h"
+
+#include <gmock/gmock.h>
+
+#include "core/base/error.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::size_t entries(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(AtomicFile, ReadsBackWhatItWroteAndLeavesNothingElse) {
+  const testing::TempFolder folder;
+  std::string content(300000, 'a');
+  content[5] = '\0';
+  writeFileAtomically(folder / "new/deep/file.bin", content);
+  EXPECT_EQ(readFile(folder / "new/deep/file.bin"), content);
+  writeFileAtomically(folder / "new/deep/file.bin", "short");
+  EXPECT_EQ(readFile(folder / "new/deep/file.bin"), "short");
+  EXPECT_EQ(entries(folder / "new/deep"), 1U);
+}
+
+TEST(AtomicFile, FailureNamesTheFileAndKeepsTheOldContent) {
+  const testing::TempFolder folder;
+  folder.write("target/inside", "x");  // a folder cannot be replaced by a file
+  try {
+    writeFileAtomically(folder / "target", "y");
+    FAIL() << "must throw";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("target"));
+  }
+  EXPECT_EQ(readFile(folder / "target/inside"), "x");
+  EXPECT_EQ(entries(folder.path()), 1U);
+  EXPECT_THROW((void)readFile(folder / "missing"), InputError);
+}
+
+TEST(AtomicFile, FullDeviceIsAnErrorNotALoss) {
+  if (!std::filesystem::exists("/dev/full")) return;
+  EXPECT_THROW(writeFileAtomically("/dev/full", std::string(100000, 'x')), InputError);
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/csv.h"
+
+#include <gmock/gmock.h>
+
+namespace spindrift {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string complaint(const std::string& text, const std::function<void(const CsvTable&)>& use = {}) {
+  try {
+    const CsvTable table = CsvTable::parse(text, "log.csv");
+    if (use) use(table);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(Csv, ReadsCommentsCrlfByteOrderMarkQuotesAndBlanks) {
+  const CsvTable table = CsvTable::parse(
+      "\xef\xbb\xbf# a comment\r\ntime_s, name ,note\r\n0,a,\"x, \"\"y\"\"\"\r\n\r\n# more\n1.5e1, b ,\n", "t.csv");
+  EXPECT_THAT(table.columnNames(), ElementsAre("time_s", "name", "note"));
+  ASSERT_EQ(table.rowCount(), 2U);
+  EXPECT_THAT(table.numbers("time_s"), ElementsAre(0.0, 15.0));
+  EXPECT_EQ(table.text(0, 2), "x, \"y\"");
+  EXPECT_EQ(table.text(1, 1), "b");
+  EXPECT_TRUE(table.empty(1, 2));
+  EXPECT_EQ(table.place(1).place, "line 6");
+}
+
+TEST(Csv, NamesFileLineColumnAndValueOfABadNumber) {
+  for (const std::string bad : {"x", "nan", "inf", "1.0.0", "0x10", ""}) {
+    EXPECT_THAT(complaint("a,b\n1,2\n3," + bad + "\n", [](const CsvTable& t) { (void)t.numbers("b"); }),
+                AllOf(HasSubstr("log.csv, line 3, column b"), HasSubstr("\"" + bad + "\""), HasSubstr("allowed")));
+  }
+}
+
+TEST(Csv, SaysWhenNumbersAreWrittenWithADecimalComma) {
+  EXPECT_THAT(complaint("time_s,value\n0,5,1,25\n"), HasSubstr("decimal comma"));
+  EXPECT_THAT(complaint("time_s,value\n0,5,x\n"), AllOf(HasSubstr("line 2"), HasSubstr("3 fields instead of 2")));
+}
+
+TEST(Csv, RefusesWhatIsNoTable) {
+  EXPECT_THAT(complaint(""), HasSubstr("is empty"));
+  EXPECT_THAT(complaint("# only a comment\n"), HasSubstr("is empty"));
+  EXPECT_THAT(complaint("a,a\n"), HasSubstr("appears twice"));
+  EXPECT_THAT(complaint("a,,c\n"), HasSubstr("no name"));
+  EXPECT_THAT(complaint(std::string("a,b\n1\0,2\n", 9)), HasSubstr("not a text file"));
+  EXPECT_THAT(complaint("a,b\n\"x,2\n"), HasSubstr("not closed"));
+  EXPECT_THAT(complaint("a,b\n1,2\n", [](const CsvTable& t) { (void)t.column("c"); }),
+              AllOf(HasSubstr("column \"c\" is missing"), HasSubstr("a and b")));
+  EXPECT_THROW((void)CsvTable::read("/nonexistent/file.csv"), InputError);
+}
+
+TEST(Csv, WritesFieldsThatReadBack) {
+  for (const std::string text : {"plain", "a,b", "say \"x\"", "two\nlines"}) {
+    if (text.find('\n') != std::string::npos) {
+      EXPECT_EQ(csvField(text).front(), '"');
+      continue;
+    }
+    EXPECT_EQ(CsvTable::parse("h\n" + csvField(text) + "\n", "t").text(0, 0), text);
+  }
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/text.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace spindrift {
+namespace {
+
+TEST(Text, DigitsFollowTheUncertainty) {
+  EXPECT_EQ(withUncertainty(12.3456, 0.34, "um"), "12.3 \u00b1 0.3 um");
+  EXPECT_EQ(withUncertainty(-12.3456, 0.123, "um"), "\u221212.35 \u00b1 0.12 um");
+  EXPECT_EQ(withUncertainty(1234.5, 40.0, "urad"), "1234 \u00b1 40 urad");
+  EXPECT_EQ(withUncertainty(0.000123456, 0.0000021, ""), "0.0001235 \u00b1 0.0000021");
+  EXPECT_EQ(withUncertainty(5.25, std::nan(""), "mm"), "5.25 mm");
+  EXPECT_EQ(withUncertainty(std::nan(""), 1.0, "mm"), "not determined");
+}
+
+TEST(Text, ExactNumberReadsBack) {
+  for (const double value : {0.1, 1.0 / 3.0, -1e-300, 12345678.9, 5e-324}) {
+    double back = 0.0;
+    ASSERT_TRUE(parseNumber(exactNumber(value), back));
+    EXPECT_EQ(back, value);
+  }
+}
+
+TEST(Text, ListsAndEscapes) {
+  const std::vector<std::string> names{"F1", "F2", "F3"};
+  EXPECT_EQ(joinedList(names), "F1, F2 and F3");
+  EXPECT_EQ(joinedList(std::span(names).first(1)), "F1");
+  EXPECT_EQ(splitList(" F1, F2,,F3 "), names);
+  EXPECT_EQ(escapedXml("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
+}
+
+}  // namespace
+}  // namespace spindrift

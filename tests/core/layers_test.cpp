@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The layers of DESIGN.md as a test: every #include of the tree is read and held against them.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/base/atomic_file.h"
+
+namespace spindrift {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of core may include itself and what stands here.
+const std::map<std::string, std::set<std::string>>& allowedIncludes() {
+  static const std::map<std::string, std::set<std::string>> table = [] {
+    const std::set<std::string> instruments{"imaging", "probing", "scanning", "thermal"};
+    std::map<std::string, std::set<std::string>> t;
+    t["base"] = {};
+    t["math"] = {"base"};
+    t["geometry"] = {"base", "math"};
+    t["machine"] = {"base", "math", "geometry"};
+    for (const auto& name : instruments) t[name] = {"base", "math", "geometry", "machine"};
+    std::set<std::string> below = {"base", "math", "geometry", "machine"};
+    below.insert(instruments.begin(), instruments.end());
+    t["simulation"] = below;
+    t["discrepancy"] = below;  // and never simulation: a search tested on its own formulas proves nothing
+    below.insert({"simulation", "discrepancy"});
+    t["session"] = below;
+    below.insert("session");
+    t["reporting"] = below;
+    below.insert("reporting");
+    t["workflows"] = below;
+    return t;
+  }();
+  return table;
+}
+
+std::vector<fs::path> sources(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (!fs::exists(folder)) return files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".h" || extension == ".cpp" || extension == ".c") files.push_back(entry.path());
+  }
+  return files;
+}
+
+std::vector<std::string> includesOf(const fs::path& file) {
+  static const std::regex include(R"re(^\s*#\s*include\s*[<"]([^>"]+)[>"])re", std::regex::multiline);
+  const std::string text = readFile(file);
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) found.push_back((*it)[1]);
+  return found;
+}
+
+bool isWindowSystem(const std::string& include) {
+  static const std::regex pattern(R"(^(Q[A-Z][A-Za-z]*|Qt[A-Za-z]+/.*|vtk.*|qcustomplot\.h|GL/.*|EGL/.*)$)");
+  return std::regex_match(include, pattern);
+}
+
+TEST(Layers, CoreFoldersIncludeOnlyWhatIsBelowThem) {
+  const fs::path root = SPINDRIFT_SOURCE_DIR;
+  std::size_t checked = 0;
+  std::vector<std::string> wrong;
+  for (const auto& entry : fs::directory_iterator(root / "core")) {
+    if (!entry.is_directory()) continue;
+    const std::string folder = entry.path().filename().string();
+    ASSERT_TRUE(allowedIncludes().contains(folder)) << "core/" << folder << " has no place among the layers";
+    for (const fs::path& file : sources(entry.path())) {
+      for (const std::string& include : includesOf(file)) {
+        if (include.starts_with("widgets/") || include.starts_with("app/") || include.starts_with("tests/")) {
+          wrong.push_back(file.string() + " includes " + include);
+        }
+        if (!include.starts_with("core/")) continue;
+        const std::string other = include.substr(5, include.find('/', 5) - 5);
+        if (other != folder && !allowedIncludes().at(folder).contains(other)) {
+          wrong.push_back(file.string() + " includes " + include);
+        }
+        ++checked;
+      }
+    }
+  }
+  EXPECT_THAT(wrong, ::testing::IsEmpty());
+  EXPECT_GT(checked, 30U);
+}
+
+TEST(Layers, CoreAndCommandLineKnowNoQtAndNoVtk) {
+  const fs::path root = SPINDRIFT_SOURCE_DIR;
+  std::vector<std::string> wrong;
+  for (const char* folder : {"core", "app/cli"}) {
+    for (const fs::path& file : sources(root / folder)) {
+      for (const std::string& include : includesOf(file)) {
+        if (isWindowSystem(include)) wrong.push_back(file.string() + " includes " + include);
+      }
+    }
+  }
+  EXPECT_THAT(wrong, ::testing::IsEmpty());
+}
+
+TEST(Layers, CommandLineIncludesCoreOnly) {
+  for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / "app/cli")) {
+    for (const std::string& include : includesOf(file)) {
+      EXPECT_FALSE(include.starts_with("widgets/") || include.starts_with("app/gui/"))
+          << file << " includes " << include;
+    }
+  }
+}
+
+TEST(Layers, WidgetsDoNotIncludeTheProgram) {
+  for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / "widgets")) {
+    for (const std::string& include : includesOf(file)) EXPECT_FALSE(include.starts_with("app/")) << file;
+  }
+}
+
+TEST(Layers, HeavyHeadersStayInFewFiles) {
+  for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / "core")) {
+    if (file.extension() != ".h") continue;
+    for (const std::string& include : includesOf(file)) {
+      EXPECT_FALSE(include.starts_with("pcl/") || include.starts_with("ceres/") || include.starts_with("soci"))
+          << file << " includes " << include << " in a header";
+    }
+  }
+}
+
+TEST(Layers, EverySourceNamesItsLicence) {
+  const fs::path root = SPINDRIFT_SOURCE_DIR;
+  for (const char* folder : {"core", "app", "widgets", "tests"}) {
+    for (const fs::path& file : sources(root / folder)) {
+      const std::string text = readFile(file);
+      const std::string wanted = std::string(folder) == "core" ? "SPDX-License-Identifier: Apache-2.0"
+                                                               : "SPDX-License-Identifier: GPL-3.0-or-later";
+      EXPECT_NE(text.substr(0, 120).find(wanted), std::string::npos) << file << " lacks " << wanted;
+    }
+  }
+}
+
+TEST(Layers, IncludePatternRecognisesWindowSystems) {
+  EXPECT_TRUE(isWindowSystem("QWidget"));
+  EXPECT_TRUE(isWindowSystem("QtWidgets/QWidget"));
+  EXPECT_TRUE(isWindowSystem("vtkActor.h"));
+  EXPECT_FALSE(isWindowSystem("Eigen/QR"));
+  EXPECT_FALSE(isWindowSystem("core/base/error.h"));
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/machine/campaign.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* machine =
+    R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-b-X-t]","axes":[{"name":"X","travel_mm":[0,1]}]})";
+
+TEST(Campaign, ReadsWhatIsThereAndNoMore) {
+  const testing::TempFolder folder;
+  folder.write("campaign.json",
+               R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z",
+                                    "simulation":"simulation.csv","simulation_gain_uncertainty":0.02})");
+  folder.write("machine.json", machine);
+  Campaign campaign = Campaign::read(folder.path());
+  EXPECT_EQ(campaign.simulation_gain_uncertainty, 0.02);
+  EXPECT_FALSE(campaign.log);
+  EXPECT_FALSE(campaign.observations);
+  EXPECT_FALSE(campaign.captureList("touches.csv"));
+  folder.write("log.csv", "time_s,spindle_rpm\n0,0\n");
+  folder.write("captures/touches.csv", "x\n");
+  campaign = Campaign::read(folder.path());
+  EXPECT_TRUE(campaign.log);
+  EXPECT_TRUE(campaign.captureList("touches.csv"));
+}
+
+TEST(Campaign, BadFilesAreNamed) {
+  const testing::TempFolder folder;
+  const auto complaint = [&](const char* text) -> std::string {
+    folder.write("campaign.json", text);
+    try {
+      (void)Campaign::read(folder.path());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_THAT(complaint(R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"31.1.2026"})"),
+              HasSubstr("$.start_utc"));
+  EXPECT_THAT(complaint(R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z"})"),
+              HasSubstr("machine.json"));
+  EXPECT_THROW((void)Campaign::read(folder / "missing"), InputError);
+}
+
+}  // namespace
+}  // namespace spindrift

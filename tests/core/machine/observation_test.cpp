@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/machine/observation.h"
+
+#include <gmock/gmock.h>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr const char* header = "time_s,state,point,x_mm,y_mm,z_mm,c_deg,component,value,sigma,instrument,use\n";
+
+TEST(Observation, ReadsBackExactlyWhatItWrites) {
+  const testing::TempFolder folder;
+  ObservationSet set;
+  for (int i = 0; i < 4; ++i) {
+    Observation o;
+    o.time_s = 0.1 * i;
+    o.state = i < 2 ? "M0" : "M1";
+    o.point = i % 2 == 0 ? "F1" : "F,2";
+    o.position_mm = {1.0 / 3.0, 2.0, -3.0};
+    o.component = i % 2 == 0 ? Component::EZ : Component::EC;
+    o.value = -1.0 / 7.0 * i;
+    o.sigma = 0.123456789012345;
+    o.use = i == 3 ? ObservationUse::Holdout : ObservationUse::Fit;
+    o.approach = {1.0, 0.0, -1.0};
+    o.tool_offset_mm = {0.0, 50.0, -20.0};
+    set.rows.push_back(o);
+  }
+  set.covariance = {{0, 2, 0.25}, {1, 3, -0.125}};
+  set.write(folder / "o.csv");
+  const ObservationSet back = ObservationSet::read(folder / "o.csv");
+  ASSERT_EQ(back.rows.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(back.rows[i].value, set.rows[i].value);
+    EXPECT_EQ(back.rows[i].point, set.rows[i].point);
+    EXPECT_EQ(back.rows[i].position_mm, set.rows[i].position_mm);
+    EXPECT_EQ(back.rows[i].component, set.rows[i].component);
+    EXPECT_EQ(back.rows[i].use, set.rows[i].use);
+    EXPECT_EQ(back.rows[i].approach, set.rows[i].approach);
+    EXPECT_EQ(back.rows[i].tool_offset_mm, set.rows[i].tool_offset_mm);
+  }
+  ASSERT_EQ(back.covariance.size(), 2U);
+  EXPECT_EQ(back.covariance[1].covariance, -0.125);
+  EXPECT_THAT(back.states(), ElementsAre("M0", "M1"));
+  EXPECT_THAT(back.points(), ElementsAre("F1", "F,2"));
+}
+
+TEST(Observation, ForgetsACovarianceThatIsNoLongerTrue) {
+  const testing::TempFolder folder;
+  ObservationSet set;
+  Observation o;
+  o.point = "F1";
+  o.sigma = 1.0;
+  set.rows = {o};
+  set.covariance = {{0, 0, 2.0}};
+  set.write(folder / "o.csv");
+  EXPECT_TRUE(std::filesystem::exists(folder / "o.cov.csv"));
+  set.covariance.clear();
+  set.write(folder / "o.csv");
+  EXPECT_FALSE(std::filesystem::exists(folder / "o.cov.csv"));
+}
+
+TEST(Observation, BadRowsAreNamed) {
+  const testing::TempFolder folder;
+  const auto complaint = [&](const std::string& rows) -> std::string {
+    try {
+      (void)ObservationSet::read(folder.write("observations.csv", header + rows));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(complaint("0,M0,F1,1,2,3,0,EX,1,0.5,microscope,\n"), "accepted");
+  EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EQ,1,0.5,m,fit\n"), HasSubstr("line 2, column component: component \"EQ\""));
+  EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,1,0,m,fit\n"), HasSubstr("sigma 0 is not allowed"));
+  EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,1,-1,m,fit\n"), HasSubstr("sigma -1"));
+  EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,inf,1,m,fit\n"), HasSubstr("\"inf\" is not a number"));
+  EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,1,1,m,maybe\n"), HasSubstr("\"maybe\""));
+  EXPECT_THAT(complaint("5,M0,F1,1,2,3,0,EX,1,1,m,fit\n4,M1,F1,1,2,3,0,EX,1,1,m,fit\n"), HasSubstr("runs backwards"));
+  EXPECT_EQ(complaint("5,M0,F1,1,2,3,0,EX,1,1,m,fit\n4,M0,F2,1,2,3,0,EX,1,1,m,fit\n"), "accepted");
+  EXPECT_THAT(complaint("5,M0,F1,1,2,3,0,EX,1,1,m,fit\n5,M0,F1,1,2,3,0,EX,2,1,m,fit\n"), HasSubstr("stands twice"));
+  folder.write("observations.cov.csv", "row,column,covariance\n1,2,0.5\n");
+  EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,1,1,m,fit\n"), HasSubstr("allowed: 1 to 1"));
+}
+
+}  // namespace
+}  // namespace spindrift
