@@ -9,7 +9,9 @@ target_compile_options(
                               $<$<BOOL:${SPINDRIFT_WARNINGS_AS_ERRORS}>:-Werror>)
 # g++ 12 reports false positives of these kinds from inside Eigen and the standard library when it inlines.
 target_compile_options(spindrift_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow
-                                                   -Wno-restrict)
+                                                   -Wno-restrict
+                                                   # designated initialisers leave the rest at its stated default on purpose
+                                                   -Wno-missing-field-initializers)
 if(SPINDRIFT_SANITIZE)
   target_compile_options(spindrift_options INTERFACE -fsanitize=${SPINDRIFT_SANITIZE} -fno-omit-frame-pointer
                                                      -fno-sanitize-recover=undefined)

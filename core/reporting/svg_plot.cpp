@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/reporting/svg_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace spindrift {
+namespace {
+
+// Okabe and Ito's palette without yellow, which is too pale for thin lines on white.
+constexpr std::array<const char*, 7> palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                             "#56b4e9", "#e69f00", "#333333"};
+
+struct Limits {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void add(double v) {
+    if (!std::isfinite(v)) return;
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  [[nodiscard]] bool empty() const { return low > high; }
+  void widen(double part) {
+    double span = high - low;
+    if (!(span > 0.0)) span = std::max(1.0, std::abs(high));
+    low -= part * span;
+    high += part * span;
+  }
+};
+
+struct Frame {
+  double left, top, width, height;
+  Limits x, y;
+
+  [[nodiscard]] double px(double v) const { return left + (v - x.low) / (x.high - x.low) * width; }
+  [[nodiscard]] double py(double v) const { return top + (y.high - v) / (y.high - y.low) * height; }
+};
+
+std::string axes(const Frame& f, const PlotOptions& options) {
+  std::string out;
+  const std::vector<double> x_ticks = roundTicks(f.x.low, f.x.high, std::max(3, static_cast<int>(f.width / 90)));
+  const std::vector<double> y_ticks = roundTicks(f.y.low, f.y.high, std::max(3, static_cast<int>(f.height / 40)));
+  const double x_step = x_ticks.size() > 1 ? x_ticks[1] - x_ticks[0] : 1.0;
+  const double y_step = y_ticks.size() > 1 ? y_ticks[1] - y_ticks[0] : 1.0;
+  for (const double t : x_ticks) {
+    out += fmt::format(R"(<line class="grid" x1="{0:.1f}" x2="{0:.1f}" y1="{1:.1f}" y2="{2:.1f}"/>)", f.px(t), f.top,
+                       f.top + f.height);
+    out += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)", f.px(t), f.top + f.height + 16,
+                       tickText(t, x_step));
+  }
+  for (const double t : y_ticks) {
+    out += fmt::format(R"(<line class="{3}" x1="{0:.1f}" x2="{1:.1f}" y1="{2:.1f}" y2="{2:.1f}"/>)", f.left,
+                       f.left + f.width, f.py(t), std::abs(t) < 1e-12 * std::abs(y_step) ? "zero" : "grid");
+    out += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="end">{}</text>)", f.left - 6, f.py(t) + 4,
+                       tickText(t, y_step));
+  }
+  out += fmt::format(R"(<rect class="frame" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)", f.left, f.top,
+                     f.width, f.height);
+  out += fmt::format(R"(<text x="{:.1f}" y="{}" text-anchor="middle">{}</text>)", f.left + f.width / 2,
+                     options.height_px - 6, escapedXml(options.x_label));
+  out += fmt::format(
+      R"svg(<text x="14" y="{0:.1f}" text-anchor="middle" transform="rotate(-90 14 {0:.1f})">{1}</text>)svg",
+      f.top + f.height / 2, escapedXml(options.y_label));
+  return out;
+}
+
+std::string drawSeries(const PlotSeries& s, const Frame& f, const char* colour) {
+  std::string out;
+  const bool with_sigma = s.sigma.size() == s.x.size() && !s.sigma.empty();
+  if (s.style == SeriesStyle::Points) {
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
+      if (with_sigma) {
+        out += fmt::format(R"(<line x1="{0:.1f}" x2="{0:.1f}" y1="{1:.1f}" y2="{2:.1f}" stroke="{3}" stroke-width="1" )"
+                           R"(opacity="0.5"/>)",
+                           f.px(s.x[i]), f.py(s.y[i] - s.sigma[i]), f.py(s.y[i] + s.sigma[i]), colour);
+      }
+      out += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="2.2" fill="{}"/>)", f.px(s.x[i]), f.py(s.y[i]), colour);
+    }
+    return out;
+  }
+  if (with_sigma) {
+    std::string upper;
+    std::string lower;
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      if (!std::isfinite(s.y[i]) || !std::isfinite(s.sigma[i])) continue;
+      upper += fmt::format("{:.1f},{:.1f} ", f.px(s.x[i]), f.py(s.y[i] + 2.0 * s.sigma[i]));
+      lower.insert(0, fmt::format("{:.1f},{:.1f} ", f.px(s.x[i]), f.py(s.y[i] - 2.0 * s.sigma[i])));
+    }
+    out += fmt::format(R"(<polygon points="{}{}" fill="{}" opacity="0.15"/>)", upper, lower, colour);
+  }
+  std::string path;
+  bool pen_down = false;
+  double last_y = 0.0;
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) {
+      pen_down = false;
+      continue;
+    }
+    if (pen_down && s.style == SeriesStyle::Step) path += fmt::format("L{:.1f} {:.1f}", f.px(s.x[i]), last_y);
+    last_y = f.py(s.y[i]);
+    path += fmt::format("{}{:.1f} {:.1f}", pen_down ? 'L' : 'M', f.px(s.x[i]), last_y);
+    pen_down = true;
+  }
+  out += fmt::format(R"(<path d="{}" fill="none" stroke="{}" stroke-width="1.4"/>)", path, colour);
+  return out;
+}
+
+}  // namespace
+
+std::vector<double> roundTicks(double from, double to, int wanted) {
+  if (!(to > from) || !std::isfinite(from) || !std::isfinite(to)) return {from};
+  const double raw = (to - from) / std::max(1, wanted);
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  double step = 10.0 * power;
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= raw * 0.999) {
+      step = factor * power;
+      break;
+    }
+  }
+  std::vector<double> ticks;
+  for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i) ticks.push_back(i * step);
+  return ticks;
+}
+
+std::string tickText(double value, double step) {
+  const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(std::abs(step)) - 1e-9)), 0, 9);
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find_first_not_of("-0.") == std::string::npos && text.front() == '-') text.erase(0, 1);
+  if (text.front() == '-') text.replace(0, 1, "\u2212");
+  return text;
+}
+
+std::string svgPlot(const std::vector<PlotSeries>& series, const PlotOptions& options) {
+  SPINDRIFT_ASSERT(options.width_px >= 160 && options.height_px >= 100, "a plot needs room");
+  Frame f{};
+  for (const PlotSeries& s : series) {
+    SPINDRIFT_ASSERT(s.x.size() == s.y.size(), "x and y of a series differ in length");
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      f.x.add(s.x[i]);
+      const double sigma = i < s.sigma.size() && std::isfinite(s.sigma[i]) ? s.sigma[i] : 0.0;
+      f.y.add(s.y[i] - sigma);
+      f.y.add(s.y[i] + sigma);
+    }
+  }
+  const bool empty = f.x.empty() || f.y.empty();
+  if (empty) {
+    f.x = {0.0, 1.0};
+    f.y = {0.0, 1.0};
+  }
+  if (!(f.x.high > f.x.low)) f.x.widen(0.5);
+  f.y.widen(0.06);
+  if (options.y_from) f.y.low = *options.y_from;
+  if (options.y_to) f.y.high = *options.y_to;
+  const bool titled = !options.title.empty();
+  const bool legend = series.size() > 1 || (series.size() == 1 && !series[0].name.empty() && titled);
+  f.left = 64.0;
+  f.top = 12.0 + (titled ? 18.0 : 0.0) + (legend ? 18.0 : 0.0);
+  f.width = options.width_px - f.left - 14.0;
+  f.height = options.height_px - f.top - 42.0;
+
+  std::string out =
+      fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" )"
+                  R"(font-family="Inter, 'DejaVu Sans', sans-serif" font-size="12" fill="#1f2933">)"
+                  "<style>.grid{{stroke:#e3e7eb;stroke-width:1}}.zero{{stroke:#9aa5b1;stroke-width:1}}"
+                  ".frame{{fill:none;stroke:#9aa5b1}}</style>"
+                  R"(<rect width="{0}" height="{1}" fill="#ffffff"/>)",
+                  options.width_px, options.height_px);
+  if (titled)
+    out += fmt::format(R"(<text x="{}" y="18" font-weight="600">{}</text>)", f.left, escapedXml(options.title));
+  for (const PlotRange& range : options.ranges) {
+    const double from = std::clamp(range.from, f.x.low, f.x.high);
+    const double to = std::clamp(range.to, f.x.low, f.x.high);
+    if (!(to > from)) continue;
+    out += fmt::format(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="#7c6fa8" opacity="0.10"/>)",
+                       f.px(from), f.top, f.px(to) - f.px(from), f.height);
+    out += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" font-size="11" fill="#5b4f87">{}</text>)", f.px(from) + 4,
+                       f.top + 13, escapedXml(range.label));
+  }
+  out += axes(f, options);
+  out +=
+      fmt::format(R"(<clipPath id="c{0}"><rect x="{1:.1f}" y="{2:.1f}" width="{3:.1f}" height="{4:.1f}"/></clipPath>)"
+                  R"svg(<g clip-path="url(#c{0})">)svg",
+                  options.width_px * 10000 + options.height_px, f.left, f.top, f.width, f.height);
+  for (std::size_t i = 0; i < series.size(); ++i) out += drawSeries(series[i], f, palette[i % palette.size()]);
+  out += "</g>";
+  if (legend) {
+    double x = f.left;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const double y = f.top - 8.0;
+      const char* colour = palette[i % palette.size()];
+      if (series[i].style == SeriesStyle::Points) {
+        out += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="{}"/>)", x + 8, y - 4, colour);
+      } else {
+        out += fmt::format(R"(<line x1="{:.1f}" x2="{:.1f}" y1="{:.1f}" y2="{:.1f}" stroke="{}" stroke-width="2"/>)", x,
+                           x + 16, y - 4, y - 4, colour);
+      }
+      out += fmt::format(R"(<text x="{:.1f}" y="{:.1f}">{}</text>)", x + 21, y, escapedXml(series[i].name));
+      x += 36.0 + 6.8 * static_cast<double>(series[i].name.size());
+    }
+  }
+  if (empty) {
+    out += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" fill="#7b8794">no data</text>)",
+                       f.left + f.width / 2, f.top + f.height / 2);
+  }
+  return out + "</svg>";
+}
+
+}  // namespace spindrift

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small line and point plots as SVG for reports and the command line: quantity and unit at every axis, thin lines for
+// what is predicted, points for what is measured, a band for its uncertainty. No fonts or scripts from elsewhere.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace spindrift {
+
+/// How a series is drawn. Colours come from a fixed, colour-blind safe table by the index of the series.
+enum class SeriesStyle { Points, Line, Step };
+
+struct PlotSeries {
+  std::string name;
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> sigma;  ///< empty, or one standard uncertainty each: a bar at points, a 2 sigma band at lines
+  SeriesStyle style = SeriesStyle::Line;
+};
+
+/// A shaded range of x, such as training or held-out data.
+struct PlotRange {
+  double from = 0.0;
+  double to = 0.0;
+  std::string label;
+};
+
+struct PlotOptions {
+  std::string title;
+  std::string x_label;  ///< quantity / unit: "time / h"
+  std::string y_label;
+  int width_px = 640;
+  int height_px = 280;
+  std::vector<PlotRange> ranges;
+  std::optional<double> y_from;  ///< fixed limits, else from the data
+  std::optional<double> y_to;
+};
+
+/// The whole <svg> element. Non-finite values are left out and break a line. Without any point it says so in the plot.
+[[nodiscard]] std::string svgPlot(const std::vector<PlotSeries>& series, const PlotOptions& options);
+
+/// Round tick values (1, 2 or 5 times a power of ten) inside [from, to], about `wanted` of them.
+[[nodiscard]] std::vector<double> roundTicks(double from, double to, int wanted = 6);
+
+/// A tick value with the decimals that its step needs, true minus sign.
+[[nodiscard]] std::string tickText(double value, double step);
+
+}  // namespace spindrift
