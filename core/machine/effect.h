@@ -1,49 +1,67 @@
 // SPDX-License-Identifier: Apache-2.0
 // A named physical cause of deviation: driver x dynamics x shape (EFFECTS.md). An error model is a sum of effects.
+//
+//   deviation(component, place, t) = sum over inputs i, shape columns k:  gain_ik * q_i(t) * shape_k(component, place)
+//
+// q_i is a driver of the operating log after its dynamics. Units: um or urad for the deviation, mm for places, s for
+// times; the driver's unit is part of the gain's name ("gain_um_per_krpm"). Frame: MCF, sign of FORMATS.md.
 #pragma once
 
-#include <Eigen/Core>
-#include <optional>
-#include <span>
+#include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "core/machine/component.h"
+#include "core/machine/error_model.h"
 #include "core/machine/machine_description.h"
-#include "core/machine/observation.h"
 #include "core/machine/operating_log.h"
 
 namespace spindrift {
 
-/// A non-linear parameter of an effect (a lag, an onset, a free origin) with the range in which it is searched.
-struct EffectParameter {
-  std::string name;  ///< with its unit: "tau_s", "onset_s", "origin_mm"
-  double low = 0.0;
-  double high = 0.0;
-  bool logarithmic = false;  ///< searched on a logarithmic scale (time constants)
+/// How a driver turns into q(t).
+enum class Dynamics {
+  None,           ///< q = driver
+  Lag,            ///< tau q' + q = driver, exact for states that hold and temperatures that are linear between rows
+  AsymmetricLag,  ///< a lag whose time constant differs while the driver is on and off
+  Step,           ///< 0 before the onset, 1 after it; no driver
+  Pulse,          ///< rises through a lag from the onset and falls after `length`; no driver
 };
 
-/// What an effect may look at.
-struct EffectContext {
-  const MachineDescription* machine = nullptr;
-  const OperatingLog* log = nullptr;  ///< may be null: nothing was logged
+[[nodiscard]] std::string_view toString(Dynamics dynamics) noexcept;
+
+/// One additive input of an effect.
+struct EffectInput {
+  std::string driver;  ///< name in the table of drivers ("spindle_rpm^1.5", "T_room_degC"); empty for Step and Pulse
+  Dynamics dynamics = Dynamics::Lag;
 };
 
-/// One effect of the catalogue, in one variant of its driver and dynamics. Linear in its gains, non-linear in its
-/// parameters: deviation = basis(parameters) * gains.
-class Effect {
- public:
-  virtual ~Effect() = default;
-  /// Stable id of EFFECTS.md: "ball_screw.expansion.x".
-  [[nodiscard]] virtual std::string_view id() const noexcept = 0;
-  /// One paragraph of physics for the user.
-  [[nodiscard]] virtual std::string_view physics() const noexcept = 0;
-  [[nodiscard]] virtual std::span<const EffectParameter> parameters() const noexcept = 0;
-  /// Names of the gains with units: "gain_um_per_krpm".
-  [[nodiscard]] virtual std::span<const std::string> gainNames() const noexcept = 0;
-  /// Columns of the design matrix, one per gain, for the given observations: um or urad per unit of the gain.
-  [[nodiscard]] virtual Eigen::MatrixXd basis(const EffectContext& context, std::span<const double> parameters,
-                                              std::span<const Observation> observations) const = 0;
+/// One way in which an effect may be driven. All variants of an effect have the same shape and the same name.
+struct EffectVariant {
+  std::vector<EffectInput> inputs;
+};
+
+/// Deviation per unit gain of one shape column: um per unit for EX..EZ, urad per unit for EA..EC.
+using ShapeFunction = std::function<double(const DeviationQuery& place, Component component)>;
+
+struct ShapeColumn {
+  std::string gain_unit;  ///< "um", "um_per_m", "urad"; the gain's name is gain_<gain_unit>_per_<driver unit>
+  ShapeFunction value;
+};
+
+/// One effect of the catalogue.
+struct Effect {
+  std::string id;       ///< stable id of EFFECTS.md: "ball_screw.expansion.x"
+  std::string physics;  ///< one paragraph for the user
+  std::vector<ShapeColumn> shape;
+  std::vector<EffectVariant> variants;
+  int sign = 0;  ///< +1 or -1: physical sign of the first gain of temperature and heat inputs; 0 free
+  std::vector<std::string> contains;  ///< simpler effects that this one holds as special cases (ids)
+  /// A column pair (slope, constant) with an origin that is not known: origin = -constant / slope must lie in here.
+  bool free_origin = false;
+  double origin_low_mm = 0.0;
+  double origin_high_mm = 0.0;
+  bool refinement = false;      ///< refines another effect of the same cause (ball_screw.nonuniform)
+  bool driver_missing = false;  ///< the driver that matters most for this effect is not in the log
 };
 
 }  // namespace spindrift
