@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/machine/compensation.h"
+
+#include <fmt/format.h>
+
+#include "core/base/units.h"
+
+namespace spindrift {
+namespace {
+
+constexpr const char* letters = "XYZABC";
+
+int axisNumber(const MachineDescription& machine, const std::string& axis) {
+  const std::size_t number = std::string("XYZ").find(axis);
+  if (axis.size() != 1 || number == std::string::npos || machine.findAxis(axis) == nullptr) {
+    throw InputError(fmt::format("axis \"{}\" is not a linear axis of {}; allowed: X, Y or Z that machine.json lists.",
+                                 axis, machine.name));
+  }
+  return static_cast<int>(number);
+}
+
+void requireCount(int count, int most) {
+  if (count < 2 || count > most) {
+    throw InputError(fmt::format("{} positions are not allowed; allowed: 2 to {}.", count, most));
+  }
+}
+
+double positionAt(const LinearAxis& axis, int i, int count) {
+  return axis.travel_mm[0] + (axis.travel_mm[1] - axis.travel_mm[0]) * i / (count - 1);
+}
+
+}  // namespace
+
+CompensationGridOptions CompensationGridOptions::travelOf(const MachineDescription& machine) {
+  CompensationGridOptions options;
+  for (int i = 0; i < 3; ++i) {
+    if (const LinearAxis* axis = machine.findAxis(std::string(1, letters[i]))) {
+      options.from_mm[i] = axis->travel_mm[0];
+      options.to_mm[i] = axis->travel_mm[1];
+    } else {
+      options.nodes[static_cast<std::size_t>(i)] = 1;
+    }
+  }
+  return options;
+}
+
+void CompensationGridOptions::validate() const {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (nodes[i] < 1 || nodes[i] > 1000) {
+      throw InputError(fmt::format("{} nodes along {} are not allowed; allowed: 1 to 1000.", nodes[i], letters[i]));
+    }
+  }
+}
+
+std::vector<CompensationNode> compensationGrid(const ErrorModel& model, const CompensationGridOptions& options,
+                                               const DeviationQuery& conditions) {
+  options.validate();
+  std::vector<CompensationNode> grid;
+  DeviationQuery query = conditions;
+  query.point.clear();
+  const auto coordinate = [&](int axis, int i) {
+    const int count = options.nodes[static_cast<std::size_t>(axis)];
+    return count == 1 ? options.from_mm[axis]
+                      : options.from_mm[axis] + (options.to_mm[axis] - options.from_mm[axis]) * i / (count - 1);
+  };
+  for (int iz = 0; iz < options.nodes[2]; ++iz) {
+    for (int iy = 0; iy < options.nodes[1]; ++iy) {
+      for (int ix = 0; ix < options.nodes[0]; ++ix) {
+        CompensationNode node;
+        node.position_mm = {coordinate(0, ix), coordinate(1, iy), coordinate(2, iz)};
+        query.position_mm = node.position_mm;
+        for (int i = 0; i < 3; ++i) {
+          const PredictedComponent predicted = model.predict(query, static_cast<Component>(i));
+          node.correction_um[i] = 0.0 - predicted.value;  // not -value: a zero must not print as -0
+          node.sigma_um[i] = predicted.sigma;
+        }
+        grid.push_back(node);
+      }
+    }
+  }
+  return grid;
+}
+
+std::string compensationGridCsv(const std::vector<CompensationNode>& nodes) {
+  std::string text =
+      "# correction to add to the command = minus the predicted deviation (actual minus commanded)\n"
+      "x_mm,y_mm,z_mm,correction_x_um,correction_y_um,correction_z_um,sigma_x_um,sigma_y_um,sigma_z_um\n";
+  for (const CompensationNode& n : nodes) {
+    text += fmt::format("{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", n.position_mm.x(), n.position_mm.y(),
+                        n.position_mm.z(), n.correction_um.x(), n.correction_um.y(), n.correction_um.z(),
+                        n.sigma_um.x(), n.sigma_um.y(), n.sigma_um.z());
+  }
+  return text;
+}
+
+AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescription& machine, const std::string& axis,
+                                  const Eigen::Vector3d& reference_mm, int count, const DeviationQuery& conditions) {
+  const int number = axisNumber(machine, axis);
+  requireCount(count, 10000);
+  const LinearAxis& description = *machine.findAxis(axis);
+  AxisComponentTable table;
+  table.axis = axis;
+  DeviationQuery query = conditions;
+  query.point.clear();
+  query.position_mm = reference_mm;
+  std::array<double, 6> reference{};
+  for (const Component c : all_components) reference[static_cast<std::size_t>(c)] = model.predict(query, c).value;
+  for (int i = 0; i < count; ++i) {
+    query.position_mm[number] = positionAt(description, i, count);
+    std::array<double, 6> deviation{};
+    std::array<double, 6> sigma{};
+    for (const Component c : all_components) {
+      const PredictedComponent predicted = model.predict(query, c);
+      deviation[static_cast<std::size_t>(c)] = predicted.value - reference[static_cast<std::size_t>(c)];
+      sigma[static_cast<std::size_t>(c)] = predicted.sigma;
+    }
+    table.position_mm.push_back(query.position_mm[number]);
+    table.deviation.push_back(deviation);
+    table.sigma.push_back(sigma);
+  }
+  return table;
+}
+
+std::string axisComponentsCsv(const AxisComponentTable& table) {
+  std::string header = "position_mm";
+  std::string sigma_header;
+  for (int i = 0; i < 6; ++i) {
+    const std::string name = fmt::format("E{}{}_{}", letters[i], table.axis, i < 3 ? "um" : "urad");
+    header += "," + name;
+    sigma_header += ",sigma_" + name;
+  }
+  std::string text =
+      fmt::format("# ISO 230-1 component errors of {}: deviation = actual minus commanded\n", table.axis);
+  text += header + sigma_header + "\n";
+  for (std::size_t row = 0; row < table.position_mm.size(); ++row) {
+    text += fmt::format("{}", table.position_mm[row]);
+    for (const double v : table.deviation[row]) text += fmt::format(",{:.4f}", v);
+    for (const double v : table.sigma[row]) text += fmt::format(",{:.4f}", v);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string linuxcncCompensation(const ErrorModel& model, const MachineDescription& machine, const std::string& axis,
+                                 const Eigen::Vector3d& reference_mm, int count, const DeviationQuery& conditions) {
+  const int number = axisNumber(machine, axis);
+  requireCount(count, 256);
+  const LinearAxis& description = *machine.findAxis(axis);
+  const auto component = static_cast<Component>(number);
+  DeviationQuery query = conditions;
+  query.point.clear();
+  query.position_mm = reference_mm;
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    const double nominal = positionAt(description, i, count);
+    query.position_mm[number] = nominal;
+    std::array<double, 2> actual{};
+    for (std::size_t direction = 0; direction < 2; ++direction) {
+      query.approach = Eigen::Vector3d::Zero();
+      query.approach[number] = direction == 0 ? 1.0 : -1.0;
+      actual[direction] = nominal + model.predict(query, component).value * mm_per_um;
+    }
+    text += fmt::format("{:.6f} {:.6f} {:.6f}\n", nominal, actual[0], actual[1]);
+  }
+  return text;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a model would make a control command, and the tables controls read.
+//
+// Compensation = -deviation (FORMATS.md): where the tool is +5 um too far in X, the control adds -5 um to X. Three
+// forms:
+//   grid            corrections of X, Y, Z at nodes of the working space (CSV)
+//   ISO 230-1       the six component errors of one axis along its travel, through a reference position (CSV); these
+//   are
+//                   DEVIATIONS, as ISO 230-1 defines them, not corrections
+//   LinuxCNC        screw compensation of one axis: "nominal forward reverse" per line, COMP_FILE_TYPE = 0. Forward and
+//                   reverse are the positions where the axis really is at `nominal`; LinuxCNC itself subtracts.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/machine/error_model.h"
+#include "core/machine/machine_description.h"
+
+namespace spindrift {
+
+struct CompensationGridOptions {
+  Eigen::Vector3d from_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to_mm = Eigen::Vector3d::Zero();
+  std::array<int, 3> nodes{5, 5, 2};  ///< per axis, >= 1; 1 means only `from_mm`
+
+  /// The whole travel of the machine's X, Y and Z.
+  [[nodiscard]] static CompensationGridOptions travelOf(const MachineDescription& machine);
+  /// Throws InputError.
+  void validate() const;
+};
+
+struct CompensationNode {
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d correction_um = Eigen::Vector3d::Zero();  ///< to add to the command: minus the predicted deviation
+  Eigen::Vector3d sigma_um = Eigen::Vector3d::Zero();       ///< expected error that remains, one standard uncertainty
+};
+
+[[nodiscard]] std::vector<CompensationNode> compensationGrid(const ErrorModel& model,
+                                                             const CompensationGridOptions& options,
+                                                             const DeviationQuery& conditions);
+/// x_mm,y_mm,z_mm,correction_x_um,correction_y_um,correction_z_um,sigma_x_um,sigma_y_um,sigma_z_um
+[[nodiscard]] std::string compensationGridCsv(const std::vector<CompensationNode>& nodes);
+
+/// Component errors of one linear axis along its travel, the others at `reference_mm`, relative to the reference
+/// position.
+struct AxisComponentTable {
+  std::string axis;
+  std::vector<double> position_mm;
+  /// E<X|Y|Z|A|B|C><axis>: um and urad, one row per position.
+  std::vector<std::array<double, 6>> deviation;
+  std::vector<std::array<double, 6>> sigma;
+};
+
+/// `axis` must be X, Y or Z of the machine; `count` >= 2 positions over its travel. Throws InputError.
+[[nodiscard]] AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescription& machine,
+                                                const std::string& axis, const Eigen::Vector3d& reference_mm, int count,
+                                                const DeviationQuery& conditions);
+/// position_mm,EXX_um,EYX_um,EZX_um,EAX_urad,EBX_urad,ECX_urad and sigma_ of each.
+[[nodiscard]] std::string axisComponentsCsv(const AxisComponentTable& table);
+
+/// LinuxCNC screw compensation file for the positioning error of the table's axis (mm, at most 256 lines). Forward and
+/// reverse are the same unless the model tells the directions of approach apart (backlash).
+[[nodiscard]] std::string linuxcncCompensation(const ErrorModel& model, const MachineDescription& machine,
+                                               const std::string& axis, const Eigen::Vector3d& reference_mm, int count,
+                                               const DeviationQuery& conditions);
+
+}  // namespace spindrift

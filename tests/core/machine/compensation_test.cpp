@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sign of every export is proven against golden files that were worked out by hand.
+#include "core/machine/compensation.h"
+
+#include <gmock/gmock.h>
+
+#include "core/base/atomic_file.h"
+
+namespace spindrift {
+namespace {
+
+/// ex = 0.1 um per mm of x, plus 2 um in the direction of approach; ey = 3 um; EC = 5 urad per 100 mm of x.
+class HandModel final : public ErrorModel {
+ public:
+  [[nodiscard]] std::string description() const override { return "worked by hand"; }
+  [[nodiscard]] PredictedComponent predict(const DeviationQuery& q, Component component) const override {
+    if (component == Component::EX) return {0.1 * q.position_mm.x() + 2.0 * q.approach.x(), 0.5};
+    if (component == Component::EY) return {3.0, 0.25};
+    if (component == Component::EC) return {0.05 * q.position_mm.x(), 1.0};
+    return {};
+  }
+};
+
+MachineDescription machine() {
+  const auto root = JsonNode::parse(
+      R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-t]",
+          "axes":[{"name":"X","travel_mm":[0,100]},{"name":"Y","travel_mm":[0,50]},{"name":"Z","travel_mm":[-10,10]}]})",
+      "machine.json");
+  return MachineDescription::parse(root, "machine.json");
+}
+
+std::string golden(const char* name) {
+  return readFile(std::filesystem::path(SPINDRIFT_TEST_DATA) / "compensation" / name);
+}
+
+TEST(Compensation, GridIsMinusTheDeviation) {
+  CompensationGridOptions options = CompensationGridOptions::travelOf(machine());
+  options.nodes = {2, 1, 1};
+  EXPECT_EQ(compensationGridCsv(compensationGrid(HandModel(), options, {})), golden("grid.csv"));
+}
+
+TEST(Compensation, ComponentTableIsTheDeviationRelativeToTheReference) {
+  const AxisComponentTable table = axisComponents(HandModel(), machine(), "X", {50.0, 0.0, 0.0}, 3, {});
+  EXPECT_EQ(axisComponentsCsv(table), golden("iso230_x.csv"));
+}
+
+TEST(Compensation, LinuxcncFileHoldsWhereTheAxisReallyIs) {
+  EXPECT_EQ(linuxcncCompensation(HandModel(), machine(), "X", {0.0, 0.0, 0.0}, 3, {}), golden("linuxcnc_x.comp"));
+}
+
+TEST(Compensation, AddingTheCorrectionLeavesNothing) {
+  const HandModel model;
+  for (const CompensationNode& node : compensationGrid(model, CompensationGridOptions::travelOf(machine()), {})) {
+    DeviationQuery query;
+    query.position_mm = node.position_mm;
+    EXPECT_DOUBLE_EQ(model.predict(query, Component::EX).value + node.correction_um.x(), 0.0);
+    EXPECT_DOUBLE_EQ(model.predict(query, Component::EY).value + node.correction_um.y(), 0.0);
+  }
+}
+
+TEST(Compensation, RefusesWhatItCannotExport) {
+  EXPECT_THROW((void)axisComponents(HandModel(), machine(), "C", Eigen::Vector3d::Zero(), 3, {}), InputError);
+  EXPECT_THROW((void)linuxcncCompensation(HandModel(), machine(), "X", Eigen::Vector3d::Zero(), 257, {}), InputError);
+  CompensationGridOptions options;
+  options.nodes = {0, 1, 1};
+  EXPECT_THROW((void)compensationGrid(HandModel(), options, {}), InputError);
+}
+
+}  // namespace
+}  // namespace spindrift
