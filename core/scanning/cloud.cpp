@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/scanning/cloud.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+namespace {
+
+struct Extent {
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();
+  Eigen::Vector3d high = Eigen::Vector3d::Zero();
+};
+
+/// The box of the middle 98 % of about 20,000 points per coordinate: gross outliers do not count.
+Extent robustExtent(const PointCloud& cloud) {
+  const std::size_t step = std::max<std::size_t>(1, cloud.size() / 20000);
+  Extent extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < cloud.size(); i += step) values.push_back(cloud.points_mm[i][axis]);
+    const auto at = [&](double p) {
+      const auto k = static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
+      std::nth_element(values.begin(), values.begin() + k, values.end());
+      return values[static_cast<std::size_t>(k)];
+    };
+    extent.low[axis] = at(0.01);
+    extent.high[axis] = at(0.99);
+  }
+  return extent;
+}
+
+std::string label(const PointCloud& cloud) {
+  return cloud.name.empty() ? "The cloud" : cloud.name;
+}
+
+}  // namespace
+
+Eigen::Vector3d PointCloud::centroid_mm() const {
+  SPINDRIFT_ASSERT(!points_mm.empty(), "the centroid of an empty cloud does not exist");
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p : points_mm) sum += p;
+  return sum / static_cast<double>(points_mm.size());
+}
+
+void findProfiles(PointCloud& cloud) {
+  cloud.profile_start.clear();
+  const std::size_t n = cloud.size();
+  if (n < 12) return;
+  const auto& p = cloud.points_mm;
+  // A profile runs along x in one direction; at its end x jumps back by much more than a spacing.
+  std::size_t forward = 0;
+  for (std::size_t i = 1; i < n; ++i) forward += p[i].x() > p[i - 1].x() ? 1U : 0U;
+  const double sign = 2 * forward >= n ? 1.0 : -1.0;
+  std::vector<std::size_t> start{0};
+  for (std::size_t i = 1; i < n; ++i)
+    if (sign * (p[i].x() - p[i - 1].x()) < 0.0) start.push_back(i);
+  if (start.size() < 3 || n < 4 * start.size()) return;
+  // Points of one profile share one carriage position (to a tenth of the distance between profiles).
+  const double distance = std::abs(p[start.back()].y() - p[start.front()].y()) / static_cast<double>(start.size() - 1);
+  std::size_t scattered = 0;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    const std::size_t end = k + 1 < start.size() ? start[k + 1] : n;
+    double low = p[start[k]].y();
+    double high = low;
+    for (std::size_t i = start[k]; i < end; ++i) {
+      low = std::min(low, p[i].y());
+      high = std::max(high, p[i].y());
+    }
+    if (high - low > 0.1 * distance) ++scattered;
+  }
+  if (20 * scattered > start.size()) return;
+  start.push_back(n);
+  cloud.profile_start = std::move(start);
+}
+
+CloudSpacing cloudSpacing(const PointCloud& cloud) {
+  CloudSpacing spacing;
+  if (cloud.size() < 4) return spacing;
+  if (cloud.profileCount() >= 3) {
+    std::vector<double> along;
+    std::vector<double> between;
+    const std::size_t step = std::max<std::size_t>(1, cloud.profileCount() / 200);
+    for (std::size_t k = 0; k < cloud.profileCount(); k += step) {
+      const std::size_t first = cloud.profile_start[k];
+      const std::size_t end = cloud.profile_start[k + 1];
+      for (std::size_t i = first + 1; i < end; i += 7)
+        along.push_back(std::abs(cloud.points_mm[i].x() - cloud.points_mm[i - 1].x()));
+    }
+    for (std::size_t k = 1; k < cloud.profileCount(); ++k)
+      between.push_back(
+          std::abs(cloud.points_mm[cloud.profile_start[k]].y() - cloud.points_mm[cloud.profile_start[k - 1]].y()));
+    spacing.along_profile_mm = along.empty() ? 0.0 : median(std::move(along));
+    spacing.between_profiles_mm = median(std::move(between));
+  }
+  if (!(spacing.along_profile_mm > 0.0) || !(spacing.between_profiles_mm > 0.0)) {
+    const Extent e = robustExtent(cloud);
+    const Eigen::Vector3d size = e.high - e.low;
+    const double area = std::max(size.x() * size.y(), 1e-12);
+    spacing.along_profile_mm = spacing.between_profiles_mm = std::sqrt(area / static_cast<double>(cloud.size()));
+  }
+  return spacing;
+}
+
+PointCloud masked(const PointCloud& cloud, const CloudMask& keep) {
+  SPINDRIFT_ASSERT(keep.size() == cloud.size(), "a mask has one entry per point");
+  PointCloud out;
+  out.name = cloud.name;
+  out.points_mm.reserve(cloud.size());
+  if (cloud.profile_start.empty()) {
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      if (keep[i] != 0) out.points_mm.push_back(cloud.points_mm[i]);
+    return out;
+  }
+  for (std::size_t k = 0; k < cloud.profileCount(); ++k) {
+    const std::size_t before = out.size();
+    for (std::size_t i = cloud.profile_start[k]; i < cloud.profile_start[k + 1]; ++i)
+      if (keep[i] != 0) out.points_mm.push_back(cloud.points_mm[i]);
+    if (out.size() > before) out.profile_start.push_back(before);
+  }
+  if (!out.empty()) out.profile_start.push_back(out.size());
+  return out;
+}
+
+void requireUsableCloud(const PointCloud& cloud, std::size_t least_points) {
+  if (cloud.empty()) throw InputError(fmt::format("{} holds no points.", label(cloud)));
+  if (cloud.size() < least_points)
+    throw InputError(
+        fmt::format("{} holds only {} points; at least {} are needed.", label(cloud), cloud.size(), least_points));
+  const Extent e = robustExtent(cloud);
+  const Eigen::Vector3d size = e.high - e.low;
+  if (!(std::max(size.x(), size.y()) > 0.0))
+    throw InputError(fmt::format("{} has no extent in x and y: all points lie at one place.", label(cloud)));
+  const double width = std::max(size.x(), size.y());
+  if (width > 2000.0)
+    throw InputError(fmt::format("{} is {:.0f} wide, which is no artefact in mm: its unit seems to be um; allowed: mm.",
+                                 label(cloud), width));
+  if (width < 0.2)
+    throw InputError(fmt::format("{} is {:.2g} wide, which is no artefact in mm: its unit seems to be m; allowed: mm.",
+                                 label(cloud), width));
+  if (size.z() > 100.0 * std::max(size.x(), 1e-9) && size.z() > 200.0)
+    throw InputError(fmt::format(
+        "{} is {:.3g} wide and {:.3g} high: its heights seem to be in um and its x, y in mm; allowed: mm everywhere.",
+        label(cloud), width, size.z()));
+}
+
+}  // namespace spindrift
