@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// The nine-parameter thermal error model of a table (P0 (21)-(23) as PAPERS.md corrects it), for one thermal state.
+//
+//   ex = EX - (EC + EC0Y) y + EB z + alphaX x
+//   ey = EY + EC x - EA z + alphaY y
+//   ez = EZ - EB x + EA y
+//
+// with x, y, z in mm in MCF (z = 0 on the table, where the paper's form results), EX, EY, EZ in um, EA, EB, EC, EC0Y in
+// urad (EC0Y: ISO 230-1 squareness of Y to X) and alphaX, alphaY in um/m. Deviations in um.
+//
+// Values of observations hold up to a constant per point and component, so a state is fitted as its change from the
+// reference (first) state: v = y(state) - y(reference), cov(v) from the full covariance of both. The noise of the
+// reference state counts, once, and is shared by all rows that use the same reference row. Where the reference was not
+// measured the values are taken as they stand.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/machine/error_model.h"
+#include "core/machine/observation.h"
+
+namespace spindrift {
+
+inline constexpr int nine_parameter_count = 9;
+/// Names as in the JSON of `fit`, in the order of every parameter vector here.
+inline constexpr std::array<std::string_view, nine_parameter_count> nine_parameter_names{
+    "EX_um",   "EY_um",     "EZ_um",           "EA_urad",        "EB_urad",
+    "EC_urad", "EC0Y_urad", "alpha_X_um_per_m", "alpha_Y_um_per_m"};
+
+using NineVector = Eigen::Matrix<double, nine_parameter_count, 1>;
+using NineMatrix = Eigen::Matrix<double, nine_parameter_count, nine_parameter_count>;
+
+/// Unit of a parameter: "um", "urad" or "um/m".
+[[nodiscard]] std::string_view nineParameterUnit(int parameter);
+
+/// Sensitivity of a component (EX, EY, EZ; um) at a position to the nine parameters: one row of P0 (23).
+[[nodiscard]] NineVector nineParameterRow(const Eigen::Vector3d& position_mm, Component component);
+
+/// The model with known or fitted parameters. Rotations: EA, EB, EC are the parameters themselves.
+class NineParameterModel final : public ErrorModel {
+ public:
+  /// `null_space`: columns are directions of the parameters that are not determined (may have no columns). A prediction
+  /// that depends on one of them has an infinite sigma.
+  NineParameterModel(const NineVector& parameters, const NineMatrix& covariance, std::string description,
+                     Eigen::MatrixXd null_space = {});
+
+  [[nodiscard]] std::string description() const override { return description_; }
+  [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override;
+  [[nodiscard]] const NineVector& parameters() const noexcept { return parameters_; }
+  [[nodiscard]] const NineMatrix& covariance() const noexcept { return covariance_; }
+
+ private:
+  NineVector parameters_;
+  NineMatrix covariance_;
+  std::string description_;
+  Eigen::MatrixXd null_space_;
+};
+
+enum class RobustLoss { None, Huber, Tukey };
+
+struct NineParameterOptions {
+  std::string state;                ///< thermal state to fit; empty: the last one
+  std::vector<std::string> points;  ///< points to fit, the others validate; empty: all rows with use `fit`
+  RobustLoss robust = RobustLoss::None;
+  bool relative_to_reference = true;  ///< false: values as they stand, even if the reference state was measured
+  bool scale_by_residuals = false;    ///< true: covariance times chi2/dof (sigmas known up to a factor)
+  double rank_tolerance = 1e-8;       ///< of the whitened, column-scaled design matrix
+
+  /// Throws InputError for options no fit can be made with.
+  void validate() const;
+};
+
+/// A row of the state that was fitted or validated. um.
+struct NineParameterResidual {
+  std::string point;
+  Component component = Component::EX;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  double time_s = 0.0;
+  double value_um = 0.0;      ///< change from the reference state
+  double sigma_um = 0.0;      ///< its standard uncertainty, with the noise of the reference
+  double residual_um = 0.0;   ///< value - prediction
+  double weight = 1.0;        ///< of the robust fit, 0..1
+  bool used = true;           ///< took part in the fit
+};
+
+/// Result of a fit. If `status` is Degenerate the parameters in `undetermined` have no value (infinite variance), the
+/// others hold.
+struct NineParameterFit {
+  FitStatus status = FitStatus::NotRun;
+  std::string message;
+  std::string state;
+  std::string reference_state;  ///< empty: the values were taken as they stand
+  NineVector parameters = NineVector::Zero();
+  NineMatrix covariance = NineMatrix::Zero();
+  std::vector<int> undetermined;
+  Eigen::MatrixXd null_space;
+  double condition_number = 0.0;
+  double chi2 = 0.0;
+  int degrees_of_freedom = 0;
+  std::optional<double> p_value;  ///< of chi2; small: the model or the sigmas do not hold
+  std::vector<NineParameterResidual> residuals;
+  std::optional<double> rms_fit_um;
+  std::optional<double> rms_validation_um;
+  std::vector<std::string> warnings;
+  Eigen::MatrixXd gain;              ///< 9 x rows: parameters = gain * values (zero columns where not used)
+  Eigen::MatrixXd value_covariance;  ///< rows x rows, um^2
+
+  [[nodiscard]] bool determined(int parameter) const;
+  [[nodiscard]] double standardUncertainty(int parameter) const;
+  [[nodiscard]] NineParameterModel model() const;
+};
+
+/// Fits one state. Throws InputError for a state or point that does not exist or a state without any row to fit.
+[[nodiscard]] NineParameterFit fitNineParameters(const ObservationSet& observations,
+                                                 const NineParameterOptions& options = {});
+
+/// Two fits of the same state from different sets of points (P0, Table 2 and Figures 22 and 23).
+struct NineParameterComparison {
+  NineParameterFit a;
+  NineParameterFit b;
+  NineVector difference = NineVector::Zero();  ///< b - a
+  NineMatrix covariance = NineMatrix::Zero();  ///< of the difference; points in both sets are counted as common
+  std::array<double, nine_parameter_count> p_value{};  ///< two-sided, of each difference; 1 where not determined
+  std::vector<int> significant;                        ///< parameters that differ at the level asked for
+  /// Chi-squared test of all determined differences at once.
+  double chi2 = 0.0;
+  int degrees_of_freedom = 0;
+  double p_value_all = 1.0;
+
+  /// Difference b - a as a model: its field with sigma shows where the sets disagree.
+  [[nodiscard]] NineParameterModel differenceModel() const;
+};
+
+/// `level`: probability of a false alarm over the nine parameters together (Bonferroni). Throws InputError as the fits.
+[[nodiscard]] NineParameterComparison compareNineParameters(const ObservationSet& observations,
+                                                            const NineParameterOptions& a,
+                                                            const NineParameterOptions& b, double level = 0.05);
+
+}  // namespace spindrift
