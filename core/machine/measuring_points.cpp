@@ -69,16 +69,17 @@ class Design {
     result.chosen = std::move(chosen);
     if (!std::isfinite(cost(information))) {
       result.status = FitStatus::Degenerate;
-      result.message = "the positions do not determine all nine parameters: at least three that are not on one line "
-                       "are needed";
+      result.message =
+          "the positions do not determine all nine parameters: at least three that are not on one line "
+          "are needed";
       return result;
     }
     const Eigen::LLT<NineMatrix> cholesky(information);
     const NineMatrix covariance = cholesky.solve(NineMatrix::Identity());
     result.status = FitStatus::Converged;
     result.message = "all nine parameters are determined";
-    result.log_det = 2.0 * NineMatrix(cholesky.matrixL()).diagonal().array().log().sum() -
-                     2.0 * scale_.array().log().sum();
+    result.log_det =
+        2.0 * NineMatrix(cholesky.matrixL()).diagonal().array().log().sum() - 2.0 * scale_.array().log().sum();
     result.mean_sigma_um = std::sqrt((covariance * moment_).trace());
     constexpr int nodes = 11;
     for (int ix = 0; ix < nodes; ++ix) {

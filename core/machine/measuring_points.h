@@ -19,8 +19,8 @@ namespace spindrift {
 enum class PlacementCriterion { D, I };
 
 struct PlacementOptions {
-  int count = 4;                       ///< positions to choose, fixed ones included; >= 3
-  std::vector<std::size_t> fixed;      ///< indices of candidates that must be in
+  int count = 4;                   ///< positions to choose, fixed ones included; >= 3
+  std::vector<std::size_t> fixed;  ///< indices of candidates that must be in
   PlacementCriterion criterion = PlacementCriterion::I;
   double sigma_xy_um = 0.5;
   double sigma_z_um = 1.0;

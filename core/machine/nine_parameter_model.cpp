@@ -81,9 +81,8 @@ StateChange changeOf(const ObservationSet& set, const NineParameterOptions& opti
     }
   }
   if (!without_reference.empty()) {
-    change.warnings.push_back(
-        fmt::format("{} was not measured in the reference state {} and is left out.", joinedList(without_reference),
-                    change.reference));
+    change.warnings.push_back(fmt::format("{} was not measured in the reference state {} and is left out.",
+                                          joinedList(without_reference), change.reference));
   }
   // v = B y over the rows involved, cov(v) = B cov(y) B^T.
   std::map<std::size_t, Eigen::Index> column;
@@ -173,6 +172,7 @@ struct WeightedFit {
   LinearFitResult linear;
   Eigen::MatrixXd gain;
   Eigen::VectorXd weight;
+  double variance_factor = 1.0;  ///< cov(x) = factor * gain * cov(v) * gain^T
 };
 
 /// Least squares, or iteratively reweighted least squares with residuals standardised by sigma sqrt(1 - leverage).
@@ -184,7 +184,12 @@ WeightedFit solveWeighted(const Eigen::MatrixXd& A, const Eigen::VectorXd& v, co
   fit.linear = solveLinearCorrelated(A, v, covariance, linear_options);
   if (fit.linear.status == FitStatus::Rejected) return fit;
   fit.gain = gainOf(A, covariance, options.rank_tolerance);
-  if (options.robust == RobustLoss::None) return fit;
+  if (options.robust == RobustLoss::None) {
+    if (options.scale_by_residuals && fit.linear.degrees_of_freedom > 0) {
+      fit.variance_factor = fit.linear.chi2 / fit.linear.degrees_of_freedom;
+    }
+    return fit;
+  }
   // Tukey's loss has several minima: it starts from Huber's solution.
   constexpr int iterations = 100;
   constexpr double smallest_weight = 1e-8;
@@ -209,10 +214,11 @@ WeightedFit solveWeighted(const Eigen::MatrixXd& A, const Eigen::VectorXd& v, co
   if (options.robust == RobustLoss::Tukey) iterate(RobustLoss::Tukey);
   // The weights downplay rows whose sigma stays what it is: the covariance is that of x = G v, times the loss of
   // efficiency that comes from having chosen the weights by the residuals.
-  const double factor = options.scale_by_residuals && fit.linear.degrees_of_freedom > 0
-                            ? fit.linear.chi2 / fit.linear.degrees_of_freedom
-                            : 1.0;
-  Eigen::MatrixXd x_covariance = fit.gain * covariance * fit.gain.transpose() * (factor / robust_efficiency);
+  fit.variance_factor = 1.0 / robust_efficiency;
+  if (options.scale_by_residuals && fit.linear.degrees_of_freedom > 0) {
+    fit.variance_factor *= fit.linear.chi2 / fit.linear.degrees_of_freedom;
+  }
+  Eigen::MatrixXd x_covariance = fit.gain * covariance * fit.gain.transpose() * fit.variance_factor;
   for (const int i : fit.linear.undetermined) {
     x_covariance.row(i).setZero();
     x_covariance.col(i).setZero();
@@ -302,7 +308,7 @@ double NineParameterFit::standardUncertainty(int parameter) const {
 NineParameterModel NineParameterFit::model() const {
   std::string from = reference_state.empty() ? fmt::format("state {}", state)
                                              : fmt::format("the change from state {} to {}", reference_state, state);
-  return {parameters, covariance, fmt::format("nine-parameter model of {}", from), null_space};
+  return {parameters, estimable_covariance, fmt::format("nine-parameter model of {}", from), null_space};
 }
 
 NineParameterFit fitNineParameters(const ObservationSet& observations, const NineParameterOptions& options) {
@@ -329,8 +335,8 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
   const auto count = static_cast<Eigen::Index>(change.rows.size());
   for (Eigen::Index i = 0; i < count; ++i) {
     const Observation& o = observations.rows[change.rows[static_cast<std::size_t>(i)]];
-    const bool chosen = options.points.empty() || std::find(options.points.begin(), options.points.end(), o.point) !=
-                                                      options.points.end();
+    const bool chosen = options.points.empty() ||
+                        std::find(options.points.begin(), options.points.end(), o.point) != options.points.end();
     NineParameterResidual residual;
     residual.point = o.point;
     residual.component = o.component;
@@ -343,10 +349,10 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
     fit.residuals.push_back(residual);
   }
   if (used.empty()) {
-    throw InputError({observations.file, ""},
-                     fmt::format("no displacement of state {} can be fitted; allowed: rows EX, EY or EZ with use fit{}.",
-                                 change.state,
-                                 change.reference.empty() ? "" : " that were measured in the reference state too"));
+    throw InputError(
+        {observations.file, ""},
+        fmt::format("no displacement of state {} can be fitted; allowed: rows EX, EY or EZ with use fit{}.",
+                    change.state, change.reference.empty() ? "" : " that were measured in the reference state too"));
   }
   const auto rows = static_cast<Eigen::Index>(used.size());
   Eigen::MatrixXd A(rows, nine_parameter_count);
@@ -377,10 +383,11 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
   if (options.robust == RobustLoss::None && !options.scale_by_residuals && fit.degrees_of_freedom > 0) {
     fit.p_value = chiSquaredTail(fit.chi2, fit.degrees_of_freedom);
     if (*fit.p_value < 1e-3) {
-      fit.warnings.push_back(fmt::format(
-          "the residuals are larger than the stated uncertainties allow (chi-squared {:.1f} with {} degrees of freedom, "
-          "p = {:.1g}): the nine parameters do not describe this state, or a point is disturbed.",
-          fit.chi2, fit.degrees_of_freedom, *fit.p_value));
+      fit.warnings.push_back(
+          fmt::format("the residuals are larger than the stated uncertainties allow (chi-squared {:.1f} with {} "
+                      "degrees of freedom, "
+                      "p = {:.1g}): the nine parameters do not describe this state, or a point is disturbed.",
+                      fit.chi2, fit.degrees_of_freedom, *fit.p_value));
     }
   }
   fit.value_covariance = change.covariance;
@@ -390,12 +397,14 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
     fit.gain.col(i) = weighted.gain.col(k);
     fit.residuals[static_cast<std::size_t>(i)].weight = weighted.weight(k);
   }
+  fit.estimable_covariance = weighted.variance_factor * fit.gain * fit.value_covariance * fit.gain.transpose();
   fit.status = linear.status;
   if (fit.undetermined.empty()) {
     fit.message = "all nine parameters are determined";
   } else {
-    fit.message = fmt::format("the points and components that were fitted do not determine {}; the other parameters hold",
-                              joinedList(namesOf(fit.undetermined)));
+    fit.message =
+        fmt::format("the points and components that were fitted do not determine {}; the other parameters hold",
+                    joinedList(namesOf(fit.undetermined)));
   }
   const NineParameterModel model = fit.model();
   for (NineParameterResidual& r : fit.residuals) {
@@ -414,7 +423,7 @@ NineParameterModel NineParameterComparison::differenceModel() const {
   Eigen::MatrixXd null_space(nine_parameter_count, a.null_space.cols() + b.null_space.cols());
   if (a.null_space.cols() > 0) null_space.leftCols(a.null_space.cols()) = a.null_space;
   if (b.null_space.cols() > 0) null_space.rightCols(b.null_space.cols()) = b.null_space;
-  return {difference, covariance, fmt::format("difference of two nine-parameter models of state {}", a.state),
+  return {difference, estimable_covariance, fmt::format("difference of two nine-parameter models of state {}", a.state),
           null_space};
 }
 
@@ -427,14 +436,16 @@ NineParameterComparison compareNineParameters(const ObservationSet& observations
   comparison.a = fitNineParameters(observations, a);
   comparison.b = fitNineParameters(observations, b);
   if (comparison.a.state != comparison.b.state || comparison.a.reference_state != comparison.b.reference_state) {
-    throw InputError(fmt::format("states {} and {} cannot be compared as sets of points; allowed: the same state twice.",
-                                 comparison.a.state, comparison.b.state));
+    throw InputError(
+        fmt::format("states {} and {} cannot be compared as sets of points; allowed: the same state twice.",
+                    comparison.a.state, comparison.b.state));
   }
   comparison.p_value.fill(1.0);
   if (comparison.a.status == FitStatus::Rejected || comparison.b.status == FitStatus::Rejected) return comparison;
   comparison.difference = comparison.b.parameters - comparison.a.parameters;
   const Eigen::MatrixXd gain = comparison.b.gain - comparison.a.gain;
-  comparison.covariance = gain * comparison.a.value_covariance * gain.transpose();
+  comparison.estimable_covariance = gain * comparison.a.value_covariance * gain.transpose();
+  comparison.covariance = comparison.estimable_covariance;
   std::vector<int> determined;
   for (int i = 0; i < nine_parameter_count; ++i) {
     if (!comparison.a.determined(i) || !comparison.b.determined(i)) {

@@ -30,8 +30,7 @@ namespace spindrift {
 inline constexpr int nine_parameter_count = 9;
 /// Names as in the JSON of `fit`, in the order of every parameter vector here.
 inline constexpr std::array<std::string_view, nine_parameter_count> nine_parameter_names{
-    "EX_um",   "EY_um",     "EZ_um",           "EA_urad",        "EB_urad",
-    "EC_urad", "EC0Y_urad", "alpha_X_um_per_m", "alpha_Y_um_per_m"};
+    "EX_um", "EY_um", "EZ_um", "EA_urad", "EB_urad", "EC_urad", "EC0Y_urad", "alpha_X_um_per_m", "alpha_Y_um_per_m"};
 
 using NineVector = Eigen::Matrix<double, nine_parameter_count, 1>;
 using NineMatrix = Eigen::Matrix<double, nine_parameter_count, nine_parameter_count>;
@@ -82,11 +81,11 @@ struct NineParameterResidual {
   Component component = Component::EX;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
   double time_s = 0.0;
-  double value_um = 0.0;      ///< change from the reference state
-  double sigma_um = 0.0;      ///< its standard uncertainty, with the noise of the reference
-  double residual_um = 0.0;   ///< value - prediction
-  double weight = 1.0;        ///< of the robust fit, 0..1
-  bool used = true;           ///< took part in the fit
+  double value_um = 0.0;     ///< change from the reference state
+  double sigma_um = 0.0;     ///< its standard uncertainty, with the noise of the reference
+  double residual_um = 0.0;  ///< value - prediction
+  double weight = 1.0;       ///< of the robust fit, 0..1
+  bool used = true;          ///< took part in the fit
 };
 
 /// Result of a fit. If `status` is Degenerate the parameters in `undetermined` have no value (infinite variance), the
@@ -100,6 +99,8 @@ struct NineParameterFit {
   NineMatrix covariance = NineMatrix::Zero();
   std::vector<int> undetermined;
   Eigen::MatrixXd null_space;
+  /// Finite covariance of the pseudo-inverse solution: that of every prediction the data determine.
+  NineMatrix estimable_covariance = NineMatrix::Zero();
   double condition_number = 0.0;
   double chi2 = 0.0;
   int degrees_of_freedom = 0;
@@ -124,8 +125,8 @@ struct NineParameterFit {
 struct NineParameterComparison {
   NineParameterFit a;
   NineParameterFit b;
-  NineVector difference = NineVector::Zero();  ///< b - a
-  NineMatrix covariance = NineMatrix::Zero();  ///< of the difference; points in both sets are counted as common
+  NineVector difference = NineVector::Zero();          ///< b - a
+  NineMatrix covariance = NineMatrix::Zero();          ///< of the difference; points in both sets are counted as common
   std::array<double, nine_parameter_count> p_value{};  ///< two-sided, of each difference; 1 where not determined
   std::vector<int> significant;                        ///< parameters that differ at the level asked for
   /// Chi-squared test of all determined differences at once.
