@@ -125,10 +125,11 @@ struct NineParameterFit {
 struct NineParameterComparison {
   NineParameterFit a;
   NineParameterFit b;
-  NineVector difference = NineVector::Zero();          ///< b - a
-  NineMatrix covariance = NineMatrix::Zero();          ///< of the difference; points in both sets are counted as common
-  std::array<double, nine_parameter_count> p_value{};  ///< two-sided, of each difference; 1 where not determined
-  std::vector<int> significant;                        ///< parameters that differ at the level asked for
+  NineVector difference = NineVector::Zero();  ///< b - a
+  NineMatrix covariance = NineMatrix::Zero();  ///< of the difference; points in both sets are counted as common
+  NineMatrix estimable_covariance = NineMatrix::Zero();  ///< finite, for fields
+  std::array<double, nine_parameter_count> p_value{};    ///< two-sided, of each difference; 1 where not determined
+  std::vector<int> significant;                          ///< parameters that differ at the level asked for
   /// Chi-squared test of all determined differences at once.
   double chi2 = 0.0;
   int degrees_of_freedom = 0;
