@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report of a campaign: what was measured, with what, what came out with which uncertainty, and from what it was
+// made.
+//
+// Sections that need results of higher parts (fits, discrepancy, ISO 230-3) are handed in ready as `ReportSection`, so
+// that the report shows exactly what the pages and commands computed and computes nothing itself.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/machine/campaign.h"
+#include "core/machine/instrument_evaluation.h"
+#include "core/reporting/html_document.h"
+
+namespace spindrift {
+
+/// A part of the report that somebody else fills.
+struct ReportSection {
+  std::string heading;
+  std::function<void(HtmlDocument&)> fill;
+};
+
+struct CampaignReportInput {
+  const Campaign* campaign = nullptr;
+  /// Evaluations of the captures, if there are any.
+  std::vector<InstrumentEvaluation> instruments;
+  ObservationSet observations;
+  std::vector<ReportSection> sections;
+  /// Excluded items with reasons, notes: shown as they are.
+  std::vector<std::pair<std::string, std::string>> exclusions;
+  std::vector<std::string> notes;
+  std::string created_utc;
+  std::string operator_name;  ///< may be empty: a line to sign on is left
+};
+
+/// The report without sections of others first: title, machine, plan and captures, operating log, observations over
+/// time, results of each instrument; then `sections`; then exclusions, notes and provenance.
+[[nodiscard]] HtmlDocument campaignReport(const CampaignReportInput& input);
+
+}  // namespace spindrift

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report of a whole campaign, as the command line and the desktop program make it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/job_context.h"
+#include "core/machine/campaign.h"
+#include "core/workflows/evaluate_campaign.h"
+
+namespace spindrift {
+
+struct ReportOptions {
+  std::filesystem::path observations_file;  ///< in place of the campaign's own observations or captures
+  EvaluateOptions evaluate;
+  bool discrepancy = true;  ///< search for a missing effect where the campaign names a simulation
+  std::string operator_name;
+  std::vector<std::pair<std::string, std::string>> exclusions;
+  std::vector<std::string> notes;
+};
+
+/// Evaluates the captures (if any), fits where there is something to fit, and returns one self-contained HTML text. A
+/// part that cannot be computed from this campaign is left out with the reason in the report.
+[[nodiscard]] std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& options, JobContext& job);
+
+}  // namespace spindrift
