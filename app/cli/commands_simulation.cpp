@@ -1,8 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <memory>
+
 #include "app/cli/command.h"
+#include "core/base/atomic_file.h"
+#include "core/simulation/virtual_campaign.h"
 
 namespace spindrift::cli {
+namespace {
 
-void addSimulationCommands(CLI::App& /*app*/, CommandLine& /*line*/) {}
+struct SimulateArguments {
+  std::string scenario;
+  std::string out;
+  std::string truth;
+  std::uint64_t seed = 0;
+  bool has_seed = false;
+};
+
+CommandResult simulate(const SimulateArguments& arguments, JobContext& job) {
+  const Scenario scenario = Scenario::read(arguments.scenario);
+  const VirtualCampaign campaign =
+      simulateCampaign(scenario, arguments.has_seed ? std::optional(arguments.seed) : std::nullopt, job);
+  writeCampaign(campaign, arguments.out);
+  const std::size_t observations = campaign.campaign.observations ? campaign.campaign.observations->rows.size() : 0;
+  if (!arguments.truth.empty()) {
+    const std::vector<Observation> none;
+    const auto& rows = campaign.campaign.observations ? campaign.campaign.observations->rows : none;
+    writeFileAtomically(arguments.truth, campaign.truth.json(rows).dump(1) + "\n");
+  }
+  CommandResult result;
+  result.json = {{"campaign", arguments.out},
+                 {"seed", arguments.has_seed ? arguments.seed : scenario.seed},
+                 {"log_rows", campaign.campaign.log->time_s().size()},
+                 {"observations", observations},
+                 {"simulation_rows", campaign.simulation.size()},
+                 {"touches", campaign.touches.size()},
+                 {"elapsed_ms", campaign.elapsed_ms}};
+  result.summary = fmt::format("{}: {} log rows, {} observations, {} rows of simulation, {} touches ({:.0f} ms)",
+                               arguments.out, campaign.campaign.log->time_s().size(), observations,
+                               campaign.simulation.size(), campaign.touches.size(), campaign.elapsed_ms);
+  return result;
+}
+
+}  // namespace
+
+void addSimulationCommands(CLI::App& app, CommandLine& line) {
+  auto arguments = std::make_shared<SimulateArguments>();
+  CLI::App* command = addCommand(app, line, "simulate",
+                                 "Run the virtual machine and write a campaign as a real machine would have left it",
+                                 [arguments](JobContext& job) { return simulate(*arguments, job); });
+  command->add_option("SCENARIO", arguments->scenario, "Scenario (JSON, format spindrift-scenario)")->required();
+  command->add_option("--out", arguments->out, "Folder of the campaign: new or empty")->required()->type_name("DIR");
+  command->add_option("--seed", arguments->seed, "Seed of everything random, in place of the scenario's")
+      ->each([arguments](const std::string&) { arguments->has_seed = true; });
+  command
+      ->add_option("--truth", arguments->truth,
+                   "Also write what is hidden (effects, sizes, noise-free signals in um and urad) to this file")
+      ->type_name("FILE");
+}
 
 }  // namespace spindrift::cli
