@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+find_package(Qt6 6.4 REQUIRED COMPONENTS Widgets Test)
+# A main() that makes a QApplication on the offscreen platform; stands in for that of spindrift_test_support.
+add_library(spindrift_widget_test_support STATIC ${CMAKE_SOURCE_DIR}/tests/widgets/support/widget_test_main.cpp
+                                                  ${CMAKE_SOURCE_DIR}/tests/support/temp_folder.cpp)
+target_link_libraries(spindrift_widget_test_support PUBLIC spindrift_options Spindrift::theme Qt6::Widgets Qt6::Test
+                                                           Spindrift::base GTest::gtest GTest::gmock)
+
+# spindrift_widget_test(<name> SOURCES ... LINK ... [TIMEOUT s])
+function(spindrift_widget_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_widget_test_support)
+  target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
+                                             SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  add_test(NAME ${name} COMMAND ${name})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS widgets ENVIRONMENT
+                                          "QT_QPA_PLATFORM=offscreen;LC_ALL=C.UTF-8")
+endfunction()

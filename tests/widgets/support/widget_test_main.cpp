@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QStandardPaths>
+#include <clocale>
+
+#include "widgets/theme/theme.h"
+
+int main(int argc, char** argv) {
+  if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM")) qputenv("QT_QPA_PLATFORM", "offscreen");
+  QApplication application(argc, argv);
+  QCoreApplication::setOrganizationName(QStringLiteral("spindrift-test"));
+  QStandardPaths::setTestModeEnabled(true);
+  std::setlocale(LC_ALL, "C");
+  spindrift::gui::applyTheme(application, spindrift::gui::ThemeKind::Light);
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The 3D view on the offscreen platform: pictures are not empty, show what they should, and picking finds it again.
+#include "widgets/view3d/view3d.h"
+
+#include <gtest/gtest.h>
+
+#include <QElapsedTimer>
+#include <QSignalSpy>
+#include <QTest>
+#include <cmath>
+#include <ctime>
+#include <set>
+
+#include "core/base/random.h"
+#include "core/base/units.h"
+
+namespace spindrift::gui {
+namespace {
+
+MachineDescription desktopMill() {
+  return MachineDescription::parse(
+      JsonNode::parse(R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-(C)-t]",
+        "axes":[{"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,130]},{"name":"Z","travel_mm":[0,150]}],
+        "points":[{"id":"F1","kind":"fiducial","x_mm":20,"y_mm":15,"z_mm":0},
+                  {"id":"F2","kind":"fiducial","x_mm":280,"y_mm":15,"z_mm":0},
+                  {"id":"F3","kind":"fiducial","x_mm":280,"y_mm":115,"z_mm":0}]})",
+                      "machine.json"),
+      "machine.json");
+}
+
+std::shared_ptr<Field> tiltedField(int n) {
+  auto field = std::make_shared<Field>();
+  field->grid = {0, 300, 0, 130, 0, n, n};
+  field->component = Component::EX;
+  for (int iy = 0; iy < n; ++iy) {
+    for (int ix = 0; ix < n; ++ix) {
+      const double x = field->grid.x_mm(ix);
+      field->value.push_back((x - 150) * 0.1);
+      field->sigma.push_back(0.8);
+      field->extrapolated.push_back(x < 20 || x > 280);
+    }
+  }
+  return field;
+}
+
+std::vector<ViewPoint> eightPoints() {
+  std::vector<ViewPoint> points;
+  for (int i = 0; i < 8; ++i) {
+    ViewPoint p;
+    p.id = QStringLiteral("F%1").arg(i + 1);
+    p.label = p.id;
+    p.position_mm = {20.0 + 37 * i, i % 2 == 0 ? 20.0 : 110.0, 0};
+    p.value = (p.position_mm.x() - 150) * 0.1;
+    p.value_text = QStringLiteral("%1 um").arg(*p.value, 0, 'f', 1);
+    points.push_back(p);
+  }
+  return points;
+}
+
+double distance(QRgb a, QRgb b) {
+  return std::hypot(qRed(a) - qRed(b), qGreen(a) - qGreen(b), qBlue(a) - qBlue(b));
+}
+
+std::size_t coloursIn(const QImage& image) {
+  std::set<QRgb> colours;
+  for (int y = 0; y < image.height(); y += 3) {
+    for (int x = 0; x < image.width(); x += 3) colours.insert(image.pixel(x, y));
+  }
+  return colours.size();
+}
+
+TEST(View3D, AnEmptyViewSaysWhatWillAppear) {
+  View3D view;
+  view.resize(500, 400);
+  view.setEmptyText(QStringLiteral("Heat map"), QStringLiteral("Fit the model to see it here."));
+  const QImage picture = view.grab().toImage();
+  EXPECT_GT(coloursIn(picture), 10U);  // text is there
+}
+
+TEST(View3D, DrawsAMachine) {
+  View3D view;
+  view.resize(640, 480);
+  view.setMachine(desktopMill());
+  const QImage picture = view.grab().toImage();
+  ASSERT_TRUE(view.failure().isEmpty()) << view.failure().toStdString();
+  EXPECT_GT(coloursIn(picture), 60U);
+  // The middle shows a body and not the background.
+  EXPECT_GT(distance(picture.pixel(320, 240), theme().view_top.rgb()), 12);
+}
+
+TEST(View3D, HeatMapHasTheColoursOfItsValues) {
+  View3D view;
+  view.resize(700, 420);
+  view.setMachine(desktopMill());
+  view.setMachineVisible(false);
+  const ColourScale scale = ColourScale::symmetric(15, QStringLiteral("EX"), QStringLiteral("um"));
+  view.setColourScale(scale);
+  FieldStyle style;
+  style.contours = false;
+  view.setField(tiltedField(50), style);
+  view.resetCamera(StandardView::Top);
+  const QImage picture = view.grab().toImage();
+  for (const double x : {60.0, 100.0, 200.0, 250.0}) {
+    const auto pixel = view.pixelOf({x, 47, 0});
+    ASSERT_TRUE(pixel);
+    const QRgb found = picture.pixel(pixel->toPoint());
+    EXPECT_LT(distance(found, scale.rgb((x - 150) * 0.1)), 12) << x;
+  }
+  // Within the noise: faded, far from the full colour but near neutral.
+  const auto middle = view.pixelOf({152, 47, 0});
+  EXPECT_LT(distance(picture.pixel(middle->toPoint()), qRgb(230, 230, 230)), 40);
+}
+
+TEST(View3D, ProbeReadsTheValueUnderTheCursor) {
+  View3D view;
+  view.resize(700, 420);
+  view.setColourScale(ColourScale::symmetric(15, QStringLiteral("EX"), QStringLiteral("um")));
+  view.setField(tiltedField(31));
+  (void)view.grab();
+  const auto pixel = view.pixelOf({200, 60, 0});
+  const auto probe = view.probeAt(*pixel);
+  ASSERT_TRUE(probe);
+  EXPECT_NEAR(probe->value, 5.0, 1e-6);
+  EXPECT_NEAR(probe->sigma, 0.8, 1e-9);
+  EXPECT_FALSE(probe->extrapolated);
+  EXPECT_FALSE(view.probeAt(QPointF(1, 1)));
+  QSignalSpy hovered(&view, &View3D::hovered);
+  QMouseEvent move(QEvent::MouseMove, *pixel, *pixel, Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&view, &move);
+  ASSERT_GE(hovered.count(), 1);
+  EXPECT_TRUE(hovered.last().front().toString().contains(QStringLiteral("um")));
+}
+
+TEST(View3D, ClickPicksTheRightPoint) {
+  View3D view;
+  view.resize(640, 480);
+  view.setMachine(desktopMill());
+  view.setPoints(eightPoints());
+  (void)view.grab();
+  QSignalSpy picked(&view, &View3D::pointPicked);
+  for (const ViewPoint& point : eightPoints()) {
+    const auto pixel = view.pixelOf(point.position_mm);
+    QTest::mouseClick(&view, Qt::LeftButton, Qt::NoModifier, pixel->toPoint());
+    ASSERT_FALSE(picked.isEmpty());
+    EXPECT_EQ(picked.last().front().toString(), point.id);
+  }
+  const int before = picked.count();
+  QTest::mouseClick(&view, Qt::LeftButton, Qt::NoModifier, QPoint(3, 3));
+  EXPECT_EQ(picked.count(), before);
+}
+
+TEST(View3D, DragTurnsShiftDragPansWheelZoomsKeyResets) {
+  View3D view;
+  view.resize(640, 480);
+  view.setMachine(desktopMill());
+  const QImage start = view.grab().toImage();
+  const Camera home = view.camera();
+  QTest::mousePress(&view, Qt::LeftButton, Qt::NoModifier, QPoint(300, 200));
+  QTest::mouseMove(&view, QPoint(360, 230));
+  QMouseEvent move(QEvent::MouseMove, QPointF(380, 240), QPointF(380, 240), Qt::NoButton, Qt::LeftButton,
+                   Qt::NoModifier);
+  QCoreApplication::sendEvent(&view, &move);
+  QTest::mouseRelease(&view, Qt::LeftButton, Qt::NoModifier, QPoint(380, 240));
+  EXPECT_NE(view.camera().azimuth_rad, home.azimuth_rad);
+  EXPECT_NE(view.grab().toImage(), start);
+  QTest::keyClick(&view, Qt::Key_Left);
+  QTest::keyClick(&view, Qt::Key_Plus);
+  EXPECT_LT(view.camera().half_height_mm, home.half_height_mm);
+  QTest::keyClick(&view, Qt::Key_1);
+  (void)view.grab();
+  EXPECT_NEAR(view.camera().half_height_mm, home.half_height_mm, 1e-9);
+  EXPECT_NEAR(view.camera().azimuth_rad, home.azimuth_rad, 1e-9);
+}
+
+TEST(View3D, KeysGoThroughThePoints) {
+  View3D view;
+  view.resize(640, 480);
+  view.setPoints(eightPoints());
+  QSignalSpy picked(&view, &View3D::pointPicked);
+  QTest::keyClick(&view, Qt::Key_N);
+  QTest::keyClick(&view, Qt::Key_N);
+  QTest::keyClick(&view, Qt::Key_B);
+  ASSERT_EQ(picked.count(), 3);
+  EXPECT_EQ(picked[0].front().toString(), QStringLiteral("F1"));
+  EXPECT_EQ(picked[1].front().toString(), QStringLiteral("F2"));
+  EXPECT_EQ(picked[2].front().toString(), QStringLiteral("F1"));
+}
+
+TEST(View3D, LinkedViewsLookTheSameWay) {
+  View3D a, b;
+  a.resize(300, 200);
+  b.resize(300, 200);
+  a.setMachine(desktopMill());
+  b.setMachine(desktopMill());
+  a.link(&b);
+  (void)a.grab();
+  QTest::keyClick(&a, Qt::Key_Left);
+  EXPECT_EQ(a.camera(), b.camera());
+  QTest::keyClick(&b, Qt::Key_Up);
+  EXPECT_EQ(a.camera(), b.camera());
+}
+
+TEST(View3D, ALargeCloudIsDrawnBitByBitAndCompletes) {
+  const std::size_t count = 1'600'000;
+  auto xyz = std::make_shared<std::vector<float>>();
+  auto scalar = std::make_shared<std::vector<float>>();
+  Random random(5);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto x = static_cast<float>(random.uniform(0, 300));
+    xyz->push_back(x);
+    xyz->push_back(static_cast<float>(random.uniform(0, 130)));
+    xyz->push_back(static_cast<float>(random.uniform(0, 2)));
+    scalar->push_back((x - 150) / 10 + static_cast<float>(random.normal(0, 3)));
+  }
+  View3D view;
+  view.resize(640, 480);
+  view.setColourScale(ColourScale::symmetric(15, QStringLiteral("EZ"), QStringLiteral("um")));
+  view.setCloud({xyz, scalar, 2.0});
+  const QImage first = view.grab().toImage();
+  EXPECT_TRUE(view.refining());
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !view.refining(); }, 20000));
+  const QImage full = view.grab().toImage();
+  EXPECT_NE(first, full);
+  // Left is blue, right is red.
+  const auto left = view.pixelOf({40, 65, 1});
+  const auto right = view.pixelOf({260, 65, 1});
+  const auto surplusOfRed = [&](const QPoint& at) {
+    int sum = 0;
+    for (int dy = -8; dy <= 8; ++dy) {
+      for (int dx = -8; dx <= 8; ++dx)
+        sum += qRed(full.pixel(at + QPoint(dx, dy))) - qBlue(full.pixel(at + QPoint(dx, dy)));
+    }
+    return sum;
+  };
+  EXPECT_LT(surplusOfRed(left->toPoint()), 0);
+  EXPECT_GT(surplusOfRed(right->toPoint()), 0);
+  const std::size_t i = 777'777;
+  const Eigen::Vector3d p((*xyz)[3 * i], (*xyz)[3 * i + 1], (*xyz)[3 * i + 2]);
+  const auto picked = view.cloudPointAt(*view.pixelOf(p));
+  ASSERT_TRUE(picked);
+  const Eigen::Vector3d q((*xyz)[3 * *picked], (*xyz)[3 * *picked + 1], (*xyz)[3 * *picked + 2]);
+  EXPECT_LT((view.pixelOf(q)->toPoint() - view.pixelOf(p)->toPoint()).manhattanLength(), 4);
+}
+
+TEST(View3D, PictureOfAnyScaleAndBothThemes) {
+  View3D view;
+  view.resize(400, 300);
+  view.setMachine(desktopMill());
+  view.setPoints(eightPoints());
+  (void)view.grab();
+  const Camera before = view.camera();
+  const QImage once = view.picture({600, 400}, 1.0);
+  const QImage twice = view.picture({600, 400}, 2.0);
+  EXPECT_EQ(once.size(), QSize(600, 400));
+  EXPECT_EQ(twice.size(), QSize(1200, 800));
+  EXPECT_EQ(view.camera(), before);
+  auto& application = *static_cast<QApplication*>(QCoreApplication::instance());
+  applyTheme(application, ThemeKind::Dark);
+  const QImage dark = view.picture({600, 400}, 1.0);
+  applyTheme(application, ThemeKind::Light);
+  EXPECT_LT(qGray(dark.pixel(590, 5)), 80);
+  EXPECT_GT(qGray(once.pixel(590, 5)), 200);
+}
+
+// Prints how long a heat map of 200 x 200 nodes with eight points takes (no assertion on the clock).
+TEST(View3D, HeatMapTimes) {
+  QElapsedTimer timer;
+  timer.start();
+  View3D view;
+  view.resize(1280, 800);
+  view.setMachine(desktopMill());
+  view.setMachineVisible(false);
+  view.setColourScale(ColourScale::symmetric(15, QStringLiteral("EX"), QStringLiteral("um")));
+  view.setField(tiltedField(200));
+  view.setPoints(eightPoints());
+  (void)view.grab();
+  const qint64 first = timer.restart();
+  const std::clock_t cpu = std::clock();
+  for (int i = 0; i < 10; ++i) {
+    QTest::keyClick(&view, Qt::Key_Left);
+    (void)view.grab();
+  }
+  std::printf(
+      "heat map 200 x 200, eight points, 1280 x 800: first picture %lld ms, redraw %.1f ms (%.1f ms of processor "
+      "time)\n",
+      static_cast<long long>(first), static_cast<double>(timer.elapsed()) / 10,
+      100.0 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC);
+}
+
+}  // namespace
+}  // namespace spindrift::gui

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/view3d/camera.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace spindrift::gui {
+namespace {
+
+/// Horizontal directions that form a right-handed set with the vertical: for Z up they are X and Y, for Y up Z and X
+/// turned so that azimuth -pi/2 looks along the depth of the machine.
+void horizontalAxes(const Eigen::Vector3d& vertical, Eigen::Vector3d& a, Eigen::Vector3d& b) {
+  a = std::abs(vertical.x()) > 0.9 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
+  b = vertical.cross(a).normalized();
+}
+
+}  // namespace
+
+Eigen::Vector3d Camera::forward() const {
+  Eigen::Vector3d a, b;
+  horizontalAxes(vertical, a, b);
+  const Eigen::Vector3d to_viewer = std::cos(elevation_rad) * (std::cos(azimuth_rad) * a + std::sin(azimuth_rad) * b) +
+                                    std::sin(elevation_rad) * vertical;
+  return -to_viewer;
+}
+
+Eigen::Vector3d Camera::right() const {
+  Eigen::Vector3d a, b;
+  horizontalAxes(vertical, a, b);
+  return -std::sin(azimuth_rad) * a + std::cos(azimuth_rad) * b;
+}
+
+Eigen::Vector3d Camera::up() const {
+  return right().cross(forward()).normalized();
+}
+
+double Camera::distance_mm() const {
+  return half_height_mm / std::tan(half_view_angle_rad);
+}
+
+Eigen::Vector3d Camera::eye_mm() const {
+  return focal_point_mm - distance_mm() * forward();
+}
+
+void Camera::turn(double azimuth, double elevation) {
+  azimuth_rad = std::remainder(azimuth_rad + azimuth, 2 * std::numbers::pi);
+  elevation_rad = std::clamp(elevation_rad + elevation, -std::numbers::pi / 2, std::numbers::pi / 2);
+}
+
+void Camera::pan(const QPointF& pixels, const QSizeF& size) {
+  const double mm_per_pixel = 2 * half_height_mm / size.height();
+  focal_point_mm += mm_per_pixel * (-pixels.x() * right() + pixels.y() * up());
+}
+
+void Camera::zoom(double factor, const QPointF& at, const QSizeF& size) {
+  const double smaller = std::clamp(half_height_mm / factor, 1e-3, 1e6);
+  const QPointF from_centre(at.x() - size.width() / 2, at.y() - size.height() / 2);
+  const double before = 2 * half_height_mm / size.height();
+  const double after = 2 * smaller / size.height();
+  focal_point_mm += (before - after) * (from_centre.x() * right() - from_centre.y() * up());
+  half_height_mm = smaller;
+}
+
+void Camera::look(StandardView view) {
+  constexpr double right_angle = std::numbers::pi / 2;
+  switch (view) {
+    case StandardView::Isometric:
+      azimuth_rad = -0.96;
+      elevation_rad = 0.52;
+      break;
+    case StandardView::Top:
+      azimuth_rad = -right_angle;
+      elevation_rad = right_angle;
+      break;
+    case StandardView::Front:
+      azimuth_rad = -right_angle;
+      elevation_rad = 0;
+      break;
+    case StandardView::Right:
+      azimuth_rad = 0;
+      elevation_rad = 0;
+      break;
+  }
+}
+
+void Camera::fit(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const QSizeF& size) {
+  focal_point_mm = 0.5 * (low + high);
+  double half_width = 1e-3;
+  double half_height = 1e-3;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d p((corner & 1) != 0 ? high.x() : low.x(), (corner & 2) != 0 ? high.y() : low.y(),
+                            (corner & 4) != 0 ? high.z() : low.z());
+    half_width = std::max(half_width, std::abs(right().dot(p - focal_point_mm)));
+    half_height = std::max(half_height, std::abs(up().dot(p - focal_point_mm)));
+  }
+  const double aspect = size.height() > 0 ? size.width() / size.height() : 1.0;
+  half_height_mm = 1.12 * std::max(half_height, half_width / std::max(aspect, 1e-3));
+}
+
+std::optional<QPointF> Camera::project(const Eigen::Vector3d& point, const QSizeF& size) const {
+  const Eigen::Vector3d p = point - focal_point_mm;
+  double scale = size.height() / (2 * half_height_mm);
+  if (!orthographic) {
+    const double depth = distance_mm() + forward().dot(p);
+    if (depth < 1e-6) return std::nullopt;
+    scale *= distance_mm() / depth;
+  }
+  return QPointF(size.width() / 2 + scale * right().dot(p), size.height() / 2 - scale * up().dot(p));
+}
+
+double Camera::depth_mm(const Eigen::Vector3d& point) const {
+  return forward().dot(point - focal_point_mm);
+}
+
+std::optional<Eigen::Vector3d> Camera::meetPlane(const QPointF& pixel, const QSizeF& size,
+                                                 const Eigen::Vector3d& normal, double offset) const {
+  const double mm_per_pixel = 2 * half_height_mm / size.height();
+  const Eigen::Vector3d in_plane = focal_point_mm + mm_per_pixel * ((pixel.x() - size.width() / 2) * right() -
+                                                                    (pixel.y() - size.height() / 2) * up());
+  const Eigen::Vector3d start = orthographic ? Eigen::Vector3d(in_plane) : eye_mm();
+  const Eigen::Vector3d direction = orthographic ? forward() : Eigen::Vector3d(in_plane - start);
+  const double along = normal.dot(direction);
+  if (std::abs(along) < 1e-9) return std::nullopt;
+  return start + (offset - normal.dot(start)) / along * direction;
+}
+
+}  // namespace spindrift::gui

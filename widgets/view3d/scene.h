@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The solid things of the 3D view, drawn by VTK (private to view3d; VTK itself stays in scene.cpp).
+#pragma once
+
+#include <Eigen/Core>
+#include <QImage>
+#include <memory>
+#include <optional>
+
+#include "widgets/view3d/machine_bodies.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+
+class Scene {
+ public:
+  Scene();
+  ~Scene();
+
+  void setBodies(const MachineBodies& bodies);
+  void setBodiesVisible(bool all, bool tool_side);
+  void setField(const Field* field, const FieldStyle& style, const ColourScale& scale);
+  void setCloud(const ViewCloud& cloud, const std::optional<ColourScale>& scale);
+  void setColours();  ///< from the theme
+
+  [[nodiscard]] const std::optional<MachineBodies>& bodies() const;
+  [[nodiscard]] const ViewCloud& cloud() const;
+  [[nodiscard]] bool bodiesShown() const;
+  [[nodiscard]] bool toolSideShown() const;
+  /// Box around everything that is visible; empty if there is nothing.
+  [[nodiscard]] std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> bounds() const;
+
+  /// Draws everything (a large cloud thinned) and reads the picture back.
+  [[nodiscard]] QImage draw(const Camera& camera, const QSize& pixels, double device_pixel_ratio);
+  /// Adds the next part of a large cloud to the last picture. False when there is nothing left to add.
+  bool refine(QImage& picture);
+  [[nodiscard]] bool complete() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace spindrift::gui

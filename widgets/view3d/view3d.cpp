@@ -1,0 +1,626 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/view3d/view3d.h"
+
+#include <QFontMetrics>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QTextDocument>
+#include <QTimer>
+#include <QWheelEvent>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/text.h"
+#include "widgets/theme/fonts.h"
+#include "widgets/view3d/overlay.h"
+#include "widgets/view3d/scene.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr int rest_before_refining_ms = 120;
+constexpr double pick_radius_px = 12;
+/// Shifts of the pictures that are averaged, pixels (a rotated grid).
+const std::array<QPointF, 4> smooth_shifts{QPointF(-0.125, -0.375), QPointF(0.375, -0.125), QPointF(0.125, 0.375),
+                                           QPointF(-0.375, 0.125)};
+
+}  // namespace
+
+View3D::View3D(QWidget* parent) : QWidget(parent) {
+  setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setAccessibleName(tr("3D view"));
+  setAccessibleDescription(tr("Arrow keys turn, plus and minus zoom, R resets, 1 to 4 are standard views."));
+  refine_timer_.setSingleShot(true);
+  connect(&refine_timer_, &QTimer::timeout, this, &View3D::refineStep);
+  connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] {
+    if (scene_ != nullptr) {
+      scene_->setColours();
+      if (field_ != nullptr && scale_) scene_->setField(field_.get(), field_style_, *scale_);
+    }
+    changed();
+  });
+  camera_.look(StandardView::Isometric);
+}
+
+View3D::~View3D() = default;
+
+void View3D::ensureScene() {
+  if (scene_ != nullptr || !failure_.isEmpty()) return;
+  try {
+    scene_ = std::make_unique<Scene>();
+  } catch (const std::exception& e) {
+    failure_ = QString::fromUtf8(e.what());
+    return;
+  }
+  scene_->setBodies(bodies_.value_or(MachineBodies{}));
+  scene_->setBodiesVisible(machine_visible_, tool_side_visible_);
+  if (field_ != nullptr && scale_) scene_->setField(field_.get(), field_style_, *scale_);
+  if (cloud_.xyz_mm != nullptr) scene_->setCloud(cloud_, scale_);
+}
+
+void View3D::clear() {
+  bodies_.reset();
+  points_.clear();
+  arrows_.clear();
+  field_.reset();
+  cloud_ = {};
+  scale_.reset();
+  caption_.clear();
+  selected_.clear();
+  fitted_ = false;
+  if (scene_ != nullptr) {
+    scene_->setBodies({});
+    scene_->setField(nullptr, {}, {});
+    scene_->setCloud({}, std::nullopt);
+  }
+  changed();
+}
+
+void View3D::setMachine(const MachineDescription& machine) {
+  bodies_ = machineBodies(machine);
+  camera_.vertical = bodies_->vertical;
+  if (scene_ != nullptr) scene_->setBodies(*bodies_);
+  fitted_ = false;
+  changed();
+}
+
+void View3D::setMachineVisible(bool visible) {
+  if (machine_visible_ == visible) return;
+  machine_visible_ = visible;
+  if (scene_ != nullptr) scene_->setBodiesVisible(machine_visible_, tool_side_visible_);
+  fitted_ = false;
+  changed();
+}
+
+void View3D::setToolSideVisible(bool visible) {
+  if (tool_side_visible_ == visible) return;
+  tool_side_visible_ = visible;
+  if (scene_ != nullptr) scene_->setBodiesVisible(machine_visible_, tool_side_visible_);
+  fitted_ = false;
+  changed();
+}
+
+void View3D::setPoints(std::vector<ViewPoint> points) {
+  points_ = std::move(points);
+  update();
+}
+
+void View3D::setArrows(std::vector<ViewArrow> arrows, double exaggeration) {
+  arrows_ = std::move(arrows);
+  exaggeration_ = exaggeration;
+  update();
+}
+
+void View3D::setField(std::shared_ptr<const Field> field, const FieldStyle& style) {
+  field_ = std::move(field);
+  field_style_ = style;
+  if (scene_ != nullptr) {
+    scene_->setField(scale_ ? field_.get() : nullptr, field_style_, scale_.value_or(ColourScale{}));
+  }
+  changed();
+}
+
+void View3D::setCloud(const ViewCloud& cloud) {
+  cloud_ = cloud;
+  if (scene_ != nullptr) scene_->setCloud(cloud_, scale_);
+  fitted_ = false;
+  changed();
+}
+
+void View3D::setColourScale(const std::optional<ColourScale>& scale) {
+  if (scale_ == scale) return;
+  scale_ = scale;
+  if (scene_ != nullptr) {
+    if (field_ != nullptr)
+      scene_->setField(scale_ ? field_.get() : nullptr, field_style_, scale_.value_or(ColourScale{}));
+    if (cloud_.xyz_mm != nullptr) scene_->setCloud(cloud_, scale_);
+  }
+  changed();
+}
+
+void View3D::setCaption(const QString& text) {
+  caption_ = text;
+  update();
+}
+
+void View3D::setEmptyText(const QString& title, const QString& how) {
+  empty_title_ = title;
+  empty_how_ = how;
+  update();
+}
+
+void View3D::setSelected(const QString& point_id) {
+  selected_ = point_id;
+  update();
+}
+
+bool View3D::empty() const {
+  return !bodies_ && field_ == nullptr && (cloud_.xyz_mm == nullptr || cloud_.xyz_mm->empty()) && points_.empty();
+}
+
+void View3D::setCamera(const Camera& camera) {
+  camera_ = camera;
+  fitted_ = true;
+  changed();
+}
+
+void View3D::resetCamera(StandardView view) {
+  camera_.look(view);
+  fitted_ = false;
+  cameraMoved();
+}
+
+void View3D::setOrthographic(bool on) {
+  camera_.orthographic = on;
+  cameraMoved();
+}
+
+void View3D::link(View3D* other) {
+  if (other == nullptr || other == this) return;
+  linked_.push_back(other);
+  other->linked_.push_back(this);
+}
+
+void View3D::changed() {
+  dirty_ = true;
+  refine_timer_.stop();
+  update();
+}
+
+void View3D::cameraMoved() {
+  changed();
+  Q_EMIT cameraChanged();
+  if (following_) return;
+  for (const QPointer<View3D>& other : linked_) {
+    if (other == nullptr) continue;
+    other->following_ = true;
+    other->setCamera(camera_);
+    other->following_ = false;
+  }
+}
+
+void View3D::ensureFrame(const QSize& size, double ratio) {
+  ensureScene();
+  if (scene_ == nullptr) return;
+  const QSize pixels(std::max(1, static_cast<int>(std::lround(size.width() * ratio))),
+                     std::max(1, static_cast<int>(std::lround(size.height() * ratio))));
+  if (!fitted_) {
+    auto box = scene_->bounds();
+    for (const ViewPoint& point : points_) {
+      if (!box) box = {point.position_mm, point.position_mm};
+      box->first = box->first.cwiseMin(point.position_mm);
+      box->second = box->second.cwiseMax(point.position_mm);
+    }
+    if (box) {
+      // The colour bar gets a place of its own.
+      const double bar = reservedRight(size);
+      const QSizeF free(size.width() - bar, size.height());
+      camera_.fit(box->first, box->second, free);
+      camera_.pan(QPointF(-bar / 2, 0), QSizeF(size));
+      fitted_ = true;
+    }
+  }
+  if (!dirty_ && frame_pixels_ == pixels) return;
+  frame_ = scene_->draw(camera_, pixels, ratio);
+  frame_.setDevicePixelRatio(ratio);
+  frame_pixels_ = pixels;
+  dirty_ = false;
+  smooth_step_ = 0;
+  refine_timer_.start(rest_before_refining_ms);
+}
+
+double View3D::reservedRight(const QSize& size) const {
+  const bool bar = scale_ && (field_ != nullptr || cloud_.scalar != nullptr);
+  return bar && size.width() > 320 ? 84.0 : 0.0;
+}
+
+void View3D::refineStep() {
+  if (scene_ == nullptr || dirty_) return;
+  const double ratio = frame_.devicePixelRatio();
+  if (!scene_->complete()) {
+    const bool more = scene_->refine(frame_);
+    frame_.setDevicePixelRatio(ratio);
+    update();
+    if (more) refine_timer_.start(0);
+    return;
+  }
+  if (cloud_.xyz_mm != nullptr || smooth_step_ >= static_cast<int>(smooth_shifts.size())) return;
+  if (smoothStep()) {
+    update();
+  } else {
+    refine_timer_.start(0);
+  }
+}
+
+bool View3D::smoothStep() {
+  const double ratio = frame_.devicePixelRatio();
+  Camera shifted = camera_;
+  shifted.pan(smooth_shifts[static_cast<std::size_t>(smooth_step_)], QSizeF(frame_pixels_));
+  const QImage next = scene_->draw(shifted, frame_pixels_, ratio);
+  const std::size_t bytes = static_cast<std::size_t>(next.sizeInBytes());
+  if (smooth_step_ == 0) smooth_sum_.assign(bytes, 0);
+  const uchar* in = next.constBits();
+  for (std::size_t i = 0; i < bytes; ++i) smooth_sum_[i] = static_cast<quint16>(smooth_sum_[i] + in[i]);
+  if (++smooth_step_ < static_cast<int>(smooth_shifts.size())) return false;
+  uchar* out = frame_.bits();
+  for (std::size_t i = 0; i < bytes; ++i) out[i] = static_cast<uchar>((smooth_sum_[i] + 2) / 4);
+  smooth_sum_ = {};
+  return true;
+}
+
+bool View3D::refining() const {
+  if (scene_ == nullptr || empty()) return false;
+  if (dirty_ || !scene_->complete()) return true;
+  return cloud_.xyz_mm == nullptr && smooth_step_ < static_cast<int>(smooth_shifts.size());
+}
+
+void View3D::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  if (!empty()) ensureFrame(size(), devicePixelRatioF());
+  if (empty() || !failure_.isEmpty() || frame_.isNull()) {
+    QLinearGradient background(0, 0, 0, height());
+    background.setColorAt(0, theme().view_top);
+    background.setColorAt(1, theme().view_bottom);
+    painter.fillRect(rect(), background);
+  } else {
+    painter.drawImage(QPointF(0, 0), frame_);
+  }
+  paintOverlay(painter, size());
+  if (hasFocus()) {
+    painter.setPen(QPen(theme().accent, 2));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(QRectF(rect()).adjusted(1, 1, -1, -1));
+  }
+}
+
+void View3D::paintOverlay(QPainter& painter, const QSize& size) const {
+  painter.setRenderHint(QPainter::Antialiasing);
+  const Theme& t = theme();
+  if (empty() || !failure_.isEmpty()) {
+    const QString title = failure_.isEmpty() ? empty_title_ : tr("The 3D view cannot be drawn");
+    const QString how = failure_.isEmpty() ? empty_how_ : failure_;
+    const QRect area = QRect(QPoint(0, 0), size).adjusted(32, 32, -32, -32);
+    painter.setFont(textFont(sizes::font_body, QFont::DemiBold));
+    const QRect title_box = painter.fontMetrics().boundingRect(area, Qt::AlignHCenter | Qt::TextWordWrap, title);
+    const QFont body = textFont(sizes::font_body);
+    const QRect how_box = QFontMetrics(body).boundingRect(area, Qt::AlignHCenter | Qt::TextWordWrap, how);
+    const int total = title_box.height() + 8 + how_box.height();
+    const int top = (size.height() - total) / 2;
+    painter.setPen(t.text);
+    painter.drawText(QRect(area.left(), top, area.width(), title_box.height()), Qt::AlignHCenter | Qt::TextWordWrap,
+                     title);
+    painter.setFont(body);
+    painter.setPen(t.text_secondary);
+    painter.drawText(QRect(area.left(), top + title_box.height() + 8, area.width(), how_box.height() + 4),
+                     Qt::AlignHCenter | Qt::TextWordWrap, how);
+    return;
+  }
+  const QSizeF area(size);
+  const QRectF whole(QPointF(0, 0), area);
+  if (bodies_) {
+    if (machine_visible_) {
+      paintMotions(painter, camera_, area, *bodies_);
+    } else {
+      paintTableScale(painter, camera_, area, *bodies_);
+    }
+  }
+  paintArrows(painter, camera_, area, arrows_, exaggeration_);
+  QRectF bar;
+  if (scale_ && (field_ != nullptr || cloud_.scalar != nullptr)) bar = paintColourBar(painter, whole, *scale_);
+  paintPoints(painter, camera_, area, points_, scale_, selected_, bar);
+  paintTriad(painter, whole, camera_);
+
+  QStringList notes;
+  if (!caption_.isEmpty()) notes << caption_;
+  if (!arrows_.empty()) {
+    notes << tr("Arrows %1 times larger than the deviation").arg(QString::number(exaggeration_, 'f', 0));
+  }
+  if (field_ != nullptr && field_style_.relief_exaggeration > 0) {
+    notes << tr("Height %1 times larger").arg(QString::number(field_style_.relief_exaggeration, 'f', 0));
+  }
+  if (field_ != nullptr && field_style_.significance > 0 && !field_->sigma.empty()) {
+    notes << tr("Faded: within %1 standard uncertainties of zero").arg(QString::number(field_style_.significance));
+  }
+  if (field_ != nullptr &&
+      std::find(field_->extrapolated.begin(), field_->extrapolated.end(), true) != field_->extrapolated.end()) {
+    notes << tr("Striped: outside the measured points");
+  }
+  if (!notes.isEmpty()) {
+    painter.setFont(textFont(sizes::font_secondary));
+    const QFontMetricsF metrics(painter.font());
+    double width = 0;
+    for (const QString& note : notes) width = std::max(width, metrics.horizontalAdvance(note));
+    QColor back = t.surface;
+    back.setAlphaF(0.85F);
+    const double line = metrics.height() + 3;
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(back);
+    painter.drawRoundedRect(QRectF(8, 8, width + 16, line * static_cast<double>(notes.size()) + 9), 6, 6);
+    double y = 13 + metrics.ascent();
+    for (qsizetype i = 0; i < notes.size(); ++i) {
+      painter.setPen(i == 0 && !caption_.isEmpty() ? t.text : t.text_secondary);
+      painter.drawText(QPointF(16, y), notes[i]);
+      y += line;
+    }
+  }
+}
+
+QImage View3D::picture(const QSize& size, double ratio) {
+  QImage image(
+      QSize(static_cast<int>(std::lround(size.width() * ratio)), static_cast<int>(std::lround(size.height() * ratio))),
+      QImage::Format_RGB32);
+  image.setDevicePixelRatio(ratio);
+  image.fill(theme().view_top);
+  dirty_ = true;
+  const bool had_fit = fitted_;
+  const Camera before = camera_;
+  fitted_ = had_fit && size == this->size();
+  if (!empty()) {
+    ensureFrame(size, ratio);
+    if (scene_ != nullptr) {
+      while (scene_->refine(frame_)) {
+      }
+      frame_.setDevicePixelRatio(ratio);
+      if (cloud_.xyz_mm == nullptr) {
+        smooth_step_ = 0;
+        while (!smoothStep()) {
+        }
+      }
+    }
+  }
+  QPainter painter(&image);
+  if (!frame_.isNull()) painter.drawImage(QPointF(0, 0), frame_);
+  paintOverlay(painter, size);
+  painter.end();
+  if (had_fit) camera_ = before;
+  fitted_ = had_fit;
+  changed();
+  return image;
+}
+
+QString View3D::pointAt(const QPointF& pixel) const {
+  QString best;
+  double nearest = pick_radius_px;
+  double depth = 1e300;
+  for (const ViewPoint& point : points_) {
+    const auto p = camera_.project(point.position_mm, viewSize());
+    if (!p) continue;
+    const double d = std::hypot(p->x() - pixel.x(), p->y() - pixel.y());
+    const double z = camera_.depth_mm(point.position_mm);
+    if (d < nearest - 2 || (d <= nearest && z < depth)) {
+      nearest = std::min(nearest, d);
+      depth = z;
+      best = point.id;
+    }
+  }
+  return best;
+}
+
+std::optional<View3D::Probe> View3D::probeAt(const QPointF& pixel) const {
+  if (field_ == nullptr || field_->value.empty()) return std::nullopt;
+  const FieldGrid& grid = field_->grid;
+  const auto p = camera_.meetPlane(pixel, viewSize(), Eigen::Vector3d::UnitZ(), grid.z_mm);
+  if (!p) return std::nullopt;
+  const double u = (p->x() - grid.x_from_mm) / (grid.x_to_mm - grid.x_from_mm) * (grid.nx - 1);
+  const double v = (p->y() - grid.y_from_mm) / (grid.y_to_mm - grid.y_from_mm) * (grid.ny - 1);
+  if (!(u >= 0 && v >= 0 && u <= grid.nx - 1 && v <= grid.ny - 1)) return std::nullopt;
+  const int ix = std::min(static_cast<int>(u), grid.nx - 2);
+  const int iy = std::min(static_cast<int>(v), grid.ny - 2);
+  const double fx = u - ix;
+  const double fy = v - iy;
+  const auto between = [&](const std::vector<double>& a) {
+    return (1 - fy) * ((1 - fx) * a[grid.index(ix, iy)] + fx * a[grid.index(ix + 1, iy)]) +
+           fy * ((1 - fx) * a[grid.index(ix, iy + 1)] + fx * a[grid.index(ix + 1, iy + 1)]);
+  };
+  Probe probe;
+  probe.xy_mm = p->head<2>();
+  probe.value = between(field_->value);
+  probe.sigma = field_->sigma.size() == field_->value.size() ? between(field_->sigma) : 0.0;
+  probe.extrapolated =
+      !field_->extrapolated.empty() && field_->extrapolated[grid.index(fx > 0.5 ? ix + 1 : ix, fy > 0.5 ? iy + 1 : iy)];
+  return probe;
+}
+
+std::optional<std::size_t> View3D::cloudPointAt(const QPointF& pixel) const {
+  if (cloud_.xyz_mm == nullptr) return std::nullopt;
+  const QSizeF size = viewSize();
+  double nearest = 6;
+  double depth = 1e300;
+  std::optional<std::size_t> best;
+  const std::size_t count = cloud_.xyz_mm->size() / 3;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d p = Eigen::Map<const Eigen::Vector3f>(cloud_.xyz_mm->data() + 3 * i).cast<double>();
+    const auto at = camera_.project(p, size);
+    if (!at) continue;
+    const double dx = at->x() - pixel.x();
+    const double dy = at->y() - pixel.y();
+    const double d = std::sqrt(dx * dx + dy * dy);
+    if (d > 6) continue;
+    const double z = camera_.depth_mm(p);
+    if (!best || d < nearest - 1.5 || (d < nearest + 1.5 && z < depth)) {
+      nearest = std::min(nearest, d);
+      depth = z;
+      best = i;
+    }
+  }
+  return best;
+}
+
+std::optional<QPointF> View3D::pixelOf(const Eigen::Vector3d& point_mm) const {
+  return camera_.project(point_mm, viewSize());
+}
+
+void View3D::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  // A view that nobody has turned yet keeps showing everything.
+  if (event->oldSize().isEmpty()) fitted_ = false;
+}
+
+void View3D::mousePressEvent(QMouseEvent* event) {
+  setFocus(Qt::MouseFocusReason);
+  press_position_ = last_position_ = event->position();
+  dragging_ = false;
+}
+
+void View3D::mouseMoveEvent(QMouseEvent* event) {
+  const QPointF position = event->position();
+  if (event->buttons() == Qt::NoButton) {
+    QString text;
+    if (const auto probe = probeAt(position)) {
+      text = tr("x %1 mm, y %2 mm: %3")
+                 .arg(probe->xy_mm.x(), 0, 'f', 1)
+                 .arg(probe->xy_mm.y(), 0, 'f', 1)
+                 .arg(QString::fromStdString(withUncertainty(probe->value, probe->sigma, unitOf(field_->component))));
+      if (probe->extrapolated) text += tr(" (extrapolated)");
+    }
+    setCursor(pointAt(position).isEmpty() ? Qt::ArrowCursor : Qt::PointingHandCursor);
+    Q_EMIT hovered(text);
+    return;
+  }
+  if (!dragging_ && (position - press_position_).manhattanLength() < 4) return;
+  dragging_ = true;
+  const QPointF moved = position - last_position_;
+  last_position_ = position;
+  const bool pan =
+      (event->buttons() & (Qt::MiddleButton | Qt::RightButton)) != 0 || (event->modifiers() & Qt::ShiftModifier) != 0;
+  if (pan) {
+    camera_.pan(moved, viewSize());
+  } else {
+    camera_.turn(-moved.x() * 0.008, moved.y() * 0.008);
+  }
+  cameraMoved();
+}
+
+void View3D::mouseReleaseEvent(QMouseEvent* event) {
+  if (!dragging_ && event->button() == Qt::LeftButton) {
+    const QString id = pointAt(event->position());
+    if (!id.isEmpty()) {
+      setSelected(id);
+      Q_EMIT pointPicked(id);
+    }
+  }
+  dragging_ = false;
+}
+
+void View3D::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && pointAt(event->position()).isEmpty()) {
+    fitted_ = false;
+    cameraMoved();
+  }
+}
+
+void View3D::wheelEvent(QWheelEvent* event) {
+  camera_.zoom(std::pow(1.0015, event->angleDelta().y()), event->position(), viewSize());
+  cameraMoved();
+  event->accept();
+}
+
+void View3D::keyPressEvent(QKeyEvent* event) {
+  const bool shift = (event->modifiers() & Qt::ShiftModifier) != 0;
+  const auto move = [&](double x, double y) {
+    if (shift) {
+      camera_.pan(QPointF(-20 * x, 20 * y), viewSize());
+    } else {
+      camera_.turn(0.1 * x, 0.1 * y);
+    }
+    cameraMoved();
+  };
+  const QPointF middle(width() / 2.0, height() / 2.0);
+  const auto pick = [&](int step) {
+    if (points_.empty()) return;
+    const auto found =
+        std::find_if(points_.begin(), points_.end(), [&](const ViewPoint& p) { return p.id == selected_; });
+    const auto count = static_cast<std::ptrdiff_t>(points_.size());
+    const std::ptrdiff_t now = found == points_.end() ? (step > 0 ? -1 : 0) : found - points_.begin();
+    const QString id = points_[static_cast<std::size_t>((now + step + count) % count)].id;
+    setSelected(id);
+    Q_EMIT pointPicked(id);
+  };
+  switch (event->key()) {
+    case Qt::Key_Left:
+      move(-1, 0);
+      return;
+    case Qt::Key_Right:
+      move(1, 0);
+      return;
+    case Qt::Key_Up:
+      move(0, 1);
+      return;
+    case Qt::Key_Down:
+      move(0, -1);
+      return;
+    case Qt::Key_Plus:
+    case Qt::Key_Equal:
+      camera_.zoom(1.2, middle, viewSize());
+      cameraMoved();
+      return;
+    case Qt::Key_Minus:
+      camera_.zoom(1 / 1.2, middle, viewSize());
+      cameraMoved();
+      return;
+    case Qt::Key_R:
+    case Qt::Key_Home:
+      fitted_ = false;
+      cameraMoved();
+      return;
+    case Qt::Key_1:
+      resetCamera(StandardView::Isometric);
+      return;
+    case Qt::Key_2:
+      resetCamera(StandardView::Top);
+      return;
+    case Qt::Key_3:
+      resetCamera(StandardView::Front);
+      return;
+    case Qt::Key_4:
+      resetCamera(StandardView::Right);
+      return;
+    case Qt::Key_P:
+      setOrthographic(!camera_.orthographic);
+      return;
+    case Qt::Key_N:
+      pick(1);
+      return;
+    case Qt::Key_B:
+      pick(-1);
+      return;
+    default:
+      QWidget::keyPressEvent(event);
+  }
+}
+
+void View3D::leaveEvent(QEvent* event) {
+  Q_EMIT hovered({});
+  QWidget::leaveEvent(event);
+}
+
+bool View3D::event(QEvent* event) {
+  if (event->type() == QEvent::FocusIn || event->type() == QEvent::FocusOut) update();
+  return QWidget::event(event);
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The 3D view: machine, table grid, points, arrows, heat maps and clouds. Works with and without a display.
+//
+// Solid things are drawn by VTK into an off-screen window and painted here; labels, markers, arrows, colour bar and
+// axes are painted on top with the program's own font. Lengths mm in MCF, deviations um or urad.
+//
+// Mouse: left drag turns, middle or right drag (or Shift + left) pans, wheel zooms at the cursor, click picks,
+// double-click resets. Keys: arrows turn, Shift + arrows pan, + and - zoom, R or Home resets, 1 2 3 4 standard views,
+// P switches perspective, N and B pick the next and the previous point.
+#pragma once
+
+#include <Eigen/Core>
+#include <QImage>
+#include <QPointer>
+#include <QTimer>
+#include <QWidget>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/machine/field.h"
+#include "core/machine/machine_description.h"
+#include "widgets/theme/colour_map.h"
+#include "widgets/theme/theme.h"
+#include "widgets/view3d/camera.h"
+#include "widgets/view3d/machine_bodies.h"
+
+namespace spindrift::gui {
+
+class Scene;
+
+/// A point with a label that faces the viewer. `value` (if there is one) is shown beside the label and colours the
+/// mark.
+struct ViewPoint {
+  QString id;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  QString label;                ///< "F1"
+  QString value_text;           ///< "12.4 ± 0.3 um" or empty
+  std::optional<double> value;  ///< colour by the scale of the view
+  bool used = true;             ///< false: drawn hollow (validation, excluded)
+  Tone tone = Tone::Accent;     ///< colour without a value
+};
+
+/// A deviation at a place, drawn `exaggeration` times larger.
+struct ViewArrow {
+  Eigen::Vector3d from_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d deviation_um = Eigen::Vector3d::Zero();
+  Tone tone = Tone::Neutral;
+};
+
+struct FieldStyle {
+  double significance = 2.0;       ///< |value| below this many sigma is drawn faded; 0 switches that off
+  double relief_exaggeration = 0;  ///< > 0: the surface is lifted by the value times this (um -> mm * 1e-3)
+  bool contours = true;
+};
+
+/// Points coloured by a scalar. The vectors are shared, not copied.
+struct ViewCloud {
+  std::shared_ptr<const std::vector<float>> xyz_mm;  ///< x y z x y z ...
+  std::shared_ptr<const std::vector<float>> scalar;  ///< one a point, in the unit of the scale; may be null
+  double point_size = 2.0;
+};
+
+class View3D : public QWidget {
+  Q_OBJECT
+ public:
+  explicit View3D(QWidget* parent = nullptr);
+  ~View3D() override;
+
+  // Content. Each call replaces what was there; nothing is drawn until the next paint.
+  void clear();
+  /// The box model, its table grid and travels; also decides what is up.
+  void setMachine(const MachineDescription& machine);
+  void setMachineVisible(bool visible);   ///< bodies and travels; the table with its grid stays
+  void setToolSideVisible(bool visible);  ///< column, head, spindle
+  void setPoints(std::vector<ViewPoint> points);
+  void setArrows(std::vector<ViewArrow> arrows, double exaggeration);
+  void setField(std::shared_ptr<const Field> field, const FieldStyle& style = {});
+  void setCloud(const ViewCloud& cloud);
+  void setColourScale(const std::optional<ColourScale>& scale);
+  void setCaption(const QString& text);  ///< small text at the top left: what is shown
+  /// What stands there while there is nothing to draw: what will appear and how to get it.
+  void setEmptyText(const QString& title, const QString& how);
+  void setSelected(const QString& point_id);  ///< marks a point; empty: none
+
+  [[nodiscard]] bool empty() const;
+  [[nodiscard]] const std::optional<ColourScale>& colourScale() const { return scale_; }
+
+  // Camera.
+  [[nodiscard]] const Camera& camera() const { return camera_; }
+  void setCamera(const Camera& camera);
+  void resetCamera(StandardView view = StandardView::Isometric);
+  void setOrthographic(bool on);
+  /// From now on both views always look the same way.
+  void link(View3D* other);
+
+  /// The id of the point at a pixel; empty if there is none within 12 px.
+  [[nodiscard]] QString pointAt(const QPointF& pixel) const;
+  /// Value of the field (or nothing) under a pixel.
+  struct Probe {
+    Eigen::Vector2d xy_mm;
+    double value;
+    double sigma;
+    bool extrapolated;
+  };
+  [[nodiscard]] std::optional<Probe> probeAt(const QPointF& pixel) const;
+  /// The cloud's point nearest to a pixel (within 6 px), its index.
+  [[nodiscard]] std::optional<std::size_t> cloudPointAt(const QPointF& pixel) const;
+  [[nodiscard]] std::optional<QPointF> pixelOf(const Eigen::Vector3d& point_mm) const;
+
+  /// A finished picture of any size (device-independent pixels), as it is drawn on screen.
+  [[nodiscard]] QImage picture(const QSize& size, double device_pixel_ratio);
+  /// True while a large cloud is still being drawn bit by bit, or edges are being smoothed.
+  [[nodiscard]] bool refining() const;
+  /// Sentence for the user if there is no OpenGL at all, else empty.
+  [[nodiscard]] const QString& failure() const { return failure_; }
+
+  [[nodiscard]] QSize sizeHint() const override { return {640, 480}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {280, 220}; }
+
+ Q_SIGNALS:
+  void pointPicked(const QString& id);
+  void cameraChanged();
+  /// The value under the cursor, ready to be read ("x 120.0 mm, y 40.0 mm: 3.2 ± 0.4 um"); empty outside.
+  void hovered(const QString& text);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  bool event(QEvent* event) override;
+
+ private:
+  void changed();      ///< redraw solid things
+  void cameraMoved();  ///< redraw, thinned, and refine a moment later
+  void ensureFrame(const QSize& size, double ratio);
+  void paintOverlay(QPainter& painter, const QSize& size) const;
+  [[nodiscard]] QSizeF viewSize() const { return {static_cast<double>(width()), static_cast<double>(height())}; }
+  void refineStep();
+  /// Draws the next of the shifted pictures whose average has smooth edges. True when the average is in frame_.
+  bool smoothStep();
+  [[nodiscard]] double reservedRight(const QSize& size) const;
+
+  void ensureScene();
+
+  std::unique_ptr<Scene> scene_;  ///< made when it is first painted
+  std::optional<MachineBodies> bodies_;
+  bool machine_visible_ = true;
+  bool tool_side_visible_ = true;
+  ViewCloud cloud_;
+  Camera camera_;
+  std::optional<ColourScale> scale_;
+  std::vector<ViewPoint> points_;
+  std::vector<ViewArrow> arrows_;
+  double exaggeration_ = 0;
+  std::shared_ptr<const Field> field_;
+  FieldStyle field_style_;
+  QString caption_;
+  QString empty_title_;
+  QString empty_how_;
+  QString selected_;
+  QString failure_;
+  QImage frame_;
+  bool dirty_ = true;
+  bool fitted_ = false;  ///< the camera has been fitted to the content
+  bool following_ = false;
+  QPointF press_position_;
+  QPointF last_position_;
+  bool dragging_ = false;
+  QTimer refine_timer_;
+  QSize frame_pixels_;
+  int smooth_step_ = 0;              ///< shifted pictures drawn so far
+  std::vector<quint16> smooth_sum_;  ///< their sum, four channels a pixel
+  std::vector<QPointer<View3D>> linked_;
+};
+
+}  // namespace spindrift::gui
