@@ -29,7 +29,7 @@ namespace spindrift {
 struct DecodeOptions {
   double min_pixel_length_um = 0.7;  ///< for the standard pitch of 350 um; scaled with the pattern's pitch
   double max_pixel_length_um = 2.8;
-  int min_subpatterns = 2;       ///< fewer decoded ellipses: rejected
+  int min_subpatterns = 1;       ///< fewer decoded ellipses: rejected
   bool circles = true;           ///< also locate the filled circles
   bool check_uniqueness = true;  ///< look for a second pattern in view
 

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/imaging/decoder_parts.h"
+
+namespace spindrift::decoding {
+namespace {
+
+double distanceToStroke(const PatternStroke& stroke, double x, double y) {
+  const Eigen::Vector2d p(x, y);
+  if (stroke.size() == 1) return (p - stroke[0]).norm();
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k + 1 < stroke.size(); ++k) {
+    const Eigen::Vector2d along = stroke[k + 1] - stroke[k];
+    const double length2 = along.squaredNorm();
+    const double t = length2 > 0.0 ? std::clamp((p - stroke[k]).dot(along) / length2, 0.0, 1.0) : 0.0;
+    best = std::min(best, (p - stroke[k] - t * along).squaredNorm());
+  }
+  return std::sqrt(best);
+}
+
+/// Mean 0, length 1; false if the cell is flat.
+bool normalise(NumberLibrary::Cell& cell) {
+  float mean = 0.0F;
+  for (const float v : cell) mean += v;
+  mean /= NumberLibrary::samples;
+  float square = 0.0F;
+  for (float& v : cell) {
+    v -= mean;
+    square += v * v;
+  }
+  if (square < 1e-6F) return false;
+  const float factor = 1.0F / std::sqrt(square);
+  for (float& v : cell) v *= factor;
+  return true;
+}
+
+float correlation(const NumberLibrary::Cell& a, const NumberLibrary::Cell& b) {
+  // Four partial sums, so that the compiler may use vector registers.
+  float s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+  for (int k = 0; k < NumberLibrary::samples; k += 4) {
+    s0 += a[k] * b[k];
+    s1 += a[k + 1] * b[k + 1];
+    s2 += a[k + 2] * b[k + 2];
+    s3 += a[k + 3] * b[k + 3];
+  }
+  return (s0 + s1) + (s2 + s3);
+}
+
+LocalFrame frameOf(const Mark& mark, double pixel_length_um, double tilt_rad) {
+  const double c = std::cos(tilt_rad) / pixel_length_um;
+  const double s = std::sin(tilt_rad) / pixel_length_um;
+  return {mark.x_px, mark.y_px, {c, s}, {s, -c}};
+}
+
+}  // namespace
+
+NumberLibrary::NumberLibrary(const FiducialPattern& pattern)
+    : half_line_um_(0.5 * pattern.digit_line_width_um),
+      step_x_um_(2.0 * pattern.digit_offset_x_um / columns),
+      step_y_um_(2.0 * pattern.digit_offset_y_um / rows) {
+  for (int digit = 0; digit < 10; ++digit) {
+    for (int j = 0; j < rows; ++j) {
+      for (int i = 0; i < columns; ++i) {
+        const double x = (i + 0.5 - 0.5 * columns) * step_x_um_;
+        const double y = (j + 0.5 - 0.5 * rows) * step_y_um_;
+        double best = std::numeric_limits<double>::infinity();
+        for (const PatternStroke& stroke : pattern.digits[digit]) best = std::min(best, distanceToStroke(stroke, x, y));
+        distance_um_[digit][j * columns + i] = static_cast<float>(best);
+      }
+    }
+  }
+}
+
+NumberLibrary::Templates NumberLibrary::templates(double sigma_um) const {
+  // Profile of a blurred stroke over the distance from its middle.
+  constexpr int steps = 256;
+  const double reach = half_line_um_ + 4.0 * sigma_um;
+  std::array<float, steps + 2> profile{};
+  const double scale = 1.0 / (std::sqrt(2.0) * std::max(sigma_um, 0.1));
+  for (int k = 0; k < steps; ++k) {
+    const double d = reach * k / steps;
+    profile[k] =
+        static_cast<float>(0.5 * (std::erf((d + half_line_um_) * scale) - std::erf((d - half_line_um_) * scale)));
+  }
+  Templates result;
+  const float per_um = static_cast<float>(steps / reach);
+  for (int digit = 0; digit < 10; ++digit) {
+    for (int k = 0; k < samples; ++k) {
+      const float t = std::min(distance_um_[digit][k] * per_um, static_cast<float>(steps));
+      const int i = static_cast<int>(t);
+      result.digit[digit][k] = profile[i] + (t - static_cast<float>(i)) * (profile[i + 1] - profile[i]);
+    }
+    normalise(result.digit[digit]);
+  }
+  return result;
+}
+
+DigitScores readDigits(const GrayImage& image, const FiducialPattern& pattern, const NumberLibrary& library,
+                       const NumberLibrary::Templates& templates, const LocalFrame& frame) {
+  DigitScores scores{};
+  constexpr float fixed = 256.0F;
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector2d centre = pattern.digitCentre(k);
+    NumberLibrary::Cell cell{};
+    const Eigen::Vector2d column_step = frame.x_axis * library.stepX_um();
+    const Eigen::Vector2d row_step = frame.y_axis * library.stepY_um();
+    const Eigen::Vector2d first = Eigen::Vector2d(frame.x_px, frame.y_px) + frame.x_axis * centre.x() +
+                                  frame.y_axis * centre.y() - column_step * (0.5 * (NumberLibrary::columns - 1)) -
+                                  row_step * (0.5 * (NumberLibrary::rows - 1));
+    const Eigen::Vector2d last =
+        first + column_step * (NumberLibrary::columns - 1) + row_step * (NumberLibrary::rows - 1);
+    const Eigen::Vector2d side = first + column_step * (NumberLibrary::columns - 1);
+    const Eigen::Vector2d other = first + row_step * (NumberLibrary::rows - 1);
+    const auto inside = [&](const Eigen::Vector2d& p) {
+      return p.x() >= 1.0 && p.y() >= 1.0 && p.x() < image.width() - 2.0 && p.y() < image.height() - 2.0;
+    };
+    if (!inside(first) || !inside(last) || !inside(side) || !inside(other)) continue;
+    for (int j = 0; j < NumberLibrary::rows; ++j) {
+      Eigen::Vector2d p = first + j * row_step;
+      for (int i = 0; i < NumberLibrary::columns; ++i, p += column_step) {
+        const int x = static_cast<int>(p.x());
+        const int y = static_cast<int>(p.y());
+        const int fx = static_cast<int>(static_cast<float>(p.x() - x) * fixed);
+        const int fy = static_cast<int>(static_cast<float>(p.y() - y) * fixed);
+        const std::uint8_t* q = image.row(y) + x;
+        const std::uint8_t* r = q + image.width();
+        const int top = (256 - fx) * q[0] + fx * q[1];
+        const int bottom = (256 - fx) * r[0] + fx * r[1];
+        cell[j * NumberLibrary::columns + i] = static_cast<float>((256 - fy) * top + fy * bottom);
+      }
+    }
+    if (!normalise(cell)) continue;
+    for (int digit = 0; digit < 10; ++digit) scores[k][digit] = correlation(cell, templates.digit[digit]);
+  }
+  return scores;
+}
+
+NumberVote voteOnNumbers(const GrayImage& image, const FiducialPattern& pattern, const NumberLibrary& library,
+                         const NumberLibrary::Templates& templates, const Lattice& lattice,
+                         const std::vector<Mark>& marks, int max_nodes) {
+  NumberVote best;
+  double best_sum = -1.0;
+  double rival_sum = -1.0;
+  const std::size_t count = std::min<std::size_t>(lattice.nodes.size(), static_cast<std::size_t>(max_nodes));
+  // Spread the chosen ellipses over the lattice.
+  std::vector<LatticeNode> nodes;
+  for (std::size_t k = 0; k < count; ++k) nodes.push_back(lattice.nodes[k * lattice.nodes.size() / count]);
+  for (int mirrored = 0; mirrored < 2; ++mirrored) {
+    // A mirrored view is tried only where the straight one cannot be read.
+    if (mirrored == 1 && best.correlation > 0.6) break;
+    for (int turned = 0; turned < 2; ++turned) {
+      // Sums over the ellipses for every number of node (0, 0); what a number outside 10 ... 99 would get is nothing.
+      std::array<double, 200> row_sum{};
+      std::array<double, 200> column_sum{};
+      const int sign_u = turned ? -1 : 1;
+      const int sign_v = (turned != 0) != (mirrored != 0) ? -1 : 1;
+      for (const LatticeNode& node : nodes) {
+        LocalFrame frame = frameOf(marks[node.mark], lattice.pixel_length_um, lattice.tilt_rad);
+        if (mirrored) frame = frame.flipped();
+        if (turned) frame = frame.turned();
+        const DigitScores s = readDigits(image, pattern, library, templates, frame);
+        for (int start = 0; start < 200; ++start) {
+          const int row = start - 50 + sign_v * node.v;
+          const int column = start - 50 + sign_u * node.u;
+          if (row >= 10 && row <= 99) {
+            row_sum[start] += std::max(0.0F, s[0][row / 10]) + std::max(0.0F, s[1][row % 10]);
+          }
+          if (column >= 10 && column <= 99) {
+            column_sum[start] += std::max(0.0F, s[2][column / 10]) + std::max(0.0F, s[3][column % 10]);
+          }
+        }
+      }
+      const auto topTwo = [](const std::array<double, 200>& sums) {
+        int first = 0;
+        double second = -1.0;
+        for (int k = 1; k < 200; ++k) {
+          if (sums[k] > sums[first]) {
+            second = sums[first];
+            first = k;
+          } else {
+            second = std::max(second, sums[k]);
+          }
+        }
+        return std::pair<int, double>(first, second);
+      };
+      const auto [row, row_second] = topTwo(row_sum);
+      const auto [column, column_second] = topTwo(column_sum);
+      const double sum = row_sum[row] + column_sum[column];
+      const double second = std::max(row_second + column_sum[column], row_sum[row] + column_second);
+      if (sum > best_sum) {
+        rival_sum = std::max(best_sum, second);
+        best_sum = sum;
+        best.row = row - 50;
+        best.column = column - 50;
+        best.turned = turned != 0;
+        best.mirrored = mirrored != 0;
+        best.correlation = sum / (4.0 * static_cast<double>(count));
+      } else {
+        rival_sum = std::max(rival_sum, sum);
+      }
+    }
+  }
+  best.margin = best_sum - rival_sum;
+  // Noise of a sum of n correlations grows as its root; damaged digits make it coarser than pixels' noise.
+  const double n = static_cast<double>(count);
+  best.decided = count > 0 && best.correlation > 0.45 && best.margin > std::max(0.12, 0.08 * std::sqrt(n));
+  return best;
+}
+
+bool carriesDigits(const GrayImage& image, const FiducialPattern& pattern, const NumberLibrary& library,
+                   const NumberLibrary::Templates& templates, const Mark& mark, double pixel_length_um,
+                   double tilt_rad) {
+  const LocalFrame straight = frameOf(mark, pixel_length_um, tilt_rad);
+  for (const LocalFrame& frame : {straight, straight.turned()}) {
+    const DigitScores scores = readDigits(image, pattern, library, templates, frame);
+    double worst = 1.0;
+    for (const auto& cell : scores) worst = std::min<double>(worst, *std::max_element(cell.begin(), cell.end()));
+    if (worst > 0.7) return true;
+  }
+  return false;
+}
+
+}  // namespace spindrift::decoding

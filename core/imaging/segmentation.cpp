@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+
+#include "core/imaging/decoder_parts.h"
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace spindrift::decoding {
+namespace {
+
+constexpr int tile = 32;  // pixels of the reduced image
+
+/// Threshold at the middle of every tile: half way between the darkest and the brightest of the 3 x 3 tiles around.
+struct ThresholdGrid {
+  int columns = 0;
+  int rows = 0;
+  std::vector<float> level;
+  [[nodiscard]] float at(int i, int j) const {
+    return level[static_cast<std::size_t>(std::clamp(j, 0, rows - 1)) * columns + std::clamp(i, 0, columns - 1)];
+  }
+};
+
+ThresholdGrid thresholdGrid(const cv::Mat& image) {
+  ThresholdGrid grid;
+  grid.columns = (image.cols + tile - 1) / tile;
+  grid.rows = (image.rows + tile - 1) / tile;
+  const std::size_t count = static_cast<std::size_t>(grid.columns) * grid.rows;
+  std::vector<std::uint8_t> low(count, 255);
+  std::vector<std::uint8_t> high(count, 0);
+  std::vector<std::uint8_t> column_low(image.cols);
+  std::vector<std::uint8_t> column_high(image.cols);
+  for (int j = 0; j < grid.rows; ++j) {
+    std::fill(column_low.begin(), column_low.end(), std::uint8_t{255});
+    std::fill(column_high.begin(), column_high.end(), std::uint8_t{0});
+    for (int y = j * tile; y < std::min(image.rows, (j + 1) * tile); ++y) {
+      const std::uint8_t* p = image.ptr<std::uint8_t>(y);
+      std::uint8_t* lo = column_low.data();
+      std::uint8_t* hi = column_high.data();
+      for (int x = 0; x < image.cols; ++x) {
+        lo[x] = std::min(lo[x], p[x]);
+        hi[x] = std::max(hi[x], p[x]);
+      }
+    }
+    for (int x = 0; x < image.cols; ++x) {
+      const std::size_t k = static_cast<std::size_t>(j) * grid.columns + x / tile;
+      low[k] = std::min(low[k], column_low[x]);
+      high[k] = std::max(high[k], column_high[x]);
+    }
+  }
+  std::vector<float> middle(count);
+  std::vector<float> ground(count);
+  std::vector<float> contrast(count);
+  for (int j = 0; j < grid.rows; ++j) {
+    for (int i = 0; i < grid.columns; ++i) {
+      int lo = 255;
+      int hi = 0;
+      for (int b = std::max(0, j - 1); b <= std::min(grid.rows - 1, j + 1); ++b) {
+        for (int a = std::max(0, i - 1); a <= std::min(grid.columns - 1, i + 1); ++a) {
+          lo = std::min<int>(lo, low[static_cast<std::size_t>(b) * grid.columns + a]);
+          hi = std::max<int>(hi, high[static_cast<std::size_t>(b) * grid.columns + a]);
+        }
+      }
+      const std::size_t k = static_cast<std::size_t>(j) * grid.columns + i;
+      middle[k] = 0.5F * static_cast<float>(lo + hi);
+      ground[k] = static_cast<float>(lo);
+      contrast[k] = static_cast<float>(hi - lo);
+    }
+  }
+  // Empty ground has no mark to tell the threshold: keep it clear of the noise there.
+  std::vector<float> sorted = contrast;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  const float least = 0.3F * sorted[sorted.size() / 2];
+  for (std::size_t k = 0; k < count; ++k) middle[k] = std::max(middle[k], ground[k] + 0.5F * std::max(least, 12.0F));
+  grid.level = middle;
+  ThresholdGrid smooth = grid;
+  for (int j = 0; j < grid.rows; ++j) {
+    for (int i = 0; i < grid.columns; ++i) {
+      float sum = 0.0F;
+      for (int b = -1; b <= 1; ++b) {
+        for (int a = -1; a <= 1; ++a) sum += grid.at(i + a, j + b);
+      }
+      smooth.level[static_cast<std::size_t>(j) * grid.columns + i] = sum / 9.0F;
+    }
+  }
+  return smooth;
+}
+
+/// Threshold of every pixel of a row, linear between the middles of the tiles.
+void thresholdRow(const ThresholdGrid& grid, int y, int width, std::uint8_t* out) {
+  const float v = (static_cast<float>(y) + 0.5F) / tile - 0.5F;
+  const int j = static_cast<int>(std::floor(v));
+  const float fv = v - static_cast<float>(j);
+  const auto node = [&](int i) { return (1.0F - fv) * grid.at(i, j) + fv * grid.at(i, j + 1); };
+  for (int i = -1; i < grid.columns; ++i) {
+    const float a = node(i);
+    const float b = node(i + 1);
+    const int begin = std::max(0, i * tile + tile / 2);
+    const int end = std::min(width, (i + 1) * tile + tile / 2);
+    const float step = (b - a) / tile;
+    const float first = a + step * (0.5F + static_cast<float>(begin - i * tile - tile / 2));
+    for (int x = begin; x < end; ++x) {
+      out[x] = static_cast<std::uint8_t>(static_cast<int>(first + step * static_cast<float>(x - begin)));
+    }
+  }
+}
+
+struct Run {
+  int y;
+  int begin;
+  int end;  // one past the last
+  int label;
+};
+
+/// Runs of pixels above the threshold.
+void findRuns(const std::uint8_t* p, const std::uint8_t* threshold, int width, int y, std::vector<Run>& runs) {
+  int x = 0;
+  bool inside = false;
+  int begin = 0;
+#if defined(__SSE2__)
+  for (; x + 16 <= width; x += 16) {
+    const __m128i a = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p + x));
+    const __m128i t = _mm_loadu_si128(reinterpret_cast<const __m128i*>(threshold + x));
+    // a > t  <=>  saturated a - t is not zero
+    unsigned mask = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(_mm_subs_epu8(a, t), _mm_setzero_si128())));
+    mask = ~mask & 0xFFFFU;
+    if (mask == (inside ? 0xFFFFU : 0U)) continue;
+    unsigned changes = (mask ^ ((mask << 1) | (inside ? 1U : 0U))) & 0xFFFFU;
+    while (changes != 0) {
+      const int at = x + std::countr_zero(changes);
+      changes &= changes - 1;
+      if (inside) {
+        runs.push_back({y, begin, at, -1});
+      } else {
+        begin = at;
+      }
+      inside = !inside;
+    }
+  }
+#endif
+  for (; x < width; ++x) {
+    const bool bright = p[x] > threshold[x];
+    if (bright == inside) continue;
+    if (inside) {
+      runs.push_back({y, begin, x, -1});
+    } else {
+      begin = x;
+    }
+    inside = bright;
+  }
+  if (inside) runs.push_back({y, begin, width, -1});
+}
+
+int rootOf(std::vector<int>& parent, int k) {
+  while (parent[k] != k) k = parent[k] = parent[parent[k]];
+  return k;
+}
+
+/// Sums over a filled mark; rows arrive in order.
+struct Sums {
+  int y = -1, begin = 0, end = 0;
+  int min_x = 1 << 30, max_x = -1, min_y = 1 << 30, max_y = -1;
+  double bright = 0, n = 0, x = 0, y1 = 0, xx = 0, xy = 0, yy = 0;
+  void flush() {
+    if (y < 0) return;
+    const double count = end - begin;
+    const double middle = 0.5 * (begin + end - 1);
+    n += count;
+    x += count * middle;
+    y1 += count * y;
+    xx += count * (middle * middle + (count * count - 1.0) / 12.0);
+    xy += count * middle * y;
+    yy += count * y * static_cast<double>(y);
+  }
+  void add(const Run& run) {
+    if (run.y != y) {
+      flush();
+      y = run.y;
+      begin = run.begin;
+      end = run.end;
+    } else {
+      begin = std::min(begin, run.begin);
+      end = std::max(end, run.end);
+    }
+    bright += run.end - run.begin;
+    min_x = std::min(min_x, run.begin);
+    max_x = std::max(max_x, run.end - 1);
+    min_y = std::min(min_y, run.y);
+    max_y = std::max(max_y, run.y);
+  }
+};
+
+}  // namespace
+
+std::vector<Mark> findMarks(const GrayImage& image, const MarkLimits& limits) {
+  std::vector<Mark> marks;
+  if (image.width() < 16 || image.height() < 16) return marks;
+  const cv::Mat full(image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.data()));
+  const cv::Mat even = full(cv::Rect(0, 0, image.width() & ~1, image.height() & ~1));
+  cv::Mat half;
+  cv::resize(even, half, cv::Size(even.cols / 2, even.rows / 2), 0, 0, cv::INTER_AREA);
+  const ThresholdGrid grid = thresholdGrid(half);
+
+  std::vector<Run> runs;
+  runs.reserve(static_cast<std::size_t>(half.rows) * 24);
+  std::vector<int> parent;
+  std::vector<std::uint8_t> threshold(half.cols + 16);
+  std::size_t above_begin = 0;
+  std::size_t above_end = 0;
+  for (int y = 0; y < half.rows; ++y) {
+    if (y % 4 == 0) thresholdRow(grid, y + 2, half.cols, threshold.data());
+    const std::size_t first = runs.size();
+    findRuns(half.ptr<std::uint8_t>(y), threshold.data(), half.cols, y, runs);
+    std::size_t above = above_begin;
+    for (std::size_t k = first; k < runs.size(); ++k) {
+      Run& run = runs[k];
+      while (above < above_end && runs[above].end < run.begin) ++above;
+      for (std::size_t a = above; a < above_end && runs[a].begin <= run.end; ++a) {
+        const int root = rootOf(parent, runs[a].label);
+        if (run.label < 0) {
+          run.label = root;
+        } else {
+          const int own = rootOf(parent, run.label);
+          if (own != root) parent[std::max(own, root)] = std::min(own, root);
+        }
+      }
+      if (run.label < 0) {
+        run.label = static_cast<int>(parent.size());
+        parent.push_back(run.label);
+      }
+    }
+    above_begin = first;
+    above_end = runs.size();
+  }
+  std::vector<int> index(parent.size(), -1);
+  std::vector<Sums> sums;
+  for (const Run& run : runs) {
+    const int root = rootOf(parent, run.label);
+    if (index[root] < 0) {
+      index[root] = static_cast<int>(sums.size());
+      sums.emplace_back();
+    }
+    sums[index[root]].add(run);
+  }
+  for (Sums& s : sums) {
+    const int extent = std::max(s.max_x - s.min_x, s.max_y - s.min_y) + 1;
+    if (extent < limits.min_semi_major_px * 0.7 || extent > limits.max_semi_major_px * 1.2) continue;
+    if (s.min_x == 0 || s.min_y == 0 || s.max_x == half.cols - 1 || s.max_y == half.rows - 1) continue;
+    s.flush();
+    const double mx = s.x / s.n;
+    const double my = s.y1 / s.n;
+    const double xx = s.xx / s.n - mx * mx;
+    const double xy = s.xy / s.n - mx * my;
+    const double yy = s.yy / s.n - my * my + 1.0 / 12.0;
+    const double mean = 0.5 * (xx + yy);
+    const double root = std::hypot(0.5 * (xx - yy), xy);
+    if (mean - root <= 0.0) continue;
+    Mark mark;
+    mark.semi_major_px = 2.0 * 2.0 * std::sqrt(mean + root);  // the reduced image has pixels of twice the size
+    mark.semi_minor_px = 2.0 * 2.0 * std::sqrt(mean - root);
+    if (mark.semi_major_px < limits.min_semi_major_px || mark.semi_major_px > limits.max_semi_major_px) continue;
+    mark.x_px = 2.0 * mx + 0.5;
+    mark.y_px = 2.0 * my + 0.5;
+    mark.tilt_rad = 0.5 * std::atan2(2.0 * xy, xx - yy);
+    mark.ellipse_ratio = 4.0 * s.n / (3.14159265358979323846 * mark.semi_major_px * mark.semi_minor_px);
+    mark.filled_fraction = s.bright / s.n;
+    marks.push_back(mark);
+  }
+  return marks;
+}
+
+}  // namespace spindrift::decoding

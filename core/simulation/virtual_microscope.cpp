@@ -1,0 +1,442 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/virtual_microscope.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "core/base/error.h"
+#include "core/base/random.h"
+
+namespace spindrift {
+namespace {
+
+double distanceToStroke(const PatternStroke& stroke, const Eigen::Vector2d& p) {
+  double best = std::numeric_limits<double>::infinity();
+  if (stroke.size() == 1) return (p - stroke[0]).norm();
+  for (std::size_t k = 0; k + 1 < stroke.size(); ++k) {
+    const Eigen::Vector2d along = stroke[k + 1] - stroke[k];
+    const double length2 = along.squaredNorm();
+    const double t = length2 > 0.0 ? std::clamp((p - stroke[k]).dot(along) / length2, 0.0, 1.0) : 0.0;
+    best = std::min(best, (p - stroke[k] - t * along).squaredNorm());
+  }
+  return std::sqrt(best);
+}
+
+/// Distance of a point to the ellipse x = a cos t, y = b sin t (Newton on the foot point).
+double distanceToEllipse(double a, double b, double x, double y) {
+  x = std::abs(x);
+  y = std::abs(y);
+  double t = std::atan2(a * y, b * x);
+  for (int i = 0; i < 12; ++i) {
+    const double c = std::cos(t);
+    const double s = std::sin(t);
+    const double f = (a * a - b * b) * c * s - x * a * s + y * b * c;
+    const double slope = (a * a - b * b) * (c * c - s * s) - x * a * c - y * b * s;
+    if (slope == 0.0) break;
+    const double step = std::clamp(f / slope, -0.3, 0.3);
+    t = std::clamp(t - step, 0.0, 0.5 * std::numbers::pi);
+    if (std::abs(step) < 1e-13) break;
+  }
+  return std::hypot(x - a * std::cos(t), y - b * std::sin(t));
+}
+
+/// A function of the plane sampled every um, bilinear between the samples. Signed distances: < 0 inside the mark.
+class DistanceTable {
+ public:
+  DistanceTable() = default;
+  DistanceTable(double half_x, double half_y, const std::function<double(double, double)>& function)
+      : half_x_(std::ceil(half_x)), half_y_(std::ceil(half_y)) {
+    columns_ = static_cast<int>(2 * half_x_) + 2;
+    const int rows = static_cast<int>(2 * half_y_) + 2;
+    values_.resize(static_cast<std::size_t>(columns_) * rows);
+    for (int j = 0; j < rows; ++j) {
+      for (int i = 0; i < columns_; ++i) {
+        values_[static_cast<std::size_t>(j) * columns_ + i] = static_cast<float>(function(i - half_x_, j - half_y_));
+      }
+    }
+  }
+  [[nodiscard]] bool covers(double x, double y) const { return std::abs(x) < half_x_ && std::abs(y) < half_y_; }
+  [[nodiscard]] double at(double x, double y) const {
+    const double u = x + half_x_;
+    const double v = y + half_y_;
+    const int i = static_cast<int>(u);
+    const int j = static_cast<int>(v);
+    const double fu = u - i;
+    const double fv = v - j;
+    const float* p = &values_[static_cast<std::size_t>(j) * columns_ + i];
+    return (1 - fv) * ((1 - fu) * p[0] + fu * p[1]) + fv * ((1 - fu) * p[columns_] + fu * p[columns_ + 1]);
+  }
+
+ private:
+  double half_x_ = 0.0;
+  double half_y_ = 0.0;
+  int columns_ = 0;
+  std::vector<float> values_;
+};
+
+/// Signed distance (um, < 0 inside) to the nearest mark of the whole pattern, exact within `reach_um` of an edge.
+class ArtworkDistance {
+ public:
+  static constexpr double reach_um = 8.0;
+  static constexpr double far_um = 1e3;
+
+  explicit ArtworkDistance(const FiducialPattern& pattern) : pattern_(pattern) {
+    const double half = 0.5 * pattern.ellipse_line_width_um;
+    ring_ = DistanceTable(pattern.semi_axis_x_um + half + reach_um, pattern.semi_axis_y_um + half + reach_um,
+                          [&](double x, double y) {
+                            return distanceToEllipse(pattern.semi_axis_x_um, pattern.semi_axis_y_um, x, y) - half;
+                          });
+    for (int digit = 0; digit < 10; ++digit) {
+      digits_[digit] = DistanceTable(pattern.digit_offset_x_um, pattern.digit_offset_y_um, [&](double x, double y) {
+        double best = std::numeric_limits<double>::infinity();
+        for (const PatternStroke& s : pattern.digits[digit]) best = std::min(best, distanceToStroke(s, {x, y}));
+        return best - 0.5 * pattern.digit_line_width_um;
+      });
+    }
+  }
+
+  [[nodiscard]] double at(const Eigen::Vector2d& p) const {
+    double best = far_um;
+    const int column = pattern_.first_column + static_cast<int>(std::lround(p.x() / pattern_.pitch_um));
+    const int row = pattern_.first_row + static_cast<int>(std::lround(p.y() / pattern_.pitch_um));
+    if (pattern_.contains(row, column)) {
+      const Eigen::Vector2d q = p - pattern_.ellipseCentre(row, column);
+      if (ring_.covers(q.x(), q.y())) best = ring_.at(q.x(), q.y());
+      if (std::abs(q.x()) < 2 * pattern_.digit_offset_x_um && std::abs(q.y()) < 2 * pattern_.digit_offset_y_um) {
+        const int k = (q.y() >= 0.0 ? 0 : 2) + (q.x() >= 0.0 ? 1 : 0);
+        const Eigen::Vector2d d = q - pattern_.digitCentre(k);
+        const DistanceTable& table = digits_[FiducialPattern::digitsOf(row, column)[k]];
+        if (table.covers(d.x(), d.y())) best = std::min(best, table.at(d.x(), d.y()));
+      }
+    }
+    const int i = static_cast<int>(std::lround((p.x() - pattern_.circle_offset_x_um) / pattern_.pitch_um));
+    const int j = static_cast<int>(std::lround((p.y() - pattern_.circle_offset_y_um) / pattern_.pitch_um));
+    if (i >= pattern_.first_circle_column && i <= pattern_.last_circle_column && j >= pattern_.first_circle_row &&
+        j <= pattern_.last_circle_row) {
+      best = std::min(best, (p - pattern_.circleCentre(i, j)).norm() - pattern_.circle_radius_um);
+    }
+    return best;
+  }
+
+  [[nodiscard]] const DistanceTable& digit(int d) const { return digits_[d]; }
+
+ private:
+  const FiducialPattern& pattern_;
+  DistanceTable ring_;
+  std::array<DistanceTable, 10> digits_;
+};
+
+/// A grid of values finer than the pixels by `fine`; value (i, j) is the mean over its cell.
+struct Canvas {
+  int width = 0;
+  int height = 0;
+  int fine = 1;
+  std::vector<float> level;
+};
+
+/// Coverage of the artwork averaged over every cell.
+void paintPattern(Canvas& canvas, const ArtworkDistance& artwork, const PatternMap& map, double ground, double mark) {
+  const double cell_px = 1.0 / canvas.fine;
+  const double cell_um = cell_px * map.pixel_length_um;
+  constexpr int parts = 4;
+  const double part_um = cell_um / parts;
+  for (int j = 0; j < canvas.height; ++j) {
+    for (int i = 0; i < canvas.width; ++i) {
+      const Eigen::Vector2d pixel((i + 0.5) * cell_px - 0.5, (j + 0.5) * cell_px - 0.5);
+      const Eigen::Vector2d p = map.patternOf(pixel);
+      const double d = artwork.at(p);
+      double coverage = 0.0;
+      if (std::abs(d) >= 0.75 * cell_um) {
+        coverage = d < 0.0 ? 1.0 : 0.0;
+      } else {
+        // Cell corners turned into the pattern (its own small turn by the distortion does not matter within a cell).
+        const double c = std::cos(map.tilt_rad) * part_um;
+        const double s = std::sin(map.tilt_rad) * part_um;
+        for (int v = 0; v < parts; ++v) {
+          for (int u = 0; u < parts; ++u) {
+            const double a = u - 0.5 * (parts - 1);
+            const double b = v - 0.5 * (parts - 1);
+            const double y = -s * a + c * b;
+            const double part = artwork.at({p.x() + c * a + s * b, p.y() + (map.mirrored ? y : -y)});
+            coverage += std::clamp(0.5 - part / part_um, 0.0, 1.0);
+          }
+        }
+        coverage /= parts * parts;
+      }
+      float& level = canvas.level[static_cast<std::size_t>(j) * canvas.width + i];
+      level += static_cast<float>((mark - ground) * coverage);
+    }
+  }
+}
+
+/// Draws a shape given by its signed distance (px) with soft edges, `alpha` opaque.
+void paintShape(Canvas& canvas, double x0, double y0, double x1, double y1, double level, double alpha, double softness,
+                const std::function<double(double, double)>& distance_px) {
+  const int f = canvas.fine;
+  const int i0 = std::max(0, static_cast<int>((x0 - 2) * f));
+  const int j0 = std::max(0, static_cast<int>((y0 - 2) * f));
+  const int i1 = std::min(canvas.width - 1, static_cast<int>((x1 + 3) * f));
+  const int j1 = std::min(canvas.height - 1, static_cast<int>((y1 + 3) * f));
+  for (int j = j0; j <= j1; ++j) {
+    for (int i = i0; i <= i1; ++i) {
+      const double d = distance_px((i + 0.5) / f - 0.5, (j + 0.5) / f - 0.5);
+      const double opaque = alpha * std::clamp(0.5 - d / softness, 0.0, 1.0);
+      float& value = canvas.level[static_cast<std::size_t>(j) * canvas.width + i];
+      value += static_cast<float>(opaque * (level - value));
+    }
+  }
+}
+
+double distanceToSegment(double x, double y, double ax, double ay, double bx, double by) {
+  return distanceToStroke({{ax, ay}, {bx, by}}, {x, y});
+}
+
+void paintClutter(Canvas& canvas, const FiducialPattern& pattern, const ArtworkDistance& artwork,
+                  const MicroscopeScene& scene, Random& random) {
+  const double w = scene.width_px;
+  const double h = scene.height_px;
+  for (const auto& [row, column] : scene.damaged_digits) {
+    // A blob over two digits and a stroke across all four.
+    const double level = random.uniform() < 0.5 ? scene.mark_level : scene.ground_level;
+    const Eigen::Vector2d e = pattern.ellipseCentre(row, column);
+    const Eigen::Vector2d at = scene.map.imageOf(e + pattern.digitCentre(static_cast<int>(random.index(4))));
+    const double radius = 38.0 / scene.map.pixel_length_um;
+    paintShape(canvas, at.x() - radius, at.y() - radius, at.x() + radius, at.y() + radius, level, 1.0, 1.0,
+               [&](double x, double y) { return std::hypot(x - at.x(), y - at.y()) - radius; });
+    const Eigen::Vector2d a = scene.map.imageOf(e + Eigen::Vector2d(-55, random.uniform(-70, 70)));
+    const Eigen::Vector2d b = scene.map.imageOf(e + Eigen::Vector2d(55, random.uniform(-70, 70)));
+    paintShape(canvas, std::min(a.x(), b.x()) - 6, std::min(a.y(), b.y()) - 6, std::max(a.x(), b.x()) + 6,
+               std::max(a.y(), b.y()) + 6, scene.mark_level, 1.0, 1.0,
+               [&](double x, double y) { return distanceToSegment(x, y, a.x(), a.y(), b.x(), b.y()) - 4.0; });
+  }
+  for (int k = 0; k < scene.occlusions; ++k) {
+    const double cx = random.uniform(0, w);
+    const double cy = random.uniform(0, h);
+    const double rx = random.uniform(30, 100);
+    const double ry = random.uniform(30, 100);
+    paintShape(canvas, cx - rx, cy - ry, cx + rx, cy + ry, random.uniform(scene.ground_level, scene.mark_level), 1.0,
+               1.0, [&](double x, double y) { return std::max(std::abs(x - cx) - rx, std::abs(y - cy) - ry); });
+  }
+  for (int k = 0; k < scene.screws; ++k) {
+    const double cx = random.uniform(0, w);
+    const double cy = random.uniform(0, h);
+    const double r = random.uniform(20, 60);
+    const double turn = random.uniform(0, std::numbers::pi);
+    const double level = random.uniform(0.6, 1.1) * scene.mark_level;
+    paintShape(canvas, cx - r, cy - r, cx + r, cy + r, level, 1.0, 1.0,
+               [&](double x, double y) { return std::hypot(x - cx, y - cy) - r; });
+    paintShape(canvas, cx - r, cy - r, cx + r, cy + r, scene.ground_level, 1.0, 1.0, [&](double x, double y) {
+      const double across = -(x - cx) * std::sin(turn) + (y - cy) * std::cos(turn);
+      const double along = (x - cx) * std::cos(turn) + (y - cy) * std::sin(turn);
+      return std::max(std::abs(across) - 0.15 * r, std::abs(along) - 0.8 * r);
+    });
+    const double ring = 1.3 * r;
+    paintShape(canvas, cx - ring - 4, cy - ring - 4, cx + ring + 4, cy + ring + 4, level, 1.0, 1.0,
+               [&](double x, double y) { return std::abs(std::hypot(x - cx, y - cy) - ring) - 3.0; });
+  }
+  for (int k = 0; k < scene.foreign_texts; ++k) {
+    const double scale = random.uniform(0.3, 2.0);  // px per um of the digits
+    const double turn = random.uniform(0, 2.0 * std::numbers::pi);
+    const double c = std::cos(turn);
+    const double s = std::sin(turn);
+    double cx = random.uniform(0, w);
+    double cy = random.uniform(0, h);
+    for (int letter = 0; letter < 5; ++letter) {
+      const DistanceTable& table = artwork.digit(static_cast<int>(random.index(10)));
+      const double reach = 60.0 * scale;
+      paintShape(canvas, cx - reach, cy - reach, cx + reach, cy + reach, 0.9 * scene.mark_level, 1.0, 1.0,
+                 [&](double x, double y) {
+                   const double u = ((x - cx) * c + (y - cy) * s) / scale;
+                   const double v = ((x - cx) * s - (y - cy) * c) / scale;
+                   return table.covers(u, v) ? table.at(u, v) * scale : 10.0;
+                 });
+      cx += 66.0 * scale * c;
+      cy += 66.0 * scale * s;
+    }
+  }
+  for (int k = 0; k < scene.scratches; ++k) {
+    const double ax = random.uniform(0, w);
+    const double ay = random.uniform(0, h);
+    const double turn = random.uniform(0, 2.0 * std::numbers::pi);
+    const double length = random.uniform(100, 700);
+    const double bx = ax + length * std::cos(turn);
+    const double by = ay + length * std::sin(turn);
+    const double half = random.uniform(0.5, 1.5);
+    const bool bright = random.uniform() < 0.5;
+    paintShape(canvas, std::min(ax, bx), std::min(ay, by), std::max(ax, bx), std::max(ay, by),
+               bright ? 0.8 * scene.mark_level : scene.ground_level, 0.8, 1.0,
+               [&](double x, double y) { return distanceToSegment(x, y, ax, ay, bx, by) - half; });
+  }
+}
+
+/// Mean over the pixel of the canvas convolved with a Gaussian: one pass along rows, one along columns.
+std::vector<float> expose(const Canvas& canvas, int width, int height, double sigma_px) {
+  const int fine = canvas.fine;
+  const double sigma = sigma_px * fine;
+  const int reach = std::max(0, static_cast<int>(std::ceil(4.5 * sigma)));
+  // Kernel over cells relative to the first cell of the pixel: Gaussian convolved with the box of `fine` cells.
+  std::vector<float> kernel(2 * reach + fine, 0.0F);
+  double sum = 0.0;
+  std::vector<double> gauss(2 * reach + 1);
+  for (int k = -reach; k <= reach; ++k) {
+    gauss[k + reach] = sigma > 1e-9 ? std::exp(-0.5 * k * k / (sigma * sigma)) : 1.0;
+    sum += gauss[k + reach];
+  }
+  for (int b = 0; b < fine; ++b) {
+    for (int k = 0; k <= 2 * reach; ++k) kernel[b + k] += static_cast<float>(gauss[k] / (sum * fine));
+  }
+  std::vector<float> rows(static_cast<std::size_t>(width) * canvas.height);
+  std::vector<float> padded(static_cast<std::size_t>(canvas.width) + 2 * reach + fine);
+  for (int j = 0; j < canvas.height; ++j) {
+    const float* line = &canvas.level[static_cast<std::size_t>(j) * canvas.width];
+    for (std::size_t k = 0; k < padded.size(); ++k) {
+      padded[k] = line[std::clamp(static_cast<int>(k) - reach, 0, canvas.width - 1)];
+    }
+    for (int x = 0; x < width; ++x) {
+      float value = 0.0F;
+      const float* p = &padded[static_cast<std::size_t>(x) * fine];
+      for (std::size_t k = 0; k < kernel.size(); ++k) value += kernel[k] * p[k];
+      rows[static_cast<std::size_t>(j) * width + x] = value;
+    }
+  }
+  std::vector<float> image(static_cast<std::size_t>(width) * height, 0.0F);
+  for (int y = 0; y < height; ++y) {
+    float* out = &image[static_cast<std::size_t>(y) * width];
+    for (std::size_t k = 0; k < kernel.size(); ++k) {
+      const int j = std::clamp(y * fine + static_cast<int>(k) - reach, 0, canvas.height - 1);
+      const float* line = &rows[static_cast<std::size_t>(j) * width];
+      const float weight = kernel[k];
+      for (int x = 0; x < width; ++x) out[x] += weight * line[x];
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
+void MicroscopeScene::validate() const {
+  const auto require = [](bool holds, const char* sentence) {
+    if (!holds) throw InputError(sentence);
+  };
+  require(width_px >= 16 && height_px >= 16 && width_px <= 20000 && height_px <= 20000,
+          "the virtual camera needs between 16 and 20000 pixels in width and height.");
+  require(map.pixel_length_um > 0.0, "the pixel length of the virtual microscope must be greater than zero (um).");
+  require(blur_sigma_px >= 0.0 && noise_level >= 0.0, "blur and noise must not be negative.");
+  require(jpeg_quality >= 0 && jpeg_quality <= 100, "the JPEG quality must lie between 0 (none) and 100.");
+}
+
+PatternMap poseAt(int width_px, int height_px, double pixel_length_um, double tilt_rad,
+                  const Eigen::Vector2d& pattern_um, const Eigen::Vector2d& pixel, double k1_per_px2, bool mirrored) {
+  PatternMap map;
+  map.pixel_length_um = pixel_length_um;
+  map.tilt_rad = std::remainder(tilt_rad, 2.0 * std::numbers::pi);
+  map.k1_per_px2 = k1_per_px2;
+  map.mirrored = mirrored;
+  map.centre_x_px = 0.5 * (width_px - 1);
+  map.centre_y_px = 0.5 * (height_px - 1);
+  const Eigen::Vector2d wanted = map.undistorted(pixel);
+  PatternMap plain = map;
+  plain.k1_per_px2 = 0.0;
+  const Eigen::Vector2d got = plain.imageOf(pattern_um);
+  map.origin_x_px = wanted.x() - got.x();
+  map.origin_y_px = wanted.y() - got.y();
+  return map;
+}
+
+GrayImage renderFiducial(const FiducialPattern& pattern, const MicroscopeScene& scene, std::uint64_t seed) {
+  scene.validate();
+  Random random(seed);
+  const double sigma = std::hypot(scene.blur_sigma_px, scene.defocus_px_per_um * scene.defocus_um);
+  Canvas canvas;
+  canvas.fine = sigma < 1.0 ? 3 : (sigma < 2.0 ? 2 : 1);
+  canvas.width = scene.width_px * canvas.fine;
+  canvas.height = scene.height_px * canvas.fine;
+  canvas.level.assign(static_cast<std::size_t>(canvas.width) * canvas.height, static_cast<float>(scene.ground_level));
+  const ArtworkDistance artwork(pattern);
+  paintPattern(canvas, artwork, scene.map, scene.ground_level, scene.mark_level);
+  for (const PatternMap& further : scene.further_patterns) {
+    paintPattern(canvas, artwork, further, scene.ground_level, scene.mark_level);
+  }
+  paintClutter(canvas, pattern, artwork, scene, random);
+  std::vector<float> exposed = expose(canvas, scene.width_px, scene.height_px, sigma);
+
+  struct Speck {
+    double x, y, radius, depth;
+  };
+  std::vector<Speck> specks;
+  for (int k = 0; k < scene.dust; ++k) {
+    specks.push_back({random.uniform(0, scene.width_px), random.uniform(0, scene.height_px), random.uniform(1.5, 10.0),
+                      random.uniform(0.2, 0.8)});
+  }
+  for (const Speck& speck : specks) {
+    const int reach = static_cast<int>(2.5 * speck.radius) + 1;
+    for (int y = std::max(0, static_cast<int>(speck.y) - reach);
+         y <= std::min(scene.height_px - 1, static_cast<int>(speck.y) + reach); ++y) {
+      for (int x = std::max(0, static_cast<int>(speck.x) - reach);
+           x <= std::min(scene.width_px - 1, static_cast<int>(speck.x) + reach); ++x) {
+        const double r2 = (x - speck.x) * (x - speck.x) + (y - speck.y) * (y - speck.y);
+        exposed[static_cast<std::size_t>(y) * scene.width_px + x] *=
+            static_cast<float>(1.0 - speck.depth * std::exp(-r2 / (speck.radius * speck.radius)));
+      }
+    }
+  }
+
+  GrayImage image(scene.width_px, scene.height_px);
+  const double corner2 = 0.25 * (static_cast<double>(scene.width_px) * scene.width_px +
+                                 static_cast<double>(scene.height_px) * scene.height_px);
+  for (int y = 0; y < scene.height_px; ++y) {
+    const double v = y - 0.5 * (scene.height_px - 1);
+    for (int x = 0; x < scene.width_px; ++x) {
+      const double u = x - 0.5 * (scene.width_px - 1);
+      const double light = scene.illumination_gain *
+                           (1.0 + scene.gradient_x * u / scene.width_px + scene.gradient_y * v / scene.height_px) *
+                           (1.0 - scene.vignetting * (u * u + v * v) / corner2);
+      double level = light * exposed[static_cast<std::size_t>(y) * scene.width_px + x];
+      if (scene.noise_level > 0.0) level += scene.noise_level * random.normal();
+      image.at(x, y) = static_cast<std::uint8_t>(std::lround(std::clamp(level, 0.0, 255.0)));
+    }
+  }
+  if (scene.jpeg_quality > 0) return decodeImageBytes(encodeJpeg(image, scene.jpeg_quality), "virtual.jpg");
+  return image;
+}
+
+SceneTruth sceneTruth(const FiducialPattern& pattern, const MicroscopeScene& scene, double margin_px) {
+  SceneTruth truth;
+  const auto inside = [&](const Eigen::Vector2d& p) {
+    return p.x() >= margin_px && p.y() >= margin_px && p.x() <= scene.width_px - 1 - margin_px &&
+           p.y() <= scene.height_px - 1 - margin_px;
+  };
+  const auto wholly = [&](const Eigen::Vector2d& centre, double rx, double ry) {
+    for (int k = 0; k < 72; ++k) {
+      const double t = 2.0 * std::numbers::pi * k / 72;
+      if (!inside(scene.map.imageOf(centre + Eigen::Vector2d(rx * std::cos(t), ry * std::sin(t))))) return false;
+    }
+    return true;
+  };
+  const double half = 0.5 * pattern.ellipse_line_width_um;
+  for (int row = pattern.first_row; row <= pattern.last_row; ++row) {
+    for (int column = pattern.first_column; column <= pattern.last_column; ++column) {
+      const Eigen::Vector2d centre = pattern.ellipseCentre(row, column);
+      if (!wholly(centre, pattern.semi_axis_x_um + half, pattern.semi_axis_y_um + half)) continue;
+      const Eigen::Vector2d p = scene.map.imageOf(centre);
+      truth.ellipses.push_back({row, column, p.x(), p.y()});
+    }
+  }
+  for (int j = pattern.first_circle_row; j <= pattern.last_circle_row; ++j) {
+    for (int i = pattern.first_circle_column; i <= pattern.last_circle_column; ++i) {
+      const Eigen::Vector2d centre = pattern.circleCentre(i, j);
+      if (!wholly(centre, pattern.circle_radius_um, pattern.circle_radius_um)) continue;
+      const Eigen::Vector2d p = scene.map.imageOf(centre);
+      truth.circles.push_back({i, j, p.x(), p.y()});
+    }
+  }
+  return truth;
+}
+
+}  // namespace spindrift
