@@ -1,10 +1,208 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/probing/evaluate_touches.h"
 
-namespace spindrift {
+#include <fmt/format.h>
 
-InstrumentEvaluation evaluateTouches(const Campaign& campaign, JobContext& /*job*/) {
-  throw InputError({campaign.folder, ""}, "these captures cannot be evaluated by this version.");
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+namespace {
+
+std::string unitOfName(const std::string& name) {
+  if (name.ends_with("_um_per_m")) return "um/m";
+  return name.ends_with("_urad") ? "urad" : "um";
+}
+
+void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, const MachineDescription& machine,
+               InstrumentEvaluation& out) {
+  const Artefact& artefact = *machine.findArtefact(evaluation.artefact);
+  const std::size_t offset = out.observations.rows.size();
+  ObservationSet set = cycleObservations(evaluation, all.touches, machine, artefact);
+  for (Observation& o : set.rows) out.observations.rows.push_back(std::move(o));
+  for (CovarianceEntry entry : set.covariance) {
+    entry.row += offset;
+    entry.column += offset;
+    out.observations.covariance.push_back(entry);
+  }
+  for (const RejectedTouch& r : evaluation.rejected) {
+    out.rejected.push_back({all.touches.touches[r.touch].label(), r.reason});
+  }
+  out.warnings.insert(out.warnings.end(), evaluation.warnings.begin(), evaluation.warnings.end());
+  nlohmann::json cycles = cyclesJson(evaluation);
+  for (auto& cycle : cycles["cycles"]) out.details["cycles"].push_back(std::move(cycle));
+  cycles.erase("cycles");
+  out.details["artefacts"].push_back(std::move(cycles));
+
+  std::string noise;
+  for (std::size_t g = 0; g < evaluation.fit.group_sigma_mm.size(); ++g) {
+    noise += fmt::format("{}{:.3f} um {}", g > 0 ? ", " : "", evaluation.fit.group_sigma_mm[g] * um_per_mm,
+                         g == 0 ? "across" : "along the axis");
+  }
+  out.summary +=
+      fmt::format("{}: {} cycles, {} touches, {} left out; touch noise {}\n", evaluation.artefact,
+                  evaluation.cycles.size(), evaluation.problem.rows.size(), evaluation.rejected.size(), noise);
+  if (evaluation.cycles.size() < 2) {
+    out.good_enough = false;
+    return;
+  }
+  const std::size_t last = evaluation.cycles.size() - 1;
+  out.summary += fmt::format("in {} since {}:\n", evaluation.cycles[last], evaluation.cycles.front());
+  for (std::size_t p = 0; p < evaluation.names.size(); ++p) {
+    const CycleParameter& parameter = evaluation.parameters[last][p];
+    const std::string unit = unitOfName(evaluation.names[p]);
+    const std::string name = evaluation.names[p].substr(0, evaluation.names[p].find('_'));
+    out.summary +=
+        fmt::format("  {:5} {}\n", name,
+                    parameter.determined ? withUncertainty(parameter.value, parameter.standard_uncertainty, unit)
+                                         : std::string("not determined"));
+  }
+}
+
+}  // namespace
+
+nlohmann::json cyclesJson(const CycleEvaluation& evaluation) {
+  nlohmann::json out;
+  out["artefact"] = evaluation.artefact;
+  out["status"] = toString(evaluation.status);
+  out["message"] = evaluation.message;
+  nlohmann::json cycles = nlohmann::json::array();
+  const int reference = evaluation.problem.reference_cycle;
+  for (std::size_t k = 0; k < evaluation.cycles.size(); ++k) {
+    const CycleSolution& solution = evaluation.fit.cycles[k];
+    nlohmann::json parameters = nlohmann::json::object();
+    nlohmann::json open = nlohmann::json::array();
+    for (std::size_t p = 0; p < evaluation.names.size(); ++p) {
+      const CycleParameter& parameter = evaluation.parameters[k][p];
+      if (parameter.determined) {
+        parameters[evaluation.names[p]] = {{"value", jsonNumber(parameter.value)},
+                                           {"standard_uncertainty", jsonNumber(parameter.standard_uncertainty)}};
+      } else {
+        parameters[evaluation.names[p]] = {{"value", nullptr}, {"standard_uncertainty", nullptr}};
+        open.push_back(evaluation.names[p]);
+      }
+    }
+    nlohmann::json cycle{{"cycle", evaluation.cycles[k]},         {"artefact", evaluation.artefact},
+                         {"time_s", evaluation.cycle_time_s[k]},  {"parameters", parameters},
+                         {"touches_used", solution.touches_used}, {"not_determined", open}};
+    if (static_cast<int>(k) == reference) {
+      cycle["reference"] = true;
+    } else {
+      cycle["condition_number"] = jsonNumber(solution.condition_number);
+      cycle["weakest_combination"] = combinationText(solution.weakest, evaluation.names);
+      nlohmann::json covariance = nlohmann::json::array();
+      const auto n = static_cast<int>(evaluation.names.size());
+      for (int a = 0; a < n; ++a) {
+        nlohmann::json row = nlohmann::json::array();
+        for (int b = 0; b < n; ++b) row.push_back(jsonNumber(evaluation.covariance(static_cast<int>(k), a, b)));
+        covariance.push_back(row);
+      }
+      cycle["covariance"] = covariance;
+    }
+    cycles.push_back(cycle);
+  }
+  out["cycles"] = cycles;
+  out["parameters"] = evaluation.names;
+  nlohmann::json noise = nlohmann::json::array();
+  for (std::size_t g = 0; g < evaluation.fit.group_sigma_mm.size(); ++g) {
+    noise.push_back({{"touches", g == 0 ? "across" : "along"},
+                     {"sigma_um", jsonNumber(evaluation.fit.group_sigma_mm[g] * um_per_mm)},
+                     {"degrees_of_freedom", g < evaluation.fit.group_degrees_of_freedom.size()
+                                                ? jsonNumber(evaluation.fit.group_degrees_of_freedom[g])
+                                                : nlohmann::json(nullptr)}});
+  }
+  out["touch_noise"] = noise;
+  // The noise of the first cycle is common to all others: their errors share this covariance.
+  if (evaluation.cycles.size() > 2) {
+    const int a = reference == 0 ? 1 : 0;
+    const int b = static_cast<int>(evaluation.cycles.size()) - 1;
+    const Eigen::MatrixXd common = evaluation.fit.covarianceBetween(a, b);
+    nlohmann::json matrix = nlohmann::json::array();
+    for (Eigen::Index i = 0; i < common.rows(); ++i) {
+      nlohmann::json row = nlohmann::json::array();
+      for (Eigen::Index j = 0; j < common.cols(); ++j) {
+        row.push_back(jsonNumber(common(i, j) * evaluation.unit[static_cast<std::size_t>(i)] *
+                                 evaluation.unit[static_cast<std::size_t>(j)]));
+      }
+      matrix.push_back(row);
+    }
+    out["covariance_between_cycles"] = {
+        {"of", {evaluation.cycles[static_cast<std::size_t>(a)], evaluation.cycles[static_cast<std::size_t>(b)]}},
+        {"reason", "every cycle is relative to the first one, whose noise they share"},
+        {"matrix", matrix}};
+  }
+  return out;
+}
+
+TouchEvaluation evaluateTouchList(const Campaign& campaign, TouchList touches, const HoleCycleOptions& hole_options,
+                                  const BallCycleOptions& ball_options, JobContext& job) {
+  TouchEvaluation evaluation;
+  evaluation.touches = std::move(touches);
+  evaluation.touches.checkAgainst(campaign.machine);
+  const std::vector<std::string> artefacts = evaluation.touches.artefacts();
+  for (std::size_t i = 0; i < artefacts.size(); ++i) {
+    job.throwIfCancelled();
+    job.report(static_cast<double>(i) / static_cast<double>(artefacts.size()), "evaluating touches");
+    const Artefact& artefact = *campaign.machine.findArtefact(artefacts[i]);
+    if (artefact.kind == "hole_bar") {
+      evaluation.hole_cycles.push_back(
+          evaluateHoleCycles(evaluation.touches, campaign.machine, artefact, hole_options));
+    } else {
+      evaluation.ball_cycles.push_back(evaluateBallCycles(evaluation.touches, campaign.machine, artefact,
+                                                          campaign.log ? &*campaign.log : nullptr, ball_options));
+    }
+  }
+  return evaluation;
+}
+
+InstrumentEvaluation describeTouches(const TouchEvaluation& evaluation, const MachineDescription& machine) {
+  InstrumentEvaluation out;
+  out.instrument = "touch_probe";
+  out.details["cycles"] = nlohmann::json::array();
+  out.details["artefacts"] = nlohmann::json::array();
+  for (const HoleCycleResult& holes : evaluation.hole_cycles) {
+    addCommon(holes, evaluation, machine, out);
+    nlohmann::json& details = out.details["artefacts"].back();
+    nlohmann::json linearity = nlohmann::json::array();
+    for (const LinearityDeviation& d : holes.linearity) {
+      linearity.push_back({{"feature", d.feature},
+                           {"rms_um", d.rms_um},
+                           {"largest_um", d.largest_um},
+                           {"largest_in", d.largest_cycle},
+                           {"noise_um", d.sigma_um}});
+    }
+    details["deviation_from_line"] = linearity;
+    const SecondAxisBias bias = secondAxisBias(holes, evaluation.touches);
+    nlohmann::json per = nlohmann::json::object();
+    for (std::size_t p = 0; p < bias.names.size(); ++p) per[bias.names[p]] = bias.bias_per_um_per_m[p];
+    details["bias_per_um_per_m_of_second_axis"] = {{"axis", bias.second}, {"bias", per}};
+    out.summary += fmt::format("  largest deviation from a straight line {:.2f} um\n", holes.largest_nonlinearity_um);
+  }
+  for (const BallCycleResult& balls : evaluation.ball_cycles) {
+    addCommon(balls, evaluation, machine, out);
+    nlohmann::json& details = out.details["artefacts"].back();
+    nlohmann::json distances = nlohmann::json::array();
+    for (const BallDistance& d : balls.distances) {
+      distances.push_back({{"cycle", d.cycle},
+                           {"stylus", d.stylus},
+                           {"from", d.from},
+                           {"to", d.to},
+                           {"error_um", d.error_um},
+                           {"standard_uncertainty_um", jsonNumber(d.standard_uncertainty_um)}});
+    }
+    details["ball_distances"] = distances;
+  }
+  return out;
+}
+
+InstrumentEvaluation evaluateTouches(const Campaign& campaign, JobContext& job) {
+  const auto file = campaign.captureList("touches.csv");
+  if (!file) throw InputError({campaign.path("captures/touches.csv"), ""}, "is missing.");
+  return describeTouches(evaluateTouchList(campaign, TouchList::read(*file), {}, {}, job), campaign.machine);
 }
 
 }  // namespace spindrift

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/probing/ball_cycle.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/geometry/rigid_transform.h"
+
+namespace spindrift {
+namespace {
+
+const ArtefactBall& ballOf(const Artefact& artefact, const std::string& id) {
+  const auto found =
+      std::find_if(artefact.balls.begin(), artefact.balls.end(), [&](const ArtefactBall& b) { return b.id == id; });
+  SPINDRIFT_ASSERT(found != artefact.balls.end(), "touches were checked against the machine");
+  return *found;
+}
+
+/// Temperature of the artefact at a time, if anything tells it.
+std::optional<double> artefactTemperature(const Artefact& artefact, const OperatingLog* log, double time_s) {
+  if (log != nullptr && !log->empty()) {
+    for (const std::string& name : {fmt::format("T_{}_degC", artefact.id), std::string("T_artefact_degC")}) {
+      if (log->has(name)) return log->at(name, time_s);
+    }
+  }
+  return artefact.temperature_degC;
+}
+
+/// Rotation of the artefact in MCF: certified vectors to measured ones (Kabsch), by the first ball.
+Eigen::Matrix3d artefactRotation(const std::vector<Eigen::Vector3d>& certified,
+                                 const std::vector<Eigen::Vector3d>& measured) {
+  Eigen::Matrix3Xd from(3, static_cast<Eigen::Index>(certified.size()));
+  Eigen::Matrix3Xd to(3, from.cols());
+  for (Eigen::Index i = 0; i < from.cols(); ++i) {
+    from.col(i) = certified[static_cast<std::size_t>(i)];
+    to.col(i) = measured[static_cast<std::size_t>(i)];
+  }
+  if (from.cols() < 3) return Eigen::Matrix3d::Identity();
+  return Eigen::umeyama(from, to, false).topLeftCorner<3, 3>();
+}
+
+}  // namespace
+
+const std::vector<std::string>& ballParameterNames() {
+  static const std::vector<std::string> names{"hX_urad", "hY_urad",     "hZ_urad",     "aX_urad",
+                                              "aY_urad", "aZ_urad",     "dX_um",       "dY_um",
+                                              "dZ_um",   "gX_um_per_m", "gY_um_per_m", "gZ_um_per_m"};
+  return names;
+}
+
+Eigen::Matrix<double, 3, 12> ballDeviationJacobian(const Eigen::Vector3d& tip_mm, const Eigen::Vector3d& offset_mm,
+                                                   const Eigen::Vector3d& fixed_bearing_mm) {
+  Eigen::Matrix<double, 3, 12> J;
+  J.block<3, 3>(0, 0) = -crossMatrix(offset_mm);  // h x offset
+  J.block<3, 3>(0, 3) = -crossMatrix(tip_mm);     // a x tip
+  J.block<3, 3>(0, 6).setIdentity();
+  J.block<3, 3>(0, 9) = (tip_mm - offset_mm - fixed_bearing_mm).asDiagonal();
+  return J;
+}
+
+BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescription& machine, const Artefact& artefact,
+                                   const OperatingLog* log, const BallCycleOptions& options) {
+  if (artefact.kind != "balls") {
+    throw InputError({machine.file, fmt::format("artefact {}", artefact.id)},
+                     "is no ball artefact; allowed here: kind \"balls\".");
+  }
+  BallCycleResult result;
+  std::vector<std::string> without_bearing;
+  for (int k = 0; k < 3; ++k) {
+    const LinearAxis* axis = machine.findAxis(std::string(1, "XYZ"[k]));
+    if (axis != nullptr && axis->fixed_bearing_mm) {
+      result.fixed_bearing_mm(k) = *axis->fixed_bearing_mm;
+    } else {
+      without_bearing.emplace_back(1, "XYZ"[k]);
+    }
+  }
+  if (!without_bearing.empty()) {
+    result.warnings.push_back(fmt::format(
+        "the machine file gives no fixed bearing for {}; screw expansion is counted from 0 mm there, which shifts the "
+        "spindle drift by the expansion times the distance to the real bearing.",
+        joinedList(without_bearing)));
+  }
+  // Growth of the artefact itself moves the balls; taken off beforehand, from the first ball, along the certified
+  // vectors.
+  TouchList corrected = list;
+  const double alpha = artefact.expansion_um_per_m_K.value_or(0.0) / um_per_m_per_unit;
+  double first_time = 0.0;
+  for (const Touch& t : list.touches) {
+    if (t.artefact == artefact.id) {
+      first_time = t.time_s;
+      break;
+    }
+  }
+  const auto first_temperature = artefactTemperature(artefact, log, first_time);
+  if (alpha != 0.0 && first_temperature) {
+    for (Touch& t : corrected.touches) {
+      if (t.artefact != artefact.id) continue;
+      const double warmer = *artefactTemperature(artefact, log, t.time_s) - *first_temperature;
+      t.position_mm -= alpha * warmer * ballOf(artefact, t.feature).certified_mm;
+    }
+  }
+
+  CycleAssembly assembly;
+  assembly.kind = FeatureKind::Sphere;
+  assembly.names = ballParameterNames();
+  assembly.unit = {urad_per_rad, urad_per_rad, urad_per_rad, urad_per_rad,      urad_per_rad,      urad_per_rad,
+                   um_per_mm,    um_per_mm,    um_per_mm,    um_per_m_per_unit, um_per_m_per_unit, um_per_m_per_unit};
+  assembly.fit = options.fit;
+  assembly.misplaced_mm = options.misplaced_mm;
+  assembly.features = featureNames(artefact);
+  assembly.jacobian = [&](const Touch& t) -> Eigen::MatrixXd {
+    return ballDeviationJacobian(t.position_mm, machine.findStylus(t.stylus)->offset_mm, result.fixed_bearing_mm);
+  };
+  assembly.radius = [&](const std::string& feature, const std::string& stylus) -> std::optional<double> {
+    return 0.5 * ballOf(artefact, feature).diameter_mm + machine.findStylus(stylus)->radius_mm;
+  };
+  evaluateCycles(corrected, machine, artefact, assembly, result);
+
+  // (13): distances against the certificate, with the artefact as warm as it is.
+  const double certificate_um = artefact.certificate_uncertainty_um.value_or(0.0);
+  std::map<std::pair<std::string, std::string>, std::vector<const ProbedFeature*>> of_cycle;
+  for (const ProbedFeature& f : result.features) {
+    if (f.status == FitStatus::Converged) of_cycle[{f.cycle, f.stylus}].push_back(&f);
+  }
+  double worst_mm = 0.0;
+  std::string worst_pair;
+  for (const std::string& cycle : result.cycles) {
+    for (const Stylus& stylus : machine.styli) {
+      const auto found = of_cycle.find({cycle, stylus.id});
+      if (found == of_cycle.end()) continue;
+      std::vector<Eigen::Vector3d> certified;
+      std::vector<Eigen::Vector3d> measured;
+      for (const ProbedFeature* f : found->second) {
+        // Ball centres as measured: the growth of the artefact since the first cycle was taken off above.
+        certified.push_back(ballOf(artefact, f->feature).certified_mm);
+        measured.push_back(f->centre_mm);
+      }
+      const Eigen::Matrix3d turn = artefactRotation(certified, measured);
+      for (std::size_t a = 0; a < found->second.size(); ++a) {
+        for (std::size_t b = a + 1; b < found->second.size(); ++b) {
+          const ProbedFeature& fa = *found->second[a];
+          const ProbedFeature& fb = *found->second[b];
+          BallDistance d;
+          d.cycle = cycle;
+          d.stylus = stylus.id;
+          d.from = fa.feature;
+          d.to = fb.feature;
+          const Eigen::Vector3d v = fb.centre_mm - fa.centre_mm;
+          double stretch = 1.0;
+          if (alpha != 0.0 && first_temperature) {
+            stretch += alpha * (*first_temperature - machine.reference_temperature_degC);
+          }
+          const Eigen::Vector3d w = stretch * (certified[b] - certified[a]);
+          d.measured_mm = v.norm();
+          d.certified_mm = w.norm();
+          d.error_um = (d.measured_mm - d.certified_mm) * um_per_mm;
+          d.components_um = (v - turn * w) * um_per_mm;
+          const Eigen::Vector3d e = v.normalized();
+          const double touches = e.dot((fa.covariance + fb.covariance) * e) * um_per_mm * um_per_mm;
+          d.standard_uncertainty_um = std::sqrt(touches + 2.0 * certificate_um * certificate_um);
+          if (std::abs(d.measured_mm - d.certified_mm) > worst_mm) {
+            worst_mm = std::abs(d.measured_mm - d.certified_mm);
+            worst_pair = fmt::format("{} to {} in {}", d.from, d.to, cycle);
+          }
+          result.distances.push_back(d);
+        }
+      }
+    }
+  }
+  if (worst_mm > 2.0) {
+    result.warnings.push_back(
+        fmt::format("distance {} differs from the certificate by {:.2f} mm: are balls swapped or is this another "
+                    "artefact?",
+                    worst_pair, worst_mm));
+  }
+  return result;
+}
+
+}  // namespace spindrift

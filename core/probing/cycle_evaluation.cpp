@@ -1,0 +1,544 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/probing/cycle_evaluation.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+
+double CycleEvaluation::covariance(int cycle, int a, int b) const {
+  return fit.cycles[static_cast<std::size_t>(cycle)].covariance(a, b) * unit[static_cast<std::size_t>(a)] *
+         unit[static_cast<std::size_t>(b)];
+}
+
+int CycleEvaluation::indexOf(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  SPINDRIFT_ASSERT(found != names.end(), "unknown parameter of a cycle");
+  return static_cast<int>(found - names.begin());
+}
+
+namespace {
+
+using GroupKey = std::tuple<std::string, std::string, double>;  // feature, stylus, c_deg
+
+/// The touches of one feature with one stylus at one table angle in one cycle.
+struct Group {
+  int cycle = 0;
+  int setting = 0;                   // index of the GroupKey
+  std::vector<std::size_t> touches;  // indices into the list
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  bool centred = false;
+};
+
+class Assembler {
+ public:
+  Assembler(const TouchList& list, const MachineDescription& machine, const Artefact& artefact,
+            const CycleAssembly& assembly, CycleEvaluation& result)
+      : list_(list), machine_(machine), artefact_(artefact), assembly_(assembly), result_(result) {}
+
+  void run() {
+    group();
+    rejectMisplaced();
+    findRadii();
+    std::vector<bool> excluded(list_.touches.size(), false);
+    for (const RejectedTouch& r : result_.rejected) excluded[r.touch] = true;
+    for (int pass = 0; pass < 2; ++pass) {
+      centre(excluded);
+      build(excluded);
+      result_.fit = fitCycles(result_.problem, assembly_.fit);
+      bool changed = false;
+      // A bad touch spoils the centre about which the others of its feature were linearised: once more without it.
+      std::vector<bool> next = excluded;
+      for (std::size_t r = 0; r < result_.row_touch.size(); ++r) {
+        if (result_.fit.used[r]) continue;
+        const double error_um = result_.fit.residual_mm[r] * um_per_mm;
+        result_.rejected.push_back(
+            {result_.row_touch[r], fmt::format("it misses by {:.1f} um what all other touches say ({:.0f} times the "
+                                               "touch noise); left out",
+                                               error_um, std::abs(result_.fit.studentised[r]))});
+        next[result_.row_touch[r]] = true;
+        changed = true;
+      }
+      if (!changed) break;
+      excluded = next;
+    }
+    finish(excluded);
+  }
+
+ private:
+  void group() {
+    std::unordered_map<std::string, int> cycle_index;
+    std::map<std::pair<int, int>, std::size_t> group_of;
+    std::map<GroupKey, int> setting_of;
+    for (std::size_t i = 0; i < list_.touches.size(); ++i) {
+      const Touch& t = list_.touches[i];
+      if (t.artefact != artefact_.id) continue;
+      const auto [cycle, fresh_cycle] = cycle_index.try_emplace(t.cycle, static_cast<int>(result_.cycles.size()));
+      if (fresh_cycle) result_.cycles.push_back(t.cycle);
+      const auto [setting, fresh_setting] =
+          setting_of.try_emplace(GroupKey{t.feature, t.stylus, t.c_deg}, static_cast<int>(settings_.size()));
+      if (fresh_setting) settings_.push_back({t.feature, t.stylus, t.c_deg});
+      const auto [group, fresh_group] = group_of.try_emplace({cycle->second, setting->second}, groups_.size());
+      if (fresh_group) {
+        groups_.emplace_back();
+        groups_.back().cycle = cycle->second;
+        groups_.back().setting = setting->second;
+      }
+      groups_[group->second].touches.push_back(i);
+    }
+    std::vector<int> count(result_.cycles.size(), 0);
+    result_.cycle_time_s.assign(result_.cycles.size(), 0.0);
+    for (const Group& g : groups_) {
+      for (const std::size_t i : g.touches) {
+        result_.cycle_time_s[static_cast<std::size_t>(g.cycle)] += list_.touches[i].time_s;
+        ++count[static_cast<std::size_t>(g.cycle)];
+      }
+    }
+    for (std::size_t k = 0; k < count.size(); ++k) result_.cycle_time_s[k] /= count[k];
+  }
+
+  [[nodiscard]] double radiusOf(int setting) const {
+    const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(setting)];
+    return assembly_.radius(feature, stylus).value_or(0.0);
+  }
+
+  /// Where the touch says that the centre of its feature is; components along the surface are meaningless but small.
+  [[nodiscard]] Eigen::Vector3d impliedCentre(const Touch& t, int setting) const {
+    const double side = assembly_.kind == FeatureKind::Sphere ? 1.0 : -1.0;
+    if (assembly_.kind == FeatureKind::Hole && isSurfaceTouch(t, assembly_.axis)) return t.position_mm;
+    return t.position_mm + side * radiusOf(setting) * t.approach;
+  }
+
+  void rejectMisplaced() {
+    const double inch = 25.4;
+    // Median place of every touch over the cycles: what thermal errors cannot reach is another feature.
+    struct Places {
+      std::vector<double> x[3];
+    };
+    std::map<std::pair<int, int>, Places> places;
+    for (const Group& g : groups_) {
+      for (const std::size_t i : g.touches) {
+        Places& p = places[{g.setting, list_.touches[i].touch}];
+        for (int k = 0; k < 3; ++k) p.x[k].push_back(list_.touches[i].position_mm(k));
+      }
+    }
+    std::map<std::pair<int, int>, Eigen::Vector3d> usual;
+    for (auto& [key, p] : places) {
+      if (p.x[0].size() < 3) continue;
+      usual[key] = Eigen::Vector3d(median(p.x[0]), median(p.x[1]), median(p.x[2]));
+    }
+    // Offset of the whole artefact from where the machine file has it: a clamping, not a wrong feature.
+    std::vector<double> offset_of[3];
+    for (const Group& g : groups_) {
+      const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(g.setting)];
+      const auto nominal = assembly_.nominal ? assembly_.nominal(feature, c_deg) : std::nullopt;
+      if (!nominal) continue;
+      for (const std::size_t i : g.touches) {
+        const Eigen::Vector3d d = impliedCentre(list_.touches[i], g.setting) - *nominal;
+        for (int k = 0; k < 3; ++k) offset_of[k].push_back(d(k));
+      }
+    }
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+    if (!offset_of[0].empty()) offset = {median(offset_of[0]), median(offset_of[1]), median(offset_of[2])};
+    const Eigen::Vector3d across = offset - assembly_.axis * assembly_.axis.dot(offset);
+    if (!offset_of[0].empty() && across.norm() > 5.0) {
+      result_.warnings.push_back(fmt::format(
+          "{} stands {:.1f} mm beside where the machine file has it; its place in the machine file enters the "
+          "evaluation.",
+          artefact_.id, across.norm()));
+    }
+    // Surface touches are made beside the hole; how far is the programmer's choice.
+    double reach = 0.0;
+    if (assembly_.nominal) {
+      for (const auto& [key, p] : usual) {
+        const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(key.first)];
+        const auto nominal = assembly_.nominal(feature, c_deg);
+        if (nominal) {
+          Eigen::Vector3d d = p - *nominal - offset;
+          d -= assembly_.axis * assembly_.axis.dot(d);
+          reach = std::max(reach, std::min(d.norm(), 30.0));
+        }
+      }
+    }
+    const double tolerance = std::max(assembly_.misplaced_mm, 0.05);
+    for (const Group& g : groups_) {
+      const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(g.setting)];
+      for (const std::size_t i : g.touches) {
+        const Touch& t = list_.touches[i];
+        const auto habit = usual.find({g.setting, t.touch});
+        std::string reason;
+        if (habit != usual.end() && (t.position_mm - habit->second).norm() > tolerance) {
+          if ((t.position_mm * inch - habit->second).norm() < 0.02 * habit->second.norm() + tolerance) {
+            throw InputError({list_.file, t.line > 0 ? fmt::format("line {}", t.line) : std::string()},
+                             fmt::format("{} lies where the other cycles have it divided by 25.4: inches; allowed: "
+                                         "millimetres.",
+                                         t.label()));
+          }
+          reason = fmt::format("it is {:.3f} mm away from where the same touch lies in the other cycles",
+                               (t.position_mm - habit->second).norm());
+        }
+        const bool surface = assembly_.kind == FeatureKind::Hole && isSurfaceTouch(t, assembly_.axis);
+        const auto nominal = assembly_.nominal ? assembly_.nominal(feature, c_deg) : std::nullopt;
+        if (reason.empty() && nominal) {
+          Eigen::Vector3d d = impliedCentre(t, g.setting) - *nominal - offset;
+          d -= assembly_.axis * assembly_.axis.dot(d);
+          // Across the touched direction the aim may be off by the play in the hole.
+          const double limit = surface ? std::max(reach, 2.0) + tolerance : tolerance + 0.5 * radiusOf(g.setting);
+          if (d.norm() > limit) reason = fmt::format("it is {:.3f} mm away from {}", d.norm(), feature);
+        }
+        if (reason.empty()) continue;
+        const std::string other = nearest(t, g.setting, c_deg, offset, usual);
+        if (!other.empty() && other != feature)
+          reason += fmt::format("; it lies on {} (wrong or swapped feature?)", other);
+        result_.rejected.push_back({i, reason + "; left out"});
+      }
+    }
+  }
+
+  [[nodiscard]] std::string nearest(const Touch& t, int setting, double c_deg, const Eigen::Vector3d& offset,
+                                    const std::map<std::pair<int, int>, Eigen::Vector3d>& usual) const {
+    std::string name;
+    double best = 2.0 * std::max(assembly_.misplaced_mm, 0.05) + 3.0;
+    for (const std::string& feature : assembly_.features) {
+      if (const auto nominal = assembly_.nominal ? assembly_.nominal(feature, c_deg) : std::nullopt) {
+        Eigen::Vector3d d = impliedCentre(t, setting) - *nominal - offset;
+        d -= assembly_.axis * assembly_.axis.dot(d);
+        if (d.norm() < best) {
+          best = d.norm();
+          name = feature;
+        }
+      }
+    }
+    for (const auto& [key, p] : usual) {
+      const double d = (t.position_mm - p).norm();
+      if (d < best) {
+        best = d;
+        name = std::get<0>(settings_[static_cast<std::size_t>(key.first)]);
+      }
+    }
+    return name;
+  }
+
+  /// Radius of the stylus centre about the feature: what the touches of all cycles say, else the machine file.
+  void findRadii() {
+    std::vector<std::vector<double>> found(settings_.size());
+    for (const Group& g : groups_) {
+      const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(g.setting)];
+      const Stylus* s = machine_.findStylus(stylus);
+      FeatureOptions options;
+      options.axis = assembly_.axis;
+      options.tolerate_one_bad_touch = false;
+      const ProbedFeature fit = fitFeature(list_, g.touches, assembly_.kind, s->radius_mm, options);
+      if (fit.status != FitStatus::Converged) continue;
+      const double side = assembly_.kind == FeatureKind::Sphere ? 1.0 : -1.0;
+      found[static_cast<std::size_t>(g.setting)].push_back(0.5 * fit.diameter_mm + side * s->radius_mm);
+    }
+    radius_.assign(settings_.size(), 0.0);
+    for (std::size_t s = 0; s < settings_.size(); ++s) {
+      const double given = radiusOf(static_cast<int>(s));
+      radius_[s] = found[s].empty() ? given : median(found[s]);
+      if (given > 0.0 && std::abs(radius_[s] - given) > 0.5 && !found[s].empty()) {
+        const auto& [feature, stylus, c_deg] = settings_[s];
+        result_.warnings.push_back(fmt::format(
+            "{} with stylus {}: the touches lie on a radius of {:.4f} mm, the machine file gives {:.4f} mm; "
+            "check diameter and stylus radius (displacements do not depend on it).",
+            feature, stylus, radius_[s], given));
+      }
+    }
+  }
+
+  void centre(const std::vector<bool>& excluded) {
+    std::vector<std::vector<double>> centres[3];
+    for (auto& c : centres) c.assign(settings_.size(), {});
+    for (Group& g : groups_) {
+      g.centred = false;
+      std::vector<std::size_t> kept;
+      for (const std::size_t i : g.touches) {
+        if (!excluded[i]) kept.push_back(i);
+      }
+      const double radius = radius_[static_cast<std::size_t>(g.setting)];
+      if (kept.empty() || !(radius > 0.0)) continue;
+      const Stylus* s = machine_.findStylus(std::get<1>(settings_[static_cast<std::size_t>(g.setting)]));
+      const double side = assembly_.kind == FeatureKind::Sphere ? 1.0 : -1.0;
+      FeatureOptions options;
+      options.axis = assembly_.axis;
+      options.tolerate_one_bad_touch = false;
+      options.known_diameter_mm = 2.0 * (radius - side * s->radius_mm);
+      if (!(*options.known_diameter_mm > 0.0)) continue;
+      const ProbedFeature fit = fitFeature(list_, kept, assembly_.kind, s->radius_mm, options);
+      if (fit.status != FitStatus::Converged) continue;
+      g.centre = fit.centre_mm;
+      g.centred = true;
+      for (int k = 0; k < 3; ++k) centres[k][static_cast<std::size_t>(g.setting)].push_back(fit.centre_mm(k));
+    }
+    base_.assign(settings_.size(), Eigen::Vector3d::Zero());
+    for (std::size_t s = 0; s < settings_.size(); ++s) {
+      if (!centres[0][s].empty()) {
+        for (int k = 0; k < 3; ++k) base_[s](k) = median(centres[k][s]);
+        continue;
+      }
+      // Never centred: what single touches imply.
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      int count = 0;
+      for (const Group& g : groups_) {
+        if (g.setting != static_cast<int>(s)) continue;
+        for (const std::size_t i : g.touches) {
+          if (excluded[i]) continue;
+          sum += impliedCentre(list_.touches[i], g.setting);
+          ++count;
+        }
+      }
+      if (count > 0) base_[s] = sum / count;
+    }
+    for (Group& g : groups_) {
+      if (!g.centred) g.centre = base_[static_cast<std::size_t>(g.setting)];
+    }
+  }
+
+  void build(const std::vector<bool>& excluded) {
+    CycleProblem& problem = result_.problem;
+    problem = {};
+    problem.cycles = static_cast<int>(result_.cycles.size());
+    problem.parameters = assembly_.names;
+    problem.priors = assembly_.priors;
+    problem.groups = 2;
+    result_.row_touch.clear();
+    result_.row_normal.clear();
+    std::map<std::tuple<int, int, int, int, int>, int> key_of;
+    std::size_t count = 0;
+    for (const Group& g : groups_) count += g.touches.size();
+    problem.jacobian.resize(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(assembly_.names.size()));
+    for (const Group& g : groups_) {
+      for (const std::size_t i : g.touches) {
+        if (excluded[i]) continue;
+        const Touch& t = list_.touches[i];
+        const bool along = std::abs(t.approach.dot(assembly_.axis)) > 0.7;
+        const bool surface = assembly_.kind == FeatureKind::Hole && along;
+        CycleRow row;
+        row.cycle = g.cycle;
+        row.group = along ? 1 : 0;
+        Eigen::Vector3d u = t.approach;
+        if (surface) {
+          row.value_mm = u.dot(t.position_mm - base_[static_cast<std::size_t>(g.setting)]);
+        } else {
+          Eigen::Vector3d d = t.position_mm - g.centre;
+          Eigen::Vector3d shift = g.centre - base_[static_cast<std::size_t>(g.setting)];
+          if (assembly_.kind == FeatureKind::Hole) {
+            d -= assembly_.axis * assembly_.axis.dot(d);
+            shift -= assembly_.axis * assembly_.axis.dot(shift);
+          }
+          const double distance = d.norm();
+          if (!(distance > 0.0)) continue;
+          u = d / distance;
+          row.value_mm = distance + u.dot(shift);
+        }
+        const auto direction = [](double v) { return static_cast<int>(std::lround(50.0 * v)); };
+        row.key = key_of
+                      .try_emplace({g.setting, t.touch, direction(t.approach.x()), direction(t.approach.y()),
+                                    direction(t.approach.z())},
+                                   static_cast<int>(key_of.size()))
+                      .first->second;
+        problem.jacobian.row(static_cast<Eigen::Index>(problem.rows.size())) = -u.transpose() * assembly_.jacobian(t);
+        problem.rows.push_back(row);
+        result_.row_touch.push_back(i);
+        result_.row_normal.push_back(u);
+      }
+    }
+    problem.jacobian.conservativeResize(static_cast<Eigen::Index>(problem.rows.size()), Eigen::NoChange);
+    problem.keys = static_cast<int>(key_of.size());
+  }
+
+  void finish(const std::vector<bool>& excluded) {
+    const CycleFitResult& fit = result_.fit;
+    result_.status = fit.status;
+    result_.message = fit.message;
+    result_.parameters.resize(result_.cycles.size());
+    for (std::size_t k = 0; k < result_.cycles.size(); ++k) {
+      const CycleSolution& solution = fit.cycles[k];
+      for (std::size_t p = 0; p < result_.names.size(); ++p) {
+        const auto e = static_cast<Eigen::Index>(p);
+        CycleParameter parameter;
+        parameter.determined = solution.determined[p];
+        parameter.value = solution.theta(e) * result_.unit[p];
+        parameter.standard_uncertainty = std::sqrt(solution.covariance(e, e)) * result_.unit[p];
+        result_.parameters[k].push_back(parameter);
+      }
+      if (solution.status == FitStatus::Degenerate) {
+        result_.warnings.push_back(fmt::format("{}: {}.", result_.cycles[k], solution.message));
+      }
+    }
+    // What is missing compared with the fullest cycle.
+    std::size_t full = 0;
+    std::vector<std::size_t> touches(result_.cycles.size(), 0);
+    for (const Group& g : groups_) touches[static_cast<std::size_t>(g.cycle)] += g.touches.size();
+    for (const std::size_t n : touches) full = std::max(full, n);
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+      if (touches[k] == full) continue;
+      result_.warnings.push_back(
+          fmt::format("{}: {} of {} touches are missing; {}.", result_.cycles[k], full - touches[k], full,
+                      fit.cycles[k].status == FitStatus::Degenerate ? "the rest does not determine all parameters"
+                                                                    : "evaluated from the rest"));
+    }
+    if (result_.cycles.size() < 2) {
+      result_.status = FitStatus::Degenerate;
+      result_.message = "one cycle alone is the reference; thermal errors need a second one";
+      result_.warnings.push_back(result_.message + ".");
+    }
+    double freedom = 0.0;
+    for (const double f : fit.group_degrees_of_freedom) freedom += f;
+    if (result_.cycles.size() >= 2 && freedom < 8.0) {
+      result_.warnings.push_back(fmt::format(
+          "the touch noise rests on {:.0f} degrees of freedom only; the uncertainties are rough.", freedom));
+    }
+    FeatureOptions options;
+    options.axis = assembly_.axis;
+    double sigma = 0.0;
+    for (const double s : fit.group_sigma_mm) sigma = std::max(sigma, s);
+    if (sigma > 1e-7) options.sigma_mm = sigma;
+    // Form errors and pre-travel lie outside the touch noise: bad touches were already found against all other cycles.
+    options.tolerate_one_bad_touch = false;
+    result_.features.reserve(groups_.size());
+    for (const Group& g : groups_) {
+      std::vector<std::size_t> kept;
+      for (const std::size_t i : g.touches) {
+        if (!excluded[i]) kept.push_back(i);
+      }
+      if (kept.empty()) continue;
+      const Stylus* s = machine_.findStylus(std::get<1>(settings_[static_cast<std::size_t>(g.setting)]));
+      result_.features.push_back(fitFeature(list_, kept, assembly_.kind, s->radius_mm, options));
+    }
+  }
+
+  const TouchList& list_;
+  const MachineDescription& machine_;
+  const Artefact& artefact_;
+  const CycleAssembly& assembly_;
+  CycleEvaluation& result_;
+  std::vector<GroupKey> settings_;
+  std::vector<Group> groups_;
+  std::vector<double> radius_;
+  std::vector<Eigen::Vector3d> base_;
+};
+
+}  // namespace
+
+void evaluateCycles(const TouchList& list, const MachineDescription& machine, const Artefact& artefact,
+                    const CycleAssembly& assembly, CycleEvaluation& result) {
+  result.artefact = artefact.id;
+  result.names = assembly.names;
+  result.unit = assembly.unit;
+  Assembler(list, machine, artefact, assembly, result).run();
+}
+
+ObservationSet cycleObservations(const CycleEvaluation& evaluation, const TouchList& list,
+                                 const MachineDescription& machine, const Artefact& artefact) {
+  ObservationSet set;
+  struct Member {
+    std::size_t row;
+    std::size_t reference_row;
+  };
+  const auto& rows = evaluation.problem.rows;
+  // Rows of the reference cycle by key.
+  std::vector<int> reference(static_cast<std::size_t>(evaluation.problem.keys), -1);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (rows[r].cycle == evaluation.problem.reference_cycle && evaluation.fit.used[r]) {
+      reference[static_cast<std::size_t>(rows[r].key)] = static_cast<int>(r);
+    }
+  }
+  std::map<std::tuple<int, std::string, std::string, double>, std::size_t> group_of;
+  std::vector<std::vector<Member>> groups;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const int ref = reference[static_cast<std::size_t>(rows[r].key)];
+    if (!evaluation.fit.used[r] || ref < 0) continue;
+    const Touch& t = list.touches[evaluation.row_touch[r]];
+    const auto [group, fresh] = group_of.try_emplace({rows[r].cycle, t.feature, t.stylus, t.c_deg}, groups.size());
+    if (fresh) groups.emplace_back();
+    groups[group->second].push_back({r, static_cast<std::size_t>(ref)});
+  }
+  // First rows of a point and component, to attach the noise of the first cycle; with the weights behind them.
+  struct Placed {
+    std::size_t row;
+    double common;
+  };
+  std::map<std::pair<std::string, int>, std::vector<Placed>> placed;
+  for (const std::vector<Member>& members : groups) {
+    const Touch& first = list.touches[evaluation.row_touch[members.front().row]];
+    const auto n = static_cast<Eigen::Index>(members.size());
+    Eigen::MatrixXd U(n, 3);
+    Eigen::VectorXd change(n);
+    Eigen::VectorXd variance(n);
+    double time = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Member& m = members[static_cast<std::size_t>(i)];
+      const double sigma = evaluation.fit.group_sigma_mm[static_cast<std::size_t>(rows[m.row].group)];
+      U.row(i) = evaluation.row_normal[m.row].transpose();
+      change(i) = rows[m.row].value_mm - rows[m.reference_row].value_mm;
+      variance(i) = std::max(sigma * sigma, 1e-18);
+      time += list.touches[evaluation.row_touch[m.row]].time_s / static_cast<double>(n);
+    }
+    const Eigen::Matrix3d normal = U.transpose() * variance.cwiseInverse().asDiagonal() * U;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(normal);
+    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d open = Eigen::Matrix3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d v = modes.eigenvectors().col(k);
+      if (modes.eigenvalues()(k) > 1e-3 * modes.eigenvalues()(2)) {
+        inverse += v * v.transpose() / modes.eigenvalues()(k);
+      } else {
+        open += v * v.transpose();
+      }
+    }
+    const Eigen::MatrixXd W = inverse * U.transpose() * variance.cwiseInverse().asDiagonal();  // 3 x n
+    const Eigen::Vector3d displacement = W * change;
+    std::string point = artefact.kind == "balls" ? first.feature + "/" + first.stylus : first.feature;
+    if (first.c_deg != 0.0) point += fmt::format("@{:g}", first.c_deg);
+    const Stylus* stylus = machine.findStylus(first.stylus);
+    std::vector<std::size_t> own_rows;
+    std::vector<int> own_axis;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (open.col(axis).norm() > 1e-2) continue;
+      Observation o;
+      o.time_s = time;
+      o.state = first.cycle;
+      o.point = point;
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const std::size_t r = members[static_cast<std::size_t>(i)].row;
+        o.position_mm += W(axis, i) * U(i, axis) * list.touches[evaluation.row_touch[r]].position_mm;
+      }
+      o.c_deg = first.c_deg;
+      o.component = static_cast<Component>(axis);
+      o.value = -displacement(axis) * um_per_mm;
+      if (o.value == 0.0) o.value = 0.0;  // no minus zero in files
+      const double own = inverse(axis, axis) * um_per_mm * um_per_mm;
+      o.sigma = std::sqrt(2.0 * own);
+      o.instrument = "touch_probe";
+      if (stylus != nullptr) o.tool_offset_mm = stylus->offset_mm;
+      const std::size_t row = set.rows.size();
+      for (const Placed& other : placed[{point, axis}]) {
+        set.covariance.push_back({other.row, row, std::min(own, other.common)});
+      }
+      placed[{point, axis}].push_back({row, own});
+      for (std::size_t j = 0; j < own_rows.size(); ++j) {
+        const double cross = 2.0 * inverse(own_axis[j], axis) * um_per_mm * um_per_mm;
+        if (std::abs(cross) > 1e-6 * own) set.covariance.push_back({own_rows[j], row, cross});
+      }
+      own_rows.push_back(row);
+      own_axis.push_back(axis);
+      set.rows.push_back(std::move(o));
+    }
+  }
+  return set;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/probing/cycle_fit.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/math/statistics.h"
+
+namespace spindrift {
+
+void CycleFitOptions::validate() const {
+  SPINDRIFT_ASSERT(outlier_threshold >= 0.0, "outlier threshold must not be negative");
+  SPINDRIFT_ASSERT(!sigma_mm || *sigma_mm > 0.0, "touch noise must be positive");
+  SPINDRIFT_ASSERT(rank_tolerance > 0.0 && rank_tolerance < 1.0, "rank tolerance must lie between 0 and 1");
+}
+
+std::string combinationText(const Eigen::VectorXd& combination, const std::vector<std::string>& names) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(combination.size()));
+  for (Eigen::Index i = 0; i < combination.size(); ++i) order[static_cast<std::size_t>(i)] = i;
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return std::abs(combination(a)) > std::abs(combination(b)); });
+  const double sign = order.empty() || combination(order.front()) >= 0.0 ? 1.0 : -1.0;
+  std::string text;
+  for (const Eigen::Index i : order) {
+    if (std::abs(combination(i)) < 0.15) break;
+    text += fmt::format("{}{} {:+.2f}", text.empty() ? "" : ", ", names[static_cast<std::size_t>(i)],
+                        sign * combination(i));
+  }
+  return text;
+}
+
+Eigen::MatrixXd CycleFitResult::covarianceBetween(int cycle_a, int cycle_b) const {
+  return from_constant[static_cast<std::size_t>(cycle_a)] * constant_covariance *
+         from_constant[static_cast<std::size_t>(cycle_b)].transpose();
+}
+
+namespace {
+
+struct CyclePart {
+  std::vector<int> rows;    // indices of used rows
+  Eigen::MatrixXd A;        // whitened jacobian with priors below
+  Eigen::VectorXd y;        // whitened values
+  Eigen::MatrixXd range;    // orthonormal basis of the range of A (rows x rank)
+  Eigen::MatrixXd inverse;  // pseudo-inverse, parameters x rows
+  Eigen::MatrixXd null;     // null space of A (scaled parameters)
+  double condition = 0.0;
+  Eigen::VectorXd weakest;
+};
+
+class Solver {
+ public:
+  Solver(const CycleProblem& problem, const CycleFitOptions& options) : problem_(problem), options_(options) {
+    used_.assign(problem.rows.size(), true);
+    sigma_.assign(static_cast<std::size_t>(problem.groups), options.sigma_mm.value_or(1e-3));
+    // Columns are scaled alike in all cycles, so that "weak" means the same everywhere.
+    scale_ = problem.jacobian.colwise().norm();
+    for (const CyclePrior& prior : problem.priors) {
+      scale_ = scale_.cwiseMax(prior.row.cwiseAbs().transpose());
+    }
+    for (Eigen::Index j = 0; j < scale_.size(); ++j) {
+      if (!(scale_(j) > 0.0)) scale_(j) = 1.0;
+    }
+    of_cycle_.resize(static_cast<std::size_t>(problem.cycles));
+    for (std::size_t r = 0; r < problem.rows.size(); ++r) {
+      of_cycle_[static_cast<std::size_t>(problem.rows[r].cycle)].push_back(static_cast<int>(r));
+    }
+  }
+
+  CycleFitResult run() {
+    solve();
+    estimateNoise(true);
+    solve();
+    if (options_.outlier_threshold > 0.0) {
+      // One touch per cycle and pass; a bad touch spoils the others of its cycle, so the worst goes first.
+      for (int pass = 0; pass < 200; ++pass) {
+        if (!rejectWorst()) break;
+        solve();
+        estimateNoise(true);
+      }
+    }
+    for (int iteration = 0; iteration < 4; ++iteration) {
+      const std::vector<double> before = sigma_;
+      estimateNoise(false);
+      solve();
+      double change = 0.0;
+      for (std::size_t g = 0; g < sigma_.size(); ++g) change = std::max(change, std::abs(sigma_[g] / before[g] - 1.0));
+      if (change < 1e-3) break;
+    }
+    return finish();
+  }
+
+ private:
+  [[nodiscard]] double sigmaOf(int row) const {
+    return sigma_[static_cast<std::size_t>(problem_.rows[static_cast<std::size_t>(row)].group)];
+  }
+
+  void preparePart(int k, CyclePart& part) {
+    const auto n = static_cast<Eigen::Index>(problem_.parameters.size());
+    part.rows.clear();
+    for (const int r : of_cycle_[static_cast<std::size_t>(k)]) {
+      if (used_[static_cast<std::size_t>(r)]) part.rows.push_back(r);
+    }
+    const auto m = static_cast<Eigen::Index>(part.rows.size());
+    const bool reference = k == problem_.reference_cycle;
+    const auto extra = reference ? 0 : static_cast<Eigen::Index>(problem_.priors.size());
+    part.y.resize(m + extra);
+    part.A.resize(m + extra, n);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const int r = part.rows[static_cast<std::size_t>(i)];
+      part.y(i) = problem_.rows[static_cast<std::size_t>(r)].value_mm / sigmaOf(r);
+      part.A.row(i) = problem_.jacobian.row(r).cwiseQuotient(scale_.transpose()) / sigmaOf(r);
+    }
+    for (Eigen::Index i = 0; i < extra; ++i) {
+      const CyclePrior& prior = problem_.priors[static_cast<std::size_t>(i)];
+      const double value =
+          prior.value_of_cycle.empty() ? prior.value : prior.value_of_cycle[static_cast<std::size_t>(k)];
+      part.y(m + i) = value / prior.sigma;
+      part.A.row(m + i) = prior.row.cwiseQuotient(scale_.transpose()) / prior.sigma;
+    }
+    if (reference) {
+      part.range.resize(m, 0);
+      return;
+    }
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(part.A, Eigen::ComputeThinU | Eigen::ComputeFullV);
+    const auto& s = svd.singularValues();
+    Eigen::Index rank = 0;
+    while (rank < s.size() && s(rank) > options_.rank_tolerance * s(0) && s(rank) > 0.0) ++rank;
+    part.range = svd.matrixU().leftCols(rank);
+    part.inverse = svd.matrixV().leftCols(rank) * s.head(rank).cwiseInverse().asDiagonal() * part.range.transpose();
+    part.null = svd.matrixV().rightCols(n - rank);
+    part.condition = rank == n ? s(0) / s(n - 1) : std::numeric_limits<double>::infinity();
+    part.weakest = svd.matrixV().col(n - 1);
+  }
+
+  void solve() {
+    const auto keys = static_cast<Eigen::Index>(problem_.keys);
+    parts_.resize(static_cast<std::size_t>(problem_.cycles));
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(keys, keys);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(keys);
+    for (int k = 0; k < problem_.cycles; ++k) {
+      CyclePart& part = parts_[static_cast<std::size_t>(k)];
+      preparePart(k, part);
+      const auto m = static_cast<Eigen::Index>(part.rows.size());
+      // What the cycle says about b: rows projected on the complement of the range of A.
+      const Eigen::VectorXd y = part.y - part.range * (part.range.transpose() * part.y);
+      const Eigen::MatrixXd top = part.range.topRows(m);
+      const Eigen::MatrixXd product = top * top.transpose();
+      for (Eigen::Index i = 0; i < m; ++i) {
+        const int ri = part.rows[static_cast<std::size_t>(i)];
+        const int key_i = problem_.rows[static_cast<std::size_t>(ri)].key;
+        right(key_i) += y(i) / sigmaOf(ri);
+        for (Eigen::Index j = 0; j < m; ++j) {
+          const int rj = part.rows[static_cast<std::size_t>(j)];
+          const int key_j = problem_.rows[static_cast<std::size_t>(rj)].key;
+          normal(key_i, key_j) += ((i == j ? 1.0 : 0.0) - product(i, j)) / (sigmaOf(ri) * sigmaOf(rj));
+        }
+      }
+    }
+    // The eigenvalues lie between 1 (seen by the reference cycle only) and the number of cycles, in units of 1/sigma^2:
+    // the normal matrix is harmless here.
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(normal);
+    const double largest = keys > 0 ? modes.eigenvalues()(keys - 1) : 0.0;
+    Eigen::Index open = 0;
+    while (open < keys && !(modes.eigenvalues()(open) > 1e-9 * largest)) ++open;
+    constant_null_ = modes.eigenvectors().leftCols(open);
+    const auto kept = keys - open;
+    constant_covariance_ = modes.eigenvectors().rightCols(kept) *
+                           modes.eigenvalues().tail(kept).cwiseInverse().asDiagonal() *
+                           modes.eigenvectors().rightCols(kept).transpose();
+    constant_ = constant_covariance_ * right;
+    residuals();
+  }
+
+  /// Whitened b of the rows of a part (priors: 0).
+  [[nodiscard]] Eigen::VectorXd whitenedConstant(const CyclePart& part) const {
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(part.y.size());
+    for (std::size_t i = 0; i < part.rows.size(); ++i) {
+      b(static_cast<Eigen::Index>(i)) =
+          constant_(problem_.rows[static_cast<std::size_t>(part.rows[i])].key) / sigmaOf(part.rows[i]);
+    }
+    return b;
+  }
+
+  /// Whitened covariance root of b at the rows of a part: W B.
+  [[nodiscard]] Eigen::MatrixXd constantCovarianceAt(const CyclePart& part) const {
+    const auto m = static_cast<Eigen::Index>(part.rows.size());
+    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(part.y.size(), part.y.size());
+    for (Eigen::Index i = 0; i < m; ++i) {
+      const int ri = part.rows[static_cast<std::size_t>(i)];
+      for (Eigen::Index j = 0; j < m; ++j) {
+        const int rj = part.rows[static_cast<std::size_t>(j)];
+        c(i, j) = constant_covariance_(problem_.rows[static_cast<std::size_t>(ri)].key,
+                                       problem_.rows[static_cast<std::size_t>(rj)].key) /
+                  (sigmaOf(ri) * sigmaOf(rj));
+      }
+    }
+    return c;
+  }
+
+  void residuals() {
+    residual_.assign(problem_.rows.size(), 0.0);
+    freedom_.assign(problem_.rows.size(), 0.0);
+    theta_.assign(static_cast<std::size_t>(problem_.cycles),
+                  Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.parameters.size())));
+    for (int k = 0; k < problem_.cycles; ++k) {
+      const CyclePart& part = parts_[static_cast<std::size_t>(k)];
+      const Eigen::VectorXd z = part.y - whitenedConstant(part);
+      Eigen::VectorXd fitted = Eigen::VectorXd::Zero(z.size());
+      if (k != problem_.reference_cycle) {
+        theta_[static_cast<std::size_t>(k)] = part.inverse * z;
+        fitted = part.range * (part.range.transpose() * z);
+      }
+      const Eigen::MatrixXd c = constantCovarianceAt(part);
+      const Eigen::MatrixXd projected = c - part.range * (part.range.transpose() * c);  // P C
+      for (std::size_t i = 0; i < part.rows.size(); ++i) {
+        const auto e = static_cast<Eigen::Index>(i);
+        const auto r = static_cast<std::size_t>(part.rows[i]);
+        residual_[r] = (z(e) - fitted(e)) * sigmaOf(part.rows[i]);
+        const double pcp = projected(e, e) - (projected.row(e) * part.range).dot(part.range.row(e));
+        freedom_[r] = std::max(0.0, 1.0 - part.range.row(e).squaredNorm() - pcp);
+      }
+    }
+  }
+
+  void estimateNoise(bool robust) {
+    if (options_.sigma_mm) return;
+    const auto groups = static_cast<std::size_t>(problem_.groups);
+    std::vector<std::vector<double>> scaled(groups);
+    std::vector<double> squares(groups, 0.0);
+    freedom_of_group_.assign(groups, 0.0);
+    double all_squares = 0.0;
+    double all_freedom = 0.0;
+    std::vector<double> all_scaled;
+    for (std::size_t r = 0; r < problem_.rows.size(); ++r) {
+      if (!used_[r] || freedom_[r] < 1e-6) continue;
+      const auto g = static_cast<std::size_t>(problem_.rows[r].group);
+      const double s = std::abs(residual_[r]) / std::sqrt(freedom_[r]);
+      scaled[g].push_back(s);
+      all_scaled.push_back(s);
+      squares[g] += residual_[r] * residual_[r];
+      freedom_of_group_[g] += freedom_[r];
+      all_squares += residual_[r] * residual_[r];
+      all_freedom += freedom_[r];
+    }
+    constexpr double floor_mm = 1e-9;  // exact data have no noise; keep the weights finite
+    for (std::size_t g = 0; g < groups; ++g) {
+      // A group that hardly estimates its own noise borrows from all touches.
+      const bool own = freedom_of_group_[g] >= 8.0;
+      double sigma = 0.0;
+      if (robust) {
+        const std::vector<double>& values = own ? scaled[g] : all_scaled;
+        sigma = values.empty() ? 0.0 : 1.4826 * median(values);
+      } else {
+        const double f = own ? freedom_of_group_[g] : all_freedom;
+        sigma = f > 0.5 ? std::sqrt((own ? squares[g] : all_squares) / f) : 0.0;
+      }
+      sigma_[g] = std::max(sigma, floor_mm);
+    }
+  }
+
+  bool rejectWorst() {
+    // Candidate of each cycle.
+    bool any = false;
+    for (int k = 0; k < problem_.cycles; ++k) {
+      int worst = -1;
+      double worst_value = options_.outlier_threshold;
+      for (const int r : parts_[static_cast<std::size_t>(k)].rows) {
+        const auto i = static_cast<std::size_t>(r);
+        if (freedom_[i] < 0.05) continue;  // nothing contradicts this touch
+        const double value = std::abs(residual_[i]) / (sigmaOf(r) * std::sqrt(freedom_[i]));
+        if (value > worst_value && std::abs(residual_[i]) > 1e-6) {
+          worst_value = value;
+          worst = r;
+        }
+      }
+      if (worst < 0) continue;
+      // The constant of the touch is shared: its residual is largest where it is really bad. With equal residuals (two
+      // cycles only) the later cycle gives way.
+      const int key = problem_.rows[static_cast<std::size_t>(worst)].key;
+      bool largest = true;
+      for (std::size_t r = 0; r < problem_.rows.size() && largest; ++r) {
+        if (!used_[r] || problem_.rows[r].key != key || problem_.rows[r].cycle == k) continue;
+        const double other = std::abs(residual_[r]) / std::sqrt(std::max(freedom_[r], 1e-3));
+        const double own = std::abs(residual_[static_cast<std::size_t>(worst)]) /
+                           std::sqrt(std::max(freedom_[static_cast<std::size_t>(worst)], 1e-3));
+        if (other > own * (1.0 + 1e-6) || (other > own * (1.0 - 1e-6) && k == problem_.reference_cycle)) {
+          largest = false;
+        }
+      }
+      if (!largest) continue;
+      used_[static_cast<std::size_t>(worst)] = false;
+      any = true;
+    }
+    return any;
+  }
+
+  CycleFitResult finish() {
+    CycleFitResult result;
+    const auto n = static_cast<Eigen::Index>(problem_.parameters.size());
+    result.cycles.resize(static_cast<std::size_t>(problem_.cycles));
+    result.from_constant.resize(static_cast<std::size_t>(problem_.cycles));
+    result.group_sigma_mm = sigma_;
+    result.group_degrees_of_freedom = freedom_of_group_;
+    result.used = used_;
+    result.constant_mm = constant_;
+    result.constant_covariance = constant_covariance_;
+    result.residual_mm = residual_;
+    result.studentised.assign(problem_.rows.size(), 0.0);
+    bool all = true;
+    for (int k = 0; k < problem_.cycles; ++k) {
+      CycleSolution& solution = result.cycles[static_cast<std::size_t>(k)];
+      const CyclePart& part = parts_[static_cast<std::size_t>(k)];
+      Eigen::MatrixXd& gain = result.from_constant[static_cast<std::size_t>(k)];
+      gain = Eigen::MatrixXd::Zero(n, problem_.keys);
+      solution.theta = Eigen::VectorXd::Zero(n);
+      solution.covariance = Eigen::MatrixXd::Zero(n, n);
+      solution.own_covariance = Eigen::MatrixXd::Zero(n, n);
+      solution.determined.assign(static_cast<std::size_t>(n), true);
+      solution.touches_used = static_cast<int>(part.rows.size());
+      for (const int r : part.rows) {
+        const double s = residual_[static_cast<std::size_t>(r)] / sigmaOf(r);
+        solution.chi2 += s * s;
+        result.degrees_of_freedom += freedom_[static_cast<std::size_t>(r)];
+        result.studentised[static_cast<std::size_t>(r)] =
+            freedom_[static_cast<std::size_t>(r)] > 1e-6 ? s / std::sqrt(freedom_[static_cast<std::size_t>(r)]) : 0.0;
+      }
+      if (k == problem_.reference_cycle) {
+        solution.status = FitStatus::Converged;
+        solution.message = "reference cycle: zero by definition";
+        continue;
+      }
+      const Eigen::VectorXd unscale = scale_.cwiseInverse();
+      solution.theta = unscale.asDiagonal() * theta_[static_cast<std::size_t>(k)];
+      solution.own_covariance = unscale.asDiagonal() * (part.inverse * part.inverse.transpose()) * unscale.asDiagonal();
+      for (std::size_t i = 0; i < part.rows.size(); ++i) {
+        gain.col(problem_.rows[static_cast<std::size_t>(part.rows[i])].key) -=
+            unscale.asDiagonal() * part.inverse.col(static_cast<Eigen::Index>(i)) / sigmaOf(part.rows[i]);
+      }
+      solution.covariance = solution.own_covariance + gain * constant_covariance_ * gain.transpose();
+      solution.condition_number = part.condition;
+      solution.weakest = part.weakest;
+      std::vector<std::string> open;
+      const Eigen::MatrixXd through_constant = gain * constant_null_;
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const bool own = part.null.cols() == 0 || part.null.row(j).norm() < 1e-5;
+        const bool constant = constant_null_.cols() == 0 || through_constant.row(j).norm() * scale_(j) < 1e-4;
+        if (own && constant) continue;
+        solution.determined[static_cast<std::size_t>(j)] = false;
+        open.push_back(problem_.parameters[static_cast<std::size_t>(j)]);
+        solution.covariance.row(j).setZero();
+        solution.covariance.col(j).setZero();
+        solution.covariance(j, j) = std::numeric_limits<double>::infinity();
+      }
+      if (open.empty()) {
+        solution.status = FitStatus::Converged;
+        solution.message = "all parameters are determined";
+      } else {
+        all = false;
+        solution.status = FitStatus::Degenerate;
+        solution.message = "not determined by the touches that are there:";
+        for (const std::string& name : open) solution.message += " " + name;
+        if (part.null.cols() > 0) {
+          solution.message += fmt::format(" (open combination: {})",
+                                          combinationText(part.null.col(part.null.cols() - 1), problem_.parameters));
+        }
+      }
+    }
+    // A rejected touch is judged by the fit that did not use it.
+    for (std::size_t r = 0; r < problem_.rows.size(); ++r) {
+      if (used_[r]) continue;
+      const CycleRow& row = problem_.rows[r];
+      const Eigen::VectorXd& theta = result.cycles[static_cast<std::size_t>(row.cycle)].theta;
+      result.residual_mm[r] = row.value_mm - constant_(row.key) -
+                              problem_.jacobian.row(static_cast<Eigen::Index>(r)).dot(theta.transpose());
+      result.studentised[r] = result.residual_mm[r] / sigmaOf(static_cast<int>(r));
+    }
+    result.status = all ? FitStatus::Converged : FitStatus::Degenerate;
+    result.message = all ? "all parameters of all cycles are determined" : "some cycles leave parameters open";
+    return result;
+  }
+
+  const CycleProblem& problem_;
+  const CycleFitOptions& options_;
+  std::vector<bool> used_;
+  std::vector<double> sigma_;
+  std::vector<double> freedom_of_group_;
+  Eigen::VectorXd scale_;
+  std::vector<std::vector<int>> of_cycle_;
+  std::vector<CyclePart> parts_;
+  std::vector<Eigen::VectorXd> theta_;
+  Eigen::VectorXd constant_;
+  Eigen::MatrixXd constant_covariance_;
+  Eigen::MatrixXd constant_null_;
+  std::vector<double> residual_;
+  std::vector<double> freedom_;  // 1 - leverage
+};
+
+}  // namespace
+
+CycleFitResult fitCycles(const CycleProblem& problem, const CycleFitOptions& options) {
+  options.validate();
+  SPINDRIFT_ASSERT(problem.jacobian.rows() == static_cast<Eigen::Index>(problem.rows.size()) &&
+                       problem.jacobian.cols() == static_cast<Eigen::Index>(problem.parameters.size()),
+                   "jacobian of a cycle fit does not match rows and parameters");
+  SPINDRIFT_ASSERT(problem.reference_cycle >= 0 && problem.reference_cycle < problem.cycles,
+                   "reference cycle is not among the cycles");
+  return Solver(problem, options).run();
+}
+
+}  // namespace spindrift

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/probing/hole_cycle.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/base/units.h"
+#include "core/math/least_squares.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+namespace {
+
+/// Index of the machine direction (0, 1, 2) that a vector lies along best.
+int mainAxis(const Eigen::Vector3d& v) {
+  Eigen::Index k = 0;
+  v.cwiseAbs().maxCoeff(&k);
+  return static_cast<int>(k);
+}
+
+}  // namespace
+
+HoleBarSetup HoleBarSetup::of(const MachineDescription& machine, const Artefact& artefact) {
+  const auto reject = [&](const std::string& why) {
+    throw InputError({machine.file, fmt::format("artefact {}", artefact.id)}, why);
+  };
+  if (artefact.kind != "hole_bar") reject("is no bar of holes; allowed here: kind \"hole_bar\".");
+  HoleBarSetup setup;
+  setup.artefact = artefact.id;
+  setup.reference_in_table_mm = artefact.reference_in_table_mm;
+  setup.direction_at_c0 = artefact.direction_at_c0;
+  setup.hole_diameter_mm = artefact.hole_diameter_mm;
+  const int reference = holeIndex(artefact.reference_hole);
+  for (const double s : artefact.nominal_positions_mm) {
+    setup.along_mm.push_back(s - artefact.nominal_positions_mm[static_cast<std::size_t>(reference)]);
+  }
+  // The rotary axis that carries the bar: the one nearest to the workpiece that can turn a bar lying as this one does.
+  const ChainAxis* rotary = nullptr;
+  for (const ChainAxis& axis : machine.chain.axes()) {
+    if (!axis.rotary || axis.spindle || !axis.carries_workpiece) continue;
+    if (std::abs(axis.direction.dot(artefact.direction_at_c0)) > 0.5) continue;
+    rotary = &axis;
+    break;
+  }
+  if (rotary == nullptr) {
+    reject(
+        fmt::format("needs a rotary axis that turns the workpiece across the bar, but the chain \"{}\" has none; "
+                    "allowed: for example \"V [w-C'-X'-b-Y-Z-(C1)-t]\".",
+                    machine.chain.text()));
+  }
+  setup.rotary = rotary->name;
+  setup.rotary_direction = rotary->direction;
+  const RotaryAxis* described = machine.findRotary(rotary->name);
+  if (described == nullptr) {
+    reject(
+        fmt::format("needs the centre of the rotary axis {}; allowed: \"rotary\":[{{\"name\":\"{}\",\"centre_mm\":"
+                    "[x,y,z]}}] in the machine file.",
+                    rotary->name, rotary->name));
+  }
+  setup.centre_mm = described->centre_mm;
+  const int along = mainAxis(artefact.direction_at_c0);
+  const int turn = mainAxis(setup.rotary_direction);
+  const int across = 3 - along - turn;
+  const auto linearAlong = [&](int k) -> const ChainAxis* {
+    for (const ChainAxis& axis : machine.chain.axes()) {
+      if (!axis.rotary && mainAxis(axis.direction) == k) return &axis;
+    }
+    return nullptr;
+  };
+  const ChainAxis* linear = linearAlong(along);
+  if (linear == nullptr) {
+    reject(fmt::format("lies along {}, but the chain \"{}\" has no such axis.", "XYZ"[along], machine.chain.text()));
+  }
+  setup.linear = linear->name;
+  const ChainAxis* second = linearAlong(across);
+  setup.second = second != nullptr ? second->name : std::string(1, "XYZ"[across]);
+
+  const std::map<std::string, Eigen::Vector3d, std::less<>> centres{{setup.rotary, setup.centre_mm}};
+  const auto columns = [&](const Eigen::Vector3d& tip) {
+    Eigen::Matrix<double, 3, 8> J;
+    AxisPositions positions;
+    Eigen::Vector3d rest = tip;
+    bool taken[3] = {false, false, false};
+    for (const ChainAxis& axis : machine.chain.axes()) {
+      const int k = mainAxis(axis.direction);
+      if (axis.rotary || taken[k]) continue;
+      taken[k] = true;
+      positions[axis.name] = tip(k);
+      rest(k) = 0.0;
+    }
+    const auto deviation = [&](const std::string& axis, const SmallError& error) -> Eigen::Vector3d {
+      return machine.chain.toolDeviation(positions, {{axis, error}}, rest, centres).translation_mm;
+    };
+    const auto slope = [&](const ChainAxis* axis, int k) -> Eigen::Vector3d {
+      SmallError error;
+      // The slope is the deviation of the tool relative to the table, whichever of the two the axis moves.
+      error.translation_mm(k) = (tip(k) - setup.centre_mm(k)) * (axis->carries_workpiece ? -1.0 : 1.0);
+      return deviation(axis->name, error);
+    };
+    J.col(0) = slope(linear, along);
+    for (int k = 0; k < 3; ++k) {
+      SmallError shift;
+      shift.translation_mm(k) = 1.0;
+      SmallError turned;
+      turned.rotation_rad(k) = 1.0;
+      J.col(1 + k) = deviation(setup.rotary, shift);
+      J.col(4 + k) = deviation(setup.rotary, turned);
+    }
+    J.col(7) = second != nullptr ? slope(second, across) : Eigen::Vector3d::Zero();
+    return J;
+  };
+  setup.chain[0] = columns(Eigen::Vector3d::Zero());
+  for (int k = 0; k < 3; ++k) {
+    constexpr double step_mm = 100.0;
+    setup.chain[static_cast<std::size_t>(k + 1)] =
+        (columns(step_mm * Eigen::Vector3d::Unit(k)) - setup.chain[0]) / step_mm;
+  }
+  return setup;
+}
+
+int HoleBarSetup::holeIndex(const std::string& feature) {
+  return std::stoi(feature.substr(1)) - 1;
+}
+
+std::vector<std::string> HoleBarSetup::parameterNames(bool second_axis) const {
+  const char letter = rotary.front();
+  const int turn = mainAxis(rotary_direction);
+  std::vector<std::string> names{fmt::format("E{}{}_um_per_m", linear, linear)};
+  for (int k = 0; k < 3; ++k) {
+    if (k != turn) names.push_back(fmt::format("E{}0{}_um", "XYZ"[k], letter));
+  }
+  names.push_back(fmt::format("E{}0T_um", "XYZ"[turn]));
+  names.emplace_back("ER0T_um");
+  for (int k = 0; k < 3; ++k) names.push_back(fmt::format("E{}0{}_urad", "ABC"[k], letter));
+  names.emplace_back("EME_um_per_m");
+  if (second_axis) names.push_back(fmt::format("E{}{}_um_per_m", second, second));
+  return names;
+}
+
+Eigen::Matrix3d HoleBarSetup::tableRotation(double c_deg) const {
+  return Eigen::AngleAxisd(c_deg * rad_per_deg, rotary_direction).toRotationMatrix();
+}
+
+Eigen::Vector3d HoleBarSetup::nominal_mm(int hole, double c_deg) const {
+  return centre_mm +
+         tableRotation(c_deg) * (reference_in_table_mm + along_mm[static_cast<std::size_t>(hole)] * direction_at_c0);
+}
+
+Eigen::MatrixXd HoleBarSetup::deviationJacobian(const std::string& feature, double c_deg, const Eigen::Vector3d& tip_mm,
+                                                bool second_axis) const {
+  const Eigen::Matrix<double, 3, 8> columns =
+      chain[0] + tip_mm.x() * chain[1] + tip_mm.y() * chain[2] + tip_mm.z() * chain[3];
+  const Eigen::Matrix3d turn = tableRotation(c_deg);
+  const Eigen::Vector3d in_plane =
+      reference_in_table_mm - rotary_direction * rotary_direction.dot(reference_in_table_mm);
+  const double radius = in_plane.norm();
+  Eigen::MatrixXd J(3, second_axis ? 10 : 9);
+  J.col(0) = columns.col(0);
+  int next = 1;
+  const int axial = mainAxis(rotary_direction);
+  for (int k = 0; k < 3; ++k) {
+    if (k != axial) J.col(next++) = columns.col(1 + k);
+  }
+  J.col(3) = columns.col(1 + axial);
+  // A reference hole on the axis itself has no radius to grow along.
+  J.col(4) = radius > 1e-9 ? Eigen::Vector3d(-(turn * in_plane) / radius) : Eigen::Vector3d::Zero();
+  J.block<3, 3>(0, 5) = columns.block<3, 3>(0, 4);
+  J.col(8) = -along_mm[static_cast<std::size_t>(holeIndex(feature))] * (turn * direction_at_c0);
+  if (second_axis) J.col(9) = columns.col(7);
+  return J;
+}
+
+HoleCycleResult evaluateHoleCycles(const TouchList& list, const MachineDescription& machine, const Artefact& artefact,
+                                   const HoleCycleOptions& options) {
+  HoleCycleResult result;
+  result.setup = HoleBarSetup::of(machine, artefact);
+  const HoleBarSetup& setup = result.setup;
+  CycleAssembly assembly;
+  assembly.kind = FeatureKind::Hole;
+  assembly.axis = setup.rotary_direction;
+  assembly.names = setup.parameterNames(options.second_axis);
+  assembly.unit = {um_per_m_per_unit, um_per_mm,    um_per_mm,    um_per_mm,        um_per_mm,
+                   urad_per_rad,      urad_per_rad, urad_per_rad, um_per_m_per_unit};
+  if (options.second_axis) assembly.unit.push_back(um_per_m_per_unit);
+  assembly.fit = options.fit;
+  assembly.misplaced_mm = options.misplaced_mm;
+  assembly.features = featureNames(artefact);
+  assembly.jacobian = [&](const Touch& t) {
+    return setup.deviationJacobian(t.feature, t.c_deg, t.position_mm, options.second_axis);
+  };
+  assembly.nominal = [&](const std::string& feature, double c_deg) -> std::optional<Eigen::Vector3d> {
+    return setup.nominal_mm(HoleBarSetup::holeIndex(feature), c_deg);
+  };
+  assembly.radius = [&](const std::string&, const std::string& stylus) -> std::optional<double> {
+    if (!setup.hole_diameter_mm) return std::nullopt;
+    return 0.5 * *setup.hole_diameter_mm - machine.findStylus(stylus)->radius_mm;
+  };
+  if (options.stable_length) {
+    const StableLength& length = *options.stable_length;
+    CyclePrior prior;
+    prior.row = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(assembly.names.size()));
+    prior.row(8) = 1.0;
+    prior.value = length.growth_um_per_m / um_per_m_per_unit;
+    prior.sigma = length.uncertainty_um_per_m / um_per_m_per_unit;
+    for (const double g : length.growth_of_cycle_um_per_m) {
+      prior.value_of_cycle.push_back(g / um_per_m_per_unit);
+    }
+    if (!prior.value_of_cycle.empty()) {
+      const auto cycles = list.cycles().size();
+      if (prior.value_of_cycle.size() != cycles) {
+        throw InputError(fmt::format("the stable length has {} values for {} cycles; allowed: one per cycle.",
+                                     prior.value_of_cycle.size(), cycles));
+      }
+    }
+    assembly.priors.push_back(prior);
+  }
+  evaluateCycles(list, machine, artefact, assembly, result);
+
+  // What a straight line leaves over along the bar at c = 0.
+  for (const std::string& feature : assembly.features) {
+    LinearityDeviation deviation;
+    deviation.feature = feature;
+    std::map<int, std::pair<double, double>> sums;  // per cycle: sum of u r, sum of u^2 along the bar
+    for (std::size_t r = 0; r < result.problem.rows.size(); ++r) {
+      const Touch& t = list.touches[result.row_touch[r]];
+      if (t.feature != feature || t.c_deg != 0.0 || !result.fit.used[r]) continue;
+      const double u = result.row_normal[r].dot(setup.direction_at_c0);
+      auto& [ur, uu] = sums[result.problem.rows[r].cycle];
+      ur += u * result.fit.residual_mm[r];
+      uu += u * u;
+    }
+    std::vector<double> values;
+    for (const auto& [cycle, sum] : sums) {
+      if (cycle == result.problem.reference_cycle || !(sum.second > 0.5)) continue;
+      const double value = sum.first / sum.second * um_per_mm;
+      values.push_back(value);
+      deviation.sigma_um = result.fit.group_sigma_mm[0] * um_per_mm / std::sqrt(sum.second);
+      if (std::abs(value) > std::abs(deviation.largest_um)) {
+        deviation.largest_um = value;
+        deviation.largest_cycle = result.cycles[static_cast<std::size_t>(cycle)];
+      }
+    }
+    if (values.empty()) continue;
+    deviation.rms_um = rootMeanSquare(values);
+    result.largest_nonlinearity_um = std::max(result.largest_nonlinearity_um, std::abs(deviation.largest_um));
+    result.linearity.push_back(deviation);
+  }
+  return result;
+}
+
+SecondAxisBias secondAxisBias(const HoleCycleResult& result, const TouchList& list) {
+  SecondAxisBias bias;
+  bias.second = result.setup.second;
+  bias.names = result.names;
+  const auto n = static_cast<Eigen::Index>(result.names.size());
+  bias.bias_per_um_per_m.assign(result.names.size(), 0.0);
+  // The fullest cycle after the reference stands for all.
+  int best = -1;
+  for (std::size_t k = 0; k < result.cycles.size(); ++k) {
+    if (static_cast<int>(k) == result.problem.reference_cycle) continue;
+    if (best < 0 ||
+        result.fit.cycles[k].touches_used > result.fit.cycles[static_cast<std::size_t>(best)].touches_used) {
+      best = static_cast<int>(k);
+    }
+  }
+  if (best < 0 || n > 9) return bias;  // alone, or the second axis is a parameter already
+  std::vector<Eigen::Index> rows;
+  for (std::size_t r = 0; r < result.problem.rows.size(); ++r) {
+    if (result.problem.rows[r].cycle == best && result.fit.used[r]) rows.push_back(static_cast<Eigen::Index>(r));
+  }
+  const auto m = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd A(m, n);
+  Eigen::VectorXd y(m);
+  Eigen::VectorXd sigma(m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const auto r = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
+    const Touch& t = list.touches[result.row_touch[r]];
+    for (Eigen::Index p = 0; p < n; ++p) {
+      A(i, p) = result.problem.jacobian(static_cast<Eigen::Index>(r), p) / result.unit[static_cast<std::size_t>(p)];
+    }
+    const Eigen::MatrixXd J = result.setup.deviationJacobian(t.feature, t.c_deg, t.position_mm, true);
+    y(i) = -result.row_normal[r].dot(J.col(9)) / um_per_m_per_unit;
+    sigma(i) = result.fit.group_sigma_mm[static_cast<std::size_t>(result.problem.rows[r].group)];
+  }
+  const LinearFitResult fit = solveLinear(A, y, sigma);
+  if (!fit.usable()) return bias;
+  for (Eigen::Index p = 0; p < n; ++p) bias.bias_per_um_per_m[static_cast<std::size_t>(p)] = fit.x(p);
+  return bias;
+}
+
+}  // namespace spindrift

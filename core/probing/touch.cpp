@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/probing/touch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_set>
+
+#include "core/base/csv.h"
+#include "core/base/text.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double mm_per_inch = 25.4;
+
+std::vector<std::string> distinct(const std::vector<Touch>& touches, std::string Touch::*member) {
+  std::vector<std::string> names;
+  std::unordered_set<std::string> seen;
+  for (const Touch& t : touches) {
+    if (seen.insert(t.*member).second) names.push_back(t.*member);
+  }
+  return names;
+}
+
+template <typename List>
+std::string idsOf(const List& list) {
+  std::vector<std::string> ids;
+  for (const auto& item : list) ids.push_back(item.id);
+  return ids.empty() ? std::string("none is described") : joinedList(ids, "or");
+}
+
+}  // namespace
+
+std::string Touch::label() const {
+  std::string text = fmt::format("{} {}/{} {} at {} deg, touch {}", cycle, artefact, feature, stylus, c_deg, touch);
+  if (line > 0) text += fmt::format(" (line {})", line);
+  return text;
+}
+
+std::vector<std::string> featureNames(const Artefact& artefact) {
+  std::vector<std::string> names;
+  if (artefact.kind == "hole_bar") {
+    for (std::size_t i = 0; i < artefact.nominal_positions_mm.size(); ++i) names.push_back(fmt::format("H{}", i + 1));
+  } else {
+    for (const ArtefactBall& ball : artefact.balls) names.push_back(ball.id);
+  }
+  return names;
+}
+
+TouchList TouchList::read(const std::filesystem::path& file) {
+  const CsvTable table = CsvTable::read(file);
+  TouchList list;
+  list.file = file;
+  const std::size_t time = table.column("time_s");
+  const std::size_t cycle = table.column("cycle");
+  const std::size_t artefact = table.column("artefact");
+  const std::size_t feature = table.column("feature");
+  const std::size_t stylus = table.column("stylus");
+  const std::size_t c_deg = table.column("c_deg");
+  const std::size_t touch = table.column("touch");
+  const std::size_t position[] = {table.column("x_mm"), table.column("y_mm"), table.column("z_mm")};
+  const std::size_t normal[] = {table.column("nx"), table.column("ny"), table.column("nz")};
+  if (table.rowCount() == 0) throw InputError({file, ""}, "holds no touches; allowed: at least one row.");
+  std::map<std::string, double, std::less<>> last_time;
+  std::unordered_set<std::string> keys;
+  list.touches.reserve(table.rowCount());
+  for (std::size_t row = 0; row < table.rowCount(); ++row) {
+    Touch t;
+    t.time_s = table.number(row, time);
+    t.cycle = table.requiredText(row, cycle);
+    t.artefact = table.requiredText(row, artefact);
+    t.feature = table.requiredText(row, feature);
+    t.stylus = table.requiredText(row, stylus);
+    t.c_deg = table.number(row, c_deg);
+    const double number = table.number(row, touch);
+    if (number < 0.0 || number > 1e6 || number != std::floor(number)) {
+      throw InputError(table.place(row, touch),
+                       fmt::format("touch number {} is not allowed; allowed: 0, 1, 2, ...", table.text(row, touch)));
+    }
+    t.touch = static_cast<int>(number);
+    for (int k = 0; k < 3; ++k) {
+      t.position_mm(k) = table.number(row, position[k]);
+      t.approach(k) = table.number(row, normal[k]);
+    }
+    const double length = t.approach.norm();
+    if (length == 0.0) {
+      throw InputError(table.place(row, normal[0]),
+                       "approach direction (0, 0, 0) is not allowed; allowed: a unit vector towards the material.");
+    }
+    if (std::abs(length - 1.0) > 0.01) {
+      throw InputError(table.place(row, normal[0]),
+                       fmt::format("approach direction ({}, {}, {}) has length {:.4g}; allowed: a unit vector.",
+                                   t.approach.x(), t.approach.y(), t.approach.z(), length));
+    }
+    t.approach /= length;
+    const auto [last, first] = last_time.try_emplace(t.artefact, t.time_s);
+    if (!first && t.time_s < last->second) {
+      throw InputError(table.place(row, time),
+                       fmt::format("time of artefact {} runs backwards from {} s to {} s; allowed: touches of an "
+                                   "artefact in order of time.",
+                                   t.artefact, last->second, t.time_s));
+    }
+    if (!first && t.time_s == last->second) {
+      throw InputError(
+          table.place(row, time),
+          fmt::format("time {} s of artefact {} stands twice; allowed: one touch at a time.", t.time_s, t.artefact));
+    }
+    last->second = t.time_s;
+    if (!keys.insert(fmt::format("{}|{}|{}|{}|{}|{}", t.cycle, t.artefact, t.feature, t.stylus, t.c_deg, t.touch))
+             .second) {
+      throw InputError(table.place(row),
+                       fmt::format("touch {} of {} with stylus {} at {} deg stands twice in cycle {}; allowed: every "
+                                   "touch of a cycle once.",
+                                   t.touch, t.feature, t.stylus, t.c_deg, t.cycle));
+    }
+    const std::string& place = table.place(row).place;  // "line 12"
+    const std::size_t digits = place.find_first_of("0123456789");
+    if (digits != std::string::npos) t.line = std::stoul(place.substr(digits));
+    list.touches.push_back(std::move(t));
+  }
+  return list;
+}
+
+void TouchList::checkAgainst(const MachineDescription& machine) const {
+  const auto place = [&](const Touch& t, const char* column) {
+    return SourcePlace{file, t.line > 0 ? fmt::format("line {}, column {}", t.line, column) : std::string()};
+  };
+  double largest = 0.0;
+  double smallest_travel = 0.0;
+  for (const LinearAxis& axis : machine.axes) {
+    smallest_travel = std::max(smallest_travel, std::abs(axis.travel_mm[1] - axis.travel_mm[0]));
+  }
+  for (const Touch& t : touches) {
+    const Artefact* artefact = machine.findArtefact(t.artefact);
+    if (artefact == nullptr) {
+      throw InputError(place(t, "artefact"), fmt::format("artefact \"{}\" is not in the machine file; allowed: {}.",
+                                                         t.artefact, idsOf(machine.artefacts)));
+    }
+    if (machine.findStylus(t.stylus) == nullptr) {
+      throw InputError(place(t, "stylus"),
+                       fmt::format("stylus \"{}\" is not in the machine file, so its radius is unknown; allowed: {}.",
+                                   t.stylus, idsOf(machine.styli)));
+    }
+    const std::vector<std::string> names = featureNames(*artefact);
+    if (std::find(names.begin(), names.end(), t.feature) == names.end()) {
+      throw InputError(place(t, "feature"), fmt::format("feature \"{}\" is not on artefact {}; allowed: {}.", t.feature,
+                                                        t.artefact, joinedList(names, "or")));
+    }
+    largest = std::max(largest, t.position_mm.cwiseAbs().maxCoeff());
+  }
+  if (smallest_travel > 0.0 && largest > 10.0 * smallest_travel && largest < 2000.0 * smallest_travel) {
+    throw InputError({file, ""},
+                     fmt::format("positions reach {:.6g} although the longest travel is {:.6g} mm; allowed: "
+                                 "millimetres (are these micrometres?).",
+                                 largest, smallest_travel));
+  }
+  // Distances between features tell millimetres from inches whatever the zero point is.
+  std::vector<double> ratios;
+  for (const std::string& id : artefacts()) {
+    const Artefact& artefact = *machine.findArtefact(id);
+    const std::vector<std::string> names = featureNames(artefact);
+    std::map<std::string, std::pair<Eigen::Vector3d, int>> centres;
+    const Touch* first = nullptr;
+    for (const Touch& t : touches) {
+      if (t.artefact != id) continue;
+      if (first == nullptr) first = &t;
+      if (t.cycle != first->cycle || t.c_deg != first->c_deg || t.stylus != first->stylus) continue;
+      auto& [sum, count] = centres.try_emplace(t.feature, Eigen::Vector3d::Zero(), 0).first->second;
+      sum += t.position_mm;
+      ++count;
+    }
+    const auto nominal = [&](const std::string& name) -> Eigen::Vector3d {
+      const auto index = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+      if (artefact.kind == "balls") return artefact.balls[index].certified_mm;
+      return artefact.nominal_positions_mm[index] * artefact.direction_at_c0;
+    };
+    for (auto a = centres.begin(); a != centres.end(); ++a) {
+      for (auto b = std::next(a); b != centres.end(); ++b) {
+        const double expected = (nominal(a->first) - nominal(b->first)).norm();
+        const double measured = (a->second.first / a->second.second - b->second.first / b->second.second).norm();
+        if (expected > 0.0) ratios.push_back(measured / expected);
+      }
+    }
+  }
+  if (!ratios.empty()) {
+    std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
+    const double ratio = ratios[ratios.size() / 2];
+    if (std::abs(ratio * mm_per_inch - 1.0) < 0.1) {
+      throw InputError({file, ""},
+                       "distances between features are 25.4 times too small, so positions look like inches; allowed: "
+                       "millimetres.");
+    }
+    if (std::abs(ratio / mm_per_inch - 1.0) < 0.1) {
+      throw InputError({file, ""},
+                       "distances between features are 25.4 times too large: the machine file looks like inches; "
+                       "allowed: millimetres in both files.");
+    }
+  }
+}
+
+std::string TouchList::csv() const {
+  std::string text = "time_s,cycle,artefact,feature,stylus,c_deg,touch,x_mm,y_mm,z_mm,nx,ny,nz\n";
+  for (const Touch& t : touches) {
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", t.time_s, csvField(t.cycle), csvField(t.artefact),
+                        csvField(t.feature), csvField(t.stylus), t.c_deg, t.touch, t.position_mm.x(), t.position_mm.y(),
+                        t.position_mm.z(), t.approach.x(), t.approach.y(), t.approach.z());
+  }
+  return text;
+}
+
+std::vector<std::string> TouchList::cycles() const {
+  return distinct(touches, &Touch::cycle);
+}
+std::vector<std::string> TouchList::artefacts() const {
+  return distinct(touches, &Touch::artefact);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Touches of a touch-trigger probe: captures/touches.csv (FORMATS.md).
+//
+// A touch is the machine position of the stylus centre when the probe triggered, mm in MCF, and the direction in which
+// it approached the material (unit vector). A probe reads true position minus deviation.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/machine/machine_description.h"
+
+namespace spindrift {
+
+struct Touch {
+  double time_s = 0.0;  ///< since the campaign start
+  std::string cycle;    ///< "M0", "M1", ...
+  std::string artefact;
+  std::string feature;  ///< "H1", "B2"
+  std::string stylus;
+  double c_deg = 0.0;  ///< rotation of the table, right-handed about its axis
+  int touch = 0;       ///< number within the feature
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d approach = Eigen::Vector3d::UnitX();  ///< unit, towards the material
+  std::size_t line = 0;                                 ///< line of the file, 0 if not from a file
+
+  /// "M3 H2 at 90 deg, touch 4 (line 118)".
+  [[nodiscard]] std::string label() const;
+};
+
+struct TouchList {
+  std::vector<Touch> touches;
+  std::filesystem::path file;
+
+  /// Reads and checks the list on its own: columns, finite numbers, approach vectors of length one, time that increases
+  /// within an artefact, no touch twice. Throws InputError.
+  [[nodiscard]] static TouchList read(const std::filesystem::path& file);
+  /// Checks against the machine: artefact, feature and stylus are known, positions can be millimetres inside the travel
+  /// (readings in inches are named as such). Throws InputError.
+  void checkAgainst(const MachineDescription& machine) const;
+  /// Text of touches.csv.
+  [[nodiscard]] std::string csv() const;
+
+  /// Cycles in order of first appearance; the first one is the reference state.
+  [[nodiscard]] std::vector<std::string> cycles() const;
+  /// Artefacts in order of first appearance.
+  [[nodiscard]] std::vector<std::string> artefacts() const;
+};
+
+/// Features of an artefact in order: "H1", "H2", ... or the ids of its balls.
+[[nodiscard]] std::vector<std::string> featureNames(const Artefact& artefact);
+
+}  // namespace spindrift
