@@ -49,7 +49,8 @@ class Plant {
 
   void advance(const ProgrammeSegment& now, double room_degC, double duration_s) {
     net_.setTemperature(b_.room, room_degC);
-    setConvection(now);
+    if (&now != convection_of_) setConvection(now);
+    convection_of_ = &now;
     net_.clearHeat();
     if (heated_) setHeat(now);
     net_.advance(duration_s);
@@ -150,7 +151,7 @@ class Plant {
     const LinearAxis* linear = machine_.findAxis(std::string(1, "XYZ"[axis]));
     const double from = linear != nullptr ? linear->travel_mm[0] : 0.0;
     const double to = linear != nullptr ? linear->travel_mm[1] : 400.0;
-    constexpr int count = 20;
+    const int count = std::clamp(static_cast<int>((to - from) / 36.0), 6, 24);
     constexpr double section_m2 = 8.0e-4;  // 32 mm in diameter
     constexpr double perimeter_m = 0.1;
     const double cell_m = (to - from) / 1000.0 / count;
@@ -252,7 +253,7 @@ class Plant {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const RodIndex& screw = b_.screw[axis];
       const double power_W =
-          p_.screw_friction * nutPower_W(now.feed_mm_min[axis], 26.0 * (screw.to_mm - screw.from_mm) / 500.0);
+          p_.screw_friction * nutPower_W(now.feed_mm_min[axis], 12.0 * (screw.to_mm - screw.from_mm) / 500.0);
       net_.addHeat(b_.nut[axis], 0.45 * power_W);
       net_.addHeat(b_.screw_bearing[axis], 0.12 * power_W);
       // The rest enters the screw where the nut travels.
@@ -282,6 +283,7 @@ class Plant {
   ThermalNetwork net_;
   BodyIndex b_;
   std::vector<Surface> surfaces_;
+  const ProgrammeSegment* convection_of_ = nullptr;
 };
 
 }  // namespace

@@ -120,7 +120,7 @@ double ThermalNetwork::flows(const std::vector<double>& temperature, std::vector
 void ThermalNetwork::advance(double duration_s) {
   SPINDRIFT_ASSERT(duration_s >= 0.0, "time does not run backwards");
   if (duration_s == 0.0) return;
-  const double limit_s = 0.5 * stabilityLimit_s();
+  const double limit_s = 0.7 * stabilityLimit_s();
   const int steps = std::max(1, static_cast<int>(std::ceil(duration_s / limit_s)));
   const double h = duration_s / steps;
   double source_W = 0.0;

@@ -5,9 +5,9 @@
 // (W). Some nodes are boundaries whose temperature is prescribed (room, coolant). Temperatures degC, time s. Rods and
 // plates are rows and grids of such volumes.
 //
-// Integrated by Heun's rule with sub-steps below half the stability limit, so the slow part of a warm-up (the part that
-// matters for a machine) is accurate to about 1e-4, and the energy balance closes to rounding.
-// Source: Patankar, Numerical Heat Transfer and Fluid Flow (1980), chapters 3 and 4.
+// Integrated by Heun's rule with sub-steps below 0.7 of the stability limit, so the slow part of a warm-up (the part
+// that matters for a machine) is accurate to about 1e-4, and the energy balance closes to rounding. Source: Patankar,
+// Numerical Heat Transfer and Fluid Flow (1980), chapters 3 and 4.
 #pragma once
 
 #include <cstddef>
