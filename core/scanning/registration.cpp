@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/scanning/registration.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "core/base/text.h"
+#include "core/scanning/pcl_bridge.h"
+#include "core/scanning/registration_solver.h"
+
+namespace spindrift {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::string direction(const Eigen::Vector3d& v) {
+  const Eigen::Vector3d u = v.normalized();
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(u[i]) > 0.98) return std::string(1, "XYZ"[i]);
+  return fmt::format("({:.2f}, {:.2f}, {:.2f})", u.x(), u.y(), u.z());
+}
+
+/// Names the directions that span the free space, shifts first.
+std::vector<std::string> freeDirections(const Matrix6& projector, int count, double length,
+                                        const Eigen::Vector3d& centre) {
+  std::vector<std::string> names;
+  // Pure shifts inside the free space: eigenvalues 1 of the upper left block.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shifts(projector.topLeftCorner<3, 3>());
+  Matrix6 rest = projector;
+  for (int i = 2; i >= 0; --i)
+    if (shifts.eigenvalues()[i] > 0.98) {
+      names.push_back("shift along " + direction(shifts.eigenvectors().col(i)));
+      Vector6 v = Vector6::Zero();
+      v.head<3>() = shifts.eigenvectors().col(i);
+      rest -= v * v.transpose();
+    }
+  const Eigen::SelfAdjointEigenSolver<Matrix6> others(rest);
+  for (int i = 5; i >= 0 && static_cast<int>(names.size()) < count; --i) {
+    if (others.eigenvalues()[i] < 0.5) break;
+    const Eigen::Vector3d shift = others.eigenvectors().col(i).head<3>();
+    const Eigen::Vector3d turn = others.eigenvectors().col(i).tail<3>() / length;
+    const Eigen::Vector3d point = centre + turn.cross(shift) / std::max(turn.squaredNorm(), 1e-30);
+    names.push_back(fmt::format("turn about {} through ({:.1f}, {:.1f}, {:.1f}) mm", direction(turn), point.x(),
+                                point.y(), point.z()));
+  }
+  return names;
+}
+
+void fillTransform(const ScanMotion& motion, const Eigen::Matrix3d& machine_from_profiler, RegistrationResult& result) {
+  result.centroid_mm = motion.centre;
+  result.translation_mm = motion.shift;
+  result.rotation_rad = RigidTransform(motion.rotation, Eigen::Vector3d::Zero()).rotationVector_rad();
+  const Eigen::Matrix3d r = machine_from_profiler.transpose() * motion.rotation * machine_from_profiler;
+  result.target_from_source = RigidTransform(r, motion.centre + motion.to_cloud * motion.shift - r * motion.centre);
+}
+
+/// Translates, mirrors or swaps the axes of a cloud to see what would have fitted.
+PointCloud mirrored(const PointCloud& cloud, int kind) {
+  PointCloud out;
+  out.name = cloud.name;
+  out.points_mm = cloud.points_mm;
+  const Eigen::Vector3d c = cloud.centroid_mm();
+  for (Eigen::Vector3d& p : out.points_mm) {
+    if (kind == 0) p.x() = 2.0 * c.x() - p.x();
+    if (kind == 1) p.y() = 2.0 * c.y() - p.y();
+    if (kind == 2) p.z() = 2.0 * c.z() - p.z();
+    if (kind == 3) {
+      p.x() = 2.0 * c.x() - p.x();
+      p.y() = 2.0 * c.y() - p.y();
+    }
+  }
+  return out;
+}
+
+bool fits(const RegistrationSolver::Outcome& o, const RegistrationTarget& target, const RegistrationOptions& options,
+          double source_noise) {
+  const double noise = std::sqrt(0.5 * (source_noise * source_noise + target.grid().noise_mm * target.grid().noise_mm));
+  // Cells agree within a hundredth of the relief, or within the noise where there is hardly any relief.
+  const double allowed = std::max(0.01 * target.relief_mm(), 6.0 * noise);
+  return o.cells.size() >= 12 && o.inliers >= options.least_inliers && o.median_residual < allowed;
+}
+
+struct Matched {
+  RegistrationSolver::Outcome outcome;
+  double source_noise = 0.0;
+};
+
+/// Start, then search where it does not fit as well as the noise allows.
+RegistrationSolver::Outcome match(const RegistrationSolver& solver, const RegistrationTarget& target,
+                                  const CellGrid& source, const RegistrationOptions& options) {
+  RegistrationSolver::Outcome best = solver.solve(solver.start(), solver.allCells(), options.most_iterations);
+  const double noise =
+      std::sqrt(0.5 * (source.noise_mm * source.noise_mm + target.grid().noise_mm * target.grid().noise_mm));
+  const bool clean = fits(best, target, options, source.noise_mm) && best.scale < 3.0 * noise && best.inliers > 0.8 &&
+                     best.overlap > 0.8;
+  if (clean) return best;
+  const RegistrationSolver::Outcome found = solver.search();
+  if (found.cells.empty()) return best;
+  RegistrationSolver::Outcome refined = solver.solve(found.motion, solver.allCells(), options.most_iterations);
+  const bool best_fits = fits(best, target, options, source.noise_mm);
+  const bool refined_fits = fits(refined, target, options, source.noise_mm);
+  if (refined_fits != best_fits) return refined_fits ? refined : best;
+  return solver.cost(refined) < 0.9 * solver.cost(best) ? refined : best;
+}
+
+}  // namespace
+
+ScanModel scanModelFromString(std::string_view name) {
+  if (name == "rigid") return ScanModel::Rigid;
+  if (name == "push_broom") return ScanModel::PushBroom;
+  throw InputError(fmt::format("Scan model '{}' is not known; allowed: rigid, push_broom.", name));
+}
+
+std::string_view toString(ScanModel model) noexcept {
+  return model == ScanModel::Rigid ? "rigid" : "push_broom";
+}
+
+void RegistrationOptions::validate() const {
+  if (most_iterations < 1) throw InputError("The registration needs at least one iteration.");
+  if (!(tukey_threshold > 2.0)) throw InputError("Tukey's threshold must be above 2 standard deviations.");
+  if (!(search_mm >= 0.0) || !(search_rad >= 0.0)) throw InputError("The range of the search must not be negative.");
+  if (!start_translation_mm.allFinite() || !start_rotation_rad.allFinite())
+    throw InputError("The start must be finite.");
+  if (!(least_inliers >= 0.0 && least_inliers <= 1.0) || !(least_overlap >= 0.0 && least_overlap <= 1.0))
+    throw InputError("The least parts of overlap and agreement must lie between 0 and 1.");
+}
+
+RegistrationTarget::RegistrationTarget(const PointCloud& cloud) : grid_(compressCloud(cloud)), spline_(grid_) {
+  Eigen::Matrix3d n = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d r = Eigen::Vector3d::Zero();
+  double zz = 0.0;
+  for (const SurfaceCell& cell : grid_.cells) {
+    if (cell.count <= 0.0) continue;
+    const Eigen::Vector3d d = cell.mean - grid_.centroid_mm;
+    const Eigen::Vector3d row(1.0, d.x(), d.y());
+    n += cell.count * row * row.transpose();
+    r += cell.count * d.z() * row;
+    zz += cell.count * d.z() * d.z();
+  }
+  const Eigen::Vector3d plane = n.fullPivLu().solve(r);
+  relief_mm_ = std::sqrt(std::max(0.0, zz - plane.dot(r)) / n(0, 0));
+}
+
+RegistrationResult registerToSurface(const PointCloud& source, const RegistrationTarget& target,
+                                     const RegistrationOptions& options) {
+  options.validate();
+  const auto begin = Clock::now();
+  RegistrationResult result;
+  result.scan_model = options.scan_model;
+  result.method = "surface";
+  const CellGrid grid = compressCloud(source);
+  const RegistrationSolver solver(grid, target, options);
+  const RegistrationSolver::Outcome o = match(solver, target, grid, options);
+  fillTransform(o.motion, options.machine_from_profiler, result);
+  result.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
+  result.white_covariance = result.covariance;
+  result.iterations = o.iterations;
+  result.inliers = o.inliers;
+  double seen_points = 0.0, target_points = 0.0, squares = 0.0;
+  for (const CellResidual& c : o.cells) {
+    if (c.robust <= 0.0) continue;
+    const SurfaceCell& cell = grid.cells[c.cell];
+    seen_points += cell.count;
+    squares += cell.count * c.residual * c.residual + (cell.count - 1.0) * std::max(cell.variance, 0.0);
+  }
+  for (const SurfaceCell& cell : target.grid().cells) target_points += cell.count > 0.0 ? 1.0 : 0.0;
+  // Both lattices have their own cell size: compare areas.
+  const double area =
+      static_cast<double>(o.cells.size()) * grid.size.prod() / (target_points * target.grid().size.prod());
+  result.overlap = std::min(1.0, area);
+  result.points_used = static_cast<std::size_t>(seen_points);
+  result.rms_mm = seen_points > 0.0 ? std::sqrt(squares / seen_points) : 0.0;
+  result.elapsed_ms = millisecondsSince(begin);
+
+  const auto reject = [&](FitStatus status, std::string message) {
+    result.status = status;
+    result.message = std::move(message);
+    result.elapsed_ms = millisecondsSince(begin);
+    return result;
+  };
+  if (!fits(o, target, options, grid.noise_mm)) {
+    // Say what it is, if it is something known.
+    constexpr const char* kinds[] = {"mirrored in x", "mirrored in y", "upside down (mirrored in z)",
+                                     "turned by 180 degrees about Z"};
+    for (int kind = 0; kind < 4; ++kind) {
+      const CellGrid other = compressCloud(mirrored(source, kind));
+      const RegistrationSolver try_solver(other, target, options);
+      const RegistrationSolver::Outcome t = match(try_solver, target, other, options);
+      if (fits(t, target, options, other.noise_mm) && t.overlap > 0.6 && t.inliers > 0.8)
+        return reject(
+            FitStatus::Rejected,
+            fmt::format("The scan is {}: that way it fits the reference, as it stands it does not.", kinds[kind]));
+    }
+    if (o.cells.size() < 12) return reject(FitStatus::Rejected, "The scan and the reference have no common region.");
+    return reject(
+        FitStatus::Rejected,
+        fmt::format("The scan does not show the same surface as the reference: after the best fit the heights differ "
+                    "by {:.0f} um "
+                    "({:.0f} % of the cells agree); another artefact, or it has moved by more than {:.1f} mm.",
+                    1e3 * o.median_residual, 100.0 * o.inliers, options.search_mm));
+  }
+  if (result.overlap < options.least_overlap)
+    return reject(FitStatus::Rejected,
+                  fmt::format("The scan covers only {:.0f} % of the reference; at least {:.0f} % are needed.",
+                              100.0 * result.overlap, 100.0 * options.least_overlap));
+  if (!o.converged)
+    return reject(FitStatus::NoConvergence,
+                  fmt::format("The registration did not settle within {} iterations.", options.most_iterations));
+
+  // Inverse on the determined directions, in scaled parameters.
+  Vector6 scale = Vector6::Ones();
+  scale.tail<3>().setConstant(solver.length());
+  const Matrix6 scaled = scale.cwiseInverse().asDiagonal() * o.normal * scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
+  Matrix6 inverse = Matrix6::Zero();
+  for (int i = 0; i < 6; ++i)
+    if (eigen.eigenvalues()[i] > options.degenerate_ratio * eigen.eigenvalues()[5])
+      inverse += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose() / eigen.eigenvalues()[i];
+  inverse = scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal();
+  const RegistrationNoise noise = registrationNoise(o, grid, target.grid(), inverse);
+  result.covariance = noise.covariance;
+  result.white_covariance = noise.white;
+  result.misfit_ratio = noise.misfit_ratio;
+  result.noise_correlation = noise.correlation;
+  result.status = FitStatus::Converged;
+  if (o.free_count > 0) {
+    result.free_directions = freeDirections(o.free, o.free_count, solver.length(), o.motion.centre);
+    for (int i = 0; i < 6; ++i)
+      if (o.free(i, i) > 0.01) {
+        result.covariance.row(i).setZero();
+        result.covariance.col(i).setZero();
+        result.covariance(i, i) = std::numeric_limits<double>::infinity();
+        result.white_covariance(i, i) = std::numeric_limits<double>::infinity();
+      }
+    result.status = FitStatus::Degenerate;
+    result.message = fmt::format("The surface leaves {} free: {}.",
+                                 o.free_count == 1 ? "one direction" : fmt::format("{} directions", o.free_count),
+                                 joinedList(result.free_directions));
+  }
+  result.elapsed_ms = millisecondsSince(begin);
+  return result;
+}
+
+RegistrationResult registerClouds(const PointCloud& source, const PointCloud& target,
+                                  const RegistrationOptions& options) {
+  options.validate();
+  requireUsableCloud(source);
+  requireUsableCloud(target);
+  if (options.method != RegistrationMethod::Surface) return registerWithPcl(source, target, options);
+  const auto begin = Clock::now();
+  RegistrationResult result;
+  try {
+    const RegistrationTarget surface(target);
+    result = registerToSurface(source, surface, options);
+  } catch (const InputError& error) {
+    if (!options.fall_back) throw;
+    result.status = FitStatus::Rejected;
+    result.message = error.what();
+  }
+  if (options.fall_back && result.status == FitStatus::Rejected) {
+    RegistrationOptions other = options;
+    other.method = RegistrationMethod::Gicp;
+    RegistrationResult free_form = registerWithPcl(source, target, other);
+    if (free_form.usable()) {
+      free_form.message =
+          "As a height map the clouds do not fit (" + result.message + "); registered as free-form clouds.";
+      result = std::move(free_form);
+    }
+  }
+  result.elapsed_ms = millisecondsSince(begin);
+  return result;
+}
+
+std::vector<float> deviations_um(const PointCloud& source, const RegistrationTarget& target,
+                                 const RegistrationResult& registration, const RegistrationOptions& options) {
+  Eigen::Matrix3d lever = options.machine_from_profiler;
+  Eigen::Matrix3d m = lever;
+  if (registration.scan_model == ScanModel::PushBroom) {
+    m.col(1) = Eigen::Vector3d::UnitY();
+    lever.col(1).setZero();
+  }
+  const Eigen::Matrix3d rotation =
+      RigidTransform::fromRotationVector(registration.rotation_rad, Eigen::Vector3d::Zero()).rotation();
+  const Eigen::Matrix3d to_cloud = m.inverse();
+  const Eigen::Matrix3d turn = to_cloud * (rotation - Eigen::Matrix3d::Identity()) * lever;
+  const Eigen::Vector3d shift = to_cloud * registration.translation_mm;
+  std::vector<float> out;
+  out.reserve(source.size());
+  HeightSpline::Value h;
+  for (const Eigen::Vector3d& p : source.points_mm) {
+    const Eigen::Vector3d q = p + shift + turn * (p - registration.centroid_mm);
+    out.push_back(target.surface().evaluate(q.x(), q.y(), h) ? static_cast<float>(1e3 * (q.z() - h.z)) : std::nanf(""));
+  }
+  return out;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/scanning/registration_solver.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/math/least_squares.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+namespace {
+
+Eigen::Matrix3d rotationOf(const Eigen::Vector3d& w) {
+  return RigidTransform::fromRotationVector(w, Eigen::Vector3d::Zero()).rotation();
+}
+
+double medianOf(std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+RegistrationSolver::RegistrationSolver(const CellGrid& source, const RegistrationTarget& target,
+                                       const RegistrationOptions& options)
+    : source_(source), target_(target), options_(options) {
+  for (std::size_t k = 0; k < source.cells.size(); ++k)
+    if (source.cells[k].count >= 1.0) filled_.push_back(static_cast<std::uint32_t>(k));
+  const CellGrid& g = target.grid();
+  double sum = 0.0, count = 0.0;
+  for (const SurfaceCell& cell : g.cells)
+    if (cell.count > 0.0) {
+      sum += cell.count * (cell.mean - g.centroid_mm).squaredNorm();
+      count += cell.count;
+    }
+  length_ = std::max(std::sqrt(sum / std::max(count, 1.0)), 1e-3);
+}
+
+ScanMotion RegistrationSolver::start() const {
+  ScanMotion motion;
+  const Eigen::Matrix3d& turn = options_.machine_from_profiler;
+  Eigen::Matrix3d m = turn;
+  motion.lever = turn;
+  if (options_.scan_model == ScanModel::PushBroom) {
+    m.col(1) = Eigen::Vector3d::UnitY();
+    motion.lever.col(1).setZero();
+  }
+  motion.to_cloud = m.inverse();
+  motion.centre = target_.grid().centroid_mm;
+  motion.shift = options_.start_translation_mm;
+  motion.rotation = rotationOf(options_.start_rotation_rad);
+  return motion;
+}
+
+void RegistrationSolver::residuals(const ScanMotion& motion, const std::vector<std::uint32_t>& cells,
+                                   std::vector<CellResidual>& out) const {
+  out.clear();
+  out.reserve(cells.size());
+  const Eigen::Matrix3d turned = motion.to_cloud * (motion.rotation - Eigen::Matrix3d::Identity()) * motion.lever;
+  const Eigen::Matrix3d point = Eigen::Matrix3d::Identity() + turned;
+  const Eigen::Vector3d shift = motion.to_cloud * motion.shift - turned * motion.centre;
+  const Eigen::Matrix3d arm = motion.rotation * motion.lever;
+  const Eigen::Matrix3d normal_to_machine = motion.to_cloud.transpose();
+  const HeightSpline& surface = target_.surface();
+  HeightSpline::Value h;
+  for (const std::uint32_t k : cells) {
+    const SurfaceCell& cell = source_.cells[k];
+    const Eigen::Vector3d p = point * cell.mean + shift;
+    if (!surface.evaluate(p.x(), p.y(), h)) continue;
+    // Second moments after the motion: the points of the cell lie in its plane.
+    const double ax = point(0, 0) + point(0, 2) * cell.slope.x(), ay = point(0, 1) + point(0, 2) * cell.slope.y();
+    const double bx = point(1, 0) + point(1, 2) * cell.slope.x(), by = point(1, 1) + point(1, 2) * cell.slope.y();
+    const double sxx = ax * ax * cell.sxx + 2.0 * ax * ay * cell.sxy + ay * ay * cell.syy;
+    const double sxy = ax * bx * cell.sxx + (ax * by + ay * bx) * cell.sxy + ay * by * cell.syy;
+    const double syy = bx * bx * cell.sxx + 2.0 * bx * by * cell.sxy + by * by * cell.syy;
+    CellResidual r;
+    r.cell = k;
+    r.tx = h.tx;
+    r.ty = h.ty;
+    r.residual = p.z() - (h.z + 0.5 * (h.zxx * sxx + 2.0 * h.zxy * sxy + h.zyy * syy));
+    r.weight = cell.count * h.count / (cell.count + h.count);
+    const Eigen::Vector3d n = normal_to_machine * Eigen::Vector3d(-h.zx, -h.zy, 1.0);
+    const Eigen::Vector3d q = arm * (cell.mean - motion.centre);
+    r.jacobian.head<3>() = n;
+    r.jacobian.tail<3>() = q.cross(n);
+    out.push_back(r);
+  }
+}
+
+RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const std::vector<std::uint32_t>& cells,
+                                                      int iterations) const {
+  Outcome out;
+  Vector6 scale_of = Vector6::Ones();
+  scale_of.tail<3>().setConstant(length_);
+  std::vector<double> values;
+  bool last = false;
+  for (out.iterations = 0;; ++out.iterations) {
+    residuals(motion, cells, out.cells);
+    out.overlap = static_cast<double>(out.cells.size()) / static_cast<double>(std::max<std::size_t>(cells.size(), 1));
+    if (out.cells.size() < 12) break;
+    // Far from the answer the residuals have a common part; it belongs to the height, not to the scale.
+    values.clear();
+    for (const CellResidual& c : out.cells) values.push_back(c.residual * std::sqrt(c.weight));
+    const double middle = last || out.iterations > 3 ? 0.0 : medianOf(values);
+    for (double& v : values) v = std::abs(v - middle);
+    out.scale = std::max(1.4826 * medianOf(values), 1e-9);
+    out.normal.setZero();
+    Vector6 right = Vector6::Zero();
+    double inliers = 0.0;
+    for (CellResidual& c : out.cells) {
+      c.robust = tukeyWeight((c.residual * std::sqrt(c.weight) - middle) / out.scale, options_.tukey_threshold);
+      if (c.robust > 0.0) inliers += 1.0;
+      const double w = c.weight * c.robust;
+      out.normal.noalias() += w * c.jacobian * c.jacobian.transpose();
+      right.noalias() -= w * c.residual * c.jacobian;
+    }
+    out.inliers = inliers / static_cast<double>(out.cells.size());
+    if (last) break;
+    // Solve in scaled parameters; directions that the surface does not determine are left where they are.
+    const Matrix6 scaled = scale_of.cwiseInverse().asDiagonal() * out.normal * scale_of.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
+    Vector6 step = Vector6::Zero();
+    out.free.setZero();
+    out.free_count = 0;
+    const double largest = eigen.eigenvalues()[5];
+    const Vector6 scaled_right = right.cwiseQuotient(scale_of);
+    for (int i = 0; i < 6; ++i) {
+      const Vector6 v = eigen.eigenvectors().col(i);
+      if (eigen.eigenvalues()[i] <= options_.degenerate_ratio * largest) {
+        out.free += v * v.transpose();
+        ++out.free_count;
+      } else {
+        step += v.dot(scaled_right) / eigen.eigenvalues()[i] * v;
+      }
+    }
+    step = step.cwiseQuotient(scale_of);
+    // No step may leave the region in which the linear model means anything.
+    const double size = std::max(step.head<3>().norm() / 2.0, step.tail<3>().norm() / 0.05);
+    if (size > 1.0) step /= size;
+    motion.shift += step.head<3>();
+    motion.rotation = rotationOf(step.tail<3>()) * motion.rotation;
+    const bool settled = step.head<3>().norm() < 2e-8 && step.tail<3>().norm() < 2e-9;
+    if (settled) out.converged = true;
+    if (settled || out.iterations + 1 >= iterations) last = true;
+  }
+  out.motion = motion;
+  out.tukey_threshold = options_.tukey_threshold;
+  values.clear();
+  for (const CellResidual& c : out.cells) values.push_back(std::abs(c.residual));
+  out.median_residual = medianOf(values);
+  return out;
+}
+
+double RegistrationSolver::cost(const Outcome& outcome) const noexcept {
+  // A typical residual, made worse by what does not overlap or does not agree.
+  const double seen = std::max(outcome.overlap, 1e-3);
+  return (outcome.median_residual + 1e-4) / (seen * seen);
+}
+
+RegistrationSolver::Outcome RegistrationSolver::search() const {
+  const std::size_t stride = std::max<std::size_t>(1, filled_.size() / 350);
+  std::vector<std::uint32_t> sample;
+  for (std::size_t k = stride / 2; k < filled_.size(); k += stride) sample.push_back(filled_[k]);
+  struct Candidate {
+    double cost;
+    ScanMotion motion;
+  };
+  std::vector<Candidate> candidates;
+  const ScanMotion base = start();
+  const Eigen::Vector3d apart = base.to_cloud.inverse() * (target_.grid().centroid_mm - source_.centroid_mm);
+  std::vector<Eigen::Vector3d> bases{base.shift};
+  if ((apart.head<2>() - base.shift.head<2>()).norm() > 0.5 * options_.search_mm) bases.push_back(apart);
+  constexpr int half = 2;
+  for (const Eigen::Vector3d& from : bases)
+    for (int ix = -half; ix <= half; ++ix)
+      for (int iy = -half; iy <= half; ++iy)
+        for (int ic = -1; ic <= 1; ++ic) {
+          ScanMotion motion = base;
+          motion.shift = from + options_.search_mm / half * Eigen::Vector3d(ix, iy, 0.0);
+          motion.shift.z() = apart.z();
+          motion.rotation = rotationOf(Eigen::Vector3d(0.0, 0.0, ic * options_.search_rad * 0.75)) * base.rotation;
+          Outcome outcome = solve(motion, sample, 8);
+          candidates.push_back({cost(outcome), outcome.motion});
+        }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  Outcome best;
+  double best_cost = 1e300;
+  for (std::size_t i = 0; i < std::min<std::size_t>(4, candidates.size()); ++i) {
+    Outcome outcome = solve(candidates[i].motion, sample, options_.most_iterations);
+    if (cost(outcome) < best_cost) {
+      best_cost = cost(outcome);
+      best = std::move(outcome);
+    }
+  }
+  return best;
+}
+
+// --- noise -----------------------------------------------------------------------------------------------------------
+
+RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, const CellGrid& source,
+                                    const CellGrid& target, const Matrix6& inverse_normal) {
+  RegistrationNoise noise;
+  // Standardised residuals on the source's lattice.
+  const std::size_t total = source.cells.size();
+  std::vector<float> field(total, std::nanf(""));
+  double sum = 0.0, count = 0.0, phase_x = 0.0, phase_y = 0.0;
+  const double cut = 3.5 * outcome.scale;
+  for (const CellResidual& c : outcome.cells) {
+    const double s = c.residual * std::sqrt(c.weight);
+    if (std::abs(s) > cut) continue;
+    field[c.cell] = static_cast<float>(s);
+    sum += s * s;
+    count += 1.0;
+    phase_x += splineNoiseFactor(c.tx);
+    phase_y += splineNoiseFactor(c.ty);
+  }
+  if (count < 12.0) return noise;
+  // Variance of one cell: what the cut took away and the six parameters are given back.
+  const double variance = sum / std::max(count - 6.0, 1.0) / 0.99387;
+  const double kx = phase_x / count, ky = phase_y / count;
+  // Share of the two scans: the target's noise is smoothed by its spline (factor kx ky), which spreads it without
+  // removing it: in the long run every node counts once.
+  const double a = source.noise_mm * source.noise_mm, b = target.noise_mm * target.noise_mm;
+  const double interpolated = (a + b) / (a + kx * ky * b);
+
+  // Autocovariance over neighbouring cells, less what the spline makes of white noise in the target.
+  constexpr int reach = 2;
+  double measured = 0.0, lags = 0.0, pairs_sum = 0.0;
+  for (int dr = 0; dr <= reach; ++dr)
+    for (int dc = dr == 0 ? 1 : -reach; dc <= reach; ++dc) {
+      double product = 0.0, pairs = 0.0;
+      for (int r = 0; r + dr < source.rows; ++r) {
+        const float* row = field.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(source.columns);
+        const float* other = row + static_cast<std::size_t>(dr) * static_cast<std::size_t>(source.columns);
+        const int from = std::max(0, -dc), to = std::min(source.columns, source.columns - dc);
+        for (int c = from; c < to; ++c) {
+          const float v = row[c] * other[c + dc];
+          if (v == v) {
+            product += v;
+            pairs += 1.0;
+          }
+        }
+      }
+      if (pairs < 8.0) continue;
+      measured += 2.0 * product / pairs;
+      lags += 1.0;
+      pairs_sum += pairs;
+    }
+  double long_run = variance * interpolated;
+  if (lags > 0.0) {
+    const double excess = measured - variance * (interpolated - 1.0);
+    const double error = 2.0 * variance * std::sqrt(lags / (pairs_sum / lags));
+    if (excess > 0.0) long_run += excess * std::max(0.0, 1.0 - std::pow(1.5 * error / excess, 2));
+  }
+  // With weights n_s n_t / (n_s + n_t) white noise alone gives (a + b) / 2.
+  const double white = std::max(0.5 * (a + b), 1e-18);
+  noise.correlation = long_run / white;
+  noise.misfit_ratio = std::sqrt(variance * interpolated / white);
+
+  // Sums of squared scores: rows of cells share the errors of their profiles (height, tilt, position along x).
+  Matrix6 scores = Matrix6::Zero();
+  for (const CellResidual& c : outcome.cells) {
+    const double w = c.weight * c.robust * c.robust;
+    scores.noalias() += w * c.jacobian * c.jacobian.transpose();
+  }
+  // Tukey's loss costs a little efficiency: variance of psi over the squared mean of its slope (Huber 1981).
+  double psi2 = 0.0, slope = 0.0, robust = 0.0, robust2 = 0.0;
+  const double threshold = outcome.tukey_threshold * outcome.scale;
+  for (const CellResidual& c : outcome.cells) {
+    if (c.robust <= 0.0) continue;
+    const double s = c.residual * std::sqrt(c.weight);
+    const double u = s * s / (threshold * threshold);
+    psi2 += s * s * c.robust * c.robust;
+    slope += (1.0 - u) * (1.0 - 5.0 * u);
+    robust += c.robust;
+    robust2 += c.robust * c.robust;
+  }
+  const double efficiency = (psi2 / (slope * slope)) / (variance * robust2 / (robust * robust));
+  Matrix6 middle = long_run * std::clamp(efficiency, 1.0, 1.5) * scores;
+  struct Row {
+    std::array<double, 3> xx{}, xr{};
+    std::array<Vector6, 3> xj{Vector6::Zero(), Vector6::Zero(), Vector6::Zero()};
+    double n = 0.0;
+  };
+  std::vector<Row> rows(static_cast<std::size_t>(source.rows));
+  for (const CellResidual& c : outcome.cells) {
+    if (c.robust <= 0.0) continue;
+    Row& row = rows[c.cell / static_cast<std::uint32_t>(source.columns)];
+    const std::array<double, 3> basis{1.0, source.cells[c.cell].mean.x() - source.centroid_mm.x(), -c.jacobian[0]};
+    const double w = c.weight * c.robust;
+    row.n += 1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      row.xx[i] += w * basis[i] * basis[i];
+      row.xr[i] += w * basis[i] * c.residual;
+      row.xj[i] += w * basis[i] * c.jacobian;
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    double excess = 0.0, expected = 0.0, used = 0.0;
+    for (const Row& row : rows) {
+      if (row.n < 8.0 || row.xx[i] <= 0.0) continue;
+      const double estimate = row.xr[i] / row.xx[i];
+      excess += estimate * estimate;
+      // Across rows the spline smooths the target's part.
+      expected += long_run * (a + ky * b) / (a + b) / row.xx[i];
+      used += 1.0;
+    }
+    if (used < 8.0) continue;
+    const double error = expected / used * std::sqrt(2.0 / used);
+    const double row_variance = (excess - expected) / used;
+    if (row_variance < 2.0 * error) continue;
+    for (const Row& row : rows)
+      if (row.n >= 1.0) middle.noalias() += row_variance * row.xj[i] * row.xj[i].transpose();
+  }
+  noise.covariance = inverse_normal * middle * inverse_normal;
+  noise.white = white * (inverse_normal * scores * inverse_normal);
+  return noise;
+}
+
+}  // namespace spindrift

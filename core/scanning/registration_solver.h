@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inside of registration.h: the iteration over cells and the covariance. Not for use elsewhere.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/scanning/cell_grid.h"
+#include "core/scanning/registration.h"
+
+namespace spindrift {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// The motion of registration.h.
+struct ScanMotion {
+  Eigen::Matrix3d to_cloud = Eigen::Matrix3d::Identity();  ///< M^-1
+  Eigen::Matrix3d lever = Eigen::Matrix3d::Identity();     ///< Q
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();        ///< c
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();         ///< u
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< R
+};
+
+/// One source cell over the target.
+struct CellResidual {
+  std::uint32_t cell = 0;  ///< index in the source's grid
+  float tx = 0.0F, ty = 0.0F;
+  double residual = 0.0;  ///< mm
+  double weight = 0.0;    ///< 1 / (1 / source points + 1 / target points)
+  double robust = 0.0;    ///< Tukey's factor
+  Vector6 jacobian = Vector6::Zero();
+};
+
+/// Gauss-Newton with Tukey's loss over the cells of one source.
+class RegistrationSolver {
+ public:
+  RegistrationSolver(const CellGrid& source, const RegistrationTarget& target, const RegistrationOptions& options);
+
+  /// Residuals and Jacobians of every `stride`-th filled cell (or all) at a motion.
+  void residuals(const ScanMotion& motion, const std::vector<std::uint32_t>& cells,
+                 std::vector<CellResidual>& out) const;
+
+  struct Outcome {
+    ScanMotion motion;
+    Matrix6 normal = Matrix6::Zero();  ///< sum of weight * J J^T
+    double scale = 0.0;                ///< robust standard deviation of residual * sqrt(weight) (mm)
+    double tukey_threshold = 6.0;
+    double overlap = 0.0;
+    double inliers = 0.0;
+    double median_residual = 0.0;  ///< mm
+    int iterations = 0;
+    bool converged = false;
+    Matrix6 free = Matrix6::Zero();  ///< projector on the directions left free (scaled parameters)
+    int free_count = 0;
+    std::vector<CellResidual> cells;
+  };
+  [[nodiscard]] Outcome solve(ScanMotion motion, const std::vector<std::uint32_t>& cells, int iterations) const;
+  /// Starts on a lattice of shifts and turns; the best three are refined. Returns the best.
+  [[nodiscard]] Outcome search() const;
+
+  [[nodiscard]] ScanMotion start() const;
+  [[nodiscard]] const std::vector<std::uint32_t>& allCells() const noexcept { return filled_; }
+  /// Length that makes rotations comparable with shifts (mm).
+  [[nodiscard]] double length() const noexcept { return length_; }
+  /// Smaller is better; combines the residual with the overlap.
+  [[nodiscard]] double cost(const Outcome& outcome) const noexcept;
+
+ private:
+  const CellGrid& source_;
+  const RegistrationTarget& target_;
+  const RegistrationOptions& options_;
+  std::vector<std::uint32_t> filled_;
+  double length_ = 1.0;
+};
+
+/// Covariance of (u, w) from the final residuals; see registration.h.
+struct RegistrationNoise {
+  Matrix6 covariance = Matrix6::Zero();
+  Matrix6 white = Matrix6::Zero();
+  double misfit_ratio = 0.0;
+  double correlation = 1.0;
+};
+[[nodiscard]] RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, const CellGrid& source,
+                                                  const CellGrid& target, const Matrix6& inverse_normal);
+
+}  // namespace spindrift
