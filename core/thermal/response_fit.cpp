@@ -1,0 +1,578 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/thermal/response_fit.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "core/base/text.h"
+#include "core/math/least_squares.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Index;
+
+/// One column of the dictionary.
+struct Feature {
+  int input = 0;  ///< in Dictionary::inputs
+  double tau_s = 0.0;
+  double spread = 0.0;     ///< rms over the training bins, about its mean
+  double reference = 0.0;  ///< mean over the training bins
+};
+
+struct Dictionary {
+  std::vector<ThermalInput> inputs;
+  std::vector<Feature> features;
+  Eigen::MatrixXd X;  ///< bins x features, centred
+  Eigen::VectorXd y;
+  double y_mean = 0.0;
+  double typical_spread = 1.0;         ///< median over the temperatures' features
+  double typical_driven_spread = 1.0;  ///< median over the features of speeds and feeds
+  std::vector<double> time_s;
+  double period_s = 0.0;
+  std::vector<int> block;  ///< block of operation of each bin
+  int blocks = 0;
+};
+
+bool isDriven(SignalKind kind) {
+  return kind == SignalKind::Speed || kind == SignalKind::Feed;
+}
+
+/// Blocks of operation: each begins where a speed or feed leaves zero. Too few or too many: five equal parts.
+void assignBlocks(Dictionary& d, const TimeSeries& series, const std::vector<std::string>& names) {
+  std::vector<double> starts;
+  for (const std::string& name : names) {
+    const Signal& signal = series.at(name);
+    if (!isDriven(signal.kind)) continue;
+    const std::vector<double> u = bridged(series.time_s, signal.values, true);
+    for (std::size_t i = 1; i < u.size(); ++i)
+      if (u[i - 1] == 0.0 && u[i] != 0.0) starts.push_back(series.time_s[i]);
+  }
+  std::sort(starts.begin(), starts.end());
+  const double first = d.time_s.front();
+  const double last = d.time_s.back();
+  const double shortest = 0.06 * (last - first);
+  std::vector<double> borders;
+  for (const double s : starts) {
+    if (s > last - shortest || s < first + shortest) continue;
+    if (borders.empty() || s - borders.back() > shortest) borders.push_back(s);
+  }
+  d.block.assign(d.time_s.size(), 0);
+  if (borders.size() < 2 || borders.size() > 9) {
+    borders.clear();
+    for (int k = 1; k < 5; ++k) borders.push_back(first + (last - first) * k / 5.0);
+  }
+  for (std::size_t i = 0; i < d.time_s.size(); ++i)
+    d.block[i] = static_cast<int>(std::upper_bound(borders.begin(), borders.end(), d.time_s[i]) - borders.begin());
+  d.blocks = static_cast<int>(borders.size()) + 1;
+}
+
+Dictionary buildDictionary(const TimeSeries& series, const std::string& output, const std::vector<std::string>& names,
+                           double from_s, double to_s, const ResponseFitOptions& options) {
+  Dictionary d;
+  const double native = series.medianPeriod_s();
+  const double span = std::min(to_s, series.time_s.back()) - std::max(from_s, series.time_s.front());
+  d.period_s = options.period_s > 0.0 ? options.period_s : std::max(native, span / 1000.0);
+  const BinnedSeries bins = binSeries(series.time_s, d.period_s, from_s, to_s);
+  const std::vector<double> y_all = bins.mean(series.at(output).values);
+  std::vector<Index> used;
+  for (std::size_t b = 0; b < y_all.size(); ++b)
+    if (std::isfinite(y_all[b])) used.push_back(static_cast<Index>(b));
+  d.y.resize(static_cast<Index>(used.size()));
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    d.y[static_cast<Index>(k)] = y_all[used[k]];
+    d.time_s.push_back(bins.time_s[used[k]]);
+  }
+  if (used.empty()) return d;
+  d.y_mean = d.y.mean();
+  std::vector<Eigen::VectorXd> columns;
+  std::vector<double> temperature_spreads;
+  std::vector<double> spreads;
+  std::vector<double> driven_spreads;
+  for (const std::string& name : names) {
+    const Signal& signal = series.at(name);
+    const bool hold = holdsUntilNextRow(signal.kind);
+    const std::vector<double> u = bridged(series.time_s, signal.values, hold);
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    double scale = 0.0;
+    for (std::size_t r = 0; r < u.size(); ++r) {
+      if (series.time_s[r] < from_s || series.time_s[r] >= to_s) continue;
+      low = std::min(low, u[r]);
+      high = std::max(high, u[r]);
+      scale = std::max(scale, std::abs(u[r]));
+    }
+    const std::vector<double> powers = isDriven(signal.kind) ? options.speed_powers : std::vector<double>{1.0};
+    for (const double power : powers) {
+      ThermalInput input{name, signal.kind, power, isDriven(signal.kind) && scale > 0.0 ? scale : 1.0, 0.0, low, high};
+      std::vector<double> f(u.size());
+      for (std::size_t r = 0; r < u.size(); ++r) f[r] = input.transformed(u[r]);
+      for (const double tau : options.taus_s) {
+        const std::vector<double> x = bins.mean(lagFiltered(series.time_s, f, tau, hold));
+        Eigen::VectorXd column(static_cast<Index>(used.size()));
+        for (std::size_t k = 0; k < used.size(); ++k) column[static_cast<Index>(k)] = x[used[k]];
+        Feature feature{static_cast<int>(d.inputs.size()), tau, 0.0, column.mean()};
+        column.array() -= feature.reference;
+        feature.spread = std::sqrt(column.squaredNorm() / static_cast<double>(column.size()));
+        if (feature.spread <= 1e-9) continue;
+        spreads.push_back(feature.spread);
+        if (isDriven(signal.kind)) driven_spreads.push_back(feature.spread);
+        if (signal.kind == SignalKind::Temperature) temperature_spreads.push_back(feature.spread);
+        d.features.push_back(feature);
+        columns.push_back(std::move(column));
+      }
+      d.inputs.push_back(input);
+    }
+  }
+  d.X.resize(d.y.size(), static_cast<Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) d.X.col(static_cast<Index>(k)) = columns[k];
+  if (!temperature_spreads.empty()) {
+    d.typical_spread = median(temperature_spreads);
+  } else if (!spreads.empty()) {
+    d.typical_spread = median(spreads);
+  }
+  if (!driven_spreads.empty()) d.typical_driven_spread = median(driven_spreads);
+  assignBlocks(d, series, names);
+  return d;
+}
+
+/// Rows after removing the drift's correlation: (z_k - phi z_{k-1}), scaled where a gap makes phi smaller. Column 0 is
+/// the offset.
+struct Whitened {
+  Eigen::MatrixXd X;
+  Eigen::VectorXd y;
+  double phi = 0.0;
+};
+
+Whitened whiten(const Dictionary& d, double noise_tau_s) {
+  Whitened w;
+  const Index n = d.y.size();
+  w.phi = std::exp(-d.period_s / noise_tau_s);
+  w.X.resize(n, d.X.cols() + 1);
+  w.y.resize(n);
+  const double base = std::sqrt(1.0 - w.phi * w.phi);
+  w.X(0, 0) = base;
+  w.X.row(0).tail(d.X.cols()) = base * d.X.row(0);
+  w.y[0] = base * (d.y[0] - d.y_mean);
+  for (Index i = 1; i < n; ++i) {
+    const double gap = d.time_s[i] - d.time_s[i - 1];
+    const double phi = std::exp(-gap / noise_tau_s);
+    const double scale = base / std::sqrt(1.0 - phi * phi);
+    w.X(i, 0) = scale * (1.0 - phi);
+    w.X.row(i).tail(d.X.cols()) = scale * (d.X.row(i) - phi * d.X.row(i - 1));
+    w.y[i] = scale * ((d.y[i] - d.y_mean) - phi * (d.y[i - 1] - d.y_mean));
+  }
+  return w;
+}
+
+struct Member {
+  double power = 0.0;  ///< of the speeds; 0 if there are none
+  double strength = 0.0;
+  double slow = 0.0;
+  double left_out = 0.0;  ///< mean squared error of left-out blocks
+  double weight = 0.0;
+};
+
+/// Columns of a member: all features of linear inputs and of speeds with its power.
+std::vector<Index> columnsOf(const Dictionary& d, double power, const std::string& without = {}) {
+  std::vector<Index> columns;
+  for (std::size_t k = 0; k < d.features.size(); ++k) {
+    const ThermalInput& input = d.inputs[d.features[k].input];
+    if (isDriven(input.kind) && input.power != power) continue;
+    if (!without.empty() && input.name == without) continue;
+    columns.push_back(static_cast<Index>(k));
+  }
+  return columns;
+}
+
+Eigen::VectorXd priorPrecision(const Dictionary& d, const std::vector<Index>& columns, const Member& member,
+                               const ResponseFitOptions& options) {
+  // Gains are dealt with per `typical spread` of a temperature; the factor of the period keeps the balance between data
+  // and prior when the same record is binned finer. 90 s and 3000 s are only the units of that balance.
+  Eigen::VectorXd precision(static_cast<Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Feature& f = d.features[columns[k]];
+    const ThermalInput& input = d.inputs[f.input];
+    const double typical = isDriven(input.kind) ? d.typical_driven_spread : d.typical_spread;
+    double spread = std::sqrt(typical / f.spread) / typical;
+    if (isDriven(input.kind)) spread *= options.speed_freedom;
+    spread *= std::pow(std::max(f.tau_s, 600.0) / 3000.0, member.slow);
+    precision[static_cast<Index>(k)] = member.strength * (d.period_s / 90.0) / (spread * spread);
+  }
+  return precision;
+}
+
+struct Gram {
+  Eigen::MatrixXd A;
+  Eigen::VectorXd b;
+};
+
+Gram gramOf(const Whitened& w, const Eigen::VectorXd& weights, const std::vector<int>& block, int which) {
+  const Index p = w.X.cols();
+  Eigen::MatrixXd rows(w.X.rows(), p);
+  Eigen::VectorXd y(w.X.rows());
+  Index count = 0;
+  for (Index i = 0; i < w.X.rows(); ++i) {
+    if (which >= 0 && block[i] != which) continue;
+    const double s = std::sqrt(weights[i]);
+    rows.row(count) = s * w.X.row(i);
+    y[count++] = s * w.y[i];
+  }
+  Gram gram;
+  gram.A = Eigen::MatrixXd::Zero(p, p);
+  gram.A.selfadjointView<Eigen::Lower>().rankUpdate(rows.topRows(count).transpose());
+  gram.A.triangularView<Eigen::StrictlyUpper>() = gram.A.transpose();
+  gram.b = rows.topRows(count).transpose() * y.head(count);
+  return gram;
+}
+
+/// Solves for (offset, gains) of the given columns.
+struct Solution {
+  Eigen::VectorXd w;
+  Eigen::MatrixXd inverse;  ///< of the regularised normal matrix
+};
+
+Solution solve(const Gram& gram, const std::vector<Index>& columns, const Eigen::VectorXd& precision,
+               bool with_inverse) {
+  const Index n = static_cast<Index>(columns.size()) + 1;
+  Eigen::MatrixXd A(n, n);
+  Eigen::VectorXd b(n);
+  const auto at = [&](Index k) { return k == 0 ? Index{0} : columns[k - 1] + 1; };
+  for (Index r = 0; r < n; ++r) {
+    b[r] = gram.b[at(r)];
+    for (Index c = 0; c < n; ++c) A(r, c) = gram.A(at(r), at(c));
+    if (r > 0) A(r, r) += precision[r - 1];
+  }
+  Eigen::LDLT<Eigen::MatrixXd> ldlt(A);
+  Solution s;
+  s.w = ldlt.solve(b);
+  if (with_inverse) s.inverse = ldlt.solve(Eigen::MatrixXd::Identity(n, n));
+  return s;
+}
+
+/// Mean squared free-run error over blocks left out, each predicted from a fit to all others.
+double leftOutError(const Dictionary& d, const std::vector<Gram>& by_block, const Gram& all,
+                    const std::vector<Index>& columns, const Eigen::VectorXd& precision) {
+  double sum = 0.0;
+  Index count = 0;
+  for (int b = 0; b < d.blocks; ++b) {
+    const Gram rest{all.A - by_block[b].A, all.b - by_block[b].b};
+    const Eigen::VectorXd w = solve(rest, columns, precision, false).w;
+    for (Index i = 0; i < d.y.size(); ++i) {
+      if (d.block[i] != b) continue;
+      double e = d.y[i] - d.y_mean - w[0];
+      for (std::size_t k = 0; k < columns.size(); ++k) e -= w[static_cast<Index>(k) + 1] * d.X(i, columns[k]);
+      sum += e * e;
+      ++count;
+    }
+  }
+  return sum / static_cast<double>(std::max<Index>(1, count));
+}
+
+double correlation(std::span<const double> a, std::span<const double> b) {
+  double ma = 0.0;
+  double mb = 0.0;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!std::isfinite(a[i]) || !std::isfinite(b[i])) continue;
+    ma += a[i];
+    mb += b[i];
+    ++n;
+  }
+  if (n < 3) return 0.0;
+  ma /= static_cast<double>(n);
+  mb /= static_cast<double>(n);
+  double aa = 0.0;
+  double bb = 0.0;
+  double ab = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!std::isfinite(a[i]) || !std::isfinite(b[i])) continue;
+    aa += (a[i] - ma) * (a[i] - ma);
+    bb += (b[i] - mb) * (b[i] - mb);
+    ab += (a[i] - ma) * (b[i] - mb);
+  }
+  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
+}
+
+std::vector<double> windowOf(const TimeSeries& series, const Signal& signal, double from_s, double to_s) {
+  std::vector<double> out;
+  for (std::size_t r = 0; r < series.time_s.size(); ++r)
+    if (series.time_s[r] >= from_s && series.time_s[r] < to_s) out.push_back(signal.values[r]);
+  return out;
+}
+
+/// Drops what cannot be used and says why; throws if an input is the output itself.
+std::vector<std::string> usableInputs(const TimeSeries& series, const std::string& output,
+                                      const std::vector<std::string>& names, double from_s, double to_s,
+                                      std::vector<InputVerdict>& verdicts) {
+  const std::vector<double> y = windowOf(series, series.at(output), from_s, to_s);
+  std::vector<std::string> kept;
+  std::vector<std::vector<double>> values;
+  for (const std::string& name : names) {
+    std::vector<double> u = windowOf(series, series.at(name), from_s, to_s);
+    std::vector<double> finite;
+    for (const double v : u)
+      if (std::isfinite(v)) finite.push_back(v);
+    InputVerdict verdict;
+    verdict.name = name;
+    if (name == output || std::abs(correlation(u, y)) > 1.0 - 1e-9) {
+      throw InputError(
+          {series.file, fmt::format("column {}", name)},
+          fmt::format(
+              "it is a copy of the output {}, so a model with it would only repeat the measurement; allowed: inputs "
+              "that are known without measuring the output (temperatures, speeds, feeds, switches).",
+              output));
+    }
+    if (finite.size() < u.size() / 2) {
+      verdict.reason =
+          fmt::format("{} of {} values are missing in the training range", u.size() - finite.size(), u.size());
+    } else if (const auto [low, high] = std::minmax_element(finite.begin(), finite.end());
+               finite.empty() || *high - *low <= 1e-9 * std::max(1.0, std::abs(*high))) {
+      verdict.reason =
+          "constant in the training range: its effect cannot be learnt from these data; train on a range in which it "
+          "changes";
+    } else {
+      for (std::size_t k = 0; k < kept.size() && verdict.reason.empty(); ++k)
+        if (correlation(u, values[k]) > 1.0 - 1e-9)
+          verdict.reason = fmt::format("identical to {}; one of the two is enough", kept[k]);
+    }
+    if (verdict.reason.empty()) {
+      kept.push_back(name);
+      values.push_back(std::move(u));
+    } else {
+      verdicts.push_back(verdict);
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+void ResponseFitOptions::validate() const {
+  if (taus_s.empty() || speed_powers.empty() || strengths.empty() || slow_preferences.empty()) {
+    throw InputError("an option of the response fit is an empty list; allowed: at least one value each.");
+  }
+  if (!(noise_tau_s > 0.0) || !(speed_freedom > 0.0) || period_s < 0.0) {
+    throw InputError("noise time constant, speed freedom and period must be positive (period 0: automatic).");
+  }
+}
+
+std::vector<std::string> automaticInputs(const TimeSeries& series, const std::string& output) {
+  std::vector<std::string> names;
+  for (const Signal& s : series.signals) {
+    const bool eligible = s.kind == SignalKind::Temperature || s.kind == SignalKind::Speed ||
+                          s.kind == SignalKind::Feed || (s.kind == SignalKind::Switch && s.name != "compensation_on");
+    if (eligible && s.name != output) names.push_back(s.name);
+  }
+  return names;
+}
+
+ResponseFitResult fitResponse(const TimeSeries& series, const std::string& output,
+                              const std::vector<std::string>& names, double from_s, double to_s,
+                              const ResponseFitOptions& options, const JobContext& job) {
+  options.validate();
+  ResponseFitResult result;
+  static_cast<void>(series.at(output));
+  if (names.empty()) {
+    throw InputError({series.file, ""},
+                     "there is no temperature, speed, feed or switch to choose inputs from; allowed: --inputs with the "
+                     "names of columns.");
+  }
+  const std::vector<std::string> usable = usableInputs(series, output, names, from_s, to_s, result.verdicts);
+  if (usable.empty()) {
+    throw InputError(
+        {series.file, fmt::format("column {}", names.front())},
+        fmt::format("no input can be used: {}; allowed: at least one input that changes in the training range.",
+                    result.verdicts.empty() ? std::string("none given") : result.verdicts.front().reason));
+  }
+  Dictionary d = buildDictionary(series, output, usable, from_s, to_s, options);
+  result.samples = static_cast<std::size_t>(d.y.size());
+  if (result.samples < options.minimum_samples) {
+    throw InputError(
+        {series.file, fmt::format("column {}", output)},
+        fmt::format(
+            "the training range holds {} samples of the output at a period of {:.6g} s; allowed: at least {} (a longer "
+            "training range, or a shorter --period).",
+            result.samples, d.period_s, options.minimum_samples));
+  }
+  const double spread = std::sqrt((d.y.array() - d.y_mean).square().mean());
+  if (spread <= 1e-12 * std::max(1.0, std::abs(d.y_mean))) {
+    throw InputError(
+        {series.file, fmt::format("column {}", output)},
+        "it is constant in the training range, there is nothing to model; allowed: an output that changes.");
+  }
+  job.throwIfCancelled();
+
+  Whitened w = whiten(d, options.noise_tau_s);
+  const bool has_speed =
+      std::any_of(d.inputs.begin(), d.inputs.end(), [](const ThermalInput& i) { return isDriven(i.kind); });
+  std::vector<Member> members;
+  for (const double power : has_speed ? options.speed_powers : std::vector<double>{0.0})
+    for (const double strength : options.strengths)
+      for (const double slow : options.slow_preferences) members.push_back({power, strength, slow, 0.0, 0.0});
+
+  // Huber weights of the innovations from the middle member, twice.
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(d.y.size());
+  const Member middle = members[members.size() / 2];
+  {
+    const std::vector<Index> columns = columnsOf(d, middle.power);
+    const Eigen::VectorXd precision = priorPrecision(d, columns, middle, options);
+    for (int round = 0; round < 2; ++round) {
+      const Eigen::VectorXd solution = solve(gramOf(w, weights, d.block, -1), columns, precision, false).w;
+      std::vector<double> innovation(d.y.size());
+      for (Index i = 0; i < d.y.size(); ++i) {
+        innovation[i] = w.y[i] - solution[0] * w.X(i, 0);
+        for (std::size_t k = 0; k < columns.size(); ++k)
+          innovation[i] -= solution[static_cast<Index>(k) + 1] * w.X(i, columns[k] + 1);
+      }
+      const double sigma = std::max(robustSigma(innovation), 1e-12 * spread);
+      for (Index i = 0; i < d.y.size(); ++i) weights[i] = huberWeight(innovation[i] / sigma, 3.0);
+    }
+  }
+  const Gram all = gramOf(w, weights, d.block, -1);
+  std::vector<Gram> by_block;
+  for (int b = 0; b < d.blocks; ++b) by_block.push_back(gramOf(w, weights, d.block, b));
+  job.report(0.3, "comparing priors on blocks left out");
+  parallelFor(members.size(), job, [&](std::size_t m) {
+    const std::vector<Index> columns = columnsOf(d, members[m].power);
+    members[m].left_out = leftOutError(d, by_block, all, columns, priorPrecision(d, columns, members[m], options));
+  });
+  double total = 0.0;
+  double best = std::numeric_limits<double>::infinity();
+  for (const Member& m : members) best = std::min(best, m.left_out);
+  for (Member& m : members) {
+    m.weight = std::pow((best + 1e-30) / (m.left_out + 1e-30), 2.0);
+    total += m.weight;
+  }
+  // Average of the members; all columns, zeros where a member has none.
+  const Index p = d.X.cols();
+  Eigen::VectorXd average = Eigen::VectorXd::Zero(p + 1);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(p + 1, p + 1);
+  std::vector<Eigen::VectorXd> solutions;
+  double innovation_variance = 0.0;
+  double left_out = 0.0;
+  for (Member& m : members) {
+    m.weight /= total;
+    const std::vector<Index> columns = columnsOf(d, m.power);
+    const Solution s = solve(all, columns, priorPrecision(d, columns, m, options), true);
+    Eigen::VectorXd full = Eigen::VectorXd::Zero(p + 1);
+    full[0] = s.w[0];
+    for (std::size_t k = 0; k < columns.size(); ++k) full[columns[k] + 1] = s.w[static_cast<Index>(k) + 1];
+    const Eigen::VectorXd e = (w.y - w.X * full).cwiseProduct(weights.cwiseSqrt());
+    const double variance = e.squaredNorm() / std::max(1.0, weights.sum() - 1.0);
+    innovation_variance += m.weight * variance;
+    left_out += m.weight * m.left_out;
+    const auto at = [&](Index k) { return k == 0 ? Index{0} : columns[k - 1] + 1; };
+    for (Index r = 0; r < s.inverse.rows(); ++r)
+      for (Index c = 0; c < s.inverse.cols(); ++c) covariance(at(r), at(c)) += m.weight * variance * s.inverse(r, c);
+    average += m.weight * full;
+    result.speed_power += m.weight * m.power;
+    solutions.push_back(std::move(full));
+  }
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const Eigen::VectorXd difference = solutions[m] - average;
+    covariance.noalias() += members[m].weight * difference * difference.transpose();
+  }
+  if (!average.allFinite()) {
+    result.status = FitStatus::Degenerate;
+    result.message = "the gains could not be determined; give fewer inputs or a longer training range.";
+    return result;
+  }
+  job.report(0.7, "judging the inputs");
+
+  // Reasons: what each input contributes and what is lost without it.
+  const Member* leader = &members.front();
+  for (const Member& m : members)
+    if (m.left_out < leader->left_out) leader = &m;
+  std::vector<InputVerdict> kept(usable.size());
+  parallelFor(usable.size(), job, [&](std::size_t i) {
+    InputVerdict& verdict = kept[i];
+    verdict.name = usable[i];
+    Eigen::VectorXd part = Eigen::VectorXd::Zero(d.y.size());
+    for (std::size_t k = 0; k < d.features.size(); ++k)
+      if (d.inputs[d.features[k].input].name == usable[i])
+        part += average[static_cast<Index>(k) + 1] * d.X.col(static_cast<Index>(k));
+    verdict.contribution_rms = std::sqrt(part.squaredNorm() / static_cast<double>(part.size()));
+    const std::vector<Index> columns = columnsOf(d, leader->power, usable[i]);
+    if (columns.empty()) {
+      verdict.error_without_percent = std::numeric_limits<double>::quiet_NaN();
+    } else {
+      const double without = leftOutError(d, by_block, all, columns, priorPrecision(d, columns, *leader, options));
+      verdict.error_without_percent = 100.0 * (std::sqrt(without / leader->left_out) - 1.0);
+    }
+    verdict.kept = verdict.contribution_rms >= 1e-3 * spread;
+    verdict.reason =
+        !verdict.kept
+            ? fmt::format("its part of the prediction is below 0.1 % of the output ({:.2g})", verdict.contribution_rms)
+        : std::isnan(verdict.error_without_percent)
+            ? fmt::format("the only input; its part of the prediction is {:.2g} rms", verdict.contribution_rms)
+            : fmt::format(
+                  "its part of the prediction is {:.2g} rms; without it the error in blocks left out changes by "
+                  "{:+.0f} %",
+                  verdict.contribution_rms, verdict.error_without_percent);
+  });
+  result.verdicts.insert(result.verdicts.begin(), kept.begin(), kept.end());
+
+  // The averaged model in original units. Each feature has its own reference: fold it into the offset.
+  ThermalModel& model = result.model;
+  model.kind = "response";
+  model.period_s = d.period_s;
+  model.train_from_s = std::max(from_s, series.time_s.front());
+  model.train_to_s = std::min(to_s, series.time_s.back());
+  model.source = series.file.string();
+  ThermalOutput out;
+  out.name = output;
+  out.unit = output.ends_with("_urad") ? "urad" : "um";
+  std::vector<Index> columns;
+  std::vector<int> place(d.inputs.size(), -1);
+  for (Index k = 0; k < p; ++k) {
+    const Feature& f = d.features[k];
+    const auto verdict =
+        std::find_if(kept.begin(), kept.end(), [&](const InputVerdict& v) { return v.name == d.inputs[f.input].name; });
+    if (!verdict->kept) continue;
+    if (place[f.input] < 0) {
+      place[f.input] = static_cast<int>(model.inputs.size());
+      model.inputs.push_back(d.inputs[f.input]);
+      model.inputs.back().reference = f.reference;
+    }
+    columns.push_back(k);
+    out.terms.push_back({place[f.input], f.tau_s, average[k + 1]});
+  }
+  if (columns.empty()) {
+    result.status = FitStatus::Degenerate;
+    result.message = "no input explains anything of the output in the training range; give other inputs.";
+    return result;
+  }
+  // y = y_mean + w0 + sum w_k (x_k - r_k) = offset + sum w_k (x_k - r_input): offset = y_mean + w0 + sum w_k (r_input -
+  // r_k).
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(static_cast<Index>(columns.size()) + 1, p + 1);
+  T(0, 0) = 1.0;
+  out.offset = d.y_mean + average[0];
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const double shift = model.inputs[out.terms[k].input].reference - d.features[columns[k]].reference;
+    out.offset += average[columns[k] + 1] * shift;
+    T(0, columns[k] + 1) = shift;
+    T(static_cast<Index>(k) + 1, columns[k] + 1) = 1.0;
+  }
+  out.covariance = T * covariance * T.transpose();
+  out.noise_sigma = std::sqrt(innovation_variance / (1.0 - w.phi * w.phi));
+  out.noise_tau_s = options.noise_tau_s;
+  // Held-out error over what the model expects of itself on its own training rows.
+  const double expected = innovation_variance / (1.0 - w.phi * w.phi);
+  out.uncertainty_factor = std::clamp(std::sqrt(left_out / std::max(expected, 1e-30)) / 2.0, 1.0, 3.0);
+  result.left_out_rms = std::sqrt(left_out);
+  model.outputs.push_back(std::move(out));
+  result.status = FitStatus::Converged;
+  result.message = fmt::format("{} inputs, {} lags, {} bins of {:.6g} s", model.inputs.size(), columns.size(),
+                               d.y.size(), d.period_s);
+  return result;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// A dynamic thermal model in continuous time: every output is an offset plus a sum of first-order lags of its inputs.
+//
+//   y_o(t) = offset_o + sum_k gain_ok (x_ok(t) - reference_i(k)),   tau_ok dx_ok/dt = f_i(u_i(t)) - x_ok,
+//   f_i(u) = sign(u) |u / scale_i|^power_i
+//
+// This is the modal form of every stable transfer function with real, distinct poles (heat flow has no others). The
+// lags are integrated exactly for inputs that hold or run linearly between rows, at any spacing of the rows, so a pole
+// of hours survives a sampling of milliseconds. tau = 0 is the input itself. At the first row every lag is at rest at
+// the input's value. Units: y in um or urad (the output's unit), u in the unit of the signal, tau s, gain in output
+// unit per unit of f. A model carries the covariance of its coefficients and the range it was trained in; a prediction
+// outside that range is marked and its uncertainty grows.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/thermal/time_series.h"
+
+namespace spindrift {
+
+struct ThermalInput {
+  std::string name;  ///< column of the log; the same column may appear with several powers
+  SignalKind kind = SignalKind::Temperature;
+  double power = 1.0;
+  double scale = 1.0;
+  double reference = 0.0;  ///< of f(u)
+  double train_min = 0.0;  ///< range of u in the training data
+  double train_max = 0.0;
+  [[nodiscard]] double transformed(double u) const noexcept;
+};
+
+struct LagTerm {
+  int input = 0;
+  double tau_s = 0.0;
+  double gain = 0.0;
+};
+
+struct ThermalOutput {
+  std::string name;
+  std::string unit;  ///< "um", "urad"
+  double offset = 0.0;
+  std::vector<LagTerm> terms;
+  Eigen::MatrixXd covariance;       ///< of (offset, gains), size 1 + terms; empty if not known
+  double noise_sigma = 0.0;         ///< stationary standard deviation of what the model leaves in training
+  double noise_tau_s = 0.0;         ///< correlation time of that remainder
+  double uncertainty_factor = 1.0;  ///< held-out error over predicted error in blocks left out, >= 1
+};
+
+/// Response of one output to a unit step of one input (from the train range's middle), with standard uncertainty.
+struct StepResponse {
+  std::string input;
+  std::string unit;
+  double step = 1.0;  ///< size of the step of the input in its own unit, from 0 for speeds
+  std::vector<double> time_s;
+  std::vector<double> value;
+  std::vector<double> sigma;
+  double final_value = 0.0;
+  double final_sigma = 0.0;
+  double time_to_63_percent_s = 0.0;  ///< NaN if the response never stays beyond 63 % of its end
+};
+
+struct ThermalPrediction {
+  std::vector<double> value;
+  std::vector<double> sigma;       ///< one standard uncertainty; empty if the model has no covariance
+  std::vector<char> outside;       ///< 1 where an input is outside the range of training
+  std::vector<std::string> notes;  ///< which inputs, by how much
+};
+
+struct ThermalModel {
+  std::string kind = "lags";  ///< "response", "output_error", "arx", "lags": how it was found
+  std::vector<ThermalInput> inputs;
+  std::vector<ThermalOutput> outputs;
+  double train_from_s = 0.0;
+  double train_to_s = 0.0;
+  double period_s = 0.0;
+  std::string source;  ///< file it was identified from
+
+  [[nodiscard]] const ThermalOutput* findOutput(std::string_view name) const noexcept;
+  /// Free run over a series: no measured output is used. Throws InputError if an input is not in the series.
+  [[nodiscard]] ThermalPrediction predict(const TimeSeries& series, std::size_t output) const;
+  [[nodiscard]] StepResponse stepResponse(std::size_t output, const std::string& input, std::size_t points = 60) const;
+
+  [[nodiscard]] nlohmann::json json() const;
+  /// A `spindrift-thermal-model` document. Throws InputError for anything that is not one: unknown kind, a negative
+  /// time constant, ...
+  [[nodiscard]] static ThermalModel read(const std::filesystem::path& file);
+  [[nodiscard]] static ThermalModel parse(const class JsonNode& root);
+  void write(const std::filesystem::path& file) const;
+};
+
+/// x(t) of one lag over rows of any spacing. `hold`: u keeps its value until the next row, else it runs linearly.
+[[nodiscard]] std::vector<double> lagFiltered(std::span<const double> time_s, std::span<const double> u, double tau_s,
+                                              bool hold);
+
+/// Coefficients of one exact step of a lag: x1 = a x0 + b0 u0 + b1 u1.
+struct LagStep {
+  double a = 0.0;
+  double b0 = 0.0;
+  double b1 = 1.0;
+};
+[[nodiscard]] LagStep lagStep(double dt_s, double tau_s, bool hold) noexcept;
+
+}  // namespace spindrift

@@ -1,0 +1,442 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/thermal/time_series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/base/atomic_file.h"
+#include "core/base/csv.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+struct TimeColumn {
+  std::string_view name;
+  double seconds;
+};
+constexpr TimeColumn time_columns[] = {{"time_s", 1.0},   {"time_min", 60.0}, {"time_h", 3600.0},
+                                       {"time_ms", 1e-3}, {"t_s", 1.0},       {"t_min", 60.0},
+                                       {"t_h", 3600.0},   {"time", 1.0},      {"timestamp", 1.0}};
+
+bool looksMissing(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return lower == "nan" || lower == "na" || lower == "n/a" || lower == "-nan";
+}
+
+std::vector<double> present(std::span<const double> values) {
+  std::vector<double> out;
+  out.reserve(values.size());
+  for (const double v : values)
+    if (std::isfinite(v)) out.push_back(v);
+  return out;
+}
+
+/// Converts and checks the unit of the temperatures; a file cannot say degC and mean kelvin.
+void settleTemperatureUnits(TimeSeries& series, const TimeSeriesOptions& options) {
+  std::vector<Signal*> undeclared;
+  for (Signal& signal : series.signals) {
+    if (signal.kind != SignalKind::Temperature) continue;
+    const std::string unit = !options.temperature_unit.empty() ? options.temperature_unit
+                             : signal.name.ends_with("_K")     ? "K"
+                             : signal.name.ends_with("_degF")  ? "degF"
+                                                               : "degC";
+    if (unit == "degC") {
+      if (options.temperature_unit.empty()) undeclared.push_back(&signal);
+      continue;
+    }
+    for (double& v : signal.values) v = unit == "K" ? v - 273.15 : (v - 32.0) / 1.8;
+    series.notes.push_back(fmt::format("{} was read in {} and converted to degC.", signal.name, unit));
+  }
+  bool all_hot = !undeclared.empty();
+  for (const Signal* signal : undeclared) {
+    const std::vector<double> values = present(signal->values);
+    if (values.empty()) continue;
+    const double middle = median(values);
+    if (middle > 250.0 && middle < 400.0) {
+      throw InputError(
+          {series.file, fmt::format("column {}", signal->name)},
+          fmt::format("its median is {:.1f}, which looks like kelvin although the name says degC; allowed: "
+                      "degC, or rename the column to end in _K, or give --temperature-unit K.",
+                      middle));
+    }
+    if (*std::min_element(values.begin(), values.end()) < 50.0 || middle > 130.0) all_hot = false;
+  }
+  if (all_hot) {
+    throw InputError({series.file, fmt::format("column {}", undeclared.front()->name)},
+                     fmt::format("no temperature of the file is ever below 50 (median here {:.1f}), which looks like "
+                                 "Fahrenheit although the name says degC; allowed: degC, or rename the columns to end "
+                                 "in _degF, or give --temperature-unit degF (or degC if they really are that hot).",
+                                 median(present(undeclared.front()->values))));
+  }
+  // One Fahrenheit sensor among others: its first value, converted, falls among the others.
+  if (undeclared.size() >= 3) {
+    std::vector<double> first;
+    for (const Signal* s : undeclared) {
+      const std::vector<double> values = present(s->values);
+      first.push_back(values.empty() ? missing : values.front());
+    }
+    const double typical = median(present(first));
+    for (std::size_t i = 0; i < undeclared.size(); ++i) {
+      if (first[i] > 55.0 && typical < 40.0 && std::abs((first[i] - 32.0) / 1.8 - typical) < 6.0) {
+        series.notes.push_back(fmt::format(
+            "{} starts at {:.1f} where the others start near {:.1f}: it may be in Fahrenheit; if so, rename "
+            "the column to end in _degF.",
+            undeclared[i]->name, first[i], typical));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view toString(SignalKind kind) noexcept {
+  switch (kind) {
+    case SignalKind::Temperature:
+      return "temperature";
+    case SignalKind::Speed:
+      return "speed";
+    case SignalKind::Feed:
+      return "feed";
+    case SignalKind::Switch:
+      return "switch";
+    case SignalKind::Position:
+      return "position";
+    case SignalKind::Displacement:
+      return "displacement";
+    case SignalKind::Other:
+      return "other";
+  }
+  return "other";
+}
+
+SignalKind signalKind(std::string_view name, std::span<const double> values) {
+  if (name.ends_with("_degC") || name.ends_with("_K") || name.ends_with("_degF")) return SignalKind::Temperature;
+  if (name.ends_with("_um") || name.ends_with("_urad") || name.ends_with("_nm") || name.ends_with("_mrad")) {
+    return SignalKind::Displacement;
+  }
+  if (name.ends_with("_rpm")) return SignalKind::Speed;
+  if (name.ends_with("_mm_min") || name.ends_with("_m_min")) return SignalKind::Feed;
+  if (name.ends_with("_mm") || name.ends_with("_deg")) return SignalKind::Position;
+  if (name == "coolant" || name == "instrument_on" || name == "compensation_on" || name.ends_with("_on")) {
+    return SignalKind::Switch;
+  }
+  bool binary = !values.empty();
+  for (const double v : values)
+    if (std::isfinite(v) && v != 0.0 && v != 1.0) binary = false;
+  return binary && !name.ends_with("_s") ? SignalKind::Switch : SignalKind::Other;
+}
+
+const Signal* TimeSeries::find(std::string_view name) const noexcept {
+  for (const Signal& s : signals)
+    if (s.name == name) return &s;
+  return nullptr;
+}
+
+const Signal& TimeSeries::at(std::string_view name) const {
+  if (const Signal* found = find(name)) return *found;
+  const std::vector<std::string> all = names();
+  throw InputError({file, "header"}, fmt::format("column \"{}\" is missing; found: {}.", name, joinedList(all)));
+}
+
+std::vector<std::string> TimeSeries::names() const {
+  std::vector<std::string> out;
+  for (const Signal& s : signals) out.push_back(s.name);
+  return out;
+}
+
+double TimeSeries::medianPeriod_s() const {
+  if (time_s.size() < 2) return 0.0;
+  std::vector<double> distance(time_s.size() - 1);
+  for (std::size_t i = 0; i + 1 < time_s.size(); ++i) distance[i] = time_s[i + 1] - time_s[i];
+  return median(std::move(distance));
+}
+
+double TimeSeries::valueAt(const Signal& signal, double when) const {
+  SPINDRIFT_ASSERT(!time_s.empty() && signal.values.size() == time_s.size(), "signal and time differ in length");
+  const auto after = std::upper_bound(time_s.begin(), time_s.end(), when);
+  std::ptrdiff_t low = after - time_s.begin() - 1;
+  std::ptrdiff_t high = low + 1;
+  const auto count = static_cast<std::ptrdiff_t>(time_s.size());
+  while (low >= 0 && !std::isfinite(signal.values[low])) --low;
+  while (high < count && !std::isfinite(signal.values[high])) ++high;
+  if (low < 0) return high < count ? signal.values[high] : missing;
+  if (high >= count || holdsUntilNextRow(signal.kind)) return signal.values[low];
+  const double span = time_s[high] - time_s[low];
+  if (span <= 0.0) return signal.values[low];
+  return signal.values[low] + (when - time_s[low]) / span * (signal.values[high] - signal.values[low]);
+}
+
+TimeSeries readTimeSeries(const std::filesystem::path& file, const TimeSeriesOptions& options) {
+  return parseTimeSeries(readFile(file), file, options);
+}
+
+TimeSeries parseTimeSeries(std::string text, const std::filesystem::path& name, const TimeSeriesOptions& options) {
+  if (!options.temperature_unit.empty() && options.temperature_unit != "degC" && options.temperature_unit != "K" &&
+      options.temperature_unit != "degF") {
+    throw InputError(
+        fmt::format("temperature unit \"{}\" is not known; allowed: degC, K, degF.", options.temperature_unit));
+  }
+  const CsvTable table = CsvTable::parse(std::move(text), name);
+  TimeSeries series;
+  series.file = name;
+  std::optional<std::size_t> time_column;
+  double seconds = 1.0;
+  for (const TimeColumn& candidate : time_columns) {
+    if (!time_column && table.hasColumn(candidate.name)) {
+      time_column = table.column(candidate.name);
+      seconds = candidate.seconds;
+    }
+  }
+  if (!time_column) {
+    throw InputError({name, "header"},
+                     fmt::format("there is no time column; allowed: time_s, time_min or time_h; found: {}.",
+                                 joinedList(table.columnNames())));
+  }
+  if (table.rowCount() == 0) throw InputError({name, ""}, "has no rows; allowed: at least two rows of data.");
+  series.time_s.resize(table.rowCount());
+  std::size_t repeated = 0;
+  for (std::size_t row = 0; row < table.rowCount(); ++row) {
+    series.time_s[row] = table.number(row, *time_column) * seconds;
+    if (row == 0) continue;
+    if (series.time_s[row] < series.time_s[row - 1]) {
+      throw InputError(table.place(row, *time_column),
+                       fmt::format("the clock jumps back from {} to {}; allowed: a time that never decreases (cut the "
+                                   "file at the jump, or correct the clock from here on).",
+                                   table.text(row - 1, *time_column), table.text(row, *time_column)));
+    }
+    if (series.time_s[row] == series.time_s[row - 1]) ++repeated;
+  }
+  if (repeated > 0) series.notes.push_back(fmt::format("{} rows repeat the time of the row before.", repeated));
+  for (std::size_t column = 0; column < table.columnNames().size(); ++column) {
+    if (column == *time_column) continue;
+    Signal signal;
+    signal.name = table.columnNames()[column];
+    signal.values.assign(table.rowCount(), missing);
+    std::size_t numbers = 0;
+    std::size_t empty = 0;
+    std::optional<std::size_t> bad;
+    for (std::size_t row = 0; row < table.rowCount(); ++row) {
+      const std::string_view field = table.text(row, column);
+      if (field.empty() || (options.accept_nan_text && looksMissing(field))) {
+        ++empty;
+      } else if (parseNumber(field, signal.values[row])) {
+        ++numbers;
+      } else {
+        signal.values[row] = missing;
+        if (!bad) bad = row;
+      }
+    }
+    if (bad && numbers == 0 && !looksMissing(table.text(*bad, column))) {
+      series.notes.push_back(fmt::format("column {} holds text and was left out.", signal.name));
+      continue;
+    }
+    if (bad) {
+      const bool is_nan = looksMissing(table.text(*bad, column));
+      throw InputError(
+          table.place(*bad, column),
+          fmt::format("\"{}\" is not a number; allowed: a finite number with a decimal point{}.",
+                      table.text(*bad, column), is_nan ? ", or an empty field where the value is missing" : ""));
+    }
+    if (numbers == 0) {
+      series.notes.push_back(fmt::format("column {} is empty and was left out.", signal.name));
+      continue;
+    }
+    if (empty > 0)
+      series.notes.push_back(fmt::format("{} of {} values of {} are missing.", empty, table.rowCount(), signal.name));
+    signal.kind = signalKind(signal.name, signal.values);
+    series.signals.push_back(std::move(signal));
+  }
+  settleTemperatureUnits(series, options);
+  return series;
+}
+
+std::vector<double> bridged(std::span<const double> time_s, std::span<const double> values, bool hold) {
+  std::vector<double> out(values.begin(), values.end());
+  std::ptrdiff_t last = -1;
+  const auto count = static_cast<std::ptrdiff_t>(out.size());
+  for (std::ptrdiff_t i = 0; i <= count; ++i) {
+    if (i < count && !std::isfinite(out[i])) continue;
+    for (std::ptrdiff_t k = last + 1; k < i; ++k) {
+      if (last < 0) {
+        if (i < count) out[k] = out[i];
+      } else if (i >= count || hold || time_s[i] <= time_s[last]) {
+        out[k] = out[last];
+      } else {
+        out[k] = out[last] + (time_s[k] - time_s[last]) / (time_s[i] - time_s[last]) * (out[i] - out[last]);
+      }
+    }
+    last = i;
+  }
+  return out;
+}
+
+SignalQuality signalQuality(const TimeSeries& series, const Signal& signal) {
+  SignalQuality quality;
+  quality.name = signal.name;
+  const std::vector<double> values = present(signal.values);
+  quality.missing = signal.values.size() - values.size();
+  if (values.empty()) return quality;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  quality.minimum = *low;
+  quality.maximum = *high;
+  quality.constant = *high - *low <= 1e-9 * std::max(1.0, std::abs(*high));
+  const double period = series.medianPeriod_s();
+  double last = series.time_s.front();
+  for (std::size_t i = 0; i < signal.values.size(); ++i) {
+    if (!std::isfinite(signal.values[i])) continue;
+    if (series.time_s[i] - last > 1.5 * period)
+      quality.longest_gap_s = std::max(quality.longest_gap_s, series.time_s[i] - last);
+    last = series.time_s[i];
+  }
+  quality.longest_gap_s =
+      std::max(quality.longest_gap_s, series.time_s.back() - last > 1.5 * period ? series.time_s.back() - last : 0.0);
+  if (quality.constant || holdsUntilNextRow(signal.kind) || values.size() < 8) return quality;
+  // Outliers and steps: distance from the medians of the three samples before and after.
+  std::vector<double> jump;
+  for (std::size_t i = 1; i < values.size(); ++i) jump.push_back(values[i] - values[i - 1]);
+  const double sigma = std::max(robustSigma(jump), 1e-12 * (1.0 + std::abs(quality.maximum)));
+  const auto median3 = [&](std::size_t i) { return median({values[i], values[i + 1], values[i + 2]}); };
+  for (std::size_t i = 3; i + 3 < values.size(); ++i) {
+    const double before = median3(i - 3);
+    const double after = median3(i + 1);
+    if (std::abs(values[i] - before) > 6.0 * sigma && std::abs(values[i] - after) > 6.0 * sigma &&
+        std::abs(after - before) < 4.0 * sigma) {
+      ++quality.outliers;
+    } else if (std::abs(values[i] - values[i - 1]) > 8.0 * sigma && std::abs(median3(i) - before) > 6.0 * sigma &&
+               quality.missing == 0 && quality.steps_at_s.size() < 50) {
+      quality.steps_at_s.push_back(series.time_s[i]);
+    }
+  }
+  return quality;
+}
+
+std::vector<double> BinnedSeries::mean(std::span<const double> values) const {
+  std::vector<double> out(rows.size(), missing);
+  for (std::size_t b = 0; b < rows.size(); ++b) {
+    double sum = 0.0;
+    int count = 0;
+    for (int r = rows[b].first; r < rows[b].second; ++r) {
+      if (!std::isfinite(values[r])) continue;
+      sum += values[r];
+      ++count;
+    }
+    if (count > 0) out[b] = sum / count;
+  }
+  return out;
+}
+
+BinnedSeries binSeries(std::span<const double> time_s, double period_s, double from_s, double to_s) {
+  SPINDRIFT_ASSERT(period_s > 0.0, "a bin has a length");
+  BinnedSeries bins;
+  bins.period_s = period_s;
+  const auto begin = std::lower_bound(time_s.begin(), time_s.end(), from_s) - time_s.begin();
+  const auto end = std::lower_bound(time_s.begin(), time_s.end(), to_s) - time_s.begin();
+  if (begin >= end) return bins;
+  // A small shift keeps rows that stand exactly on a border in one bin in spite of rounding.
+  const double origin = time_s[begin] - 1e-6 * period_s;
+  for (auto row = begin; row < end;) {
+    const auto index = static_cast<long>((time_s[row] - origin) / period_s);
+    const double limit = origin + static_cast<double>(index + 1) * period_s;
+    auto last = row;
+    while (last < end && time_s[last] < limit) ++last;
+    if (last == row) ++last;
+    bins.time_s.push_back(origin + (static_cast<double>(index) + 0.5) * period_s);
+    bins.rows.emplace_back(static_cast<int>(row), static_cast<int>(last));
+    row = last;
+  }
+  return bins;
+}
+
+TimeSeries resampled(const TimeSeries& series, double period_s, double longest_bridge_s) {
+  SPINDRIFT_ASSERT(period_s > 0.0 && !series.time_s.empty(), "resampling needs a period and rows");
+  TimeSeries out;
+  out.file = series.file;
+  out.notes = series.notes;
+  const double start = series.time_s.front();
+  const auto count = static_cast<std::size_t>(std::floor((series.time_s.back() - start) / period_s + 1e-9)) + 1;
+  const bool coarser = period_s > 1.5 * series.medianPeriod_s();
+  out.time_s.resize(count);
+  for (std::size_t i = 0; i < count; ++i) out.time_s[i] = start + static_cast<double>(i) * period_s;
+  for (const Signal& signal : series.signals) {
+    Signal target{signal.name, signal.kind, std::vector<double>(count, missing)};
+    std::vector<double> times;
+    std::vector<double> values;
+    for (std::size_t r = 0; r < series.time_s.size(); ++r) {
+      if (!std::isfinite(signal.values[r])) continue;
+      times.push_back(series.time_s[r]);
+      values.push_back(signal.values[r]);
+    }
+    if (times.empty()) continue;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double t = out.time_s[i];
+      while (first < times.size() && times[first] < t - 0.5 * period_s) ++first;
+      double sum = 0.0;
+      std::size_t n = 0;
+      for (std::size_t r = first; coarser && r < times.size() && times[r] < t + 0.5 * period_s; ++r, ++n)
+        sum += values[r];
+      if (n > 0) {
+        target.values[i] = sum / static_cast<double>(n);
+        continue;
+      }
+      const auto next = std::lower_bound(times.begin(), times.end(), t) - times.begin();
+      const auto last = static_cast<std::ptrdiff_t>(times.size());
+      if (next < last && times[next] == t) {
+        target.values[i] = values[next];
+      } else if (next > 0 && next < last &&
+                 times[next] - times[next - 1] <= std::max(longest_bridge_s, 1.5 * series.medianPeriod_s())) {
+        const double w = (t - times[next - 1]) / (times[next] - times[next - 1]);
+        target.values[i] =
+            holdsUntilNextRow(signal.kind) ? values[next - 1] : (1.0 - w) * values[next - 1] + w * values[next];
+      }
+    }
+    out.signals.push_back(std::move(target));
+  }
+  return out;
+}
+
+TimeSeries merged(const TimeSeries& fast, const TimeSeries& sparse, double tolerance_s) {
+  TimeSeries out = fast;
+  for (const Signal& signal : sparse.signals) {
+    if (fast.find(signal.name) != nullptr) {
+      throw InputError({sparse.file, "header"},
+                       fmt::format("column {} is also in {}; allowed: each signal in one file only.", signal.name,
+                                   fast.file.string()));
+    }
+    Signal target{signal.name, signal.kind, std::vector<double>(fast.time_s.size(), missing)};
+    std::size_t lost = 0;
+    for (std::size_t r = 0; r < sparse.time_s.size(); ++r) {
+      if (!std::isfinite(signal.values[r])) continue;
+      const auto next =
+          std::lower_bound(fast.time_s.begin(), fast.time_s.end(), sparse.time_s[r]) - fast.time_s.begin();
+      std::ptrdiff_t best = -1;
+      for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, next - 1);
+           k <= next && k < static_cast<std::ptrdiff_t>(fast.time_s.size()); ++k) {
+        if (best < 0 || std::abs(fast.time_s[k] - sparse.time_s[r]) < std::abs(fast.time_s[best] - sparse.time_s[r]))
+          best = k;
+      }
+      if (best < 0 || std::abs(fast.time_s[best] - sparse.time_s[r]) > tolerance_s) {
+        ++lost;
+      } else {
+        target.values[best] = signal.values[r];
+      }
+    }
+    if (lost > 0) {
+      out.notes.push_back(
+          fmt::format("{} values of {} have no row within {} s and were left out.", lost, signal.name, tolerance_s));
+    }
+    out.signals.push_back(std::move(target));
+  }
+  return out;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/thermal_workflow.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include "core/base/atomic_file.h"
+#include "core/base/json_reader.h"
+#include "core/base/text.h"
+#include "core/math/distributions.h"
+#include "core/math/statistics.h"
+#include "core/thermal/baselines.h"
+
+namespace spindrift {
+namespace {
+
+std::size_t rowsWithin(const TimeSeries& series, const Signal& signal, const TimeRange& range) {
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < series.time_s.size(); ++r)
+    if (series.time_s[r] >= range.from_s && series.time_s[r] < range.to_s && std::isfinite(signal.values[r])) ++count;
+  return count;
+}
+
+ResidualDiagnosis diagnose(const TimeSeries& series, const IdentifyResult& result, const TimeRange& train) {
+  ResidualDiagnosis out;
+  const double span = std::min(train.to_s, series.time_s.back()) - std::max(train.from_s, series.time_s.front());
+  out.period_s = std::max(series.medianPeriod_s(), span / 1000.0);
+  if (result.model.period_s > 0.0) out.period_s = result.model.period_s;
+  const BinnedSeries bins = binSeries(series.time_s, out.period_s, train.from_s, train.to_s);
+  std::vector<double> difference(series.time_s.size());
+  for (std::size_t r = 0; r < difference.size(); ++r) difference[r] = result.measured[r] - result.predicted[r];
+  std::vector<double> e = bridged(bins.time_s, bins.mean(difference), false);
+  const double centre = mean(e);
+  for (double& v : e) v -= centre;
+  const auto n = e.size();
+  const auto autocorrelation = [n](const std::vector<double>& v, std::size_t lag) {
+    double zero = 0.0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) zero += v[i] * v[i];
+    for (std::size_t i = lag; i < n; ++i) sum += v[i] * v[i - lag];
+    return zero > 0.0 ? sum / zero : 0.0;
+  };
+  const std::size_t lags = std::min<std::size_t>(25, n / 4);
+  double q = 0.0;
+  for (std::size_t lag = 0; lag <= lags; ++lag) {
+    out.autocorrelation.push_back(autocorrelation(e, lag));
+    if (lag > 0) q += out.autocorrelation.back() * out.autocorrelation.back() / static_cast<double>(n - lag);
+  }
+  q *= static_cast<double>(n) * (static_cast<double>(n) + 2.0);
+  out.whiteness_p_value = lags > 0 ? chiSquaredTail(q, static_cast<double>(lags)) : 1.0;
+  for (const std::string& name : result.inputs) {
+    const Signal& signal = series.at(name);
+    std::vector<double> u = bins.mean(bridged(series.time_s, signal.values, holdsUntilNextRow(signal.kind)));
+    const double middle = mean(u);
+    double uu = 0.0;
+    double ee = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      u[i] -= middle;
+      uu += u[i] * u[i];
+      ee += e[i] * e[i];
+    }
+    ResidualDiagnosis::Cross cross;
+    cross.input = name;
+    for (std::size_t lag = 0; lag <= lags; ++lag) {
+      double sum = 0.0;
+      for (std::size_t i = lag; i < n; ++i) sum += e[i] * u[i - lag];
+      const double c = uu > 0.0 && ee > 0.0 ? sum / std::sqrt(uu * ee) : 0.0;
+      if (std::abs(c) > cross.largest) {
+        cross.largest = std::abs(c);
+        cross.lag_s = static_cast<double>(lag) * out.period_s;
+      }
+    }
+    // Bartlett: variance of the cross-correlation of unrelated, autocorrelated signals.
+    double sum = 1.0;
+    for (std::size_t lag = 1; lag < n / 4; ++lag) sum += 2.0 * autocorrelation(e, lag) * autocorrelation(u, lag);
+    cross.limit = std::min(1.0, 2.58 * std::sqrt(std::max(1.0, sum) / static_cast<double>(n)));
+    out.cross.push_back(cross);
+  }
+  return out;
+}
+
+}  // namespace
+
+TimeRange TimeRange::parse(const std::string& text, const std::string& option) {
+  TimeRange range;
+  const std::size_t colon = text.find(':');
+  bool good = colon != std::string::npos && parseNumber(trimmed(text.substr(0, colon)), range.from_s);
+  if (good) {
+    const std::string end(trimmed(std::string_view(text).substr(colon + 1)));
+    if (end.empty()) {
+      range.to_s = 1e300;
+    } else {
+      good = parseNumber(end, range.to_s);
+    }
+  }
+  if (!good || range.to_s <= range.from_s) {
+    throw InputError(fmt::format(
+        "{} \"{}\" is not a range; allowed: FROM:TO in seconds with FROM < TO, such as 0:57600.", option, text));
+  }
+  return range;
+}
+
+nlohmann::json RunQuality::json() const {
+  return {{"samples", samples},
+          {"fit_percent", jsonNumber(fit_percent)},
+          {"p2p", jsonNumber(p2p)},
+          {"rmse", jsonNumber(rmse)}};
+}
+
+RunQuality runQuality(std::span<const double> time_s, std::span<const double> measured,
+                      std::span<const double> predicted, const TimeRange& range) {
+  std::vector<double> m;
+  std::vector<double> s;
+  std::vector<double> d;
+  for (std::size_t r = 0; r < time_s.size(); ++r) {
+    if (time_s[r] < range.from_s || time_s[r] >= range.to_s || !std::isfinite(measured[r]) ||
+        !std::isfinite(predicted[r]))
+      continue;
+    m.push_back(measured[r]);
+    s.push_back(predicted[r]);
+    d.push_back(measured[r] - predicted[r]);
+  }
+  if (m.empty()) return {0, std::nan(""), std::nan(""), std::nan("")};
+  return {m.size(), fitPercent(m, s), peakToPeak(d), rootMeanSquare(d)};
+}
+
+IdentifyResult identifyThermalModel(const IdentifyRequest& request, const JobContext& job) {
+  TimeSeriesOptions options;
+  options.temperature_unit = request.temperature_unit;
+  return identifyThermalModel(readTimeSeries(request.log, options), request, job);
+}
+
+IdentifyResult identifyThermalModel(const TimeSeries& series, const IdentifyRequest& request, const JobContext& job) {
+  const auto started = std::chrono::steady_clock::now();
+  IdentifyResult result;
+  result.notes = series.notes;
+  const Signal& output = series.at(request.output);
+  for (const auto& [range, name] : {std::pair{request.train, "--train"}, std::pair{request.test, "--test"}}) {
+    if (rowsWithin(series, output, range) == 0) {
+      throw InputError(
+          {series.file, ""},
+          fmt::format("{} {:.6g}:{:.6g} holds no measured value of {}; the record runs from {:.6g} to {:.6g} s.", name,
+                      range.from_s, range.to_s, request.output, series.time_s.front(), series.time_s.back()));
+    }
+  }
+  if (request.test.from_s < request.train.to_s && request.train.from_s < request.test.to_s) {
+    result.notes.push_back("train and test overlap: the test figures are no evidence for new data.");
+  }
+  const std::vector<std::string> names =
+      request.inputs.empty() ? automaticInputs(series, request.output) : request.inputs;
+  ResponseFitOptions options;
+  options.period_s = request.period_s;
+  ResponseFitResult fit =
+      fitResponse(series, request.output, names, request.train.from_s, request.train.to_s, options, job.part(0.0, 0.8));
+  if (fit.status != FitStatus::Converged) throw InputError({series.file, ""}, fit.message);
+  result.model = std::move(fit.model);
+  result.verdicts = std::move(fit.verdicts);
+  result.left_out_rms = fit.left_out_rms;
+  result.notes.insert(result.notes.end(), fit.notes.begin(), fit.notes.end());
+  for (const ThermalInput& input : result.model.inputs)
+    if (std::find(result.inputs.begin(), result.inputs.end(), input.name) == result.inputs.end())
+      result.inputs.push_back(input.name);
+  ThermalPrediction prediction = result.model.predict(series, 0);
+  result.time_s = series.time_s;
+  result.measured = output.values;
+  result.predicted = std::move(prediction.value);
+  result.sigma = std::move(prediction.sigma);
+  result.outside = std::move(prediction.outside);
+  result.notes.insert(result.notes.end(), prediction.notes.begin(), prediction.notes.end());
+  result.train = runQuality(result.time_s, result.measured, result.predicted, request.train);
+  result.test = runQuality(result.time_s, result.measured, result.predicted, request.test);
+  for (const PlainModel& plain : {noModel(series, request.output, request.train.from_s, request.train.to_s),
+                                  staticRegression(series, request.output, request.train.from_s, request.train.to_s)}) {
+    result.plain.push_back({plain.name, runQuality(result.time_s, result.measured, plain.prediction, request.train),
+                            runQuality(result.time_s, result.measured, plain.prediction, request.test), plain.note});
+    if (result.test.rmse >= result.plain.back().test.rmse) {
+      result.good_enough = false;
+      result.notes.push_back(fmt::format(
+          "in the test range the model (rms {:.3g}) is no better than \"{}\" (rms {:.3g}): do not compensate with it; "
+          "train on a longer or more varied range.",
+          result.test.rmse, plain.name, result.plain.back().test.rmse));
+    }
+  }
+  for (const std::string& name : result.inputs) result.step_responses.push_back(result.model.stepResponse(0, name));
+  result.residual = diagnose(series, result, request.train);
+  result.elapsed_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count();
+  return result;
+}
+
+nlohmann::json IdentifyResult::json() const {
+  nlohmann::json out = {{"model", model.json()},
+                        {"inputs", inputs},
+                        {"train", train.json()},
+                        {"test", test.json()},
+                        {"left_out_rms", jsonNumber(left_out_rms)},
+                        {"elapsed_ms", elapsed_ms},
+                        {"notes", notes}};
+  out["selection"] = nlohmann::json::array();
+  for (const InputVerdict& v : verdicts) {
+    out["selection"].push_back({{"input", v.name},
+                                {"kept", v.kept},
+                                {"reason", v.reason},
+                                {"contribution_rms", jsonNumber(v.contribution_rms)},
+                                {"error_without_percent", jsonNumber(v.error_without_percent)}});
+  }
+  out["plain_models"] = nlohmann::json::array();
+  for (const ModelComparison& p : plain) {
+    out["plain_models"].push_back(
+        {{"name", p.name}, {"train", p.train.json()}, {"test", p.test.json()}, {"note", p.note}});
+  }
+  out["step_response"] = nlohmann::json::array();
+  for (const StepResponse& s : step_responses) {
+    nlohmann::json value = nlohmann::json::array();
+    nlohmann::json uncertainty = nlohmann::json::array();
+    for (std::size_t i = 0; i < s.value.size(); ++i) {
+      value.push_back(jsonNumber(s.value[i]));
+      uncertainty.push_back(jsonNumber(s.sigma[i]));
+    }
+    out["step_response"].push_back({{"input", s.input},
+                                    {"step", s.step},
+                                    {"unit", s.unit},
+                                    {"time_s", s.time_s},
+                                    {"value", value},
+                                    {"standard_uncertainty", uncertainty},
+                                    {"final_value", jsonNumber(s.final_value)},
+                                    {"final_standard_uncertainty", jsonNumber(s.final_sigma)},
+                                    {"time_to_63_percent_s", jsonNumber(s.time_to_63_percent_s)}});
+  }
+  nlohmann::json cross = nlohmann::json::array();
+  for (const auto& c : residual.cross)
+    cross.push_back({{"input", c.input}, {"largest", c.largest}, {"lag_s", c.lag_s}, {"limit_99_percent", c.limit}});
+  out["residual"] = {{"period_s", residual.period_s},
+                     {"autocorrelation", residual.autocorrelation},
+                     {"whiteness_p_value", residual.whiteness_p_value},
+                     {"cross_correlation", cross}};
+  if (!structure.empty()) out["structure"] = structure;
+  const auto marked = static_cast<std::size_t>(std::count(outside.begin(), outside.end(), char{1}));
+  out["outside_training_rows"] = marked;
+  out["good_enough"] = good_enough;
+  return out;
+}
+
+std::string IdentifyResult::summary() const {
+  const std::string unit = model.outputs.front().unit;
+  std::string text = fmt::format("{}: {} model with {} inputs ({})\n", model.outputs.front().name, model.kind,
+                                 inputs.size(), joinedList(inputs));
+  const auto line = [&](const std::string& name, const RunQuality& a, const RunQuality& b) {
+    text += fmt::format("  {:<42} train fit {:7.1f} %  rms {:8.3f}   test fit {:7.1f} %  rms {:8.3f}  p2p {:8.3f} {}\n",
+                        name, a.fit_percent, a.rmse, b.fit_percent, b.rmse, b.p2p, unit);
+  };
+  text += "free run (no measured output is used after training):\n";
+  line("this model", train, test);
+  for (const ModelComparison& p : plain) line(p.name, p.train, p.test);
+  for (const InputVerdict& v : verdicts)
+    text += fmt::format("  {} {}: {}\n", v.kept ? "kept   " : "dropped", v.name, v.reason);
+  const auto marked = static_cast<std::size_t>(std::count(outside.begin(), outside.end(), char{1}));
+  if (marked > 0)
+    text += fmt::format("{} of {} rows lie outside the range of training and are marked\n", marked, outside.size());
+  for (const std::string& n : notes) text += "note: " + n + "\n";
+  return text;
+}
+
+void IdentifyResult::writePrediction(const std::filesystem::path& file) const {
+  std::string text = "time_s,measured,predicted,sigma,outside_training\n";
+  for (std::size_t r = 0; r < time_s.size(); ++r) {
+    text += exactNumber(time_s[r]) + ',';
+    if (std::isfinite(measured[r])) text += exactNumber(measured[r]);
+    text += ',' + exactNumber(predicted[r]) + ',';
+    if (r < sigma.size()) text += exactNumber(sigma[r]);
+    text += r < outside.size() && outside[r] != 0 ? ",1\n" : ",0\n";
+  }
+  writeFileAtomically(file, text);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/thermal/arx.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/math/statistics.h"
+#include "core/thermal/output_error.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::vector<double> randomSteps(Random& random, std::size_t n) {
+  std::vector<double> u(n);
+  double level = 0.0;
+  for (double& v : u) {
+    if (random.uniform() < 0.05) level = random.normal();
+    v = level;
+  }
+  return u;
+}
+
+/// y(k) = 1.4 y(k-1) - 0.45 y(k-2) + 0.3 u(k-1) - 0.1 u(k-2) + e: poles 0.9 and 0.5, gain 0.2 / 0.05.
+std::vector<double> secondOrder(const std::vector<double>& u, Random& random, double equation_noise) {
+  std::vector<double> y(u.size(), 0.0);
+  for (std::size_t k = 2; k < u.size(); ++k)
+    y[k] = 1.4 * y[k - 1] - 0.45 * y[k - 2] + 0.3 * u[k - 1] - 0.1 * u[k - 2] + random.normal(0.0, equation_noise);
+  return y;
+}
+
+TEST(Arx, RecoversAKnownSystemWithinItsIntervalsAsOftenAsStated) {
+  const Eigen::VectorXd truth = (Eigen::VectorXd(4) << -1.4, 0.45, 0.3, -0.1).finished();
+  int inside = 0;
+  int gain_inside = 0;
+  int tau_inside = 0;
+  const int runs = 300;
+  for (int run = 0; run < runs; ++run) {
+    Random random(100 + static_cast<std::uint64_t>(run));
+    const auto u = randomSteps(random, 800);
+    const auto y = secondOrder(u, random, 0.05);
+    const ArxModel m = fitArx(y, {u}, {2, {2}, {1}}, 10.0);
+    ASSERT_EQ(m.status, FitStatus::Converged);
+    const Eigen::VectorXd estimate = (Eigen::VectorXd(4) << m.a[0], m.a[1], m.b[0][0], m.b[0][1]).finished();
+    for (int i = 0; i < 4; ++i) inside += std::abs(estimate[i] - truth[i]) < 1.96 * std::sqrt(m.covariance(i, i));
+    const auto [gain, sigma] = m.staticGain(0);
+    gain_inside += std::abs(gain - 0.2 / 0.05) < 1.96 * sigma;
+    const auto taus = m.timeConstants();
+    if (taus.size() == 2) tau_inside += std::abs(taus[0].value_s + 10.0 / std::log(0.9)) < 1.96 * taus[0].sigma_s;
+  }
+  const RateInterval rate = wilsonInterval(static_cast<std::size_t>(inside), 4 * runs, 3.3);
+  EXPECT_LT(rate.low, 0.95);
+  EXPECT_GT(rate.high, 0.95);
+  EXPECT_GT(gain_inside, runs * 0.90);
+  EXPECT_GT(tau_inside, runs * 0.90);
+}
+
+TEST(Arx, EqualsAQrOfTheFullRegressionForSlowPolesSampledFast) {
+  Random random(3);
+  std::vector<std::vector<double>> inputs;
+  for (int i = 0; i < 3; ++i) inputs.push_back(randomSteps(random, 6000));
+  std::vector<double> y(6000, 0.0);
+  for (std::size_t k = 2; k < y.size(); ++k)
+    y[k] = 1.9982 * y[k - 1] - 0.99820036 * y[k - 2] +
+           1e-4 * (inputs[0][k] + 0.5 * inputs[1][k - 1] - inputs[2][k - 1]) + random.normal(0.0, 1e-3);
+  const ArxModel m = fitArx(y, {inputs[0], inputs[1], inputs[2]}, {2, {2, 2, 2}, {0, 0, 0}}, 1.0);
+  Eigen::MatrixXd Phi(5998, 8);
+  Eigen::VectorXd b(5998);
+  for (Eigen::Index k = 0; k < 5998; ++k) {
+    const auto t = static_cast<std::size_t>(k) + 2;
+    Phi.row(k) << -y[t - 1], -y[t - 2], inputs[0][t], inputs[0][t - 1], inputs[1][t], inputs[1][t - 1], inputs[2][t],
+        inputs[2][t - 1];
+    b[k] = y[t];
+  }
+  const Eigen::VectorXd exact = Phi.householderQr().solve(b);
+  EXPECT_NEAR(m.a[0], exact[0], 1e-8);
+  EXPECT_NEAR(m.a[1], exact[1], 1e-8);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 2; ++j) EXPECT_NEAR(m.b[i][j], exact[2 + 2 * i + j], 1e-8);
+}
+
+TEST(Arx, BiasedByOutputNoiseWhereOutputErrorIsNot) {
+  // Output noise is not the noise ARX assumes: its pole moves towards fast, the gain with it.
+  Random random(8);
+  std::vector<double> time(3000);
+  for (std::size_t k = 0; k < time.size(); ++k) time[k] = 10.0 * static_cast<double>(k);
+  double arx_tau = 0.0;
+  double oe_tau = 0.0;
+  const int runs = 5;
+  for (int run = 0; run < runs; ++run) {
+    const auto u = randomSteps(random, time.size());
+    auto y = lagFiltered(time, u, 600.0, true);
+    for (double& v : y) v = 3.0 * v + random.normal(0.0, 0.2);
+    const ArxModel m = fitArx(y, {u}, {1, {1}, {1}}, 10.0);
+    arx_tau += m.timeConstants().at(0).value_s / runs;
+    OutputErrorInput input{u, 1, true};
+    oe_tau += fitOutputError(time, y, {input}).taus_s[0][0] / runs;
+  }
+  EXPECT_LT(arx_tau, 500.0);
+  EXPECT_NEAR(oe_tau, 600.0, 25.0);
+}
+
+TEST(Arx, SaysWhatIsWrongWithBadInput) {
+  Random random(5);
+  const auto u = randomSteps(random, 500);
+  const auto y = secondOrder(u, random, 0.05);
+  const std::vector<double> constant(500, 1.0);
+  const auto refusal = [&](const std::vector<double>& output, const std::vector<std::vector<double>>& inputs,
+                           int order) {
+    try {
+      std::vector<std::span<const double>> spans(inputs.begin(), inputs.end());
+      static_cast<void>(fitArx(
+          output, spans, {order, std::vector<int>(inputs.size(), order), std::vector<int>(inputs.size(), 1)}, 1.0));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(refusal(y, {constant}, 2), HasSubstr("input 1 is constant"));
+  EXPECT_THAT(refusal(y, {u, y}, 2), HasSubstr("copy of the output"));
+  EXPECT_THAT(refusal(y, {u, u}, 2), HasSubstr("identical"));
+  EXPECT_THAT(refusal(constant, {u}, 2), HasSubstr("output is constant"));
+  EXPECT_THAT(refusal({y.begin(), y.begin() + 50}, {{u.begin(), u.begin() + 50}}, 10),
+              HasSubstr("50 samples are too few"));
+  auto gap = y;
+  gap[100] = std::nan("");
+  EXPECT_THAT(refusal(gap, {u}, 2), HasSubstr("missing values"));
+}
+
+TEST(Arx, AnUnstableFitIsNamedAndCanBeMadeStable) {
+  Random random(6);
+  const auto u = randomSteps(random, 300);
+  std::vector<double> y(300, 0.0);
+  for (std::size_t k = 1; k < y.size(); ++k) y[k] = 1.02 * y[k - 1] + 0.1 * u[k - 1] + random.normal(0.0, 0.01);
+  const ArxModel m = fitArx(y, {u}, {1, {1}, {1}}, 1.0);
+  EXPECT_FALSE(m.stable());
+  EXPECT_THAT(m.message, HasSubstr("unstable"));
+  const ArxModel s = stabilised(m, 0.999);
+  EXPECT_TRUE(s.stable());
+  EXPECT_THAT(s.message, HasSubstr("drawn to"));
+}
+
+TEST(PrintedModel, TheDigitsOfP2DoNotDetermineItsGain) {
+  PrintedModel p2;
+  p2.a = {-0.0130427, 0.0130361, 0.0};
+  p2.b = {1.0, -1.9982716, 0.9982720};
+  p2.last_digit = 1e-7;
+  p2.last_digit_b = 1e-6;
+  const PrintedModelAnalysis r = analysePrintedModel(p2, 30000.0);
+  EXPECT_NEAR(r.gain, -16.5, 0.01);
+  ASSERT_EQ(r.time_constants_s.size(), 2U);
+  EXPECT_NEAR(r.time_constants_s[0], 3640.0, 40.0);
+  EXPECT_NEAR(r.time_constants_s[1], 690.0, 8.0);
+  EXPECT_NEAR(r.step_response.back(), -16.5, 0.1);
+  EXPECT_FALSE(r.determined);
+  EXPECT_THAT(r.warning, HasSubstr("do not determine"));
+}
+
+TEST(Arx, HasAnEquivalentInLags) {
+  Random random(9);
+  const auto u = randomSteps(random, 2000);
+  const auto y = secondOrder(u, random, 1e-4);
+  const ArxModel m = fitArx(y, {u}, {2, {2}, {1}}, 10.0);
+  std::string message;
+  const auto terms = lagsOf(m, message);
+  ASSERT_EQ(terms.size(), 3U) << message;
+  double gain = 0.0;
+  for (const LagTerm& t : terms) gain += t.gain;
+  EXPECT_NEAR(gain, 0.2 / 0.05, 0.02);
+  EXPECT_NEAR(terms[0].tau_s, -10.0 / std::log(0.9), 0.5);
+}
+
+TEST(Arx, OrderIsChosenOnDataTheFitDidNotSee) {
+  Random random(10);
+  const auto u = randomSteps(random, 1500);
+  const auto y = secondOrder(u, random, 0.02);
+  const OrderChoice choice = chooseArxOrder(y, {u}, 1.0);
+  EXPECT_GE(choice.best.na, 1);
+  EXPECT_LE(choice.best.na, 3);
+  EXPECT_EQ(choice.best.nk, 1);
+  EXPECT_GT(choice.tried.size(), 20U);
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/thermal/time_series.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/error.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string refusal(const std::string& text, const TimeSeriesOptions& options = {}) {
+  try {
+    static_cast<void>(parseTimeSeries(text, "log.csv", options));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(TimeSeries, ReadsColumnsOfAnyUnitAndKeepsGapsMissing) {
+  const TimeSeries s = parseTimeSeries(
+      "time_min,T_a_K,spindle_rpm,ez_um,remark\n0,293.15,0,1,start\n1,,100,2,\n3,294.15,100,,end\n", "log.csv");
+  ASSERT_EQ(s.time_s.size(), 3U);
+  EXPECT_DOUBLE_EQ(s.time_s[2], 180.0);
+  EXPECT_NEAR(s.at("T_a_K").values[0], 20.0, 1e-9);
+  EXPECT_TRUE(std::isnan(s.at("T_a_K").values[1]));
+  EXPECT_NEAR(s.valueAt(s.at("T_a_K"), 60.0), 20.0 + 1.0 / 3.0, 1e-9);
+  EXPECT_DOUBLE_EQ(s.valueAt(s.at("spindle_rpm"), 59.0), 0.0);
+  EXPECT_EQ(s.find("remark"), nullptr);
+  EXPECT_THAT(s.notes, ::testing::Contains(HasSubstr("remark")));
+}
+
+TEST(TimeSeries, RefusesWhatCannotBeMeant) {
+  EXPECT_THAT(refusal("time_s,a_um\n0,1\n10,2\n5,3\n"),
+              HasSubstr("line 4, column time_s: the clock jumps back from 10 to 5"));
+  EXPECT_THAT(refusal("time_s,a_um\n0,1\n10,nan\n"), HasSubstr("empty field"));
+  EXPECT_THAT(refusal("time_s,a_um\n0,1\n10,x\n"), HasSubstr("\"x\" is not a number"));
+  EXPECT_THAT(refusal("second,a_um\n0,1\n"), HasSubstr("no time column"));
+  EXPECT_THAT(refusal("time_s,T_a_degC\n0,293\n10,294\n"), HasSubstr("kelvin"));
+  EXPECT_THAT(refusal("time_s,T_a_degC,T_b_degC\n0,70,68\n10,71,69\n"), HasSubstr("Fahrenheit"));
+  TimeSeriesOptions fahrenheit;
+  fahrenheit.temperature_unit = "degF";
+  EXPECT_NEAR(parseTimeSeries("time_s,T_a_degC\n0,68\n", "log.csv", fahrenheit).at("T_a_degC").values[0], 20.0, 1e-9);
+}
+
+TEST(TimeSeries, FindsOutliersStepsAndGaps) {
+  std::string text = "time_s,a_um\n";
+  for (int i = 0; i < 200; ++i) {
+    if (i >= 90 && i < 100) continue;
+    const double value = 0.01 * std::sin(i * 1.7) + (i >= 150 ? 2.0 : 0.0) + (i == 50 ? 3.0 : 0.0);
+    text += fmt::format("{},{}\n", 10 * i, value);
+  }
+  const TimeSeries s = parseTimeSeries(text, "log.csv");
+  const SignalQuality q = signalQuality(s, s.at("a_um"));
+  EXPECT_EQ(q.outliers, 1U);
+  ASSERT_EQ(q.steps_at_s.size(), 1U);
+  EXPECT_DOUBLE_EQ(q.steps_at_s[0], 1500.0);
+  EXPECT_DOUBLE_EQ(q.longest_gap_s, 110.0);
+}
+
+TEST(TimeSeries, AveragingKeepsSlowAndRemovesFastContent) {
+  std::string text = "time_s,a_um\n";
+  // 0.3 um at a period of 7 s would alias to slow waves if every sixtieth sample were simply picked.
+  for (int i = 0; i < 6000; ++i) text += fmt::format("{},{}\n", i, 0.001 * i + 0.3 * std::sin(2.0 * M_PI * i / 7.0));
+  const TimeSeries s = parseTimeSeries(text, "log.csv");
+  const TimeSeries slow = resampled(s, 60.0, 0.0);
+  double worst = 0.0;
+  for (std::size_t i = 1; i + 1 < slow.time_s.size(); ++i)
+    worst = std::max(worst, std::abs(slow.signals[0].values[i] - 0.001 * (slow.time_s[i] - 0.5)));
+  EXPECT_LT(worst, 0.012);
+}
+
+TEST(TimeSeries, MergesSparseResultsAtTheNearestRow) {
+  const TimeSeries fast = parseTimeSeries("time_s,T_a_degC\n0,20\n10,21\n20,22\n", "fast.csv");
+  const TimeSeries sparse = parseTimeSeries("time_s,ez_um\n11,5\n500,6\n", "probe.csv");
+  const TimeSeries both = merged(fast, sparse, 4.0);
+  EXPECT_DOUBLE_EQ(both.at("ez_um").values[1], 5.0);
+  EXPECT_TRUE(std::isnan(both.at("ez_um").values[0]));
+  EXPECT_THAT(both.notes, ::testing::Contains(HasSubstr("1 values of ez_um")));
+  EXPECT_THROW(static_cast<void>(merged(fast, fast, 1.0)), InputError);
+}
+
+}  // namespace
+}  // namespace spindrift
