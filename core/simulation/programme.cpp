@@ -62,6 +62,7 @@ Programme randomProgramme(const MachineDescription& machine, const RandomProgram
     const LinearAxis* a = machine.findAxis(std::string(1, "XYZ"[axis]));
     if (a != nullptr) first.position_mm[static_cast<std::size_t>(axis)] = 0.5 * (a->travel_mm[0] + a->travel_mm[1]);
   }
+  first.stroke_part.fill(options.stroke_part);
   first.instrument_on = options.instrument_on_s <= 0.0;
   const auto draw = [&](int signal, const std::vector<double>& values, double start) {
     Random random = root.split();

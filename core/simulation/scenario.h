@@ -5,7 +5,7 @@
 //    "duration_s":43200,"log_period_s":30,
 //    "machine":{...machine.json...} or "machine.json" (relative to the scenario),
 //    "programme":{"random":{"idle_s","mean_hold_s","speeds_rpm":[],"feeds_mm_min":[],"c_speeds_rpm":[],"coolant","move",
-//                           "instrument_on_s"}}
+//                           "stroke_part","instrument_on_s"}}
 //             or {"segments":[{"from_s","spindle_rpm","feed_x_mm_min",..,"pos_x_mm",..,"stroke_x",..,"c_rpm","coolant",
 //                              "instrument_on"}]} (a key that is left out keeps its value),
 //    "environment":{"temperature_degC","day_amplitude_K","day_phase_h","ramp_K_per_h","weather_K","weather_hours",
