@@ -1,10 +1,169 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/scanning/evaluate_scans.h"
 
-namespace spindrift {
+#include <fmt/format.h>
 
-InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& /*scan_model*/, JobContext& /*job*/) {
-  throw InputError({campaign.folder, ""}, "these captures cannot be evaluated by this version.");
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/base/json_reader.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/scanning/calibration_report.h"
+#include "core/scanning/scan_evaluation.h"
+
+namespace spindrift {
+namespace {
+
+double unitFactor(Component k) {
+  return isRotation(k) ? urad_per_rad : um_per_mm;
+}
+
+/// Covariance of (u, w) of a scan with the noise that it shares with the others of its artefact: the reference scan's
+/// own noise (half of the covariance of the registration of two alike scans) and the calibration.
+struct ScanCovariance {
+  Eigen::Matrix<double, 6, 6> own;
+  Eigen::Matrix<double, 6, 3> turn;
+};
+
+nlohmann::json scanJson(const ScanResult& s) {
+  nlohmann::json parameters = nlohmann::json::object();
+  nlohmann::json at_artefact = nlohmann::json::object();
+  nlohmann::json not_observed = nlohmann::json::array();
+  for (const Component k : all_components) {
+    const int i = static_cast<int>(k);
+    const double f = unitFactor(k);
+    const bool known = s.axis.determined(i);
+    parameters[fmt::format("{}Y_{}", toString(k), unitOf(k))] = {
+        {"value", known ? nlohmann::json(valueOf(s.axis.error, k)) : nlohmann::json(nullptr)},
+        {"standard_uncertainty", known ? jsonNumber(f * std::sqrt(s.axis.covariance(i, i))) : nlohmann::json(nullptr)}};
+    const bool seen = std::isfinite(s.registration.covariance(i, i));
+    const SmallError near{s.registration.translation_mm, s.registration.rotation_rad};
+    at_artefact[fmt::format("{}_{}", toString(k), unitOf(k))] = {
+        {"value", seen ? nlohmann::json(valueOf(near, k)) : nlohmann::json(nullptr)},
+        {"standard_uncertainty",
+         seen ? jsonNumber(f * s.registration.standardUncertainty(i)) : nlohmann::json(nullptr)}};
+  }
+  for (const auto& [k, reason] : s.not_observed)
+    not_observed.push_back({{"component", toString(k)}, {"reason", reason}});
+  return {{"cycle", s.capture.cycle},
+          {"artefact", s.capture.artefact},
+          {"time_s", s.capture.time_s},
+          {"y_mm", s.capture.y_mm},
+          {"reference", s.reference},
+          {"parameters", parameters},
+          {"at_artefact", at_artefact},
+          {"not_observed", not_observed},
+          {"rms_um", jsonNumber(um_per_mm * s.registration.rms_mm)},
+          {"misfit_ratio", jsonNumber(s.registration.misfit_ratio)},
+          {"overlap", jsonNumber(s.registration.overlap)},
+          {"points_used", s.registration.points_used},
+          {"elapsed_ms", s.registration.elapsed_ms}};
+}
+
+}  // namespace
+
+InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& scan_model, JobContext& job) {
+  const ScanEvaluation evaluation = evaluateScanCampaign(campaign, scan_model, job);
+  InstrumentEvaluation out;
+  out.instrument = "profiler";
+  out.rejected = evaluation.rejected;
+  out.warnings = evaluation.warnings;
+  const Eigen::Matrix3d angles = evaluation.mounting.calibration.covariance.topLeftCorner<3, 3>();
+
+  // Noise of the reference scan of every artefact: half of the smallest covariance of its registrations.
+  std::map<std::string, Eigen::Matrix<double, 6, 6>> reference;
+  for (const ScanResult& s : evaluation.scans) {
+    Eigen::Matrix<double, 6, 6> half = 0.5 * s.registration.covariance;
+    for (int i = 0; i < 6; ++i)
+      if (!std::isfinite(half(i, i))) half(i, i) = 0.0;
+    auto [at, fresh] = reference.try_emplace(s.capture.artefact, half);
+    if (!fresh && half.trace() > 0.0 &&
+        (half.topLeftCorner<3, 3>().trace() < at->second.topLeftCorner<3, 3>().trace() || at->second.trace() == 0.0))
+      at->second = half;
+  }
+  struct Row {
+    std::size_t scan;
+    int component;
+  };
+  std::vector<Row> rows;
+  std::vector<ScanCovariance> covariances;
+  std::set<std::string> placed_by_scan;
+  nlohmann::json cycles = nlohmann::json::array();
+  double worst = 0.0;
+  for (std::size_t n = 0; n < evaluation.scans.size(); ++n) {
+    const ScanResult& s = evaluation.scans[n];
+    const Eigen::Matrix<double, 6, 6>& common = reference.at(s.capture.artefact);
+    ScanCovariance c;
+    c.own = s.registration.covariance;
+    if (s.reference) c.own = 2.0 * common;
+    c.turn = calibrationSensitivity(s.registration, evaluation.mounting.calibration);
+    const Eigen::Matrix<double, 6, 6> calibration = c.turn * angles * c.turn.transpose();
+    for (const Component k : all_components) {
+      const int i = static_cast<int>(k);
+      if (!std::isfinite(s.registration.covariance(i, i))) continue;
+      Observation o;
+      o.time_s = s.capture.time_s;
+      o.state = s.capture.cycle;
+      o.point = s.capture.artefact;
+      o.component = k;
+      if (const MachinePoint* point = campaign.machine.findPoint(s.capture.artefact)) {
+        o.position_mm = point->position_mm;
+      } else {
+        o.position_mm = Eigen::Vector3d(0.0, s.capture.y_mm + s.registration.centroid_mm.y(), 0.0);
+        placed_by_scan.insert(s.capture.artefact);
+      }
+      o.value = valueOf(SmallError{s.registration.translation_mm, s.registration.rotation_rad}, k);
+      o.sigma = unitFactor(k) * std::sqrt(c.own(i, i) + calibration(i, i));
+      if (!(o.sigma > 0.0)) o.sigma = isRotation(k) ? 0.01 : 1e-4;
+      if (!s.reference) worst = std::max(worst, isRotation(k) ? 0.0 : o.sigma);
+      o.instrument = "profiler";
+      out.observations.rows.push_back(o);
+      rows.push_back({n, i});
+    }
+    covariances.push_back(c);
+    cycles.push_back(scanJson(s));
+  }
+  // Beyond the diagonal: within a scan its registration, between scans of an artefact the reference and the
+  // calibration.
+  for (std::size_t a = 0; a < rows.size(); ++a) {
+    const ScanResult& sa = evaluation.scans[rows[a].scan];
+    const int i = rows[a].component;
+    const double fa = unitFactor(static_cast<Component>(i));
+    for (std::size_t b = a + 1; b < rows.size(); ++b) {
+      const ScanResult& sb = evaluation.scans[rows[b].scan];
+      const int j = rows[b].component;
+      double covariance =
+          covariances[rows[a].scan].turn.row(i) * angles * covariances[rows[b].scan].turn.row(j).transpose();
+      if (rows[a].scan == rows[b].scan)
+        covariance += covariances[rows[a].scan].own(i, j);
+      else if (sa.capture.artefact == sb.capture.artefact)
+        covariance += reference.at(sa.capture.artefact)(i, j);
+      covariance *= fa * unitFactor(static_cast<Component>(j));
+      const double limit = out.observations.rows[a].sigma * out.observations.rows[b].sigma;
+      if (std::abs(covariance) > 1e-3 * limit) out.observations.covariance.push_back({a, b, covariance});
+    }
+  }
+  if (!placed_by_scan.empty())
+    out.warnings.push_back(
+        fmt::format("machine.json has no point for {}: the position is taken from the scan, x and z as 0.",
+                    joinedList(std::vector<std::string>(placed_by_scan.begin(), placed_by_scan.end()))));
+  out.details["cycles"] = cycles;
+  out.details["scan_model"] = toString(evaluation.scan_model);
+  out.details["calibration"] = calibrationJson(evaluation.mounting.calibration);
+  std::size_t compared = 0;
+  for (const ScanResult& s : evaluation.scans) compared += s.reference ? 0U : 1U;
+  out.summary = fmt::format("Profiler ({}): {} scans of {} artefacts compared with their first, {} rejected\n",
+                            toString(evaluation.scan_model), compared, reference.size(), out.rejected.size());
+  if (compared == 0) {
+    out.good_enough = false;
+    out.warnings.push_back(
+        "No scan could be compared with a reference: at least two usable scans of one artefact are needed.");
+  } else {
+    out.summary += fmt::format("largest standard uncertainty of a displacement at an artefact {:.3g} um\n", worst);
+  }
+  return out;
 }
 
 }  // namespace spindrift

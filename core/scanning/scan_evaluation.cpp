@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/scanning/scan_evaluation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+
+#include "core/base/csv.h"
+#include "core/base/units.h"
+#include "core/scanning/cloud_file.h"
+
+namespace spindrift {
+namespace {
+
+/// A rotation known worse than this carries no information about the machine (rad).
+constexpr double blind_rotation_rad = 100e-6;
+constexpr double blind_shift_mm = 0.1;
+
+struct Extent {
+  Eigen::Vector2d size = Eigen::Vector2d::Zero();
+};
+
+Extent extentOf(const CellGrid& grid) {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = -low;
+  for (const SurfaceCell& c : grid.cells)
+    if (c.count > 0.0) {
+      low = low.cwiseMin(c.mean.head<2>());
+      high = high.cwiseMax(c.mean.head<2>());
+    }
+  return {high - low};
+}
+
+/// Two separate surfaces in one cloud: an empty strip across it with much on either side.
+std::optional<std::string> twoSurfaces(const CellGrid& grid) {
+  for (const bool along_y : {true, false}) {
+    const int lines = along_y ? grid.rows : grid.columns;
+    std::vector<double> filled(static_cast<std::size_t>(lines), 0.0);
+    double total = 0.0;
+    for (int r = 0; r < grid.rows; ++r)
+      for (int c = 0; c < grid.columns; ++c)
+        if (grid.at(c, r).count > 0.0) {
+          filled[static_cast<std::size_t>(along_y ? r : c)] += 1.0;
+          total += 1.0;
+        }
+    const double cell = along_y ? grid.size.y() : grid.size.x();
+    double before = 0.0;
+    int empty = 0;
+    for (int i = 0; i < lines; ++i) {
+      const double n = filled[static_cast<std::size_t>(i)];
+      if (n > 0.0) {
+        const double width = empty * cell;
+        if (width > 2.0 && before > 0.2 * total && total - before > 0.2 * total) {
+          const double at = (along_y ? grid.low.y() : grid.low.x()) + (i - 0.5 * empty) * cell;
+          return fmt::format("a gap of {:.1f} mm at {} = {:.1f} mm", width, along_y ? "y" : "x", at);
+        }
+        empty = 0;
+      } else {
+        ++empty;
+      }
+      before += n;
+    }
+  }
+  return std::nullopt;
+}
+
+/// All scans of one artefact.
+class ArtefactEvaluator {
+ public:
+  ArtefactEvaluator(const Campaign& campaign, const ProfilerMounting& mounting, ScanModel model,
+                    std::vector<ScanCapture> captures)
+      : campaign_(campaign), mounting_(mounting), captures_(std::move(captures)) {
+    options_.scan_model = model;
+    options_.machine_from_profiler = mounting.calibration.rotation();
+  }
+
+  void run(const JobContext& job) {
+    // The first scan is the reference. If most others do not fit it, it may be the first that is wrong: try the next.
+    std::vector<ScanResult> best;
+    std::vector<RejectedCapture> best_rejected;
+    for (std::size_t first = 0; first < std::min<std::size_t>(captures_.size(), 3); ++first) {
+      scans.clear();
+      rejected.clear();
+      attempt(first, job);
+      if (first == 0 || scans.size() > best.size()) {
+        best = scans;
+        best_rejected = rejected;
+      }
+      if (captures_.size() < 3 || 2 * scans.size() > captures_.size()) break;
+    }
+    scans = std::move(best);
+    rejected = std::move(best_rejected);
+  }
+
+  std::vector<ScanResult> scans;
+  std::vector<RejectedCapture> rejected;
+
+ private:
+  void attempt(std::size_t first, const JobContext& job) {
+    std::unique_ptr<RegistrationTarget> target;
+    for (std::size_t i = 0; i < captures_.size(); ++i) {
+      job.throwIfCancelled();
+      // The reference is the first usable scan from `first` on; earlier ones are compared with it afterwards.
+      const std::size_t k = (first + i) % captures_.size();
+      const ScanCapture& capture = captures_[k];
+      try {
+        PointCloud cloud = readCloud(campaign_.path(capture.cloud));
+        cloud.name = capture.cloud;
+        if (!target) {
+          target = makeReference(cloud, capture);
+          continue;
+        }
+        compare(cloud, capture, *target);
+      } catch (const InputError& error) {
+        rejected.push_back({capture.cloud, error.what()});
+      }
+    }
+  }
+
+  std::unique_ptr<RegistrationTarget> makeReference(const PointCloud& cloud, const ScanCapture& capture) {
+    auto target = std::make_unique<RegistrationTarget>(cloud);
+    if (const auto gap = twoSurfaces(target->grid()))
+      throw InputError(
+          fmt::format("{} holds two separate surfaces ({}); allowed: one artefact per cloud.", capture.cloud, *gap));
+    // A scan against itself says which directions the surface leaves free, and gives the noise of one scan.
+    const RegistrationResult self = registerToSurface(cloud, *target, options_);
+    reference_extent_ = extentOf(target->grid());
+    ScanResult result;
+    result.capture = capture;
+    result.reference = true;
+    result.registration = self;
+    result.registration.translation_mm.setZero();
+    result.registration.rotation_rad.setZero();
+    result.registration.target_from_source = RigidTransform();
+    result.registration.message.clear();
+    noteFree(result);
+    result.axis = axisError(result.registration, mounting_);
+    scans.push_back(std::move(result));
+    return target;
+  }
+
+  void compare(const PointCloud& cloud, const ScanCapture& capture, const RegistrationTarget& target) {
+    ScanResult result;
+    result.capture = capture;
+    result.registration = registerToSurface(cloud, target, options_);
+    RegistrationResult& r = result.registration;
+    const bool degenerate = r.status == FitStatus::Degenerate;
+    if (!r.usable() && !degenerate) {
+      rejected.push_back({capture.cloud, fmt::format("{}: {}", capture.cloud, r.message)});
+      return;
+    }
+    const CellGrid grid = compressCloud(cloud);
+    const Eigen::Vector2d size = extentOf(grid).size;
+    if ((size - 1.3 * reference_extent_.size).maxCoeff() > 2.0) {
+      if (const auto gap = twoSurfaces(grid)) {
+        rejected.push_back(
+            {capture.cloud, fmt::format("{} holds two separate surfaces ({}); allowed: one artefact per cloud.",
+                                        capture.cloud, *gap)});
+        return;
+      }
+    }
+    const auto warn = [&](std::string sentence) {
+      result.warnings.push_back(fmt::format("{}: {}", capture.cloud, sentence));
+    };
+    if (r.overlap < 0.8)
+      warn(
+          fmt::format("covers only {:.0f} % of the reference (cut short or hidden); evaluated with what is there, with "
+                      "a larger uncertainty.",
+                      100.0 * r.overlap));
+    if (r.inliers < 0.85)
+      warn(fmt::format(
+          "{:.0f} % of the surface does not agree with the reference (something lay in the way?) and was left out.",
+          100.0 * (1.0 - r.inliers)));
+    if (r.misfit_ratio > 4.0)
+      warn(
+          fmt::format("the surface differs from the reference {:.1f} times more than the noise explains: the artefact "
+                      "has changed its shape or the scan model does not fit.",
+                      r.misfit_ratio));
+    noteFree(result);
+    result.axis = axisError(r, mounting_);
+    scans.push_back(std::move(result));
+  }
+
+  /// Components without information, with the reason.
+  void noteFree(ScanResult& result) {
+    RegistrationResult& r = result.registration;
+    for (const Component k : all_components) {
+      const int i = static_cast<int>(k);
+      const double sigma = r.standardUncertainty(i);
+      const double limit = isRotation(k) ? blind_rotation_rad : blind_shift_mm;
+      if (!std::isfinite(sigma)) {
+        result.not_observed.emplace_back(
+            k, r.free_directions.empty() ? std::string("the surface does not determine it.")
+                                         : fmt::format("the surface leaves it free ({}).", r.free_directions.front()));
+      } else if (sigma > limit) {
+        result.not_observed.emplace_back(
+            k, fmt::format("its standard uncertainty under the scan model {} is {:.0f} {}: the surface has too little "
+                           "slope or height to show it.",
+                           toString(r.scan_model), sigma * (isRotation(k) ? urad_per_rad : um_per_mm), unitOf(k)));
+        r.covariance.row(i).setZero();
+        r.covariance.col(i).setZero();
+        r.covariance(i, i) = std::numeric_limits<double>::infinity();
+      }
+    }
+  }
+
+  const Campaign& campaign_;
+  const ProfilerMounting& mounting_;
+  std::vector<ScanCapture> captures_;
+  RegistrationOptions options_;
+  Extent reference_extent_;
+};
+
+ProfilerCalibration calibrationOf(const Campaign& campaign, const ProfilerDescription& profiler, ScanModel model,
+                                  std::vector<std::string>& warnings) {
+  CalibrationOptions options;
+  options.scan_model = model;
+  std::string reason;
+  if (profiler.calibration_cloud.empty() || !profiler.calibration_circle_mm) {
+    reason = "machine.json names no calibration_cloud with its calibration_circle";
+  } else {
+    try {
+      const ProfilerCalibration c = calibrateProfiler(readCloud(campaign.path(profiler.calibration_cloud)),
+                                                      *profiler.calibration_circle_mm, options);
+      if (c.usable()) {
+        if (!c.message.empty()) warnings.push_back("Calibration of the profiler: " + c.message);
+        return c;
+      }
+      reason = c.message;
+    } catch (const InputError& error) {
+      reason = error.what();
+    }
+  }
+  ProfilerCalibration c;
+  c.scan_model = model;
+  c.covariance.diagonal() << Eigen::Vector3d::Constant(std::pow(options.mounting_angle_rad, 2)),
+      Eigen::Vector3d::Constant(100.0);
+  c.undetermined = {"alpha_rad", "beta_rad", "gamma_rad", "dx_mm", "dy_mm", "dz_mm"};
+  warnings.push_back(fmt::format(
+      "The profiler is not calibrated ({}): it is taken as parallel to the machine within {} rad and at the tool's "
+      "place within 10 mm; the uncertainties carry that.",
+      reason, options.mounting_angle_rad));
+  return c;
+}
+
+}  // namespace
+
+std::vector<ScanCapture> readScanList(const Campaign& campaign) {
+  const auto file = campaign.captureList("scans.csv");
+  if (!file) throw InputError({campaign.path("captures/scans.csv"), ""}, "is missing.");
+  const CsvTable table = CsvTable::read(*file);
+  const std::size_t time = table.column("time_s"), cycle = table.column("cycle"), artefact = table.column("artefact"),
+                    y = table.column("y_mm"), cloud = table.column("cloud");
+  std::vector<ScanCapture> out;
+  std::map<std::string, double> last;
+  std::set<std::pair<std::string, std::string>> seen;
+  for (std::size_t row = 0; row < table.rowCount(); ++row) {
+    ScanCapture c{table.number(row, time), table.requiredText(row, cycle), table.requiredText(row, artefact),
+                  table.number(row, y), table.requiredText(row, cloud)};
+    const auto before = last.find(c.artefact);
+    if (before != last.end() && c.time_s < before->second)
+      throw InputError(table.place(row, time),
+                       fmt::format("found {} after {} for artefact {}; allowed: a time that does not run backwards.",
+                                   c.time_s, before->second, c.artefact));
+    last[c.artefact] = c.time_s;
+    if (!seen.emplace(c.artefact, c.cycle).second)
+      throw InputError(table.place(row, cycle),
+                       fmt::format("found cycle {} of artefact {} twice; allowed: once.", c.cycle, c.artefact));
+    out.push_back(std::move(c));
+  }
+  if (out.empty()) throw InputError({*file, ""}, "lists no scans.");
+  return out;
+}
+
+ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string& scan_model, JobContext& job) {
+  const std::vector<ScanCapture> captures = readScanList(campaign);
+  if (!campaign.machine.profiler)
+    throw InputError({campaign.machine.file, "$.profiler"}, "is missing; scans cannot be evaluated without it.");
+  const ProfilerDescription& profiler = *campaign.machine.profiler;
+  if (profiler.axis != "Y")
+    throw InputError(
+        {campaign.machine.file, "$.profiler.axis"},
+        fmt::format("found '{}'; allowed: Y (the profiler looks along X and travels along Y).", profiler.axis));
+  ScanEvaluation evaluation;
+  evaluation.scan_model = scanModelFromString(scan_model.empty() ? profiler.scan_model : scan_model);
+  job.report(0.0, "calibrating the profiler");
+  evaluation.mounting.lift_mm = profiler.lift_mm;
+  evaluation.mounting.lever_mm = profiler.lever_mm;
+  evaluation.mounting.calibration = calibrationOf(campaign, profiler, evaluation.scan_model, evaluation.warnings);
+
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<ScanCapture>> by_artefact;
+  for (const ScanCapture& c : captures) {
+    if (!by_artefact.contains(c.artefact)) order.push_back(c.artefact);
+    by_artefact[c.artefact].push_back(c);
+  }
+  std::vector<std::unique_ptr<ArtefactEvaluator>> evaluators;
+  for (const std::string& id : order)
+    evaluators.push_back(
+        std::make_unique<ArtefactEvaluator>(campaign, evaluation.mounting, evaluation.scan_model, by_artefact[id]));
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallelFor(evaluators.size(), job, [&](std::size_t i) {
+    evaluators[i]->run(job);
+    const std::scoped_lock lock(mutex);
+    job.report(static_cast<double>(++done) / static_cast<double>(evaluators.size()), "registering scans");
+  });
+  for (auto& e : evaluators) {
+    for (ScanResult& s : e->scans) evaluation.scans.push_back(std::move(s));
+    for (RejectedCapture& r : e->rejected) evaluation.rejected.push_back(std::move(r));
+  }
+  std::stable_sort(evaluation.scans.begin(), evaluation.scans.end(),
+                   [](const ScanResult& a, const ScanResult& b) { return a.capture.time_s < b.capture.time_s; });
+  for (const ScanResult& s : evaluation.scans)
+    for (const std::string& w : s.warnings) evaluation.warnings.push_back(w);
+  return evaluation;
+}
+
+}  // namespace spindrift
