@@ -60,6 +60,8 @@ void fillTransform(const ScanMotion& motion, const Eigen::Matrix3d& machine_from
   result.centroid_mm = motion.centre;
   result.translation_mm = motion.shift;
   result.rotation_rad = RigidTransform(motion.rotation, Eigen::Vector3d::Zero()).rotationVector_rad();
+  result.drift_mm = motion.drift;
+  result.drift_length_mm = motion.drift_length;
   const Eigen::Matrix3d r = machine_from_profiler.transpose() * motion.rotation * machine_from_profiler;
   result.target_from_source = RigidTransform(r, motion.centre + motion.to_cloud * motion.shift - r * motion.centre);
 }
@@ -218,15 +220,15 @@ RegistrationResult registerToSurface(const PointCloud& source, const Registratio
                   fmt::format("The registration did not settle within {} iterations.", options.most_iterations));
 
   // Inverse on the determined directions, in scaled parameters.
-  Vector6 scale = Vector6::Ones();
-  scale.tail<3>().setConstant(solver.length());
-  const Matrix6 scaled = scale.cwiseInverse().asDiagonal() * o.normal * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
-  Matrix6 inverse = Matrix6::Zero();
-  for (int i = 0; i < 6; ++i)
-    if (eigen.eigenvalues()[i] > options.degenerate_ratio * eigen.eigenvalues()[5])
+  const VectorP scale = solver.scales(o.motion);
+  const MatrixP scaled = scale.cwiseInverse().asDiagonal() * o.normal * scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixP> eigen(scaled);
+  const int n = o.motion.parameters();
+  MatrixP inverse = MatrixP::Zero(n, n);
+  for (int i = 0; i < n; ++i)
+    if (eigen.eigenvalues()[i] > options.degenerate_ratio * eigen.eigenvalues()[n - 1])
       inverse += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose() / eigen.eigenvalues()[i];
-  inverse = scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal();
+  inverse = (scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal()).eval();
   const RegistrationNoise noise = registrationNoise(o, grid, target.grid(), inverse);
   result.covariance = noise.covariance;
   result.white_covariance = noise.white;
@@ -234,7 +236,8 @@ RegistrationResult registerToSurface(const PointCloud& source, const Registratio
   result.noise_correlation = noise.correlation;
   result.status = FitStatus::Converged;
   if (o.free_count > 0) {
-    result.free_directions = freeDirections(o.free, o.free_count, solver.length(), o.motion.centre);
+    result.free_directions =
+        freeDirections(o.free.topLeftCorner<6, 6>(), o.free_count, solver.length(), o.motion.centre);
     for (int i = 0; i < 6; ++i)
       if (o.free(i, i) > 0.01) {
         result.covariance.row(i).setZero();
@@ -294,11 +297,14 @@ std::vector<float> deviations_um(const PointCloud& source, const RegistrationTar
   const Eigen::Matrix3d to_cloud = m.inverse();
   const Eigen::Matrix3d turn = to_cloud * (rotation - Eigen::Matrix3d::Identity()) * lever;
   const Eigen::Vector3d shift = to_cloud * registration.translation_mm;
+  const Eigen::Matrix<double, 3, 2> drift = to_cloud * registration.drift_mm;
   std::vector<float> out;
   out.reserve(source.size());
   HeightSpline::Value h;
   for (const Eigen::Vector3d& p : source.points_mm) {
-    const Eigen::Vector3d q = p + shift + turn * (p - registration.centroid_mm);
+    const double t = (p.y() - registration.centroid_mm.y()) / registration.drift_length_mm;
+    const Eigen::Vector3d q =
+        p + shift + drift.col(0) * t + drift.col(1) * (t * t) + turn * (p - registration.centroid_mm);
     out.push_back(target.surface().evaluate(q.x(), q.y(), h) ? static_cast<float>(1e3 * (q.z() - h.z)) : std::nanf(""));
   }
   return out;

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ struct RegistrationOptions {
   /// Start: translation at the target's centroid (mm) and rotation (rad), machine axes.
   Eigen::Vector3d start_translation_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d start_rotation_rad = Eigen::Vector3d::Zero();
+  /// push_broom: order of the drift of u along the scan, 0 to 2.
+  int drift_order = 1;
   int most_iterations = 30;
   double tukey_threshold = 6.0;
   /// Search after a start that does not fit: shifts up to +-search_mm, turns up to +-search_rad about Z.
@@ -72,6 +75,9 @@ struct RegistrationResult {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   /// Covariance if the noise were white and of its present size: the Cramer-Rao bound of these two scans.
   Eigen::Matrix<double, 6, 6> white_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// Drift of u along the scan (mm): u + drift.col(0) t + drift.col(1) t^2, t = (y - c_y) / drift_length_mm.
+  Eigen::Matrix<double, 3, 2> drift_mm = Eigen::Matrix<double, 3, 2>::Zero();
+  double drift_length_mm = 1.0;
   RigidTransform target_from_source;  ///< profiler's frame; for push_broom only the rotation and shift at c
   double rms_mm = 0.0;                ///< of the points used about the target, along z
   double misfit_ratio = 0.0;          ///< residual of the cells over what the noise explains; 1 = only noise

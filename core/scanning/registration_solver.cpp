@@ -27,6 +27,14 @@ double medianOf(std::vector<double>& values) {
 
 }  // namespace
 
+VectorP CellResidual::row(int parameters) const {
+  VectorP out(parameters);
+  out.head<6>() = jacobian;
+  double power = drift_t;
+  for (int i = 6; i + 2 < parameters; i += 3, power *= drift_t) out.segment<3>(i) = power * jacobian.head<3>();
+  return out;
+}
+
 RegistrationSolver::RegistrationSolver(const CellGrid& source, const RegistrationTarget& target,
                                        const RegistrationOptions& options)
     : source_(source), target_(target), options_(options) {
@@ -39,7 +47,14 @@ RegistrationSolver::RegistrationSolver(const CellGrid& source, const Registratio
       sum += cell.count * (cell.mean - g.centroid_mm).squaredNorm();
       count += cell.count;
     }
+  half_scan_ = std::max(0.5 * g.rows * g.size.y(), 1e-3);
   length_ = std::max(std::sqrt(sum / std::max(count, 1.0)), 1e-3);
+}
+
+VectorP RegistrationSolver::scales(const ScanMotion& motion) const {
+  VectorP out = VectorP::Ones(motion.parameters());
+  out.segment<3>(3).setConstant(length_);
+  return out;
 }
 
 ScanMotion RegistrationSolver::start() const {
@@ -50,6 +65,8 @@ ScanMotion RegistrationSolver::start() const {
   if (options_.scan_model == ScanModel::PushBroom) {
     m.col(1) = Eigen::Vector3d::UnitY();
     motion.lever.col(1).setZero();
+    motion.drift_order = std::clamp(options_.drift_order, 0, 2);
+    motion.drift_length = half_scan_;
   }
   motion.to_cloud = m.inverse();
   motion.centre = target_.grid().centroid_mm;
@@ -67,11 +84,17 @@ void RegistrationSolver::residuals(const ScanMotion& motion, const std::vector<s
   const Eigen::Vector3d shift = motion.to_cloud * motion.shift - turned * motion.centre;
   const Eigen::Matrix3d arm = motion.rotation * motion.lever;
   const Eigen::Matrix3d normal_to_machine = motion.to_cloud.transpose();
+  const Eigen::Matrix<double, 3, 2> drift = motion.to_cloud * motion.drift;
   const HeightSpline& surface = target_.surface();
   HeightSpline::Value h;
   for (const std::uint32_t k : cells) {
     const SurfaceCell& cell = source_.cells[k];
-    const Eigen::Vector3d p = point * cell.mean + shift;
+    Eigen::Vector3d p = point * cell.mean + shift;
+    double t = 0.0;
+    if (motion.drift_order > 0) {
+      t = (cell.mean.y() - motion.centre.y()) / motion.drift_length;
+      p += drift.col(0) * t + drift.col(1) * (t * t);
+    }
     if (!surface.evaluate(p.x(), p.y(), h)) continue;
     // Second moments after the motion: the points of the cell lie in its plane.
     const double ax = point(0, 0) + point(0, 2) * cell.slope.x(), ay = point(0, 1) + point(0, 2) * cell.slope.y();
@@ -83,6 +106,7 @@ void RegistrationSolver::residuals(const ScanMotion& motion, const std::vector<s
     r.cell = k;
     r.tx = h.tx;
     r.ty = h.ty;
+    r.drift_t = static_cast<float>(t);
     r.residual = p.z() - (h.z + 0.5 * (h.zxx * sxx + 2.0 * h.zxy * sxy + h.zyy * syy));
     r.weight = cell.count * h.count / (cell.count + h.count);
     const Eigen::Vector3d n = normal_to_machine * Eigen::Vector3d(-h.zx, -h.zy, 1.0);
@@ -96,8 +120,10 @@ void RegistrationSolver::residuals(const ScanMotion& motion, const std::vector<s
 RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const std::vector<std::uint32_t>& cells,
                                                       int iterations) const {
   Outcome out;
-  Vector6 scale_of = Vector6::Ones();
-  scale_of.tail<3>().setConstant(length_);
+  const int n = motion.parameters();
+  const VectorP scale_of = scales(motion);
+  out.normal = MatrixP::Zero(n, n);
+  out.free = MatrixP::Zero(n, n);
   std::vector<double> values;
   bool last = false;
   for (out.iterations = 0;; ++out.iterations) {
@@ -111,27 +137,34 @@ RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const s
     for (double& v : values) v = std::abs(v - middle);
     out.scale = std::max(1.4826 * medianOf(values), 1e-9);
     out.normal.setZero();
-    Vector6 right = Vector6::Zero();
+    VectorP right = VectorP::Zero(n);
     double inliers = 0.0;
     for (CellResidual& c : out.cells) {
       c.robust = tukeyWeight((c.residual * std::sqrt(c.weight) - middle) / out.scale, options_.tukey_threshold);
       if (c.robust > 0.0) inliers += 1.0;
       const double w = c.weight * c.robust;
-      out.normal.noalias() += w * c.jacobian * c.jacobian.transpose();
-      right.noalias() -= w * c.residual * c.jacobian;
+      if (w <= 0.0) continue;
+      const VectorP row = c.row(n);
+      for (int j = 0; j < n; ++j) {
+        const double wj = w * row[j];
+        right[j] -= wj * c.residual;
+        for (int i = j; i < n; ++i) out.normal(i, j) += wj * row[i];
+      }
     }
+    for (int j = 0; j < n; ++j)
+      for (int i = j + 1; i < n; ++i) out.normal(j, i) = out.normal(i, j);
     out.inliers = inliers / static_cast<double>(out.cells.size());
     if (last) break;
     // Solve in scaled parameters; directions that the surface does not determine are left where they are.
-    const Matrix6 scaled = scale_of.cwiseInverse().asDiagonal() * out.normal * scale_of.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled);
-    Vector6 step = Vector6::Zero();
+    const MatrixP scaled = scale_of.cwiseInverse().asDiagonal() * out.normal * scale_of.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<MatrixP> eigen(scaled);
+    VectorP step = VectorP::Zero(n);
     out.free.setZero();
     out.free_count = 0;
-    const double largest = eigen.eigenvalues()[5];
-    const Vector6 scaled_right = right.cwiseQuotient(scale_of);
-    for (int i = 0; i < 6; ++i) {
-      const Vector6 v = eigen.eigenvectors().col(i);
+    const double largest = eigen.eigenvalues()[n - 1];
+    const VectorP scaled_right = right.cwiseQuotient(scale_of);
+    for (int i = 0; i < n; ++i) {
+      const VectorP v = eigen.eigenvectors().col(i);
       if (eigen.eigenvalues()[i] <= options_.degenerate_ratio * largest) {
         out.free += v * v.transpose();
         ++out.free_count;
@@ -139,13 +172,14 @@ RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const s
         step += v.dot(scaled_right) / eigen.eigenvalues()[i] * v;
       }
     }
-    step = step.cwiseQuotient(scale_of);
+    step = step.cwiseQuotient(scale_of).eval();
     // No step may leave the region in which the linear model means anything.
-    const double size = std::max(step.head<3>().norm() / 2.0, step.tail<3>().norm() / 0.05);
+    const double size = std::max(step.head<3>().norm() / 2.0, step.segment<3>(3).norm() / 0.05);
     if (size > 1.0) step /= size;
     motion.shift += step.head<3>();
-    motion.rotation = rotationOf(step.tail<3>()) * motion.rotation;
-    const bool settled = step.head<3>().norm() < 2e-8 && step.tail<3>().norm() < 2e-9;
+    motion.rotation = rotationOf(step.segment<3>(3)) * motion.rotation;
+    for (int k = 0; k < motion.drift_order; ++k) motion.drift.col(k) += step.segment<3>(6 + 3 * k);
+    const bool settled = step.head<3>().norm() < 2e-8 && step.segment<3>(3).norm() < 2e-9;
     if (settled) out.converged = true;
     if (settled || out.iterations + 1 >= iterations) last = true;
   }
@@ -205,7 +239,7 @@ RegistrationSolver::Outcome RegistrationSolver::search() const {
 // --- noise -----------------------------------------------------------------------------------------------------------
 
 RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, const CellGrid& source,
-                                    const CellGrid& target, const Matrix6& inverse_normal) {
+                                    const CellGrid& target, const MatrixP& inverse_normal) {
   RegistrationNoise noise;
   // Standardised residuals on the source's lattice.
   const std::size_t total = source.cells.size();
@@ -265,11 +299,17 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
   noise.misfit_ratio = std::sqrt(variance * interpolated / white);
 
   // Sums of squared scores: rows of cells share the errors of their profiles (height, tilt, position along x).
-  Matrix6 scores = Matrix6::Zero();
+  const int n = outcome.motion.parameters();
+  MatrixP scores = MatrixP::Zero(n, n);
   for (const CellResidual& c : outcome.cells) {
     const double w = c.weight * c.robust * c.robust;
-    scores.noalias() += w * c.jacobian * c.jacobian.transpose();
+    if (w <= 0.0) continue;
+    const VectorP row = c.row(n);
+    for (int j = 0; j < n; ++j)
+      for (int i = j; i < n; ++i) scores(i, j) += w * row[j] * row[i];
   }
+  for (int j = 0; j < n; ++j)
+    for (int i = j + 1; i < n; ++i) scores(j, i) = scores(i, j);
   // Tukey's loss costs a little efficiency: variance of psi over the squared mean of its slope (Huber 1981).
   double psi2 = 0.0, slope = 0.0, robust = 0.0, robust2 = 0.0;
   const double threshold = outcome.tukey_threshold * outcome.scale;
@@ -283,29 +323,31 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
     robust2 += c.robust * c.robust;
   }
   const double efficiency = (psi2 / (slope * slope)) / (variance * robust2 / (robust * robust));
-  Matrix6 middle = long_run * std::clamp(efficiency, 1.0, 1.5) * scores;
+  MatrixP middle = long_run * std::clamp(efficiency, 1.0, 1.5) * scores;
   struct Row {
     std::array<double, 3> xx{}, xr{};
-    std::array<Vector6, 3> xj{Vector6::Zero(), Vector6::Zero(), Vector6::Zero()};
-    double n = 0.0;
+    std::array<VectorP, 3> xj;
+    double count = 0.0;
   };
   std::vector<Row> rows(static_cast<std::size_t>(source.rows));
+  for (Row& row : rows) row.xj.fill(VectorP::Zero(n));
   for (const CellResidual& c : outcome.cells) {
     if (c.robust <= 0.0) continue;
     Row& row = rows[c.cell / static_cast<std::uint32_t>(source.columns)];
     const std::array<double, 3> basis{1.0, source.cells[c.cell].mean.x() - source.centroid_mm.x(), -c.jacobian[0]};
     const double w = c.weight * c.robust;
-    row.n += 1.0;
+    row.count += 1.0;
+    const VectorP jacobian = c.row(n);
     for (std::size_t i = 0; i < 3; ++i) {
       row.xx[i] += w * basis[i] * basis[i];
       row.xr[i] += w * basis[i] * c.residual;
-      row.xj[i] += w * basis[i] * c.jacobian;
+      row.xj[i] += w * basis[i] * jacobian;
     }
   }
   for (std::size_t i = 0; i < 3; ++i) {
     double excess = 0.0, expected = 0.0, used = 0.0;
     for (const Row& row : rows) {
-      if (row.n < 8.0 || row.xx[i] <= 0.0) continue;
+      if (row.count < 8.0 || row.xx[i] <= 0.0) continue;
       const double estimate = row.xr[i] / row.xx[i];
       excess += estimate * estimate;
       // Across rows the spline smooths the target's part.
@@ -317,10 +359,10 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
     const double row_variance = (excess - expected) / used;
     if (row_variance < 2.0 * error) continue;
     for (const Row& row : rows)
-      if (row.n >= 1.0) middle.noalias() += row_variance * row.xj[i] * row.xj[i].transpose();
+      if (row.count >= 1.0) middle.noalias() += row_variance * row.xj[i] * row.xj[i].transpose();
   }
-  noise.covariance = inverse_normal * middle * inverse_normal;
-  noise.white = white * (inverse_normal * scores * inverse_normal);
+  noise.covariance = MatrixP(inverse_normal * middle * inverse_normal).topLeftCorner<6, 6>();
+  noise.white = white * MatrixP(inverse_normal * scores * inverse_normal).topLeftCorner<6, 6>();
   return noise;
 }
 

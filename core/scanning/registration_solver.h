@@ -10,6 +10,10 @@
 
 namespace spindrift {
 
+/// Parameters: (u, w) and, for push_broom, the drift of u along the scan (3 per order).
+inline constexpr int most_parameters = 12;
+using MatrixP = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_parameters, most_parameters>;
+using VectorP = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_parameters, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -20,6 +24,11 @@ struct ScanMotion {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();        ///< c
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();         ///< u
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< R
+  /// u varies along the scan: u + drift.col(0) t + drift.col(1) t^2, t = (y - c_y) / drift_length.
+  int drift_order = 0;
+  double drift_length = 1.0;
+  Eigen::Matrix<double, 3, 2> drift = Eigen::Matrix<double, 3, 2>::Zero();
+  [[nodiscard]] int parameters() const noexcept { return 6 + 3 * drift_order; }
 };
 
 /// One source cell over the target.
@@ -29,7 +38,10 @@ struct CellResidual {
   double residual = 0.0;  ///< mm
   double weight = 0.0;    ///< 1 / (1 / source points + 1 / target points)
   double robust = 0.0;    ///< Tukey's factor
+  float drift_t = 0.0F;   ///< t of ScanMotion
   Vector6 jacobian = Vector6::Zero();
+  /// All parameters of the motion.
+  [[nodiscard]] VectorP row(int parameters) const;
 };
 
 /// Gauss-Newton with Tukey's loss over the cells of one source.
@@ -43,8 +55,8 @@ class RegistrationSolver {
 
   struct Outcome {
     ScanMotion motion;
-    Matrix6 normal = Matrix6::Zero();  ///< sum of weight * J J^T
-    double scale = 0.0;                ///< robust standard deviation of residual * sqrt(weight) (mm)
+    MatrixP normal;      ///< sum of weight * J J^T
+    double scale = 0.0;  ///< robust standard deviation of residual * sqrt(weight) (mm)
     double tukey_threshold = 6.0;
     double overlap = 0.0;
     double inliers = 0.0;
@@ -60,6 +72,8 @@ class RegistrationSolver {
   [[nodiscard]] Outcome search() const;
 
   [[nodiscard]] ScanMotion start() const;
+  /// What makes the parameters comparable (mm).
+  [[nodiscard]] VectorP scales(const ScanMotion& motion) const;
   [[nodiscard]] const std::vector<std::uint32_t>& allCells() const noexcept { return filled_; }
   /// Length that makes rotations comparable with shifts (mm).
   [[nodiscard]] double length() const noexcept { return length_; }
@@ -72,16 +86,17 @@ class RegistrationSolver {
   const RegistrationOptions& options_;
   std::vector<std::uint32_t> filled_;
   double length_ = 1.0;
+  double half_scan_ = 1.0;
 };
 
 /// Covariance of (u, w) from the final residuals; see registration.h.
 struct RegistrationNoise {
-  Matrix6 covariance = Matrix6::Zero();
+  Matrix6 covariance = Matrix6::Zero();  ///< of (u, w)
   Matrix6 white = Matrix6::Zero();
   double misfit_ratio = 0.0;
   double correlation = 1.0;
 };
 [[nodiscard]] RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, const CellGrid& source,
-                                                  const CellGrid& target, const Matrix6& inverse_normal);
+                                                  const CellGrid& target, const MatrixP& inverse_normal);
 
 }  // namespace spindrift
