@@ -10,7 +10,7 @@
 namespace spindrift::decoding {
 
 RingMatch matchCircle(const GrayImage& image, const FiducialPattern& pattern, const PatternMap& map,
-                      const Eigen::Vector2d& centre_um, double blur_px) {
+                      const Eigen::Vector2d& centre_um, double blur_px, const Eigen::Vector2d& light_gradient) {
   RingMatch result;
   const Eigen::Vector2d start = map.imageOf(centre_um);
   const double radius = 0.5 * (map.imageOf(centre_um + Eigen::Vector2d(pattern.circle_radius_um, 0)) -
@@ -39,6 +39,8 @@ RingMatch matchCircle(const GrayImage& image, const FiducialPattern& pattern, co
   Eigen::Vector4f g = Eigen::Vector4f::Zero();
   float square = 0.0F;
   const float first = static_cast<float>(radius - band);
+  const float gx = static_cast<float>(light_gradient.x());
+  const float gy = static_cast<float>(light_gradient.y());
   for (int y = y0; y <= y1; ++y) {
     const std::uint8_t* line = image.row(y);
     const float dy = static_cast<float>(y - start.y());
@@ -53,7 +55,7 @@ RingMatch matchCircle(const GrayImage& image, const FiducialPattern& pattern, co
       const float q = (slope[cell] + part * (slope[cell + 1] - slope[cell])) / std::max(r, 1e-3F);
       const float qx = q * dx;
       const float qy = q * dy;
-      const float level = static_cast<float>(line[x]) - 100.0F;
+      const float level = static_cast<float>(line[x]) * (1.0F - gx * dx - gy * dy) - 100.0F;
       M(0, 0) += 1.0F;
       M(1, 0) += t;
       M(2, 0) += qx;

@@ -19,7 +19,7 @@ namespace {
 using namespace decoding;
 
 /// Part of the uncertainty that noise does not explain (8-bit steps, sampling of sharp edges, pixel shape), px.
-constexpr double model_sigma_px = 0.0015;
+constexpr double model_sigma_px = 0.0004;
 
 /// An ellipse that should be in view, and what was found there.
 struct Expected {
@@ -27,6 +27,47 @@ struct Expected {
   int column = 0;
   Eigen::Vector2d centre_um;
   RingMatch match;
+};
+
+/// Contrast of the ellipses over the image: a plane, or a paraboloid where there are enough of them.
+class Light {
+ public:
+  Light(const std::vector<Expected>& ellipses, const Eigen::Vector2d& centre) : centre_(centre) {
+    using Vector = Eigen::Matrix<double, 6, 1>;
+    Eigen::Matrix<double, 6, 6> N = Eigen::Matrix<double, 6, 6>::Zero();
+    Vector g = Vector::Zero();
+    int count = 0;
+    for (const Expected& e : ellipses) {
+      if (!e.match.found) continue;
+      const double x = (e.match.x_px - centre.x()) / unit_px;
+      const double y = (e.match.y_px - centre.y()) / unit_px;
+      Vector r;
+      r << 1.0, x, y, x * x, x * y, y * y;
+      N += r * r.transpose();
+      g += r * e.match.contrast;
+      ++count;
+    }
+    const int n = count >= 10 ? 6 : (count >= 4 ? 3 : 0);
+    if (n == 0) return;
+    // Ellipses on one line do not determine the slope across it: a trace of damping keeps that at zero.
+    N.diagonal().array() += 1e-6 * count;
+    const Eigen::VectorXd p = Eigen::MatrixXd(N.topLeftCorner(n, n)).ldlt().solve(g.head(n));
+    if (p.allFinite()) p_.head(n) = p;
+  }
+  /// Relative change per px.
+  [[nodiscard]] Eigen::Vector2d gradientAt(const Eigen::Vector2d& pixel) const {
+    const double x = (pixel.x() - centre_.x()) / unit_px;
+    const double y = (pixel.y() - centre_.y()) / unit_px;
+    const double level = p_[0] + p_[1] * x + p_[2] * y + p_[3] * x * x + p_[4] * x * y + p_[5] * y * y;
+    if (level <= 0.2 * p_[0]) return Eigen::Vector2d::Zero();
+    return Eigen::Vector2d(p_[1] + 2.0 * p_[3] * x + p_[4] * y, p_[2] + p_[4] * x + 2.0 * p_[5] * y) /
+           (unit_px * level);
+  }
+
+ private:
+  static constexpr double unit_px = 1000.0;
+  Eigen::Vector2d centre_;
+  Eigen::Matrix<double, 6, 1> p_ = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
 class Decoding {
@@ -42,6 +83,11 @@ class Decoding {
   void locateEllipses();
   void locateCircles();
   void fitFinalMap();
+  [[nodiscard]] MapFit fitToMarks() const;
+  /// Marks that the map contradicts: circles are dropped, ellipses matched again or given a larger uncertainty. True if
+  /// there were any.
+  bool settleOutliers(const MapFit& fit);
+  void scaleUncertainties();
   void readAllDigits();
   void lookForOthers();
   void rejectWith(std::string message) {
@@ -51,6 +97,12 @@ class Decoding {
   void explainNothing();
   [[nodiscard]] LocalFrame frameAt(const Eigen::Vector2d& centre_um, double x_px, double y_px) const;
   [[nodiscard]] bool whollyInView(const Eigen::Vector2d& centre_um) const;
+  /// How far the middle of an outline moves per unit of k1 at the image's corner: 2 rho^2 r.
+  [[nodiscard]] double bendPerK1() const {
+    const double rho2 =
+        pattern_.semi_axis_x_um * pattern_.semi_axis_y_um / (map_.pixel_length_um * map_.pixel_length_um);
+    return 2.0 * rho2 * std::hypot(map_.centre_x_px, map_.centre_y_px);
+  }
 
   const GrayImage& image_;
   const FiducialPattern& pattern_;
@@ -59,9 +111,11 @@ class Decoding {
   std::vector<Mark> marks_;
   Lattice lattice_;
   PatternMap map_;
-  double blur_px_ = 1.0;  ///< with the pixel's own area
+  double matched_k1_ = 0.0;  ///< distortion with which the ellipses were matched
+  double blur_px_ = 1.0;     ///< with the pixel's own area
   double pooled_noise_ = 1.0;
   double noise_inflation_ = 1.0;
+  std::optional<RingTemplate> ring_;
   std::vector<Expected> expected_;
   DecodeResult result_;
 };
@@ -185,9 +239,10 @@ void Decoding::locateEllipses() {
   const Eigen::Vector2d middle_um = map_.patternOf({map_.centre_x_px, map_.centre_y_px});
   const Eigen::Vector2d seen_um(std::clamp(middle_um.x(), 0.0, (pattern_.columnCount() - 1) * pattern_.pitch_um),
                                 std::clamp(middle_um.y(), 0.0, (pattern_.rowCount() - 1) * pattern_.pitch_um));
-  RingTemplate ring(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, 4500);
+  ring_.emplace(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, 4500);
   for (int pass = 0; pass < 4; ++pass) {
     bool changed = false;
+    matched_k1_ = map_.k1_per_px2;
     // Those in view by the present map; matches are kept where they are close to their own prediction.
     std::vector<Expected> next;
     for (int row = pattern_.first_row; row <= pattern_.last_row; ++row) {
@@ -207,7 +262,7 @@ void Decoding::locateEllipses() {
         const bool fresh = !e.match.found || e.match.shift_px > 0.15;
         if (fresh) {
           if (shift.norm() > 8.0) shift.setZero();
-          RingMatch match = ring.match(image_, map_, centre, shift);
+          RingMatch match = ring_->match(image_, map_, centre, shift);
           if (match.found && (match.visible < 0.4 || match.correlation < 0.45)) match.found = false;
           changed = changed || match.found;
           e.match = match;
@@ -231,6 +286,9 @@ void Decoding::locateEllipses() {
     }
     const MapFit fit = fitMap(points, map_, points.size() >= 6);
     if (fit.status == FitStatus::Converged) map_ = fit.map;
+    if (pass < 3 && std::abs(map_.k1_per_px2 - matched_k1_) * bendPerK1() > 0.0005) {
+      for (Expected& e : expected_) e.match.shift_px = 1.0;
+    }
     if (pass == 0 || !changed) {
       std::vector<Eigen::Vector2d> centres;
       std::vector<Eigen::Vector2d> shifts;
@@ -239,12 +297,12 @@ void Decoding::locateEllipses() {
         centres.push_back(e.centre_um);
         shifts.push_back(Eigen::Vector2d(e.match.x_px, e.match.y_px) - map_.imageOf(e.centre_um));
       }
-      const double blur = ring.estimateBlur(image_, map_, centres, shifts);
+      const double blur = ring_->estimateBlur(image_, map_, centres, shifts);
       if (blur > 0.0) {
         const bool rebuild = std::abs(blur / blur_px_ - 1.0) > 0.1;
         blur_px_ = blur;
         if (rebuild && pass < 3) {
-          ring = RingTemplate(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, 4500);
+          ring_.emplace(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, 4500);
           for (Expected& e : expected_) e.match.shift_px = 1.0;
           continue;
         }
@@ -271,12 +329,13 @@ void Decoding::locateCircles() {
     noise_inflation_ = std::max(1.0, ratio[ratio.size() / 2]);
   }
   if (!options_.circles) return;
+  const Light light(expected_, {map_.centre_x_px, map_.centre_y_px});
   for (int j = pattern_.first_circle_row; j <= pattern_.last_circle_row; ++j) {
     for (int i = pattern_.first_circle_column; i <= pattern_.last_circle_column; ++i) {
       const Eigen::Vector2d centre = pattern_.circleCentre(i, j);
       const Eigen::Vector2d at = map_.imageOf(centre);
       if (!(at.x() > 0 && at.y() > 0 && at.x() < image_.width() && at.y() < image_.height())) continue;
-      const RingMatch match = matchCircle(image_, pattern_, map_, centre, blur_px_);
+      const RingMatch match = matchCircle(image_, pattern_, map_, centre, blur_px_, light.gradientAt(at));
       if (!match.found || match.correlation < 0.7 || match.shift_px > 1.5) continue;
       CircleMark mark;
       mark.i = i;
@@ -285,7 +344,7 @@ void Decoding::locateCircles() {
       mark.y_px = match.y_px;
       mark.sigma_px =
           std::hypot(match.pixel_noise * noise_inflation_ * std::sqrt(0.5 * match.unit_covariance_px2.trace()),
-                     2.0 * model_sigma_px);
+                     3.0 * model_sigma_px);
       mark.score = match.correlation;
       result_.circles.push_back(mark);
     }
@@ -322,6 +381,22 @@ void Decoding::fitFinalMap() {
   }
   result_.exposure.contrast = contrast / static_cast<double>(result_.subpatterns.size());
   result_.exposure.blur_sigma_px = std::sqrt(std::max(0.0, blur_px_ * blur_px_ - 1.0 / 12.0));
+  MapFit fit = fitToMarks();
+  if (fit.status == FitStatus::Converged) map_ = fit.map;
+  if (result_.subpatterns.size() >= 5 && settleOutliers(fit)) {
+    fit = fitToMarks();
+    if (fit.status == FitStatus::Converged) map_ = fit.map;
+  }
+  scaleUncertainties();
+  result_.map = map_;
+  result_.pixel_length_sigma_um = fit.pixel_length_sigma_um;
+  result_.tilt_sigma_rad = fit.tilt_sigma_rad;
+  result_.k1_sigma_per_px2 = fit.k1_sigma_per_px2;
+  result_.map_rms_px = fit.rms_px;
+  result_.map_chi2_per_dof = fit.chi2_per_dof;
+}
+
+MapFit Decoding::fitToMarks() const {
   std::vector<MapPoint> points;
   for (const Subpattern& s : result_.subpatterns) {
     points.push_back({pattern_.ellipseCentre(s.row, s.column), {s.x_px, s.y_px}, s.sigma_px});
@@ -329,14 +404,64 @@ void Decoding::fitFinalMap() {
   for (const CircleMark& c : result_.circles) {
     points.push_back({pattern_.circleCentre(c.i, c.j), {c.x_px, c.y_px}, c.sigma_px});
   }
-  const MapFit fit = fitMap(points, map_, true);
-  if (fit.status == FitStatus::Converged) map_ = fit.map;
-  result_.map = map_;
-  result_.pixel_length_sigma_um = fit.pixel_length_sigma_um;
-  result_.tilt_sigma_rad = fit.tilt_sigma_rad;
-  result_.k1_sigma_per_px2 = fit.k1_sigma_per_px2;
-  result_.map_rms_px = fit.rms_px;
-  result_.map_chi2_per_dof = fit.chi2_per_dof;
+  return fitMap(points, map_, true);
+}
+
+void Decoding::scaleUncertainties() {
+  // What the outlines cannot tell of themselves (compression, shape of the pixels, uneven light) shows in how well the
+  // ellipses fit together. Never below what the outlines say.
+  double chi2 = 0.0;
+  int count = 0;
+  for (const Subpattern& s : result_.subpatterns) {
+    const Eigen::Vector2d off = Eigen::Vector2d(s.x_px, s.y_px) - map_.imageOf(pattern_.ellipseCentre(s.row, s.column));
+    const double z2 = off.squaredNorm() / (s.sigma_px * s.sigma_px);
+    chi2 += std::min(z2, 25.0);
+    count += 2;
+  }
+  constexpr double prior = 10.0;
+  const double dof = std::max(0, count - 5);
+  const double factor2 = (prior + dof * chi2 / std::max(1.0, dof)) / (prior + dof);
+  if (factor2 <= 1.0) return;
+  for (Subpattern& s : result_.subpatterns) {
+    s.covariance_px2 *= factor2;
+    s.sigma_px *= std::sqrt(factor2);
+  }
+}
+
+bool Decoding::settleOutliers(const MapFit& fit) {
+  const double scale = std::max(1.0, std::sqrt(fit.chi2_per_dof));
+  constexpr double limit = 4.0;  // of the distance in the plane over the uncertainty of a coordinate
+  bool changed = false;
+  const auto covered = [&](const CircleMark& c) {
+    const double off = (Eigen::Vector2d(c.x_px, c.y_px) - map_.imageOf(pattern_.circleCentre(c.i, c.j))).norm();
+    return off > limit * scale * c.sigma_px;
+  };
+  const std::size_t before = result_.circles.size();
+  std::erase_if(result_.circles, covered);
+  changed = result_.circles.size() != before;
+  for (Subpattern& s : result_.subpatterns) {
+    const Eigen::Vector2d centre = pattern_.ellipseCentre(s.row, s.column);
+    const Eigen::Vector2d predicted = map_.imageOf(centre);
+    const double off = (Eigen::Vector2d(s.x_px, s.y_px) - predicted).norm();
+    if (off <= limit * scale * s.sigma_px) continue;
+    changed = true;
+    // Something lies on the line that a look at this ellipse alone does not tell: its neighbours tell where it is.
+    const RingMatch match = ring_->match(image_, map_, centre, Eigen::Vector2d::Zero(), true);
+    if (match.found && match.visible > 0.3) {
+      s.x_px = match.x_px;
+      s.y_px = match.y_px;
+      const double variance = std::max(match.effective_noise * match.effective_noise, pooled_noise_ * pooled_noise_);
+      s.covariance_px2 =
+          variance * match.unit_covariance_px2 + model_sigma_px * model_sigma_px * Eigen::Matrix2d::Identity();
+      s.sigma_px = std::sqrt(0.5 * s.covariance_px2.trace());
+    }
+    const Eigen::Vector2d left = Eigen::Vector2d(s.x_px, s.y_px) - predicted;
+    if (left.norm() > limit * scale * s.sigma_px) {
+      s.covariance_px2 += 0.5 * left.squaredNorm() * Eigen::Matrix2d::Identity();
+      s.sigma_px = std::sqrt(0.5 * s.covariance_px2.trace());
+    }
+  }
+  return changed;
 }
 
 void Decoding::readAllDigits() {
@@ -395,6 +520,18 @@ DecodeResult Decoding::run() {
   locateEllipses();
   locateCircles();
   fitFinalMap();
+  // The distortion bends an outline, so that its middle is not the image of its centre. Where the map learnt more about
+  // the distortion than the matches knew (few ellipses in view), match again.
+  for (int pass = 0; pass < 5 && std::abs(map_.k1_per_px2 - matched_k1_) * bendPerK1() > 0.0003; ++pass) {
+    matched_k1_ = map_.k1_per_px2;
+    for (Expected& e : expected_) {
+      if (!e.match.found) continue;
+      const RingMatch match = ring_->match(image_, map_, e.centre_um, Eigen::Vector2d::Zero());
+      if (match.found) e.match = match;
+    }
+    result_.subpatterns.clear();
+    fitFinalMap();
+  }
   if (static_cast<int>(result_.subpatterns.size()) < std::max(1, options_.min_subpatterns)) {
     rejectWith(fmt::format("only {} ellipses of the pattern were decoded; at least {} are needed",
                            result_.subpatterns.size(), std::max(1, options_.min_subpatterns)));

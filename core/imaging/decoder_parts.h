@@ -170,9 +170,10 @@ class RingTemplate {
   RingTemplate(const FiducialPattern& pattern, const GrayImage& image, const LocalFrame& frame, double blur_px,
                int wanted_pixels);
 
-  /// Matches the ellipse at `centre_um` as `map` predicts it, shifted by `shift`.
+  /// Matches the ellipse at `centre_um` as `map` predicts it, shifted by `shift`. `trusted`: the prediction is better
+  /// than any sector, so sectors that contradict it (dust, scratches) are left out from the start.
   [[nodiscard]] RingMatch match(const GrayImage& image, const PatternMap& map, const Eigen::Vector2d& centre_um,
-                                const Eigen::Vector2d& shift) const;
+                                const Eigen::Vector2d& shift, bool trusted = false) const;
 
   /// Blur (px, including the pixel's own area) that explains the mean profile across the lines of the given ellipses
   /// best; 0 if none is usable.
@@ -206,9 +207,10 @@ class RingTemplate {
   double gradient_bias_contrast_ = 0.0;
 };
 
-/// Matches a filled circle as `map` predicts it.
+/// Matches a filled circle as `map` predicts it, in light that changes by `light_gradient` (relative, per px).
 [[nodiscard]] RingMatch matchCircle(const GrayImage& image, const FiducialPattern& pattern, const PatternMap& map,
-                                    const Eigen::Vector2d& centre_um, double blur_px);
+                                    const Eigen::Vector2d& centre_um, double blur_px,
+                                    const Eigen::Vector2d& light_gradient);
 
 // ---- exposure.cpp -------------------------------------------------------------------------------------------------
 

@@ -174,7 +174,7 @@ bool RingTemplate::place(const GrayImage& image, const PatternMap& map, const Ei
 }
 
 RingMatch RingTemplate::match(const GrayImage& image, const PatternMap& map, const Eigen::Vector2d& centre_um,
-                              const Eigen::Vector2d& shift) const {
+                              const Eigen::Vector2d& shift, bool trusted) const {
   RingMatch result;
   int x0 = 0;
   int y0 = 0;
@@ -262,11 +262,23 @@ RingMatch RingTemplate::match(const GrayImage& image, const PatternMap& map, con
     return r;
   };
   std::array<bool, sectors> used = good;
+  if (trusted) {
+    sorted.clear();
+    for (int k = 0; k < sectors; ++k) {
+      if (good[k]) sorted.push_back(s[k]);
+    }
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    const double middle = sorted[sorted.size() / 2];  // the line may be a little thicker than drawn
+    for (double& value : sorted) value = std::abs(value - middle);
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    const double limit = 3.0 * 1.4826 * sorted[sorted.size() / 2];
+    for (int k = 0; k < sectors; ++k) good[k] = good[k] && std::abs(s[k] - middle) <= limit;
+    used = good;
+  }
   Vector fit = Vector::Zero();
   Matrix covariance = Matrix::Zero();
   double scatter2 = 0.0;
   int count = 0;
-  // Start from medians, so that a few wild sectors do not pull the first fit: |s| beyond a line's width is wild.
   for (int iteration = 0; iteration < 4; ++iteration) {
     Matrix N = Matrix::Zero();
     Vector g = Vector::Zero();

@@ -146,18 +146,37 @@ void paintPattern(Canvas& canvas, const ArtworkDistance& artwork, const PatternM
   const double cell_um = cell_px * map.pixel_length_um;
   constexpr int parts = 4;
   const double part_um = cell_um / parts;
+  // PatternMap::patternOf with the constant parts taken out of the loop.
+  const double turn_c = std::cos(map.tilt_rad);
+  const double turn_s = std::sin(map.tilt_rad);
+  const auto patternOf = [&](double x, double y) {
+    x -= map.centre_x_px;
+    y -= map.centre_y_px;
+    if (map.k1_per_px2 != 0.0) {
+      const double q = map.k1_per_px2 * (x * x + y * y);
+      double factor = 1.0 - q;
+      for (int k = 0; k < 3; ++k) {
+        factor -= (factor * (1.0 + q * factor * factor) - 1.0) / (1.0 + 3.0 * q * factor * factor);
+      }
+      x *= factor;
+      y *= factor;
+    }
+    x -= map.origin_x_px;
+    y -= map.origin_y_px;
+    const double across = map.pixel_length_um * (-turn_s * x + turn_c * y);
+    return Eigen::Vector2d(map.pixel_length_um * (turn_c * x + turn_s * y), map.mirrored ? across : -across);
+  };
   for (int j = 0; j < canvas.height; ++j) {
     for (int i = 0; i < canvas.width; ++i) {
-      const Eigen::Vector2d pixel((i + 0.5) * cell_px - 0.5, (j + 0.5) * cell_px - 0.5);
-      const Eigen::Vector2d p = map.patternOf(pixel);
+      const Eigen::Vector2d p = patternOf((i + 0.5) * cell_px - 0.5, (j + 0.5) * cell_px - 0.5);
       const double d = artwork.at(p);
       double coverage = 0.0;
       if (std::abs(d) >= 0.75 * cell_um) {
         coverage = d < 0.0 ? 1.0 : 0.0;
       } else {
         // Cell corners turned into the pattern (its own small turn by the distortion does not matter within a cell).
-        const double c = std::cos(map.tilt_rad) * part_um;
-        const double s = std::sin(map.tilt_rad) * part_um;
+        const double c = turn_c * part_um;
+        const double s = turn_s * part_um;
         for (int v = 0; v < parts; ++v) {
           for (int u = 0; u < parts; ++u) {
             const double a = u - 0.5 * (parts - 1);
