@@ -20,7 +20,7 @@ unsigned byteAt(std::string_view bytes, std::size_t i) {
 /// True if the JPEG's picture ends with its end marker. Thumbnails inside segments are stepped over.
 bool jpegIsComplete(std::string_view bytes) {
   std::size_t i = 2;
-  while (i + 4 <= bytes.size()) {
+  while (i + 2 <= bytes.size()) {
     if (byteAt(bytes, i) != 0xFF) {  // inside entropy-coded data: on to the next 0xFF
       i = bytes.find('\xFF', i);
       if (i == std::string_view::npos) return false;
@@ -32,11 +32,13 @@ bool jpegIsComplete(std::string_view bytes) {
       ++i;
     } else if (marker == 0x00 || marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8)) {
       i += 2;
+    } else if (i + 4 > bytes.size()) {
+      return false;
     } else {
       i += 2 + byteAt(bytes, i + 2) * 256 + byteAt(bytes, i + 3);
     }
   }
-  return i + 2 <= bytes.size() && byteAt(bytes, i) == 0xFF && byteAt(bytes, i + 1) == 0xD9;
+  return false;
 }
 
 /// True if the PNG has its last chunk.

@@ -93,6 +93,11 @@ TEST(Image, RefusesWhatIsNoWholeImage) {
   EXPECT_EQ(again.at(3, 5), 200);
   const std::string jpeg = encodeJpeg(image, 90);
   EXPECT_EQ(decodeImageBytes(jpeg, "a.jpg").height(), 48);
+  // Whatever byte comes before the end marker.
+  for (int level = 0; level < 256; ++level) {
+    EXPECT_NO_THROW(
+        (void)decodeImageBytes(encodeJpeg(GrayImage(16 + level, 16, static_cast<std::uint8_t>(level)), 80), ""));
+  }
   const auto sentence = [](const std::string& bytes) -> std::string {
     try {
       (void)decodeImageBytes(bytes, "a");
