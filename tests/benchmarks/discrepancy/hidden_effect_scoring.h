@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How an answer is judged when the truth is known.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/discrepancy/discrepancy.h"
+#include "core/simulation/study_campaigns.h"
+#include "core/simulation/virtual_campaign.h"
+
+namespace spindrift::study {
+
+/// Right: every hidden effect is the name of a listed effect, or among its at most two rivals, and nothing else is
+/// listed. Abstained: nothing is named (unknown, or none). Wrong: an effect is listed that is not hidden, also beside
+/// the right one.
+enum class Outcome { Named, Rival, Abstained, Wrong };
+
+struct Answer {
+  std::string verdict;  ///< "named", "ambiguous", "unknown", "none"
+  struct Listed {
+    std::string id;
+    std::vector<std::string> rivals;  ///< without containers
+    double confidence = 0.0;
+  };
+  std::vector<Listed> effects;
+};
+
+/// Effects that are one and the same on the machine at hand (EFFECTS.md).
+[[nodiscard]] bool sameEffect(const std::string& a, const std::string& b);
+
+[[nodiscard]] Outcome judge(const Answer& answer, const std::vector<std::string>& hidden);
+
+/// What the search is given: machine, log, observations and the simulation's rows, and nothing of the truth.
+[[nodiscard]] DiscrepancyInput inputOf(const VirtualCampaign& campaign);
+
+/// 1 - sum (estimate - hidden)^2 / sum hidden^2 over the held-out rows, both relative to their mean over the fitted
+/// rows of the same point and component. NaN if nothing is hidden.
+[[nodiscard]] double explainedFraction(const VirtualCampaign& campaign, const std::vector<double>& effect_part);
+
+}  // namespace spindrift::study

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Study of the search for hidden effects on virtual campaigns, blind to what they hide.
+//
+//   hidden_effect_study [--campaigns N] [--seed S] [--short] [--plain] [--kind K] [--list]
+//
+// N campaigns (default 320) are shared among: one hidden effect at strength 1, 2, 4, 8 times the noise, the same at
+// strength 4 with noise correlated 0.9, two effects, nothing, a cause outside the catalogue, confounded logs. Each has
+// its own machine, programme, room, sensors and seed; the given simulation is off by up to 1 %. --plain also runs
+// forward stepwise BIC and LASSO; --list prints every campaign that was not named rightly.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "core/base/text.h"
+#include "core/math/statistics.h"
+#include "tests/benchmarks/discrepancy/hidden_effect_scoring.h"
+#include "tests/benchmarks/discrepancy/plain_methods.h"
+
+namespace spindrift::study {
+namespace {
+
+struct Cell {
+  std::string name;
+  StudyKind kind = StudyKind::One;
+  double strength = 4.0;
+  double ar1 = 0.0;
+  int share = 1;
+};
+
+const std::vector<Cell>& cells() {
+  static const std::vector<Cell> list{{"one, strength 1", StudyKind::One, 1.0, 0.0, 6},
+                                      {"one, strength 2", StudyKind::One, 2.0, 0.0, 6},
+                                      {"one, strength 4", StudyKind::One, 4.0, 0.0, 7},
+                                      {"one, strength 8", StudyKind::One, 8.0, 0.0, 6},
+                                      {"one, 4, AR(1) 0.9", StudyKind::One, 4.0, 0.9, 4},
+                                      {"two, strength 4", StudyKind::Two, 4.0, 0.0, 4},
+                                      {"nothing hidden", StudyKind::Nothing, 1.0, 0.0, 5},
+                                      {"outside, strength 5", StudyKind::Outside, 5.0, 0.0, 4},
+                                      {"confounded log, 5", StudyKind::Confounded, 5.0, 0.0, 3}};
+  return list;
+}
+
+struct Tally {
+  std::map<Outcome, int> outcomes;
+  std::map<std::string, int> verdicts;
+  int count = 0;
+  int any_named = 0;
+  void add(const Answer& answer, Outcome outcome) {
+    ++count;
+    ++outcomes[outcome];
+    ++verdicts[answer.verdict];
+    if (!answer.effects.empty()) ++any_named;
+  }
+};
+
+struct Assignment {
+  std::size_t cell = 0;
+  std::size_t turn = 0;
+  std::uint64_t seed = 0;
+};
+
+struct Outcomes {
+  std::vector<Tally> search = std::vector<Tally>(cells().size());
+  std::vector<Tally> stepwise = std::vector<Tally>(cells().size());
+  std::vector<Tally> lasso = std::vector<Tally>(cells().size());
+  std::vector<std::vector<double>> explained = std::vector<std::vector<double>>(cells().size());
+  std::vector<std::pair<double, bool>> confidences;
+  std::vector<double> search_ms;
+  std::map<std::string, std::pair<int, int>> by_effect;  // right, count
+  std::vector<std::string> misses;
+};
+
+std::string rate(int k, int n) {
+  if (n == 0) return "-";
+  const RateInterval i = wilsonInterval(static_cast<std::size_t>(k), static_cast<std::size_t>(n));
+  return fmt::format("{:5.1f} % [{:4.1f}, {:5.1f}]", 100.0 * k / n, 100.0 * i.low, 100.0 * i.high);
+}
+
+void print(const char* method, const std::vector<Tally>& tallies) {
+  fmt::print("\n{}\n{:22} {:>4}  {:>22} {:>22} {:>22} {:>22}  verdicts\n", method, "case", "n", "right name",
+             "right among rivals", "abstained", "wrong or superfluous");
+  for (std::size_t c = 0; c < cells().size(); ++c) {
+    Tally t = tallies[c];
+    if (t.count == 0) continue;
+    std::string verdicts;
+    for (const auto& [verdict, count] : t.verdicts) verdicts += fmt::format("{} {} ", verdict, count);
+    fmt::print("{:22} {:4}  {:>22} {:>22} {:>22} {:>22}  {}\n", cells()[c].name, t.count,
+               rate(t.outcomes[Outcome::Named], t.count), rate(t.outcomes[Outcome::Rival], t.count),
+               rate(t.outcomes[Outcome::Abstained], t.count), rate(t.outcomes[Outcome::Wrong], t.count), verdicts);
+  }
+}
+
+Answer searched(const DiscrepancyInput& input, JobContext& job, DiscrepancyResult& result) {
+  DiscrepancyOptions options;
+  options.suggest = false;
+  result = findDiscrepancy(input, options, job);
+  Answer answer;
+  answer.verdict = std::string(toString(result.verdict));
+  for (const FoundEffect& effect : result.effects) {
+    answer.effects.push_back({effect.id, effect.rivals, effect.confidence});
+  }
+  return answer;
+}
+
+std::string described(const Answer& answer) {
+  std::string text = answer.verdict;
+  for (const Answer::Listed& listed : answer.effects) {
+    text += " " + listed.id;
+    if (!listed.rivals.empty()) text += " (" + joinedList(listed.rivals, "or") + ")";
+  }
+  return text;
+}
+
+void runOne(const Assignment& which, bool plain, Outcomes& all, std::mutex& mutex) {
+  const Cell& cell = cells()[which.cell];
+  StudyOptions options;
+  options.kind = cell.kind;
+  options.strength = cell.strength;
+  options.ar1 = cell.ar1;
+  options.turn = which.turn;
+  const StudyCase made = studyCase(options, which.seed);
+  JobContext job;
+  const VirtualCampaign campaign = simulateCampaign(made.scenario, {}, job);
+  const DiscrepancyInput input = inputOf(campaign);
+  // A cause outside the catalogue can be in no list, so that naming anything is wrong.
+  const std::vector<std::string> nameable = cell.kind == StudyKind::Outside ? std::vector<std::string>{} : made.hidden;
+  const auto judged = [&](const Answer& answer) {
+    if (!nameable.empty()) return judge(answer, nameable);
+    if (!answer.effects.empty()) return Outcome::Wrong;
+    const bool right = answer.verdict == (cell.kind == StudyKind::Outside ? "unknown" : "none");
+    return right ? Outcome::Named : Outcome::Abstained;
+  };
+  DiscrepancyResult result;
+  const auto started = std::chrono::steady_clock::now();
+  const Answer answer = searched(input, job, result);
+  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count();
+  const Outcome outcome = judged(answer);
+  Answer stepwise;
+  Answer lasso;
+  if (plain) {
+    stepwise = forwardStepwiseBic(input);
+    lasso = lassoBic(input);
+  }
+  const std::scoped_lock lock(mutex);
+  all.search[which.cell].add(answer, outcome);
+  all.search_ms.push_back(ms);
+  if (!made.hidden.empty() && cell.kind != StudyKind::Outside) {
+    const double explained = explainedFraction(campaign, result.effect_part);
+    if (std::isfinite(explained)) all.explained[which.cell].push_back(explained);
+  }
+  if (cell.kind == StudyKind::One) {
+    auto& [right, count] = all.by_effect[made.hidden.front()];
+    right += outcome == Outcome::Named || outcome == Outcome::Rival ? 1 : 0;
+    ++count;
+  }
+  for (const Answer::Listed& listed : answer.effects) {
+    const bool right = std::any_of(nameable.begin(), nameable.end(),
+                                   [&](const std::string& hidden) { return sameEffect(hidden, listed.id); });
+    all.confidences.emplace_back(listed.confidence, right);
+  }
+  if (outcome != Outcome::Named) {
+    all.misses.push_back(fmt::format("seed {:5} {:20} hidden {:42} -> {}", which.seed, cell.name,
+                                     joinedList(made.hidden), described(answer)));
+  }
+  if (plain) {
+    all.stepwise[which.cell].add(stepwise, judged(stepwise));
+    all.lasso[which.cell].add(lasso, judged(lasso));
+  }
+}
+
+int run(int argc, char** argv) {
+  int campaigns = 320;
+  std::uint64_t seed = 1;
+  bool plain = false;
+  bool list = false;
+  std::string only;
+  for (int i = 1; i < argc; ++i) {
+    const auto value = [&]() -> std::string { return i + 1 < argc ? argv[++i] : ""; };
+    if (std::strcmp(argv[i], "--campaigns") == 0) {
+      campaigns = std::max(1, std::atoi(value().c_str()));
+    } else if (std::strcmp(argv[i], "--seed") == 0) {
+      seed = static_cast<std::uint64_t>(std::atoll(value().c_str()));
+    } else if (std::strcmp(argv[i], "--short") == 0) {
+      campaigns = 45;
+    } else if (std::strcmp(argv[i], "--plain") == 0) {
+      plain = true;
+    } else if (std::strcmp(argv[i], "--list") == 0) {
+      list = true;
+    } else if (std::strcmp(argv[i], "--kind") == 0) {
+      only = value();
+    } else {
+      fmt::print(
+          "usage: {} [--campaigns N] [--seed S] [--short] [--plain] [--list] [--kind "
+          "one|two|nothing|outside|confounded]\n",
+          argv[0]);
+      return 2;
+    }
+  }
+  int shares = 0;
+  for (const Cell& cell : cells()) shares += only.empty() || only == toString(cell.kind) ? cell.share : 0;
+  if (shares == 0) {
+    fmt::print("no kind \"{}\"\n", only);
+    return 2;
+  }
+  std::vector<Assignment> work;
+  std::size_t turn = seed * 7;
+  for (std::size_t c = 0; c < cells().size(); ++c) {
+    if (!only.empty() && only != toString(cells()[c].kind)) continue;
+    const int count = std::max(1, campaigns * cells()[c].share / shares);
+    for (int i = 0; i < count; ++i) work.push_back({c, turn++, seed * 100000 + work.size()});
+  }
+  Outcomes all;
+  std::mutex mutex;
+  const JobContext job;
+  parallelFor(work.size(), job, [&](std::size_t i) { runOne(work[i], plain, all, mutex); });
+
+  fmt::print("{} campaigns, seed {}; rates with 95 % intervals (Wilson)\n", work.size(), seed);
+  print("search (\"right name\" is \"unknown\" outside the catalogue and \"none\" where nothing is hidden)",
+        all.search);
+  if (plain) {
+    print("forward stepwise BIC over the same candidates", all.stepwise);
+    print("LASSO (BIC along the path) over the same candidates", all.lasso);
+  }
+  fmt::print("\nnoise-free hidden signal explained on held-out states\n");
+  for (std::size_t c = 0; c < cells().size(); ++c) {
+    if (all.explained[c].empty()) continue;
+    const auto& e = all.explained[c];
+    const auto good = static_cast<int>(std::count_if(e.begin(), e.end(), [](double v) { return v >= 0.95; }));
+    fmt::print("{:22} median {:5.1f} %, at least 95 % explained in {}\n", cells()[c].name, 100.0 * median(e),
+               rate(good, static_cast<int>(e.size())));
+  }
+  if (!all.confidences.empty()) {
+    double right = 0.0;
+    for (const auto& [confidence, ok] : all.confidences) right += ok ? 1.0 : 0.0;
+    right /= static_cast<double>(all.confidences.size());
+    double brier = 0.0;
+    for (const auto& [confidence, ok] : all.confidences) brier += std::pow(confidence - (ok ? 1.0 : 0.0), 2);
+    fmt::print("\nconfidence of {} names: Brier score {:.4f}, always saying the base rate ({:.3f}) {:.4f}\n",
+               all.confidences.size(), brier / static_cast<double>(all.confidences.size()), right,
+               right * (1.0 - right));
+  }
+  fmt::print("search time: median {:.0f} ms, 95 % below {:.0f} ms\n", median(all.search_ms),
+             quantile(all.search_ms, 0.95));
+  if (list) {
+    fmt::print("\nnot named rightly\n");
+    std::sort(all.misses.begin(), all.misses.end());
+    for (const std::string& miss : all.misses) fmt::print("{}\n", miss);
+    fmt::print("\nby hidden effect (one effect): right / campaigns\n");
+    for (const auto& [id, count] : all.by_effect) fmt::print("{:30} {} / {}\n", id, count.first, count.second);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace spindrift::study
+
+int main(int argc, char** argv) {
+  try {
+    return spindrift::study::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "hidden_effect_study: {}\n", error.what());
+    return 3;
+  }
+}
