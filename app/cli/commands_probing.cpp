@@ -1,8 +1,378 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <memory>
+
 #include "app/cli/command.h"
+#include "core/base/atomic_file.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/probing/cycle_program.h"
+#include "core/probing/cycle_studies.h"
+#include "core/probing/evaluate_touches.h"
+#include "core/probing/printed_text.h"
+#include "core/probing/probe_health.h"
 
 namespace spindrift::cli {
+namespace {
 
-void addProbingCommands(CLI::App& /*app*/, CommandLine& /*line*/) {}
+const Artefact& chosenArtefact(const MachineDescription& machine, const std::string& id) {
+  if (machine.artefacts.empty()) {
+    throw InputError({machine.file, "$.artefacts"}, "is missing or empty; allowed: a hole bar or a ball artefact.");
+  }
+  if (id.empty()) {
+    if (machine.artefacts.size() == 1) return machine.artefacts.front();
+    throw InputError({machine.file, "$.artefacts"}, "describes several artefacts; name one with --artefact.");
+  }
+  const Artefact* artefact = machine.findArtefact(id);
+  if (artefact == nullptr) {
+    throw InputError({machine.file, "$.artefacts"}, fmt::format("holds no artefact \"{}\".", id));
+  }
+  return *artefact;
+}
+
+TouchList touchesOf(const Campaign& campaign) {
+  const auto file = campaign.captureList("touches.csv");
+  if (!file) throw InputError({campaign.path("captures/touches.csv"), ""}, "is missing; these commands need touches.");
+  return TouchList::read(*file);
+}
+
+/// The evaluation of one artefact of a campaign, whatever its kind.
+CycleEvaluation evaluationOf(const Campaign& campaign, const std::string& id, JobContext& job) {
+  TouchEvaluation all = evaluateTouchList(campaign, touchesOf(campaign), {}, {}, job);
+  for (const HoleCycleResult& r : all.hole_cycles) {
+    if (id.empty() || r.artefact == id) return r;
+  }
+  for (const BallCycleResult& r : all.ball_cycles) {
+    if (id.empty() || r.artefact == id) return r;
+  }
+  throw InputError(fmt::format("no touches of artefact \"{}\" in this campaign.", id));
+}
+
+struct CycleArguments {
+  std::string machine, artefact, nc, template_file, control = "fanuc";
+  std::vector<double> first_ball;
+  CyclePlanOptions plan;
+  ProgramOptions program;
+};
+
+void addCycle(CLI::App& app, CommandLine& line) {
+  auto a = std::make_shared<CycleArguments>();
+  CLI::App* command = addCommand(
+      app, line, "cycle", "Write a measuring cycle for the machine's control, read it back and check it",
+      [a](JobContext&) {
+        const MachineDescription machine = MachineDescription::read(a->machine);
+        const Artefact& artefact = chosenArtefact(machine, a->artefact);
+        CyclePlanOptions plan_options = a->plan;
+        if (!a->first_ball.empty()) plan_options.first_ball_mm = Eigen::Vector3d(a->first_ball.data());
+        if (artefact.kind == "balls" && a->first_ball.empty()) {
+          throw InputError("where the first ball stands is not known; allowed: --first-ball X,Y,Z in mm.");
+        }
+        ProgramOptions program = a->program;
+        program.dialect = programDialect(a->control);
+        const CyclePlan plan = planCycle(machine, artefact, plan_options);
+        const std::string text = writeProgram(plan, machine, artefact, plan_options, program);
+        ProgramCheckOptions check_options;
+        check_options.first_ball_mm = plan_options.first_ball_mm;
+        check_options.rotary_sign = program.rotary_sign;
+        check_options.overtravel_mm = plan_options.overtravel_mm + 0.5;
+        check_options.clearance_mm = std::min(1.0, plan_options.clearance_mm);
+        const ProgramCheck check = checkProgram(text, machine, artefact, check_options);
+        CommandResult result;
+        result.json = {{"artefact", artefact.id},     {"touches", check.touches},
+                       {"moves", check.moves.size()}, {"safe_height_mm", plan.safe_height_mm},
+                       {"control", a->control},       {"good", check.good()}};
+        nlohmann::json issues = nlohmann::json::array();
+        for (const ProgramIssue& i : check.issues) {
+          issues.push_back({{"line", i.line}, {"what", i.what}});
+          result.summary += fmt::format("line {}: {}\n", i.line, i.what);
+        }
+        result.json["issues"] = issues;
+        if (!check.good()) {
+          result.summary += "the programme was not written because its check found the above\n";
+          result.exit_status = NotGoodEnough;
+          return result;
+        }
+        if (!a->nc.empty()) writeFileAtomically(a->nc, text);
+        if (!a->template_file.empty()) {
+          writeFileAtomically(a->template_file, printedTextTemplate(machine, artefact, program).dump(1) + "\n");
+        }
+        result.summary += fmt::format(
+            "{} touches on {} in {} moves; read back and checked: all inside the travel, none through the artefact, a "
+            "retract after every touch, safe height {:.1f} mm\n",
+            check.touches, artefact.id, check.moves.size(), plan.safe_height_mm);
+        return result;
+      });
+  command->add_option("MACHINE", a->machine, "machine.json")->required();
+  command->add_option("--nc", a->nc, "Write the programme to this file")->type_name("FILE");
+  command->add_option("--template", a->template_file, "Write the template that reads what the programme prints (JSON)")
+      ->type_name("FILE");
+  command->add_option("--control", a->control, "Dialect: fanuc (G65, G31, DPRNT) or generic (G38.2, LOG)")
+      ->check(CLI::IsMember({"fanuc", "generic"}))
+      ->capture_default_str();
+  command->add_option("--artefact", a->artefact, "Id of the artefact, if the machine file has several");
+  command->add_option("--first-ball", a->first_ball, "Where the first ball stands in machine coordinates, mm")
+      ->delimiter(',')
+      ->expected(3)
+      ->type_name("X,Y,Z");
+  command->add_option("--clearance", a->plan.clearance_mm, "Free distance around material, mm")->capture_default_str();
+  command->add_option("--retract", a->plan.retract_mm, "Safe height above the highest material, mm")
+      ->capture_default_str();
+  command->add_option("--overtravel", a->plan.overtravel_mm, "How far a touch may search behind the surface, mm")
+      ->capture_default_str();
+  command->add_option("--depth", a->plan.depth_mm, "Depth of the touches in a hole, mm")->capture_default_str();
+  command->add_option("--beside", a->plan.surface_offset_mm, "Distance of the surface touch from the hole, mm")
+      ->capture_default_str();
+  command->add_option("--touch-feed", a->plan.touch_feed_mm_min, "Feed of a touch, mm/min")->capture_default_str();
+  command->add_option("--feed", a->plan.guarded_feed_mm_min, "Feed of guarded moves, mm/min")->capture_default_str();
+  command->add_option("--program-number", a->program.program_number, "Number of a fanuc programme")
+      ->check(CLI::Range(1, 9999))
+      ->capture_default_str();
+  command
+      ->add_option("--rotary-sign", a->program.rotary_sign, "-1 if the control counts the table clockwise from above")
+      ->check(CLI::IsMember({-1, 1}))
+      ->capture_default_str();
+  command->add_flag("--from-below", a->plan.touch_from_below, "Touch balls from below too (no pole under them)");
+}
+
+struct ImportArguments {
+  std::string printed, machine, pattern, out;
+};
+
+void addImport(CLI::App& app, CommandLine& line) {
+  auto a = std::make_shared<ImportArguments>();
+  CLI::App* command =
+      addCommand(app, line, "import-touches", "Turn the text that a measuring programme printed into touches.csv",
+                 [a](JobContext&) {
+                   const MachineDescription machine = MachineDescription::read(a->machine);
+                   const JsonNode pattern = JsonNode::read(a->pattern);
+                   const PrintedText printed = readPrintedText(readFile(a->printed), a->printed, pattern, machine);
+                   printed.touches.checkAgainst(machine);
+                   writeFileAtomically(a->out, printed.touches.csv());
+                   (void)TouchList::read(a->out);  // what was written can be read
+                   CommandResult result;
+                   result.json = {{"touches", printed.touches.touches.size()},
+                                  {"cycles", printed.touches.cycles()},
+                                  {"ignored_lines", printed.ignored_lines}};
+                   result.summary =
+                       fmt::format("{} touches in {} cycles, {} other lines ignored\n", printed.touches.touches.size(),
+                                   printed.touches.cycles().size(), printed.ignored_lines);
+                   return result;
+                 });
+  command->add_option("PRINTED", a->printed, "Text as the control printed it")->required();
+  command->add_option("--machine", a->machine, "machine.json")->required()->type_name("FILE");
+  command->add_option("--template", a->pattern, "Template (JSON); `cycle --template` writes one to start from")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--out", a->out, "touches.csv to write")->required()->type_name("FILE");
+}
+
+struct HealthArguments {
+  std::string campaign;
+  ProbeHealthOptions options;
+};
+
+void addHealth(CLI::App& app, CommandLine& line) {
+  auto a = std::make_shared<HealthArguments>();
+  CLI::App* command = addCommand(
+      app, line, "probe-health", "Qualify styli on a sphere: pre-travel by direction, repeatability, a loose stylus",
+      [a](JobContext&) {
+        const Campaign campaign = Campaign::read(a->campaign);
+        const std::vector<StylusHealth> all = checkProbeHealth(touchesOf(campaign), campaign.machine, a->options);
+        CommandResult result;
+        result.json["styli"] = nlohmann::json::array();
+        for (const StylusHealth& h : all) {
+          nlohmann::json directions = nlohmann::json::array();
+          for (const PreTravel& p : h.directions) {
+            directions.push_back({{"approach", {p.approach.x(), p.approach.y(), p.approach.z()}},
+                                  {"pre_travel_um", p.pre_travel_um},
+                                  {"standard_uncertainty_um", jsonNumber(p.standard_uncertainty_um)},
+                                  {"repeatability_um", p.repeatability_um},
+                                  {"touches", p.touches}});
+          }
+          result.json["styli"].push_back({{"stylus", h.stylus},
+                                          {"feature", h.feature},
+                                          {"status", toString(h.status)},
+                                          {"message", h.message},
+                                          {"healthy", h.healthy},
+                                          {"loose", h.loose},
+                                          {"effective_radius_mm", h.effective_radius_mm},
+                                          {"effective_radius_standard_uncertainty_mm", h.effective_radius_sigma_mm},
+                                          {"pre_travel_range_um", h.pre_travel_range_um},
+                                          {"repeatability_um", h.repeatability_um},
+                                          {"largest_step_um", h.largest_step_um},
+                                          {"directions", directions}});
+          result.summary += fmt::format("{} on {}: {}\n", h.stylus, h.feature, h.message);
+          if (h.status == FitStatus::Converged) {
+            result.summary +=
+                fmt::format("  effective radius {}, pre-travel range {:.2f} um, repeatability {:.2f} um\n",
+                            withUncertainty(h.effective_radius_mm, h.effective_radius_sigma_mm, "mm"),
+                            h.pre_travel_range_um, h.repeatability_um);
+          }
+          if (!h.healthy) result.exit_status = NotGoodEnough;
+        }
+        return result;
+      });
+  command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign with touches on a sphere")->required();
+  command->add_option("--healthy", a->options.healthy_sigma_um, "Repeatability of a healthy probe, um (one sigma)")
+      ->capture_default_str();
+}
+
+struct StudyArguments {
+  std::string campaign, artefact, parameter, reference;
+  RepeatabilityOptions options;
+  std::vector<double> growth;
+  double trust_um_per_m = 0.1;
+};
+
+void addStudies(CLI::App& app, CommandLine& line) {
+  auto a = std::make_shared<StudyArguments>();
+  CLI::App* repeatability = addCommand(
+      app, line, "repeatability-study", "Repeatability of a probing cycle from many cycles, slow drifts taken out",
+      [a](JobContext& job) {
+        const Campaign campaign = Campaign::read(a->campaign);
+        const RepeatabilityStudy study = studyRepeatability(evaluationOf(campaign, a->artefact, job), a->options);
+        CommandResult result;
+        result.json["status"] = toString(study.status);
+        result.json["message"] = study.message;
+        result.json["parameters"] = nlohmann::json::object();
+        for (const Repeatability& r : study.parameters) {
+          result.json["parameters"][r.name] = {{"repeatability", r.repeatability},
+                                               {"standard_uncertainty", r.standard_uncertainty},
+                                               {"expected_from_touch_noise", r.expected},
+                                               {"cycles", r.cycles}};
+          result.summary += fmt::format("{:14} {} (k = {:g}; touch noise alone: {:.3g})\n", r.name,
+                                        withUncertainty(r.repeatability, r.standard_uncertainty, ""),
+                                        a->options.coverage_factor, r.expected);
+        }
+        if (study.status != FitStatus::Converged) {
+          result.summary = study.message + "\n";
+          result.exit_status = NotGoodEnough;
+        }
+        return result;
+      });
+  repeatability->add_option("CAMPAIGN", a->campaign, "Folder of the campaign")->required();
+  repeatability->add_option("--artefact", a->artefact, "Id of the artefact");
+  repeatability->add_option("--high-pass", a->options.high_pass_cycles, "Running mean that is taken out, cycles (odd)")
+      ->capture_default_str();
+  repeatability->add_option("-k,--coverage", a->options.coverage_factor, "Coverage factor")->capture_default_str();
+
+  auto b = std::make_shared<StudyArguments>();
+  CLI::App* compare = addCommand(
+      app, line, "compare-reference", "Compare a parameter of the cycles with a reference instrument (grid encoder)",
+      [b](JobContext& job) {
+        const Campaign campaign = Campaign::read(b->campaign);
+        const ReferenceComparison c =
+            compareWithReference(evaluationOf(campaign, b->artefact, job), b->parameter, b->reference);
+        CommandResult result;
+        nlohmann::json points = nlohmann::json::array();
+        for (const auto& p : c.points) {
+          points.push_back({{"time_s", p.time_s},
+                            {"probe", p.probe},
+                            {"reference", p.reference},
+                            {"difference", p.difference},
+                            {"standard_uncertainty", p.standard_uncertainty}});
+        }
+        result.json = {{"parameter", c.name},
+                       {"status", toString(c.status)},
+                       {"message", c.message},
+                       {"offset", c.offset},
+                       {"rms", c.rms},
+                       {"largest", c.largest},
+                       {"correlation", c.correlation},
+                       {"fit_percent", jsonNumber(c.fit_percent)},
+                       {"within_two_sigma", c.within_two_sigma},
+                       {"points", points}};
+        if (c.status != FitStatus::Converged) {
+          result.summary = c.message + "\n";
+          result.exit_status = NotGoodEnough;
+        } else {
+          result.summary = fmt::format(
+              "{}: rms difference {:.3g}, largest {:.3g}, {:.0f} % of {} cycles within two sigma, correlation {:.4f}\n",
+              c.name, c.rms, c.largest, 100.0 * c.within_two_sigma, c.points.size(), c.correlation);
+        }
+        return result;
+      });
+  compare->add_option("CAMPAIGN", b->campaign, "Folder of the campaign")->required();
+  compare->add_option("--reference", b->reference, "Record: time_s,value[,sigma], unit of the parameter")
+      ->required()
+      ->type_name("CSV");
+  compare->add_option("--parameter", b->parameter, "Parameter, for example EXX_um_per_m")->required();
+  compare->add_option("--artefact", b->artefact, "Id of the artefact");
+
+  auto s = std::make_shared<StudyArguments>();
+  CLI::App* second = addCommand(
+      app, line, "second-axis", "Hole bar: what an expanding second axis does, and the evaluation that removes it",
+      [s](JobContext& job) {
+        const Campaign campaign = Campaign::read(s->campaign);
+        HoleCycleOptions plain;
+        const TouchEvaluation base = evaluateTouchList(campaign, touchesOf(campaign), plain, {}, job);
+        CommandResult result;
+        if (base.hole_cycles.empty()) throw InputError({campaign.folder, ""}, "holds no touches of a hole bar.");
+        const SecondAxisBias bias = secondAxisBias(base.hole_cycles.front(), base.touches);
+        nlohmann::json per = nlohmann::json::object();
+        result.summary = fmt::format("an unnoticed expansion of {} by 1 um/m changes\n", bias.second);
+        for (std::size_t p = 0; p < bias.names.size(); ++p) {
+          per[bias.names[p]] = bias.bias_per_um_per_m[p];
+          result.summary += fmt::format("  {:14} by {:+.3f}\n", bias.names[p], bias.bias_per_um_per_m[p]);
+        }
+        result.json["bias_per_um_per_m"] = per;
+        if (!s->growth.empty()) {
+          HoleCycleOptions extended;
+          extended.second_axis = true;
+          StableLength length;
+          length.uncertainty_um_per_m = s->trust_um_per_m;
+          if (s->growth.size() == 1) {
+            length.growth_um_per_m = s->growth.front();
+          } else {
+            length.growth_of_cycle_um_per_m = s->growth;
+          }
+          extended.stable_length = length;
+          const TouchEvaluation more = evaluateTouchList(campaign, touchesOf(campaign), extended, {}, job);
+          result.json["with_stable_length"] = cyclesJson(more.hole_cycles.front());
+          const HoleCycleResult& r = more.hole_cycles.front();
+          const CycleParameter& last = r.parameters.back().back();
+          result.summary +=
+              fmt::format("with the bar as stable length, {} in {}: {}\n", r.names.back(), r.cycles.back(),
+                          withUncertainty(last.value, last.standard_uncertainty, "um/m"));
+        }
+        return result;
+      });
+  second->add_option("CAMPAIGN", s->campaign, "Folder of the campaign")->required();
+  second
+      ->add_option("--stable-growth", s->growth,
+                   "Known growth of the bar since the first cycle, um/m: one number, or one per cycle")
+      ->delimiter(',');
+  second->add_option("--trust", s->trust_um_per_m, "Standard uncertainty of that growth, um/m")->capture_default_str();
+
+  auto g = std::make_shared<StudyArguments>();
+  auto count = std::make_shared<int>(0);
+  CLI::App* groups = addCommand(
+      app, line, "sensor-groups", "Group temperature sensors by the size of their change", [g, count](JobContext&) {
+        const OperatingLog log = OperatingLog::read(g->campaign);
+        CommandResult result;
+        result.json["groups"] = nlohmann::json::array();
+        for (const SensorGroup& group : groupSensors(log, *count)) {
+          result.json["groups"].push_back({{"label", group.label},
+                                           {"smallest_change_K", group.smallest_change_K},
+                                           {"largest_change_K", group.largest_change_K},
+                                           {"sensors", group.sensors}});
+          result.summary += fmt::format("{} ({:.2f} to {:.2f} K): {}\n", group.label, group.smallest_change_K,
+                                        group.largest_change_K, joinedList(group.sensors));
+        }
+        return result;
+      });
+  groups->add_option("LOG", g->campaign, "log.csv")->required();
+  groups->add_option("--groups", *count, "Number of groups; 0: chosen by the data")->capture_default_str();
+}
+
+}  // namespace
+
+void addProbingCommands(CLI::App& app, CommandLine& line) {
+  addCycle(app, line);
+  addImport(app, line);
+  addHealth(app, line);
+  addStudies(app, line);
+}
 
 }  // namespace spindrift::cli

@@ -114,7 +114,7 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
   assembly.fit = options.fit;
   assembly.misplaced_mm = options.misplaced_mm;
   assembly.features = featureNames(artefact);
-  assembly.jacobian = [&](const Touch& t) -> Eigen::MatrixXd {
+  assembly.jacobian = [&](const Touch& t, const Eigen::Vector3d&) -> Eigen::MatrixXd {
     return ballDeviationJacobian(t.position_mm, machine.findStylus(t.stylus)->offset_mm, result.fixed_bearing_mm);
   };
   assembly.radius = [&](const std::string& feature, const std::string& stylus) -> std::optional<double> {

@@ -283,7 +283,16 @@ class Assembler {
       for (int k = 0; k < 3; ++k) centres[k][static_cast<std::size_t>(g.setting)].push_back(fit.centre_mm(k));
     }
     base_.assign(settings_.size(), Eigen::Vector3d::Zero());
+    // Thermal errors are zero in the first cycle by definition: its centres are the place to linearise about. Another
+    // choice would turn with the direction of touch and leave an error of second order.
+    std::vector<bool> based(settings_.size(), false);
+    for (const Group& g : groups_) {
+      if (g.cycle != 0 || !g.centred) continue;
+      base_[static_cast<std::size_t>(g.setting)] = g.centre;
+      based[static_cast<std::size_t>(g.setting)] = true;
+    }
     for (std::size_t s = 0; s < settings_.size(); ++s) {
+      if (based[s]) continue;
       if (!centres[0][s].empty()) {
         for (int k = 0; k < 3; ++k) base_[s](k) = median(centres[k][s]);
         continue;
@@ -349,7 +358,8 @@ class Assembler {
                                     direction(t.approach.z())},
                                    static_cast<int>(key_of.size()))
                       .first->second;
-        problem.jacobian.row(static_cast<Eigen::Index>(problem.rows.size())) = -u.transpose() * assembly_.jacobian(t);
+        problem.jacobian.row(static_cast<Eigen::Index>(problem.rows.size())) =
+            -u.transpose() * assembly_.jacobian(t, g.centre);
         problem.rows.push_back(row);
         result_.row_touch.push_back(i);
         result_.row_normal.push_back(u);

@@ -62,8 +62,8 @@ struct CycleAssembly {
   std::vector<std::string> names;
   std::vector<double> unit;
   std::vector<CyclePrior> priors;
-  /// d(deviation of the tip)/d(parameters) for a touch: 3 x parameters.
-  std::function<Eigen::MatrixXd(const Touch&)> jacobian;
+  /// d(deviation of the tip)/d(parameters) for a touch on a feature with this centre: 3 x parameters.
+  std::function<Eigen::MatrixXd(const Touch&, const Eigen::Vector3d& centre_mm)> jacobian;
   /// Where the feature should be (MCF, mm), if known, to tell a touch on the wrong feature.
   std::function<std::optional<Eigen::Vector3d>(const std::string& feature, double c_deg)> nominal;
   std::vector<std::string> features;

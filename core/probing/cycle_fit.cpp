@@ -47,6 +47,7 @@ struct CyclePart {
   Eigen::VectorXd y;        // whitened values
   Eigen::MatrixXd range;    // orthonormal basis of the range of A (rows x rank)
   Eigen::MatrixXd inverse;  // pseudo-inverse, parameters x rows
+  Eigen::VectorXd unscale;  // from scaled parameters to internal units
   Eigen::MatrixXd null;     // null space of A (scaled parameters)
   double condition = 0.0;
   Eigen::VectorXd weakest;
@@ -126,6 +127,13 @@ class Solver {
       part.range.resize(m, 0);
       return;
     }
+    // Unit columns after whitening: "weak" then means how well a parameter is seen beside the others.
+    part.unscale = part.A.colwise().norm().transpose();
+    for (Eigen::Index p = 0; p < n; ++p) {
+      if (!(part.unscale(p) > 0.0)) part.unscale(p) = 1.0;
+      part.A.col(p) /= part.unscale(p);
+    }
+    part.unscale = part.unscale.cwiseProduct(scale_).cwiseInverse();
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(part.A, Eigen::ComputeThinU | Eigen::ComputeFullV);
     const auto& s = svd.singularValues();
     Eigen::Index rank = 0;
@@ -334,7 +342,7 @@ class Solver {
         solution.message = "reference cycle: zero by definition";
         continue;
       }
-      const Eigen::VectorXd unscale = scale_.cwiseInverse();
+      const Eigen::VectorXd& unscale = part.unscale;
       solution.theta = unscale.asDiagonal() * theta_[static_cast<std::size_t>(k)];
       solution.own_covariance = unscale.asDiagonal() * (part.inverse * part.inverse.transpose()) * unscale.asDiagonal();
       for (std::size_t i = 0; i < part.rows.size(); ++i) {
@@ -348,7 +356,8 @@ class Solver {
       const Eigen::MatrixXd through_constant = gain * constant_null_;
       for (Eigen::Index j = 0; j < n; ++j) {
         const bool own = part.null.cols() == 0 || part.null.row(j).norm() < 1e-5;
-        const bool constant = constant_null_.cols() == 0 || through_constant.row(j).norm() * scale_(j) < 1e-4;
+        const bool constant =
+            constant_null_.cols() == 0 || through_constant.row(j).norm() < 1e-4 * unscale(j) / sigma_.front();
         if (own && constant) continue;
         solution.determined[static_cast<std::size_t>(j)] = false;
         open.push_back(problem_.parameters[static_cast<std::size_t>(j)]);

@@ -53,8 +53,9 @@ struct CycleFitOptions {
   double outlier_threshold = 5.0;
   /// Touch noise if it is known, mm; else it is estimated.
   std::optional<double> sigma_mm;
-  /// A parameter whose part outside the range of the data exceeds this counts as undetermined.
-  double rank_tolerance = 1e-7;
+  /// Combinations with a singular value below this part of the largest (whitened, unit columns) count as open: common
+  /// growth of everything hides behind micrometres of clamping, not behind rounding.
+  double rank_tolerance = 1e-3;
 
   void validate() const;
 };

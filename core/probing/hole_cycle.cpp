@@ -189,8 +189,14 @@ HoleCycleResult evaluateHoleCycles(const TouchList& list, const MachineDescripti
   assembly.fit = options.fit;
   assembly.misplaced_mm = options.misplaced_mm;
   assembly.features = featureNames(artefact);
-  assembly.jacobian = [&](const Touch& t) {
-    return setup.deviationJacobian(t.feature, t.c_deg, t.position_mm, options.second_axis);
+  // At the centre of the hole, at the height of the touch: the few millimetres to the wall cancel between opposite
+  // touches, and must not pretend that the growth of the diameter tells the axis from the bar.
+  assembly.jacobian = [&](const Touch& t, const Eigen::Vector3d& centre_mm) {
+    const Eigen::Vector3d& axis = setup.rotary_direction;
+    const Eigen::Vector3d place = isSurfaceTouch(t, axis)
+                                      ? t.position_mm
+                                      : Eigen::Vector3d(centre_mm + axis * axis.dot(t.position_mm - centre_mm));
+    return setup.deviationJacobian(t.feature, t.c_deg, place, options.second_axis);
   };
   assembly.nominal = [&](const std::string& feature, double c_deg) -> std::optional<Eigen::Vector3d> {
     return setup.nominal_mm(HoleBarSetup::holeIndex(feature), c_deg);

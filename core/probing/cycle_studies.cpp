@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/probing/cycle_studies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/csv.h"
+#include "core/base/text.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+
+void RepeatabilityOptions::validate() const {
+  if (high_pass_cycles < 3 || high_pass_cycles % 2 == 0) {
+    throw InputError(
+        fmt::format("a high-pass over {} cycles is not allowed; allowed: an odd number from 3.", high_pass_cycles));
+  }
+  if (!(coverage_factor > 0.0)) throw InputError("the coverage factor must be positive.");
+}
+
+RepeatabilityStudy studyRepeatability(const CycleEvaluation& evaluation, const RepeatabilityOptions& options) {
+  options.validate();
+  RepeatabilityStudy study;
+  const int half = options.high_pass_cycles / 2;
+  const auto length = static_cast<double>(options.high_pass_cycles);
+  study.status = FitStatus::Converged;
+  study.message = "done";
+  for (std::size_t p = 0; p < evaluation.names.size(); ++p) {
+    std::vector<double> values;
+    double own = 0.0;
+    for (std::size_t k = 0; k < evaluation.cycles.size(); ++k) {
+      if (static_cast<int>(k) == evaluation.problem.reference_cycle || !evaluation.parameters[k][p].determined)
+        continue;
+      values.push_back(evaluation.parameters[k][p].value);
+      const auto e = static_cast<Eigen::Index>(p);
+      own += evaluation.fit.cycles[k].own_covariance(e, e) * evaluation.unit[p] * evaluation.unit[p];
+    }
+    const int n = static_cast<int>(values.size());
+    if (n < 2 * options.high_pass_cycles) {
+      study.status = FitStatus::Degenerate;
+      study.message = fmt::format("{} cycles are too few for a high-pass over {} cycles; allowed: at least {}", n,
+                                  options.high_pass_cycles, 2 * options.high_pass_cycles);
+      study.parameters.clear();
+      return study;
+    }
+    double squares = 0.0;
+    int count = 0;
+    for (int k = half; k < n - half; ++k) {
+      double mean_here = 0.0;
+      for (int j = k - half; j <= k + half; ++j) mean_here += values[static_cast<std::size_t>(j)] / length;
+      const double r = values[static_cast<std::size_t>(k)] - mean_here;
+      squares += r * r;
+      ++count;
+    }
+    Repeatability r;
+    r.name = evaluation.names[p];
+    r.cycles = n;
+    // Variance of x - running mean for white noise: sigma^2 (1 - 1/length).
+    r.repeatability = options.coverage_factor * std::sqrt(squares / count / (1.0 - 1.0 / length));
+    r.standard_uncertainty = r.repeatability / std::sqrt(2.0 * count * (1.0 - 1.0 / length));
+    r.expected = options.coverage_factor * std::sqrt(own / n);
+    study.parameters.push_back(r);
+  }
+  return study;
+}
+
+ReferenceComparison compareWithReference(const CycleEvaluation& evaluation, const std::string& parameter,
+                                         const std::filesystem::path& reference_csv) {
+  const auto found = std::find(evaluation.names.begin(), evaluation.names.end(), parameter);
+  if (found == evaluation.names.end()) {
+    throw InputError(
+        fmt::format("parameter \"{}\" is not known; allowed: {}.", parameter, joinedList(evaluation.names, "or")));
+  }
+  const auto p = static_cast<std::size_t>(found - evaluation.names.begin());
+  const CsvTable table = CsvTable::read(reference_csv);
+  const std::vector<double> time = table.numbers("time_s");
+  const std::vector<double> value = table.numbers("value");
+  const std::vector<double> sigma =
+      table.hasColumn("sigma") ? table.numbers("sigma") : std::vector<double>(time.size(), 0.0);
+  if (time.size() < 2) throw InputError({reference_csv, ""}, "holds fewer than two rows; allowed: a record over time.");
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    if (!(time[i] > time[i - 1])) {
+      throw InputError(
+          table.place(i, table.column("time_s")),
+          fmt::format("time runs backwards from {} s to {} s; allowed: rows in order of time.", time[i - 1], time[i]));
+    }
+  }
+  ReferenceComparison comparison;
+  comparison.name = parameter;
+  for (std::size_t k = 0; k < evaluation.cycles.size(); ++k) {
+    const double t = evaluation.cycle_time_s[k];
+    const CycleParameter& q = evaluation.parameters[k][p];
+    if (!q.determined || t < time.front() || t > time.back()) continue;
+    auto next = static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), t) - time.begin());
+    next = std::max<std::size_t>(next, 1);
+    const double f = (t - time[next - 1]) / (time[next] - time[next - 1]);
+    ReferenceComparison::Point point;
+    point.time_s = t;
+    point.probe = q.value;
+    point.reference = value[next - 1] + f * (value[next] - value[next - 1]);
+    const double reference_sigma = std::max(sigma[next - 1], sigma[next]);
+    point.standard_uncertainty = std::hypot(q.standard_uncertainty, reference_sigma);
+    comparison.points.push_back(point);
+  }
+  if (comparison.points.size() < 3) {
+    comparison.status = FitStatus::Degenerate;
+    comparison.message = fmt::format(
+        "{} cycles fall into the record of the reference instrument; at least 3 are needed", comparison.points.size());
+    return comparison;
+  }
+  const auto n = static_cast<double>(comparison.points.size());
+  for (const auto& point : comparison.points) comparison.offset += (point.probe - point.reference) / n;
+  std::vector<double> probe;
+  std::vector<double> reference;
+  std::vector<double> difference;
+  int inside = 0;
+  for (auto& point : comparison.points) {
+    point.reference += comparison.offset;
+    point.difference = point.probe - point.reference;
+    if (std::abs(point.difference) <= 2.0 * point.standard_uncertainty) ++inside;
+    comparison.largest = std::max(comparison.largest, std::abs(point.difference));
+    probe.push_back(point.probe);
+    reference.push_back(point.reference);
+    difference.push_back(point.difference);
+  }
+  comparison.rms = rootMeanSquare(difference);
+  comparison.within_two_sigma = inside / n;
+  comparison.fit_percent = fitPercent(reference, probe);
+  const double mean_probe = mean(probe);
+  const double mean_reference = mean(reference);
+  double cross = 0.0;
+  for (std::size_t i = 0; i < probe.size(); ++i) cross += (probe[i] - mean_probe) * (reference[i] - mean_reference);
+  const double spread = standardDeviation(probe) * standardDeviation(reference) * (n - 1.0);
+  comparison.correlation = spread > 0.0 ? cross / spread : 0.0;
+  comparison.status = FitStatus::Converged;
+  comparison.message = "done";
+  return comparison;
+}
+
+namespace {
+
+struct Split {
+  std::vector<std::size_t> first;  // start of each group
+  double squares = std::numeric_limits<double>::infinity();
+};
+
+/// Best split of sorted values into groups of least squares about their means (dynamic programming).
+Split bestSplit(const std::vector<double>& x, std::size_t groups) {
+  const std::size_t n = x.size();
+  std::vector<double> sum(n + 1, 0.0);
+  std::vector<double> sum2(n + 1, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    sum[i + 1] = sum[i] + x[i];
+    sum2[i + 1] = sum2[i] + x[i] * x[i];
+  }
+  const auto cost = [&](std::size_t a, std::size_t b) {  // [a, b)
+    const double s = sum[b] - sum[a];
+    return sum2[b] - sum2[a] - s * s / static_cast<double>(b - a);
+  };
+  std::vector<std::vector<double>> best(groups + 1,
+                                        std::vector<double>(n + 1, std::numeric_limits<double>::infinity()));
+  std::vector<std::vector<std::size_t>> from(groups + 1, std::vector<std::size_t>(n + 1, 0));
+  best[0][0] = 0.0;
+  for (std::size_t g = 1; g <= groups; ++g) {
+    for (std::size_t b = g; b <= n; ++b) {
+      for (std::size_t a = g - 1; a < b; ++a) {
+        const double c = best[g - 1][a] + cost(a, b);
+        if (c < best[g][b]) {
+          best[g][b] = c;
+          from[g][b] = a;
+        }
+      }
+    }
+  }
+  Split split;
+  split.squares = best[groups][n];
+  split.first.resize(groups);
+  std::size_t end = n;
+  for (std::size_t g = groups; g > 0; --g) {
+    split.first[g - 1] = from[g][end];
+    end = from[g][end];
+  }
+  return split;
+}
+
+/// Mean silhouette of a split of sorted values.
+double silhouette(const std::vector<double>& x, const Split& split) {
+  const std::size_t n = x.size();
+  std::vector<std::size_t> group(n, 0);
+  for (std::size_t g = 0; g < split.first.size(); ++g) {
+    for (std::size_t i = split.first[g]; i < n; ++i) group[i] = g;
+  }
+  double total = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<double> sum(split.first.size(), 0.0);
+    std::vector<int> count(split.first.size(), 0);
+    for (std::size_t j = 0; j < n; ++j) {
+      if (i == j) continue;
+      sum[group[j]] += std::abs(x[i] - x[j]);
+      ++count[group[j]];
+    }
+    if (count[group[i]] == 0) continue;  // a group of one counts zero
+    const double own = sum[group[i]] / count[group[i]];
+    double other = std::numeric_limits<double>::infinity();
+    for (std::size_t g = 0; g < sum.size(); ++g) {
+      if (g != group[i] && count[g] > 0) other = std::min(other, sum[g] / count[g]);
+    }
+    if (std::max(own, other) > 0.0) total += (other - own) / std::max(own, other);
+  }
+  return total / static_cast<double>(n);
+}
+
+}  // namespace
+
+std::vector<SensorGroup> groupSensors(const OperatingLog& log, int count) {
+  struct Sensor {
+    double change;
+    std::string name;
+  };
+  std::vector<Sensor> sensors;
+  for (const std::string& name : log.temperatureNames()) {
+    const std::vector<double>& values = *log.signal(name);
+    if (values.empty()) continue;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    sensors.push_back({*high - *low, name});
+  }
+  std::vector<SensorGroup> groups;
+  if (sensors.empty()) return groups;
+  std::sort(sensors.begin(), sensors.end(), [](const Sensor& a, const Sensor& b) { return a.change > b.change; });
+  std::vector<double> x;
+  for (const Sensor& s : sensors) x.push_back(s.change);
+  if (count < 0 || count > static_cast<int>(sensors.size())) {
+    throw InputError(fmt::format("{} groups of {} temperatures are not possible; allowed: 1 to {}.", count,
+                                 sensors.size(), sensors.size()));
+  }
+  Split split;
+  if (count > 0) {
+    split = bestSplit(x, static_cast<std::size_t>(count));
+  } else {
+    double best = -1.0;
+    split = bestSplit(x, 1);
+    for (std::size_t g = 2; g <= std::min<std::size_t>(5, sensors.size() - 1); ++g) {
+      const Split candidate = bestSplit(x, g);
+      const double s = silhouette(x, candidate);
+      if (s > best + 1e-9) {
+        best = s;
+        split = candidate;
+      }
+    }
+  }
+  const std::size_t n = split.first.size();
+  for (std::size_t g = 0; g < n; ++g) {
+    SensorGroup group;
+    const std::size_t end = g + 1 < n ? split.first[g + 1] : sensors.size();
+    for (std::size_t i = split.first[g]; i < end; ++i) group.sensors.push_back(sensors[i].name);
+    group.largest_change_K = sensors[split.first[g]].change;
+    group.smallest_change_K = sensors[end - 1].change;
+    constexpr const char* three[] = {"large", "medium", "little"};
+    group.label = n == 3 ? three[g] : fmt::format("group {}", g + 1);
+    groups.push_back(group);
+  }
+  return groups;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Health of the probe itself: qualification of a stylus on a sphere, repeatability, a loose stylus.
+//
+// Qualification: many touches from different directions on a sphere of known diameter. Distance of the stylus centre
+// from the sphere's centre when it triggered, minus the nominal stand-off, is minus the pre-travel in that direction:
+//   pre-travel(n) = R + r - |p - c|, given per direction relative to its mean (the mean belongs to the effective
+//   radius).
+// Repeatability: spread of repeated touches from one direction. A loose or bent stylus: the centre of the sphere moves
+// from pass to pass, or touches scatter far more than the probe usually does, most in one direction.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/probing/feature.h"
+
+namespace spindrift {
+
+struct ProbeHealthOptions {
+  /// Repeatability a healthy probe keeps, um (one standard deviation).
+  double healthy_sigma_um = 1.0;
+  /// A scatter or a step of this many times the healthy one is called loose.
+  double loose_factor = 4.0;
+  /// Touches whose directions differ by less are repeats of one another, deg.
+  double same_direction_deg = 3.0;
+};
+
+struct PreTravel {
+  Eigen::Vector3d approach = Eigen::Vector3d::UnitX();
+  double pre_travel_um = 0.0;  ///< relative to the mean over all directions
+  double standard_uncertainty_um = 0.0;
+  double repeatability_um = 0.0;  ///< standard deviation of the repeats, 0 if there is one touch only
+  int touches = 0;
+};
+
+struct StylusHealth {
+  FitStatus status = FitStatus::NotRun;
+  std::string message = "not run";
+  std::string stylus, feature;
+  double effective_radius_mm = 0.0;  ///< of the stylus with its mean pre-travel
+  double effective_radius_sigma_mm = 0.0;
+  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
+  std::vector<PreTravel> directions;
+  double pre_travel_range_um = 0.0;
+  double repeatability_um = 0.0;  ///< pooled standard deviation of repeats
+  int repeatability_dof = 0;
+  double largest_step_um = 0.0;  ///< largest movement of the sphere's centre between passes (cycles)
+  Eigen::Vector3d loose_direction = Eigen::Vector3d::Zero();  ///< of the largest scatter or step
+  bool loose = false;
+  bool healthy = false;
+};
+
+/// One result per stylus and sphere. Passes are the cycles of the list. Spheres with fewer than 5 touches or touches
+/// that leave the centre open have status Degenerate.
+[[nodiscard]] std::vector<StylusHealth> checkProbeHealth(const TouchList& list, const MachineDescription& machine,
+                                                         const ProbeHealthOptions& options = {});
+
+}  // namespace spindrift

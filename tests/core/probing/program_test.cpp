@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/probing/cycle_program.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/probing/cycle_studies.h"
+#include "core/probing/printed_text.h"
+#include "core/probing/probe_health.h"
+#include "core/probing/star_stylus.h"
+#include "core/probing/volumetric_error.h"
+#include "tests/core/probing/probing_machines.h"
+
+namespace spindrift {
+namespace {
+
+using namespace probing_test;
+
+struct Written {
+  MachineDescription machine;
+  CyclePlanOptions plan_options;
+  ProgramCheckOptions check_options;
+  std::string text;
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  if (at != std::string::npos) text.replace(at, from.size(), to);
+  return text;
+}
+
+Written write(bool holes, ProgramDialect dialect) {
+  Written w;
+  // The spindle reference stands 60 resp. 50 mm above the tip: the ball machine needs more travel in Z.
+  w.machine =
+      machineFrom(holes ? holeMachineText()
+                        : replaced(ballMachineText(), "\"Z\",\"travel_mm\":[0,500]", "\"Z\",\"travel_mm\":[0,700]"));
+  w.plan_options.first_ball_mm = Eigen::Vector3d(110, 100, 60);
+  w.check_options.first_ball_mm = w.plan_options.first_ball_mm;
+  const Artefact& artefact = w.machine.artefacts.front();
+  ProgramOptions options;
+  options.dialect = dialect;
+  w.text = writeProgram(planCycle(w.machine, artefact, w.plan_options), w.machine, artefact, w.plan_options, options);
+  return w;
+}
+
+TEST(CycleProgram, WhatIsWrittenPassesTheIndependentCheck) {
+  for (const bool holes : {true, false}) {
+    for (const ProgramDialect dialect : {ProgramDialect::Fanuc, ProgramDialect::Generic}) {
+      const Written w = write(holes, dialect);
+      const ProgramCheck check = checkProgram(w.text, w.machine, w.machine.artefacts.front(), w.check_options);
+      for (const ProgramIssue& i : check.issues) ADD_FAILURE() << "line " << i.line << ": " << i.what;
+      EXPECT_EQ(check.touches, holes ? 60 : 4 * (5 + 4 + 4));
+    }
+  }
+}
+
+TEST(CycleProgram, TheCheckFindsWhatIsWrong) {
+  const Written w = write(true, ProgramDialect::Fanuc);
+  const auto issues = [&](const std::string& text) {
+    return checkProgram(text, w.machine, w.machine.artefacts.front(), w.check_options).issues;
+  };
+  ASSERT_TRUE(issues(w.text).empty());
+  const auto without = [&](const std::string& start) {
+    const std::size_t at = w.text.find("\n" + start);
+    std::string text = w.text;
+    text.erase(at, text.find('\n', at + 1) - at);
+    return text;
+  };
+  EXPECT_FALSE(issues(without("G1 ")).empty()) << "a missing retract";
+  EXPECT_FALSE(issues(without("M30")).empty()) << "no end";
+  EXPECT_FALSE(issues(without("G21")).empty()) << "no units";
+  const std::size_t guarded = w.text.find("G65 P8902");
+  const std::string first_guarded = w.text.substr(guarded, w.text.find('\n', guarded) - guarded);
+  std::string deeper = w.text;
+  const std::size_t z = deeper.find('Z', guarded);
+  deeper.replace(z, deeper.find(' ', z) - z, "Z-80.0000");
+  EXPECT_FALSE(issues(deeper).empty()) << "outside the travel";
+  std::string turned = w.text;
+  const std::size_t turn = turned.find("G0 C90.0000");
+  turned.replace(turn, 11, "G0 C95.0000");
+  EXPECT_FALSE(issues(turned).empty()) << "the holes are elsewhere at this angle";
+  std::string wrong = w.text;
+  const std::size_t feature = wrong.find(" A1 ");
+  wrong.replace(feature, 4, " A2 ");
+  EXPECT_FALSE(issues(wrong).empty()) << "another feature than the one that is touched";
+  EXPECT_FALSE(issues("G91 G21\nG0 X1 Y1 Z1\nM30\n").empty());
+  EXPECT_FALSE(issues("").empty());
+}
+
+TEST(CycleProgram, TravelIsChecked) {
+  const MachineDescription small =
+      machineFrom(replaced(holeMachineText(), "\"travel_mm\":[0,520]", "\"travel_mm\":[0,380]"));
+  EXPECT_THROW((void)planCycle(small, small.artefacts.front()), InputError);
+}
+
+TEST(PrintedText, ComesBackAsTouches) {
+  for (const bool holes : {true, false}) {
+    for (const ProgramDialect dialect : {ProgramDialect::Fanuc, ProgramDialect::Generic}) {
+      const MachineDescription m = machineFrom(holes ? holeMachineText() : ballMachineText());
+      const Artefact& artefact = m.artefacts.front();
+      const VirtualRun run = runCycles(m, 2, {}, 3);
+      const std::vector<std::string> names = featureNames(artefact);
+      std::string text = "SYSTEM READY\n";
+      std::string cycle;
+      for (const Touch& t : run.list.touches) {
+        if (t.cycle != cycle) {
+          cycle = t.cycle;
+          text += fmt::format("CYCLE     {}\n", cycle.substr(1));
+        }
+        const auto feature = std::find(names.begin(), names.end(), t.feature) - names.begin() + 1;
+        int stylus = 1;
+        while (m.styli[static_cast<std::size_t>(stylus - 1)].id != t.stylus) ++stylus;
+        const Eigen::Vector3d p = t.position_mm - m.findStylus(t.stylus)->offset_mm;
+        text +=
+            fmt::format("T A {:2d} B{} C {} D{} X{:10.6f} Y {:.6f} Z{:.6f} I{:.0f}. J{:.0f}. K {:.0f}", feature, stylus,
+                        t.c_deg, t.touch, p.x(), p.y(), p.z(), t.approach.x(), t.approach.y(), t.approach.z());
+        text += dialect == ProgramDialect::Fanuc ? fmt::format(" S {:.0f}\r\n", 5e6 + 1e3 * t.time_s) : "\n";
+      }
+      ProgramOptions options;
+      options.dialect = dialect;
+      const JsonNode pattern = JsonNode::parse(printedTextTemplate(m, artefact, options).dump(), "template.json");
+      const PrintedText printed = readPrintedText(text, "printed.txt", pattern, m);
+      ASSERT_EQ(printed.touches.touches.size(), run.list.touches.size());
+      EXPECT_EQ(printed.ignored_lines, 1);
+      for (std::size_t i = 0; i < run.list.touches.size(); ++i) {
+        const Touch& a = run.list.touches[i];
+        const Touch& b = printed.touches.touches[i];
+        EXPECT_EQ(a.feature, b.feature);
+        EXPECT_EQ(a.cycle, b.cycle);
+        EXPECT_EQ(a.stylus, b.stylus);
+        EXPECT_EQ(a.touch, b.touch);
+        EXPECT_LT((a.position_mm - b.position_mm).norm(), 2e-6);
+        EXPECT_LT((a.approach - b.approach).norm(), 1e-9);
+      }
+      printed.touches.checkAgainst(m);
+    }
+  }
+}
+
+TEST(PrintedText, BadTemplatesAndLinesAreTold) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const auto read = [&](const std::string& line, const std::string& text) {
+    const JsonNode pattern = JsonNode::parse(
+        R"({"format":"spindrift-printed-text","version":1,"artefact":"bar","touch_line":")" + line + "\"}", "t.json");
+    return readPrintedText(text, "p.txt", pattern, m);
+  };
+  EXPECT_THROW((void)read("{nonsense} {x}", "1 2\n"), InputError);
+  EXPECT_THROW((void)read("{feature} {x} {y} {z} {nx} {ny} {nz}", "nothing here\n"), InputError);
+  EXPECT_THROW((void)read("{feature} {x} {y} {z} {nx} {ny} {nz}", "H1 1 2 abc 1 0 0\n"), InputError);
+  EXPECT_THROW((void)read("{feature} {x} {y} {z} {nx} {ny} {nz}", "H1 1 2 3 0 0 0\n"), InputError);
+  EXPECT_EQ(read("{feature} {x} {y} {z} {nx} {ny} {nz}", "H1 1 2 3 1 0 0\n").touches.touches.size(), 1U);
+}
+
+TEST(StarStylus, ClosedFormsGiveARotationBack) {
+  Random random(4);
+  for (int run = 0; run < 200; ++run) {
+    const StylusCentres before{Eigen::Vector3d(random.uniform(-5, 5), random.uniform(-5, 5), -200.0),
+                               Eigen::Vector3d(3, 50, random.uniform(-180, -150)),
+                               Eigen::Vector3d(50, random.uniform(5, 20), -160)};
+    const Eigen::Vector3d a(random.uniform(-1e-4, 1e-4), random.uniform(-1e-4, 1e-4), random.uniform(-1e-4, 1e-4));
+    StylusCentres after;
+    for (int i = 0; i < 3; ++i) after[i] = before[i] + a.cross(before[i]);
+    const HeadRotation found = closedFormRotation(before, after);
+    ASSERT_EQ(found.status, FitStatus::Converged) << found.message;
+    EXPECT_LT((found.rotation_rad - a).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST(StarStylus, IgnoredTranslationLooksLikeARotation) {
+  const StylusCentres before{Eigen::Vector3d(0, 0, -50), Eigen::Vector3d(0, 50, -20), Eigen::Vector3d(50, 10, -20)};
+  const Eigen::Matrix3d bias = ignoredTranslationBias(before);
+  // 10 um along X alone: the head seems to turn about Y by 10 um / 50 mm.
+  EXPECT_NEAR(std::abs(bias(1, 0)) * 0.010, 2e-4, 1e-9);
+  EXPECT_NEAR(spindleDrift({0, 0, 0}, {0.003, 0.004, 0.0}), 0.005, 1e-15);
+  const StylusCentres flat{Eigen::Vector3d(0, 0, -50), Eigen::Vector3d(0, 0, -20), Eigen::Vector3d(50, 0, -20)};
+  EXPECT_EQ(closedFormRotation(flat, flat).status, FitStatus::Degenerate);
+}
+
+TEST(VolumetricError, FieldFollowsTheParameters) {
+  const MachineDescription m = machineFrom(ballMachineText());
+  VirtualProbeOptions options;
+  options.noise_um = 0.0;
+  const VirtualRun run = runCycles(m, 2, options, 3);
+  const BallCycleResult result = evaluateBallCycles(run.list, m, m.artefacts.front(), nullptr);
+  const BallCycleModel model(result, 1);
+  const TipDeviation deviation = ballDeviation(m, run.truth[1]);
+  const Field field = volumetricField(model, m, Component::EZ, 1, 120.0, {0, 0, -50}, 5);
+  for (int iz = 0; iz < 5; ++iz) {
+    for (int ix = 0; ix < 5; ++ix) {
+      const Eigen::Vector3d p(field.grid.x_mm(ix), 120.0, field.grid.y_mm(iz));
+      const Eigen::Vector3d d = deviation({0.0, p, {0, 0, -50}, 0.0, "B1", Eigen::Vector3d::UnitX()});
+      EXPECT_NEAR(field.value[field.grid.index(ix, iz)], 1e3 * d.z(), 0.1);
+    }
+  }
+  EXPECT_EQ(volumetricArrows(model, m, {0, 0, -50}, 3).size(), 27U);
+  const Eigen::Vector3d a(2e-5, -3e-5, 1e-5);
+  const Eigen::Vector3d screw(0.003, -0.002, 0.001);
+  const Eigen::Vector3d place(100, 200, 300);
+  const Eigen::Vector3d drift(0, 0, 0.01);
+  const Eigen::Vector3d D = drift + a.cross(place) + screw + a.cross(screw);
+  EXPECT_LT((screwErrorByMirrorImage(D, place, a, drift) - screw).norm(), 1e-12);
+}
+
+TEST(ProbeHealth, LobesRepeatabilityAndALooseStylus) {
+  const MachineDescription m = machineFrom(ballMachineText());
+  VirtualProbeOptions options;
+  options.noise_um = 0.3;
+  options.pre_travel_um = 6.0;
+  options.pre_travel_lobing_um = 2.0;
+  const auto still = [](int, Random&) { return std::vector<double>(12, 0.0); };
+  VirtualRun run = runCycles(m, 12, options, 5, still);
+  std::vector<StylusHealth> health = checkProbeHealth(run.list, m);
+  ASSERT_EQ(health.size(), 12U);
+  for (const StylusHealth& h : health) {
+    ASSERT_EQ(h.status, FitStatus::Converged) << h.message;
+    EXPECT_TRUE(h.healthy) << h.message;
+    EXPECT_LT(h.repeatability_um, 0.6);
+  }
+  Random random(9);
+  for (Touch& t : run.list.touches) {
+    if (t.stylus == "p1" && std::abs(t.approach.x()) > 0.5) t.position_mm.x() += random.normal(0.0, 0.02);
+  }
+  health = checkProbeHealth(run.list, m);
+  for (const StylusHealth& h : health) EXPECT_EQ(h.loose, h.stylus == "p1") << h.message;
+}
+
+TEST(CycleStudies, RepeatabilityFollowsTheTouchNoiseAndIgnoresDrift) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 100, {}, 12, [](int k, Random&) {
+    std::vector<double> p(9, 0.0);
+    for (double& v : p) v = 0.2 * k;  // a slow drift far above the noise
+    return p;
+  });
+  const HoleCycleResult result = evaluateHoleCycles(run.list, m, m.artefacts.front());
+  const RepeatabilityStudy study = studyRepeatability(result);
+  ASSERT_EQ(study.status, FitStatus::Converged) << study.message;
+  for (const Repeatability& r : study.parameters) EXPECT_NEAR(r.repeatability / r.expected, 1.0, 0.3) << r.name;
+}
+
+TEST(CycleStudies, SensorsFallIntoThreeGroups) {
+  OperatingLog log({0.0, 100.0, 200.0});
+  const std::vector<std::pair<std::string, double>> changes{
+      {"T_head_degC", 9.0},    {"T_up1_degC", 8.2}, {"T_flange_degC", 8.6}, {"T_column1_degC", 3.1},
+      {"T_column2_degC", 2.8}, {"T_x_degC", 0.3},   {"T_room_degC", 0.2}};
+  for (const auto& [name, change] : changes) log.setSignal(name, {20.0, 20.0 + 0.7 * change, 20.0 + change});
+  const std::vector<SensorGroup> groups = groupSensors(log);
+  ASSERT_EQ(groups.size(), 3U);
+  EXPECT_EQ(groups[0].sensors.size(), 3U);
+  EXPECT_EQ(groups[1].sensors.size(), 2U);
+  EXPECT_EQ(groups[2].label, "little");
+}
+
+}  // namespace
+}  // namespace spindrift

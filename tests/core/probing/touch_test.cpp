@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/probing/touch.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/core/probing/probing_machines.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+using namespace probing_test;
+
+constexpr const char* header = "time_s,cycle,artefact,feature,stylus,c_deg,touch,x_mm,y_mm,z_mm,nx,ny,nz\n";
+
+class TouchFile : public ::testing::Test {
+ protected:
+  std::filesystem::path write(const std::string& text) {
+    const std::filesystem::path file = folder_.path() / "touches.csv";
+    std::ofstream(file) << text;
+    return file;
+  }
+  /// The complaint about rows after the header, or an empty text.
+  std::string complaint(const std::string& rows, const MachineDescription* machine = nullptr) {
+    try {
+      const TouchList list = TouchList::read(write(header + rows));
+      if (machine != nullptr) list.checkAgainst(*machine);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  testing::TempFolder folder_;
+};
+
+TEST_F(TouchFile, WritesWhatItReads) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 2, {}, 1);
+  const TouchList list = TouchList::read(write(run.list.csv()));
+  ASSERT_EQ(list.touches.size(), run.list.touches.size());
+  EXPECT_EQ(list.csv(), run.list.csv());
+  EXPECT_EQ(list.cycles(), (std::vector<std::string>{"M0", "M1"}));
+  EXPECT_EQ(list.touches[4].line, 6U);
+  list.checkAgainst(m);
+}
+
+TEST_F(TouchFile, BadRowsGiveOneClearSentence) {
+  EXPECT_EQ(complaint("0,M0,bar,H1,p0,0,0,1,2,3,1,0,0\n1,M0,bar,H1,p0,0,1,1,2,3,-1,0,0\n"), "");
+  EXPECT_NE(complaint("0,M0,bar,H1,p0,0,0,1,2,3,0,0,0\n").find("(0, 0, 0)"), std::string::npos);
+  EXPECT_NE(complaint("0,M0,bar,H1,p0,0,0,1,2,3,1,1,0\n").find("unit vector"), std::string::npos);
+  EXPECT_NE(complaint("5,M0,bar,H1,p0,0,0,1,2,3,1,0,0\n4,M0,bar,H1,p0,0,1,1,2,3,-1,0,0\n").find("backwards"),
+            std::string::npos);
+  EXPECT_NE(complaint("5,M0,bar,H1,p0,0,0,1,2,3,1,0,0\n5,M0,bar,H1,p0,0,1,1,2,3,-1,0,0\n").find("twice"),
+            std::string::npos);
+  EXPECT_NE(complaint("5,M0,bar,H1,p0,0,0,1,2,3,1,0,0\n6,M0,bar,H1,p0,0,0,1,2,3,-1,0,0\n").find("twice"),
+            std::string::npos);
+  EXPECT_NE(complaint("0,M0,bar,H1,p0,0,0,nan,2,3,1,0,0\n").find("x_mm"), std::string::npos);
+  EXPECT_NE(complaint("0,M0,bar,H1,p0,0,1.5,1,2,3,1,0,0\n").find("1.5"), std::string::npos);
+  EXPECT_NE(complaint("").find("no touches"), std::string::npos);
+}
+
+TEST_F(TouchFile, TheMachineFileDecidesWhatIsKnown) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  EXPECT_NE(complaint("0,M0,plate,H1,p0,0,0,1,2,3,1,0,0\n", &m).find("\"plate\" is not in the machine file"),
+            std::string::npos);
+  EXPECT_NE(complaint("0,M0,bar,H9,p0,0,0,1,2,3,1,0,0\n", &m).find("H1, H2"), std::string::npos);
+  EXPECT_NE(complaint("0,M0,bar,H1,p7,0,0,1,2,3,1,0,0\n", &m).find("radius is unknown"), std::string::npos);
+}
+
+TEST_F(TouchFile, MissingStylusRadiusIsRefused) {
+  std::string text = holeMachineText();
+  text.replace(text.find("\"radius_mm\":1.5,"), 16, "");
+  EXPECT_THROW((void)machineFrom(text), InputError);
+}
+
+TEST_F(TouchFile, InchesAreRecognised) {
+  const MachineDescription holes = machineFrom(holeMachineText());
+  const MachineDescription balls = machineFrom(ballMachineText());
+  for (const MachineDescription* m : {&holes, &balls}) {
+    TouchList list = runCycles(*m, 2, {}, 1).list;
+    for (Touch& t : list.touches) t.position_mm /= 25.4;
+    try {
+      list.checkAgainst(*m);
+      FAIL() << "inches were taken for millimetres";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("inches"), std::string::npos) << error.what();
+    }
+  }
+  // A single cycle in inches.
+  TouchList list = runCycles(holes, 4, {}, 1).list;
+  for (Touch& t : list.touches) {
+    if (t.cycle == "M2") t.position_mm /= 25.4;
+  }
+  EXPECT_THROW((void)evaluateHoleCycles(list, holes, holes.artefacts.front()), InputError);
+}
+
+TEST(Feature, BadlySpreadTouchesNameTheWeakDirection) {
+  TouchList list;
+  for (int k = 0; k < 4; ++k) {
+    Touch t;
+    t.feature = "B1";
+    const Eigen::Vector3d v(std::cos(1.5 * k), std::sin(1.5 * k), 0.0);
+    t.position_mm = 15.0 * v;
+    t.approach = -v;
+    list.touches.push_back(t);
+  }
+  const std::vector<std::size_t> all{0, 1, 2, 3};
+  const ProbedFeature equator = fitFeature(list, all, FeatureKind::Sphere, 2.5);
+  EXPECT_EQ(equator.status, FitStatus::Degenerate);
+  EXPECT_NE(equator.message.find("z"), std::string::npos) << equator.message;
+  const ProbedFeature few = fitFeature(list, std::span(all).first(2), FeatureKind::Sphere, 2.5);
+  EXPECT_EQ(few.status, FitStatus::Degenerate);
+}
+
+TEST(Feature, HoleGivesDiameterThroughTheStylusRadius) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  VirtualProbeOptions options;
+  options.noise_um = options.surface_noise_um = 0.0;
+  const VirtualRun run = runCycles(m, 1, options, 1);
+  const std::vector<ProbedFeature> features = featuresOf(run.list, m, m.artefacts.front(), {});
+  ASSERT_EQ(features.size(), 12U);
+  const HoleBarSetup setup = HoleBarSetup::of(m, m.artefacts.front());
+  for (const ProbedFeature& f : features) {
+    ASSERT_EQ(f.status, FitStatus::Converged) << f.message;
+    EXPECT_NEAR(f.diameter_mm, 12.0, 1e-9);
+    EXPECT_LT((f.centre_mm - setup.nominal_mm(HoleBarSetup::holeIndex(f.feature), f.c_deg)).norm(), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
