@@ -127,13 +127,60 @@ std::size_t CellGrid::filledCells() const noexcept {
       std::count_if(cells.begin(), cells.end(), [](const SurfaceCell& c) { return c.count > 0.0; }));
 }
 
+namespace {
+
+/// Noise and curvature along the profiles, from second differences over short and over longer distances.
+struct ProfileCharacter {
+  double noise = 0.0;       ///< mm, from neighbouring points
+  double noise_wide = 0.0;  ///< mm, from points three apart: holds correlated noise too, but also curvature
+  double curvature = 0.0;   ///< 1/mm
+};
+ProfileCharacter characterOf(const PointCloud& cloud, double spacing) {
+  ProfileCharacter out;
+  const auto spread = [&](std::size_t apart) {
+    std::vector<double> values;
+    const std::size_t step = std::max<std::size_t>(1, cloud.profileCount() / 60);
+    const std::size_t stride = std::max<std::size_t>(1, cloud.size() / cloud.profileCount() / 200);
+    for (std::size_t k = 0; k < cloud.profileCount(); k += step)
+      for (std::size_t i = cloud.profile_start[k] + apart; i + apart < cloud.profile_start[k + 1]; i += stride) {
+        const auto& p = cloud.points_mm;
+        const double left = p[i].x() - p[i - apart].x(), right = p[i + apart].x() - p[i].x();
+        if (std::abs(left - right) > 0.2 * std::abs(left)) continue;
+        values.push_back(std::abs(p[i - apart].z() - 2.0 * p[i].z() + p[i + apart].z()));
+      }
+    return values.size() < 20 ? 0.0 : 1.4826 * median(std::move(values));
+  };
+  out.noise = spread(1) / std::sqrt(6.0);
+  out.noise_wide = spread(3) / std::sqrt(6.0);
+  const auto far = static_cast<std::size_t>(std::max(2.0, 0.4 / std::max(spacing, 1e-9)));
+  const double distance = static_cast<double>(far) * spacing;
+  const double wide = spread(far);
+  out.curvature = std::sqrt(std::max(0.0, wide * wide - 6.0 * out.noise * out.noise)) / (distance * distance);
+  return out;
+}
+
+}  // namespace
+
 Eigen::Vector2d suitableCell_mm(const PointCloud& cloud) {
   const CloudSpacing s = cloudSpacing(cloud);
   const double points = std::clamp(static_cast<double>(cloud.size()) / 2000.0, 6.0, 32.0);
   const double area = points * s.along_profile_mm * s.between_profiles_mm;
-  double y = std::max(std::sqrt(area), 2.0 * s.between_profiles_mm);
-  double x = std::max(area / y, 2.0 * s.along_profile_mm);
-  if (cloud.profileCount() == 0) x = y = std::sqrt(area);
+  if (cloud.profileCount() == 0) return Eigen::Vector2d::Constant(std::sqrt(std::min(area, 12.0 * area / points)));
+  double y = std::sqrt(area);
+  double x = area / y;
+  // Within a cell the surface may bend by no more than the noise.
+  const ProfileCharacter c = characterOf(cloud, s.along_profile_mm);
+  if (c.curvature > 0.0) {
+    const double flat = std::sqrt(20.0 * std::max(c.noise, 2e-5) / c.curvature);
+    x = std::min(x, flat);
+    y = std::min(y, flat);
+  }
+  // Whole profiles and whole samples, so that the mean of a cell lies at its centre: a lattice out of step with the
+  // scan would put its beat into the surface and amplify the noise.
+  const double profiles = std::max(1.0, std::round(y / s.between_profiles_mm));
+  y = profiles * s.between_profiles_mm;
+  x = std::max(2.0, std::round(std::max(x, points / profiles * s.along_profile_mm * 0.5) / s.along_profile_mm)) *
+      s.along_profile_mm;
   return {x, y};
 }
 
@@ -148,7 +195,11 @@ CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options) 
     low = low.cwiseMin(p.head<2>());
     high = high.cwiseMax(p.head<2>());
   }
-  grid.low = low - 1e-9 * grid.size;
+  // The lattice begins half a spacing before the first sample, so that its lines run between samples.
+  const CloudSpacing spacing = cloudSpacing(cloud);
+  grid.low =
+      low - (cloud.profileCount() > 0 ? 0.5 * Eigen::Vector2d(spacing.along_profile_mm, spacing.between_profiles_mm)
+                                      : Eigen::Vector2d(1e-9 * grid.size));
   const Eigen::Vector2d extent = (high - grid.low).cwiseQuotient(grid.size);
   if (extent.maxCoeff() > 30000.0 || extent.x() * extent.y() > 100.0 * static_cast<double>(cloud.size()) + 1e5)
     throw InputError(fmt::format("{} is too sparse for a height map: {} points over {:.3g} mm x {:.3g} mm.", cloud.name,
@@ -214,6 +265,11 @@ CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options) 
     CellRepair(cloud, grid, typical, options.outlier_threshold).run(slot, points, suspects);
   }
   grid.noise_mm = std::sqrt(typical);
+  if (cloud.profileCount() > 0) {
+    // Where cells are coarse their planes miss the curvature: neighbouring points tell the noise better.
+    const ProfileCharacter c = characterOf(cloud, cloudSpacing(cloud).along_profile_mm);
+    if (c.noise > 0.0) grid.noise_mm = std::max(c.noise, std::min(grid.noise_mm, c.noise_wide));
+  }
   double used = 0.0;
   for (const SurfaceCell& cell : grid.cells) {
     used += cell.count;
@@ -273,7 +329,18 @@ HeightSpline::HeightSpline(const CellGrid& grid)
       const std::size_t k = index(c + margin_, r + margin_);
       count_[k] = static_cast<float>(cell.count);
       const Eigen::Vector2d node = origin_ + Eigen::Vector2d((c + margin_) * step_.x(), (r + margin_) * step_.y());
-      heights[k] = cell.mean.z() + cell.slope.dot(node - cell.mean.head<2>());
+      // A cell crossed by a single profile (or column) knows its slope across only from its neighbours.
+      Eigen::Vector2d slope = cell.slope;
+      const auto across = [&](const SurfaceCell& low, const SurfaceCell& high, int axis) {
+        const double distance = high.mean[axis] - low.mean[axis];
+        if (low.count > 0.0 && high.count > 0.0 && distance > 0.3 * step_[axis])
+          slope[axis] = (high.mean.z() - low.mean.z()) / distance;
+      };
+      if (cell.syy < 0.02 * step_.y() * step_.y())
+        across(r > 0 ? grid.at(c, r - 1) : cell, r + 1 < grid.rows ? grid.at(c, r + 1) : cell, 1);
+      if (cell.sxx < 0.02 * step_.x() * step_.x())
+        across(c > 0 ? grid.at(c - 1, r) : cell, c + 1 < grid.columns ? grid.at(c + 1, r) : cell, 0);
+      heights[k] = cell.mean.z() + slope.dot(node - cell.mean.head<2>());
     }
   inside_.assign(total, 0);
   for (int r = 0; r + 1 < rows_; ++r)
@@ -281,11 +348,13 @@ HeightSpline::HeightSpline(const CellGrid& grid)
       inside_[index(c, r)] = count_[index(c, r)] > 0 && count_[index(c + 1, r)] > 0 && count_[index(c, r + 1)] > 0 &&
                              count_[index(c + 1, r + 1)] > 0;
   // The mean over a cell is turned into the height at its node with the derivatives of the spline itself.
-  for (int pass = 0; pass < 3; ++pass) {
+  double change = 1.0;
+  for (int pass = 0; pass < 4; ++pass) {
     fillHoles(heights);
     coefficients_ = heights;
     prefilter(coefficients_);
-    if (pass == 2) break;
+    if (pass == 3 || (pass >= 2 && change < 1e-6)) break;
+    change = 0.0;
     for (int r = 0; r < grid.rows; ++r)
       for (int c = 0; c < grid.columns; ++c) {
         const std::size_t k = index(c + margin_, r + margin_);
@@ -302,8 +371,11 @@ HeightSpline::HeightSpline(const CellGrid& grid)
         const double zxy = (at(1, 1) - at(-1, 1) - at(1, -1) + at(-1, -1)) / (4.0 * step_.x() * step_.y());
         const double dx = cell.mean.x() - (origin_.x() + (c + margin_) * step_.x());
         const double dy = cell.mean.y() - (origin_.y() + (r + margin_) * step_.y());
-        heights[k] = cell.mean.z() - zx * dx - zy * dy -
-                     0.5 * (zxx * (cell.sxx + dx * dx) + 2.0 * zxy * (cell.sxy + dx * dy) + zyy * (cell.syy + dy * dy));
+        const double height =
+            cell.mean.z() - zx * dx - zy * dy -
+            0.5 * (zxx * (cell.sxx + dx * dx) + 2.0 * zxy * (cell.sxy + dx * dy) + zyy * (cell.syy + dy * dy));
+        change = std::max(change, std::abs(height - heights[k]));
+        heights[k] = height;
       }
   }
 }

@@ -96,7 +96,15 @@ CloudSpacing cloudSpacing(const PointCloud& cloud) {
       between.push_back(
           std::abs(cloud.points_mm[cloud.profile_start[k]].y() - cloud.points_mm[cloud.profile_start[k - 1]].y()));
     spacing.along_profile_mm = along.empty() ? 0.0 : median(std::move(along));
-    spacing.between_profiles_mm = median(std::move(between));
+    // The mean keeps step over the whole scan; lost profiles make it deviate from the median.
+    const double typical = median(between);
+    double sum = 0.0, count = 0.0;
+    for (const double d : between)
+      if (d > 0.5 * typical && d < 1.5 * typical) {
+        sum += d;
+        count += 1.0;
+      }
+    spacing.between_profiles_mm = count > 0.0 ? sum / count : typical;
   }
   if (!(spacing.along_profile_mm > 0.0) || !(spacing.between_profiles_mm > 0.0)) {
     const Extent e = robustExtent(cloud);
