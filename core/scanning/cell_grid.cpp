@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.h"
 #include "core/math/statistics.h"
@@ -129,32 +130,36 @@ std::size_t CellGrid::filledCells() const noexcept {
 
 namespace {
 
-/// Noise and curvature along the profiles, from second differences over short and over longer distances.
+/// Noise and curvature along the profiles.
 struct ProfileCharacter {
-  double noise = 0.0;       ///< mm, from neighbouring points
-  double noise_wide = 0.0;  ///< mm, from points three apart: holds correlated noise too, but also curvature
-  double curvature = 0.0;   ///< 1/mm
+  double noise = 0.0;       ///< mm, fourth differences of neighbouring points: blind to curvature
+  double noise_wide = 0.0;  ///< mm, of points three apart: holds short correlated noise in full
+  double curvature = 0.0;   ///< 1/mm, from second differences over half a millimetre
 };
 ProfileCharacter characterOf(const PointCloud& cloud, double spacing) {
   ProfileCharacter out;
-  const auto spread = [&](std::size_t apart) {
+  const auto& p = cloud.points_mm;
+  const std::size_t step = std::max<std::size_t>(1, cloud.profileCount() / 60);
+  const std::size_t stride = std::max<std::size_t>(1, cloud.size() / cloud.profileCount() / 200);
+  // Robust spread of the second (reach 1) or fourth (reach 2) difference of points `apart` samples from each other.
+  const auto spread = [&](std::size_t apart, std::size_t reach) {
     std::vector<double> values;
-    const std::size_t step = std::max<std::size_t>(1, cloud.profileCount() / 60);
-    const std::size_t stride = std::max<std::size_t>(1, cloud.size() / cloud.profileCount() / 200);
+    const std::size_t wide = reach * apart;
+    const double length = 2.0 * static_cast<double>(wide) * spacing;
     for (std::size_t k = 0; k < cloud.profileCount(); k += step)
-      for (std::size_t i = cloud.profile_start[k] + apart; i + apart < cloud.profile_start[k + 1]; i += stride) {
-        const auto& p = cloud.points_mm;
-        const double left = p[i].x() - p[i - apart].x(), right = p[i + apart].x() - p[i].x();
-        if (std::abs(left - right) > 0.2 * std::abs(left)) continue;
-        values.push_back(std::abs(p[i - apart].z() - 2.0 * p[i].z() + p[i + apart].z()));
+      for (std::size_t i = cloud.profile_start[k] + wide; i + wide < cloud.profile_start[k + 1]; i += stride) {
+        if (std::abs(std::abs(p[i + wide].x() - p[i - wide].x()) - length) > 0.5 * spacing) continue;  // a lost sample
+        const double second = p[i - apart].z() - 2.0 * p[i].z() + p[i + apart].z();
+        const double fourth = p[i - wide].z() + p[i + wide].z() - 4.0 * second - 2.0 * p[i].z();
+        values.push_back(std::abs(reach == 1 ? second : fourth));
       }
     return values.size() < 20 ? 0.0 : 1.4826 * median(std::move(values));
   };
-  out.noise = spread(1) / std::sqrt(6.0);
-  out.noise_wide = spread(3) / std::sqrt(6.0);
+  out.noise = spread(1, 2) / std::sqrt(70.0);
+  out.noise_wide = spread(3, 2) / std::sqrt(70.0);
   const auto far = static_cast<std::size_t>(std::max(2.0, 0.4 / std::max(spacing, 1e-9)));
   const double distance = static_cast<double>(far) * spacing;
-  const double wide = spread(far);
+  const double wide = spread(far, 1);
   out.curvature = std::sqrt(std::max(0.0, wide * wide - 6.0 * out.noise * out.noise)) / (distance * distance);
   return out;
 }
@@ -179,10 +184,45 @@ Eigen::Vector2d suitableCell_mm(const PointCloud& cloud) {
   // scan would put its beat into the surface and amplify the noise.
   const double profiles = std::max(1.0, std::round(y / s.between_profiles_mm));
   y = profiles * s.between_profiles_mm;
-  x = std::max(2.0, std::round(std::max(x, points / profiles * s.along_profile_mm * 0.5) / s.along_profile_mm)) *
-      s.along_profile_mm;
+  x = std::max(2.0, std::round(x / s.along_profile_mm)) * s.along_profile_mm;
   return {x, y};
 }
+
+namespace {
+
+/// Cells of few points cannot see an outlier among themselves: their height is compared with the line through their
+/// neighbours, along and across; a cell that is off both ways is dropped.
+void dropOutlyingCells(CellGrid& grid) {
+  const double none = std::numeric_limits<double>::infinity();
+  const auto index = [&](int c, int r) {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(grid.columns) + static_cast<std::size_t>(c);
+  };
+  const auto bend = [&](int c, int r, int dc, int dr) {
+    if (c < dc || r < dr || c + dc >= grid.columns || r + dr >= grid.rows) return none;
+    const SurfaceCell &a = grid.cells[index(c - dc, r - dr)], &b = grid.cells[index(c + dc, r + dr)];
+    if (a.count <= 0.0 || b.count <= 0.0) return none;
+    return std::abs(grid.cells[index(c, r)].mean.z() - 0.5 * (a.mean.z() + b.mean.z()));
+  };
+  std::vector<double> along(grid.cells.size(), none), across(grid.cells.size(), none), known_along, known_across;
+  for (int r = 0; r < grid.rows; ++r)
+    for (int c = 0; c < grid.columns; ++c) {
+      const std::size_t k = index(c, r);
+      if (grid.cells[k].count <= 0.0) continue;
+      along[k] = bend(c, r, 1, 0);
+      across[k] = bend(c, r, 0, 1);
+      if (along[k] < none) known_along.push_back(along[k]);
+      if (across[k] < none) known_across.push_back(across[k]);
+    }
+  if (known_along.size() < 20 || known_across.size() < 20) return;
+  const double limit_along = 10.0 * median(std::move(known_along));
+  const double limit_across = 10.0 * median(std::move(known_across));
+  for (std::size_t k = 0; k < grid.cells.size(); ++k)
+    if (grid.cells[k].count > 0.0 && std::min(along[k], across[k]) < none && along[k] > limit_along &&
+        across[k] > limit_across)
+      grid.cells[k] = SurfaceCell{};
+}
+
+}  // namespace
 
 CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options) {
   requireUsableCloud(cloud, 50);
@@ -234,21 +274,22 @@ CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options) 
       grid.cells[k] = cellFrom(sums[k], centre, grid.size);
       if (grid.cells[k].variance >= 0.0) variances.push_back(grid.cells[k].variance);
     }
-  if (variances.empty())
-    throw InputError(
-        fmt::format("{} is too sparse for a height map: no cell of {:.3g} mm x {:.3g} mm holds four points.",
-                    cloud.name, grid.size.x(), grid.size.y()));
-  double typical = median(variances);
-  // The median of a chi-squared variable lies below its mean.
-  const double freedom = std::max(1.0, static_cast<double>(cloud.size()) / static_cast<double>(variances.size()) - 3.0);
-  typical /= std::pow(1.0 - 2.0 / (9.0 * freedom), 3.0);
+  const ProfileCharacter character =
+      cloud.profileCount() > 0 ? characterOf(cloud, spacing.along_profile_mm) : ProfileCharacter{};
+  double typical = character.noise * character.noise;
+  if (!variances.empty()) {
+    // The median of a chi-squared variable lies below its mean.
+    const double freedom =
+        std::max(1.0, static_cast<double>(cloud.size()) / static_cast<double>(variances.size()) - 3.0);
+    typical = std::max(typical, median(std::move(variances)) / std::pow(1.0 - 2.0 / (9.0 * freedom), 3.0));
+  }
   typical = std::max(typical, 1e-18);
 
   std::vector<std::int32_t> slot(total, -1);
   std::vector<std::uint32_t> suspects;
   for (std::size_t k = 0; k < total; ++k) {
     const SurfaceCell& cell = grid.cells[k];
-    if (cell.count > 0.0 && (cell.variance < 0.0 || cell.variance > varianceLimit(cell.count) * typical)) {
+    if (cell.count > 0.0 && cell.variance > varianceLimit(cell.count) * typical) {
       slot[k] = static_cast<std::int32_t>(suspects.size());
       suspects.push_back(static_cast<std::uint32_t>(k));
     }
@@ -265,11 +306,9 @@ CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options) 
     CellRepair(cloud, grid, typical, options.outlier_threshold).run(slot, points, suspects);
   }
   grid.noise_mm = std::sqrt(typical);
-  if (cloud.profileCount() > 0) {
-    // Where cells are coarse their planes miss the curvature: neighbouring points tell the noise better.
-    const ProfileCharacter c = characterOf(cloud, cloudSpacing(cloud).along_profile_mm);
-    if (c.noise > 0.0) grid.noise_mm = std::max(c.noise, std::min(grid.noise_mm, c.noise_wide));
-  }
+  // Where cells are coarse their planes miss the curvature: neighbouring points tell the noise better.
+  if (character.noise > 0.0) grid.noise_mm = std::max(character.noise, std::min(grid.noise_mm, character.noise_wide));
+  if (cloud.profileCount() > 0) dropOutlyingCells(grid);
   double used = 0.0;
   for (const SurfaceCell& cell : grid.cells) {
     used += cell.count;

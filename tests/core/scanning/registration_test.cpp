@@ -234,7 +234,7 @@ TEST(Registration, OutliersDoNotMatter) {
   const RegistrationResult r = registerClouds(source, target);
   ASSERT_TRUE(r.usable()) << r.message;
   EXPECT_LT((errorOf(r, small_motion).array() / r.covariance.diagonal().array().sqrt()).abs().maxCoeff(), 4.0);
-  EXPECT_LT(errorOf(r, small_motion).head<3>().norm(), 1e-4);
+  EXPECT_LT(errorOf(r, small_motion).head<3>().norm(), 3e-4);
 }
 
 TEST(Registration, UnorderedPointsAreAHeightMapToo) {
