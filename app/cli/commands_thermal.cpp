@@ -2,8 +2,11 @@
 #include <memory>
 
 #include "app/cli/command.h"
+#include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/workflows/thermal_tests.h"
+#include "core/workflows/thermal_tracking.h"
 #include "core/workflows/thermal_workflow.h"
 
 namespace spindrift::cli {
@@ -79,6 +82,138 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
       ->type_name("FILE");
 }
 
+void addTrack(CLI::App& parent, CommandLine& line) {
+  struct Arguments {
+    TrackRequest request;
+    std::string log;
+    std::string model;
+    std::string update = "kalman";
+    std::string prediction;
+    double from_s = -1.0;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = addCommand(
+      parent, line, "track", "Predict with a model that is kept true by on-machine measurements at an interval",
+      [a](JobContext& job) {
+        a->request.log = a->log;
+        a->request.model = a->model;
+        a->request.update = a->update == "gain"  ? UpdateKind::Gain
+                            : a->update == "arx" ? UpdateKind::Arx
+                                                 : UpdateKind::Kalman;
+        if (a->from_s >= 0.0) a->request.from_s = a->from_s;
+        const TrackResult result = trackThermalModel(a->request, job);
+        if (!a->prediction.empty()) result.writePrediction(a->prediction);
+        const bool worse = result.with.rmse > result.without.rmse;
+        std::string summary = result.summary();
+        if (worse) summary += "not good enough: the updates made the prediction worse than the free run\n";
+        return CommandResult{result.json(), summary, worse ? NotGoodEnough : Done};
+      });
+  command->add_option("LOG", a->log, "CSV with time_s, the inputs of the model and the measured output")->required();
+  command->add_option("--model", a->model, "Model: spindrift-thermal-model JSON, or the JSON of thermal identify")
+      ->required();
+  command
+      ->add_option("--update", a->update,
+                   "gain: measured / simulated (P2); arx: state set to the measurement; kalman: gain and offset")
+      ->check(CLI::IsMember({"gain", "arx", "kalman"}))
+      ->capture_default_str();
+  command->add_option("--interval", a->request.interval_s, "Time between two on-machine measurements in s")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--output", a->request.output, "Output of the model; default: its first");
+  command->add_option("--from", a->from_s, "Time of the first measurement in s; default: end of training")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--sigma", a->request.measurement_sigma,
+                   "Standard uncertainty of one measurement in the output's unit")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--gain-bound", a->request.gain_bound,
+                   "Largest gain of --update gain (0: none, as printed in the paper)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--prediction", a->prediction, "Write time_s,measured,simulated,predicted,sigma to this CSV file")
+      ->type_name("FILE");
+}
+
+void addCompensate(CLI::App& parent, CommandLine& line) {
+  struct Arguments {
+    CompensateRequest request;
+    std::string log;
+    std::string model;
+    std::string out;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = addCommand(parent, line, "compensate",
+                                 "Run the controller's compensator over a log and show what it would have achieved",
+                                 [a](JobContext& job) {
+                                   a->request.log = a->log;
+                                   a->request.model = a->model;
+                                   const CompensateResult result = compensateLog(a->request, job);
+                                   if (!a->out.empty()) result.write(a->out);
+                                   bool worse = false;
+                                   for (const auto& o : result.outputs) worse = worse || o.rms_after >= o.rms_before;
+                                   std::string summary = result.summary();
+                                   if (worse)
+                                     summary += "not good enough: an output is no better compensated than left alone\n";
+                                   return CommandResult{result.json(), summary, worse ? NotGoodEnough : Done};
+                                 });
+  command
+      ->add_option("LOG", a->log,
+                   "CSV with time_s and the inputs of the model; measured outputs are compared if they are there")
+      ->required();
+  command->add_option("--model", a->model, "Model: spindrift-thermal-model JSON, or the JSON of thermal identify")
+      ->required();
+  command->add_option("--cycle", a->request.cycle_s, "Cycle time of the controller in s; default: distance of the rows")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--limit", a->request.limits.limit, "Bound of every output, um or urad")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--slew", a->request.limits.slew_per_s, "Bound of the change of every output per s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--stale", a->request.limits.stale_after_s, "Age in s from which an input is stale")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--out", a->out, "Write time_s and the compensation of every output to this CSV file")
+      ->type_name("FILE");
+}
+
+void addIso230(CLI::App& parent, CommandLine& line) {
+  struct Arguments {
+    Iso230Request request;
+    std::string log;
+    std::string observations;
+    std::string columns;
+    std::string svg;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command =
+      addCommand(parent, line, "iso230-3", "Evaluate a thermal test as ISO 230-3 asks for it", [a](JobContext& job) {
+        a->request.log = a->log;
+        a->request.observations = a->observations;
+        a->request.columns = splitList(a->columns);
+        const Iso230Result result = evaluateIso230Test(a->request, job);
+        if (!a->svg.empty()) writeFileAtomically(a->svg, result.svg);
+        return CommandResult{result.json(), result.summary(), Done};
+      });
+  command->add_option("LOG", a->log,
+                      "CSV with time_s and displacements (_um) or tilts (_urad); not needed for --test axis");
+  command
+      ->add_option("--test", a->request.test, "etve: environment; spindle: rotating spindle; axis: moving linear axis")
+      ->required()
+      ->check(CLI::IsMember({"etve", "spindle", "axis"}));
+  command->add_option("--columns", a->columns,
+                      "Displacements and tilts, separated by commas; default: all _um and _urad columns");
+  command->add_option("--ambient", a->request.ambient, "Column of the ambient temperature (etve)");
+  command->add_option("--fraction", a->request.fraction, "Part of the end value to which the time is given (spindle)")
+      ->check(CLI::Range(0.01, 0.99))
+      ->capture_default_str();
+  command->add_option("--observations", a->observations,
+                      "observations.csv with readings near both ends of travel (axis)");
+  command->add_option("--axis", a->request.axis, "Moving axis: X, Y or Z")->capture_default_str();
+  command->add_option("--svg", a->svg, "Write the diagram to this file")->type_name("FILE");
+}
+
 }  // namespace
 
 void addThermalCommands(CLI::App& app, CommandLine& line) {
@@ -86,6 +221,9 @@ void addThermalCommands(CLI::App& app, CommandLine& line) {
       app.add_subcommand("thermal", "Models over time: identification, update by measurement, compensation, ISO 230-3");
   thermal->require_subcommand(1);
   addIdentify(*thermal, line);
+  addTrack(*thermal, line);
+  addCompensate(*thermal, line);
+  addIso230(*thermal, line);
 }
 
 }  // namespace spindrift::cli

@@ -14,6 +14,8 @@
 #include "core/math/distributions.h"
 #include "core/math/statistics.h"
 #include "core/thermal/baselines.h"
+#include "core/thermal/input_selection.h"
+#include "core/workflows/thermal_structures.h"
 
 namespace spindrift {
 namespace {
@@ -152,19 +154,48 @@ IdentifyResult identifyThermalModel(const TimeSeries& series, const IdentifyRequ
   }
   const std::vector<std::string> names =
       request.inputs.empty() ? automaticInputs(series, request.output) : request.inputs;
+  const bool structured =
+      request.method == "arx" || request.method == "oe" || (request.method.empty() && request.order);
   ResponseFitOptions options;
   options.period_s = request.period_s;
-  ResponseFitResult fit =
-      fitResponse(series, request.output, names, request.train.from_s, request.train.to_s, options, job.part(0.0, 0.8));
-  if (fit.status != FitStatus::Converged) throw InputError({series.file, ""}, fit.message);
-  result.model = std::move(fit.model);
-  result.verdicts = std::move(fit.verdicts);
-  result.left_out_rms = fit.left_out_rms;
-  result.notes.insert(result.notes.end(), fit.notes.begin(), fit.notes.end());
+  std::vector<std::string> chosen = names;
+  if (!structured || request.inputs.empty()) {
+    ResponseFitResult fit = fitResponse(series, request.output, names, request.train.from_s, request.train.to_s,
+                                        options, job.part(0.0, 0.8));
+    if (fit.status != FitStatus::Converged) throw InputError({series.file, ""}, fit.message);
+    result.model = std::move(fit.model);
+    result.verdicts = std::move(fit.verdicts);
+    result.left_out_rms = fit.left_out_rms;
+    result.notes.insert(result.notes.end(), fit.notes.begin(), fit.notes.end());
+  }
+  std::vector<double> simulated;
+  if (structured) {
+    if (request.inputs.empty()) {
+      // A low-order model cannot carry every sensor: the inputs that group LASSO keeps, at most four.
+      const SelectionResult selection =
+          selectByGroupLasso(series, request.output, names, request.train.from_s, request.train.to_s, {}, job);
+      chosen.assign(selection.kept.begin(),
+                    selection.kept.begin() + std::min<std::ptrdiff_t>(4, std::ssize(selection.kept)));
+      result.verdicts.clear();
+      for (const SelectedInput& in : selection.inputs) {
+        const bool kept = std::find(chosen.begin(), chosen.end(), in.name) != chosen.end();
+        result.verdicts.push_back({in.name, kept, in.reason, 0.0, 0.0});
+      }
+      result.left_out_rms = 0.0;
+    }
+    IdentifyRequest fixed = request;
+    if (fixed.method.empty()) fixed.method = "arx";
+    StructuredFit fit = fitStructured(series, fixed, chosen, job);
+    result.model = std::move(fit.model);
+    result.structure = std::move(fit.structure);
+    simulated = std::move(fit.predicted);
+    result.notes.insert(result.notes.end(), fit.notes.begin(), fit.notes.end());
+  }
   for (const ThermalInput& input : result.model.inputs)
     if (std::find(result.inputs.begin(), result.inputs.end(), input.name) == result.inputs.end())
       result.inputs.push_back(input.name);
   ThermalPrediction prediction = result.model.predict(series, 0);
+  if (structured) prediction.value = std::move(simulated);
   result.time_s = series.time_s;
   result.measured = output.values;
   result.predicted = std::move(prediction.value);

@@ -5,7 +5,8 @@
 add_library(spindrift_options INTERFACE)
 target_include_directories(spindrift_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(
-  spindrift_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  spindrift_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
+                              $<$<COMPILE_LANGUAGE:CXX>:-Woverloaded-virtual>
                               $<$<BOOL:${SPINDRIFT_WARNINGS_AS_ERRORS}>:-Werror>)
 # g++ 12 reports false positives of these kinds from inside Eigen and the standard library when it inlines.
 target_compile_options(spindrift_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow

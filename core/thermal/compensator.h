@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// The thermal model inside a machine controller: a fixed-size object whose step neither allocates, throws, locks nor
+// calls the system.
+//
+//   value_o = -(offset_o + sum gain (x - reference)), bounded to +-limit_o, changing at most slew_o per second
+//
+// The output is the compensation (minus the predicted deviation), in the unit of the model's outputs. Inputs are
+// checked in every step: not finite, outside the allowed range, or stale (no new value for longer than `stale_after_s`;
+// also a clock that does not run forwards). While an input is bad its last good value is used for `stale_after_s`;
+// after that the compensator is in fall-back: it holds its output and then fades it to zero with the slew limit, until
+// all inputs are good again for `recover_after_s`. Configuration (load) happens outside the control loop and reports
+// problems as a sentence; everything else is noexcept.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace spindrift {
+
+struct ThermalModel;
+
+enum class CompensatorState : std::uint8_t {
+  Empty,     ///< no model loaded: outputs are zero
+  Running,   ///< all inputs good
+  Holding,   ///< an input is bad for a short time: its last good value is used
+  Fallback,  ///< an input has been bad too long: the output fades to zero
+};
+
+struct CompensatorLimits {
+  double limit = 200.0;           ///< of the magnitude of every output, um or urad
+  double slew_per_s = 2.0;        ///< of the change of every output, um/s or urad/s
+  double stale_after_s = 60.0;    ///< an input without a new good value for longer is stale
+  double recover_after_s = 10.0;  ///< good again for this long before the compensation returns
+  double range_margin = 0.5;      ///< input beyond its training range by more than this part of the range is impossible
+  double minimum_margin =
+      20.0;  ///< but never less than this, in the input's unit (ignored for speeds, where the range decides)
+};
+
+class Compensator {
+ public:
+  static constexpr int maximum_outputs = 8;
+  static constexpr int maximum_inputs = 32;
+  static constexpr int maximum_lags = 1024;  ///< over all outputs
+
+  /// Takes a model for a fixed cycle time. Returns an empty text, or a sentence why not (too large, cycle not
+  /// positive). Resets all states.
+  [[nodiscard]] std::string load(const ThermalModel& model, double cycle_s, const CompensatorLimits& limits = {});
+
+  [[nodiscard]] int inputCount() const noexcept { return inputs_; }
+  [[nodiscard]] int outputCount() const noexcept { return outputs_; }
+  /// Name of an input in the order that `step` wants ("" beyond the count).
+  [[nodiscard]] const char* inputName(int index) const noexcept;
+  [[nodiscard]] const char* outputName(int index) const noexcept;
+
+  /// One cycle. `inputs`: inputCount() values; `age_s`: age of each value, or null if all are fresh; `outputs`:
+  /// outputCount() compensation values. The first good step puts every lag at rest at its input.
+  CompensatorState step(const double* inputs, const double* age_s, double* outputs) noexcept;
+
+  [[nodiscard]] CompensatorState state() const noexcept { return state_; }
+  /// First input that was refused in the last step, -1 if none.
+  [[nodiscard]] int refusedInput() const noexcept { return refused_; }
+  /// Shifts the model's offset of one output after an on-machine measurement: new offset = old + correction. Gain
+  /// likewise as a factor.
+  void update(int output, double gain_factor, double offset_correction) noexcept;
+  /// Forgets all states; the next good step starts at rest.
+  void reset() noexcept;
+
+ private:
+  struct Transform {
+    int source = 0;
+    double power = 1.0;
+    double inverse_scale = 1.0;
+  };
+  static double powered(double magnitude, double power) noexcept;
+
+  int inputs_ = 0;
+  int outputs_ = 0;
+  int transforms_ = 0;
+  int lags_ = 0;
+  CompensatorState state_ = CompensatorState::Empty;
+  int refused_ = -1;
+  bool started_ = false;
+  double cycle_s_ = 0.0;
+  double good_for_s_ = 0.0;
+  CompensatorLimits limits_;
+  std::array<std::array<char, 64>, maximum_inputs> input_names_{};
+  std::array<std::array<char, 64>, maximum_outputs> output_names_{};
+  std::array<double, maximum_inputs> low_{};
+  std::array<double, maximum_inputs> high_{};
+  std::array<double, maximum_inputs> last_good_{};
+  std::array<double, maximum_inputs> bad_for_s_{};
+  std::array<Transform, 3 * maximum_inputs> transform_{};
+  std::array<double, 3 * maximum_inputs> now_{};
+  std::array<double, 3 * maximum_inputs> before_{};
+  // Lags, structure of arrays, sorted by output: the gains of one output stand next to each other.
+  std::array<int, maximum_lags> lag_transform_{};
+  std::array<double, maximum_lags> a_{};
+  std::array<double, maximum_lags> c_{};
+  std::array<double, maximum_lags> rest_{};  ///< w at rest per unit of input
+  std::array<double, maximum_lags> w_{};
+  std::array<std::array<double, 3 * maximum_inputs>, maximum_outputs> direct_{};
+  std::array<int, maximum_outputs + 1> first_{};  ///< first lag of each output
+  std::array<double, maximum_lags> gain_{};
+  std::array<double, maximum_outputs> offset_{};
+  std::array<double, maximum_outputs> gain_factor_{};
+  std::array<double, maximum_outputs> correction_{};
+  std::array<double, maximum_outputs> output_{};
+};
+
+}  // namespace spindrift

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/thermal/iso230_3.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+namespace {
+
+double readingSigma(const ComponentSeries& c) {
+  if (c.reading_sigma > 0.0) return c.reading_sigma;
+  // Second differences remove what is smooth; their variance is six times that of a reading.
+  std::vector<double> v;
+  for (const double x : c.values)
+    if (std::isfinite(x)) v.push_back(x);
+  std::vector<double> second;
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) second.push_back(v[i - 1] - 2.0 * v[i] + v[i + 1]);
+  return second.empty() ? 0.0 : robustSigma(second) / std::sqrt(6.0);
+}
+
+void checkSeries(std::span<const double> time_s, const std::vector<ComponentSeries>& components, std::size_t least) {
+  if (components.empty()) throw InputError("no displacement was given; allowed: at least one column in um or urad.");
+  for (const ComponentSeries& c : components) {
+    SPINDRIFT_ASSERT(c.values.size() == time_s.size(), "component and time differ in length");
+    const auto count = static_cast<std::size_t>(
+        std::count_if(c.values.begin(), c.values.end(), [](double v) { return std::isfinite(v); }));
+    if (count < least)
+      throw InputError(fmt::format("{} has {} readings; allowed: at least {} over the test.", c.name, count, least));
+  }
+}
+
+/// Mean of the readings nearest to a time: at most `count` of them within `window_s`.
+double levelAt(std::span<const double> time_s, const std::vector<double>& values, double when, double window_s) {
+  double sum = 0.0;
+  int count = 0;
+  std::size_t nearest = values.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) continue;
+    if (nearest == values.size() || std::abs(time_s[i] - when) < std::abs(time_s[nearest] - when)) nearest = i;
+    if (std::abs(time_s[i] - when) <= window_s) {
+      sum += values[i];
+      ++count;
+    }
+  }
+  if (count > 0) return sum / count;
+  return nearest < values.size() ? values[nearest] : std::nan("");
+}
+
+AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, double position) {
+  AxisPositionResult out;
+  out.position_mm = position;
+  std::vector<AxisReading> here;
+  for (const AxisReading& r : readings)
+    if (std::abs(r.position_mm - position) < 1e-6) here.push_back(r);
+  out.readings = here.size();
+  if (here.size() < 4)
+    throw InputError(fmt::format("position {} mm was measured {} times; allowed: at least 4 times over the test.",
+                                 position, here.size()));
+  double plus = 0.0;
+  double minus = 0.0;
+  int n_plus = 0;
+  int n_minus = 0;
+  double low = here.front().deviation_um;
+  double high = low;
+  for (const AxisReading& r : here) {
+    low = std::min(low, r.deviation_um);
+    high = std::max(high, r.deviation_um);
+    (r.direction >= 0 ? plus : minus) += r.deviation_um;
+    ++(r.direction >= 0 ? n_plus : n_minus);
+  }
+  out.range_um = high - low;
+  out.reversal_um = n_plus > 0 && n_minus > 0 ? plus / n_plus - minus / n_minus : std::nan("");
+  // First and last cycle: all readings of both directions there (one or two).
+  const std::size_t group = n_plus > 0 && n_minus > 0 ? 2 : 1;
+  double first = 0.0;
+  double last = 0.0;
+  for (std::size_t k = 0; k < group; ++k) {
+    first += here[k].deviation_um / static_cast<double>(group);
+    last += here[here.size() - 1 - k].deviation_um / static_cast<double>(group);
+  }
+  out.change_um = last - first;
+  // Repeatability: scatter about a course of time common to both directions, up to the third power, with an offset per
+  // direction.
+  const Eigen::Index n = static_cast<Eigen::Index>(here.size());
+  const Eigen::Index p = std::min<Eigen::Index>(4, n / 2) + (group == 2 ? 1 : 0);
+  Eigen::MatrixXd A(n, p);
+  Eigen::VectorXd y(n);
+  const double span = std::max(here.back().time_s - here.front().time_s, 1e-9);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double t = (here[static_cast<std::size_t>(i)].time_s - here.front().time_s) / span * 2.0 - 1.0;
+    double power = 1.0;
+    for (Eigen::Index k = 0; k < p - (group == 2 ? 1 : 0); ++k, power *= t) A(i, k) = power;
+    if (group == 2) A(i, p - 1) = here[static_cast<std::size_t>(i)].direction >= 0 ? 0.5 : -0.5;
+    y[i] = here[static_cast<std::size_t>(i)].deviation_um;
+  }
+  const Eigen::VectorXd rest = y - A * A.colPivHouseholderQr().solve(y);
+  const double s = n > p ? std::sqrt(rest.squaredNorm() / static_cast<double>(n - p)) : 0.0;
+  out.repeatability_um = 2.0 * s;
+  out.change_sigma_um = s * std::sqrt(2.0 / static_cast<double>(group));
+  return out;
+}
+
+}  // namespace
+
+EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<ComponentSeries>& components,
+                        std::span<const double> ambient) {
+  checkSeries(time_s, components, 10);
+  EtveResult result;
+  result.duration_s = time_s.back() - time_s.front();
+  if (!ambient.empty()) {
+    SPINDRIFT_ASSERT(ambient.size() == time_s.size(), "ambient and time differ in length");
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const double t : ambient) {
+      if (!std::isfinite(t)) continue;
+      low = std::min(low, t);
+      high = std::max(high, t);
+    }
+    result.temperature_range_K = high >= low ? high - low : 0.0;
+  }
+  if (result.duration_s < 4.0 * 3600.0)
+    result.note = "the test is shorter than 4 h: slow influences of the environment are not in it.";
+  for (const ComponentSeries& c : components) {
+    EtveComponent out;
+    out.name = c.name;
+    out.unit = c.unit;
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    double st = 0.0, sy = 0.0, stt = 0.0, sty = 0.0, n = 0.0;
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+      if (!std::isfinite(c.values[i])) continue;
+      low = std::min(low, c.values[i]);
+      high = std::max(high, c.values[i]);
+      if (ambient.empty() || !std::isfinite(ambient[i])) continue;
+      st += ambient[i];
+      sy += c.values[i];
+      n += 1.0;
+    }
+    out.range = high - low;
+    out.range_sigma = std::sqrt(2.0) * readingSigma(c);
+    out.range_per_K = std::nan("");
+    out.slope_per_K = std::nan("");
+    out.slope_sigma = std::nan("");
+    if (result.temperature_range_K > 1e-6 && n > 2.0) {
+      out.range_per_K = out.range / result.temperature_range_K;
+      for (std::size_t i = 0; i < c.values.size(); ++i) {
+        if (!std::isfinite(c.values[i]) || !std::isfinite(ambient[i])) continue;
+        stt += (ambient[i] - st / n) * (ambient[i] - st / n);
+        sty += (ambient[i] - st / n) * (c.values[i] - sy / n);
+      }
+      out.slope_per_K = sty / stt;
+      double rest = 0.0;
+      for (std::size_t i = 0; i < c.values.size(); ++i) {
+        if (!std::isfinite(c.values[i]) || !std::isfinite(ambient[i])) continue;
+        const double e = c.values[i] - sy / n - out.slope_per_K * (ambient[i] - st / n);
+        rest += e * e;
+      }
+      // Readings of a slow process are not independent: at most one in ten minutes counts.
+      const double independent = std::min(n, result.duration_s / 600.0);
+      out.slope_sigma = std::sqrt(rest / n / stt * n / std::max(1.0, independent - 2.0));
+    }
+    result.components.push_back(out);
+  }
+  return result;
+}
+
+SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<const double> speed,
+                                      const std::vector<ComponentSeries>& components, double fraction) {
+  SPINDRIFT_ASSERT(speed.size() == time_s.size(), "speed and time differ in length");
+  if (!(fraction > 0.0 && fraction < 1.0)) throw InputError("the fraction of the end value must lie between 0 and 1.");
+  checkSeries(time_s, components, 4);
+  SpindleResult result;
+  result.fraction = fraction;
+  std::size_t first = speed.size();
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < speed.size(); ++i) {
+    if (!(std::abs(speed[i]) > 0.0)) continue;
+    if (first == speed.size()) first = i;
+    last = i;
+  }
+  if (first == speed.size())
+    throw InputError("the spindle never runs in this record; allowed: a test with a speed above zero.");
+  result.start_s = time_s[first];
+  // A state holds until the next row, so the spindle stops there.
+  result.stop_s = last + 1 < time_s.size() ? time_s[last + 1] : time_s[last];
+  for (const ComponentSeries& c : components) {
+    SpindleComponent out;
+    out.name = c.name;
+    out.unit = c.unit;
+    const double zero = levelAt(time_s, c.values, result.start_s, 0.0);
+    out.at_end = levelAt(time_s, c.values, result.stop_s, 0.0) - zero;
+    out.first_hour = result.stop_s - result.start_s >= 3600.0
+                         ? levelAt(time_s, c.values, result.start_s + 3600.0, 0.0) - zero
+                         : std::nan("");
+    out.after_cooling = levelAt(time_s, c.values, time_s.back(), 0.0) - zero;
+    out.change_sigma = std::sqrt(2.0) * readingSigma(c);
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    out.time_to_fraction_s = std::nan("");
+    bool beyond = false;
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+      if (!std::isfinite(c.values[i]) || time_s[i] < result.start_s || time_s[i] > result.stop_s) continue;
+      low = std::min(low, c.values[i]);
+      high = std::max(high, c.values[i]);
+      const bool now = (c.values[i] - zero) * (out.at_end > 0.0 ? 1.0 : -1.0) >= fraction * std::abs(out.at_end);
+      if (now && !beyond) out.time_to_fraction_s = time_s[i] - result.start_s;
+      beyond = now;
+    }
+    if (std::abs(out.at_end) < 3.0 * out.change_sigma) out.time_to_fraction_s = std::nan("");
+    out.range = high - low;
+    result.components.push_back(out);
+  }
+  return result;
+}
+
+AxisResult evaluateMovingAxis(std::vector<AxisReading> readings) {
+  if (readings.size() < 8)
+    throw InputError(
+        fmt::format("{} readings of the axis; allowed: at least 4 at each of two positions.", readings.size()));
+  std::stable_sort(readings.begin(), readings.end(),
+                   [](const AxisReading& a, const AxisReading& b) { return a.time_s < b.time_s; });
+  const auto [low, high] = std::minmax_element(
+      readings.begin(), readings.end(), [](const auto& a, const auto& b) { return a.position_mm < b.position_mm; });
+  const double low_mm = low->position_mm;
+  const double high_mm = high->position_mm;
+  if (high_mm - low_mm < 1e-6)
+    throw InputError("all readings were taken at one position; allowed: two positions near the ends of travel.");
+  AxisResult result;
+  result.low = evaluatePosition(readings, low_mm);
+  result.high = evaluatePosition(readings, high_mm);
+  result.expansion_um = result.high.change_um - result.low.change_um;
+  result.expansion_sigma_um = std::hypot(result.high.change_sigma_um, result.low.change_sigma_um);
+  result.expansion_um_per_m = result.expansion_um / ((high_mm - low_mm) * 1e-3);
+  // Course: difference of the two positions in each direction relative to its first value; the low position
+  // interpolated in time.
+  for (const int direction : {1, -1}) {
+    std::vector<double> t;
+    std::vector<double> v;
+    for (const AxisReading& r : readings) {
+      if (std::abs(r.position_mm - low_mm) > 1e-6 || (r.direction >= 0 ? 1 : -1) != direction) continue;
+      t.push_back(r.time_s);
+      v.push_back(r.deviation_um);
+    }
+    if (t.size() < 2) continue;
+    double first = std::nan("");
+    for (const AxisReading& r : readings) {
+      if (std::abs(r.position_mm - high_mm) > 1e-6 || (r.direction >= 0 ? 1 : -1) != direction) continue;
+      const auto next = std::clamp<std::ptrdiff_t>(std::lower_bound(t.begin(), t.end(), r.time_s) - t.begin(), 1,
+                                                   static_cast<std::ptrdiff_t>(t.size()) - 1);
+      const double w =
+          t[next] > t[next - 1] ? std::clamp((r.time_s - t[next - 1]) / (t[next] - t[next - 1]), 0.0, 1.0) : 0.0;
+      const double difference = r.deviation_um - ((1.0 - w) * v[next - 1] + w * v[next]);
+      if (std::isnan(first)) first = difference;
+      result.time_s.push_back(r.time_s);
+      result.expansion_over_time_um.push_back(difference - first);
+    }
+  }
+  std::vector<std::size_t> order(result.time_s.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return result.time_s[a] < result.time_s[b]; });
+  AxisResult sorted = result;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sorted.time_s[i] = result.time_s[order[i]];
+    sorted.expansion_over_time_um[i] = result.expansion_over_time_um[order[i]];
+  }
+  return sorted;
+}
+
+}  // namespace spindrift

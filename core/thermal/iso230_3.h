@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Evaluation of thermal tests as ISO 230-3 asks for them: environmental variation (ETVE), rotating spindle, moving
+// linear axis.
+//
+// Displacements um, tilts urad, time s, temperature degC, positions mm. Values are relative to the start of the test;
+// the first valid sample is zero. Uncertainties: the standard uncertainty of one reading enters a range or a difference
+// of two readings as sqrt(2) of it. Failure: InputError for too few readings or a test that does not hold what is
+// evaluated. Source: ISO 230-3 (ETVE test, thermal distortion caused by rotating spindle, thermal distortion caused by
+// moving linear axes).
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace spindrift {
+
+/// A component (EX ... EC) or a single probe over time. NaN where missing.
+struct ComponentSeries {
+  std::string name;
+  std::string unit;
+  std::vector<double> values;
+  double reading_sigma = 0.0;  ///< of one reading; 0: estimated from the differences of neighbours
+};
+
+struct EtveComponent {
+  std::string name;
+  std::string unit;
+  double range = 0.0;  ///< largest minus smallest over the test
+  double range_sigma = 0.0;
+  double range_per_K = 0.0;  ///< range over the range of the ambient temperature; NaN without a change of it
+  double slope_per_K = 0.0;  ///< regression on the ambient temperature
+  double slope_sigma = 0.0;
+};
+struct EtveResult {
+  double duration_s = 0.0;
+  double temperature_range_K = 0.0;
+  std::vector<EtveComponent> components;
+  std::string note;
+};
+/// `ambient_degC` may be empty: then nothing is per K.
+[[nodiscard]] EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<ComponentSeries>& components,
+                                      std::span<const double> ambient_degC);
+
+struct SpindleComponent {
+  std::string name;
+  std::string unit;
+  double first_hour = 0.0;    ///< change after 60 min of running; NaN if the run was shorter
+  double at_end = 0.0;        ///< change at the end of the running period
+  double change_sigma = 0.0;  ///< of both
+  double range = 0.0;         ///< over the running period
+  double time_to_fraction_s =
+      0.0;  ///< first time from which the change stays beyond `fraction` of its end value; NaN if it ends below 3 sigma
+  double after_cooling = 0.0;  ///< change left at the end of the record
+};
+struct SpindleResult {
+  double start_s = 0.0;
+  double stop_s = 0.0;
+  double fraction = 0.0;
+  std::vector<SpindleComponent> components;
+};
+/// The running period is from the first row with speed above zero to the last one.
+[[nodiscard]] SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<const double> speed_rpm,
+                                                    const std::vector<ComponentSeries>& components,
+                                                    double fraction = 0.9);
+
+/// Approaches of two target positions near both ends of travel while the axis is exercised.
+struct AxisReading {
+  double time_s = 0.0;
+  double position_mm = 0.0;
+  double deviation_um = 0.0;
+  int direction = 1;  ///< of approach, +1 or -1
+};
+struct AxisPositionResult {
+  double position_mm = 0.0;
+  double change_um = 0.0;  ///< mean of the last cycle minus mean of the first
+  double change_sigma_um = 0.0;
+  double range_um = 0.0;
+  double repeatability_um = 0.0;  ///< 2 s of the deviations from a smooth course over time (local quadratic)
+  double reversal_um = 0.0;       ///< mean of + minus mean of -; NaN if only one direction was measured
+  std::size_t readings = 0;
+};
+struct AxisResult {
+  AxisPositionResult low;
+  AxisPositionResult high;
+  double expansion_um = 0.0;  ///< change at the high position minus change at the low one
+  double expansion_sigma_um = 0.0;
+  double expansion_um_per_m = 0.0;
+  std::vector<double> time_s;  ///< course of the expansion: at the readings of the high position
+  std::vector<double> expansion_over_time_um;
+};
+/// Only the lowest and the highest position are used.
+[[nodiscard]] AxisResult evaluateMovingAxis(std::vector<AxisReading> readings);
+
+}  // namespace spindrift

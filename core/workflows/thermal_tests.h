@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// ISO 230-3 tests from a log and observations (`thermal iso230-3`): parameters, and the diagram as SVG.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/job_context.h"
+#include "core/thermal/iso230_3.h"
+
+namespace spindrift {
+
+struct Iso230Request {
+  std::string test;                    ///< "etve", "spindle" or "axis"
+  std::filesystem::path log;           ///< etve, spindle: signals over time
+  std::filesystem::path observations;  ///< axis: observations.csv with readings at two positions
+  std::vector<std::string> columns;    ///< displacements and tilts; empty: every _um and _urad column
+  std::string ambient;                 ///< column; empty: T_room, T_ambient or none
+  std::string axis = "X";              ///< of the moving axis test
+  double fraction = 0.9;               ///< of the end value
+};
+
+struct Iso230Result {
+  std::string test;
+  std::optional<EtveResult> etve;
+  std::optional<SpindleResult> spindle;
+  std::optional<AxisResult> axis;
+  std::vector<std::string> notes;
+  std::string svg;  ///< the diagram over time
+  [[nodiscard]] nlohmann::json json() const;
+  [[nodiscard]] std::string summary() const;
+};
+[[nodiscard]] Iso230Result evaluateIso230Test(const Iso230Request& request, const JobContext& job);
+
+}  // namespace spindrift

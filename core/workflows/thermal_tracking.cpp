@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/thermal_tracking.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/atomic_file.h"
+#include "core/base/json_reader.h"
+#include "core/base/text.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+namespace {
+
+double spreadOf(const std::vector<double>& values) {
+  std::vector<double> finite;
+  for (const double v : values)
+    if (std::isfinite(v)) finite.push_back(v);
+  if (finite.empty()) return std::nan("");
+  const double centre = mean(finite);
+  for (double& v : finite) v -= centre;
+  return rootMeanSquare(finite);
+}
+
+}  // namespace
+
+TrackResult trackThermalModel(const TrackRequest& request, const JobContext& job) {
+  if (!(request.interval_s > 0.0)) throw InputError("--interval must be positive, in s.");
+  const ThermalModel model = ThermalModel::read(request.model);
+  const TimeSeries series = readTimeSeries(request.log);
+  TrackResult result;
+  result.output = request.output.empty() ? model.outputs.front().name : request.output;
+  const ThermalOutput* output = model.findOutput(result.output);
+  if (output == nullptr)
+    throw InputError({request.model, ""},
+                     fmt::format("the model has no output {}; found: {}.", result.output, model.outputs.front().name));
+  if (output->terms.empty())
+    throw InputError({request.model, ""},
+                     "the model has no lags (an ARX model with complex poles); identify with --method response or oe.");
+  result.unit = output->unit;
+  const ThermalPrediction prediction = model.predict(series, static_cast<std::size_t>(output - model.outputs.data()));
+  result.notes = prediction.notes;
+  result.time_s = series.time_s;
+  result.measured = series.at(result.output).values;
+  result.simulated = prediction.value;
+  const bool goes_on =
+      series.time_s.back() > model.train_to_s + request.interval_s && series.time_s.front() <= model.train_to_s;
+  result.from_s = request.from_s.value_or(goes_on ? model.train_to_s : series.time_s.front());
+  UpdateOptions options;
+  options.kind = request.update;
+  options.interval_s = request.interval_s;
+  options.start_s = result.from_s;
+  options.measurement_sigma = request.measurement_sigma;
+  if (request.gain_bound > 0.0) options.gain_bound = request.gain_bound;
+  double slowest = 0.0;
+  for (const LagTerm& term : output->terms) slowest = std::max(slowest, term.tau_s);
+  if (slowest > 0.0) options.slowest_tau_s = slowest;
+  options.offset_sigma =
+      std::max(2.0 * output->uncertainty_factor * output->noise_sigma, 4.0 * request.measurement_sigma);
+  result.run = runWithUpdates(result.time_s, result.measured, result.simulated, options);
+  const TimeRange judged{result.from_s, 1e300};
+  result.without = runQuality(result.time_s, result.measured, result.simulated, judged);
+  result.with = runQuality(result.time_s, result.measured, result.run.predicted, judged);
+  if (result.with.samples == 0)
+    throw InputError({request.log, ""},
+                     fmt::format("no value of {} is measured from {:.6g} s on.", result.output, result.from_s));
+  job.throwIfCancelled();
+  for (double t = result.from_s; t < series.time_s.back(); t += request.interval_s) {
+    const TimeRange range{t, t + request.interval_s};
+    const RunQuality q = runQuality(result.time_s, result.measured, result.run.predicted, range);
+    if (q.samples > 0) result.intervals.emplace_back(range, q);
+    if (result.intervals.size() >= 10000) break;
+  }
+  result.sweep = sweepIntervals(result.time_s, result.measured, result.simulated, options,
+                                {1800.0, 3600.0, 5400.0, 7200.0, 9000.0, 10800.0});
+  if (request.update == UpdateKind::Gain && result.with.p2p > result.without.p2p) {
+    result.notes.push_back(
+        "the gain update made the largest errors worse: the ratio measured / simulated is meaningless where the "
+        "simulation is near zero; use --update "
+        "kalman, or bound the gain.");
+  }
+  return result;
+}
+
+nlohmann::json TrackResult::json() const {
+  nlohmann::json out = {{"output", output},
+                        {"unit", unit},
+                        {"from_s", from_s},
+                        {"fit_percent", jsonNumber(with.fit_percent)},
+                        {"p2p", jsonNumber(with.p2p)},
+                        {"rmse", jsonNumber(with.rmse)},
+                        {"without_update", without.json()},
+                        {"notes", notes},
+                        {"measurements", run.events.size()}};
+  out["intervals"] = nlohmann::json::array();
+  for (const auto& [range, q] : intervals) {
+    nlohmann::json entry = q.json();
+    entry["from_s"] = range.from_s;
+    entry["to_s"] = range.to_s;
+    out["intervals"].push_back(entry);
+  }
+  out["sweep"] = nlohmann::json::array();
+  for (const IntervalPoint& p : sweep) {
+    out["sweep"].push_back({{"interval_s", jsonNumber(p.interval_s)},
+                            {"fit_percent", jsonNumber(p.fit_percent)},
+                            {"p2p", jsonNumber(p.p2p)},
+                            {"rmse", jsonNumber(p.rms)},
+                            {"measurements", p.measurements}});
+  }
+  out["updates"] = nlohmann::json::array();
+  for (const UpdateEvent& e : run.events) {
+    out["updates"].push_back({{"time_s", e.time_s},
+                              {"measured", e.measured},
+                              {"predicted_before", e.predicted_before},
+                              {"gain", e.gain},
+                              {"offset", e.offset},
+                              {"gain_standard_uncertainty", e.gain_sigma},
+                              {"offset_standard_uncertainty", e.offset_sigma},
+                              {"used", e.used}});
+  }
+  return out;
+}
+
+std::string TrackResult::summary() const {
+  std::string text = fmt::format("{} from {:.6g} s, {} measurements\n", output, from_s, run.events.size());
+  text += fmt::format("  without update: fit {:7.1f} %  p2p {:8.2f} {}  rms {:8.3f}\n", without.fit_percent,
+                      without.p2p, unit, without.rmse);
+  text += fmt::format("  with updates:   fit {:7.1f} %  p2p {:8.2f} {}  rms {:8.3f}\n", with.fit_percent, with.p2p,
+                      unit, with.rmse);
+  for (const IntervalPoint& p : sweep) {
+    text += std::isfinite(p.interval_s) ? fmt::format("  every {:4.0f} min", p.interval_s / 60.0)
+                                        : std::string("  never         ");
+    text += fmt::format(": fit {:7.1f} %  p2p {:8.2f}  rms {:8.3f}\n", p.fit_percent, p.p2p, p.rms);
+  }
+  for (const std::string& n : notes) text += "note: " + n + "\n";
+  return text;
+}
+
+void TrackResult::writePrediction(const std::filesystem::path& file) const {
+  std::string text = "time_s,measured,simulated,predicted,sigma\n";
+  for (std::size_t r = 0; r < time_s.size(); ++r) {
+    text += exactNumber(time_s[r]) + ',' + (std::isfinite(measured[r]) ? exactNumber(measured[r]) : std::string()) +
+            ',' + exactNumber(simulated[r]) + ',' + exactNumber(run.predicted[r]) + ',' +
+            (r < run.sigma.size() ? exactNumber(run.sigma[r]) : std::string()) + '\n';
+  }
+  writeFileAtomically(file, text);
+}
+
+CompensateResult compensateLog(const CompensateRequest& request, const JobContext& job) {
+  const ThermalModel model = ThermalModel::read(request.model);
+  const TimeSeries series = readTimeSeries(request.log);
+  CompensateResult result;
+  result.cycle_s = request.cycle_s > 0.0 ? request.cycle_s : series.medianPeriod_s();
+  if (!(result.cycle_s > 0.0))
+    throw InputError({request.log, ""}, "has a single row, so the cycle time is unknown; give --cycle.");
+  Compensator compensator;
+  const std::string problem = compensator.load(model, result.cycle_s, request.limits);
+  if (!problem.empty()) throw InputError({request.model, ""}, problem);
+  std::vector<const Signal*> inputs;
+  for (int i = 0; i < compensator.inputCount(); ++i) inputs.push_back(&series.at(compensator.inputName(i)));
+  const auto steps =
+      static_cast<std::size_t>((series.time_s.back() - series.time_s.front()) / result.cycle_s + 1e-9) + 1;
+  if (steps > 20'000'000)
+    throw InputError(fmt::format("{} cycles are too many to replay; give a longer --cycle.", steps));
+  for (int o = 0; o < compensator.outputCount(); ++o) result.outputs.emplace_back().name = compensator.outputName(o);
+  std::vector<double> u(inputs.size());
+  std::vector<double> age(inputs.size());
+  std::vector<double> out(result.outputs.size());
+  std::vector<std::size_t> next(inputs.size(), 0);
+  std::vector<double> seen(inputs.size(), -1e300);
+  for (std::size_t k = 0; k < steps; ++k) {
+    const double t = series.time_s.front() + static_cast<double>(k) * result.cycle_s;
+    // The controller sees the last row at or before now: its value and its age.
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+      while (next[i] < series.time_s.size() && series.time_s[next[i]] <= t + 1e-9) {
+        if (std::isfinite(inputs[i]->values[next[i]])) {
+          u[i] = inputs[i]->values[next[i]];
+          seen[i] = series.time_s[next[i]];
+        }
+        ++next[i];
+      }
+      age[i] = std::max(0.0, t - seen[i]);
+    }
+    const CompensatorState state = compensator.step(u.data(), age.data(), out.data());
+    result.holding += state == CompensatorState::Holding;
+    result.fallback += state == CompensatorState::Fallback;
+    result.time_s.push_back(t);
+    for (std::size_t o = 0; o < out.size(); ++o) result.outputs[o].compensation.push_back(out[o]);
+    if (k % 10000 == 0) job.report(static_cast<double>(k) / static_cast<double>(steps), "compensating");
+  }
+  for (CompensateResult::Output& output : result.outputs) {
+    for (const double v : output.compensation) output.largest = std::max(output.largest, std::abs(v));
+    output.rms_before = output.rms_after = output.reduction_percent = std::nan("");
+    const Signal* measured = series.find(output.name);
+    if (measured == nullptr) continue;
+    std::vector<double> after(series.time_s.size(), std::nan(""));
+    for (std::size_t r = 0; r < after.size(); ++r) {
+      const auto k = std::min(
+          steps - 1, static_cast<std::size_t>((series.time_s[r] - series.time_s.front()) / result.cycle_s + 0.5));
+      after[r] = measured->values[r] + output.compensation[k];
+    }
+    output.rms_before = spreadOf(measured->values);
+    output.rms_after = spreadOf(after);
+    output.reduction_percent = 100.0 * (1.0 - output.rms_after / output.rms_before);
+  }
+  return result;
+}
+
+nlohmann::json CompensateResult::json() const {
+  nlohmann::json out = {
+      {"cycle_s", cycle_s}, {"steps", time_s.size()}, {"holding_steps", holding}, {"fallback_steps", fallback}};
+  for (const Output& o : outputs) {
+    out["outputs"].push_back({{"name", o.name},
+                              {"rms_before", jsonNumber(o.rms_before)},
+                              {"rms_after", jsonNumber(o.rms_after)},
+                              {"reduction_percent", jsonNumber(o.reduction_percent)},
+                              {"largest_compensation", o.largest}});
+  }
+  return out;
+}
+
+std::string CompensateResult::summary() const {
+  std::string text = fmt::format("{} cycles of {:.6g} s, {} on held inputs, {} in fall-back\n", time_s.size(), cycle_s,
+                                 holding, fallback);
+  for (const Output& o : outputs) {
+    text += fmt::format("  {}: rms {:.3f} before, {:.3f} after ({:.0f} % less), largest compensation {:.2f}\n", o.name,
+                        o.rms_before, o.rms_after, o.reduction_percent, o.largest);
+  }
+  return text;
+}
+
+void CompensateResult::write(const std::filesystem::path& file) const {
+  std::string text = "time_s";
+  for (const Output& o : outputs) text += ",compensation_" + o.name;
+  text += '\n';
+  for (std::size_t k = 0; k < time_s.size(); ++k) {
+    text += exactNumber(time_s[k]);
+    for (const Output& o : outputs) text += ',' + exactNumber(o.compensation[k]);
+    text += '\n';
+  }
+  writeFileAtomically(file, text);
+}
+
+}  // namespace spindrift

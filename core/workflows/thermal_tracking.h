@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Using a thermal model: keeping it true by on-machine measurements (`thermal track`) and running the compensator over
+// a log (`thermal compensate`).
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/thermal/compensator.h"
+#include "core/thermal/measurement_update.h"
+#include "core/workflows/thermal_workflow.h"
+
+namespace spindrift {
+
+struct TrackRequest {
+  std::filesystem::path log;
+  std::filesystem::path model;
+  std::string output;  ///< empty: the model's first
+  UpdateKind update = UpdateKind::Kalman;
+  double interval_s = 3600.0;
+  std::optional<double> from_s;  ///< first measurement; default: end of training if the log goes on, else its start
+  double measurement_sigma = 0.5;
+  double gain_bound = 0.0;  ///< 0: as printed in P2, without a bound
+};
+
+struct TrackResult {
+  std::string output;
+  std::string unit;
+  double from_s = 0.0;
+  RunQuality without;  ///< free run
+  RunQuality with;     ///< with updates
+  UpdateRun run;
+  std::vector<std::pair<TimeRange, RunQuality>> intervals;
+  std::vector<IntervalPoint> sweep;  ///< 30 ... 180 min, P2 Fig. 9
+  std::vector<double> time_s;
+  std::vector<double> measured;
+  std::vector<double> simulated;
+  std::vector<std::string> notes;
+
+  [[nodiscard]] nlohmann::json json() const;
+  [[nodiscard]] std::string summary() const;
+  void writePrediction(const std::filesystem::path& file) const;
+};
+[[nodiscard]] TrackResult trackThermalModel(const TrackRequest& request, const JobContext& job);
+
+struct CompensateRequest {
+  std::filesystem::path log;
+  std::filesystem::path model;
+  double cycle_s = 0.0;  ///< 0: median distance of the rows
+  CompensatorLimits limits;
+};
+struct CompensateResult {
+  struct Output {
+    std::string name;
+    double rms_before = 0.0;  ///< of the measured deviation about its mean where it is measured; NaN if it is not
+    double rms_after = 0.0;   ///< of measured deviation plus compensation, about its mean
+    double reduction_percent = 0.0;
+    double largest = 0.0;
+    std::vector<double> compensation;
+  };
+  double cycle_s = 0.0;
+  std::vector<double> time_s;
+  std::vector<Output> outputs;
+  std::size_t holding = 0;
+  std::size_t fallback = 0;
+  [[nodiscard]] nlohmann::json json() const;
+  [[nodiscard]] std::string summary() const;
+  void write(const std::filesystem::path& file) const;
+};
+[[nodiscard]] CompensateResult compensateLog(const CompensateRequest& request, const JobContext& job);
+
+}  // namespace spindrift

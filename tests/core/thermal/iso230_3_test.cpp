@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/thermal/iso230_3.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/error.h"
+
+namespace spindrift {
+namespace {
+
+// Worked example, checked by hand: readings every 30 min.
+TEST(Iso2303, EtveByHand) {
+  std::vector<double> time;
+  std::vector<double> ambient;
+  ComponentSeries ez{"EZ", "um", {}, 0.1};
+  for (int k = 0; k <= 16; ++k) {
+    time.push_back(1800.0 * k);
+    ambient.push_back(20.0 + 0.25 * k);               // 20 ... 24 degC
+    ez.values.push_back(1.0 - 0.5 * 0.25 * k * 3.0);  // -1.5 um per K
+  }
+  const EtveResult r = evaluateEtve(time, {ez}, ambient);
+  EXPECT_DOUBLE_EQ(r.duration_s, 28800.0);
+  EXPECT_DOUBLE_EQ(r.temperature_range_K, 4.0);
+  EXPECT_NEAR(r.components[0].range, 6.0, 1e-12);  // 4 K x 1.5 um/K
+  EXPECT_NEAR(r.components[0].range_per_K, 1.5, 1e-12);
+  EXPECT_NEAR(r.components[0].slope_per_K, -1.5, 1e-12);
+  EXPECT_NEAR(r.components[0].range_sigma, std::sqrt(2.0) * 0.1, 1e-12);
+}
+
+TEST(Iso2303, RotatingSpindleByHand) {
+  // Runs from 600 s to 600 + 14400 s; displacement 20 (1 - exp(-t / 3600)), then cools.
+  std::vector<double> time;
+  std::vector<double> speed;
+  ComponentSeries ez{"EZ", "um", {}, 0.05};
+  double at_stop = 0.0;
+  for (int k = 0; k <= 400; ++k) {
+    const double t = 60.0 * k;
+    time.push_back(t);
+    const bool runs = t >= 600.0 && t < 15000.0;
+    speed.push_back(runs ? 3000.0 : 0.0);
+    const double value = t < 600.0      ? 0.0
+                         : t <= 15000.0 ? 20.0 * -std::expm1(-(t - 600.0) / 3600.0)
+                                        : at_stop * std::exp(-(t - 15000.0) / 3600.0);
+    if (t <= 15000.0) at_stop = value;
+    ez.values.push_back(value);
+  }
+  const SpindleResult r = evaluateRotatingSpindle(time, speed, {ez}, 0.9);
+  EXPECT_DOUBLE_EQ(r.start_s, 600.0);
+  EXPECT_DOUBLE_EQ(r.stop_s, 15000.0);
+  EXPECT_NEAR(r.components[0].first_hour, 20.0 * (1.0 - std::exp(-1.0)), 1e-9);  // 12.64
+  EXPECT_NEAR(r.components[0].at_end, 20.0 * (1.0 - std::exp(-4.0)), 1e-9);      // 19.63
+  // 1 - exp(-t/3600) = 0.9 * 0.98168 -> t = 7749 s, first reading at or after: 7800 s.
+  EXPECT_DOUBLE_EQ(r.components[0].time_to_fraction_s, 7800.0);
+  EXPECT_NEAR(r.components[0].after_cooling, 19.6337 * std::exp(-2.5), 1e-3);
+}
+
+TEST(Iso2303, MovingAxisByHand) {
+  // Five cycles every 20 min; low end grows 1 um, high end 9 um over 400 mm; reversal 0.4 um at both.
+  std::vector<AxisReading> readings;
+  for (int k = 0; k < 9; ++k) {
+    const double part = k / 8.0;
+    for (const int direction : {1, -1}) {
+      readings.push_back({1200.0 * k + (direction > 0 ? 0.0 : 4.0), 50.0, 1.0 * part + 0.2 * direction, direction});
+      readings.push_back({1200.0 * k + (direction > 0 ? 2.0 : 6.0), 450.0, 9.0 * part + 0.2 * direction, direction});
+    }
+  }
+  const AxisResult r = evaluateMovingAxis(readings);
+  EXPECT_NEAR(r.low.change_um, 1.0, 1e-9);
+  EXPECT_NEAR(r.high.change_um, 9.0, 1e-9);
+  EXPECT_NEAR(r.expansion_um, 8.0, 1e-9);
+  EXPECT_NEAR(r.expansion_um_per_m, 20.0, 1e-9);
+  EXPECT_NEAR(r.low.reversal_um, 0.4, 1e-9);
+  EXPECT_NEAR(r.high.range_um, 9.4, 1e-9);
+  EXPECT_LT(r.high.repeatability_um, 0.05);
+  EXPECT_NEAR(r.expansion_over_time_um.back(), 8.0, 0.05);
+}
+
+TEST(Iso2303, RefusesTestsThatHoldNothing) {
+  const std::vector<double> time = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  const std::vector<double> still(11, 0.0);
+  ComponentSeries ez{"EZ", "um", still, 0.1};
+  EXPECT_THROW(static_cast<void>(evaluateRotatingSpindle(time, still, {ez})), InputError);
+  EXPECT_THROW(static_cast<void>(evaluateEtve(time, {}, {})), InputError);
+  EXPECT_THROW(static_cast<void>(evaluateMovingAxis({{0, 1, 2, 1}})), InputError);
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/thermal/measurement_update.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/base/random.h"
+#include "core/thermal/thermal_model.h"
+
+namespace spindrift {
+namespace {
+
+struct Record {
+  std::vector<double> time;
+  std::vector<double> truth;
+  std::vector<double> simulated;
+};
+
+/// A model of the right shape whose gain is wrong and which lacks a slow drift.
+Record record(std::uint64_t seed, double true_gain) {
+  Random random(seed);
+  Record r;
+  std::vector<double> u;
+  std::vector<double> w;
+  double level = 0.0;
+  double drift = 0.0;
+  for (int k = 0; k < 2880; ++k) {
+    r.time.push_back(30.0 * k);
+    if (k % 240 == 0) level = k % 480 == 0 ? 0.0 : random.uniform(0.5, 2.0);
+    u.push_back(level);
+    drift = 0.998 * drift + random.normal(0.0, 0.06);
+    w.push_back(drift);
+  }
+  r.simulated = lagFiltered(r.time, u, 3000.0, true);
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    r.simulated[k] *= -20.0;
+    r.truth.push_back(true_gain * r.simulated[k] + w[k] + random.normal(0.0, 0.3));
+  }
+  return r;
+}
+
+TEST(MeasurementUpdate, KalmanBeatsTheGainRatioAndNoUpdate) {
+  double none = 0.0;
+  double gain = 0.0;
+  double kalman = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Record r = record(seed, 0.6);
+    UpdateOptions options;
+    options.offset_sigma = 1.5;
+    options.kind = UpdateKind::Kalman;
+    const auto k = sweepIntervals(r.time, r.truth, r.simulated, options, {3600.0});
+    options.kind = UpdateKind::Gain;
+    const auto g = sweepIntervals(r.time, r.truth, r.simulated, options, {3600.0});
+    none += k[0].rms;
+    kalman += k[1].rms;
+    gain += g[1].rms;
+  }
+  EXPECT_LT(kalman, 0.4 * none);
+  EXPECT_LT(kalman, 0.6 * gain);
+}
+
+TEST(MeasurementUpdate, TheRatioExplodesNearZeroAndABoundHelps) {
+  const std::vector<double> time = {0.0, 100.0, 200.0, 300.0};
+  const std::vector<double> measured = {0.0, 2.0, 2.0, 10.0};
+  const std::vector<double> simulated = {0.0, 0.001, 0.002, 8.0};
+  UpdateOptions options;
+  options.kind = UpdateKind::Gain;
+  options.interval_s = 100.0;
+  EXPECT_NEAR(runWithUpdates(time, measured, simulated, options).predicted[3], 8000.0, 1e-6);
+  options.gain_bound = 3.0;
+  EXPECT_NEAR(runWithUpdates(time, measured, simulated, options).predicted[3], 24.0, 1e-9);
+  options.smallest_simulated = 1.0;
+  EXPECT_NEAR(runWithUpdates(time, measured, simulated, options).predicted[3], 8.0, 1e-9);
+}
+
+TEST(MeasurementUpdate, KalmanUncertaintyHoldsAsOftenAsStated) {
+  int inside = 0;
+  int total = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Random random(500 + seed);
+    UpdateOptions options;
+    options.offset_sigma = 2.0;
+    options.offset_tau_s = 5000.0;
+    options.gain_sigma = 0.2;
+    options.gain_drift_per_sqrt_h = 0.0;
+    options.measurement_sigma = 0.3;
+    options.interval_s = 1800.0;
+    const double gain = random.normal(1.0, 0.2);
+    double offset = random.normal(0.0, 2.0);
+    std::vector<double> time;
+    std::vector<double> truth;
+    std::vector<double> measured;
+    std::vector<double> simulated;
+    const double keep = std::exp(-60.0 / 5000.0);
+    for (int k = 0; k < 400; ++k) {
+      time.push_back(60.0 * k);
+      simulated.push_back(10.0 * std::sin(k / 60.0));
+      truth.push_back(gain * simulated.back() + offset);
+      measured.push_back(truth.back() + random.normal(0.0, 0.3));
+      offset = keep * offset + random.normal(0.0, 2.0 * std::sqrt(1.0 - keep * keep));
+    }
+    const UpdateRun r = runWithUpdates(time, measured, simulated, options);
+    for (std::size_t k = 50; k < time.size(); k += 37) {
+      inside += std::abs(r.predicted[k] - truth[k]) < 1.96 * r.sigma[k];
+      ++total;
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(inside) / total, 0.95, 0.03);
+}
+
+TEST(MeasurementUpdate, NothingIsPredictedWithItsOwnMeasurement) {
+  Record r = record(3, 0.7);
+  for (const UpdateKind kind : {UpdateKind::Gain, UpdateKind::Arx, UpdateKind::Kalman}) {
+    UpdateOptions options;
+    options.kind = kind;
+    const auto before = runWithUpdates(r.time, r.truth, r.simulated, options);
+    auto changed = r.truth;
+    for (std::size_t k = 1000; k < changed.size(); ++k) changed[k] += 50.0;
+    const auto after = runWithUpdates(r.time, changed, r.simulated, options);
+    for (std::size_t k = 0; k <= 1000; ++k) EXPECT_EQ(before.predicted[k], after.predicted[k]);
+  }
+}
+
+TEST(MeasurementUpdate, RefusesAnIntervalOfZero) {
+  UpdateOptions options;
+  options.interval_s = 0.0;
+  EXPECT_THROW(options.validate(), InputError);
+}
+
+}  // namespace
+}  // namespace spindrift
