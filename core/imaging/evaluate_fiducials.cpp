@@ -1,10 +1,183 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/imaging/evaluate_fiducials.h"
 
-namespace spindrift {
+#include <fmt/format.h>
 
-InstrumentEvaluation evaluateFiducials(const Campaign& campaign, JobContext& /*job*/) {
-  throw InputError({campaign.folder, ""}, "these captures cannot be evaluated by this version.");
+#include <cmath>
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/imaging/fiducial_displacement.h"
+
+namespace spindrift {
+namespace {
+
+nlohmann::json withSigma(double value, double sigma) {
+  return {{"value", jsonNumber(value)}, {"standard_uncertainty", jsonNumber(sigma)}};
+}
+
+nlohmann::json pair(const Eigen::Vector2d& v) {
+  return {jsonNumber(v.x()), jsonNumber(v.y())};
+}
+
+nlohmann::json centreJson(const SetCentre& c) {
+  return {{"x_px", withSigma(c.centre_px.x(), c.centre_sigma_px.x())},
+          {"y_px", withSigma(c.centre_px.y(), c.centre_sigma_px.y())},
+          {"own_px", pair(c.own_centre_px)},
+          {"own_sigma_px", jsonNumber(c.own_centre_sigma_px)},
+          {"algebraic_px", pair(c.algebraic_centre_px)},
+          {"x_fcf_um", withSigma(c.place_um.x(), c.place_sigma_um)},
+          {"y_fcf_um", withSigma(c.place_um.y(), c.place_sigma_um)},
+          {"rms_um", jsonNumber(c.rms_um)}};
+}
+
+nlohmann::json axisJson(const AxisDirection& a) {
+  if (!a.measured) return nullptr;
+  return {{"fcf_rad", withSigma(a.angle_rad, a.sigma_rad)},
+          {"image_rad", withSigma(a.image_angle_rad, a.sigma_rad)},
+          {"scale_error", withSigma(a.scale_error, a.scale_error_sigma)}};
+}
+
+nlohmann::json directionsJson(const SetDirections& d) {
+  nlohmann::json out{{"x_axis", axisJson(d.x)}, {"y_axis", axisJson(d.y)}, {"orthogonality_urad", nullptr}};
+  if (d.both) {
+    out["orthogonality_urad"] = withSigma(d.orthogonality_rad * urad_per_rad, d.orthogonality_sigma_rad * urad_per_rad);
+  }
+  out["fcf_in_machine_rad"] = withSigma(d.psi_rad, d.psi_sigma_rad);
+  return out;
+}
+
+nlohmann::json focusJson(const FocusSet& set, const FocusPeak& peak) {
+  nlohmann::json curve = nlohmann::json::array();
+  for (std::size_t i = 0; i < set.height_mm.size(); ++i) {
+    curve.push_back({{"z_mm", set.height_mm[i]}, {"contrast", jsonNumber(set.normalised[i])}});
+  }
+  return {{"peak_z_um", withSigma(peak.peak_um, peak.sigma_um)}, {"curve", curve}};
+}
+
+nlohmann::json stateJson(const FiducialState& s, const FiducialDisplacement& d) {
+  nlohmann::json out{{"state", s.state}, {"time_s", s.time_s}, {"reference", s.reference}};
+  out["centre_of_rotation"] = s.centre ? centreJson(d.centres.sets[*s.centre]) : nlohmann::json();
+  out["axis_directions"] = s.directions ? directionsJson(d.axes.sets[*s.directions]) : nlohmann::json();
+  out["focus"] = s.focus_set ? focusJson(d.focus_sets[*s.focus_set], d.focus.peaks[*s.focus_set]) : nlohmann::json();
+  out["EX_um"] = s.xy_um ? withSigma(s.xy_um->x(), s.xy_sigma_um.x()) : nlohmann::json();
+  out["EY_um"] = s.xy_um ? withSigma(s.xy_um->y(), s.xy_sigma_um.y()) : nlohmann::json();
+  out["EZ_um"] = s.z_um ? withSigma(*s.z_um, s.z_sigma_um) : nlohmann::json();
+  return out;
+}
+
+nlohmann::json detailsOf(const FiducialCaptureList& list, const FiducialImages& images, const FiducialDisplacement& d) {
+  nlohmann::json fiducials = nlohmann::json::array();
+  for (const std::string& fiducial : list.fiducials()) {
+    nlohmann::json entry{{"fiducial", fiducial}, {"states", nlohmann::json::array()}, {"fcf_in_machine_rad", nullptr}};
+    for (const FiducialDirection& direction : d.directions) {
+      if (direction.fiducial == fiducial) {
+        entry["fcf_in_machine_rad"] = withSigma(direction.psi_rad, direction.sigma_rad);
+      }
+    }
+    for (const FiducialState& s : d.states) {
+      if (s.fiducial != fiducial) continue;
+      entry["x_mm"] = s.position_mm.x();
+      entry["y_mm"] = s.position_mm.y();
+      entry["z_mm"] = s.position_mm.z();
+      entry["states"].push_back(stateJson(s, d));
+    }
+    fiducials.push_back(entry);
+  }
+  double pixel_length = 0.0;
+  double count = 0.0;
+  for (const FiducialImage& image : images.images) {
+    if (!image.usable || image.pose.marks == 0) continue;
+    pixel_length += image.pose.pixelLength_um();
+    count += 1.0;
+  }
+  nlohmann::json camera{{"width_px", images.width},
+                        {"height_px", images.height},
+                        {"pixel_length_um", count > 0.0 ? jsonNumber(pixel_length / count) : nlohmann::json()},
+                        {"k1_per_px2", withSigma(images.k1_per_px2, images.k1_sigma_per_px2)},
+                        {"direction_rad", nullptr}};
+  if (d.axes.status == FitStatus::Converged) {
+    camera["direction_rad"] = withSigma(d.axes.phi_rad, d.axes.phi_sigma_rad);
+    camera["direction_pooled"] = d.axes.pooled;
+    camera["direction_p_value"] = jsonNumber(d.axes.p_value);
+    camera["position_repeatability_um"] = jsonNumber(d.axes.repeatability_um);
+  }
+  nlohmann::json centre{{"status", toString(d.centres.status)}};
+  if (d.centres.status == FitStatus::Converged) {
+    centre["pooling"] = toString(d.centres.pooling);
+    centre["p_value_all"] = jsonNumber(d.centres.p_value_all);
+    centre["p_value_per_state"] = jsonNumber(d.centres.p_value_per_state);
+    centre["spindle_repeatability_um"] = jsonNumber(d.centres.repeatability_um);
+    centre["degrees_of_freedom"] = d.centres.degrees_of_freedom;
+  }
+  nlohmann::json focus{{"status", toString(d.focus.status)}};
+  if (d.focus.status == FitStatus::Converged) {
+    focus["relative_noise"] = jsonNumber(d.focus.relative_noise);
+    focus["degrees_of_freedom"] = d.focus.degrees_of_freedom;
+    focus["shape_per_mm"] = {d.focus.shape(0), d.focus.shape(1), d.focus.shape(2)};
+  }
+  return {{"fiducials", fiducials}, {"camera", camera}, {"centre_of_rotation", centre}, {"contrast_curve", focus}};
+}
+
+std::string summaryOf(const FiducialDisplacement& d) {
+  std::string text = "fiducial  state     EX / um            EY / um            EZ / um\n";
+  for (const FiducialState& s : d.states) {
+    const auto cell = [](bool there, double value, double sigma) {
+      return there ? withUncertainty(value, sigma, "") : std::string("-");
+    };
+    // Widths count characters, not bytes of the signs.
+    const auto padded = [](std::string cell_text, std::size_t width) {
+      std::size_t length = 0;
+      for (const char c : cell_text) length += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U ? 1 : 0;
+      if (length < width) cell_text.append(width - length, ' ');
+      return cell_text;
+    };
+    if (s.reference) {
+      text += padded(s.fiducial, 10) + padded(s.state, 10) + "reference\n";
+      continue;
+    }
+    text += padded(s.fiducial, 10) + padded(s.state, 10) +
+            padded(cell(s.xy_um.has_value(), s.xy_um ? s.xy_um->x() : 0.0, s.xy_sigma_um.x()), 19) +
+            padded(cell(s.xy_um.has_value(), s.xy_um ? s.xy_um->y() : 0.0, s.xy_sigma_um.y()), 19) +
+            cell(s.z_um.has_value(), s.z_um.value_or(0.0), s.z_sigma_um) + "\n";
+  }
+  if (d.centres.status == FitStatus::Converged) {
+    text += fmt::format("centre of rotation: {}; the spindle repeats to {:.2f} um\n", toString(d.centres.pooling),
+                        d.centres.repeatability_um);
+  }
+  return text;
+}
+
+}  // namespace
+
+InstrumentEvaluation evaluateFiducials(const Campaign& campaign, JobContext& job) {
+  const auto file = campaign.captureList("fiducials.csv");
+  if (!file) throw InputError({campaign.path("captures/fiducials.csv"), ""}, "is not there.");
+  const FiducialCaptureList list = readFiducialCaptures(*file);
+  const FiducialImages images = measureFiducialImages(campaign.folder, list, standardPattern(), job.part(0.0, 0.95));
+  const FiducialDisplacement displacement = findFiducialDisplacement(list, images, campaign.machine);
+  InstrumentEvaluation evaluation;
+  evaluation.instrument = "microscope";
+  evaluation.observations = displacement.observations;
+  evaluation.rejected = images.rejected;
+  evaluation.rejected.insert(evaluation.rejected.end(), displacement.rejected.begin(), displacement.rejected.end());
+  evaluation.warnings = displacement.warnings;
+  evaluation.details = detailsOf(list, images, displacement);
+  evaluation.summary = summaryOf(displacement);
+  bool any_change = false;
+  for (const FiducialState& s : displacement.states) {
+    any_change = any_change || (!s.reference && (s.xy_um || s.z_um));
+  }
+  if (!any_change && list.states().size() > 1) {
+    evaluation.good_enough = false;
+    evaluation.warnings.emplace_back("no displacement could be measured: see the rejected captures.");
+  }
+  if (evaluation.observations.rows.empty()) {
+    evaluation.good_enough = false;
+    if (list.states().size() <= 1) evaluation.warnings.emplace_back("no fiducial could be evaluated.");
+  }
+  job.report(1.0, "evaluated");
+  return evaluation;
 }
 
 }  // namespace spindrift

@@ -1,0 +1,482 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/imaging/fiducial_displacement.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/text.h"
+#include "core/base/units.h"
+
+namespace spindrift {
+namespace {
+
+/// Smallest difference of two spindle orientations that count as two.
+constexpr double least_turn_rad = 0.2 * rad_per_deg;
+/// Image and list disagree on the orientation of the spindle beyond this.
+constexpr double orientation_tolerance_rad = 2.0 * rad_per_deg;
+
+Eigen::Matrix2d turned(double angle_rad) {
+  Eigen::Matrix2d R;
+  R << std::cos(angle_rad), -std::sin(angle_rad), std::sin(angle_rad), std::cos(angle_rad);
+  return R;
+}
+
+/// Rows of one fiducial in one state, by role.
+struct Group {
+  std::string fiducial;
+  std::string state;
+  std::vector<std::size_t> rotation;
+  std::vector<std::size_t> x_axis;
+  std::vector<std::size_t> y_axis;
+  std::vector<std::size_t> focus;
+  std::size_t listed_rotation = 0;
+  std::size_t listed_focus = 0;
+
+  [[nodiscard]] std::string name() const { return fmt::format("{} in state {}", fiducial, state); }
+};
+
+std::vector<Group> groupsOf(const FiducialCaptureList& list, const FiducialImages& images) {
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < list.captures.size(); ++i) {
+    const FiducialCapture& c = list.captures[i];
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const Group& g) { return g.fiducial == c.fiducial && g.state == c.state; });
+    if (group == groups.end()) {
+      group = groups.insert(groups.end(), Group{});
+      group->fiducial = c.fiducial;
+      group->state = c.state;
+    }
+    group->listed_rotation += c.role == CaptureRole::Rotation ? 1 : 0;
+    group->listed_focus += c.role == CaptureRole::Focus ? 1 : 0;
+    if (!images.images[i].usable) continue;
+    switch (c.role) {
+      case CaptureRole::Rotation:
+        group->rotation.push_back(i);
+        break;
+      case CaptureRole::XAxis:
+        group->x_axis.push_back(i);
+        break;
+      case CaptureRole::YAxis:
+        group->y_axis.push_back(i);
+        break;
+      case CaptureRole::Focus:
+        group->focus.push_back(i);
+        break;
+    }
+  }
+  return groups;
+}
+
+std::vector<AxisImage> axisImages(const FiducialCaptureList& list, const FiducialImages& images,
+                                  const std::vector<std::size_t>& rows) {
+  std::vector<AxisImage> result;
+  for (const std::size_t i : rows) {
+    const FiducialCapture& c = list.captures[i];
+    result.push_back({images.images[i].pose, c.position_mm.head<2>(), c.spindle_deg});
+  }
+  return result;
+}
+
+std::size_t orientationCount(const FiducialImages& images, const std::vector<std::size_t>& rows) {
+  std::vector<double> found;
+  for (const std::size_t i : rows) {
+    const double angle = images.images[i].pose.orientation_rad();
+    if (std::none_of(found.begin(), found.end(),
+                     [&](double other) { return std::abs(angleDifference(angle, other)) < least_turn_rad; })) {
+      found.push_back(angle);
+    }
+  }
+  return found.size();
+}
+
+/// psi of every fiducial that has any rotation or axis image.
+void findDirections(const FiducialCaptureList& list, const FiducialImages& images, const std::vector<Group>& groups,
+                    FiducialDisplacement& out) {
+  for (const std::string& fiducial : list.fiducials()) {
+    FiducialDirection direction;
+    direction.fiducial = fiducial;
+    double weights = 0.0;
+    double sum = 0.0;
+    double own = 0.0;
+    for (const SetDirections& d : out.axes.sets) {
+      if (d.fiducial != fiducial) continue;
+      const double w = 1.0 / (d.psi_sigma_rad * d.psi_sigma_rad);
+      if (weights == 0.0) own = d.psi_rad;
+      sum += w * angleDifference(d.psi_rad, own);
+      weights += w;
+    }
+    if (weights > 0.0 && !out.axes.pooled) {
+      direction.psi_rad = own + sum / weights;
+      direction.sigma_rad = 1.0 / std::sqrt(weights);
+      out.directions.push_back(direction);
+      continue;
+    }
+    // Through the camera: psi = orientation + spindle angle - phi, mean over all images.
+    double reference = 0.0;
+    std::vector<double> values;
+    for (const Group& group : groups) {
+      if (group.fiducial != fiducial) continue;
+      for (const std::vector<std::size_t>* rows : {&group.rotation, &group.x_axis, &group.y_axis}) {
+        for (const std::size_t i : *rows) {
+          const double angle =
+              images.images[i].pose.orientation_rad() + list.captures[i].spindle_deg * rad_per_deg - out.axes.phi_rad;
+          if (values.empty()) reference = angle;
+          values.push_back(angleDifference(angle, reference));
+        }
+      }
+    }
+    if (values.empty()) continue;
+    std::vector<double> sorted = values;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+    const double middle = sorted[sorted.size() / 2];
+    double mean = 0.0;
+    double scatter = 0.0;
+    double count = 0.0;
+    for (const double v : values) {
+      if (std::abs(v - middle) > orientation_tolerance_rad) continue;
+      mean += v;
+      count += 1.0;
+    }
+    mean /= count;
+    for (const double v : values) {
+      if (std::abs(v - middle) <= orientation_tolerance_rad) scatter += (v - mean) * (v - mean);
+    }
+    direction.psi_rad = angleDifference(reference + mean, 0.0);
+    const double orientation_variance = count > 1.5 ? scatter / (count - 1.0) / count : 1e-6;
+    direction.sigma_rad = std::hypot(out.axes.phi_sigma_rad, std::sqrt(orientation_variance));
+    direction.pooled = true;
+    out.directions.push_back(direction);
+  }
+}
+
+const FiducialDirection* directionOf(const FiducialDisplacement& d, const std::string& fiducial) {
+  for (const FiducialDirection& direction : d.directions) {
+    if (direction.fiducial == fiducial) return &direction;
+  }
+  return nullptr;
+}
+
+void warnOfOrientations(const FiducialCaptureList& list, const FiducialImages& images, const Group& group,
+                        FiducialDisplacement& out) {
+  if (group.rotation.size() < 2) return;
+  const std::size_t first = group.rotation.front();
+  const double reference = images.images[first].pose.orientation_rad() + list.captures[first].spindle_deg * rad_per_deg;
+  for (const std::size_t i : group.rotation) {
+    const double angle = images.images[i].pose.orientation_rad() + list.captures[i].spindle_deg * rad_per_deg;
+    const double difference = angleDifference(angle, reference);
+    if (std::abs(difference) <= orientation_tolerance_rad) continue;
+    out.warnings.push_back(fmt::format(
+        "{}: the images say that the spindle turned {:.1f} deg further than spindle_deg says between {} and {}.",
+        group.name(), -difference * deg_per_rad, list.captures[first].image, list.captures[i].image));
+    return;
+  }
+}
+
+RotationSet rotationSet(const FiducialCaptureList& list, const FiducialImages& images, const Group& group,
+                        const Eigen::Vector2d& commanded_mm, double psi_rad) {
+  RotationSet set;
+  set.fiducial = group.fiducial;
+  set.state = group.state;
+  for (const std::size_t i : group.rotation) {
+    RotationImage image;
+    image.pose = images.images[i].pose;
+    image.offset_um = turned(-psi_rad) * (list.captures[i].position_mm.head<2>() - commanded_mm) * um_per_mm;
+    image.spindle_deg = list.captures[i].spindle_deg;
+    set.images.push_back(std::move(image));
+  }
+  return set;
+}
+
+/// A row of the result together with what it is made of.
+struct Row {
+  Observation observation;
+  std::size_t state = 0;      ///< index in states
+  std::size_t reference = 0;  ///< index in states
+};
+
+void writeObservations(FiducialDisplacement& out) {
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < out.states.size(); ++i) {
+    const FiducialState& s = out.states[i];
+    for (const Component component : {Component::EX, Component::EY, Component::EZ}) {
+      const bool z = component == Component::EZ;
+      if (z ? !s.z_um.has_value() : !s.xy_um.has_value()) continue;
+      Row row;
+      row.state = i;
+      row.reference = i;
+      for (std::size_t k = 0; k < i; ++k) {
+        const FiducialState& other = out.states[k];
+        if (other.fiducial == s.fiducial && (z ? other.z_um.has_value() : other.xy_um.has_value())) {
+          row.reference = k;
+          break;
+        }
+      }
+      row.observation.time_s = s.time_s;
+      row.observation.state = s.state;
+      row.observation.point = s.fiducial;
+      row.observation.position_mm = s.position_mm;
+      row.observation.component = component;
+      row.observation.value = z ? *s.z_um : (*s.xy_um)(component == Component::EX ? 0 : 1);
+      row.observation.instrument = "microscope";
+      rows.push_back(row);
+    }
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row& a, const Row& b) { return a.observation.time_s < b.observation.time_s; });
+  // d = T s for XY, d = U p for Z.
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, out.centres.covariance.cols());
+  Eigen::MatrixXd U = Eigen::MatrixXd::Zero(n, out.focus.covariance.cols());
+  Eigen::VectorXd per_psi = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index r = 0; r < n; ++r) {
+    const Row& row = rows[static_cast<std::size_t>(r)];
+    if (row.reference == row.state) continue;
+    const FiducialState& s = out.states[row.state];
+    const FiducialState& reference = out.states[row.reference];
+    if (row.observation.component == Component::EZ) {
+      U(r, static_cast<Eigen::Index>(*s.focus_set)) -= 1.0;
+      U(r, static_cast<Eigen::Index>(*reference.focus_set)) += 1.0;
+      continue;
+    }
+    const double psi = directionOf(out, s.fiducial)->psi_rad;
+    const int axis = row.observation.component == Component::EX ? 0 : 1;
+    const Eigen::Matrix2d R = turned(psi);
+    T.block<1, 2>(r, 2 * static_cast<Eigen::Index>(*s.centre)) += R.row(axis);
+    T.block<1, 2>(r, 2 * static_cast<Eigen::Index>(*reference.centre)) -= R.row(axis);
+    const Eigen::Vector2d moved = *s.xy_um + (s.commanded_mm - reference.commanded_mm) * um_per_mm;
+    per_psi(r) = axis == 0 ? -moved.y() : moved.x();
+  }
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+  if (T.cols() > 0) covariance += T * out.centres.covariance * T.transpose();
+  if (U.cols() > 0) covariance += U * out.focus.covariance * U.transpose();
+  for (Eigen::Index r = 0; r < n; ++r) {
+    for (Eigen::Index c = 0; c < n; ++c) {
+      if (per_psi(r) == 0.0 || per_psi(c) == 0.0) continue;
+      const FiducialDirection& a = *directionOf(out, rows[static_cast<std::size_t>(r)].observation.point);
+      const FiducialDirection& b = *directionOf(out, rows[static_cast<std::size_t>(c)].observation.point);
+      // What the directions share is that of the camera.
+      double shared = 0.0;
+      if (a.fiducial == b.fiducial) {
+        shared = a.sigma_rad * b.sigma_rad;
+      } else if (a.pooled && b.pooled) {
+        shared = out.axes.phi_sigma_rad * out.axes.phi_sigma_rad;
+      }
+      covariance(r, c) += per_psi(r) * per_psi(c) * shared;
+    }
+  }
+  // Rows of the reference: see the header. Any variance V with covariance V/2 towards the rows that use the reference
+  // leaves all differences as they are; V is the share of the reference, smaller where the matrix would lose its rank.
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(n);
+  const auto sameSeries = [&](Eigen::Index a, Eigen::Index b) {
+    const Observation& x = rows[static_cast<std::size_t>(a)].observation;
+    const Observation& y = rows[static_cast<std::size_t>(b)].observation;
+    return x.point == y.point && x.component == y.component;
+  };
+  for (Eigen::Index r = 0; r < n; ++r) {
+    const Row& row = rows[static_cast<std::size_t>(r)];
+    if (row.reference != row.state) continue;
+    double least = -1.0;
+    for (Eigen::Index c = 0; c < n; ++c) {
+      if (c != r && sameSeries(r, c) && (least < 0.0 || covariance(c, c) < least)) least = covariance(c, c);
+    }
+    if (least < 0.0) {
+      // Measured once: its own noise.
+      const FiducialState& s = out.states[row.state];
+      const double own = row.observation.component == Component::EZ ? out.focus.peaks[*s.focus_set].sigma_um
+                                                                    : out.centres.sets[*s.centre].place_sigma_um;
+      least = 2.0 * own * own;
+    }
+    share(r) = 0.5 * least;
+  }
+  Eigen::MatrixXd full;
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    full = covariance;
+    for (Eigen::Index r = 0; r < n; ++r) {
+      if (share(r) == 0.0) continue;
+      full(r, r) = share(r);
+      for (Eigen::Index c = 0; c < n; ++c) {
+        if (c != r && sameSeries(r, c)) full(r, c) = full(c, r) = 0.5 * share(r);
+      }
+    }
+    if (n == 0 || Eigen::LLT<Eigen::MatrixXd>(full).info() == Eigen::Success) break;
+    share *= 0.5;
+  }
+  for (Eigen::Index r = 0; r < n; ++r) {
+    Observation& o = rows[static_cast<std::size_t>(r)].observation;
+    o.sigma = std::sqrt(full(r, r));
+    FiducialState& s = out.states[rows[static_cast<std::size_t>(r)].state];
+    if (o.component == Component::EZ) {
+      s.z_sigma_um = o.sigma;
+    } else {
+      s.xy_sigma_um(o.component == Component::EX ? 0 : 1) = o.sigma;
+    }
+    out.observations.rows.push_back(o);
+    for (Eigen::Index c = r + 1; c < n; ++c) {
+      if (std::abs(full(r, c)) > 1e-9 * std::sqrt(full(r, r) * full(c, c))) {
+        out.observations.covariance.push_back({static_cast<std::size_t>(r), static_cast<std::size_t>(c), full(r, c)});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list, const FiducialImages& images,
+                                              const MachineDescription& machine) {
+  FiducialDisplacement out;
+  const std::vector<Group> groups = groupsOf(list, images);
+  std::vector<AxisSet> axis_sets;
+  for (const Group& group : groups) {
+    if (group.x_axis.size() < 2 && group.y_axis.size() < 2) continue;
+    axis_sets.push_back(
+        {group.fiducial, group.state, axisImages(list, images, group.x_axis), axisImages(list, images, group.y_axis)});
+  }
+  out.axes = fitAxisDirections(axis_sets);
+  const bool oriented = out.axes.status == FitStatus::Converged;
+  if (oriented) {
+    findDirections(list, images, groups, out);
+    if (!out.axes.pooled) {
+      out.warnings.push_back(
+          fmt::format("the direction of the camera differs between fiducials or states (p = {:.2g}): "
+                      "each fiducial is turned by its own axis images.",
+                      out.axes.p_value));
+    }
+  } else {
+    out.warnings.emplace_back(
+        "no images along X or Y could be used: displacements in the plane cannot be turned into "
+        "the machine's axes and are left out.");
+  }
+
+  std::vector<RotationSet> rotation_sets;
+  for (const Group& group : groups) {
+    FiducialState s;
+    s.fiducial = group.fiducial;
+    s.state = group.state;
+    double time = 0.0;
+    double count = 0.0;
+    Eigen::Vector3d commanded = Eigen::Vector3d::Zero();
+    for (const std::vector<std::size_t>* rows : {&group.rotation, &group.focus}) {
+      for (const std::size_t i : *rows) {
+        time += list.captures[i].time_s;
+        count += 1.0;
+      }
+    }
+    if (count > 0.0) s.time_s = time / count;
+    for (const std::size_t i : group.rotation) {
+      commanded += list.captures[i].position_mm / static_cast<double>(group.rotation.size());
+    }
+    if (group.rotation.empty()) {
+      for (const std::size_t i : group.focus) {
+        commanded += list.captures[i].position_mm / static_cast<double>(group.focus.size());
+      }
+    }
+    s.commanded_mm = commanded.head<2>();
+    s.position_mm = commanded;
+    if (const MachinePoint* point = machine.findPoint(group.fiducial)) s.position_mm = point->position_mm;
+    for (std::size_t k = 0; k < out.axes.sets.size(); ++k) {
+      if (out.axes.sets[k].fiducial == group.fiducial && out.axes.sets[k].state == group.state) s.directions = k;
+    }
+    const FiducialDirection* direction = directionOf(out, group.fiducial);
+    if (group.listed_rotation > 0) {
+      const std::size_t orientations = orientationCount(images, group.rotation);
+      if (orientations < 3) {
+        out.rejected.push_back(
+            {fmt::format("rotation of {}", group.name()),
+             fmt::format("{} of {} images show {} different spindle orientation{}; at least 3 are needed for the "
+                         "centre of rotation.",
+                         group.rotation.size(), group.listed_rotation, orientations, orientations == 1 ? "" : "s")});
+      } else if (direction != nullptr) {
+        warnOfOrientations(list, images, group, out);
+        s.centre = rotation_sets.size();
+        rotation_sets.push_back(rotationSet(list, images, group, s.commanded_mm, direction->psi_rad));
+      }
+    }
+    if (group.listed_focus > 0) {
+      FocusSet set;
+      set.name = group.name();
+      for (const std::size_t i : group.focus) {
+        set.height_mm.push_back(list.captures[i].position_mm.z());
+        set.normalised.push_back(images.images[i].focus.normalised);
+      }
+      s.focus_set = out.focus_sets.size();
+      out.focus_sets.push_back(std::move(set));
+    }
+    out.states.push_back(std::move(s));
+  }
+  if (!rotation_sets.empty()) {
+    out.centres = fitCentreOfRotation(rotation_sets);
+    if (out.centres.status != FitStatus::Converged) {
+      out.warnings.push_back(fmt::format("the centre of rotation cannot be found: {}.", out.centres.message));
+      for (FiducialState& s : out.states) s.centre.reset();
+    } else if (out.centres.pooling != CentrePooling::All) {
+      out.warnings.push_back(
+          fmt::format("the centre of rotation is not the same everywhere (p = {:.2g}): {} is used. The microscope has "
+                      "moved in the spindle or had not settled.",
+                      std::min(out.centres.p_value_all, out.centres.p_value_per_state), toString(out.centres.pooling)));
+    }
+  }
+  out.focus = fitFocus(out.focus_sets);
+  for (FiducialState& s : out.states) {
+    if (!s.focus_set) continue;
+    const FocusPeak& peak = out.focus.peaks[*s.focus_set];
+    if (peak.status == FitStatus::Converged) continue;
+    out.rejected.push_back({fmt::format("focus of {} in state {}", s.fiducial, s.state),
+                            peak.message.empty() ? out.focus.message + "." : peak.message});
+    s.focus_set.reset();
+  }
+  // Displacements relative to the first state of each fiducial.
+  for (std::size_t i = 0; i < out.states.size(); ++i) {
+    FiducialState& s = out.states[i];
+    const FiducialState* xy_reference = nullptr;
+    const FiducialState* z_reference = nullptr;
+    for (std::size_t k = 0; k < i; ++k) {
+      if (out.states[k].fiducial != s.fiducial) continue;
+      if (xy_reference == nullptr && out.states[k].centre) xy_reference = &out.states[k];
+      if (z_reference == nullptr && out.states[k].focus_set) z_reference = &out.states[k];
+    }
+    s.reference = xy_reference == nullptr && z_reference == nullptr;
+    if (s.centre) {
+      s.xy_um = Eigen::Vector2d::Zero();
+      if (xy_reference != nullptr) {
+        const Eigen::Vector2d moved =
+            out.centres.sets[*s.centre].place_um - out.centres.sets[*xy_reference->centre].place_um;
+        s.xy_um = turned(directionOf(out, s.fiducial)->psi_rad) * moved -
+                  (s.commanded_mm - xy_reference->commanded_mm) * um_per_mm;
+      }
+    }
+    if (s.focus_set) {
+      s.z_um = 0.0;
+      if (z_reference != nullptr) {
+        s.z_um = -(out.focus.peaks[*s.focus_set].peak_um - out.focus.peaks[*z_reference->focus_set].peak_um);
+      }
+    }
+  }
+  // A fiducial that is missing somewhere.
+  const std::vector<std::string> all_states = list.states();
+  for (const std::string& fiducial : list.fiducials()) {
+    for (const auto& [what, has] :
+         {std::pair<std::string_view, bool (*)(const FiducialState&)>{
+              "position in the plane", [](const FiducialState& s) { return s.xy_um.has_value(); }},
+          std::pair<std::string_view, bool (*)(const FiducialState&)>{
+              "height", [](const FiducialState& s) { return s.z_um.has_value(); }}}) {
+      std::vector<std::string> missing;
+      for (const std::string& state : all_states) {
+        const bool there = std::any_of(out.states.begin(), out.states.end(), [&, test = has](const FiducialState& s) {
+          return s.fiducial == fiducial && s.state == state && test(s);
+        });
+        if (!there) missing.push_back(state);
+      }
+      if (missing.empty()) continue;
+      out.warnings.push_back(fmt::format(
+          "fiducial {} has no {} in state {}; it is evaluated in the other states{}.", fiducial, what,
+          joinedList(missing), missing.front() == all_states.front() ? " relative to the first of them" : ""));
+    }
+  }
+  writeObservations(out);
+  return out;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Displacement of the tool relative to the table between thermal states, from the poses and contrasts of a capture
+// list.
+//
+// XY (P0 (12)-(15)): the spindle's axis meets the fiducial at s (FCF). If the tool moves by d relative to the table, s
+// moves by R(-psi) d, so  d = R(psi) (s - s_ref) - (c - c_ref)  with c the commanded position.
+// Z (P0 (20)): the focus peak over commanded height moves by -d, so d = -(peak - peak_ref).
+// The reference of a fiducial is the first state in which it was measured.
+//
+// Observations: rows of the reference state are 0 by definition. Their sigma is the share of the reference in the
+// noise, and covariances are given such that the difference of any row and the reference row of its point has exactly
+// the sigma of the row; rows that use the same reference, the same pooled centre or direction are correlated
+// accordingly. Source: PAPERS.md P0; FORMATS.md (deviation, observations.cov.csv).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/imaging/axis_directions.h"
+#include "core/imaging/centre_of_rotation.h"
+#include "core/imaging/fiducial_images.h"
+#include "core/machine/machine_description.h"
+#include "core/machine/observation.h"
+
+namespace spindrift {
+
+/// One fiducial in one state. um, MCF, relative to the reference state of the fiducial.
+struct FiducialState {
+  std::string fiducial;
+  std::string state;
+  double time_s = 0.0;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  bool reference = false;
+  std::optional<std::size_t> centre;      ///< index in CentreResult::sets
+  std::optional<std::size_t> focus_set;   ///< index in focus sets
+  std::optional<std::size_t> directions;  ///< index in AxisResult::sets
+  Eigen::Vector2d commanded_mm = Eigen::Vector2d::Zero();
+  std::optional<Eigen::Vector2d> xy_um;
+  Eigen::Vector2d xy_sigma_um = Eigen::Vector2d::Zero();
+  std::optional<double> z_um;
+  double z_sigma_um = 0.0;
+};
+
+struct FiducialDirection {
+  std::string fiducial;
+  double psi_rad = 0.0;  ///< direction of FCF in MCF
+  double sigma_rad = 0.0;
+  bool pooled = false;  ///< through the common direction of the camera
+};
+
+struct FiducialDisplacement {
+  std::vector<FiducialState> states;  ///< in order of the list
+  AxisResult axes;
+  std::vector<FiducialDirection> directions;
+  CentreResult centres;
+  std::vector<FocusSet> focus_sets;
+  FocusResult focus;
+  ObservationSet observations;
+  std::vector<RejectedCapture> rejected;  ///< sets that could not be used
+  std::vector<std::string> warnings;
+};
+
+[[nodiscard]] FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list,
+                                                            const FiducialImages& images,
+                                                            const MachineDescription& machine);
+
+}  // namespace spindrift
