@@ -1,8 +1,248 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <memory>
+
 #include "app/cli/command.h"
+#include "core/base/atomic_file.h"
+#include "core/base/text.h"
+#include "core/reporting/heatmap_picture.h"
+#include "core/workflows/evaluate_campaign.h"
+#include "core/workflows/fit_campaign.h"
+#include "core/workflows/instrument_checks.h"
 
 namespace spindrift::cli {
+namespace {
 
-void addKinematicsCommands(CLI::App& /*app*/, CommandLine& /*line*/) {}
+struct FitArguments {
+  std::string campaign;
+  std::string observations;
+  std::string model = "nine-parameter";
+  std::string state;
+  std::string points;
+  std::string robust = "none";
+  // heatmap
+  std::string component = "EX";
+  std::string grid;
+  std::string svg;
+  std::string png;
+  std::string csv;
+  double limit = 0.0;
+  // compare
+  std::string other_points;
+  // placement
+  int count = 4;
+  std::string criterion = "I";
+  std::string lattice;
+  std::string fixed;
+  double margin_mm = 15.0;
+  double sigma_xy_um = 0.5;
+  double sigma_z_um = 1.0;
+  // checks
+  std::string point;
+  double drift_limit_um_per_h = 1.0;
+};
+
+NineParameterOptions fitOptions(const FitArguments& a) {
+  NineParameterOptions options;
+  options.state = a.state;
+  options.points = splitList(a.points);
+  options.robust = a.robust == "huber" ? RobustLoss::Huber : a.robust == "tukey" ? RobustLoss::Tukey : RobustLoss::None;
+  return options;
+}
+
+std::pair<int, int> pairOf(const std::string& text, const char* what) {
+  const std::vector<std::string> parts = splitList(text);
+  double nx = 0.0;
+  double ny = 0.0;
+  if (parts.size() != 2 || !parseNumber(parts[0], nx) || !parseNumber(parts[1], ny) || nx != static_cast<int>(nx) ||
+      ny != static_cast<int>(ny)) {
+    throw InputError(fmt::format("{} \"{}\" is not allowed; allowed: two whole numbers such as 61,41.", what, text));
+  }
+  return {static_cast<int>(nx), static_cast<int>(ny)};
+}
+
+void addCommonOptions(CLI::App* command, const std::shared_ptr<FitArguments>& a) {
+  command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign")->required();
+  command
+      ->add_option("--observations", a->observations,
+                   "Observations to use (CSV); else the campaign's own, else its captures are evaluated")
+      ->type_name("FILE");
+}
+
+void addFitOptions(CLI::App* command, const std::shared_ptr<FitArguments>& a) {
+  addCommonOptions(command, a);
+  command->add_option("--model", a->model, "Error model: nine-parameter")->check(CLI::IsMember({"nine-parameter"}));
+  command->add_option("--state", a->state, "Thermal state, such as M1; else the last one");
+  command->add_option("--points", a->points, "Points to fit, such as F1,F2,F3; the others validate. Else all");
+  command->add_option("--robust", a->robust, "Loss of outliers: none, huber or tukey")
+      ->check(CLI::IsMember({"none", "huber", "tukey"}));
+}
+
+CommandResult runFit(const FitArguments& a, JobContext& job) {
+  const Campaign campaign = Campaign::read(a.campaign);
+  const ObservationSet observations = observationsOf(campaign, a.observations, {}, job);
+  const NineParameterFit fit = fitNineParameters(observations, fitOptions(a));
+  return {toJson(fit), summaryOf(fit), fit.status == FitStatus::Converged ? Done : NotGoodEnough};
+}
+
+CommandResult runHeatmap(const FitArguments& a, JobContext& job) {
+  HeatmapOptions options;
+  options.fit = fitOptions(a);
+  options.component = *componentFromString(a.component);
+  if (!a.grid.empty()) std::tie(options.nx, options.ny) = pairOf(a.grid, "grid");
+  options.validate();
+  HeatmapPictureOptions picture;
+  if (a.limit > 0.0) picture.limit = a.limit;
+  const Campaign campaign = Campaign::read(a.campaign);
+  const ObservationSet observations = observationsOf(campaign, a.observations, {}, job);
+  const HeatmapResult result = heatmapOf(campaign, observations, options);
+  if (!result.determined) return {result.json(), result.message, NotGoodEnough};
+  picture.title = result.title();
+  picture.subtitle = result.subtitle();
+  std::string summary =
+      fmt::format("{}: {} over {} x {} nodes\n", result.title(), unitOf(options.component), options.nx, options.ny);
+  const auto write = [&summary](const std::string& file, const std::string& content) {
+    if (file.empty()) return;
+    writeFileAtomically(file, content);
+    summary += fmt::format("written: {}\n", file);
+  };
+  if (!a.svg.empty()) write(a.svg, heatmapSvg(result.field, picture));
+  if (!a.png.empty()) write(a.png, heatmapPng(result.field, picture));
+  if (!a.csv.empty()) write(a.csv, result.field.csv());
+  for (const std::string& warning : result.fit.warnings) summary += fmt::format("note: {}\n", warning);
+  return {result.json(), summary, Done};
+}
+
+CommandResult runCompare(const FitArguments& a, JobContext& job) {
+  const Campaign campaign = Campaign::read(a.campaign);
+  const ObservationSet observations = observationsOf(campaign, a.observations, {}, job);
+  NineParameterOptions first = fitOptions(a);
+  NineParameterOptions second = first;
+  second.points = splitList(a.other_points);
+  const NineParameterComparison comparison = compareNineParameters(observations, first, second);
+  CommandResult result{toJson(comparison), summaryOf(comparison), Done};
+  const bool usable = comparison.a.status == FitStatus::Converged && comparison.b.status == FitStatus::Converged;
+  if (!usable) {
+    result.exit_status = NotGoodEnough;
+    for (const NineParameterFit* fit : {&comparison.a, &comparison.b}) {
+      if (fit->status != FitStatus::Converged) result.summary += fit->message + "\n";
+    }
+  }
+  if (usable && (!a.svg.empty() || !a.png.empty())) {
+    const FieldGrid grid = tableGrid(campaign.machine, 61, 41, 0.0);
+    const NineParameterModel difference = comparison.differenceModel();
+    Field field = tableField(comparison.a, difference, grid, *componentFromString(a.component));
+    field.markers.clear();
+    HeatmapPictureOptions picture;
+    picture.title = fmt::format("{} of state {}: difference of two sets", a.component, comparison.a.state);
+    picture.subtitle = fmt::format("from {} minus from {}", a.other_points, a.points);
+    if (!a.svg.empty()) writeFileAtomically(a.svg, heatmapSvg(field, picture));
+    if (!a.png.empty()) writeFileAtomically(a.png, heatmapPng(field, picture));
+  }
+  return result;
+}
+
+CommandResult runPlacement(const FitArguments& a, JobContext& job) {
+  const Campaign campaign = Campaign::read(a.campaign);
+  PlacementRequest request;
+  if (!a.lattice.empty()) std::tie(request.lattice_nx, request.lattice_ny) = pairOf(a.lattice, "lattice");
+  request.margin_mm = a.margin_mm;
+  request.fixed = splitList(a.fixed);
+  request.options.count = a.count;
+  request.options.criterion = a.criterion == "D" ? PlacementCriterion::D : PlacementCriterion::I;
+  request.options.sigma_xy_um = a.sigma_xy_um;
+  request.options.sigma_z_um = a.sigma_z_um;
+  const PlacementAnswer answer = placeFiducials(campaign.machine, request, job);
+  return {answer.json(), answer.summary(), answer.result.status == FitStatus::Converged ? Done : NotGoodEnough};
+}
+
+CommandResult runCheck(const FitArguments& a, JobContext& job, const std::string& which) {
+  const Campaign campaign = Campaign::read(a.campaign);
+  const ObservationSet observations = observationsOf(campaign, a.observations, {}, job);
+  CheckResult result;
+  if (which == "warm-up") {
+    WarmUpOptions options;
+    options.drift_limit_um_per_h = a.drift_limit_um_per_h;
+    result = checkWarmUp(observations, a.point, options);
+  } else if (which == "validate-jogs") {
+    result = checkJogs(observations, campaign.machine);
+  } else {
+    result = checkRepeatability(observations, campaign.machine);
+  }
+  return {result.json, result.summary, result.passed ? Done : NotGoodEnough};
+}
+
+}  // namespace
+
+void addKinematicsCommands(CLI::App& app, CommandLine& line) {
+  {
+    auto a = std::make_shared<FitArguments>();
+    CLI::App* command = addCommand(app, line, "fit", "Fit the error model of one thermal state (um, urad, um/m)",
+                                   [a](JobContext& job) { return runFit(*a, job); });
+    addFitOptions(command, a);
+  }
+  {
+    auto a = std::make_shared<FitArguments>();
+    CLI::App* command =
+        addCommand(app, line, "heatmap", "Map one component of the fitted model over the table (um, with uncertainty)",
+                   [a](JobContext& job) { return runHeatmap(*a, job); });
+    addFitOptions(command, a);
+    command->add_option("--component", a->component, "EX, EY or EZ (um)")->check(CLI::IsMember({"EX", "EY", "EZ"}));
+    command->add_option("--grid", a->grid, "Nodes along X and Y, such as 61,41")->type_name("NX,NY");
+    command->add_option("--limit", a->limit, "Limit of the colour scale in um, to compare pictures; else from the data")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--svg", a->svg, "Write the picture as SVG")->type_name("FILE");
+    command->add_option("--png", a->png, "Write the picture as PNG")->type_name("FILE");
+    command->add_option("--csv", a->csv, "Write x_mm,y_mm,z_mm,component,value,sigma,extrapolated")->type_name("FILE");
+  }
+  {
+    auto a = std::make_shared<FitArguments>();
+    CLI::App* command =
+        addCommand(app, line, "compare", "Compare the models that two sets of points give for one thermal state",
+                   [a](JobContext& job) { return runCompare(*a, job); });
+    addFitOptions(command, a);
+    command->add_option("--with", a->other_points, "The second set of points, such as F2,F4,F5,F7")->required();
+    command->add_option("--component", a->component, "Component of the picture: EX, EY or EZ (um)")
+        ->check(CLI::IsMember({"EX", "EY", "EZ"}));
+    command->add_option("--svg", a->svg, "Write the map of the difference as SVG")->type_name("FILE");
+    command->add_option("--png", a->png, "Write the map of the difference as PNG")->type_name("FILE");
+  }
+  {
+    auto a = std::make_shared<FitArguments>();
+    CLI::App* command = addCommand(app, line, "placement", "Choose where on the table to put N fiducials",
+                                   [a](JobContext& job) { return runPlacement(*a, job); });
+    command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign (its machine.json is used)")->required();
+    command->add_option("--count", a->count, "Number of fiducials, 3 or more");
+    command
+        ->add_option("--criterion", a->criterion,
+                     "I: smallest mean variance over the table; D: smallest volume of "
+                     "the parameters' confidence region")
+        ->check(CLI::IsMember({"I", "D"}));
+    command->add_option("--lattice", a->lattice, "Candidates on a lattice over the table; else the machine's fiducials")
+        ->type_name("NX,NY");
+    command->add_option("--margin", a->margin_mm, "Distance of the lattice from the border of the table in mm");
+    command->add_option("--keep", a->fixed, "Points of the machine that are measured anyway, such as F1,F2");
+    command->add_option("--sigma-xy", a->sigma_xy_um, "Standard uncertainty of a displacement in the plane in um");
+    command->add_option("--sigma-z", a->sigma_z_um, "Standard uncertainty of a height in um");
+  }
+  const auto addCheck = [&](const std::string& name, const std::string& description) {
+    auto a = std::make_shared<FitArguments>();
+    CLI::App* command =
+        addCommand(app, line, name, description, [a, name](JobContext& job) { return runCheck(*a, job, name); });
+    addCommonOptions(command, a);
+    return std::pair(command, a);
+  };
+  {
+    const auto [command, a] =
+        addCheck("warm-up", "Has the instrument settled? Repeated measurement of one point, drift per axis (um/h)");
+    command->add_option("--point", a->point,
+                        "The point that was measured again and again; else the one with most rows");
+    command->add_option("--limit", a->drift_limit_um_per_h, "Drift in um/h below which it counts as settled")
+        ->check(CLI::PositiveNumber);
+  }
+  addCheck("validate-jogs", "Do jogs of the axes read true? Each state is a jog; verdict against the axis resolution");
+  addCheck("repeatability", "Cold repeatability: all states measured cold; verdict against half the axis resolution");
+}
 
 }  // namespace spindrift::cli

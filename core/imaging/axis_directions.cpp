@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/imaging/axis_directions.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 

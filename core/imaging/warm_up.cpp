@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/imaging/warm_up.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/text.h"
+#include "core/math/distributions.h"
+#include "core/math/least_squares.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double s_per_h = 3600.0;
+
+struct Series {
+  Eigen::VectorXd time_s;
+  Eigen::VectorXd value_um;
+  Eigen::VectorXd sigma_um;
+};
+
+/// Straight line through the last `count` values: slope and its uncertainty in um/h. The uncertainty is the larger of
+/// what the sigmas and what the residuals say.
+void fitDrift(const Series& s, Eigen::Index count, WarmUpAxis& axis) {
+  const Eigen::Index from = s.time_s.size() - count;
+  Eigen::MatrixXd A(count, 2);
+  A.col(0).setOnes();
+  A.col(1) = (s.time_s.tail(count).array() - s.time_s(from)) / s_per_h;
+  const LinearFitResult fit = solveLinear(A, s.value_um.tail(count), s.sigma_um.tail(count));
+  if (!fit.usable()) return;
+  axis.drift_um_per_h = fit.x(1);
+  const double excess = fit.degrees_of_freedom > 0 ? std::max(1.0, fit.chi2 / fit.degrees_of_freedom) : 1.0;
+  axis.drift_sigma_um_per_h = fit.standardUncertainty(1) * std::sqrt(excess);
+}
+
+/// Exponential approach, accepted if an F test says that it beats a constant.
+void fitExponential(const Series& s, double limit_um_per_h, WarmUpAxis& axis) {
+  const Eigen::Index n = s.time_s.size();
+  if (n < 6) return;
+  const double duration = s.time_s(n - 1) - s.time_s(0);
+  Eigen::MatrixXd constant = Eigen::MatrixXd::Ones(n, 1);
+  const double chi2_constant = solveLinear(constant, s.value_um, s.sigma_um).chi2;
+  double best = chi2_constant;
+  double tau = 0.0;
+  Eigen::VectorXd x;
+  constexpr int steps = 160;
+  for (int i = 0; i <= steps; ++i) {
+    const double trial = duration / 30.0 * std::pow(90.0, i / static_cast<double>(steps));
+    Eigen::MatrixXd A(n, 2);
+    A.col(0).setOnes();
+    A.col(1) = (-(s.time_s.array() - s.time_s(0)) / trial).exp();
+    const LinearFitResult fit = solveLinear(A, s.value_um, s.sigma_um);
+    if (fit.usable() && fit.chi2 < best) {
+      best = fit.chi2;
+      tau = trial;
+      x = fit.x;
+    }
+  }
+  const double dof = static_cast<double>(n - 3);
+  if (tau == 0.0 || !(best > 0.0)) return;
+  if (fisherTail((chi2_constant - best) / 2.0 / (best / dof), 2.0, dof) > 0.01) return;
+  axis.tau_s = tau;
+  axis.amplitude_um = x(1);
+  const double first_drift = std::abs(x(1)) / tau * s_per_h;
+  axis.settled_after_s = first_drift > limit_um_per_h ? tau * std::log(first_drift / limit_um_per_h) : 0.0;
+}
+
+}  // namespace
+
+void WarmUpOptions::validate() const {
+  if (!(drift_limit_um_per_h > 0.0)) {
+    throw InputError(
+        fmt::format("a drift limit of {} um/h is not allowed; allowed: greater than zero.", drift_limit_um_per_h));
+  }
+  if (!(window_part > 0.0 && window_part <= 1.0) || window_points < 3) {
+    throw InputError("the window of the drift needs a part in (0, 1] and at least 3 measurements.");
+  }
+}
+
+WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& point, const WarmUpOptions& options) {
+  options.validate();
+  WarmUpResult result;
+  const std::vector<std::string> points = observations.points();
+  result.point = point;
+  if (point.empty()) {
+    std::size_t most = 0;
+    for (const std::string& p : points) {
+      const auto rows = static_cast<std::size_t>(std::count_if(observations.rows.begin(), observations.rows.end(),
+                                                               [&](const Observation& o) { return o.point == p; }));
+      if (rows > most) {
+        most = rows;
+        result.point = p;
+      }
+    }
+  } else if (std::find(points.begin(), points.end(), point) == points.end()) {
+    throw InputError({observations.file, ""},
+                     fmt::format("point \"{}\" is not there; allowed: {}.", point, joinedList(points, "or")));
+  }
+  bool any = false;
+  bool settled = true;
+  std::vector<std::string> drifting;
+  std::vector<std::string> unsure;
+  for (std::size_t k = 0; k < 3; ++k) {
+    WarmUpAxis& axis = result.axes[k];
+    axis.component = all_components[k];
+    std::vector<const Observation*> rows;
+    for (const Observation& o : observations.rows) {
+      if (o.point == result.point && o.component == axis.component && o.use != ObservationUse::Exclude) {
+        rows.push_back(&o);
+      }
+    }
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const Observation* a, const Observation* b) { return a->time_s < b->time_s; });
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    if (n < options.window_points) continue;
+    Series s{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+    // All but the reference carry the noise of the reference too, which is common and no drift: what varies from row to
+    // row is about sigma / sqrt(2).
+    for (Eigen::Index i = 0; i < n; ++i) {
+      s.time_s(i) = rows[static_cast<std::size_t>(i)]->time_s;
+      s.value_um(i) = rows[static_cast<std::size_t>(i)]->value;
+      s.sigma_um(i) = rows[static_cast<std::size_t>(i)]->sigma / (i == 0 ? 1.0 : std::sqrt(2.0));
+      axis.time_s.push_back(s.time_s(i));
+      axis.value_um.push_back(s.value_um(i));
+    }
+    if (!(s.time_s(n - 1) > s.time_s(0))) continue;
+    axis.measured = true;
+    any = true;
+    axis.total_um = s.value_um(n - 1) - s.value_um(0);
+    const double from = s.time_s(n - 1) - options.window_part * (s.time_s(n - 1) - s.time_s(0));
+    Eigen::Index count = 0;
+    while (count < n && s.time_s(n - 1 - count) >= from) ++count;
+    fitDrift(s, std::max<Eigen::Index>(count, options.window_points), axis);
+    fitExponential(s, options.drift_limit_um_per_h, axis);
+    const double magnitude = std::abs(axis.drift_um_per_h);
+    axis.settled = magnitude + 2.0 * axis.drift_sigma_um_per_h < options.drift_limit_um_per_h;
+    settled = settled && axis.settled;
+    const std::string text = fmt::format("{} {}", toString(axis.component),
+                                         withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "um/h"));
+    if (!axis.settled) {
+      (magnitude - 2.0 * axis.drift_sigma_um_per_h > options.drift_limit_um_per_h ? drifting : unsure).push_back(text);
+    }
+  }
+  if (!any) {
+    result.status = FitStatus::Degenerate;
+    result.reason = fmt::format("point {} was measured fewer than {} times: too few to see a drift.", result.point,
+                                options.window_points);
+    return result;
+  }
+  result.status = FitStatus::Converged;
+  result.settled = settled;
+  if (settled) {
+    result.reason = fmt::format("settled: the drift of every axis is below {} um/h with its uncertainty.",
+                                options.drift_limit_um_per_h);
+  } else if (!drifting.empty()) {
+    result.reason =
+        fmt::format("not settled: {} drifts faster than {} um/h.", joinedList(drifting), options.drift_limit_um_per_h);
+  } else {
+    result.reason = fmt::format("not known yet: the drift {} may still exceed {} um/h; measure longer.",
+                                joinedList(unsure), options.drift_limit_um_per_h);
+  }
+  return result;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Has the microscope (or any instrument) settled? One point is measured again and again; the answer comes from the
+// drift and its uncertainty, not from a fixed time (P0 section 3.5: 10, 25, 20 um over about 80 min).
+//
+// Per axis: v(t) = c + a exp(-t / tau), tau searched, c and a by least squares; and a straight line through the last
+// part of the series for the drift that is left. Settled: |drift| + 2 u(drift) is below the limit in every axis. Time
+// in s, values in um, drift in um/h.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/machine/observation.h"
+
+namespace spindrift {
+
+struct WarmUpOptions {
+  double drift_limit_um_per_h = 1.0;
+  double window_part = 0.34;  ///< the last part of the duration that the drift is taken from ...
+  int window_points = 4;      ///< ... with at least so many measurements
+  /// Throws InputError.
+  void validate() const;
+};
+
+struct WarmUpAxis {
+  bool measured = false;
+  Component component = Component::EX;
+  std::vector<double> time_s;
+  std::vector<double> value_um;
+  double drift_um_per_h = 0.0;
+  double drift_sigma_um_per_h = 0.0;
+  bool settled = false;
+  double total_um = 0.0;        ///< last minus first
+  std::optional<double> tau_s;  ///< time constant; empty if no exponential is seen
+  std::optional<double> amplitude_um;
+  std::optional<double> settled_after_s;  ///< when the fitted exponential's drift falls below the limit
+};
+
+struct WarmUpResult {
+  FitStatus status = FitStatus::NotRun;  ///< Degenerate: too few measurements
+  std::string point;
+  std::array<WarmUpAxis, 3> axes;  ///< EX, EY, EZ
+  bool settled = false;
+  std::string reason;  ///< one sentence
+};
+
+/// `point` empty: the one with most rows. Throws InputError for a point that is not there.
+[[nodiscard]] WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& point,
+                                       const WarmUpOptions& options = {});
+
+}  // namespace spindrift

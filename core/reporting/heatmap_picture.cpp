@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/reporting/heatmap_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/reporting/picture_canvas.h"
+#include "core/reporting/svg_plot.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double significance = 2.0;
+constexpr double faded_part = 0.6;
+constexpr PictureColour ink{31, 41, 51};
+constexpr PictureColour grey{120, 130, 140};
+constexpr PictureColour white{255, 255, 255};
+constexpr PictureColour missing{236, 236, 236};
+
+/// Where everything stands. px.
+struct Layout {
+  double left = 78.0, top = 72.0, width = 0.0, height = 0.0;
+  double bar_left = 0.0, bar_width = 18.0;
+  int picture_width = 0, picture_height = 0;
+  const FieldGrid* grid = nullptr;
+
+  [[nodiscard]] double px(double x_mm) const {
+    return left + (x_mm - grid->x_from_mm) / (grid->x_to_mm - grid->x_from_mm) * width;
+  }
+  [[nodiscard]] double py(double y_mm) const {
+    return top + (grid->y_to_mm - y_mm) / (grid->y_to_mm - grid->y_from_mm) * height;
+  }
+};
+
+Layout layoutOf(const FieldGrid& grid, const HeatmapPictureOptions& options) {
+  Layout l;
+  l.grid = &grid;
+  constexpr double right = 118.0;  // colour bar and its labels
+  constexpr double bottom = 96.0;  // tick labels, axis label, legend
+  l.picture_width = options.width_px;
+  const double room = options.width_px - l.left - right;
+  const double aspect = (grid.y_to_mm - grid.y_from_mm) / (grid.x_to_mm - grid.x_from_mm);
+  const double tallest = 1.1 * room;
+  l.width = room;
+  l.height = room * aspect;
+  if (l.height > tallest) {
+    l.height = tallest;
+    l.width = tallest / aspect;
+    l.left += 0.5 * (room - l.width);
+  }
+  constexpr double lowest = 120.0;  // the colour bar needs room for its ticks
+  l.height = std::max(l.height, lowest);
+  l.bar_left = l.left + l.width + 24.0;
+  l.picture_height = static_cast<int>(std::lround(l.top + l.height + bottom));
+  return l;
+}
+
+PictureColour mixed(PictureColour a, PictureColour b, double part) {
+  const auto mix = [part](std::uint8_t p, std::uint8_t q) {
+    return static_cast<std::uint8_t>(std::lround(p + (q - p) * part));
+  };
+  return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
+}
+
+PictureColour colourOf(double value, double sigma, double limit) {
+  if (!std::isfinite(value) || !std::isfinite(sigma)) return missing;
+  // In steps that the eye does not see, so that equal neighbours can be drawn as one.
+  constexpr double steps = 64.0;
+  const auto [r, g, b] = coolWarm(std::round(value / limit * steps) / steps);
+  const PictureColour full{r, g, b};
+  return std::abs(value) < significance * sigma ? mixed(full, white, faded_part) : full;
+}
+
+bool same(PictureColour a, PictureColour b) {
+  return a.red == b.red && a.green == b.green && a.blue == b.blue;
+}
+
+void drawCells(PictureCanvas& canvas, const Layout& l, const Field& field, double limit) {
+  const FieldGrid& g = field.grid;
+  const double half_x = 0.5 * l.width / (g.nx - 1);
+  const double half_y = 0.5 * l.height / (g.ny - 1);
+  for (int iy = 0; iy < g.ny; ++iy) {
+    const double y = l.py(g.y_mm(iy));
+    const double top = std::max(l.top, y - half_y);
+    const double bottom = std::min(l.top + l.height, y + half_y);
+    for (int ix = 0; ix < g.nx;) {
+      const PictureColour colour = colourOf(field.value[g.index(ix, iy)], field.sigma[g.index(ix, iy)], limit);
+      int end = ix + 1;
+      while (end < g.nx &&
+             same(colour, colourOf(field.value[g.index(end, iy)], field.sigma[g.index(end, iy)], limit))) {
+        ++end;
+      }
+      const double from = std::max(l.left, l.px(g.x_mm(ix)) - half_x);
+      const double to = std::min(l.left + l.width, l.px(g.x_mm(end - 1)) + half_x);
+      canvas.rectangle(from, top, to - from, bottom - top, colour);
+      ix = end;
+    }
+  }
+}
+
+/// Diagonal lines over the cells outside the measured region.
+void drawHatching(PictureCanvas& canvas, const Layout& l, const Field& field) {
+  constexpr double spacing = 9.0;
+  constexpr double step = 1.5;
+  const FieldGrid& g = field.grid;
+  const auto extrapolated = [&](double x, double y) {
+    const int ix = std::clamp(static_cast<int>(std::lround((x - l.left) / l.width * (g.nx - 1))), 0, g.nx - 1);
+    const int iy =
+        std::clamp(static_cast<int>(std::lround((l.top + l.height - y) / l.height * (g.ny - 1))), 0, g.ny - 1);
+    return static_cast<bool>(field.extrapolated[g.index(ix, iy)]);
+  };
+  for (double offset = spacing; offset < l.width + l.height; offset += spacing) {
+    // From the left or bottom border up to the right: x + (bottom - y) = offset.
+    const double from = std::max(0.0, offset - l.height);
+    const double to = std::min(l.width, offset);
+    double start = -1.0;
+    for (double x = from;; x += step) {
+      const bool last = x >= to;
+      const double at = std::min(x, to);
+      const double y = l.top + (offset - at);
+      const bool inside = !last && extrapolated(l.left + at, y);
+      if (inside && start < 0.0) start = at;
+      if (!inside && start >= 0.0) {
+        canvas.line(l.left + start, l.top + offset - start, l.left + at, y, grey, 0.6);
+        start = -1.0;
+      }
+      if (last) break;
+    }
+  }
+}
+
+/// Contour |value| = 2 sigma by marching squares.
+void drawSignificance(PictureCanvas& canvas, const Layout& l, const Field& field) {
+  const FieldGrid& g = field.grid;
+  const auto level = [&](int ix, int iy) {
+    const std::size_t i = g.index(ix, iy);
+    return std::abs(field.value[i]) - significance * field.sigma[i];
+  };
+  for (int iy = 0; iy + 1 < g.ny; ++iy) {
+    for (int ix = 0; ix + 1 < g.nx; ++ix) {
+      const std::array<std::array<int, 2>, 5> corner{
+          {{ix, iy}, {ix + 1, iy}, {ix + 1, iy + 1}, {ix, iy + 1}, {ix, iy}}};
+      std::vector<std::array<double, 2>> crossing;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double a = level(corner[k][0], corner[k][1]);
+        const double b = level(corner[k + 1][0], corner[k + 1][1]);
+        if (!std::isfinite(a) || !std::isfinite(b) || (a < 0.0) == (b < 0.0)) continue;
+        const double part = a / (a - b);
+        const double x = g.x_mm(corner[k][0]) + part * (g.x_mm(corner[k + 1][0]) - g.x_mm(corner[k][0]));
+        const double y = g.y_mm(corner[k][1]) + part * (g.y_mm(corner[k + 1][1]) - g.y_mm(corner[k][1]));
+        crossing.push_back({l.px(x), l.py(y)});
+      }
+      for (std::size_t k = 0; k + 1 < crossing.size(); k += 2) {
+        canvas.line(crossing[k][0], crossing[k][1], crossing[k + 1][0], crossing[k + 1][1], ink, 1.0);
+      }
+    }
+  }
+}
+
+void drawAxes(PictureCanvas& canvas, const Layout& l, const Field& field) {
+  const FieldGrid& g = field.grid;
+  const double right = l.left + l.width;
+  const double bottom = l.top + l.height;
+  for (const auto& [x1, y1, x2, y2] :
+       {std::array{l.left, l.top, right, l.top}, std::array{l.left, bottom, right, bottom},
+        std::array{l.left, l.top, l.left, bottom}, std::array{right, l.top, right, bottom}}) {
+    canvas.line(x1, y1, x2, y2, ink, 1.0);
+  }
+  const std::vector<double> xs = roundTicks(g.x_from_mm, g.x_to_mm, std::max(3, static_cast<int>(l.width / 90)));
+  const std::vector<double> ys = roundTicks(g.y_from_mm, g.y_to_mm, std::max(3, static_cast<int>(l.height / 60)));
+  const double x_step = xs.size() > 1 ? xs[1] - xs[0] : 1.0;
+  const double y_step = ys.size() > 1 ? ys[1] - ys[0] : 1.0;
+  for (const double x : xs) {
+    canvas.line(l.px(x), bottom, l.px(x), bottom + 5.0, ink, 1.0);
+    canvas.text(l.px(x), bottom + 19.0, tickText(x, x_step), 12.0, TextAnchor::Middle);
+  }
+  for (const double y : ys) {
+    canvas.line(l.left - 5.0, l.py(y), l.left, l.py(y), ink, 1.0);
+    canvas.text(l.left - 9.0, l.py(y) + 4.0, tickText(y, y_step), 12.0, TextAnchor::End);
+  }
+  canvas.text(l.left + 0.5 * l.width, bottom + 40.0, "x / mm", 13.0, TextAnchor::Middle);
+  canvas.text(l.left - 48.0, l.top + 0.5 * l.height, "y / mm", 13.0, TextAnchor::Middle, false, true);
+}
+
+void drawColourBar(PictureCanvas& canvas, const Layout& l, const Field& field, double limit) {
+  constexpr int steps = 64;
+  for (int i = 0; i < steps; ++i) {
+    const double part = 1.0 - 2.0 * (i + 0.5) / steps;
+    const auto [r, g, b] = coolWarm(part);
+    canvas.rectangle(l.bar_left, l.top + l.height * i / steps, l.bar_width, l.height / steps + 0.5, {r, g, b});
+  }
+  const std::vector<double> ticks = roundTicks(-limit, limit, std::max(3, static_cast<int>(l.height / 40)));
+  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : limit;
+  for (const double t : ticks) {
+    const double y = l.top + 0.5 * l.height * (1.0 - t / limit);
+    canvas.line(l.bar_left + l.bar_width, y, l.bar_left + l.bar_width + 5.0, y, ink, 1.0);
+    canvas.text(l.bar_left + l.bar_width + 9.0, y + 4.0, tickText(t, step), 12.0, TextAnchor::Start);
+  }
+  canvas.text(l.bar_left, l.top - 10.0, fmt::format("{} / {}", toString(field.component), unitOf(field.component)),
+              13.0, TextAnchor::Start);
+}
+
+void drawMarkers(PictureCanvas& canvas, const Layout& l, const Field& field, double limit) {
+  constexpr double longest = 38.0;
+  constexpr double size = 12.0;
+  const bool across = field.component == Component::EX || field.component == Component::EB;
+  for (const Field::Marker& m : field.markers) {
+    const double x = l.px(m.position_mm.x());
+    const double y = l.py(m.position_mm.y());
+    const double length = std::clamp(m.value / limit, -1.0, 1.0) * longest;
+    const double tip_x = across ? x + length : x;
+    const double tip_y = across ? y : y - length;
+    if (std::abs(length) > 3.0) {
+      canvas.line(x, y, tip_x, tip_y, ink, 2.0);
+      const double back = std::copysign(std::min(7.0, std::abs(length)), length);
+      for (const double side : {-4.0, 4.0}) {
+        if (across) {
+          canvas.line(tip_x, tip_y, tip_x - back, tip_y + side, ink, 2.0);
+        } else {
+          canvas.line(tip_x, tip_y, tip_x + side, tip_y + back, ink, 2.0);
+        }
+      }
+    }
+    canvas.disc(x, y, 4.0, m.used ? ink : white, ink);
+    const std::string label = m.point + ": " + withUncertainty(m.value, m.sigma, "");
+    // About 0.6 of the size per character; labels stay inside the frame.
+    const double half = 0.31 * size * static_cast<double>(label.size());
+    const double at = std::clamp(x, l.left + half + 2.0, std::max(l.left + half + 2.0, l.left + l.width - half - 2.0));
+    double base = y + 20.0;
+    if (!across && length < 0.0) base = y - 10.0;
+    if (base > l.top + l.height - 4.0) base = y - (across ? 10.0 : std::max(10.0, length + 8.0));
+    if (base < l.top + size) base = y + (across ? 20.0 : std::max(20.0, -length + 18.0));
+    canvas.text(at, base, label, size, TextAnchor::Middle, false, false, true);
+  }
+}
+
+void draw(PictureCanvas& canvas, const Layout& l, const Field& field, const HeatmapPictureOptions& options) {
+  const double limit = options.limit.value_or(roundLimit(field.largestMagnitude()));
+  drawCells(canvas, l, field, limit);
+  drawHatching(canvas, l, field);
+  drawSignificance(canvas, l, field);
+  drawAxes(canvas, l, field);
+  drawColourBar(canvas, l, field, limit);
+  drawMarkers(canvas, l, field, limit);
+  const std::string title =
+      options.title.empty() ? fmt::format("{} over the table", toString(field.component)) : options.title;
+  canvas.text(16.0, 28.0, title, 18.0, TextAnchor::Start, true);
+  if (!options.subtitle.empty()) canvas.text(16.0, 48.0, options.subtitle, 12.0, TextAnchor::Start);
+  const double y = l.picture_height - 16.0;
+  const std::array<std::string_view, 3> legend{"pale: smaller than 2 sigma", "hatched: outside the measured points",
+                                               "hollow point: not fitted"};
+  double x = 16.0;
+  for (const std::string_view entry : legend) {
+    canvas.text(x, y, entry, 12.0, TextAnchor::Start);
+    x += 7.2 * static_cast<double>(entry.size()) + 24.0;
+  }
+}
+
+void check(const Field& field, const HeatmapPictureOptions& options) {
+  options.validate();
+  SPINDRIFT_ASSERT(field.value.size() == field.grid.size() && field.sigma.size() == field.grid.size() &&
+                       field.extrapolated.size() == field.grid.size(),
+                   "a field has one value per node");
+}
+
+}  // namespace
+
+void HeatmapPictureOptions::validate() const {
+  if (width_px < 480 || width_px > 8000) {
+    throw InputError(fmt::format("a picture of {} px is not possible; allowed: 480 to 8000 px wide.", width_px));
+  }
+  if (!(png_scale >= 0.5 && png_scale <= 8.0)) {
+    throw InputError(fmt::format("a PNG scale of {} is not possible; allowed: 0.5 to 8.", png_scale));
+  }
+  if (limit && !(*limit > 0.0)) {
+    throw InputError(fmt::format("a colour limit of {} is not possible; allowed: greater than zero.", *limit));
+  }
+}
+
+std::array<std::uint8_t, 3> coolWarm(double part) {
+  // Moreland's cool-warm map at nine equal steps.
+  constexpr std::array<std::array<double, 3>, 9> table{{{59, 76, 192},
+                                                        {98, 130, 234},
+                                                        {141, 176, 254},
+                                                        {184, 208, 249},
+                                                        {221, 221, 221},
+                                                        {245, 196, 173},
+                                                        {244, 154, 123},
+                                                        {222, 96, 77},
+                                                        {180, 4, 38}}};
+  const double at = (std::clamp(part, -1.0, 1.0) + 1.0) * 4.0;
+  const auto low = std::min<std::size_t>(7, static_cast<std::size_t>(at));
+  const double rest = at - static_cast<double>(low);
+  std::array<std::uint8_t, 3> colour{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    colour[c] = static_cast<std::uint8_t>(std::lround(table[low][c] + rest * (table[low + 1][c] - table[low][c])));
+  }
+  return colour;
+}
+
+double roundLimit(double magnitude) {
+  if (!(magnitude > 0.0) || !std::isfinite(magnitude)) return 1.0;
+  const double power = std::pow(10.0, std::floor(std::log10(magnitude)));
+  for (const double factor : {1.0, 2.0, 2.5, 5.0, 10.0}) {
+    if (factor * power >= magnitude * (1.0 - 1e-12)) return factor * power;
+  }
+  return 10.0 * power;
+}
+
+std::string heatmapSvg(const Field& field, const HeatmapPictureOptions& options) {
+  check(field, options);
+  const Layout layout = layoutOf(field.grid, options);
+  const auto canvas = makeSvgCanvas(layout.picture_width, layout.picture_height);
+  draw(*canvas, layout, field, options);
+  return canvas->finish();
+}
+
+std::string heatmapPng(const Field& field, const HeatmapPictureOptions& options) {
+  check(field, options);
+  const Layout layout = layoutOf(field.grid, options);
+  const auto canvas = makePngCanvas(layout.picture_width, layout.picture_height, options.png_scale);
+  draw(*canvas, layout, field, options);
+  return canvas->finish();
+}
+
+}  // namespace spindrift

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A field as a picture: SVG (own writer) and PNG (OpenCV), the same layout.
+//
+// Colours: diverging cool-warm map (Moreland 2009), zero neutral, limits symmetric about zero. Where |value| < 2 sigma
+// the colour fades and a contour separates it; outside the measured region cells are hatched. Measured points carry an
+// arrow (along X, along Y, up for EZ) and their value; hollow points did not take part in the fit. Axes in mm, equal
+// scale.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/machine/field.h"
+
+namespace spindrift {
+
+struct HeatmapPictureOptions {
+  std::string title;            ///< empty: component and unit
+  std::string subtitle;         ///< empty: none
+  std::optional<double> limit;  ///< of the colour scale, um or urad; empty: from the field, rounded up
+  int width_px = 820;           ///< of the picture; the height follows from the table, >= 480
+  double png_scale = 2.0;       ///< pixels of the PNG per px of the layout
+  /// Throws InputError.
+  void validate() const;
+};
+
+/// The whole <svg> element.
+[[nodiscard]] std::string heatmapSvg(const Field& field, const HeatmapPictureOptions& options = {});
+/// The bytes of a PNG file.
+[[nodiscard]] std::string heatmapPng(const Field& field, const HeatmapPictureOptions& options = {});
+
+/// Colour of value/limit in [-1, 1] (clamped): red, green, blue.
+[[nodiscard]] std::array<std::uint8_t, 3> coolWarm(double part);
+/// Smallest round number (1, 2, 2.5, 5 times a power of ten) that is not below `magnitude`; 1 for zero.
+[[nodiscard]] double roundLimit(double magnitude);
+
+}  // namespace spindrift

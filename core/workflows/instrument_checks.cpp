@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/instrument_checks.h"
+
+#include <fmt/format.h>
+
+#include "core/base/json_reader.h"
+#include "core/base/text.h"
+
+namespace spindrift {
+namespace {
+
+CheckResult resultOf(const ResolutionCheck& check) {
+  CheckResult result;
+  result.passed = check.passed;
+  nlohmann::json axes = nlohmann::json::array();
+  for (const AxisVerdict& v : check.axes) {
+    axes.push_back({{"component", toString(v.component)},
+                    {"count", v.count},
+                    {"limit_um", jsonNumber(v.limit_um)},
+                    {"largest_um", jsonNumber(v.largest_um)},
+                    {"largest_sigma_um", jsonNumber(v.largest_sigma_um)},
+                    {"largest_at", v.largest_at},
+                    {"rms_um", jsonNumber(v.rms_um)},
+                    {"standard_deviation_um", jsonNumber(v.standard_deviation_um)},
+                    {"passed", v.passed}});
+    result.summary +=
+        fmt::format("{}  largest {:.2f} um ({}), rms {:.2f} um, allowed {:.2f} um: {}\n", toString(v.component),
+                    v.largest_um, v.largest_at, v.rms_um, v.limit_um, v.passed ? "passed" : "not passed");
+  }
+  result.summary += check.reason + "\n";
+  result.json = {
+      {"passed", check.passed}, {"reason", check.reason}, {"axes", axes}, {"status", toString(check.status)}};
+  return result;
+}
+
+}  // namespace
+
+CheckResult checkWarmUp(const ObservationSet& observations, const std::string& point, const WarmUpOptions& options) {
+  const WarmUpResult warm_up = judgeWarmUp(observations, point, options);
+  CheckResult result;
+  result.passed = warm_up.settled;
+  nlohmann::json axes = nlohmann::json::array();
+  for (const WarmUpAxis& axis : warm_up.axes) {
+    if (!axis.measured) continue;
+    axes.push_back({{"component", toString(axis.component)},
+                    {"drift_um_per_h",
+                     {{"value", jsonNumber(axis.drift_um_per_h)},
+                      {"standard_uncertainty", jsonNumber(axis.drift_sigma_um_per_h)}}},
+                    {"total_um", jsonNumber(axis.total_um)},
+                    {"tau_s", jsonNumber(axis.tau_s)},
+                    {"amplitude_um", jsonNumber(axis.amplitude_um)},
+                    {"settled_after_s", jsonNumber(axis.settled_after_s)},
+                    {"settled", axis.settled}});
+    result.summary += fmt::format("{}  drift {}{}: {}\n", toString(axis.component),
+                                  withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "um/h"),
+                                  axis.tau_s ? fmt::format(", time constant {:.0f} min", *axis.tau_s / 60.0) : "",
+                                  axis.settled ? "settled" : "not settled");
+  }
+  result.summary += warm_up.reason + "\n";
+  result.json = {{"point", warm_up.point},
+                 {"settled", warm_up.settled},
+                 {"reason", warm_up.reason},
+                 {"status", toString(warm_up.status)},
+                 {"drift_limit_um_per_h", options.drift_limit_um_per_h},
+                 {"axes", axes}};
+  return result;
+}
+
+CheckResult checkJogs(const ObservationSet& observations, const MachineDescription& machine) {
+  return resultOf(checkAgainstResolution(observations, machine, 1.0));
+}
+
+CheckResult checkRepeatability(const ObservationSet& observations, const MachineDescription& machine) {
+  return resultOf(checkAgainstResolution(observations, machine, 0.5));
+}
+
+}  // namespace spindrift

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks an operator runs on a campaign: has the instrument settled, do jogs read true, does it repeat when cold.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/imaging/jog_validation.h"
+#include "core/imaging/warm_up.h"
+
+namespace spindrift {
+
+struct CheckResult {
+  nlohmann::json json = nlohmann::json::object();
+  std::string summary;
+  bool passed = false;
+};
+
+[[nodiscard]] CheckResult checkWarmUp(const ObservationSet& observations, const std::string& point,
+                                      const WarmUpOptions& options);
+/// Limit: one resolution of the axis.
+[[nodiscard]] CheckResult checkJogs(const ObservationSet& observations, const MachineDescription& machine);
+/// Limit: half a resolution of the axis.
+[[nodiscard]] CheckResult checkRepeatability(const ObservationSet& observations, const MachineDescription& machine);
+
+}  // namespace spindrift
