@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/imaging/jog_validation.h"
+#include "core/imaging/warm_up.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// One point every 5 min for `minutes`, approaching its end value with 25 min.
+ObservationSet warmUp(Random& random, double minutes) {
+  ObservationSet set;
+  constexpr std::array<double, 3> amplitude{10.0, 25.0, 20.0};
+  for (double t = 0.0; t <= minutes; t += 5.0) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      Observation o;
+      o.time_s = t * 60.0;
+      o.state = "W" + std::to_string(static_cast<int>(t));
+      o.point = "F1";
+      o.component = all_components[k];
+      o.value = amplitude[k] * (1.0 - std::exp(-t / 25.0)) + random.normal(0, 0.15);
+      o.sigma = 0.2;
+      set.rows.push_back(o);
+    }
+  }
+  return set;
+}
+
+TEST(WarmUp, SaysNotSettledWhileItDrifts) {
+  Random random(1);
+  const WarmUpResult result = judgeWarmUp(warmUp(random, 45.0), "");
+  EXPECT_EQ(result.point, "F1");
+  EXPECT_FALSE(result.settled);
+  EXPECT_THAT(result.reason, HasSubstr("not settled"));
+  EXPECT_THAT(result.reason, HasSubstr("EY"));
+}
+
+TEST(WarmUp, SaysSettledAfterwardsWithTheTimeConstant) {
+  Random random(2);
+  const WarmUpResult result = judgeWarmUp(warmUp(random, 240.0), "F1");
+  EXPECT_TRUE(result.settled) << result.reason;
+  for (const WarmUpAxis& axis : result.axes) {
+    ASSERT_TRUE(axis.tau_s.has_value());
+    EXPECT_NEAR(*axis.tau_s / 60.0, 25.0, 2.5);
+    EXPECT_GT(*axis.settled_after_s, 80.0 * 60.0);
+  }
+  EXPECT_NEAR(result.axes[1].total_um, 25.0, 1.0);
+}
+
+TEST(WarmUp, DriftUncertaintyHolds) {
+  Random random(3);
+  int inside = 0;
+  constexpr int runs = 500;
+  for (int n = 0; n < runs; ++n) {
+    ObservationSet set;
+    for (int i = 0; i < 24; ++i) {
+      Observation o;
+      o.time_s = 300.0 * i;
+      o.state = std::to_string(i);
+      o.point = "F1";
+      o.value = 2.0 * o.time_s / 3600.0 + random.normal(0, 0.2);
+      o.sigma = 0.2 * (i == 0 ? 1.0 : std::sqrt(2.0));
+      set.rows.push_back(o);
+    }
+    const WarmUpAxis axis = judgeWarmUp(set, "F1").axes[0];
+    inside += std::abs(axis.drift_um_per_h - 2.0) < 1.96 * axis.drift_sigma_um_per_h ? 1 : 0;
+  }
+  EXPECT_GT(inside, 0.92 * runs);
+}
+
+TEST(WarmUp, TooFewMeasurementsAndUnknownPoint) {
+  Random random(4);
+  EXPECT_EQ(judgeWarmUp(warmUp(random, 10.0), "F1").status, FitStatus::Degenerate);
+  EXPECT_THROW((void)judgeWarmUp(warmUp(random, 60.0), "F9"), InputError);
+}
+
+ObservationSet states(double largest) {
+  ObservationSet set;
+  for (int s = 0; s < 6; ++s) {
+    for (const Component c : {Component::EX, Component::EY, Component::EZ}) {
+      Observation o;
+      o.time_s = 100.0 * s;
+      o.state = "J" + std::to_string(s);
+      o.point = "F1";
+      o.component = c;
+      o.value = s == 3 && c == Component::EY ? largest : 0.1 * s;
+      o.sigma = 0.3;
+      set.rows.push_back(o);
+    }
+  }
+  return set;
+}
+
+MachineDescription machineWithResolution() {
+  MachineDescription machine;
+  for (const char* name : {"X", "Y", "Z"}) {
+    LinearAxis axis;
+    axis.name = name;
+    axis.resolution_um = 5.08;
+    machine.axes.push_back(axis);
+  }
+  return machine;
+}
+
+TEST(ResolutionCheck, VerdictPerAxis) {
+  const MachineDescription machine = machineWithResolution();
+  EXPECT_TRUE(checkAgainstResolution(states(2.4), machine, 1.0).passed);
+  EXPECT_TRUE(checkAgainstResolution(states(2.4), machine, 0.5).passed);
+  const ResolutionCheck jogs = checkAgainstResolution(states(-6.0), machine, 1.0);
+  EXPECT_FALSE(jogs.passed);
+  EXPECT_THAT(jogs.reason, HasSubstr("EY is off by 6.0 um at F1 in state J3"));
+  EXPECT_TRUE(jogs.axes[0].passed);
+  EXPECT_FALSE(jogs.axes[1].passed);
+  EXPECT_FALSE(checkAgainstResolution(states(3.0), machine, 0.5).passed);
+}
+
+TEST(ResolutionCheck, NeedsStatesAndResolution) {
+  ObservationSet one = states(0.0);
+  std::erase_if(one.rows, [](const Observation& o) { return o.state != "J0"; });
+  EXPECT_EQ(checkAgainstResolution(one, machineWithResolution(), 1.0).status, FitStatus::Degenerate);
+  EXPECT_THROW((void)checkAgainstResolution(states(0.0), MachineDescription{}, 1.0), InputError);
+}
+
+}  // namespace
+}  // namespace spindrift
