@@ -306,7 +306,7 @@ std::array<std::uint8_t, 3> coolWarm(double part) {
 double roundLimit(double magnitude) {
   if (!(magnitude > 0.0) || !std::isfinite(magnitude)) return 1.0;
   const double power = std::pow(10.0, std::floor(std::log10(magnitude)));
-  for (const double factor : {1.0, 2.0, 2.5, 5.0, 10.0}) {
+  for (const double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0}) {
     if (factor * power >= magnitude * (1.0 - 1e-12)) return factor * power;
   }
   return 10.0 * power;

@@ -33,7 +33,7 @@ struct HeatmapPictureOptions {
 
 /// Colour of value/limit in [-1, 1] (clamped): red, green, blue.
 [[nodiscard]] std::array<std::uint8_t, 3> coolWarm(double part);
-/// Smallest round number (1, 2, 2.5, 5 times a power of ten) that is not below `magnitude`; 1 for zero.
+/// Smallest round number (1, 1.5, 2, 3, 4, 5, 6, 8 times a power of ten) that is not below `magnitude`; 1 for zero.
 [[nodiscard]] double roundLimit(double magnitude);
 
 }  // namespace spindrift

@@ -23,8 +23,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr int width = 960;
-constexpr int height = 600;
+constexpr int width = 720;
+constexpr int height = 480;
 
 const std::vector<std::pair<std::string, Eigen::Vector3d>>& fiducials() {
   static const std::vector<std::pair<std::string, Eigen::Vector3d>> list{
@@ -59,7 +59,7 @@ void renderCampaign(const std::filesystem::path& folder, double noise_um) {
   list << "time_s,state,fiducial,role,index,x_mm,y_mm,z_mm,spindle_deg,image\n";
   Random random(7);
   const std::map<std::string, double> psi{{"F1", 0.03}, {"F2", -0.02}, {"F3", 0.05}};
-  const Eigen::Vector2d centre_px(485.0, 310.0);
+  const Eigen::Vector2d centre_px(365.0, 250.0);
   double time = 0.0;
   std::uint64_t seed = 1;
   for (const std::string state : {"M0", "M1"}) {
@@ -81,7 +81,7 @@ void renderCampaign(const std::filesystem::path& folder, double noise_um) {
         const Eigen::Vector2d place(1400 + std::cos(p) * tool.x() + std::sin(p) * tool.y(),
                                     1400 - std::sin(p) * tool.x() + std::cos(p) * tool.y());
         const double orientation = p - 0.11 - spindle_deg * rad_per_deg;
-        scene.map = poseAt(width, height, 2.2, -orientation, place, centre_px);
+        scene.map = poseAt(width, height, 2.4, -orientation, place, centre_px);
         scene.blur_sigma_px = 0.8;
         scene.defocus_px_per_um = 0.012;
         scene.defocus_um = offset_mm.z() * um_per_mm + d.z() + 12.0 + random.normal(0, noise_um);
@@ -167,7 +167,7 @@ TEST_F(RenderedCampaign, DeviationHasTheSignAndSizeOfTheTruth) {
   }
   ASSERT_EQ(e.details["fiducials"].size(), 3u);
   const auto& first = e.details["fiducials"][0]["states"][0];
-  EXPECT_NEAR(first["centre_of_rotation"]["x_px"]["value"].get<double>(), 485.0, 2.0);
+  EXPECT_NEAR(first["centre_of_rotation"]["x_px"]["value"].get<double>(), 365.0, 2.0);
   EXPECT_TRUE(first["axis_directions"].is_object());
   EXPECT_NEAR(e.details["fiducials"][0]["fcf_in_machine_rad"]["value"].get<double>(), 0.03, 0.005);
 }

@@ -48,7 +48,7 @@ TEST(WarmUp, SaysSettledAfterwardsWithTheTimeConstant) {
   for (const WarmUpAxis& axis : result.axes) {
     ASSERT_TRUE(axis.tau_s.has_value());
     EXPECT_NEAR(*axis.tau_s / 60.0, 25.0, 2.5);
-    EXPECT_GT(*axis.settled_after_s, 80.0 * 60.0);
+    EXPECT_GT(*axis.settled_after_s, 70.0 * 60.0);
   }
   EXPECT_NEAR(result.axes[1].total_um, 25.0, 1.0);
 }
