@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/workflows/fit_campaign.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+
+Campaign someCampaign(const std::vector<Eigen::Vector3d>& points) {
+  Campaign campaign;
+  for (const auto& [name, travel] : {std::pair<const char*, double>{"X", 300.0}, {"Y", 130.0}}) {
+    LinearAxis axis;
+    axis.name = name;
+    axis.travel_mm = {0.0, travel};
+    campaign.machine.axes.push_back(axis);
+  }
+  Random random(1);
+  ObservationSet set;
+  for (int state = 0; state < 2; ++state) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (state == 0) campaign.machine.points.push_back({"F" + std::to_string(i + 1), "fiducial", points[i]});
+      for (const Component c : {Component::EX, Component::EY, Component::EZ}) {
+        NineVector truth;
+        truth << -28, 25, 6, 40, 25, 50, 20, 100, -80;
+        Observation o;
+        o.time_s = 1000.0 * state;
+        o.state = state == 0 ? "M0" : "M1";
+        o.point = "F" + std::to_string(i + 1);
+        o.position_mm = points[i];
+        o.component = c;
+        o.sigma = 0.3;
+        o.value = (state == 0 ? 0.0 : nineParameterRow(points[i], c).dot(truth)) + random.normal(0, 0.3);
+        set.rows.push_back(o);
+      }
+    }
+  }
+  campaign.observations = set;
+  return campaign;
+}
+
+const std::vector<Eigen::Vector3d> five{{20, 15, 0}, {280, 15, 0}, {280, 115, 0}, {20, 115, 0}, {150, 65, 0}};
+
+TEST(FitWorkflow, JsonHoldsWhatTheContractNames) {
+  const Campaign campaign = someCampaign(five);
+  const auto j = toJson(fitNineParameters(*campaign.observations, {.state = "M1", .points = {"F1", "F2", "F3", "F4"}}));
+  for (const char* name : {"EX_um", "EY_um", "EZ_um", "EA_urad", "EB_urad", "EC_urad", "EC0Y_urad", "alpha_X_um_per_m",
+                           "alpha_Y_um_per_m"}) {
+    ASSERT_TRUE(j["parameters"].contains(name)) << name;
+    EXPECT_TRUE(j["parameters"][name]["value"].is_number());
+    EXPECT_GT(j["parameters"][name]["standard_uncertainty"].get<double>(), 0.0);
+  }
+  EXPECT_NEAR(j["parameters"]["EX_um"]["value"].get<double>(), -28.0, 2.5);
+  ASSERT_EQ(j["residuals"].size(), 15u);
+  EXPECT_EQ(j["residuals"][12]["point"], "F5");
+  EXPECT_EQ(j["residuals"][12]["used"], false);
+  EXPECT_TRUE(j["residuals"][12]["residual_um"].is_number());
+  EXPECT_TRUE(j["rms_fit_um"].is_number());
+  EXPECT_TRUE(j["rms_validation_um"].is_number());
+  EXPECT_GT(j["condition_number"].get<double>(), 1.0);
+}
+
+TEST(FitWorkflow, DegenerateFitGivesNullAndNeverInfinity) {
+  const Campaign campaign = someCampaign({{20, 65, 0}, {150, 65, 0}, {280, 65, 0}});
+  const auto j = toJson(fitNineParameters(*campaign.observations));
+  EXPECT_EQ(j["status"], "degenerate");
+  EXPECT_TRUE(j["parameters"]["EX_um"]["value"].is_null());
+  EXPECT_TRUE(j["parameters"]["EC_urad"]["value"].is_number());
+  EXPECT_EQ(j.dump().find("inf"), std::string::npos);
+  const HeatmapResult map = heatmapOf(campaign, *campaign.observations, {});
+  EXPECT_FALSE(map.determined);
+  EXPECT_THAT(map.message, HasSubstr("EX cannot be mapped"));
+}
+
+TEST(FitWorkflow, HeatmapCoversTheTableAndMarksWhatIsExtrapolated) {
+  const Campaign campaign = someCampaign(five);
+  HeatmapOptions options;
+  options.nx = 31;
+  options.ny = 14;
+  const HeatmapResult map = heatmapOf(campaign, *campaign.observations, options);
+  ASSERT_TRUE(map.determined);
+  EXPECT_EQ(map.field.value.size(), 31u * 14u);
+  EXPECT_TRUE(map.field.extrapolated[0]);
+  EXPECT_FALSE(map.field.extrapolated[map.field.grid.index(15, 7)]);
+  EXPECT_GT(map.field.sigma[0], map.field.sigma[map.field.grid.index(15, 7)]);
+  EXPECT_EQ(map.field.markers.size(), 5u);
+  options.nx = 1;
+  EXPECT_THROW((void)heatmapOf(campaign, *campaign.observations, options), InputError);
+}
+
+TEST(FitWorkflow, PlacementAmongFiducialsOrOnALattice) {
+  const Campaign campaign = someCampaign(five);
+  PlacementRequest request;
+  const PlacementAnswer corners = placeFiducials(campaign.machine, request, {});
+  EXPECT_EQ(corners.result.chosen, (std::vector<std::size_t>{0, 1, 2, 3}));
+  request.lattice_nx = 6;
+  request.lattice_ny = 4;
+  request.fixed = {"F5"};
+  const PlacementAnswer lattice = placeFiducials(campaign.machine, request, {});
+  EXPECT_EQ(lattice.ids.size(), 25u);
+  EXPECT_EQ(lattice.result.chosen.front(), 0u);
+  EXPECT_THAT(lattice.summary(), HasSubstr("F5"));
+  request.fixed = {"F77"};
+  EXPECT_THROW((void)placeFiducials(campaign.machine, request, {}), InputError);
+}
+
+}  // namespace
+}  // namespace spindrift
