@@ -140,11 +140,11 @@ void findRim(const PointCloud& scan, std::size_t k, const Plane& plane, double d
       const Eigen::Vector3d& b = p[at(m)];
       const double gap = std::abs(b.x() - a.x());
       RimPoint point;
-      // A wider gap is a shadow: the plate ends at its last sample all the same.
-      const double wide = gap <= 3.5 * spacing ? gap : spacing;
-      const double x = a.x() + (side < 0 ? 0.5 : -0.5) * wide;
+      // The rim lies within one spacing of the last plate sample. What is missing beyond it is the shadow of the wall
+      // or, rarely, a lost sample of the plate: then it may lie further in.
+      const double x = a.x() + (side < 0 ? 0.5 : -0.5) * spacing;
       point.point_mm << x, a.y(), plane.at(x, a.y());
-      point.sigma_x_mm = wide / std::sqrt(12.0);
+      point.sigma_x_mm = std::clamp(gap, spacing, 4.0 * spacing) / std::sqrt(12.0);
       rim.push_back(point);
       break;
     }
@@ -270,7 +270,7 @@ ProfilerCalibration calibrateProfiler(const PointCloud& scan, const std::array<d
     const Eigen::VectorXd r = whitened(q, raw);
     std::vector<double> sizes;
     for (Eigen::Index i = 0; i < rims; ++i) sizes.push_back(std::abs(r[i]));
-    rim_scale = std::max(1.4826 * median(sizes), 0.3);
+    if (iteration < 10) rim_scale = std::max(1.4826 * median(sizes), 0.3);
     for (Eigen::Index i = 0; i < rims; ++i) weights[i] = tukeyWeight(r[i] / rim_scale, 6.0);
     Eigen::MatrixXd jacobian(rows, 7);
     for (int j = 0; j < 7; ++j) {
@@ -284,7 +284,8 @@ ProfilerCalibration calibrateProfiler(const PointCloud& scan, const std::array<d
     normal = jacobian.transpose() * weights.asDiagonal() * jacobian;
     const Parameters step = -normal.ldlt().solve(jacobian.transpose() * weights.asDiagonal() * r);
     q += step;
-    settled = step.head<3>().norm() < 1e-10 && step.tail<4>().norm() < 1e-9;
+    // A step far below the uncertainty, also along the direction that is hardly determined.
+    settled = step.dot(normal * step) < 1e-8;
   }
   if (!settled) {
     result.status = FitStatus::NoConvergence;
@@ -304,6 +305,11 @@ ProfilerCalibration calibrateProfiler(const PointCloud& scan, const std::array<d
   }
   const double factor = std::max(1.0, chi2 / std::max(1.0, used - 5.0));
   result.covariance = factor * normal.inverse().topLeftCorner<6, 6>();
+  // Second order: an angle that is known only by its mounting changes the lengths by its square as well.
+  const double alpha2 = result.covariance(0, 0) / std::sqrt(2.0), gamma2 = result.covariance(2, 2) / std::sqrt(2.0);
+  const double height2 = std::pow(plane.coefficients[0] * alpha2, 2);
+  const double place2 = centre.squaredNorm() * gamma2 * gamma2;
+  result.covariance.diagonal().tail<3>() += Eigen::Vector3d(place2, place2 + height2, height2);
   result.alpha_rad = q[0];
   result.beta_rad = q[1];
   result.gamma_rad = q[2];
