@@ -119,10 +119,13 @@ std::string summaryOf(const NineParameterComparison& comparison) {
     const double sigma = std::sqrt(comparison.covariance(i, i));
     const bool differs =
         std::find(comparison.significant.begin(), comparison.significant.end(), i) != comparison.significant.end();
-    text += fmt::format("  {:<9}{}{}\n", symbolOf(i),
-                        std::isfinite(sigma) ? withUncertainty(comparison.difference(i), sigma, nineParameterUnit(i))
-                                             : "not determined",
-                        differs ? "   differs" : "");
+    std::string value = "not determined";
+    if (std::isfinite(sigma)) {
+      // Parameters that rest on the same points in both sets are equal but for rounding.
+      const bool equal = !(sigma > 1e-6 * comparison.a.standardUncertainty(i));
+      value = equal ? "equal" : withUncertainty(comparison.difference(i), sigma, nineParameterUnit(i));
+    }
+    text += fmt::format("  {:<9}{}{}\n", symbolOf(i), value, differs ? "   differs" : "");
   }
   text += fmt::format("all together: p = {:.3g}; {}\n", comparison.p_value_all,
                       comparison.p_value_all < 0.05 ? "the sets of points disagree beyond their uncertainty"
