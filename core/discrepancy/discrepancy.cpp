@@ -1,2 +1,570 @@
 // SPDX-License-Identifier: Apache-2.0
-namespace spindrift {}
+#include "core/discrepancy/discrepancy.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/base/text.h"
+#include "core/discrepancy/discrepancy_search.h"
+#include "core/discrepancy/effect_model.h"
+#include "core/math/distributions.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Index;
+
+constexpr std::size_t unit_limit = 3000;
+
+/// Observations in mm instead of um (or the simulation): a slope of a thousand between the two.
+void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& rows) {
+  std::map<std::pair<std::string, int>, std::array<double, 3>> means;
+  for (const std::size_t row : rows) {
+    const Observation& o = input.observations.rows[row];
+    auto& m = means[{o.point, static_cast<int>(o.component)}];
+    m[0] += 1.0;
+    m[1] += o.value;
+    m[2] += input.predicted[row];
+  }
+  double oo = 0.0;
+  double ss = 0.0;
+  double os = 0.0;
+  for (const std::size_t row : rows) {
+    const Observation& o = input.observations.rows[row];
+    const auto& m = means[{o.point, static_cast<int>(o.component)}];
+    const double a = o.value - m[1] / m[0];
+    const double b = input.predicted[row] - m[2] / m[0];
+    oo += a * a;
+    ss += b * b;
+    os += a * b;
+  }
+  if (!(oo > 0.0) || !(ss > 0.0) || rows.size() < 20) return;
+  const double correlation = os / std::sqrt(oo * ss);
+  const double ratio = std::sqrt(oo / ss);
+  const std::filesystem::path file = input.observations.file;
+  if (correlation > 0.6 && ratio > 300.0) {
+    throw InputError({file, ""},
+                     fmt::format("the deviations move {:.0f} times as much as the simulation predicts, in the "
+                                 "same way: the simulation looks as if it were in mm; allowed: um and urad.",
+                                 ratio));
+  }
+  if (correlation > 0.6 && ratio < 1.0 / 300.0) {
+    throw InputError({file, ""},
+                     fmt::format("the deviations move {:.0f} times less than the simulation predicts, in the "
+                                 "same way: they look as if they were in mm; allowed: um and urad.",
+                                 1.0 / ratio));
+  }
+}
+
+void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings) {
+  if (!input.log || input.log->empty()) {
+    warnings.emplace_back("There is no operating log: effects that follow speed, feed or temperature cannot be tried.");
+    return;
+  }
+  for (const std::string& name : drivers.dead()) {
+    if (OperatingLog::isTemperature(name)) {
+      warnings.push_back(fmt::format("The sensor {} never moves; it is left out as dead.", name));
+    }
+  }
+  if (!input.log->has("spindle_rpm"))
+    warnings.emplace_back("The log has no spindle_rpm: spindle heat is known from temperatures at best.");
+  const auto& t = input.log->time_s();
+  if (t.size() > 3) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+    const double typical = median(steps);
+    const auto gap = std::max_element(steps.begin(), steps.end());
+    if (*gap > std::max(1800.0, 20.0 * typical)) {
+      warnings.push_back(
+          fmt::format("The log has a gap of {:.0f} s after {:.0f} s; states are taken as unchanged in it.", *gap,
+                      t[static_cast<std::size_t>(gap - steps.begin())]));
+    }
+  }
+}
+
+/// Gains and lags of a joint fit with their covariance (linearised at the solution).
+std::vector<ModelEffect> modelEffects(const EffectSearch& search, const ResidualProblem& problem,
+                                      const DriverTable& drivers, const JointFit& fit, const std::string& source,
+                                      double chi2_scale) {
+  std::vector<Eigen::MatrixXd> parts;
+  Index total = 0;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    const Eigen::MatrixXd x = search.columns(fit.terms[t]);
+    Eigen::MatrixXd part(x.rows(), x.cols() + static_cast<Index>(fit.terms[t].parameters.size()));
+    part.leftCols(x.cols()) = x;
+    for (std::size_t p = 0; p < fit.terms[t].parameters.size(); ++p) {
+      const bool lag = search.parameterIsLag(fit.terms[t], p);
+      const double value = fit.terms[t].parameters[p];
+      const double step = lag ? std::max(1.0, 0.02 * value) : 30.0;
+      ModelTerm up = fit.terms[t];
+      up.parameters[p] = value + step;
+      part.col(x.cols() + static_cast<Index>(p)) = (search.columns(up) * fit.gains[t] - x * fit.gains[t]) / step;
+    }
+    total += part.cols();
+    parts.push_back(std::move(part));
+  }
+  Eigen::MatrixXd jacobian(problem.size(), total);
+  Index at = 0;
+  for (const Eigen::MatrixXd& part : parts) {
+    jacobian.middleCols(at, part.cols()) = part;
+    at += part.cols();
+  }
+  const Eigen::MatrixXd x = problem.projected(jacobian);
+  Eigen::VectorXd norm = x.colwise().norm();
+  Eigen::MatrixXd scaled = x;
+  for (Index c = 0; c < total; ++c) scaled.col(c) /= norm[c] > 0.0 ? norm[c] : 1.0;
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod(scaled);
+  const Eigen::MatrixXd inverse = cod.pseudoInverse();
+  Eigen::MatrixXd covariance = inverse * inverse.transpose() * chi2_scale;
+  for (Index r = 0; r < total; ++r) {
+    for (Index c = 0; c < total; ++c) {
+      covariance(r, c) /= (norm[r] > 0.0 ? norm[r] : 1.0) * (norm[c] > 0.0 ? norm[c] : 1.0);
+    }
+  }
+  std::vector<ModelEffect> out;
+  at = 0;
+  (void)drivers;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    ModelEffect e;
+    e.effect = *fit.terms[t].effect;
+    e.variant = fit.terms[t].variant;
+    e.parameters = fit.terms[t].parameters;
+    e.gains = fit.gains[t];
+    e.covariance = covariance.block(at, at, parts[t].cols(), parts[t].cols());
+    const Eigen::VectorXd sd = e.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+    e.gain_uncertainty = sd.head(e.gains.size());
+    for (std::size_t p = 0; p < e.parameters.size(); ++p) {
+      e.parameter_uncertainty.push_back(sd[e.gains.size() + static_cast<Index>(p)]);
+    }
+    e.source = source;
+    at += parts[t].cols();
+    out.push_back(std::move(e));
+  }
+  return out;
+}
+
+std::string driversText(const ModelEffect& e) {
+  std::string text;
+  std::size_t next = 0;
+  for (const EffectInput& input : e.variant.inputs) {
+    if (!text.empty()) text += " + ";
+    switch (input.dynamics) {
+      case Dynamics::None:
+        text += input.driver.empty() ? "steady" : input.driver + " without lag";
+        break;
+      case Dynamics::Lag: {
+        const double tau = e.parameters[e.variant.shared_lag ? 0 : next++];
+        text += tau > 0.0 ? fmt::format("{} (lag {:.0f} s)", input.driver, tau) : input.driver;
+        break;
+      }
+      case Dynamics::AsymmetricLag:
+        text +=
+            fmt::format("{} (lag {:.0f} s on, {:.0f} s off)", input.driver, e.parameters[next], e.parameters[next + 1]);
+        next += 2;
+        break;
+      case Dynamics::Step:
+        text += fmt::format("step at {:.0f} s", e.parameters[next++]);
+        break;
+      case Dynamics::Pulse:
+        text += fmt::format("from {:.0f} s to {:.0f} s (lag {:.0f} s)", e.parameters[next],
+                            e.parameters[next] + e.parameters[next + 1], e.parameters[next + 2]);
+        next += 3;
+        break;
+    }
+  }
+  return text;
+}
+
+struct RowResult {
+  std::vector<double> constant;  // per row
+  double fit_rms = 0.0;
+  double holdout_rms = 0.0;
+  std::size_t holdout_rows = 0;
+};
+
+/// Constants of the series from the fit rows, and the rms of what is left.
+RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::size_t>& fit_rows,
+                       const std::vector<double>& effect_part) {
+  const auto& rows = input.observations.rows;
+  RowResult out;
+  out.constant.assign(rows.size(), std::numeric_limits<double>::quiet_NaN());
+  std::map<std::pair<std::string, int>, std::array<double, 2>> sums;
+  for (const std::size_t row : fit_rows) {
+    const Observation& o = rows[row];
+    auto& s = sums[{o.point, static_cast<int>(o.component)}];
+    const double w = 1.0 / (o.sigma * o.sigma);
+    s[0] += w;
+    s[1] += w * (o.value - input.predicted[row] - effect_part[row]);
+  }
+  double fit = 0.0;
+  double fit_count = 0.0;
+  double held = 0.0;
+  const std::set<std::size_t> fitted(fit_rows.begin(), fit_rows.end());
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const Observation& o = rows[row];
+    const auto found = sums.find({o.point, static_cast<int>(o.component)});
+    if (found == sums.end() || !std::isfinite(input.predicted[row])) continue;
+    out.constant[row] = found->second[1] / found->second[0];
+    if (isRotation(o.component)) continue;
+    const double r = o.value - input.predicted[row] - effect_part[row] - out.constant[row];
+    if (fitted.contains(row)) {
+      fit += r * r;
+      fit_count += 1.0;
+    } else if (o.use == ObservationUse::Holdout) {
+      held += r * r;
+      ++out.holdout_rows;
+    }
+  }
+  if (fit_count > 0.0) out.fit_rms = std::sqrt(fit / fit_count);
+  if (out.holdout_rows > 0) out.holdout_rms = std::sqrt(held / static_cast<double>(out.holdout_rows));
+  return out;
+}
+
+}  // namespace
+
+std::string_view toString(DiscrepancyVerdict verdict) noexcept {
+  switch (verdict) {
+    case DiscrepancyVerdict::Named:
+      return "named";
+    case DiscrepancyVerdict::Ambiguous:
+      return "ambiguous";
+    case DiscrepancyVerdict::Unknown:
+      return "unknown";
+    case DiscrepancyVerdict::None:
+      return "none";
+  }
+  return "none";
+}
+
+void DiscrepancyOptions::validate() const {
+  if (max_effects < 0 || max_effects > 10) {
+    throw InputError(fmt::format("max_effects {} is not allowed; allowed: 0 to 10.", max_effects));
+  }
+  if (!(false_alarm_rate > 0.0) || false_alarm_rate > 0.2) {
+    throw InputError(
+        fmt::format("false_alarm_rate {} is not allowed; allowed: above 0, at most 0.2.", false_alarm_rate));
+  }
+}
+
+DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const DiscrepancyOptions& options, JobContext& job) {
+  options.validate();
+  const auto& rows = input.observations.rows;
+  SPINDRIFT_ASSERT(input.predicted.size() == rows.size(), "one prediction for every observation");
+  DiscrepancyResult result;
+  std::vector<std::size_t> fit_rows;
+  std::size_t usable = 0;
+  std::size_t beyond_log = 0;
+  double log_end = std::numeric_limits<double>::infinity();
+  if (input.log && input.log->time_s().size() > 1) {
+    const auto& t = input.log->time_s();
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+    log_end = t.back() + std::max(300.0, 2.0 * median(steps));
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].use == ObservationUse::Exclude) continue;
+    if (!(rows[i].sigma > 0.0)) {
+      throw InputError({input.observations.file, fmt::format("row {}", i + 1)},
+                       fmt::format("sigma {} is not allowed; allowed: greater than zero.", rows[i].sigma));
+    }
+    ++usable;
+    if (!std::isfinite(input.predicted[i])) {
+      ++result.unmatched;
+      continue;
+    }
+    if (rows[i].use != ObservationUse::Fit) continue;
+    if (rows[i].time_s > log_end) {
+      ++beyond_log;
+      continue;
+    }
+    fit_rows.push_back(i);
+  }
+  if (usable == 0)
+    throw InputError({input.observations.file, ""}, "holds no observation to be used; allowed: at least one.");
+  if (2 * (usable - result.unmatched) < usable) {
+    throw InputError(
+        {input.observations.file, ""},
+        fmt::format("only {} of {} observations have a prediction in the simulation; allowed: at least half.",
+                    usable - result.unmatched, usable));
+  }
+  if (result.unmatched > 0) {
+    result.warnings.push_back(fmt::format(
+        "{} of {} observations have no prediction in the simulation and are left out.", result.unmatched, usable));
+  }
+  if (beyond_log > 0) {
+    result.warnings.push_back(
+        fmt::format("{} observations are later than the end of the log and are not fitted.", beyond_log));
+  }
+  if (fit_rows.empty())
+    throw InputError({input.observations.file, ""}, "holds no row to be fitted; allowed: at least one with use fit.");
+  checkUnits(input, fit_rows);
+
+  job.report(0.0, "preparing");
+  auto drivers = std::make_shared<DriverTable>(input.machine, input.log ? &*input.log : nullptr);
+  warnAboutLog(input, *drivers, result.warnings);
+  ResidualProblem problem(input, fit_rows, unit_limit);
+  CatalogueContext context;
+  context.machine = &input.machine;
+  context.drivers = drivers.get();
+  {
+    std::set<std::string> points(problem.series_point.begin(), problem.series_point.end());
+    context.points.assign(points.begin(), points.end());
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(2.0);
+    Eigen::Vector3d high = -low;
+    double c_low = 1e300;
+    double c_high = -1e300;
+    for (const DeviationQuery& q : problem.place) {
+      low = low.cwiseMin(q.approach);
+      high = high.cwiseMax(q.approach);
+      c_low = std::min(c_low, q.c_deg);
+      c_high = std::max(c_high, q.c_deg);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      if (high[axis] > low[axis]) context.varying_approach.insert(axis_letters[axis]);
+    }
+    context.c_varies = c_high > c_low;
+    for (int s = 0; s < problem.seriesCount() && !context.position_varies; ++s) {
+      const auto from = static_cast<std::size_t>(problem.series_begin[static_cast<std::size_t>(s)]);
+      const auto to = static_cast<std::size_t>(problem.series_begin[static_cast<std::size_t>(s) + 1]);
+      for (std::size_t u = from + 1; u < to; ++u) {
+        if ((problem.place[u].position_mm - problem.place[from].position_mm).norm() > 0.05)
+          context.position_varies = true;
+      }
+    }
+  }
+  const std::vector<Effect> catalogue = effectCatalogue(context);
+  for (const auto* list : {&options.accept, &options.reject}) {
+    for (const std::string& id : *list) {
+      if (std::none_of(catalogue.begin(), catalogue.end(), [&](const Effect& e) { return e.id == id; })) {
+        std::vector<std::string> known;
+        for (const Effect& e : catalogue) known.push_back(e.id);
+        throw InputError(fmt::format("effect \"{}\" is not one that this machine can have; allowed: {}.", id,
+                                     joinedList(known, "or")));
+      }
+    }
+  }
+  EffectSearch search(problem, *drivers, catalogue);
+  const std::vector<NuisanceColumn> base = problem.simulationNuisances(input.simulation_gain_uncertainty);
+  problem.setNuisances(base);
+  problem.setNoise(estimateNoise(problem, problem.y, false));
+
+  const int epochs = problem.epoch_count;
+  const bool enough = problem.degreesOfFreedom() >= 12 && epochs >= 4;
+  DiscrepancyOptions effective = options;
+  if (!enough) effective.max_effects = 0;
+  const SearchLimits limits;
+  SearchOutcome outcome = searchEffects(search, problem, base, effective, limits, job);
+  if (enough && !outcome.fit.terms.empty()) {
+    // The noise again, now without the signal; if it looks different the search is run once more.
+    Eigen::VectorXd left = problem.y;
+    for (const Eigen::VectorXd& part : outcome.fit.contribution) left -= part;
+    const NoiseModel again = estimateNoise(problem, left, true);
+    const NoiseModel& used = problem.noise;
+    const bool much_left = outcome.explained_fraction < 0.9;
+    const double change = std::abs(again.correlated_part - used.correlated_part);
+    if (!much_left && (change > 0.25 || again.scale < 0.8 * used.scale)) {
+      problem.setNoise(again);
+      outcome = searchEffects(search, problem, base, effective, limits, job);
+    }
+  }
+  result.noise_scale = problem.noise.scale;
+  result.noise_correlated_part = problem.noise.correlated_part;
+  result.noise_correlation_time_s = problem.noise.correlation_time_s;
+  result.steps = outcome.steps;
+  result.explained_fraction = outcome.explained_fraction;
+
+  // Verdict.
+  const bool unexplained = outcome.leftover_p_value < 1e-3 && outcome.explained_fraction < limits.least_explained;
+  bool ambiguous = false;
+  bool too_many = false;
+  JointFit named = outcome.fit;
+  std::vector<TermEvidence> evidence = outcome.evidence;
+  std::vector<bool> forced = outcome.forced;
+  for (const TermEvidence& e : evidence) {
+    int rivals = 0;
+    for (const RivalFit& r : e.rivals) rivals += r.container ? 0 : 1;
+    ambiguous = ambiguous || rivals > 0;
+    too_many = too_many || rivals > 2;
+  }
+  result.leftover =
+      unexplained || outcome.fit.terms.empty() || outcome.explained_fraction < 0.98 ? outcome.leftover : "";
+  if (outcome.fit.terms.empty()) {
+    result.verdict = outcome.leftover_p_value < 1e-3 ? DiscrepancyVerdict::Unknown : DiscrepancyVerdict::None;
+    if (result.verdict == DiscrepancyVerdict::None) result.leftover.clear();
+  } else if (unexplained || too_many) {
+    result.verdict = DiscrepancyVerdict::Unknown;
+  } else {
+    result.verdict = ambiguous ? DiscrepancyVerdict::Ambiguous : DiscrepancyVerdict::Named;
+  }
+  if (result.verdict == DiscrepancyVerdict::Unknown) {
+    // A name beside something that nothing explains is worse than none, unless the user put it there.
+    if (result.leftover.empty()) {
+      result.leftover =
+          too_many ? "more effects fit equally well than could be named" : "a part that no effect explains";
+    }
+    JointFit kept;
+    std::vector<TermEvidence> kept_evidence;
+    std::vector<bool> kept_forced;
+    std::vector<ModelTerm> terms;
+    for (std::size_t t = 0; t < named.terms.size(); ++t) {
+      if (!forced[t]) continue;
+      terms.push_back(named.terms[t]);
+      kept_evidence.push_back(evidence[t]);
+      kept_forced.push_back(true);
+    }
+    problem.setNuisances(base);
+    named = terms.empty() ? kept : search.refine(terms, 1);
+    evidence = kept_evidence;
+    forced = kept_forced;
+  }
+
+  // Numbers of the model.
+  problem.setNuisances(base);
+  const double chi2_scale = std::max(1.0, outcome.chi2_after / std::max(1.0, static_cast<double>(outcome.dof_before)));
+  std::vector<ModelEffect> effects = modelEffects(search, problem, *drivers, named, "fit of the residual", chi2_scale);
+  result.model = std::make_shared<EffectModel>(drivers, effects, nullptr, input.base_table);
+
+  // Rows: simulated, completed, gap, held-out.
+  std::vector<double> sum(rows.size(), 0.0);
+  RowResult before = evaluateRows(input, fit_rows, sum);
+  result.gap.rms_before_um = before.fit_rms;
+  const bool has_holdout = before.holdout_rows > 0;
+  result.gap.heldout_rms_before_um = before.holdout_rms;
+  RowResult last = before;
+  for (std::size_t t = 0; t < effects.size(); ++t) {
+    // Each prefix with its own gains, as it was when the effect entered.
+    const JointFit prefix =
+        search.solve({named.terms.begin(), named.terms.begin() + static_cast<std::ptrdiff_t>(t) + 1});
+    std::vector<double> part(rows.size(), 0.0);
+    for (std::size_t k = 0; k <= t; ++k) {
+      ModelEffect e = effects[k];
+      e.gains = prefix.gains[k];
+      const std::vector<double> one = EffectModel::contribution(*drivers, e, rows);
+      for (std::size_t r = 0; r < rows.size(); ++r) part[r] += one[r];
+    }
+    const RowResult now = evaluateRows(input, fit_rows, part);
+    FoundEffect found;
+    const ModelEffect& e = effects[t];
+    found.id = e.effect.id;
+    found.physics = e.effect.physics;
+    found.drivers = driversText(e);
+    found.delta_bic = evidence[t].delta_bic;
+    found.delta_chi2 = evidence[t].delta_chi2;
+    found.forced = forced[t];
+    const auto& cv = evidence[t].crossvalidation;
+    found.crossvalidated_rms_before_um = cv.before_um;
+    found.crossvalidated_rms_after_um = cv.after_um;
+    found.heldout_rms_before_um = has_holdout ? last.holdout_rms : cv.before_um;
+    found.heldout_rms_after_um = has_holdout ? now.holdout_rms : cv.after_um;
+    const auto gain_names = e.gainNames(*drivers);
+    for (std::size_t g = 0; g < gain_names.size(); ++g) {
+      found.parameters.push_back(
+          {gain_names[g], e.gains[static_cast<Index>(g)], e.gain_uncertainty[static_cast<Index>(g)]});
+    }
+    const auto names = parameterNames(e.variant);
+    for (std::size_t p = 0; p < names.size(); ++p) {
+      found.parameters.push_back({names[p], e.parameters[p], e.parameter_uncertainty[p]});
+    }
+    for (const RivalFit& r : evidence[t].rivals) (r.container ? found.containers : found.rivals).push_back(r.id);
+    for (const Component c : all_components) {
+      double power = 0.0;
+      double count = 0.0;
+      for (Index u = 0; u < problem.size(); ++u) {
+        if (problem.component[static_cast<std::size_t>(u)] != c) continue;
+        power += named.contribution[t][u] * named.contribution[t][u];
+        count += 1.0;
+      }
+      if (count > 0.0 && !isRotation(c)) found.rms_um = std::max(found.rms_um, std::sqrt(power / count));
+    }
+    // Confidence: evidence against the best other effect, shared among rivals, less when something is left.
+    const double margin = std::min(evidence[t].margin, 1e6);
+    const double relative = margin / std::max(1.0, evidence[t].delta_chi2);
+    double confidence = 0.985 * (1.0 - std::exp(-std::max(0.0, relative) / 0.01));
+    double share = 1.0;
+    for (const RivalFit& r : evidence[t].rivals) {
+      if (!r.container) share += std::exp(-0.5 * std::max(0.0, named.score - r.score) / 6.0);
+    }
+    confidence = std::max(confidence, 0.5) / share;
+    if (outcome.explained_fraction < 0.95) confidence *= 0.6 + 0.4 * (outcome.explained_fraction - 0.8) / 0.15;
+    found.confidence = std::clamp(confidence, 0.02, 0.99);
+    result.effects.push_back(std::move(found));
+    last = now;
+    if (t + 1 == effects.size()) sum = part;
+  }
+  result.gap.rms_after_um = last.fit_rms;
+  result.gap.heldout_rms_after_um = last.holdout_rms;
+  if (!has_holdout && !result.effects.empty()) {
+    result.gap.heldout_rms_before_um = result.effects.front().heldout_rms_before_um;
+    result.gap.heldout_rms_after_um = result.effects.back().heldout_rms_after_um;
+  }
+  double noise = 0.0;
+  double noise_count = 0.0;
+  for (const std::size_t row : fit_rows) {
+    if (isRotation(rows[row].component)) continue;
+    noise += rows[row].sigma * rows[row].sigma;
+    noise_count += 1.0;
+  }
+  result.gap.noise_um = noise_count > 0.0 ? std::sqrt(noise / noise_count) * result.noise_scale : 0.0;
+  if (result.noise_scale < 0.88 || result.noise_scale > 1.12) {
+    result.warnings.push_back(
+        fmt::format("The scatter is {:.2f} times the stated sigma; it is used as found.", result.noise_scale));
+  }
+  result.constant = last.constant;
+  result.effect_part = sum;
+  result.simulated = input.predicted;
+  result.completed.resize(rows.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    result.completed[r] = input.predicted[r] + sum[r];
+  }
+  result.where = findPlaces(problem, *drivers, problem.projectedResidual().head(problem.size()));
+
+  if (options.suggest && enough) {
+    for (std::size_t t = 0; t < evidence.size() && !result.suggestion; ++t) {
+      for (const RivalFit& rival : evidence[t].rivals) {
+        if (rival.container) continue;
+        result.suggestion = suggestMeasurement(input, *drivers, problem, named, rival.joint,
+                                               named.terms[t].effect->id + " from " + rival.id, search.logN());
+        break;
+      }
+    }
+  }
+
+  result.status = enough ? FitStatus::Converged : FitStatus::Degenerate;
+  result.decided = enough;
+  if (!enough) {
+    result.message = fmt::format(
+        "{} observations in {} states leave too little beyond the free constant of each of {} series: which effect is "
+        "missing, its lag and whether it is one at all cannot be decided; measure at least 4 states and several "
+        "points.",
+        fit_rows.size(), epochs, problem.seriesCount());
+    if (outcome.leftover_p_value >= 1e-3) result.verdict = DiscrepancyVerdict::Unknown;
+    if (result.leftover.empty()) result.leftover = "too few observations to decide";
+  } else {
+    switch (result.verdict) {
+      case DiscrepancyVerdict::None:
+        result.message = "Measurement and simulation agree within the noise.";
+        break;
+      case DiscrepancyVerdict::Unknown:
+        result.message = "Something disagrees that no effect of the catalogue explains.";
+        break;
+      default: {
+        std::vector<std::string> names;
+        for (const FoundEffect& e : result.effects) names.push_back(e.id);
+        result.message = fmt::format("Missing in the simulation: {}{}.", joinedList(names),
+                                     result.verdict == DiscrepancyVerdict::Ambiguous
+                                         ? "; these data cannot tell at least one of them from its rivals"
+                                         : "");
+      }
+    }
+  }
+  job.report(1.0, "done");
+  return result;
+}
+
+}  // namespace spindrift

@@ -38,6 +38,7 @@ struct EffectInput {
 /// One way in which an effect may be driven. All variants of an effect have the same shape and the same name.
 struct EffectVariant {
   std::vector<EffectInput> inputs;
+  bool shared_lag = false;  ///< all inputs have the same time constant
 };
 
 /// Deviation per unit gain of one shape column: um per unit for EX..EZ, urad per unit for EA..EC.

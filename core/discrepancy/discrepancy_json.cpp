@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "core/base/json_reader.h"
+#include "core/base/text.h"
+#include "core/discrepancy/discrepancy.h"
+#include "core/discrepancy/effect_model.h"
+
+namespace spindrift {
+
+nlohmann::json DiscrepancyResult::json() const {
+  using nlohmann::json;
+  json list = json::array();
+  for (const FoundEffect& e : effects) {
+    json parameters = json::object();
+    json uncertainty = json::object();
+    for (const FittedParameter& p : e.parameters) {
+      parameters[p.name] = jsonNumber(p.value);
+      uncertainty[p.name] = jsonNumber(p.standard_uncertainty);
+    }
+    list.push_back({{"id", e.id},
+                    {"rivals", e.rivals},
+                    {"containers", e.containers},
+                    {"confidence", jsonNumber(e.confidence)},
+                    {"parameters", parameters},
+                    {"standard_uncertainty", uncertainty},
+                    {"drivers", e.drivers},
+                    {"rms_um", jsonNumber(e.rms_um)},
+                    {"delta_bic", jsonNumber(e.delta_bic)},
+                    {"heldout_rms_before_um", jsonNumber(e.heldout_rms_before_um)},
+                    {"heldout_rms_after_um", jsonNumber(e.heldout_rms_after_um)},
+                    {"crossvalidated_rms_before_um", jsonNumber(e.crossvalidated_rms_before_um)},
+                    {"crossvalidated_rms_after_um", jsonNumber(e.crossvalidated_rms_after_um)},
+                    {"forced", e.forced}});
+  }
+  json places = json::array();
+  for (const DisagreementPlace& p : where) {
+    places.push_back({{"component", std::string(toString(p.component))},
+                      {"points", p.points},
+                      {"from_s", jsonNumber(p.from_s)},
+                      {"to_s", jsonNumber(p.to_s)},
+                      {"excess_um", jsonNumber(p.excess_um)},
+                      {"p_value", jsonNumber(p.p_value)},
+                      {"condition", p.condition.empty() ? json() : json(p.condition)}});
+  }
+  json steps_list = json::array();
+  for (const DiscrepancyStep& s : steps) {
+    steps_list.push_back({{"id", s.id},
+                          {"accepted", s.accepted},
+                          {"delta_bic", jsonNumber(s.delta_bic)},
+                          {"delta_chi2", jsonNumber(s.delta_chi2)},
+                          {"reason", s.reason}});
+  }
+  json out;
+  out["verdict"] = std::string(toString(verdict));
+  out["decided"] = decided;
+  out["message"] = message;
+  out["effects"] = list;
+  out["where"] = places;
+  out["gap"] = {{"rms_before_um", jsonNumber(gap.rms_before_um)},
+                {"rms_after_um", jsonNumber(gap.rms_after_um)},
+                {"noise_um", jsonNumber(gap.noise_um)},
+                {"heldout_rms_before_um", jsonNumber(gap.heldout_rms_before_um)},
+                {"heldout_rms_after_um", jsonNumber(gap.heldout_rms_after_um)}};
+  out["suggestion"] = nullptr;
+  if (suggestion) {
+    out["suggestion"] = {{"points", suggestion->points},
+                         {"times_s", suggestion->times_s},
+                         {"conditions", suggestion->conditions},
+                         {"separates", suggestion->separates},
+                         {"expected_delta_bic", jsonNumber(suggestion->expected_delta_bic)}};
+  }
+  out["leftover"] = leftover.empty() ? json() : json(leftover);
+  out["model"] = model ? model->json() : json();
+  out["steps"] = steps_list;
+  out["warnings"] = warnings;
+  out["unmatched_observations"] = unmatched;
+  out["noise"] = {{"scale", jsonNumber(noise_scale)},
+                  {"correlated_part", jsonNumber(noise_correlated_part)},
+                  {"correlation_time_s", jsonNumber(noise_correlation_time_s)}};
+  out["explained_fraction"] = jsonNumber(explained_fraction);
+  return out;
+}
+
+std::string DiscrepancyResult::summary() const {
+  std::string text = fmt::format("{}: {}\n", toString(verdict), message);
+  for (const FoundEffect& e : effects) {
+    text += fmt::format("  {}  {}  confidence {:.2f}, gain in BIC {:.0f}, held-out rms {:.2f} -> {:.2f} um\n", e.id,
+                        e.drivers, e.confidence, e.delta_bic, e.heldout_rms_before_um, e.heldout_rms_after_um);
+    if (!e.rivals.empty()) text += fmt::format("    cannot be told from {}\n", joinedList(e.rivals, "or"));
+    for (const FittedParameter& p : e.parameters) {
+      text += fmt::format("    {} = {}\n", p.name, withUncertainty(p.value, p.standard_uncertainty, ""));
+    }
+  }
+  for (const DisagreementPlace& p : where) {
+    text += fmt::format("  where: {} {} from {:.0f} s to {:.0f} s{}: {:.2f} {} beyond the noise (p {:.1e})\n",
+                        toString(p.component), joinedList(p.points), p.from_s, p.to_s,
+                        p.condition.empty() ? "" : ", " + p.condition, p.excess_um, unitOf(p.component), p.p_value);
+  }
+  text += fmt::format("  gap: {:.2f} um before, {:.2f} um after, noise {:.2f} um\n", gap.rms_before_um,
+                      gap.rms_after_um, gap.noise_um);
+  if (!leftover.empty()) text += fmt::format("  left over: {}\n", leftover);
+  if (suggestion) {
+    text += fmt::format("  measure next, to tell {}: {} at {} times; {} (expected gain in BIC {:.0f})\n",
+                        suggestion->separates, joinedList(suggestion->points), suggestion->times_s.size(),
+                        suggestion->conditions, suggestion->expected_delta_bic);
+  }
+  for (const std::string& w : warnings) text += fmt::format("  note: {}\n", w);
+  return text;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/drivers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "core/base/error.h"
+
+namespace spindrift {
+namespace {
+
+std::string lowered(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return out;
+}
+
+bool holds(const std::string& text, std::initializer_list<const char*> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return text.find(word) != std::string::npos; });
+}
+
+SensorRole roleOf(const std::string& text) {
+  if (holds(text, {"screw", "nut"})) return SensorRole::Screw;
+  if (holds(text, {"beam", "gantry", "bridge"})) return SensorRole::Beam;
+  if (holds(text, {"scale", "encoder"})) return SensorRole::Scale;
+  if (holds(text, {"column", "stand"})) {
+    if (holds(text, {"front"})) return SensorRole::ColumnFront;
+    if (holds(text, {"rear", "back"})) return SensorRole::ColumnRear;
+    return SensorRole::Column;
+  }
+  if (holds(text, {"spindle", "bearing", "housing", "motor", "head"})) return SensorRole::Spindle;
+  if (holds(text, {"artefact", "artifact", "hole bar", "ball"})) return SensorRole::Artefact;
+  if (holds(text, {"table", "pallet", "rotary"})) return SensorRole::Table;
+  if (holds(text, {"room", "ambient", "air", "hall", "environment"})) return SensorRole::Room;
+  return SensorRole::Other;
+}
+
+}  // namespace
+
+SensorRole classifySensor(std::string_view name, std::string_view place) {
+  const SensorRole by_place = roleOf(lowered(place));
+  // "front bearing" says less than "T_screw_x": the name may know better than a bare bearing.
+  if (by_place == SensorRole::Spindle && roleOf(lowered(name)) == SensorRole::Screw) return SensorRole::Screw;
+  return by_place != SensorRole::Other ? by_place : roleOf(lowered(name));
+}
+
+void DriverTable::add(Driver driver) {
+  double low = 0.0;
+  double high = 0.0;
+  if (!driver.values.empty()) {
+    const auto [a, b] = std::minmax_element(driver.values.begin(), driver.values.end());
+    low = *a;
+    high = *b;
+  }
+  // A switch that is on all the time still heats from the start; a temperature that never moves is a dead sensor.
+  const bool moves = driver.linear ? high - low > 1e-6 : high != 0.0 || low != 0.0;
+  if (!moves || !std::isfinite(low) || !std::isfinite(high)) {
+    dead_.push_back(driver.name);
+    return;
+  }
+  drivers_.push_back(std::move(driver));
+}
+
+DriverTable::DriverTable(const MachineDescription& machine, const OperatingLog* log) {
+  if (log == nullptr || log->empty()) return;
+  time_s_ = log->time_s();
+  const std::size_t n = time_s_.size();
+  const auto scaled = [&](const std::vector<double>& v, double factor, double power) {
+    std::vector<double> out(n);
+    for (std::size_t i = 0; i < n; ++i) out[i] = std::isfinite(v[i]) ? std::pow(std::abs(v[i]) * factor, power) : 0.0;
+    return out;
+  };
+  const std::vector<double>* rpm = log->signal("spindle_rpm");
+  if (rpm != nullptr) {
+    add({"spindle_rpm^1", "krpm", false, SensorRole::Other, scaled(*rpm, 1e-3, 1.0)});
+    add({"spindle_rpm^1.5", "krpm1.5", false, SensorRole::Other, scaled(*rpm, 1e-3, 1.5)});
+    add({"spindle_rpm^2", "krpm2", false, SensorRole::Other, scaled(*rpm, 1e-3, 2.0)});
+  }
+  for (const char* axis : {"x", "y", "z"}) {
+    if (const auto* feed = log->signal(fmt::format("feed_{}_mm_min", axis))) {
+      add({fmt::format("feed_{}", axis), "m_per_min", false, SensorRole::Other, scaled(*feed, 1e-3, 1.0)});
+    }
+  }
+  if (const auto* speed = log->signal("speed_c_rpm")) {
+    add({"speed_c", "rpm", false, SensorRole::Other, scaled(*speed, 1.0, 1.0)});
+  }
+  for (const char* name : {"coolant", "instrument_on"}) {
+    if (const auto* on = log->signal(name)) add({name, "on", false, SensorRole::Other, scaled(*on, 1.0, 1.0)});
+  }
+  std::vector<double> front(n, 0.0);
+  std::vector<double> rear(n, 0.0);
+  int fronts = 0;
+  int rears = 0;
+  for (const std::string& name : log->temperatureNames()) {
+    const std::vector<double>& values = *log->signal(name);
+    std::string place;
+    for (const TemperatureSensor& sensor : machine.temperature_sensors) {
+      if (sensor.name == name) place = sensor.place;
+    }
+    // The start is the mean of the first rows, so that the noise of one reading does not count as a step.
+    const std::size_t first = std::min<std::size_t>(n, 3);
+    double start = 0.0;
+    for (std::size_t i = 0; i < first; ++i) start += values[i] / static_cast<double>(first);
+    std::vector<double> deviation(n);
+    for (std::size_t i = 0; i < n; ++i) deviation[i] = values[i] - start;
+    const SensorRole role = classifySensor(name, place);
+    const std::size_t before = drivers_.size();
+    add({name, "K", true, role, deviation});
+    if (drivers_.size() == before) continue;
+    if (role == SensorRole::ColumnFront || role == SensorRole::ColumnRear) {
+      auto& sum = role == SensorRole::ColumnFront ? front : rear;
+      for (std::size_t i = 0; i < n; ++i) sum[i] += deviation[i];
+      ++(role == SensorRole::ColumnFront ? fronts : rears);
+    }
+  }
+  if (fronts > 0 && rears > 0) {
+    std::vector<double> difference(n);
+    for (std::size_t i = 0; i < n; ++i) difference[i] = front[i] / fronts - rear[i] / rears;
+    add({"column_difference", "K", true, SensorRole::Other, difference});
+  }
+  if (rpm != nullptr) {
+    for (const char* axis : {"x", "y", "z"}) {
+      const auto* position = log->signal(fmt::format("pos_{}_mm", axis));
+      if (position == nullptr) continue;
+      const auto [low, high] = std::minmax_element(position->begin(), position->end());
+      if (!(*high - *low > 1e-6)) continue;
+      for (const double power : {1.0, 1.5, 2.0}) {
+        std::vector<double> product = scaled(*rpm, 1e-3, power);
+        for (std::size_t i = 0; i < n; ++i) product[i] *= (*position)[i] * 1e-3;
+        const std::string unit = power == 1.0 ? "krpm_m" : fmt::format("krpm{}_m", power);
+        add({fmt::format("spindle_rpm^{}*pos_{}", power, axis), unit, false, SensorRole::Other, std::move(product)});
+      }
+    }
+  }
+}
+
+const Driver* DriverTable::find(std::string_view name) const {
+  const auto found = std::find_if(drivers_.begin(), drivers_.end(), [&](const Driver& d) { return d.name == name; });
+  return found == drivers_.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> DriverTable::temperatures(std::initializer_list<SensorRole> roles) const {
+  std::vector<std::string> names;
+  for (const Driver& d : drivers_) {
+    if (d.unit == "K" && d.name != "column_difference" &&
+        std::find(roles.begin(), roles.end(), d.role) != roles.end()) {
+      names.push_back(d.name);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> DriverTable::temperatures() const {
+  std::vector<std::string> names;
+  for (const Driver& d : drivers_) {
+    if (d.unit == "K" && d.name != "column_difference") names.push_back(d.name);
+  }
+  return names;
+}
+
+std::vector<std::string> DriverTable::spindleHeat() const {
+  std::vector<std::string> names;
+  for (const char* name : {"spindle_rpm^1", "spindle_rpm^1.5", "spindle_rpm^2"}) {
+    if (has(name)) names.emplace_back(name);
+  }
+  for (const std::string& name : temperatures({SensorRole::Spindle})) names.push_back(name);
+  return names;
+}
+
+Eigen::VectorXd DriverTable::response(const Driver& driver, double tau_on_s, double tau_off_s,
+                                      std::span<const double> times_s) const {
+  const std::size_t n = time_s_.size();
+  SPINDRIFT_ASSERT(n > 0 && driver.values.size() == n, "a driver without its log");
+  if (tau_off_s < 0.0) tau_off_s = tau_on_s;
+  // Advances the state by dt under the input u0 (at the start) with the given slope.
+  const auto advance = [&](double q, double u0, double slope, double dt) {
+    const double tau = u0 > 0.0 ? tau_on_s : tau_off_s;
+    if (tau <= 0.0) return u0 + slope * dt;
+    const double decay = std::exp(-dt / tau);
+    return u0 + slope * (dt - tau) + (q - u0 + slope * tau) * decay;
+  };
+  const bool lagged = tau_on_s > 0.0 || tau_off_s > 0.0;
+  Eigen::VectorXd out(static_cast<Eigen::Index>(times_s.size()));
+  std::size_t k = 0;
+  double q = lagged ? 0.0 : driver.values[0];
+  double last_dt = -1.0;
+  double decay = 0.0;
+  const bool symmetric = tau_on_s == tau_off_s;
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    const double t = times_s[i];
+    while (k + 1 < n && time_s_[k + 1] <= t) {
+      const double dt = time_s_[k + 1] - time_s_[k];
+      const double u = driver.values[k];
+      if (!lagged) {
+        q = driver.values[k + 1];
+      } else if (dt > 0.0) {
+        const double slope = driver.linear ? (driver.values[k + 1] - u) / dt : 0.0;
+        if (symmetric) {
+          if (dt != last_dt) {
+            decay = std::exp(-dt / tau_on_s);
+            last_dt = dt;
+          }
+          q = u + slope * (dt - tau_on_s) + (q - u + slope * tau_on_s) * decay;
+        } else {
+          q = advance(q, u, slope, dt);
+        }
+      }
+      ++k;
+    }
+    const double dt = std::max(0.0, t - time_s_[k]);
+    double slope = 0.0;
+    if (driver.linear && k + 1 < n && time_s_[k + 1] > time_s_[k]) {
+      slope = (driver.values[k + 1] - driver.values[k]) / (time_s_[k + 1] - time_s_[k]);
+    }
+    if (t < time_s_[0]) {
+      out[static_cast<Eigen::Index>(i)] = lagged ? 0.0 : driver.values[0];
+    } else {
+      out[static_cast<Eigen::Index>(i)] =
+          lagged ? advance(q, driver.values[k], slope, dt) : driver.values[k] + slope * dt;
+    }
+  }
+  return out;
+}
+
+int parameterCount(const EffectVariant& variant) {
+  int count = 0;
+  bool counted_shared = false;
+  for (const EffectInput& input : variant.inputs) {
+    switch (input.dynamics) {
+      case Dynamics::None:
+        break;
+      case Dynamics::Lag:
+        if (!variant.shared_lag || !counted_shared) ++count;
+        counted_shared = true;
+        break;
+      case Dynamics::AsymmetricLag:
+        count += 2;
+        break;
+      case Dynamics::Step:
+        count += 1;
+        break;
+      case Dynamics::Pulse:
+        count += 3;
+        break;
+    }
+  }
+  return count;
+}
+
+std::vector<std::string> parameterNames(const EffectVariant& variant) {
+  std::vector<std::string> names;
+  int lag = 0;
+  const auto lagName = [&] { return ++lag == 1 ? std::string("tau_s") : fmt::format("tau_{}_s", lag); };
+  for (const EffectInput& input : variant.inputs) {
+    switch (input.dynamics) {
+      case Dynamics::None:
+        break;
+      case Dynamics::Lag:
+        if (!variant.shared_lag || lag == 0) names.push_back(lagName());
+        break;
+      case Dynamics::AsymmetricLag:
+        names.emplace_back("tau_on_s");
+        names.emplace_back("tau_off_s");
+        break;
+      case Dynamics::Step:
+        names.emplace_back("onset_s");
+        break;
+      case Dynamics::Pulse:
+        names.emplace_back("onset_s");
+        names.emplace_back("length_s");
+        names.push_back(lagName());
+        break;
+    }
+  }
+  return names;
+}
+
+Eigen::MatrixXd inputResponses(const DriverTable& table, const EffectVariant& variant,
+                               std::span<const double> parameters, std::span<const double> times_s) {
+  const auto rows = static_cast<Eigen::Index>(times_s.size());
+  Eigen::MatrixXd out(rows, static_cast<Eigen::Index>(variant.inputs.size()));
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < variant.inputs.size(); ++i) {
+    const EffectInput& input = variant.inputs[i];
+    auto column = out.col(static_cast<Eigen::Index>(i));
+    const Driver* driver = input.driver.empty() ? nullptr : table.find(input.driver);
+    if (!input.driver.empty() && driver == nullptr) {
+      throw InputError(fmt::format("the operating log has no signal for \"{}\", which the model needs.", input.driver));
+    }
+    switch (input.dynamics) {
+      case Dynamics::None:
+        if (driver == nullptr) {
+          column.setOnes();
+        } else {
+          column = table.response(*driver, 0.0, -1.0, times_s);
+        }
+        break;
+      case Dynamics::Lag: {
+        const std::size_t at = variant.shared_lag ? 0 : next;
+        column = table.response(*driver, parameters[at], -1.0, times_s);
+        if (!variant.shared_lag) ++next;
+        break;
+      }
+      case Dynamics::AsymmetricLag:
+        column = table.response(*driver, parameters[next], parameters[next + 1], times_s);
+        next += 2;
+        break;
+      case Dynamics::Step:
+        for (Eigen::Index r = 0; r < rows; ++r) {
+          column[r] = times_s[static_cast<std::size_t>(r)] >= parameters[next] ? 1.0 : 0.0;
+        }
+        ++next;
+        break;
+      case Dynamics::Pulse: {
+        const double onset = parameters[next];
+        const double end = onset + parameters[next + 1];
+        const double tau = parameters[next + 2];
+        const auto rise = [tau](double t) { return t <= 0.0 ? 0.0 : tau > 0.0 ? 1.0 - std::exp(-t / tau) : 1.0; };
+        for (Eigen::Index r = 0; r < rows; ++r) {
+          const double t = times_s[static_cast<std::size_t>(r)];
+          column[r] = rise(t - onset) - rise(t - end);
+        }
+        next += 3;
+        break;
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace spindrift

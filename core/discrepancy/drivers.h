@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can excite an effect: signals derived from the operating log, and their response through a lag.
+//
+//   tau q' + q = u(t), q(0) = 0, solved exactly: u holds between rows (speeds, feeds, switches) or is linear
+//   (temperatures, as deviation from the start of the log). Times s; speeds krpm^p, feeds m/min, temperatures K,
+//   switches 0 or 1.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/machine/effect.h"
+#include "core/machine/machine_description.h"
+#include "core/machine/operating_log.h"
+
+namespace spindrift {
+
+/// Where a temperature sensor sits, from its place and name.
+enum class SensorRole { Spindle, ColumnFront, ColumnRear, Column, Table, Room, Scale, Screw, Beam, Artefact, Other };
+[[nodiscard]] SensorRole classifySensor(std::string_view name, std::string_view place);
+
+struct Driver {
+  std::string name;
+  std::string unit;                     ///< for the gain's name: "krpm", "K", "m_per_min", "on"
+  bool linear = false;                  ///< linear between rows; else it holds
+  SensorRole role = SensorRole::Other;  ///< temperatures
+  std::vector<double> values;           ///< at the rows of the log
+};
+
+/// Signals by name: "spindle_rpm^1", "^1.5", "^2" (krpm^p), "feed_x" (m/min), "speed_c", "coolant", "instrument_on",
+/// every temperature under its own name, "column_difference" (front minus rear), and heat times position
+/// "spindle_rpm^1*pos_y". Signals that never change are left out and named in `dead`.
+class DriverTable {
+ public:
+  DriverTable() = default;
+  DriverTable(const MachineDescription& machine, const OperatingLog* log);
+
+  [[nodiscard]] const Driver* find(std::string_view name) const;
+  [[nodiscard]] bool has(std::string_view name) const { return find(name) != nullptr; }
+  [[nodiscard]] const std::vector<Driver>& all() const noexcept { return drivers_; }
+  [[nodiscard]] std::vector<std::string> temperatures(std::initializer_list<SensorRole> roles) const;
+  [[nodiscard]] std::vector<std::string> temperatures() const;
+  /// Spindle heat: powers of the speed and spindle temperatures.
+  [[nodiscard]] std::vector<std::string> spindleHeat() const;
+  [[nodiscard]] const std::vector<std::string>& dead() const noexcept { return dead_; }
+  [[nodiscard]] const std::vector<double>& time_s() const noexcept { return time_s_; }
+  [[nodiscard]] bool empty() const noexcept { return time_s_.empty(); }
+
+  /// The driver after a lag at increasing `times_s`. `tau_on_s` = 0: no lag. `tau_off_s` < 0: the same as on.
+  [[nodiscard]] Eigen::VectorXd response(const Driver& driver, double tau_on_s, double tau_off_s,
+                                         std::span<const double> times_s) const;
+
+ private:
+  void add(Driver driver);
+  std::vector<double> time_s_;
+  std::vector<Driver> drivers_;
+  std::vector<std::string> dead_;
+};
+
+/// Number of non-linear parameters of a variant.
+[[nodiscard]] int parameterCount(const EffectVariant& variant);
+/// Their names with units: "tau_s", "tau_2_s", "onset_s", ...
+[[nodiscard]] std::vector<std::string> parameterNames(const EffectVariant& variant);
+/// q_i(t) of every input, one column each. `parameters` as long as parameterCount.
+[[nodiscard]] Eigen::MatrixXd inputResponses(const DriverTable& table, const EffectVariant& variant,
+                                             std::span<const double> parameters, std::span<const double> times_s);
+
+}  // namespace spindrift

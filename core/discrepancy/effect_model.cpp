@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/effect_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/json_reader.h"
+#include "core/base/text.h"
+
+namespace spindrift {
+namespace {
+
+/// A base that is a table: exact at its own times and points, nothing elsewhere.
+class TableModel : public ErrorModel {
+ public:
+  explicit TableModel(SimulationTable table) : table_(std::move(table)) {}
+  [[nodiscard]] std::string description() const override { return "a table of predictions"; }
+  [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override {
+    return {table_.at(query.time_s, query.point, component), 0.0};
+  }
+
+ private:
+  SimulationTable table_;
+};
+
+Effect effectById(const std::vector<Effect>& catalogue, const std::string& id, const JsonNode& node) {
+  for (const Effect& effect : catalogue) {
+    if (effect.id == id) return effect;
+  }
+  node.reject("the id of an effect of the catalogue that this machine can have");
+}
+
+}  // namespace
+
+std::vector<std::string> ModelEffect::gainNames(const DriverTable& drivers) const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < variant.inputs.size(); ++i) {
+    const Driver* driver = variant.inputs[i].driver.empty() ? nullptr : drivers.find(variant.inputs[i].driver);
+    for (const ShapeColumn& column : effect.shape) {
+      std::string name = "gain_" + column.gain_unit;
+      if (driver != nullptr && driver->unit != "on") name += "_per_" + driver->unit;
+      int twin = 1;
+      std::string unique = name;
+      while (std::find(names.begin(), names.end(), unique) != names.end()) unique = fmt::format("{}_{}", name, ++twin);
+      names.push_back(unique);
+    }
+  }
+  return names;
+}
+
+EffectModel::EffectModel(std::shared_ptr<const DriverTable> drivers, std::vector<ModelEffect> effects,
+                         std::shared_ptr<const ErrorModel> base, std::string table)
+    : drivers_(std::move(drivers)), effects_(std::move(effects)), base_(std::move(base)), table_(std::move(table)) {}
+
+std::string EffectModel::description() const {
+  if (effects_.empty()) return base_ ? base_->description() : "no effects";
+  std::vector<std::string> names;
+  for (const ModelEffect& e : effects_) names.push_back(e.effect.id);
+  const std::string sum = "sum of the effects " + joinedList(names);
+  return base_ ? sum + " on top of " + base_->description() : sum;
+}
+
+PredictedComponent EffectModel::predict(const DeviationQuery& query, Component component) const {
+  PredictedComponent out;
+  if (base_) out = base_->predict(query, component);
+  const double time[1] = {query.time_s};
+  double variance = out.sigma * out.sigma;
+  for (const ModelEffect& e : effects_) {
+    const auto k = static_cast<Eigen::Index>(e.effect.shape.size());
+    const auto inputs = static_cast<Eigen::Index>(e.variant.inputs.size());
+    Eigen::VectorXd shape(k);
+    for (Eigen::Index c = 0; c < k; ++c) shape[c] = e.effect.shape[static_cast<std::size_t>(c)].value(query, component);
+    if (shape.isZero(0.0)) continue;
+    const auto rowAt = [&](std::span<const double> parameters) {
+      const Eigen::MatrixXd q = inputResponses(*drivers_, e.variant, parameters, time);
+      Eigen::VectorXd row(inputs * k);
+      for (Eigen::Index i = 0; i < inputs; ++i) row.segment(i * k, k) = shape * q(0, i);
+      return row;
+    };
+    const Eigen::VectorXd row = rowAt(e.parameters);
+    out.value += row.dot(e.gains);
+    Eigen::VectorXd gradient(row.size() + static_cast<Eigen::Index>(e.parameters.size()));
+    gradient.head(row.size()) = row;
+    for (std::size_t p = 0; p < e.parameters.size(); ++p) {
+      std::vector<double> moved = e.parameters;
+      const double step = std::max(1e-3 * std::abs(moved[p]), 1e-3);
+      moved[p] += step;
+      gradient[row.size() + static_cast<Eigen::Index>(p)] = (rowAt(moved) - row).dot(e.gains) / step;
+    }
+    if (e.covariance.rows() == gradient.size()) variance += std::max(0.0, gradient.dot(e.covariance * gradient));
+  }
+  out.sigma = std::sqrt(variance);
+  return out;
+}
+
+std::vector<double> EffectModel::contribution(const DriverTable& drivers, const ModelEffect& effect,
+                                              std::span<const Observation> rows) {
+  std::vector<double> times;
+  times.reserve(rows.size());
+  for (const Observation& o : rows) times.push_back(o.time_s);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  const Eigen::MatrixXd q = inputResponses(drivers, effect.variant, effect.parameters, times);
+  const auto k = static_cast<Eigen::Index>(effect.effect.shape.size());
+  std::vector<double> out(rows.size(), 0.0);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto at = std::lower_bound(times.begin(), times.end(), rows[r].time_s) - times.begin();
+    const DeviationQuery query = DeviationQuery::of(rows[r]);
+    for (Eigen::Index c = 0; c < k; ++c) {
+      const double shape = effect.effect.shape[static_cast<std::size_t>(c)].value(query, rows[r].component);
+      if (shape == 0.0) continue;
+      for (Eigen::Index i = 0; i < q.cols(); ++i) out[r] += shape * q(at, i) * effect.gains[i * k + c];
+    }
+  }
+  return out;
+}
+
+std::vector<double> EffectModel::effectPart(std::span<const Observation> rows) const {
+  std::vector<double> sum(rows.size(), 0.0);
+  for (const ModelEffect& e : effects_) {
+    const std::vector<double> part = contribution(*drivers_, e, rows);
+    for (std::size_t r = 0; r < rows.size(); ++r) sum[r] += part[r];
+  }
+  return sum;
+}
+
+nlohmann::json EffectModel::json() const {
+  nlohmann::json effects = nlohmann::json::array();
+  for (const ModelEffect& e : effects_) {
+    nlohmann::json parameters = nlohmann::json::object();
+    nlohmann::json uncertainty = nlohmann::json::object();
+    const auto gains = e.gainNames(*drivers_);
+    for (std::size_t g = 0; g < gains.size(); ++g) {
+      parameters[gains[g]] = jsonNumber(e.gains[static_cast<Eigen::Index>(g)]);
+      uncertainty[gains[g]] = jsonNumber(e.gain_uncertainty[static_cast<Eigen::Index>(g)]);
+    }
+    const auto names = parameterNames(e.variant);
+    for (std::size_t p = 0; p < names.size(); ++p) {
+      parameters[names[p]] = jsonNumber(e.parameters[p]);
+      uncertainty[names[p]] = jsonNumber(e.parameter_uncertainty[p]);
+    }
+    nlohmann::json inputs = nlohmann::json::array();
+    for (const EffectInput& input : e.variant.inputs) {
+      inputs.push_back({{"driver", input.driver}, {"dynamics", std::string(toString(input.dynamics))}});
+    }
+    effects.push_back({{"id", e.effect.id},
+                       {"parameters", parameters},
+                       {"standard_uncertainty", uncertainty},
+                       {"inputs", inputs},
+                       {"shared_lag", e.variant.shared_lag},
+                       {"source", e.source}});
+  }
+  nlohmann::json out{{"format", "spindrift-error-model"}, {"version", 1}, {"effects", effects}};
+  if (!table_.empty()) out["table"] = table_;
+  return out;
+}
+
+std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path& file,
+                                                     const MachineDescription& machine, const OperatingLog* log,
+                                                     const std::vector<std::string>& points) {
+  const JsonNode root = JsonNode::read(file);
+  root.requireFormat("spindrift-error-model", 1);
+  auto drivers = std::make_shared<DriverTable>(machine, log);
+  CatalogueContext context;
+  context.machine = &machine;
+  context.drivers = drivers.get();
+  context.points = points;
+  context.varying_approach = {"x", "y", "z"};
+  context.c_varies = true;
+  context.position_varies = true;
+  const std::vector<Effect> catalogue = effectCatalogue(context);
+  std::vector<ModelEffect> effects;
+  for (const JsonNode& node : root.at("effects").items()) {
+    ModelEffect e;
+    e.effect = effectById(catalogue, node.at("id").name(), node.at("id"));
+    const JsonNode parameters = node.at("parameters");
+    if (const auto inputs = node.find("inputs")) {
+      for (const JsonNode& input : inputs->items()) {
+        EffectInput parsed;
+        parsed.driver = input.stringOr("driver", "");
+        const std::string dynamics = input.at("dynamics").oneOf({"none", "lag", "asymmetric_lag", "step", "pulse"});
+        for (const Dynamics d :
+             {Dynamics::None, Dynamics::Lag, Dynamics::AsymmetricLag, Dynamics::Step, Dynamics::Pulse}) {
+          if (toString(d) == dynamics) parsed.dynamics = d;
+        }
+        if (!parsed.driver.empty() && !drivers->has(parsed.driver)) {
+          input.at("driver").reject("a driver that log.csv holds");
+        }
+        if (parsed.driver.empty() && (parsed.dynamics == Dynamics::Lag || parsed.dynamics == Dynamics::AsymmetricLag)) {
+          input.reject("a lag together with its driver");
+        }
+        e.variant.inputs.push_back(parsed);
+      }
+      if (e.variant.inputs.empty()) inputs->reject("at least one input");
+      e.variant.shared_lag = node.booleanOr("shared_lag", false);
+    } else {
+      // Written by hand: the first variant whose parameters are all there.
+      bool found = false;
+      for (const EffectVariant& variant : e.effect.variants) {
+        e.variant = variant;
+        found = true;
+        for (const std::string& name : parameterNames(variant)) found = found && parameters.has(name);
+        for (const std::string& name : e.gainNames(*drivers)) found = found && parameters.has(name);
+        if (found) break;
+      }
+      if (!found) {
+        parameters.reject(
+            "the gains and time constants of one way in which this effect is driven by the signals in "
+            "log.csv");
+      }
+    }
+    const auto gains = e.gainNames(*drivers);
+    e.gains.resize(static_cast<Eigen::Index>(gains.size()));
+    e.gain_uncertainty = Eigen::VectorXd::Zero(e.gains.size());
+    const auto uncertainty = node.find("standard_uncertainty");
+    const auto uncertaintyOf = [&](const std::string& name) {
+      return uncertainty && uncertainty->has(name) ? uncertainty->at(name).nonNegativeNumber() : 0.0;
+    };
+    for (std::size_t g = 0; g < gains.size(); ++g) {
+      e.gains[static_cast<Eigen::Index>(g)] = parameters.at(gains[g]).number();
+      e.gain_uncertainty[static_cast<Eigen::Index>(g)] = uncertaintyOf(gains[g]);
+    }
+    for (const std::string& name : parameterNames(e.variant)) {
+      e.parameters.push_back(parameters.at(name).number());
+      e.parameter_uncertainty.push_back(uncertaintyOf(name));
+    }
+    Eigen::VectorXd sd(e.gains.size() + static_cast<Eigen::Index>(e.parameters.size()));
+    sd.head(e.gains.size()) = e.gain_uncertainty;
+    for (std::size_t p = 0; p < e.parameters.size(); ++p) {
+      sd[e.gains.size() + static_cast<Eigen::Index>(p)] = e.parameter_uncertainty[p];
+    }
+    e.covariance = sd.array().square().matrix().asDiagonal();
+    e.source = node.stringOr("source", "");
+    effects.push_back(std::move(e));
+  }
+  std::shared_ptr<const ErrorModel> base;
+  const std::string table = root.stringOr("table", "");
+  if (!table.empty()) base = std::make_shared<TableModel>(SimulationTable::read(file.parent_path() / table));
+  return std::make_shared<EffectModel>(drivers, std::move(effects), base, table);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// An error model as a sum of effects of the catalogue: predict, save, load (model.json of FORMATS.md).
+//
+//   deviation = base(query) + sum over effects of gain * q(t) * shape(place)       um / urad
+//
+// The model keeps the drivers of the log it was made for; it predicts at any time of that log. Without a base it holds
+// the effects alone.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/discrepancy/drivers.h"
+#include "core/discrepancy/effect_search.h"
+#include "core/machine/error_model.h"
+
+namespace spindrift {
+
+/// One effect of a model with all its numbers.
+struct ModelEffect {
+  Effect effect;
+  EffectVariant variant;
+  std::vector<double> parameters;  ///< non-linear, see parameterNames(variant)
+  std::vector<double> parameter_uncertainty;
+  Eigen::VectorXd gains;  ///< input-major
+  Eigen::VectorXd gain_uncertainty;
+  Eigen::MatrixXd covariance;  ///< of gains, then non-linear parameters
+  std::string source;          ///< "fit of campaign X"
+
+  /// Names of the gains with units: "gain_um_per_krpm".
+  [[nodiscard]] std::vector<std::string> gainNames(const DriverTable& drivers) const;
+};
+
+class EffectModel : public ErrorModel {
+ public:
+  EffectModel(std::shared_ptr<const DriverTable> drivers, std::vector<ModelEffect> effects,
+              std::shared_ptr<const ErrorModel> base = nullptr, std::string table = {});
+
+  [[nodiscard]] std::string description() const override;
+  [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override;
+  [[nodiscard]] const std::vector<ModelEffect>& effects() const noexcept { return effects_; }
+  [[nodiscard]] const DriverTable& drivers() const noexcept { return *drivers_; }
+  /// Sum of the effects (without the base) for many rows at once, um or urad.
+  [[nodiscard]] std::vector<double> effectPart(std::span<const Observation> rows) const;
+  [[nodiscard]] static std::vector<double> contribution(const DriverTable& drivers, const ModelEffect& effect,
+                                                        std::span<const Observation> rows);
+  /// model.json.
+  [[nodiscard]] nlohmann::json json() const;
+  /// Reads model.json for a machine and its log; `table` is read beside it when it is given. Throws InputError: unknown
+  /// effect, a driver that the log does not have, a missing parameter.
+  [[nodiscard]] static std::shared_ptr<const EffectModel> read(const std::filesystem::path& file,
+                                                               const MachineDescription& machine,
+                                                               const OperatingLog* log,
+                                                               const std::vector<std::string>& points);
+
+ private:
+  std::shared_ptr<const DriverTable> drivers_;
+  std::vector<ModelEffect> effects_;
+  std::shared_ptr<const ErrorModel> base_;
+  std::string table_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,618 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/effect_search.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace spindrift {
+namespace {
+
+using Eigen::Index;
+
+/// Gain in chi-squared of the columns `index` from their Gram matrix and products with the residual, by Cholesky;
+/// columns that depend on those before them are left out. `first_gains` gets the gains.
+struct GramGain {
+  double delta = 0.0;
+  int rank = 0;
+  std::array<double, 8> gain{};
+};
+
+GramGain gramGain(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b, const Index* index, int count,
+                  const Eigen::VectorXd& whole) {
+  GramGain out;
+  std::array<std::array<double, 8>, 8> l{};
+  std::array<double, 8> z{};
+  std::array<int, 8> kept{};
+  for (int i = 0; i < count; ++i) {
+    const Index a = index[i];
+    std::array<double, 8> row{};
+    double pivot = gram(a, a);
+    for (int j = 0; j < out.rank; ++j) {
+      double value = gram(a, index[kept[static_cast<std::size_t>(j)]]);
+      for (int k = 0; k < j; ++k)
+        value -= row[static_cast<std::size_t>(k)] * l[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)];
+      value /= l[static_cast<std::size_t>(j)][static_cast<std::size_t>(j)];
+      row[static_cast<std::size_t>(j)] = value;
+      pivot -= value * value;
+    }
+    // Directions that the nuisances or the other columns have already, up to a part in a thousand of the power.
+    if (!(pivot > 1e-5 * whole[a]) || !(pivot > 1e-18)) continue;
+    const auto r = static_cast<std::size_t>(out.rank);
+    l[r] = row;
+    l[r][r] = std::sqrt(pivot);
+    double value = b[a];
+    for (std::size_t k = 0; k < r; ++k) value -= l[r][k] * z[k];
+    z[r] = value / l[r][r];
+    out.delta += z[r] * z[r];
+    kept[r] = i;
+    ++out.rank;
+  }
+  for (int r = out.rank - 1; r >= 0; --r) {
+    double value = z[static_cast<std::size_t>(r)];
+    for (int k = r + 1; k < out.rank; ++k) {
+      value -= l[static_cast<std::size_t>(k)][static_cast<std::size_t>(r)] *
+               out.gain[static_cast<std::size_t>(kept[static_cast<std::size_t>(k)])];
+    }
+    out.gain[static_cast<std::size_t>(kept[static_cast<std::size_t>(r)])] =
+        value / l[static_cast<std::size_t>(r)][static_cast<std::size_t>(r)];
+  }
+  return out;
+}
+
+}  // namespace
+
+EffectSearch::EffectSearch(ResidualProblem& problem, const DriverTable& drivers, const std::vector<Effect>& catalogue)
+    : problem_(&problem), drivers_(&drivers), catalogue_(&catalogue) {
+  log_n_ = std::log(std::max(8.0, static_cast<double>(problem.size())));
+  for (int i = 0; i < 12; ++i) lags_.push_back(120.0 * std::pow(180.0, i / 11.0));  // 2 min ... 6 h
+  // Onsets halfway between epochs, thinned to 48.
+  std::vector<double> times = problem.epoch_time_s;
+  std::sort(times.begin(), times.end());
+  const std::size_t step = std::max<std::size_t>(1, times.size() / 48);
+  for (std::size_t i = 0; i + 1 < times.size(); i += step) onsets_.push_back(0.5 * (times[i] + times[i + 1]));
+}
+
+const Effect* EffectSearch::find(std::string_view id) const {
+  const auto found = std::find_if(catalogue_->begin(), catalogue_->end(), [&](const Effect& e) { return e.id == id; });
+  return found == catalogue_->end() ? nullptr : &*found;
+}
+
+const Eigen::VectorXd& EffectSearch::unitResponse(const std::string& driver, double tau_on, double tau_off) const {
+  const auto key = std::make_tuple(driver, tau_on, tau_off);
+  const auto found = responses_.find(key);
+  if (found != responses_.end()) return found->second;
+  const Driver* source = drivers_->find(driver);
+  SPINDRIFT_ASSERT(source != nullptr, "an effect with a driver that the table does not have");
+  return responses_.emplace(key, problem_->toUnits(drivers_->response(*source, tau_on, tau_off, problem_->node_time_s)))
+      .first->second;
+}
+
+const Eigen::MatrixXd& EffectSearch::shape(const Effect& effect) const {
+  const auto found = shapes_.find(effect.id);
+  if (found != shapes_.end()) return found->second;
+  const Index n = problem_->size();
+  Eigen::MatrixXd s(n, static_cast<Index>(effect.shape.size()));
+  for (Index u = 0; u < n; ++u) {
+    for (std::size_t k = 0; k < effect.shape.size(); ++k) {
+      s(u, static_cast<Index>(k)) = effect.shape[k].value(problem_->place[static_cast<std::size_t>(u)],
+                                                          problem_->component[static_cast<std::size_t>(u)]);
+    }
+  }
+  return shapes_.emplace(effect.id, std::move(s)).first->second;
+}
+
+Eigen::MatrixXd EffectSearch::columns(const ModelTerm& term) const {
+  const Eigen::MatrixXd& s = shape(*term.effect);
+  const auto k = s.cols();
+  Eigen::MatrixXd out(s.rows(), k * static_cast<Index>(term.variant.inputs.size()));
+  const Eigen::MatrixXd q = inputResponses(*drivers_, term.variant, term.parameters, problem_->node_time_s);
+  for (Index i = 0; i < q.cols(); ++i) {
+    const Eigen::VectorXd on_units = problem_->toUnits(q.col(i));
+    out.middleCols(i * k, k) = on_units.asDiagonal() * s;
+  }
+  return out;
+}
+
+CandidateFit EffectSearch::bestOfVariant(const Effect& effect, const EffectVariant& variant) const {
+  CandidateFit best;
+  best.term = {&effect, variant, {}};
+  const Eigen::MatrixXd& s = shape(effect);
+  const Index k = s.cols();
+  const Eigen::VectorXd& y = problem_->projectedResidual();
+  const int nonlinear = parameterCount(variant);
+
+  // The options of every input: (parameters, column of q).
+  std::vector<std::vector<std::vector<double>>> options(variant.inputs.size());
+  std::vector<Eigen::VectorXd> responses;
+  const Dynamics dynamics = variant.inputs[0].dynamics;
+  std::vector<double> pulse_lags{0.0, 600.0, 1800.0, 5400.0};
+  for (std::size_t i = 0; i < variant.inputs.size(); ++i) {
+    const EffectInput& input = variant.inputs[i];
+    const auto add = [&](std::vector<double> parameters, Eigen::VectorXd q) {
+      options[i].push_back(std::move(parameters));
+      responses.push_back(std::move(q));
+    };
+    switch (input.dynamics) {
+      case Dynamics::None:
+        add({}, input.driver.empty() ? Eigen::VectorXd(Eigen::VectorXd::Ones(problem_->size()))
+                                     : unitResponse(input.driver, 0.0, -1.0));
+        break;
+      case Dynamics::Lag: {
+        // Temperatures may also act at once.
+        if (drivers_->find(input.driver)->linear && !variant.shared_lag)
+          add({0.0}, unitResponse(input.driver, 0.0, -1.0));
+        for (const double tau : lags_) add({tau}, unitResponse(input.driver, tau, -1.0));
+        break;
+      }
+      case Dynamics::AsymmetricLag:
+        for (std::size_t a = 0; a < lags_.size(); a += 2) {
+          for (std::size_t b = 0; b < lags_.size(); b += 2) {
+            if (a != b) add({lags_[a], lags_[b]}, unitResponse(input.driver, lags_[a], lags_[b]));
+          }
+        }
+        break;
+      case Dynamics::Step:
+      case Dynamics::Pulse:
+        for (const double tau : input.dynamics == Dynamics::Step ? std::vector<double>{0.0} : pulse_lags) {
+          for (const double onset : onsets_) {
+            Eigen::VectorXd q(static_cast<Index>(problem_->node_time_s.size()));
+            for (Index r = 0; r < q.size(); ++r) {
+              const double t = problem_->node_time_s[static_cast<std::size_t>(r)] - onset;
+              q[r] = t <= 0.0 ? 0.0 : tau > 0.0 ? 1.0 - std::exp(-t / tau) : 1.0;
+            }
+            add({onset, 0.0, tau}, problem_->toUnits(q));
+          }
+        }
+        break;
+    }
+  }
+  const auto count = static_cast<Index>(responses.size());
+  if (count == 0) return best;
+  // A slip touches one point only: work on its rows alone.
+  Eigen::MatrixXd raw(problem_->size(), count * k);
+  for (Index c = 0; c < count; ++c) {
+    raw.middleCols(c * k, k).noalias() = responses[static_cast<std::size_t>(c)].asDiagonal() * s;
+  }
+  Eigen::VectorXd whole = problem_->whitened(raw).colwise().squaredNorm();
+  const Eigen::MatrixXd x = problem_->projected(raw);
+  const Eigen::VectorXd b = x.transpose() * y;
+  const double log_n = log_n_;
+  const auto consider = [&](const GramGain& gain, std::vector<double> parameters) {
+    const int parameters_used = gain.rank + nonlinear;
+    const double score = gain.delta - parameters_used * log_n;
+    best.tried += 1.0;
+    if (gain.rank == 0 || !std::isfinite(gain.delta)) return;
+    if (best.parameter_count == 0 || score > best.score) {
+      best.score = score;
+      best.delta_chi2 = gain.delta;
+      best.parameter_count = parameters_used;
+      best.term.parameters = std::move(parameters);
+    }
+  };
+  // Sign and origin of a combination; false if it is not admissible.
+  const auto admissible = [&](const GramGain& gain, int inputs) {
+    if (effect.sign != 0) {
+      for (int i = 0; i < inputs; ++i) {
+        if (gain.gain[static_cast<std::size_t>(i * k)] * effect.sign < 0.0) return false;
+      }
+    }
+    if (effect.free_origin && k == 2) {
+      for (int i = 0; i < inputs; ++i) {
+        const double slope = gain.gain[static_cast<std::size_t>(2 * i)];
+        const double constant = gain.gain[static_cast<std::size_t>(2 * i + 1)];
+        const double origin = slope != 0.0 ? -1000.0 * constant / slope : effect.origin_low_mm - 1.0;
+        if (origin < effect.origin_low_mm || origin > effect.origin_high_mm) return false;
+      }
+    }
+    return true;
+  };
+  std::array<Index, 8> index{};
+  if (dynamics == Dynamics::Pulse) {
+    const auto onsets = static_cast<Index>(onsets_.size());
+    for (std::size_t lag = 0; lag < pulse_lags.size(); ++lag) {
+      const Index at = static_cast<Index>(lag) * onsets;
+      const Eigen::MatrixXd gram = x.middleCols(at, onsets).transpose() * x.middleCols(at, onsets);
+      for (Index i = 0; i < onsets; ++i) {
+        for (Index j = i + 1; j <= onsets; ++j) {
+          double g = gram(i, i);
+          double r = b[at + i];
+          double length = 0.0;
+          if (j < onsets) {
+            g += gram(j, j) - 2.0 * gram(i, j);
+            r -= b[at + j];
+            length = onsets_[static_cast<std::size_t>(j)] - onsets_[static_cast<std::size_t>(i)];
+          } else {
+            length = 10.0 * (problem_->node_time_s.back() - problem_->node_time_s.front() + 1.0);
+          }
+          if (!(g > 1e-5 * whole[at + i])) continue;
+          GramGain gain;
+          gain.rank = 1;
+          gain.delta = r * r / g;
+          consider(gain, {onsets_[static_cast<std::size_t>(i)], length, pulse_lags[lag]});
+        }
+      }
+    }
+  } else if (variant.inputs.size() == 1 || variant.shared_lag) {
+    const auto inputs = static_cast<int>(variant.inputs.size());
+    const auto lags = static_cast<Index>(options[0].size());
+    if (inputs * k > 8) return best;
+    for (Index o = 0; o < lags; ++o) {
+      Eigen::MatrixXd part(x.rows(), inputs * k);
+      Eigen::VectorXd product(inputs * k);
+      Eigen::VectorXd power(inputs * k);
+      for (int i = 0; i < inputs; ++i) {
+        const Index at = (i * lags + o) * k;
+        part.middleCols(i * k, k) = x.middleCols(at, k);
+        product.segment(i * k, k) = b.segment(at, k);
+        power.segment(i * k, k) = whole.segment(at, k);
+      }
+      std::iota(index.begin(), index.end(), 0);
+      const Eigen::MatrixXd gram = part.transpose() * part;
+      const GramGain gain = gramGain(gram, product, index.data(), static_cast<int>(inputs * k), power);
+      if (!admissible(gain, inputs)) continue;
+      const auto& p = options[0][static_cast<std::size_t>(o)];
+      consider(gain, dynamics == Dynamics::Step ? std::vector<double>{p[0]} : p);
+    }
+  } else if (variant.inputs.size() == 2) {
+    if (2 * k > 8) return best;
+    const Eigen::MatrixXd gram = x.transpose() * x;
+    const auto first = static_cast<Index>(options[0].size());
+    for (Index i = 0; i < first; ++i) {
+      for (Index j = first; j < count; ++j) {
+        for (Index c = 0; c < k; ++c) {
+          index[static_cast<std::size_t>(c)] = i * k + c;
+          index[static_cast<std::size_t>(k + c)] = j * k + c;
+        }
+        const GramGain gain = gramGain(gram, b, index.data(), static_cast<int>(2 * k), whole);
+        if (!admissible(gain, 2)) continue;
+        std::vector<double> p = options[0][static_cast<std::size_t>(i)];
+        const auto& second = options[1][static_cast<std::size_t>(j - first)];
+        p.insert(p.end(), second.begin(), second.end());
+        consider(gain, std::move(p));
+      }
+    }
+  }
+  return best;
+}
+
+CandidateFit EffectSearch::best(const Effect& effect) const {
+  CandidateFit best;
+  best.term.effect = &effect;
+  double tried = 0.0;
+  for (const EffectVariant& variant : effect.variants) {
+    CandidateFit fit = bestOfVariant(effect, variant);
+    tried += fit.tried;
+    if (fit.parameter_count > 0 && (best.parameter_count == 0 || fit.score > best.score)) best = std::move(fit);
+  }
+  best.tried = std::max(1.0, tried);
+  return best;
+}
+
+std::vector<CandidateFit> EffectSearch::sweep(const std::vector<std::string>& without, const JobContext& job) const {
+  std::vector<CandidateFit> out;
+  for (const Effect& effect : *catalogue_) {
+    if (effect.variants.empty() || std::find(without.begin(), without.end(), effect.id) != without.end()) continue;
+    job.throwIfCancelled();
+    CandidateFit fit = best(effect);
+    if (fit.parameter_count > 0) out.push_back(std::move(fit));
+  }
+  std::sort(out.begin(), out.end(), [](const CandidateFit& a, const CandidateFit& b) { return a.score > b.score; });
+  return out;
+}
+
+JointFit EffectSearch::solve(const std::vector<ModelTerm>& terms) const {
+  JointFit fit;
+  fit.terms = terms;
+  const Eigen::VectorXd& y = problem_->projectedResidual();
+  std::vector<Eigen::MatrixXd> parts;
+  Index total = 0;
+  for (const ModelTerm& term : terms) {
+    parts.push_back(columns(term));
+    total += parts.back().cols();
+  }
+  Eigen::MatrixXd raw(problem_->size(), total);
+  Index at = 0;
+  for (const Eigen::MatrixXd& part : parts) {
+    raw.middleCols(at, part.cols()) = part;
+    at += part.cols();
+  }
+  const double before = y.squaredNorm();
+  Eigen::VectorXd beta = Eigen::VectorXd::Zero(total);
+  int rank = 0;
+  if (total > 0) {
+    Eigen::MatrixXd x = problem_->projected(raw);
+    const Eigen::VectorXd whole = problem_->whitened(raw).colwise().norm();
+    Eigen::VectorXd scale(total);
+    for (Index c = 0; c < total; ++c) {
+      const double norm = x.col(c).norm();
+      scale[c] = norm > 3e-3 * whole[c] && norm > 0.0 ? 1.0 / norm : 0.0;
+    }
+    x = x * scale.asDiagonal();
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
+    qr.setThreshold(3e-4);
+    const Eigen::VectorXd scaled = qr.solve(y);
+    beta = scale.cwiseProduct(scaled);
+    rank = static_cast<int>(qr.rank());
+    fit.chi2 = (y - x * scaled).squaredNorm();
+  } else {
+    fit.chi2 = before;
+  }
+  fit.delta_chi2 = before - fit.chi2;
+  fit.parameter_count = rank;
+  at = 0;
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    fit.gains.emplace_back(beta.segment(at, parts[t].cols()));
+    fit.contribution.emplace_back(parts[t] * fit.gains.back());
+    fit.parameter_count += parameterCount(terms[t].variant);
+    at += parts[t].cols();
+  }
+  fit.score = fit.delta_chi2 - fit.parameter_count * log_n_;
+  return fit;
+}
+
+bool EffectSearch::parameterIsLag(const ModelTerm& term, std::size_t index) const {
+  return parameterNames(term.variant)[index].starts_with("tau");
+}
+
+std::pair<double, double> EffectSearch::parameterBounds(const ModelTerm& term, std::size_t index) const {
+  const std::string name = parameterNames(term.variant)[index];
+  const double start = problem_->node_time_s.front();
+  const double end = problem_->node_time_s.back();
+  if (name.starts_with("onset")) return {start, end};
+  if (name.starts_with("length")) return {1.0, 11.0 * (end - start + 1.0)};
+  return {60.0, 36000.0};
+}
+
+JointFit EffectSearch::refine(const std::vector<ModelTerm>& terms, int rounds) const {
+  // Projected columns of each term are kept; only those of the term that moves are made anew.
+  const Eigen::VectorXd& y = problem_->projectedResidual();
+  std::vector<ModelTerm> current = terms;
+  std::vector<Eigen::MatrixXd> x;
+  for (const ModelTerm& term : current) x.push_back(problem_->projected(columns(term)));
+  const auto chi2With = [&](std::size_t changed, const Eigen::MatrixXd& replacement) {
+    Index total = 0;
+    for (std::size_t t = 0; t < x.size(); ++t) total += t == changed ? replacement.cols() : x[t].cols();
+    Eigen::MatrixXd all(y.size(), total);
+    Index at = 0;
+    for (std::size_t t = 0; t < x.size(); ++t) {
+      const Eigen::MatrixXd& part = t == changed ? replacement : x[t];
+      all.middleCols(at, part.cols()) = part;
+      at += part.cols();
+    }
+    Eigen::MatrixXd gram = all.transpose() * all;
+    const Eigen::VectorXd b = all.transpose() * y;
+    gram.diagonal() *= 1.0 + 1e-8;
+    gram.diagonal().array() += 1e-12;
+    const Eigen::LDLT<Eigen::MatrixXd> ldlt(gram);
+    return y.squaredNorm() - b.dot(ldlt.solve(b));
+  };
+  double best = x.empty() ? 0.0 : chi2With(0, x[0]);
+  for (int round = 0; round < rounds; ++round) {
+    const double before = best;
+    for (std::size_t t = 0; t < current.size(); ++t) {
+      for (std::size_t p = 0; p < current[t].parameters.size(); ++p) {
+        const bool lag = parameterIsLag(current[t], p);
+        const auto [low, high] = parameterBounds(current[t], p);
+        double step = lag ? 0.35 : 0.5 * (onsets_.size() > 1 ? onsets_[1] - onsets_[0] : 600.0);
+        if (round > 0) step *= 0.4;
+        for (int halving = 0; halving < 4; ++halving, step *= 0.4) {
+          for (const double direction : {1.0, -1.0}) {
+            bool moved = true;
+            for (int guard = 0; moved && guard < 6; ++guard) {
+              moved = false;
+              ModelTerm trial = current[t];
+              double& value = trial.parameters[p];
+              if (lag && value <= 0.0) {
+                if (direction < 0.0) break;
+                value = 60.0;
+              } else {
+                value = lag ? value * std::exp(direction * step) : value + direction * step;
+              }
+              if (value < low || value > high) break;
+              const Eigen::MatrixXd replacement = problem_->projected(columns(trial));
+              const double chi2 = chi2With(t, replacement);
+              if (chi2 < best - 1e-6) {
+                best = chi2;
+                current[t] = std::move(trial);
+                x[t] = replacement;
+                moved = true;
+              }
+            }
+          }
+        }
+      }
+    }
+    if (before - best < 0.05) break;
+  }
+  return solve(current);
+}
+
+std::vector<NuisanceColumn> EffectSearch::termNuisances(const ModelTerm& term, const Eigen::VectorXd& gains,
+                                                        double model_error) const {
+  std::vector<NuisanceColumn> out;
+  const Eigen::MatrixXd x = columns(term);
+  for (Index c = 0; c < x.cols(); ++c) out.push_back({x.col(c), 0.0});
+  const Eigen::VectorXd fitted = x * gains;
+  for (std::size_t p = 0; p < term.parameters.size(); ++p) {
+    ModelTerm moved = term;
+    const bool lag = parameterIsLag(term, p);
+    if (lag && moved.parameters[p] <= 0.0) {
+      moved.parameters[p] = 120.0;
+    } else {
+      moved.parameters[p] = lag ? moved.parameters[p] * 1.15 : moved.parameters[p] + 60.0;
+    }
+    const Eigen::VectorXd difference = columns(moved) * gains - fitted;
+    if (difference.norm() > 1e-9 * fitted.norm()) out.push_back({difference, 0.0});
+  }
+  const bool timeless = term.variant.inputs[0].driver.empty() && term.variant.inputs[0].dynamics != Dynamics::Pulse;
+  if (!(model_error > 0.0) || timeless) return out;
+
+  // Pattern in space of the input that moves most, per unit of q.
+  const Index k = shape(*term.effect).cols();
+  Index input = 0;
+  double largest = -1.0;
+  for (Index i = 0; i < static_cast<Index>(term.variant.inputs.size()); ++i) {
+    const double size = (x.middleCols(i * k, k) * gains.segment(i * k, k)).norm();
+    if (size > largest) {
+      largest = size;
+      input = i;
+    }
+  }
+  const Eigen::VectorXd pattern = shape(*term.effect) * gains.segment(input * k, k);
+  const double pattern_size = pattern.norm();
+  if (!(pattern_size > 0.0)) return out;
+  // Size of q: rms about the mean of the series.
+  Eigen::VectorXd centred = fitted;
+  for (int s = 0; s < problem_->seriesCount(); ++s) {
+    const Index from = problem_->series_begin[static_cast<std::size_t>(s)];
+    const Index count = problem_->series_begin[static_cast<std::size_t>(s) + 1] - from;
+    centred.segment(from, count).array() -= fitted.segment(from, count).mean();
+  }
+  const double q_size = centred.norm() / pattern_size;
+  const double start = problem_->node_time_s.front();
+  const double span = std::max(1.0, problem_->node_time_s.back() - start);
+  const int hats = std::clamp(problem_->epoch_count / 2, 3, 16);
+  for (int h = 0; h < hats; ++h) {
+    Eigen::VectorXd column(problem_->size());
+    for (Index u = 0; u < column.size(); ++u) {
+      const double position = (problem_->time_s[static_cast<std::size_t>(u)] - start) / span * (hats - 1);
+      column[u] = pattern[u] * q_size * std::max(0.0, 1.0 - std::abs(position - h));
+    }
+    out.push_back({column, model_error});
+  }
+  // The same course in time with another spread over the volume.
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d half = Eigen::Vector3d::Constant(1.0);
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
+  Eigen::Vector3d high = -low;
+  for (const DeviationQuery& q : problem_->place) {
+    low = low.cwiseMin(q.position_mm);
+    high = high.cwiseMax(q.position_mm);
+  }
+  centre = 0.5 * (low + high);
+  half = (0.5 * (high - low)).cwiseMax(1.0);
+  for (const Component c : all_components) {
+    double power = 0.0;
+    double q_power = 0.0;
+    Index rows = 0;
+    for (Index u = 0; u < problem_->size(); ++u) {
+      if (problem_->component[static_cast<std::size_t>(u)] != c) continue;
+      power += centred[u] * centred[u];
+      q_power += pattern[u] * pattern[u];
+      ++rows;
+    }
+    if (!(power > 0.0)) continue;
+    const double pattern_rms = std::sqrt(q_power / static_cast<double>(rows));
+    for (int kind = 0; kind < 4; ++kind) {
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(problem_->size());
+      for (Index u = 0; u < problem_->size(); ++u) {
+        if (problem_->component[static_cast<std::size_t>(u)] != c) continue;
+        const double q = std::abs(pattern[u]) > 1e-9 * pattern_rms ? fitted[u] / pattern[u] : 0.0;
+        const double weight =
+            kind == 3 ? 1.0
+                      : (problem_->place[static_cast<std::size_t>(u)].position_mm[kind] - centre[kind]) / half[kind];
+        column[u] = q * pattern_rms * weight;
+      }
+      out.push_back({column, model_error});
+    }
+  }
+  return out;
+}
+
+EffectSearch::CrossValidation EffectSearch::crossValidate(const std::vector<ModelTerm>& before,
+                                                          const std::vector<ModelTerm>& after,
+                                                          const std::vector<NuisanceColumn>& base) const {
+  CrossValidation out;
+  const Index n = problem_->size();
+  const int folds = std::min(5, problem_->epoch_count);
+  double count = 0.0;
+  for (const bool with : {false, true}) {
+    const auto& terms = with ? after : before;
+    std::vector<Eigen::MatrixXd> parts;
+    Index total = 0;
+    for (const ModelTerm& term : terms) {
+      parts.push_back(columns(term));
+      total += parts.back().cols();
+    }
+    const auto priors = static_cast<Index>(base.size());
+    Eigen::MatrixXd x(n, total + priors);
+    Index at = 0;
+    for (const Eigen::MatrixXd& part : parts) {
+      x.middleCols(at, part.cols()) = part;
+      at += part.cols();
+    }
+    for (const NuisanceColumn& column : base) x.col(at++) = column.values;
+    double sum = 0.0;
+    double chi2 = 0.0;
+    count = 0.0;
+    for (int fold = 0; fold < folds; ++fold) {
+      const auto left_out = [&](Index u) {
+        return problem_->epoch[static_cast<std::size_t>(u)] * folds / std::max(1, problem_->epoch_count) == fold;
+      };
+      // Constants come from what is left of the series.
+      Eigen::MatrixXd a = x;
+      Eigen::VectorXd r = problem_->y;
+      Eigen::VectorXd weight(n);
+      for (int s = 0; s < problem_->seriesCount(); ++s) {
+        const Index from = problem_->series_begin[static_cast<std::size_t>(s)];
+        const Index to = problem_->series_begin[static_cast<std::size_t>(s) + 1];
+        double sum_w = 0.0;
+        double mean_y = 0.0;
+        Eigen::RowVectorXd mean_x = Eigen::RowVectorXd::Zero(x.cols());
+        for (Index u = from; u < to; ++u) {
+          if (left_out(u)) continue;
+          const double w = 1.0 / (problem_->sigma[u] * problem_->sigma[u]);
+          sum_w += w;
+          mean_y += w * r[u];
+          mean_x += w * x.row(u);
+        }
+        for (Index u = from; u < to; ++u) {
+          weight[u] = sum_w > 0.0 ? 1.0 / (problem_->sigma[u] * problem_->noise.scale) : 0.0;
+          if (!(sum_w > 0.0)) continue;
+          r[u] -= mean_y / sum_w;
+          a.row(u) -= mean_x / sum_w;
+        }
+      }
+      Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(x.cols(), x.cols());
+      Eigen::VectorXd b = Eigen::VectorXd::Zero(x.cols());
+      Eigen::MatrixXd train(n, x.cols());
+      Eigen::VectorXd target(n);
+      Index rows = 0;
+      for (Index u = 0; u < n; ++u) {
+        if (left_out(u)) continue;
+        train.row(rows) = a.row(u) * weight[u];
+        target[rows++] = r[u] * weight[u];
+      }
+      gram.noalias() = train.topRows(rows).transpose() * train.topRows(rows);
+      b.noalias() = train.topRows(rows).transpose() * target.head(rows);
+      for (Index c = 0; c < x.cols(); ++c) {
+        if (c >= total) {
+          const double prior = base[static_cast<std::size_t>(c - total)].prior_sigma;
+          if (prior > 0.0) gram(c, c) += 1.0 / (prior * prior);
+        }
+        gram(c, c) = gram(c, c) * (1.0 + 1e-6) + 1e-12;
+      }
+      Eigen::VectorXd beta = Eigen::VectorXd::Zero(x.cols());
+      if (x.cols() > 0) beta = gram.ldlt().solve(b);
+      for (Index u = 0; u < n; ++u) {
+        if (!left_out(u) || weight[u] == 0.0) continue;
+        const double error = r[u] - a.row(u).dot(beta);
+        chi2 += error * error * weight[u] * weight[u];
+        if (!isRotation(problem_->component[static_cast<std::size_t>(u)])) {
+          sum += error * error;
+          count += 1.0;
+        }
+      }
+    }
+    const double rms = count > 0.0 ? std::sqrt(sum / count) : 0.0;
+    (with ? out.after_um : out.before_um) = rms;
+    (with ? out.after_chi2 : out.before_chi2) = chi2;
+  }
+  return out;
+}
+
+}  // namespace spindrift

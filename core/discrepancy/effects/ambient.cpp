@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/catalogue.h"
+
+namespace spindrift {
+
+// The whole machine follows the room and shifts the tool against the table, the same everywhere.
+void addAmbientEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+  const auto room = context.drivers->temperatures({SensorRole::Room});
+  for (int axis = 0; axis < 3; ++axis) {
+    Effect effect;
+    effect.id = std::string("ambient.drift.") + axis_letters[axis];
+    effect.physics =
+        "The structure follows the temperature of the room and shifts the tool, the same at every position.";
+    effect.shape = {constantShape(static_cast<Component>(axis))};
+    addLagVariants(effect, room);
+    effect.driver_missing = room.empty();
+    out.push_back(std::move(effect));
+  }
+}
+
+}  // namespace spindrift

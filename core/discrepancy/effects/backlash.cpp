@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/catalogue.h"
+
+namespace spindrift {
+
+// Play between nut and screw: the axis stops short by the side from which it was approached.
+void addBacklashEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!context.varying_approach.contains(axis_letters[axis])) continue;
+    const auto component = static_cast<Component>(axis);
+    Effect effect;
+    effect.id = std::string("backlash.") + axis_letters[axis];
+    effect.physics = "Play between nut and screw: the axis stops on the side from which it came.";
+    effect.shape = {{"um", [component, axis](const DeviationQuery& q, Component c) {
+                       return c == component ? q.approach[axis] : 0.0;
+                     }}};
+    effect.variants.push_back({{{"", Dynamics::None}}, false});
+    out.push_back(std::move(effect));
+  }
+}
+
+}  // namespace spindrift

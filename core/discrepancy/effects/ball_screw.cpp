@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/catalogue.h"
+
+namespace spindrift {
+
+// Friction in nut and bearings heats the screw in proportion to the mean absolute feed, and the screw follows the room.
+// It grows away from the fixed bearing p0. Where the nut travels the screw is warmer, so the growth is not quite
+// linear.
+void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+  const DriverTable& drivers = *context.drivers;
+  const auto room = drivers.temperatures({SensorRole::Room});
+  const auto screw = drivers.temperatures({SensorRole::Screw});
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string letter = axis_letters[axis];
+    const LinearAxis* linear = nullptr;
+    for (const LinearAxis& a : context.machine->axes) {
+      if (!a.name.empty() && a.name[0] == static_cast<char>('X' + axis)) linear = &a;
+    }
+    if (linear == nullptr || linear->drive_type == "linear_motor" || linear->scale == "linear_scale") continue;
+    const bool known = linear->fixed_bearing_mm.has_value();
+    const double origin = linear->fixed_bearing_mm.value_or(0.0);
+    const std::string feed = "feed_" + letter;
+    for (const bool uniform : {true, false}) {
+      Effect effect;
+      effect.id = (uniform ? "ball_screw.expansion." : "ball_screw.nonuniform.") + letter;
+      effect.physics =
+          uniform
+              ? "Feed motion and the room heat the ball screw; it grows away from its fixed bearing and takes the nut "
+                "with it."
+              : "The ball screw is warmer where the nut travels, so its growth rises faster than in proportion to the "
+                "distance from the fixed bearing.";
+      const auto component = static_cast<Component>(axis);
+      effect.shape = {{uniform ? "um_per_m" : "um_per_m2",
+                       [component, axis, origin, uniform](const DeviationQuery& q, Component c) {
+                         if (c != component) return 0.0;
+                         const double p = (q.position_mm[axis] - origin) * 1e-3;
+                         return uniform ? p : p * p;
+                       }}};
+      if (!known) {
+        effect.shape.push_back(constantShape(component));
+        if (uniform) {
+          effect.free_origin = true;
+          effect.origin_low_mm = linear->travel_mm[0] - 500.0;
+          effect.origin_high_mm = linear->travel_mm[1] + 500.0;
+        } else {
+          effect.shape.push_back({"um_per_m", [component, axis](const DeviationQuery& q, Component c) {
+                                    return c == component ? q.position_mm[axis] * 1e-3 : 0.0;
+                                  }});
+        }
+      }
+      if (drivers.has(feed)) {
+        effect.variants.push_back({{{feed, Dynamics::Lag}}, false});
+        for (const std::string& r : room)
+          effect.variants.push_back({{{feed, Dynamics::Lag}, {r, Dynamics::Lag}}, false});
+      }
+      addLagVariants(effect, room);
+      addLagVariants(effect, screw);
+      effect.driver_missing = !drivers.has(feed);
+      effect.refinement = !uniform;
+      if (!uniform) effect.contains = {"ball_screw.expansion." + letter};
+      out.push_back(std::move(effect));
+    }
+  }
+}
+
+}  // namespace spindrift

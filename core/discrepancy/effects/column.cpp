@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/catalogue.h"
+
+namespace spindrift {
+
+// A column that is warmer at the front than at the rear bends backwards like a beam clamped at its base z0: the head on
+// it turns in proportion to the height and moves with the square of it. A column that warms as a whole grows.
+void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+  if (!context.machine->column_base_mm) return;
+  const DriverTable& drivers = *context.drivers;
+  const double base = *context.machine->column_base_mm;
+  const auto room = drivers.temperatures({SensorRole::Room});
+  const auto column = drivers.temperatures({SensorRole::ColumnFront, SensorRole::ColumnRear, SensorRole::Column});
+  std::vector<std::string> bending_drivers;
+  if (drivers.has("column_difference")) bending_drivers.emplace_back("column_difference");
+  std::vector<std::string> growth_drivers = column;
+  if (bending_drivers.empty()) bending_drivers = column;
+  for (const std::string& name : drivers.spindleHeat()) {
+    bending_drivers.push_back(name);
+    growth_drivers.push_back(name);
+  }
+  for (const std::string& name : room) {
+    bending_drivers.push_back(name);
+    growth_drivers.push_back(name);
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    Effect bending;
+    bending.id = axis == 0 ? "column.bending.a" : "column.bending.b";
+    bending.physics =
+        "A temperature difference across the column bends it about its base: the deviation grows with the square of "
+        "the "
+        "height above the base, the rotation in proportion to it.";
+    const Component side = axis == 0 ? Component::EY : Component::EX;
+    const Component turn = axis == 0 ? Component::EA : Component::EB;
+    const double sign = axis == 0 ? -1.0 : 1.0;
+    // um for 1 K: gain in um/m^2.
+    bending.shape = {{"um_per_m2", [side, turn, sign, base](const DeviationQuery& q, Component c) {
+                        const double h = (q.position_mm.z() - base) * 1e-3;
+                        if (c == side) return sign * 0.5 * h * h;
+                        return c == turn ? h : 0.0;
+                      }}};
+    addLagVariants(bending, bending_drivers);
+    bending.driver_missing = !drivers.has("column_difference");
+    out.push_back(bending);
+  }
+  Effect growth;
+  growth.id = "column.expansion.z";
+  growth.physics =
+      "The column warms as a whole and grows from its base: the head rises, more so the higher it stands on the "
+      "column.";
+  growth.shape = {
+      {"um_per_m", [base](const DeviationQuery& q,
+                          Component c) { return c == Component::EZ ? (q.position_mm.z() - base) * 1e-3 : 0.0; }},
+      constantShape(Component::EZ)};
+  addLagVariants(growth, growth_drivers);
+  growth.contains = {"spindle.growth.z", "ambient.drift.z", "scale.expansion.z", "spindle.centrifugal.z"};
+  growth.driver_missing = column.empty();
+  out.push_back(growth);
+}
+
+}  // namespace spindrift

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/catalogue.h"
+
+namespace spindrift {
+
+// Coolant cools or warms the structure while it runs; the response may be quicker while it flows than after it stopped.
+void addCoolantEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+  const bool logged = context.drivers->has("coolant");
+  for (int axis = 0; axis < 3; ++axis) {
+    Effect effect;
+    effect.id = std::string("coolant.shock.") + axis_letters[axis];
+    effect.physics =
+        "Coolant changes the temperature of table and structure while it flows; the tool shifts and comes back when it "
+        "stops, not always at the same pace.";
+    effect.shape = {constantShape(static_cast<Component>(axis))};
+    if (logged) {
+      addLagVariants(effect, {"coolant"});
+      effect.variants.push_back({{{"coolant", Dynamics::AsymmetricLag}}, false});
+    }
+    effect.driver_missing = !logged;
+    out.push_back(std::move(effect));
+  }
+}
+
+}  // namespace spindrift

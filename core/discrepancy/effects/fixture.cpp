@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/catalogue.h"
+
+namespace spindrift {
+
+// A clamped part or target slips once and stays where it went: one point, one time.
+void addFixtureEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+  if (context.points.size() < 2) return;
+  for (const std::string& point : context.points) {
+    Effect effect;
+    effect.id = "fixture.slip." + point;
+    effect.physics = "The fixture of this point slipped once and stayed where it went.";
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto component = static_cast<Component>(axis);
+      effect.shape.push_back(
+          {std::string("um_") + axis_letters[axis], [point, component](const DeviationQuery& q, Component c) {
+             return c == component && q.point == point ? 1.0 : 0.0;
+           }});
+    }
+    effect.variants.push_back({{{"", Dynamics::Step}}, false});
+    out.push_back(std::move(effect));
+  }
+}
+
+}  // namespace spindrift

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/catalogue.h"
+
+namespace spindrift {
+
+// A head that is warmer on one side turns about a pivot; the nose moves by the lever from the pivot to the tool point.
+// The levers are not in the machine file, so they are free: gains of the turn (urad) and of the two displacements (um).
+void addHeadEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+  const std::vector<std::string> heat = context.drivers->spindleHeat();
+  for (int axis = 0; axis < 2; ++axis) {
+    Effect tilt;
+    tilt.id = axis == 0 ? "head.tilt.a" : "head.tilt.b";
+    tilt.physics =
+        "Spindle heat warms one side of the head more than the other; the head turns about a pivot and carries the "
+        "tool "
+        "point with it, sideways and in height.";
+    const Component turn = axis == 0 ? Component::EA : Component::EB;
+    const Component side = axis == 0 ? Component::EY : Component::EX;
+    tilt.shape = {constantShape(side),
+                  constantShape(Component::EZ),
+                  {"urad", [turn](const DeviationQuery&, Component c) { return c == turn ? 1.0 : 0.0; }}};
+    addLagVariants(tilt, heat);
+    tilt.contains = {axis == 0 ? "spindle.drift.y" : "spindle.drift.x", "spindle.growth.z", "spindle.centrifugal.z"};
+    tilt.driver_missing = heat.empty();
+    out.push_back(tilt);
+  }
+}
+
+}  // namespace spindrift

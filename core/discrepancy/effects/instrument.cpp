@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/catalogue.h"
+
+namespace spindrift {
+
+// An instrument that was just switched on warms itself and drifts towards its steady state, whatever the machine does.
+void addInstrumentEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+  const bool logged = context.drivers->has("instrument_on");
+  for (int axis = 0; axis < 3; ++axis) {
+    Effect effect;
+    effect.id = std::string("instrument.warm_up.") + axis_letters[axis];
+    effect.physics =
+        "The measuring instrument warms itself after it was switched on and drifts to its steady state; the machine "
+        "has no "
+        "part in it.";
+    effect.shape = {constantShape(static_cast<Component>(axis))};
+    if (logged) addLagVariants(effect, {"instrument_on"});
+    effect.driver_missing = !logged;
+    out.push_back(std::move(effect));
+  }
+}
+
+}  // namespace spindrift

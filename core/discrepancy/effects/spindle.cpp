@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/catalogue.h"
+
+namespace spindrift {
+
+// Bearings and motor heat the spindle in proportion to speed^p (1 <= p <= 2: viscous and load-dependent friction). The
+// shaft grows along its axis through one or two lags (bearing, housing) and drifts sideways when its support warms
+// unevenly. Centrifugal forces shorten or lengthen the shaft with the square of the speed at once.
+void addSpindleEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+  const std::vector<std::string> heat = context.drivers->spindleHeat();
+  Effect growth;
+  growth.id = "spindle.growth.z";
+  growth.physics =
+      "The spindle shaft and housing grow along Z as the bearings heat them; the heat follows the speed and reaches "
+      "the "
+      "structure through one or two lags.";
+  growth.shape = {constantShape(Component::EZ)};
+  addLagVariants(growth, heat);
+  growth.contains = {"spindle.centrifugal.z"};
+  growth.driver_missing = heat.empty();
+  out.push_back(growth);
+
+  Effect centrifugal;
+  centrifugal.id = "spindle.centrifugal.z";
+  centrifugal.physics =
+      "Centrifugal forces change the bearing contact and the diameter of the shaft, so the nose moves along Z with the "
+      "square of the speed and without delay.";
+  centrifugal.shape = {constantShape(Component::EZ)};
+  if (context.drivers->has("spindle_rpm^2")) {
+    centrifugal.variants.push_back({{{"spindle_rpm^2", Dynamics::None}}, false});
+  }
+  centrifugal.driver_missing = centrifugal.variants.empty();
+  out.push_back(centrifugal);
+
+  for (int axis = 0; axis < 2; ++axis) {
+    Effect drift;
+    drift.id = std::string("spindle.drift.") + axis_letters[axis];
+    drift.physics =
+        "The spindle support warms unevenly and shifts the nose sideways, the same everywhere in the working space, "
+        "following the spindle heat through one or two lags.";
+    drift.shape = {constantShape(static_cast<Component>(axis))};
+    addLagVariants(drift, heat);
+    drift.driver_missing = heat.empty();
+    out.push_back(drift);
+  }
+}
+
+}  // namespace spindrift

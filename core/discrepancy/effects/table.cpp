@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/catalogue.h"
+
+namespace spindrift {
+
+// A warm table grows away from its centre; the tool seems to fall short, so the deviation points to the centre.
+void addTableEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+  const DriverTable& drivers = *context.drivers;
+  const bool known = context.machine->table_centre_mm.has_value();
+  const Eigen::Vector2d centre = context.machine->table_centre_mm.value_or(Eigen::Vector2d::Zero());
+  Effect effect;
+  effect.id = "table.expansion.xy";
+  effect.physics =
+      "Guideways, drives and the room heat the table, which grows away from its centre in both directions; measured "
+      "points move outwards under the tool.";
+  effect.shape = {{"um_per_m", [centre](const DeviationQuery& q, Component c) {
+                     if (c == Component::EX) return -(q.position_mm.x() - centre.x()) * 1e-3;
+                     if (c == Component::EY) return -(q.position_mm.y() - centre.y()) * 1e-3;
+                     return 0.0;
+                   }}};
+  if (!known) {
+    effect.shape.push_back(constantShape(Component::EX));
+    effect.shape.push_back(constantShape(Component::EY));
+  }
+  const auto table = drivers.temperatures({SensorRole::Table});
+  addLagVariants(effect, table);
+  const auto room = drivers.temperatures({SensorRole::Room});
+  addLagVariants(effect, room);
+  std::vector<EffectInput> feeds;
+  for (const char* name : {"feed_x", "feed_y", "speed_c"}) {
+    if (!drivers.has(name)) continue;
+    effect.variants.push_back({{{name, Dynamics::Lag}}, false});
+    feeds.push_back({name, Dynamics::Lag});
+  }
+  if (feeds.size() > 1) effect.variants.push_back({feeds, true});
+  if (!feeds.empty() && !room.empty()) {
+    std::vector<EffectInput> all = feeds;
+    all.push_back({room[0], Dynamics::Lag});
+    effect.variants.push_back({all, true});
+  }
+  effect.sign = 1;
+  effect.driver_missing = table.empty();
+  out.push_back(std::move(effect));
+}
+
+}  // namespace spindrift
