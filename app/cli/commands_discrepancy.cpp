@@ -1,8 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <memory>
+
 #include "app/cli/command.h"
+#include "core/workflows/discrepancy_workflow.h"
 
 namespace spindrift::cli {
 
-void addDiscrepancyCommands(CLI::App& /*app*/, CommandLine& /*line*/) {}
+void addDiscrepancyCommands(CLI::App& app, CommandLine& line) {
+  auto request = std::make_shared<DiscrepancyRequest>();
+  CLI::App* command = addCommand(
+      app, line, "discrepancy",
+      "Find where measurement and simulation disagree and which physical effect the simulation lacks",
+      [request](JobContext& job) {
+        const DiscrepancyRun run = runDiscrepancy(*request, job);
+        return CommandResult{run.result.json(), run.result.summary(), run.result.decided ? Done : NotGoodEnough};
+      });
+  command->add_option("CAMPAIGN", request->campaign, "Folder of the campaign")->required();
+  command->add_option("--observations", request->observations, "Observations in place of the campaign's own (CSV)")
+      ->type_name("FILE");
+  command
+      ->add_option("--accept", request->options.accept, "Put this effect into the model in any case (id, repeatable)")
+      ->type_name("ID");
+  command->add_option("--reject", request->options.reject, "Do not consider this effect (id, repeatable)")
+      ->type_name("ID");
+  command->add_option("--max-effects", request->options.max_effects, "Most effects to add, 0 to 10")
+      ->capture_default_str();
+  command->add_option("--model-out", request->model_out, "Write the effects found as model.json")->type_name("FILE");
+  command
+      ->add_option("--prediction", request->prediction,
+                   "Write the completed model (simulation plus effects, um or urad) for every observation (CSV)")
+      ->type_name("FILE");
+  command->add_option("--html", request->html, "Write a report with plots (one HTML file)")->type_name("FILE");
+}
 
 }  // namespace spindrift::cli

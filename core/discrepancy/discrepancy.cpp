@@ -92,6 +92,7 @@ void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std
 std::vector<ModelEffect> modelEffects(const EffectSearch& search, const ResidualProblem& problem,
                                       const DriverTable& drivers, const JointFit& fit, const std::string& source,
                                       double chi2_scale) {
+  if (fit.terms.empty()) return {};
   std::vector<Eigen::MatrixXd> parts;
   Index total = 0;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
@@ -491,7 +492,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
       if (!r.container) share += std::exp(-0.5 * std::max(0.0, named.score - r.score) / 6.0);
     }
     confidence = std::max(confidence, 0.5) / share;
-    if (outcome.explained_fraction < 0.95) confidence *= 0.6 + 0.4 * (outcome.explained_fraction - 0.8) / 0.15;
+    if (outcome.explained_fraction < 0.9) confidence *= 0.9;
     found.confidence = std::clamp(confidence, 0.02, 0.99);
     result.effects.push_back(std::move(found));
     last = now;

@@ -553,7 +553,7 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     const double inside = 1.0 - best.correlated_part * (1.0 + phi) / (1.0 - phi) / m;
     scale /= std::sqrt(std::clamp(inside, 0.25, 1.0));
   }
-  best.scale = scale > 0.88 && scale < 1.12 ? 1.0 : std::clamp(scale, 0.2, 20.0);
+  best.scale = scale > 0.8 && scale < 1.25 ? 1.0 : std::clamp(scale, 0.2, 20.0);
   return best;
 }
 

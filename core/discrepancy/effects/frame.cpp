@@ -28,7 +28,12 @@ void addFrameEffects(const CatalogueContext& context, std::vector<Effect>& out) 
                     constantShape(static_cast<Component>(v))};
     addLagVariants(effect, temperatures);
     effect.driver_missing = temperatures.empty();
-    for (const int w : {u, v}) effect.contains.push_back(std::string("ambient.drift.") + axis_letters[w]);
+    for (const int w : {u, v}) {
+      effect.contains.push_back(std::string("ambient.drift.") + axis_letters[w]);
+      effect.contains.push_back(w == 2 ? std::string("spindle.growth.z")
+                                       : std::string("spindle.drift.") + axis_letters[w]);
+    }
+    if (axis < 2) effect.contains.push_back(axis == 0 ? "head.tilt.a" : "head.tilt.b");
     out.push_back(std::move(effect));
   }
   Effect square;
@@ -38,7 +43,7 @@ void addFrameEffects(const CatalogueContext& context, std::vector<Effect>& out) 
   square.shape = {{"urad", [](const DeviationQuery& q,
                               Component c) { return c == Component::EX ? -q.position_mm.y() * 1e-3 : 0.0; }},
                   constantShape(Component::EX)};
-  square.contains = {"ambient.drift.x"};
+  square.contains = {"ambient.drift.x", "spindle.drift.x"};
   addLagVariants(square, temperatures);
   square.driver_missing = temperatures.empty();
   out.push_back(std::move(square));

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/discrepancy_workflow.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/atomic_file.h"
+#include "core/base/csv.h"
+#include "core/discrepancy/effect_model.h"
+#include "core/reporting/discrepancy_report.h"
+#include "core/workflows/evaluate_campaign.h"
+
+namespace spindrift {
+
+DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job) {
+  request.options.validate();
+  const Campaign campaign = Campaign::read(request.campaign);
+  const auto root = std::filesystem::weakly_canonical(campaign.folder).string() + "/";
+  for (const auto& file : {request.model_out, request.prediction, request.html}) {
+    if (!file.empty() && std::filesystem::weakly_canonical(file).string().starts_with(root)) {
+      throw InputError({file, ""}, "lies in the campaign folder, which is never written to; allowed: any other place.");
+    }
+  }
+  JobContext first = job.part(0.0, 0.2);
+  DiscrepancyRun run;
+  run.input = discrepancyInput(campaign, observationsOf(campaign, request.observations, {}, first));
+  JobContext second = job.part(0.2, 1.0);
+  run.result = findDiscrepancy(run.input, request.options, second);
+  if (!request.model_out.empty()) writeFileAtomically(request.model_out, run.result.model->json().dump(2) + "\n");
+  if (!request.prediction.empty()) {
+    std::string text = "time_s,point,component,predicted\n";
+    const auto& rows = run.input.observations.rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!std::isfinite(run.result.completed[i])) continue;
+      text += fmt::format("{},{},{},{}\n", rows[i].time_s, csvField(rows[i].point), toString(rows[i].component),
+                          run.result.completed[i]);
+    }
+    writeFileAtomically(request.prediction, text);
+  }
+  if (!request.html.empty()) {
+    writeFileAtomically(request.html, discrepancyReport(campaign.name, run.input, run.result));
+  }
+  return run;
+}
+
+}  // namespace spindrift
