@@ -8,158 +8,180 @@
 #include <map>
 
 #include "core/base/text.h"
+#include "core/reporting/svg_plot.h"
 
 namespace spindrift {
 namespace {
 
-/// Residual of one component over time, all points: before in orange, after in blue (readable for the colour-blind).
-std::string courses(const DiscrepancyInput& input, const DiscrepancyResult& result, Component component) {
+constexpr double seconds_per_hour = 3600.0;
+
+/// Measured minus simulation, and minus the completed model, each relative to the constant of its series.
+struct Residuals {
+  double before = 0.0;
+  double after = 0.0;
+};
+
+/// One entry per row; NaN where there is no simulation or the series was not fitted.
+std::vector<Residuals> residualsOf(const DiscrepancyInput& input, const DiscrepancyResult& result) {
   const auto& rows = input.observations.rows;
-  std::map<std::string, std::pair<double, double>> means;  // residual before: sum and count per point
-  double last = 0.0;
-  double limit = 0.0;
+  std::map<std::pair<std::string, Component>, std::pair<double, double>> means;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].component != component || !std::isfinite(result.simulated[i])) continue;
-    auto& m = means[rows[i].point];
-    m.first += rows[i].value - result.simulated[i];
-    m.second += 1.0;
-    last = std::max(last, rows[i].time_s);
+    if (!std::isfinite(result.simulated[i])) continue;
+    auto& [sum, count] = means[{rows[i].point, rows[i].component}];
+    sum += rows[i].value - result.simulated[i];
+    count += 1.0;
   }
-  if (means.empty() || !(last > 0.0)) return "";
-  std::string before;
-  std::string after;
-  std::vector<std::array<double, 3>> marks;
+  std::vector<Residuals> residuals(rows.size(), {std::nan(""), std::nan("")});
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].component != component || !std::isfinite(result.simulated[i])) continue;
-    const auto& m = means[rows[i].point];
-    const double r0 = rows[i].value - result.simulated[i] - m.first / m.second;
-    const double r1 = std::isfinite(result.constant[i]) ? rows[i].value - result.completed[i] - result.constant[i] : r0;
-    limit = std::max({limit, std::abs(r0), std::abs(r1)});
-    marks.push_back({rows[i].time_s, r0, r1});
+    if (!std::isfinite(result.simulated[i])) continue;
+    const auto& [sum, count] = means[{rows[i].point, rows[i].component}];
+    residuals[i].before = rows[i].value - result.simulated[i] - sum / count;
+    if (std::isfinite(result.constant[i])) {
+      residuals[i].after = rows[i].value - result.completed[i] - result.constant[i];
+    }
   }
-  limit = std::max(limit, 1e-6);
-  const double width = 760.0;
-  const double height = 190.0;
-  const std::size_t step = std::max<std::size_t>(1, marks.size() / 3000);
-  for (std::size_t i = 0; i < marks.size(); i += step) {
-    const double x = 60.0 + marks[i][0] / last * (width - 80.0);
-    const auto y = [&](double v) { return 20.0 + (height - 55.0) * 0.5 * (1.0 - v / limit); };
-    before += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\"/>", x, y(marks[i][1]));
-    after += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\"/>", x, y(marks[i][2]));
-  }
-  const double middle = 20.0 + (height - 55.0) * 0.5;
-  return fmt::format(
-      "<figure><svg viewBox=\"0 0 {0} {1}\" role=\"img\"><line x1=\"60\" x2=\"{2}\" y1=\"{3}\" y2=\"{3}\" "
-      "stroke=\"#999\"/><text x=\"54\" y=\"26\" text-anchor=\"end\">{4:.2f}</text><text x=\"54\" y=\"{5}\" "
-      "text-anchor=\"end\">-{4:.2f}</text><text x=\"54\" y=\"{6}\" text-anchor=\"end\">0</text><text x=\"{2}\" "
-      "y=\"{7}\" "
-      "text-anchor=\"end\">{8:.1f} h</text><g fill=\"#d98b2b\" fill-opacity=\"0.6\">{9}</g><g fill=\"#2f6fa8\" "
-      "fill-opacity=\"0.7\">{10}</g></svg><figcaption>{11}, {12}: measured minus simulation (orange) and minus the "
-      "completed model (blue), all points</figcaption></figure>",
-      width, height, width - 20.0, middle, limit, height - 35.0, middle + 4.0, height - 12.0, last / 3600.0, before,
-      after, toString(component), unitOf(component));
+  return residuals;
 }
 
-/// rms before and after per point and component; the shade tells the size, the number says it.
-std::string pointTable(const DiscrepancyInput& input, const DiscrepancyResult& result) {
+void addTimeCourses(HtmlDocument& document, const DiscrepancyInput& input, const std::vector<Residuals>& residuals) {
   const auto& rows = input.observations.rows;
+  for (const Component component : all_components) {
+    PlotSeries before{"measured minus simulation", {}, {}, {}, SeriesStyle::Points};
+    PlotSeries after{"measured minus completed model", {}, {}, {}, SeriesStyle::Points};
+    double holdout_from = std::nan("");
+    double last = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].component != component || !std::isfinite(residuals[i].before)) continue;
+      const double hours = rows[i].time_s / seconds_per_hour;
+      before.x.push_back(hours);
+      before.y.push_back(residuals[i].before);
+      after.x.push_back(hours);
+      after.y.push_back(residuals[i].after);
+      last = std::max(last, hours);
+      if (rows[i].use == ObservationUse::Holdout && !(holdout_from <= hours)) holdout_from = hours;
+    }
+    if (before.x.empty()) continue;
+    PlotOptions options{.title = std::string(toString(component)),
+                        .x_label = "time / h",
+                        .y_label = fmt::format("{} / {}", toString(component), unitOf(component)),
+                        .width_px = 860,
+                        .height_px = 240};
+    if (std::isfinite(holdout_from)) options.ranges.push_back({holdout_from, last, "held out"});
+    document.figure(svgPlot({before, after}, options),
+                    fmt::format("{} of all points over time, before and after", toString(component)));
+  }
+}
+
+void addPoints(HtmlDocument& document, const DiscrepancyInput& input, const std::vector<Residuals>& residuals) {
   struct Cell {
-    double n = 0.0, sum = 0.0, before = 0.0, after = 0.0;
+    double count = 0.0;
+    double before = 0.0;
+    double after = 0.0;
   };
   std::map<std::pair<std::string, Component>, Cell> cells;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!std::isfinite(result.simulated[i]) || !std::isfinite(result.constant[i])) continue;
-    Cell& c = cells[{rows[i].point, rows[i].component}];
-    const double r0 = rows[i].value - result.simulated[i];
-    const double r1 = rows[i].value - result.completed[i] - result.constant[i];
-    c.n += 1.0;
-    c.sum += r0;
-    c.before += r0 * r0;
-    c.after += r1 * r1;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (!std::isfinite(residuals[i].before) || !std::isfinite(residuals[i].after)) continue;
+    Cell& cell = cells[{input.observations.rows[i].point, input.observations.rows[i].component}];
+    cell.count += 1.0;
+    cell.before += residuals[i].before * residuals[i].before;
+    cell.after += residuals[i].after * residuals[i].after;
   }
-  double largest = 1e-9;
-  for (auto& [key, c] : cells) {
-    c.before = std::sqrt(std::max(0.0, c.before / c.n - c.sum * c.sum / (c.n * c.n)));
-    c.after = std::sqrt(c.after / c.n);
-    largest = std::max(largest, c.before);
+  std::vector<std::vector<std::string>> table;
+  for (const std::string& point : input.observations.points()) {
+    std::vector<std::string> row{point};
+    for (const Component component : all_components) {
+      const auto cell = cells.find({point, component});
+      row.push_back(cell == cells.end()
+                        ? ""
+                        : fmt::format("{:.2f} \u2192 {:.2f}", std::sqrt(cell->second.before / cell->second.count),
+                                      std::sqrt(cell->second.after / cell->second.count)));
+    }
+    table.push_back(std::move(row));
   }
-  std::string text = "<table><tr><th>point</th><th>component</th><th>rms before</th><th>rms after</th></tr>";
-  for (const auto& [key, c] : cells) {
-    const auto shade = [&](double v) { return std::clamp(v / largest, 0.0, 1.0) * 0.55; };
-    text += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td style=\"background:rgba(217,139,43,{:.2f})\">{:.2f} {}</td><td "
-        "style=\"background:rgba(47,111,168,{:.2f})\">{:.2f} {}</td></tr>",
-        escapedXml(key.first), toString(key.second), shade(c.before), c.before, unitOf(key.second), shade(c.after),
-        c.after, unitOf(key.second));
+  document.table({"Point", "EX / um", "EY / um", "EZ / um", "EA / urad", "EB / urad", "EC / urad"}, table,
+                 "rms per point and component, before \u2192 after");
+}
+
+void addEffect(HtmlDocument& document, const FoundEffect& effect) {
+  document.subsection(effect.id);
+  document.paragraph(effect.physics);
+  document.paragraph(fmt::format(
+      "Driven by {}. Confidence {:.2f}, gain in BIC {:.0f}; on held-out data {:.2f} um before, "
+      "{:.2f} um after.",
+      effect.drivers, effect.confidence, effect.delta_bic, effect.heldout_rms_before_um, effect.heldout_rms_after_um));
+  if (!effect.rivals.empty()) {
+    document.verdict("attention", fmt::format("These data cannot tell it from {}.", joinedList(effect.rivals, "or")));
   }
-  return text + "</table>";
+  std::vector<std::vector<std::string>> rows;
+  for (const FittedParameter& p : effect.parameters) {
+    rows.push_back({p.name, withUncertainty(p.value, p.standard_uncertainty, "")});
+  }
+  document.table({"Parameter", "Value"}, rows, "Parameters of " + effect.id);
+}
+
+const char* verdictKind(DiscrepancyVerdict verdict) {
+  switch (verdict) {
+    case DiscrepancyVerdict::Named:
+    case DiscrepancyVerdict::None:
+      return "good";
+    case DiscrepancyVerdict::Ambiguous:
+      return "attention";
+    case DiscrepancyVerdict::Unknown:
+      return "bad";
+  }
+  return "note";
 }
 
 }  // namespace
 
+void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyInput& input, const DiscrepancyResult& result) {
+  document.verdict(verdictKind(result.verdict), fmt::format("{}: {}", toString(result.verdict), result.message));
+  document.table({"", "before", "after", "noise"},
+                 {{"rms of the rows that were fitted / um", fmt::format("{:.2f}", result.gap.rms_before_um),
+                   fmt::format("{:.2f}", result.gap.rms_after_um), fmt::format("{:.2f}", result.gap.noise_um)},
+                  {"rms of the rows held out / um", fmt::format("{:.2f}", result.gap.heldout_rms_before_um),
+                   fmt::format("{:.2f}", result.gap.heldout_rms_after_um), fmt::format("{:.2f}", result.gap.noise_um)}},
+                 "The gap between measured and simulated; nobody can go below the noise");
+  for (const FoundEffect& effect : result.effects) addEffect(document, effect);
+  if (!result.leftover.empty()) document.verdict("bad", fmt::format("Left over: {}.", result.leftover));
+  if (result.suggestion) {
+    const MeasurementSuggestion& next = *result.suggestion;
+    document.subsection("Measure next");
+    document.paragraph(fmt::format(
+        "To tell {}: measure {} at {} times of the programme; {}. Expected gain in BIC {:.0f}.", next.separates,
+        joinedList(next.points), next.times_s.size(), next.conditions, next.expected_delta_bic));
+  }
+  if (!result.where.empty()) {
+    std::vector<std::vector<std::string>> rows;
+    for (const DisagreementPlace& place : result.where) {
+      rows.push_back({std::string(toString(place.component)), joinedList(place.points),
+                      fmt::format("{:.1f} to {:.1f}", place.from_s / seconds_per_hour, place.to_s / seconds_per_hour),
+                      place.condition, fmt::format("{:.2f} {}", place.excess_um, unitOf(place.component)),
+                      fmt::format("{:.1e}", place.p_value)});
+    }
+    document.table({"Component", "Points", "Time / h", "Condition", "Beyond the noise", "p"}, rows,
+                   "Where measured and simulated disagree; p holds for all places looked at together");
+  }
+  const std::vector<Residuals> residuals = residualsOf(input, result);
+  addTimeCourses(document, input, residuals);
+  addPoints(document, input, residuals);
+  if (!result.steps.empty()) {
+    std::vector<std::vector<std::string>> rows;
+    for (const DiscrepancyStep& step : result.steps) {
+      rows.push_back({step.id, fmt::format("{:.0f}", step.delta_bic),
+                      step.accepted ? std::string("added") : "not added: " + step.reason});
+    }
+    document.table({"Effect", "Gain in BIC", "Decision"}, rows, "What was tried, in this order");
+  }
+  for (const std::string& warning : result.warnings) document.paragraph("Note: " + warning);
+}
+
 std::string discrepancyReport(const std::string& campaign, const DiscrepancyInput& input,
                               const DiscrepancyResult& result) {
-  std::string html = fmt::format(
-      "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Discrepancy: {0}</title><style>"
-      "body{{font:15px/1.5 system-ui,sans-serif;color:#222;background:#fafafa;max-width:860px;margin:2em "
-      "auto;padding:0 1em}}"
-      "h1{{font-weight:600}}h2{{font-weight:600;margin-top:1.8em}}table{{border-collapse:collapse;width:100%}}"
-      "td,th{{text-align:left;padding:.25em .6em;border-bottom:1px solid #ddd;font-variant-numeric:tabular-nums}}"
-      "svg{{width:100%;background:#fff;border:1px solid #ddd}}figure{{margin:1em 0}}figcaption,svg text{{color:#555;"
-      "font-size:13px}}.verdict{{font-size:1.2em}}</style></head><body><h1>{0}</h1><p class=\"verdict\"><b>{1}</b>: "
-      "{2}</p>",
-      escapedXml(campaign), toString(result.verdict), escapedXml(result.message));
-  html += fmt::format(
-      "<p>Gap {:.2f} um before, {:.2f} um after; noise {:.2f} um. Held out: {:.2f} um before, {:.2f} um "
-      "after.</p>",
-      result.gap.rms_before_um, result.gap.rms_after_um, result.gap.noise_um, result.gap.heldout_rms_before_um,
-      result.gap.heldout_rms_after_um);
-  if (!result.effects.empty()) {
-    html += "<h2>Effects</h2>";
-    for (const FoundEffect& e : result.effects) {
-      html += fmt::format("<h3>{}</h3><p>{} Driven by {}. Confidence {:.2f}, gain in BIC {:.0f}.</p>", escapedXml(e.id),
-                          escapedXml(e.physics), escapedXml(e.drivers), e.confidence, e.delta_bic);
-      if (!e.rivals.empty())
-        html += fmt::format("<p>Cannot be told from {}.</p>", escapedXml(joinedList(e.rivals, "or")));
-      html += "<table><tr><th>parameter</th><th>value</th></tr>";
-      for (const FittedParameter& p : e.parameters) {
-        html += fmt::format("<tr><td>{}</td><td>{}</td></tr>", escapedXml(p.name),
-                            escapedXml(withUncertainty(p.value, p.standard_uncertainty, "")));
-      }
-      html += "</table>";
-    }
-  }
-  if (!result.leftover.empty()) html += fmt::format("<p>Left over: {}.</p>", escapedXml(result.leftover));
-  if (result.suggestion) {
-    html += fmt::format("<h2>Measure next</h2><p>To tell {}: {} at {} times; {}. Expected gain in BIC {:.0f}.</p>",
-                        escapedXml(result.suggestion->separates), escapedXml(joinedList(result.suggestion->points)),
-                        result.suggestion->times_s.size(), escapedXml(result.suggestion->conditions),
-                        result.suggestion->expected_delta_bic);
-  }
-  html += "<h2>Time courses</h2>";
-  for (const Component c : all_components) html += courses(input, result, c);
-  html += "<h2>Points</h2>" + pointTable(input, result);
-  if (!result.where.empty()) {
-    html +=
-        "<h2>Where</h2><table><tr><th>component</th><th>points</th><th>from</th><th>to</th><th>condition</th><th>excess"
-        "</th><th>p</th></tr>";
-    for (const DisagreementPlace& p : result.where) {
-      html += fmt::format(
-          "<tr><td>{}</td><td>{}</td><td>{:.0f} s</td><td>{:.0f} s</td><td>{}</td><td>{:.2f} {}</td><td>"
-          "{:.1e}</td></tr>",
-          toString(p.component), escapedXml(joinedList(p.points)), p.from_s, p.to_s, escapedXml(p.condition),
-          p.excess_um, unitOf(p.component), p.p_value);
-    }
-    html += "</table>";
-  }
-  html += "<h2>Steps</h2><table><tr><th>effect</th><th>gain in BIC</th><th></th></tr>";
-  for (const DiscrepancyStep& s : result.steps) {
-    html += fmt::format("<tr><td>{}</td><td>{:.0f}</td><td>{}</td></tr>", escapedXml(s.id), s.delta_bic,
-                        s.accepted ? "added" : escapedXml("not added: " + s.reason));
-  }
-  html += "</table>";
-  for (const std::string& w : result.warnings) html += fmt::format("<p>Note: {}</p>", escapedXml(w));
-  return html + "</body></html>\n";
+  HtmlDocument document(fmt::format("Discrepancy: {}", campaign),
+                        "where measured and simulated disagree, which effect is missing, what its addition gains");
+  addDiscrepancyStory(document, input, result);
+  return document.html();
 }
 
 }  // namespace spindrift

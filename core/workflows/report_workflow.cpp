@@ -1,10 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/workflows/report_workflow.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/base/text.h"
+#include "core/discrepancy/discrepancy.h"
 #include "core/reporting/campaign_report.h"
+#include "core/reporting/discrepancy_report.h"
+#include "core/reporting/heatmap_picture.h"
 #include "core/session/session.h"
+#include "core/workflows/fit_campaign.h"
 
 namespace spindrift {
+namespace {
+
+/// True if one thermal state can be spread over the table: at least three points with displacements in two states.
+bool spreadsOverTheTable(const ObservationSet& observations) {
+  return observations.points().size() >= 3 && observations.states().size() >= 2;
+}
+
+/// The nine-parameter model of one state with its heat maps, or the reason why there is none.
+void addState(HtmlDocument& document, const Campaign& campaign, const ObservationSet& observations,
+              const std::string& state) {
+  HeatmapOptions options;
+  options.fit.state = state;
+  document.subsection(fmt::format("State {}", state));
+  try {
+    const NineParameterFit fit = fitNineParameters(observations, options.fit);
+    std::vector<std::vector<std::string>> rows;
+    const nlohmann::json json = toJson(fit);
+    for (const auto& [name, parameter] : json.at("parameters").items()) {
+      const bool known = parameter.is_object() && parameter.at("value").is_number();
+      rows.push_back({name, known ? withUncertainty(parameter.at("value").get<double>(),
+                                                    parameter.at("standard_uncertainty").get<double>(), "")
+                                  : std::string("not determined")});
+    }
+    document.table({"Parameter", "Value ± standard uncertainty"}, rows,
+                   fmt::format("Nine-parameter model of {}", state));
+    for (const Component component : {Component::EX, Component::EY, Component::EZ}) {
+      options.component = component;
+      const HeatmapResult map = heatmapOf(campaign, observations, options);
+      if (!map.determined) {
+        document.paragraph(map.message);
+        continue;
+      }
+      document.figure(heatmapSvg(map.field, {.title = map.title(), .subtitle = map.subtitle()}),
+                      fmt::format("{} over the table, state {}", toString(component), state));
+    }
+  } catch (const InputError& error) {
+    document.paragraph(fmt::format("No model of this state: {}", error.what()));
+  }
+}
+
+}  // namespace
 
 std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& options, JobContext& job) {
   CampaignReportInput input;
@@ -25,6 +76,22 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
     input.observations = ObservationSet::read(options.observations_file);
   } else if (campaign.observations) {
     input.observations = *campaign.observations;
+  }
+  if (campaign.captureList("fiducials.csv") && spreadsOverTheTable(input.observations)) {
+    input.sections.push_back({"Thermal error of the table", [&](HtmlDocument& document) {
+                                const std::vector<std::string> states = input.observations.states();
+                                for (std::size_t i = 1; i < states.size(); ++i) {
+                                  addState(document, campaign, input.observations, states[i]);
+                                }
+                              }});
+  }
+  if (options.discrepancy && !campaign.simulation.empty()) {
+    JobContext searching = job.part(0.6, 0.95);
+    auto data = std::make_shared<DiscrepancyInput>(discrepancyInput(campaign, input.observations));
+    auto result = std::make_shared<DiscrepancyResult>(findDiscrepancy(*data, DiscrepancyOptions(), searching));
+    input.sections.push_back({"Where simulation and measurement disagree", [data, result](HtmlDocument& document) {
+                                addDiscrepancyStory(document, *data, *result);
+                              }});
   }
   job.report(1.0, "writing the report");
   return campaignReport(input).html();
