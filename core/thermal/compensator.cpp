@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
+#include <vector>
 
 #include "core/thermal/thermal_model.h"
 
@@ -13,6 +15,52 @@ namespace {
 void copyName(const std::string& from, std::array<char, 64>& to) noexcept {
   to.fill('\0');
   std::memcpy(to.data(), from.data(), std::min(from.size(), to.size() - 1));
+}
+
+// Two doubles in one register of every 64-bit processor; compilers make scalars of it where there is none.
+using Pair = double __attribute__((vector_size(16)));
+
+inline Pair pairAt(const double* p) noexcept {
+  Pair v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+
+/// Four sums side by side (one would wait for every addition) and one for what is left over from groups of four.
+struct Sums {
+  Pair first{0.0, 0.0};
+  Pair second{0.0, 0.0};
+  double rest = 0.0;
+  [[nodiscard]] double total() const noexcept {
+    const Pair both = first + second;
+    return (both[0] + both[1]) + rest;
+  }
+};
+
+/// v = a v + c u for one round of lags; adds the new states to the sums.
+inline void advance(double* v, const double* a, const double* c, const double* u, int count, Sums& sums) noexcept {
+  int j = 0;
+  for (; j + 4 <= count; j += 4) {
+    const Pair first = pairAt(a + j) * pairAt(v + j) + pairAt(c + j) * pairAt(u + j);
+    const Pair second = pairAt(a + j + 2) * pairAt(v + j + 2) + pairAt(c + j + 2) * pairAt(u + j + 2);
+    std::memcpy(v + j, &first, sizeof first);
+    std::memcpy(v + j + 2, &second, sizeof second);
+    sums.first += first;
+    sums.second += second;
+  }
+  for (; j < count; ++j) {
+    v[j] = a[j] * v[j] + c[j] * u[j];
+    sums.rest += v[j];
+  }
+}
+
+inline void addProducts(const double* g, const double* u, int count, Sums& sums) noexcept {
+  int j = 0;
+  for (; j + 4 <= count; j += 4) {
+    sums.first += pairAt(g + j) * pairAt(u + j);
+    sums.second += pairAt(g + j + 2) * pairAt(u + j + 2);
+  }
+  for (; j < count; ++j) sums.rest += g[j] * u[j];
 }
 
 }  // namespace
@@ -41,28 +89,42 @@ std::string Compensator::load(const ThermalModel& model, double cycle_s, const C
     }
     transform_[transforms_++] = {source, input.power, 1.0 / input.scale};
   }
+  int rounds = 0;
   for (std::size_t o = 0; o < model.outputs.size(); ++o) {
     const ThermalOutput& output = model.outputs[o];
     copyName(output.name, output_names_[o]);
     offset_[o] = output.offset;
     gain_factor_[o] = 1.0;
     first_[o] = lags_;
+    if (static_cast<std::size_t>(lags_) + output.terms.size() > maximum_lags)
+      return "The model has more than 1024 lags.";
+    std::vector<std::vector<const LagTerm*>> of(model.inputs.size());
     for (const LagTerm& term : output.terms) {
-      if (lags_ == maximum_lags) return "The model has more than 1024 lags.";
-      const ThermalInput& input = model.inputs[term.input];
-      const LagStep step = lagStep(cycle_s, term.tau_s, holdsUntilNextRow(input.kind));
-      lag_transform_[lags_] = term.input;
-      a_[lags_] = step.a;
-      // With w = x - b1 u the input enters once per step: w1 = a w0 + (a b1 + b0) u0, and b1 u goes straight to the
-      // output.
-      c_[lags_] = step.a * step.b1 + step.b0;
-      rest_[lags_] = 1.0 - step.b1;
-      direct_[o][term.input] += term.gain * step.b1;
-      gain_[lags_] = term.gain;
-      offset_[o] -= term.gain * input.reference;
-      ++lags_;
+      of[term.input].push_back(&term);
+      offset_[o] -= term.gain * model.inputs[term.input].reference;
+    }
+    std::vector<int> order(of.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int l, int r) { return of[l].size() > of[r].size(); });
+    while (!order.empty() && of[order.back()].empty()) order.pop_back();
+    used_[o] = static_cast<int>(order.size());
+    std::copy(order.begin(), order.end(), order_[o].begin());
+    same_order_[o] = o > 0 && used_[o] == used_[o - 1] && order_[o] == order_[o - 1];
+    for (std::size_t round = 0; !order.empty() && round < of[order.front()].size(); ++round, ++rounds) {
+      for (std::size_t place = 0; place < order.size() && of[order[place]].size() > round; ++place, ++lags_) {
+        const LagTerm& term = *of[order[place]][round];
+        const LagStep step = lagStep(cycle_s, term.tau_s, holdsUntilNextRow(model.inputs[term.input].kind));
+        // With w = x - b1 u the input enters once per step: w1 = a w0 + (a b1 + b0) u0, and b1 u goes straight to the
+        // output.
+        a_[lags_] = step.a;
+        c_[lags_] = term.gain * (step.a * step.b1 + step.b0);
+        rest_[lags_] = term.gain * (1.0 - step.b1);
+        direct_[o][place] += term.gain * step.b1;
+        ++round_size_[rounds];
+      }
     }
     first_[o + 1] = lags_;
+    first_round_[o + 1] = rounds;
     ++outputs_;
   }
   cycle_s_ = cycle_s;
@@ -84,6 +146,7 @@ void Compensator::reset() noexcept {
   started_ = false;
   good_for_s_ = limits_.recover_after_s;
   bad_for_s_.fill(0.0);
+  was_bad_ = false;
   output_.fill(0.0);
 }
 
@@ -108,18 +171,26 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
   // Inputs: a bad one keeps its last good value for a while.
   refused_ = -1;
   bool lost = false;
-  for (int i = 0; i < inputs_; ++i) {
-    const double age = age_s != nullptr ? age_s[i] : 0.0;
-    // Written so that NaN fails.
-    const bool good = inputs[i] >= low_[i] && inputs[i] <= high_[i] && age >= 0.0 && age <= limits_.stale_after_s;
-    if (good) {
-      last_good_[i] = inputs[i];
-      bad_for_s_[i] = 0.0;
-    } else {
-      if (refused_ < 0) refused_ = i;
-      bad_for_s_[i] = std::min(bad_for_s_[i] + cycle_s_, 1e9);
-      lost = lost || bad_for_s_[i] > limits_.stale_after_s || !(age <= limits_.stale_after_s) || age < 0.0 || !started_;
+  // The usual case without branches per input; written so that NaN fails.
+  bool all_good = age_s == nullptr && !was_bad_;
+  for (int i = 0; i < inputs_; ++i) all_good = all_good & (inputs[i] >= low_[i]) & (inputs[i] <= high_[i]);
+  if (all_good) {
+    for (int i = 0; i < inputs_; ++i) last_good_[i] = inputs[i];
+  } else {
+    for (int i = 0; i < inputs_; ++i) {
+      const double age = age_s != nullptr ? age_s[i] : 0.0;
+      const bool good = inputs[i] >= low_[i] && inputs[i] <= high_[i] && age >= 0.0 && age <= limits_.stale_after_s;
+      if (good) {
+        last_good_[i] = inputs[i];
+        bad_for_s_[i] = 0.0;
+      } else {
+        if (refused_ < 0) refused_ = i;
+        bad_for_s_[i] = std::min(bad_for_s_[i] + cycle_s_, 1e9);
+        lost =
+            lost || bad_for_s_[i] > limits_.stale_after_s || !(age <= limits_.stale_after_s) || age < 0.0 || !started_;
+      }
     }
+    was_bad_ = refused_ >= 0;
   }
   if (refused_ >= 0 && lost) {
     good_for_s_ = 0.0;
@@ -136,36 +207,46 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
   }
   for (int t = 0; t < transforms_; ++t)
     now_[t] = powered(last_good_[transform_[t].source] * transform_[t].inverse_scale, transform_[t].power);
-  if (!started_) {
-    for (int k = 0; k < lags_; ++k) w_[k] = rest_[k] * now_[lag_transform_[k]];
-    started_ = true;
-  } else {
-    for (int k = 0; k < lags_; ++k) w_[k] = a_[k] * w_[k] + c_[k] * before_[lag_transform_[k]];
-  }
-  for (int t = 0; t < transforms_; ++t) before_[t] = now_[t];
+  const bool at_rest = !started_;
+  started_ = true;
   const double largest_change = limits_.slew_per_s * cycle_s_;
+  alignas(64) std::array<double, 3 * maximum_inputs> before;
+  alignas(64) std::array<double, 3 * maximum_inputs> now;
   for (int o = 0; o < outputs_; ++o) {
-    // Four sums side by side: one would wait for every addition.
-    double sum0 = offset_[o];
-    double sum1 = 0.0;
-    double sum2 = 0.0;
-    double sum3 = 0.0;
-    int k = first_[o];
-    for (; k + 4 <= first_[o + 1]; k += 4) {
-      sum0 += gain_[k] * w_[k];
-      sum1 += gain_[k + 1] * w_[k + 1];
-      sum2 += gain_[k + 2] * w_[k + 2];
-      sum3 += gain_[k + 3] * w_[k + 3];
+    const int used = used_[o];
+    if (!same_order_[o]) {
+      for (int j = 0; j < used; ++j) {
+        before[j] = before_[order_[o][j]];
+        now[j] = now_[order_[o][j]];
+      }
     }
-    for (; k < first_[o + 1]; ++k) sum0 += gain_[k] * w_[k];
-    for (int t = 0; t < transforms_; ++t) sum1 += direct_[o][t] * now_[t];
-    double value = (sum0 + sum1) + (sum2 + sum3);
+    Sums sums;
+    const int rounds_end = first_round_[o + 1];
+    double* v = &v_[0] + first_[o];
+    const double* a = &a_[0] + first_[o];
+    const double* c = &c_[0] + first_[o];
+    if (at_rest) {
+      const double* rest = &rest_[0] + first_[o];
+      for (int r = first_round_[o]; r < rounds_end; ++r)
+        for (int j = 0; j < round_size_[r]; ++j) sums.rest += * v++ = *rest++ * now[j];
+    } else {
+      for (int r = first_round_[o]; r < rounds_end; ++r) {
+        const int size = round_size_[r];
+        advance(v, a, c, before.data(), size, sums);
+        v += size;
+        a += size;
+        c += size;
+      }
+    }
+    addProducts(direct_[o].data(), now.data(), used, sums);
+    double value = offset_[o] + sums.total();
     value = -(gain_factor_[o] * value + correction_[o]);
     double target = fallback ? 0.0 : std::clamp(value, -limits_.limit, limits_.limit);
     if (!(target >= -limits_.limit && target <= limits_.limit)) target = 0.0;
     output_[o] = std::clamp(target, output_[o] - largest_change, output_[o] + largest_change);
     outputs[o] = output_[o];
   }
+  for (int t = 0; t < transforms_; ++t) before_[t] = now_[t];
   return state_;
 }
 

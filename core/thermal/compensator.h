@@ -81,6 +81,7 @@ class Compensator {
   CompensatorState state_ = CompensatorState::Empty;
   int refused_ = -1;
   bool started_ = false;
+  bool was_bad_ = false;  ///< an input was refused in the last step
   double cycle_s_ = 0.0;
   double good_for_s_ = 0.0;
   CompensatorLimits limits_;
@@ -93,15 +94,21 @@ class Compensator {
   std::array<Transform, 3 * maximum_inputs> transform_{};
   std::array<double, 3 * maximum_inputs> now_{};
   std::array<double, 3 * maximum_inputs> before_{};
-  // Lags, structure of arrays, sorted by output: the gains of one output stand next to each other.
-  std::array<int, maximum_lags> lag_transform_{};
-  std::array<double, maximum_lags> a_{};
-  std::array<double, maximum_lags> c_{};
-  std::array<double, maximum_lags> rest_{};  ///< w at rest per unit of input
-  std::array<double, maximum_lags> w_{};
-  std::array<std::array<double, 3 * maximum_inputs>, maximum_outputs> direct_{};
-  std::array<int, maximum_outputs + 1> first_{};  ///< first lag of each output
-  std::array<double, maximum_lags> gain_{};
+  // Lags, structure of arrays. The state of a lag carries its gain: v = gain w, so that an output is a plain sum. The
+  // lags of one output stand in rounds: round r holds the (r+1)-th lag of every input that has one, inputs in the order
+  // `order_` (most lags first), so that a round runs over the start of one contiguous array of inputs: no index per
+  // lag.
+  alignas(64) std::array<double, maximum_lags> a_{};
+  alignas(64) std::array<double, maximum_lags> c_{};
+  alignas(64) std::array<double, maximum_lags> rest_{};  ///< v at rest per unit of input
+  alignas(64) std::array<double, maximum_lags> v_{};
+  std::array<int, maximum_lags> round_size_{};
+  std::array<int, maximum_outputs + 1> first_{};        ///< first lag of each output
+  std::array<int, maximum_outputs + 1> first_round_{};  ///< first round of each output
+  std::array<std::array<int, 3 * maximum_inputs>, maximum_outputs> order_{};
+  alignas(64) std::array<std::array<double, 3 * maximum_inputs>, maximum_outputs> direct_{};  ///< in that order
+  std::array<int, maximum_outputs> used_{};         ///< inputs with lags in this output
+  std::array<bool, maximum_outputs> same_order_{};  ///< as the output before
   std::array<double, maximum_outputs> offset_{};
   std::array<double, maximum_outputs> gain_factor_{};
   std::array<double, maximum_outputs> correction_{};
