@@ -136,7 +136,10 @@ PlainModel laggedRidge(const TimeSeries& series, const std::string& output, doub
   std::vector<Index> rows;
   const std::size_t stride = std::max<std::size_t>(1, all.size() / 1000);
   for (std::size_t k = 0; k < all.size(); k += stride) rows.push_back(all[k]);
-  if (rows.size() < 40) return model;
+  if (rows.size() < 40) {
+    model.note = "too few samples";
+    return model;
+  }
   struct Group {
     std::vector<std::vector<double>> lags;
   };
