@@ -80,7 +80,7 @@ struct AxisErrorSurface {
   std::vector<double> values;  ///< row major: time, position
   std::vector<double> sigmas;
 };
-/// Scans of one cycle share a row: times closer than `cycle_s` belong together (mean time).
+/// Scans of one cycle share a row: times closer than `cycle_s` belong together (time of the first).
 [[nodiscard]] std::array<AxisErrorSurface, 6> axisErrorSurfaces(const std::vector<AxisErrorSample>& samples,
                                                                 double cycle_s);
 
