@@ -525,7 +525,8 @@ std::vector<NuisanceColumn> EffectSearch::termNuisances(const ModelTerm& term, c
 
 EffectSearch::CrossValidation EffectSearch::crossValidate(const std::vector<ModelTerm>& before,
                                                           const std::vector<ModelTerm>& after,
-                                                          const std::vector<NuisanceColumn>& base) const {
+                                                          const std::vector<NuisanceColumn>& base,
+                                                          bool interleaved) const {
   CrossValidation out;
   const Index n = problem_->size();
   const int folds = std::min(5, problem_->epoch_count);
@@ -551,6 +552,7 @@ EffectSearch::CrossValidation EffectSearch::crossValidate(const std::vector<Mode
     count = 0.0;
     for (int fold = 0; fold < folds; ++fold) {
       const auto left_out = [&](Index u) {
+        if (interleaved) return problem_->epoch[static_cast<std::size_t>(u)] % folds == fold;
         return problem_->epoch[static_cast<std::size_t>(u)] * folds / std::max(1, problem_->epoch_count) == fold;
       };
       // Constants come from what is left of the series.

@@ -63,7 +63,8 @@ class EffectSearch {
   /// the given part of its size (prior).
   [[nodiscard]] std::vector<NuisanceColumn> termNuisances(const ModelTerm& term, const Eigen::VectorXd& gains,
                                                           double model_error) const;
-  /// rms of prediction of blocks of epochs left out (constants from the rest of the series): without and with terms.
+  /// rms of prediction of epochs left out (constants from the rest of the series): without and with terms. Blocks of
+  /// neighbours, or every fifth epoch (`interleaved`) for what happens within one block only.
   struct CrossValidation {
     double before_um = 0.0;
     double after_um = 0.0;
@@ -71,7 +72,7 @@ class EffectSearch {
     double after_chi2 = 0.0;
   };
   [[nodiscard]] CrossValidation crossValidate(const std::vector<ModelTerm>& before, const std::vector<ModelTerm>& after,
-                                              const std::vector<NuisanceColumn>& base) const;
+                                              const std::vector<NuisanceColumn>& base, bool interleaved = false) const;
 
   /// Shape columns over the units.
   [[nodiscard]] const Eigen::MatrixXd& shape(const Effect& effect) const;
