@@ -13,7 +13,7 @@ namespace spindrift {
 /// Limits of the search. Parts are of power (chi-squared) unless they say "amplitude".
 struct SearchLimits {
   double model_error = 0.08;       ///< amplitude: how far an accepted effect may be from the machine's own behaviour
-  double container_margin = 0.02;  ///< part of an effect's power by which a container must be better to be named
+  double container_margin = 0.01;  ///< part of an effect's power by which a container must be better to be named
   double rival_margin = 0.01;      ///< part of an effect's power within which another effect is a rival
   double smallest_part = 0.01;     ///< part of the power explained so far that a further effect must have
   double least_explained = 0.95;   ///< part of the structured power below which nothing is named

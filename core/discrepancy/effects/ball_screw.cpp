@@ -16,7 +16,7 @@ void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& o
     for (const LinearAxis& a : context.machine->axes) {
       if (!a.name.empty() && a.name[0] == static_cast<char>('X' + axis)) linear = &a;
     }
-    if (linear == nullptr || linear->drive_type == "linear_motor" || linear->scale == "linear_scale") continue;
+    if (linear == nullptr || linear->drive_type == "linear_motor") continue;
     const bool known = linear->fixed_bearing_mm.has_value();
     const double origin = linear->fixed_bearing_mm.value_or(0.0);
     const std::string feed = "feed_" + letter;
