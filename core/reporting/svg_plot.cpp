@@ -47,7 +47,7 @@ struct Frame {
 std::string axes(const Frame& f, const PlotOptions& options) {
   std::string out;
   const std::vector<double> x_ticks = roundTicks(f.x.low, f.x.high, std::max(3, static_cast<int>(f.width / 90)));
-  const std::vector<double> y_ticks = roundTicks(f.y.low, f.y.high, std::max(3, static_cast<int>(f.height / 40)));
+  const std::vector<double> y_ticks = roundTicks(f.y.low, f.y.high, std::max(4, static_cast<int>(f.height / 32)));
   const double x_step = x_ticks.size() > 1 ? x_ticks[1] - x_ticks[0] : 1.0;
   const double y_step = y_ticks.size() > 1 ? y_ticks[1] - y_ticks[0] : 1.0;
   for (const double t : x_ticks) {
@@ -157,7 +157,7 @@ std::string svgPlot(const std::vector<PlotSeries>& series, const PlotOptions& op
     f.x = {0.0, 1.0};
     f.y = {0.0, 1.0};
   }
-  if (!(f.x.high > f.x.low)) f.x.widen(0.5);
+  f.x.widen(f.x.high > f.x.low ? 0.015 : 0.5);  // points at the ends stay whole
   f.y.widen(0.06);
   if (options.y_from) f.y.low = *options.y_from;
   if (options.y_to) f.y.high = *options.y_to;
