@@ -153,7 +153,8 @@ std::string summaryOf(const FiducialDisplacement& d) {
 InstrumentEvaluation evaluateFiducials(const Campaign& campaign, JobContext& job) {
   const auto file = campaign.captureList("fiducials.csv");
   if (!file) throw InputError({campaign.path("captures/fiducials.csv"), ""}, "is not there.");
-  const FiducialCaptureList list = readFiducialCaptures(*file);
+  FiducialCaptureList list = readFiducialCaptures(*file);
+  std::erase_if(list.captures, [&](const FiducialCapture& c) { return campaign.excluded_captures.contains(c.image); });
   const FiducialImages images = measureFiducialImages(campaign.folder, list, standardPattern(), job.part(0.0, 0.95));
   const FiducialDisplacement displacement = findFiducialDisplacement(list, images, campaign.machine);
   InstrumentEvaluation evaluation;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "core/machine/machine_description.h"
@@ -21,6 +22,8 @@ struct Campaign {
   MachineDescription machine;
   std::optional<OperatingLog> log;
   std::optional<ObservationSet> observations;  ///< the campaign's own observations.csv
+  /// Captures the user took out, as the lists name them ("captures/images/a.jpg"): evaluations leave them out.
+  std::set<std::string> excluded_captures;
 
   /// Reads campaign.json, machine.json and, where present, log.csv and observations.csv. Captures are read by the
   /// instruments. Throws InputError.

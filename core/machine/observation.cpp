@@ -52,10 +52,13 @@ std::string_view toString(ObservationUse use) noexcept {
   return "fit";
 }
 
-ObservationSet ObservationSet::read(const std::filesystem::path& file) {
-  const CsvTable table = CsvTable::read(file);
+ObservationSet ObservationSet::parse(std::string text, const std::filesystem::path& name) {
+  return fromTable(CsvTable::parse(std::move(text), name));
+}
+
+ObservationSet ObservationSet::fromTable(const CsvTable& table) {
   ObservationSet set;
-  set.file = file;
+  set.file = table.file();
   const std::size_t time = table.column("time_s");
   const std::size_t state = table.column("state");
   const std::size_t point = table.column("point");
@@ -131,6 +134,11 @@ ObservationSet ObservationSet::read(const std::filesystem::path& file) {
     }
     set.rows.push_back(std::move(o));
   }
+  return set;
+}
+
+ObservationSet ObservationSet::read(const std::filesystem::path& file) {
+  ObservationSet set = fromTable(CsvTable::read(file));
   const std::filesystem::path covariance_file = covarianceFile(file);
   if (std::filesystem::exists(covariance_file)) {
     const CsvTable entries = CsvTable::read(covariance_file);

@@ -11,6 +11,8 @@
 
 namespace spindrift {
 
+class CsvTable;
+
 /// How an observation may be used. `Holdout` only reports: it never selects and is never fitted.
 enum class ObservationUse { Fit, Holdout, Exclude };
 
@@ -49,6 +51,8 @@ struct ObservationSet {
   /// Reads observations.csv and, if it stands beside it, <stem>.cov.csv. Throws InputError: missing column, unknown
   /// component or use, sigma that is not positive, time that runs backwards for a point, a duplicate row.
   [[nodiscard]] static ObservationSet read(const std::filesystem::path& file);
+  /// The same from text in memory, without covariances; `name` stands for the file in errors.
+  [[nodiscard]] static ObservationSet parse(std::string text, const std::filesystem::path& name);
   /// Writes observations.csv, and <stem>.cov.csv if there is a covariance. Exact numbers, atomic.
   void write(const std::filesystem::path& file) const;
   /// The text `write` puts into observations.csv.
@@ -58,6 +62,9 @@ struct ObservationSet {
   [[nodiscard]] std::vector<std::string> states() const;
   /// Points in order of first appearance.
   [[nodiscard]] std::vector<std::string> points() const;
+
+ private:
+  [[nodiscard]] static ObservationSet fromTable(const CsvTable& table);
 };
 
 }  // namespace spindrift

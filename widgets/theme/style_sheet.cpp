@@ -82,7 +82,7 @@ QCheckBox::indicator { border-radius: 4px; }
 QRadioButton::indicator { border-radius: 9px; }
 QCheckBox::indicator:checked { background: @accent@; border-color: @accent@; image: url(:/icons/@kind@/check-on-accent.svg); }
 QRadioButton::indicator:checked { border: 6px solid @accent@; width: 8px; height: 8px; }
-QCheckBox:focus::indicator, QRadioButton:focus::indicator { border: 2px solid @accent@; width: 16px; height: 16px; }
+QCheckBox::indicator:focus, QRadioButton::indicator:focus { border: 2px solid @accent@; width: 16px; height: 16px; }
 QCheckBox::indicator:disabled { background: @window@; border-color: @border@; }
 
 QAbstractItemView { background: @surface@; alternate-background-color: @surface@; color: @text@; border: none;
@@ -97,6 +97,7 @@ QTableView::indicator:checked, QTreeView::indicator:checked { background: @accen
 QHeaderView { background: @surface@; border: none; }
 QHeaderView::section { background: @surface@; color: @text_secondary@; border: none; border-bottom: 1px solid @border@; padding: 6px 8px;
   font-size: 12px; font-weight: 600; }
+QAbstractScrollArea::corner { background: transparent; border: none; }
 QTableCornerButton::section { background: @surface@; border: none; }
 
 QTabWidget::pane { border: none; border-top: 1px solid @border@; }
@@ -105,7 +106,7 @@ QTabBar::tab { background: transparent; color: @text_secondary@; border: none; b
   min-height: 37px; }
 QTabBar::tab:hover { color: @text@; }
 QTabBar::tab:selected { color: @text@; border-bottom: 3px solid @accent@; font-weight: 600; }
-QTabBar:focus::tab:selected { background: @accent_soft@; }
+QTabBar::tab:focus { background: @accent_soft@; }
 
 QScrollArea, QScrollArea > QWidget > QWidget { background: transparent; border: none; }
 QScrollBar:vertical { background: transparent; width: 12px; margin: 0; }

@@ -13,6 +13,11 @@
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/style_sheet.h"
 
+/// Resources of a static library are linked in only when they are asked for, and only outside of namespaces.
+static void loadIcons() {
+  Q_INIT_RESOURCE(icons);
+}
+
 namespace spindrift::gui {
 namespace {
 
@@ -183,6 +188,7 @@ void applyTheme(QApplication& application, ThemeKind kind) {
   static bool first = true;
   if (first) {
     first = false;
+    loadIcons();
     application.setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
     application.setFont(bodyFont());
   }

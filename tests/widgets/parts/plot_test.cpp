@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/plots/plot.h"
+
+#include <gtest/gtest.h>
+
+#include <QFile>
+#include <QImage>
+
+#include "tests/support/temp_folder.h"
+#include "widgets/image_view/image_view.h"
+
+namespace spindrift::gui {
+namespace {
+
+Series ramp() {
+  Series s;
+  s.name = QStringLiteral("EZ");
+  for (int i = 0; i < 50; ++i) {
+    s.x.push_back(i * 0.1);
+    s.y.push_back(0.5 * i);
+    s.sigma.push_back(0.4);
+  }
+  return s;
+}
+
+TEST(Plot, ExportsPngSvgPdfAndCsv) {
+  const testing::TempFolder folder;
+  Plot plot;
+  plot.resize(500, 300);
+  plot.setAxes(QStringLiteral("Time / h"), QStringLiteral("EZ / um"));
+  Series measured = ramp();
+  measured.style = SeriesStyle::Points;
+  plot.setContent({ramp(), measured}, {{0, 2, QStringLiteral("train"), Tone::Accent}});
+  for (const char* ending : {"png", "svg", "pdf", "csv"}) {
+    const QString file = QString::fromStdString((folder / ("plot." + std::string(ending))).string());
+    plot.exportTo(file);
+    EXPECT_GT(QFile(file).size(), 400) << ending;
+  }
+  QFile svg(QString::fromStdString((folder / "plot.svg").string()));
+  ASSERT_TRUE(svg.open(QIODevice::ReadOnly));
+  EXPECT_TRUE(svg.readAll().contains("<svg"));
+  EXPECT_EQ(plot.csv().count(QLatin1Char('\n')), 101);
+}
+
+TEST(Plot, ShowsSomethingAndEmptyStateSaysHow) {
+  Plot plot;
+  plot.resize(500, 300);
+  plot.setEmptyText(QStringLiteral("Curves"), QStringLiteral("Evaluate to see them."));
+  const QImage empty = plot.grab().toImage();
+  plot.setContent({ramp()});
+  const QImage full = plot.grab().toImage();
+  EXPECT_NE(empty, full);
+}
+
+TEST(Plot, TimeIsShownInPeoplesUnits) {
+  EXPECT_EQ(timeUnit(86400).name, QStringLiteral("h"));
+  EXPECT_EQ(timeUnit(1800).name, QStringLiteral("min"));
+  EXPECT_EQ(timeUnit(60).name, QStringLiteral("s"));
+}
+
+TEST(ImageView, DrawsMarksOnTheImage) {
+  ImageView view;
+  view.resize(400, 300);
+  QImage image(800, 600, QImage::Format_Grayscale8);
+  image.fill(20);
+  view.setImage(image);
+  const QImage plain = view.grab().toImage();
+  ImageMark mark;
+  mark.centre_px = {400, 300};
+  mark.radius_x_px = 150;
+  mark.radius_y_px = 118;
+  mark.label = QStringLiteral("14 15");
+  view.setMarks({mark});
+  const QImage marked = view.grab().toImage();
+  EXPECT_NE(plain, marked);
+  // The outline passes through (400 + 150, 300) of the image.
+  const QColor c = view.annotated().pixelColor(550, 300);
+  EXPECT_GT(c.green(), c.red());
+  view.setMarksVisible(false);
+  EXPECT_EQ(view.grab().toImage(), plain);
+}
+
+}  // namespace
+}  // namespace spindrift::gui

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The real window, driven by mouse and keys on the offscreen platform.
+#include "widgets/shell/main_window.h"
+
+#include <gtest/gtest.h>
+
+#include <QPushButton>
+#include <QSettings>
+#include <QTableWidget>
+#include <QTest>
+
+#include "core/base/random.h"
+#include "core/machine/nine_parameter_model.h"
+#include "tests/support/temp_folder.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/jobs/job_bar.h"
+#include "widgets/pages/kinematics/nine_parameter_page.h"
+#include "widgets/shell/step_list.h"
+#include "widgets/shell/tour.h"
+#include "widgets/shell/welcome_page.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+/// A campaign with observations of eight points in two states.
+std::filesystem::path writeCampaignWithObservations(const testing::TempFolder& folder) {
+  const std::filesystem::path campaign = folder / "campaign";
+  std::filesystem::create_directories(campaign);
+  folder.write(
+      "campaign/campaign.json",
+      R"({"format":"spindrift-campaign","version":1,"name":"eight points","start_utc":"2026-01-31T08:00:00Z"})");
+  std::string points;
+  ObservationSet set;
+  NineVector p;
+  p << 18.0, -11.0, 24.0, 60.0, -45.0, 35.0, 25.0, 55.0, 40.0;
+  Random random(3);
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d position(20.0 + 37 * i, i % 3 == 0 ? 15.0 : i % 3 == 1 ? 60.0 : 115.0, 0.0);
+    points += (i > 0 ? "," : "") + std::string("{\"id\":\"F") + std::to_string(i + 1) +
+              "\",\"kind\":\"fiducial\",\"x_mm\":" + std::to_string(position.x()) +
+              ",\"y_mm\":" + std::to_string(position.y()) + ",\"z_mm\":0}";
+    for (int state = 0; state < 2; ++state) {
+      for (const Component c : {Component::EX, Component::EY, Component::EZ}) {
+        Observation o;
+        o.time_s = state * 3600 + i * 60 + static_cast<int>(c);
+        o.state = state == 0 ? "M0" : "M1";
+        o.point = "F" + std::to_string(i + 1);
+        o.position_mm = position;
+        o.component = c;
+        o.sigma = 0.5;
+        o.value = (state == 0 ? 0.0 : nineParameterRow(position, c).dot(p)) + random.normal(0, 0.5);
+        o.instrument = "microscope";
+        set.rows.push_back(o);
+      }
+    }
+  }
+  folder.write(
+      "campaign/machine.json",
+      R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-(C)-t]","axes":[)"
+      R"({"name":"X","travel_mm":[0,300],"resolution_um":5},{"name":"Y","travel_mm":[0,130],"resolution_um":5},)"
+      R"({"name":"Z","travel_mm":[0,150],"resolution_um":5}],"points":[)" +
+          points + "]}");
+  set.write(campaign / "observations.csv");
+  return campaign;
+}
+
+class MainWindowTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    QSettings().clear();
+    window_ = std::make_unique<MainWindow>();
+    window_->resize(1440, 900);
+    window_->show();
+  }
+  void openEightPoints() {
+    window_->open(QString::fromStdString(writeCampaignWithObservations(folder_).string()));
+    ASSERT_TRUE(waitForJobs(*window_, 60));
+    ASSERT_NE(window_->session().campaign(), nullptr) << window_->jobBar()->message().toStdString();
+  }
+  testing::TempFolder folder_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(MainWindowTest, FirstScreenOffersDemosAndIsNotGrey) {
+  EXPECT_TRUE(window_->welcomeShown());
+  EXPECT_GT(window_->welcome()->demoCard(0)->height(), 150);
+  EXPECT_GE(window_->jobBar()->height(), 40);
+}
+
+TEST_F(MainWindowTest, OpensACampaignAndWalksThroughTheStepsByMouseAndKeys) {
+  openEightPoints();
+  EXPECT_FALSE(window_->welcomeShown());
+  EXPECT_EQ(window_->workflow().current(), StepId::Machine);
+  QTest::mouseClick(window_->nextButton(), Qt::LeftButton);
+  EXPECT_EQ(window_->workflow().current(), StepId::WarmUp);
+  QTest::mouseClick(window_->backButton(), Qt::LeftButton);
+  EXPECT_EQ(window_->workflow().current(), StepId::Machine);
+  QTest::mouseClick(window_->stepList()->button(StepId::Model), Qt::LeftButton);
+  EXPECT_EQ(window_->workflow().current(), StepId::Model);
+  QTest::keyClick(window_->stepList(), Qt::Key_Up);
+  EXPECT_EQ(window_->workflow().current(), StepId::Calibrate);
+  for (const StepId step : all_steps) {
+    window_->workflow().goTo(step);
+    ASSERT_NE(window_->currentPage(), nullptr);
+    EXPECT_EQ(window_->currentPage()->step(), step);
+    EXPECT_FALSE(window_->currentPage()->accessibleName().isEmpty());
+  }
+}
+
+TEST_F(MainWindowTest, FitsTheModelAndUndoesAChangeOfPoints) {
+  openEightPoints();
+  window_->workflow().goTo(StepId::Model);
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::NotStarted);
+  QTest::mouseClick(window_->currentPage()->primaryButton(), Qt::LeftButton);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Current);
+  auto* page = qobject_cast<NineParameterPage*>(window_->currentPage());
+  ASSERT_NE(page, nullptr);
+  EXPECT_FALSE(page->view()->empty());
+  const QImage picture = page->view()->grab().toImage();
+  int coloured = 0;
+  for (int y = 0; y < picture.height(); y += 4) {
+    for (int x = 0; x < picture.width(); x += 4) {
+      const QColor c = picture.pixelColor(x, y);
+      if (std::abs(c.red() - c.blue()) > 60) ++coloured;
+    }
+  }
+  EXPECT_GT(coloured, 500);
+
+  // Excluding data makes the model outdated; undo brings it back.
+  window_->undoStack().push(
+      new ExcludeCommand(window_->session(), {QStringLiteral("M1/F3/EX")}, QStringLiteral("test")));
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Outdated);
+  window_->undoStack().undo();
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Current);
+  window_->undoStack().redo();
+  EXPECT_TRUE(window_->session().excluded().contains(QStringLiteral("M1/F3/EX")));
+}
+
+TEST_F(MainWindowTest, EditingTheMachineCanBeUndone) {
+  openEightPoints();
+  auto* axes = window_->currentPage()->findChild<QTableWidget*>();
+  ASSERT_NE(axes, nullptr);
+  nlohmann::json machine = window_->session().campaign()->machine.source;
+  machine["name"] = "another";
+  window_->undoStack().push(new MachineCommand(window_->session(), machine));
+  EXPECT_EQ(window_->session().campaign()->machine.name, "another");
+  EXPECT_TRUE(window_->session().machineEdited());
+  window_->undoStack().undo();
+  EXPECT_EQ(window_->session().campaign()->machine.name, "mill");
+  EXPECT_FALSE(window_->session().machineEdited());
+}
+
+TEST_F(MainWindowTest, ReopeningShowsTheSameState) {
+  openEightPoints();
+  window_->workflow().goTo(StepId::Model);
+  window_->currentPage()->runAll();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  const QString folder = QString::fromStdString(window_->session().folder().string());
+  window_->closeSession();
+  EXPECT_TRUE(window_->welcomeShown());
+  window_->open(folder);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Current);
+}
+
+TEST_F(MainWindowTest, AFolderThatIsNothingGivesOneSentence) {
+  const auto nothing = folder_ / "nothing";
+  std::filesystem::create_directories(nothing);
+  window_->open(QString::fromStdString(nothing.string()));
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_TRUE(window_->welcomeShown());
+  EXPECT_TRUE(window_->jobBar()->message().contains(QStringLiteral("campaign.json")))
+      << window_->jobBar()->message().toStdString();
+}
+
+// Controls are at least 40 px high and have a name, on every page (LOOK.md).
+TEST_F(MainWindowTest, ButtonsAreLargeAndNamed) {
+  openEightPoints();
+  for (const StepId step : all_steps) {
+    window_->workflow().goTo(step);
+    QTest::qWait(10);
+    for (const QPushButton* button : window_->findChildren<QPushButton*>()) {
+      if (!button->isVisible()) continue;
+      EXPECT_GE(button->height(), 40) << button->text().toStdString() << " on " << stepTitle(step).toStdString();
+      EXPECT_FALSE(button->text().isEmpty() && button->accessibleName().isEmpty());
+      EXPECT_GE(button->width(), button->minimumSizeHint().width()) << button->text().toStdString();
+    }
+  }
+}
+
+TEST_F(MainWindowTest, ThemeSwitches) {
+  const QImage light = window_->grab().toImage();
+  window_->setTheme(ThemeKind::Dark);
+  const QImage dark = window_->grab().toImage();
+  window_->setTheme(ThemeKind::Light);
+  EXPECT_LT(qGray(dark.pixel(700, 700)), 90);
+  EXPECT_GT(qGray(light.pixel(700, 700)), 180);
+}
+
+}  // namespace
+}  // namespace spindrift::gui

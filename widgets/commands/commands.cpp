@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/commands/commands.h"
+
+#include <QCoreApplication>
+
+namespace spindrift::gui {
+namespace {
+
+QString translated(const char* text) {
+  return QCoreApplication::translate("Commands", text);
+}
+
+}  // namespace
+
+ExcludeCommand::ExcludeCommand(SessionModel& session, const QStringList& items, const QString& reason)
+    : session_(session), campaign_(session.campaignId()), reason_(reason) {
+  for (const QString& item : items) {
+    const auto found = session.excluded().find(item);
+    before_.emplace_back(item, found == session.excluded().end() ? QString() : found->second);
+  }
+  const QString what = items.size() == 1 ? items.front() : translated("%1 items").arg(items.size());
+  setText((reason.isEmpty() ? translated("restore %1") : translated("exclude %1")).arg(what));
+}
+
+void ExcludeCommand::redo() {
+  if (session_.campaignId() != campaign_) return;
+  for (const auto& [item, reason] : before_) session_.setExcluded(item, reason_);
+}
+
+void ExcludeCommand::undo() {
+  if (session_.campaignId() != campaign_) return;
+  for (const auto& [item, reason] : before_) session_.setExcluded(item, reason);
+}
+
+OptionsCommand::OptionsCommand(SessionModel& session, const QString& text, const std::string& key, nlohmann::json after,
+                               std::function<void()> changed)
+    : session_(session),
+      key_(key),
+      before_(session.setting(key, nullptr)),
+      after_(std::move(after)),
+      changed_(std::move(changed)) {
+  setText(text);
+}
+
+void OptionsCommand::redo() {
+  session_.setSetting(key_, after_);
+  if (changed_) changed_();
+}
+
+void OptionsCommand::undo() {
+  session_.setSetting(key_, before_);
+  if (changed_) changed_();
+}
+
+MachineCommand::MachineCommand(SessionModel& session, nlohmann::json after)
+    : session_(session),
+      before_(session.machineEdited() ? session.campaign()->machine.source : nlohmann::json::object()),
+      after_(std::move(after)) {
+  setText(translated("edit machine"));
+}
+
+void MachineCommand::redo() {
+  session_.setMachine(after_);
+}
+void MachineCommand::undo() {
+  session_.setMachine(before_);
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/common/parts.h"
+
+#include <QButtonGroup>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QPainter>
+#include <QSplitter>
+#include <QTabBar>
+#include <QTabWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include "widgets/theme/fonts.h"
+#include "widgets/theme/icons.h"
+
+namespace spindrift::gui {
+
+const char* toneIcon(Tone tone) {
+  switch (tone) {
+    case Tone::Good:
+      return "check-circle";
+    case Tone::Attention:
+      return "alert";
+    case Tone::Bad:
+      return "error";
+    case Tone::Outdated:
+      return "outdated";
+    default:
+      return "info";
+  }
+}
+
+IconLabel::IconLabel(QString name, Tone tone, int size, QWidget* parent)
+    : QWidget(parent), name_(std::move(name)), tone_(tone), size_(size) {
+  setFixedSize(size, size);
+}
+
+void IconLabel::set(const QString& name, Tone tone) {
+  name_ = name;
+  tone_ = tone;
+  update();
+}
+
+void IconLabel::paintEvent(QPaintEvent*) {
+  if (name_.isEmpty()) return;
+  QPainter painter(this);
+  painter.drawPixmap(0, 0, iconPixmap(name_, theme().tone(tone_), size_, devicePixelRatioF()));
+}
+
+Callout::Callout(QWidget* parent) : QFrame(parent) {
+  auto* line = new QHBoxLayout(this);
+  line->setContentsMargins(12, 10, 12, 10);
+  line->setSpacing(10);
+  icon_ = new IconLabel;
+  text_ = new QLabel;
+  text_->setWordWrap(true);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  button_ = new QPushButton;
+  button_->hide();
+  line->addWidget(icon_, 0, Qt::AlignTop);
+  line->addWidget(text_, 1);
+  line->addWidget(button_, 0, Qt::AlignVCenter);
+  connect(button_, &QPushButton::clicked, this, [this] {
+    if (action_) action_();
+  });
+  hide();
+}
+
+void Callout::show(Tone tone, const QString& sentence) {
+  tone_ = tone;
+  text_->setText(sentence);
+  icon_->set(QString::fromLatin1(toneIcon(tone)), tone);
+  setAccessibleName(sentence);
+  setVisible(true);
+  update();
+}
+
+void Callout::set(Tone tone, const QString& sentence) {
+  if (sentence.isEmpty()) {
+    text_->clear();
+    hide();
+  } else {
+    show(tone, sentence);
+  }
+}
+
+void Callout::setAction(const QString& text, std::function<void()> action) {
+  button_->setText(text);
+  button_->setVisible(!text.isEmpty());
+  action_ = std::move(action);
+}
+
+void Callout::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(theme().toneSoft(tone_));
+  painter.drawRoundedRect(rect(), 6, 6);
+  painter.setBrush(theme().tone(tone_));
+  painter.setClipRect(QRect(0, 0, 4, height()));
+  painter.drawRoundedRect(rect(), 6, 6);
+}
+
+Badge::Badge(QWidget* parent) : QWidget(parent) {
+  setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+}
+
+void Badge::set(const QString& icon_name, Tone tone, const QString& word) {
+  icon_ = icon_name;
+  tone_ = tone;
+  word_ = word;
+  setAccessibleName(word);
+  updateGeometry();
+  update();
+}
+
+QSize Badge::sizeHint() const {
+  const QFontMetrics metrics(textFont(sizes::font_secondary, QFont::Medium));
+  return {metrics.horizontalAdvance(word_) + 8 + 16 + 6 + 10, 26};
+}
+
+void Badge::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(theme().toneSoft(tone_));
+  painter.drawRoundedRect(rect(), 13, 13);
+  painter.drawPixmap(8, (height() - 16) / 2, iconPixmap(icon_, theme().tone(tone_), 16, devicePixelRatioF()));
+  painter.setFont(textFont(sizes::font_secondary, QFont::Medium));
+  painter.setPen(theme().tone(tone_));
+  painter.drawText(QRect(30, 0, width() - 30, height()), Qt::AlignVCenter | Qt::AlignLeft, word_);
+}
+
+Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
+  setProperty("role", QStringLiteral("card"));
+  auto* outer = new QVBoxLayout(this);
+  outer->setContentsMargins(16, 12, 16, 16);
+  outer->setSpacing(8);
+  title_line_ = new QHBoxLayout;
+  title_line_->setSpacing(8);
+  title_ = makeLabel(title, "sectionTitle");
+  title_line_->addWidget(title_, 1);
+  outer->addLayout(title_line_);
+  body_ = new QVBoxLayout;
+  body_->setSpacing(8);
+  outer->addLayout(body_, 1);
+  title_->setVisible(!title.isEmpty());
+}
+
+void Card::setTitle(const QString& title) {
+  title_->setText(title);
+  title_->setVisible(!title.isEmpty());
+}
+
+void Card::addToTitle(QWidget* widget) {
+  title_line_->addWidget(widget, 0);
+}
+
+NumberTile::NumberTile(const QString& name, QWidget* parent) : QFrame(parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(2);
+  column->addWidget(makeLabel(name, "secondaryText"));
+  value_ = makeLabel(QStringLiteral("–"), "bigNumber");
+  value_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  note_ = makeLabel({}, "secondaryText");
+  note_->setWordWrap(true);
+  column->addWidget(value_);
+  column->addWidget(note_);
+}
+
+void NumberTile::set(const QString& value, const QString& note, Tone tone) {
+  value_->setText(value);
+  note_->setText(note);
+  note_->setVisible(!note.isEmpty());
+  QPalette colours = value_->palette();
+  colours.setColor(QPalette::WindowText, tone == Tone::Neutral ? theme().text : theme().tone(tone));
+  value_->setPalette(colours);
+}
+
+EmptyState::EmptyState(const char* icon_name, const QString& title, const QString& how, QWidget* parent)
+    : QWidget(parent) {
+  auto* outer = new QVBoxLayout(this);
+  outer->addStretch(1);
+  layout_ = new QVBoxLayout;
+  layout_->setSpacing(8);
+  auto* icon_line = new QHBoxLayout;
+  icon_line->addStretch();
+  icon_line->addWidget(new IconLabel(QString::fromLatin1(icon_name), Tone::Neutral, 40));
+  icon_line->addStretch();
+  layout_->addLayout(icon_line);
+  title_ = makeLabel(title, "sectionTitle");
+  title_->setAlignment(Qt::AlignCenter);
+  title_->setWordWrap(true);
+  how_ = makeLabel(how, "instruction");
+  how_->setAlignment(Qt::AlignCenter);
+  how_->setWordWrap(true);
+  layout_->addWidget(title_);
+  layout_->addWidget(how_);
+  outer->addLayout(layout_);
+  outer->addStretch(1);
+}
+
+void EmptyState::setTexts(const QString& title, const QString& how) {
+  title_->setText(title);
+  how_->setText(how);
+}
+
+QPushButton* EmptyState::addButton(const QString& text, bool primary) {
+  auto* button = new QPushButton(text);
+  if (primary) setRole(button, "primary");
+  auto* line = new QHBoxLayout;
+  line->addStretch();
+  line->addWidget(button);
+  line->addStretch();
+  layout_->addSpacing(8);
+  layout_->addLayout(line);
+  return button;
+}
+
+QLabel* makeLabel(const QString& text, const char* role, QWidget* parent) {
+  auto* label = new QLabel(text, parent);
+  label->setProperty("role", QString::fromLatin1(role));
+  return label;
+}
+
+QPushButton* makeButton(const QString& text, const char* icon_name, const char* role) {
+  // A thin space keeps the text away from the icon; style sheets have no word for that.
+  auto* button = new QPushButton(icon_name == nullptr ? text : QChar(0x2009) + text);
+  button->setProperty("role", QString::fromLatin1(role));
+  button->setAccessibleName(text);
+  if (icon_name != nullptr) {
+    button->setIcon(icon(icon_name));
+    button->setIconSize({sizes::icon, sizes::icon});
+  }
+  return button;
+}
+
+namespace {
+
+/// A table that says what will appear while it has no rows.
+class QuietTable : public QTableView {
+ protected:
+  void paintEvent(QPaintEvent* event) override {
+    QTableView::paintEvent(event);
+    if (model() == nullptr || model()->rowCount() > 0) return;
+    QPainter painter(viewport());
+    painter.setFont(textFont(sizes::font_body));
+    painter.setPen(theme().text_secondary);
+    painter.drawText(viewport()->rect().adjusted(16, 8, -16, -8), Qt::AlignCenter | Qt::TextWordWrap,
+                     property("emptyText").toString());
+  }
+};
+
+}  // namespace
+
+QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name, const QString& empty_text) {
+  auto* table = new QuietTable;
+  table->setProperty("emptyText", empty_text);
+  table->setModel(model);
+  table->setAccessibleName(accessible_name);
+  table->setShowGrid(false);
+  table->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table->setSelectionMode(QAbstractItemView::SingleSelection);
+  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table->setTabKeyNavigation(false);
+  table->setWordWrap(false);
+  table->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
+  table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+  table->verticalHeader()->hide();
+  table->verticalHeader()->setDefaultSectionSize(36);
+  table->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table->horizontalHeader()->setStretchLastSection(true);
+  table->horizontalHeader()->setHighlightSections(false);
+  table->setMinimumHeight(120);
+  return table;
+}
+
+Segments::Segments(const QStringList& texts, const QString& accessible_name, QWidget* parent) : QWidget(parent) {
+  setAccessibleName(accessible_name);
+  auto* line = new QHBoxLayout(this);
+  line->setContentsMargins(0, 0, 0, 0);
+  line->setSpacing(0);
+  auto* group = new QButtonGroup(this);
+  group->setExclusive(true);
+  for (qsizetype i = 0; i < texts.size(); ++i) {
+    auto* button = new QPushButton(texts[i]);
+    button->setCheckable(true);
+    button->setChecked(i == 0);
+    button->setProperty("segment", i == 0                  ? QStringLiteral("first")
+                                   : i + 1 == texts.size() ? QStringLiteral("last")
+                                                           : QStringLiteral("middle"));
+    button->setAccessibleName(accessible_name + QStringLiteral(": ") + texts[i]);
+    group->addButton(button, static_cast<int>(i));
+    line->addWidget(button);
+    buttons_.push_back(button);
+  }
+  line->addStretch();
+  setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Fixed);
+  connect(group, &QButtonGroup::idClicked, this, [this](int index) {
+    if (index == current_) return;
+    current_ = index;
+    Q_EMIT chosen(index);
+  });
+}
+
+void Segments::setCurrent(int index) {
+  current_ = index;
+  buttons_[static_cast<std::size_t>(index)]->setChecked(true);
+}
+
+QSplitter* makeSplitter(QWidget* first, QWidget* second, int first_part, int second_part, Qt::Orientation orientation) {
+  auto* splitter = new QSplitter(orientation);
+  splitter->setChildrenCollapsible(false);
+  splitter->setHandleWidth(12);
+  splitter->addWidget(first);
+  splitter->addWidget(second);
+  splitter->setStretchFactor(0, first_part);
+  splitter->setStretchFactor(1, second_part);
+  splitter->setSizes({first_part * 100, second_part * 100});
+  return splitter;
+}
+
+QTabWidget* makeTabs() {
+  auto* tabs = new QTabWidget;
+  tabs->setDocumentMode(true);
+  tabs->tabBar()->setDrawBase(false);
+  tabs->tabBar()->setExpanding(false);
+  return tabs;
+}
+
+QFrame* makeLine(Qt::Orientation orientation) {
+  auto* line = new QFrame;
+  line->setProperty("role", QStringLiteral("line"));
+  if (orientation == Qt::Horizontal) {
+    line->setFixedHeight(1);
+  } else {
+    line->setFixedWidth(1);
+  }
+  return line;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/export/exportable.h"
+
+#include <QAbstractItemModel>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+#include "core/base/atomic_file.h"
+#include "core/base/csv.h"
+#include "core/base/error.h"
+#include "widgets/common/parts.h"
+#include "widgets/image_view/image_view.h"
+#include "widgets/plots/plot.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+void savePicture(const QImage& picture, const QString& file) {
+  if (!picture.save(file)) throw InputError({file.toStdString(), ""}, "the picture could not be written.");
+}
+
+}  // namespace
+
+QString fileNameOf(const QString& name) {
+  QString text;
+  for (const QChar c : name.toLower()) {
+    if (c.isLetterOrNumber()) {
+      text += c;
+    } else if (!text.isEmpty() && !text.endsWith(QLatin1Char('-'))) {
+      text += QLatin1Char('-');
+    }
+  }
+  while (text.endsWith(QLatin1Char('-'))) text.chop(1);
+  return text;
+}
+
+Exportable exportableOf(const QString& name, const Plot* plot) {
+  return {name,
+          {QStringLiteral("png"), QStringLiteral("svg"), QStringLiteral("pdf"), QStringLiteral("csv")},
+          [plot](const QString& file) { plot->exportTo(file); }};
+}
+
+Exportable exportableOf(const QString& name, View3D* view) {
+  return {name, {QStringLiteral("png")}, [view](const QString& file) {
+            savePicture(view->picture(view->size().expandedTo({800, 600}), 2.0), file);
+          }};
+}
+
+Exportable exportableOf(const QString& name, const ImageView* view) {
+  return {name, {QStringLiteral("png")}, [view](const QString& file) { savePicture(view->annotated(), file); }};
+}
+
+QString tableCsv(const QAbstractItemModel& model) {
+  QStringList lines;
+  QStringList fields;
+  for (int c = 0; c < model.columnCount(); ++c) {
+    fields << QString::fromStdString(csvField(model.headerData(c, Qt::Horizontal).toString().toStdString()));
+  }
+  lines << fields.join(QLatin1Char(','));
+  for (int r = 0; r < model.rowCount(); ++r) {
+    fields.clear();
+    for (int c = 0; c < model.columnCount(); ++c) {
+      const QModelIndex index = model.index(r, c);
+      const QVariant exact = index.data(Qt::UserRole);
+      fields << QString::fromStdString(csvField((exact.isValid() ? exact : index.data()).toString().toStdString()));
+    }
+    lines << fields.join(QLatin1Char(','));
+  }
+  return lines.join(QLatin1Char('\n')) + QLatin1Char('\n');
+}
+
+Exportable exportableOf(const QString& name, const QAbstractItemModel* model) {
+  return {name, {QStringLiteral("csv")}, [model](const QString& file) {
+            writeFileAtomically(file.toStdString(), tableCsv(*model).toStdString());
+          }};
+}
+
+ExportDialog::ExportDialog(std::vector<Exportable> items, const QString& folder, QWidget* parent)
+    : QDialog(parent), items_(std::move(items)) {
+  setWindowTitle(tr("Export"));
+  setMinimumSize(560, 420);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(16, 16, 16, 16);
+  column->setSpacing(12);
+  column->addWidget(makeLabel(tr("Pictures and tables of this page"), "sectionTitle"));
+  list_ = new QListWidget;
+  list_->setAccessibleName(tr("What to export"));
+  column->addWidget(list_, 1);
+  for (const Exportable& item : items_) {
+    auto* entry = new QListWidgetItem(list_);
+    entry->setFlags(entry->flags() | Qt::ItemIsUserCheckable);
+    entry->setCheckState(Qt::Checked);
+    entry->setText(item.name);
+    entry->setSizeHint({0, 48});
+    auto* line = new QWidget;
+    auto* layout = new QHBoxLayout(line);
+    layout->setContentsMargins(0, 4, 8, 4);
+    layout->addStretch();
+    auto* format = new QComboBox;
+    for (const QString& f : item.formats) format->addItem(f.toUpper(), f);
+    format->setMinimumWidth(96);
+    format->setAccessibleName(tr("Format of %1").arg(item.name));
+    layout->addWidget(format);
+    formats_.push_back(format);
+    list_->setItemWidget(entry, line);
+  }
+  auto* place = new QHBoxLayout;
+  place->addWidget(new QLabel(tr("Folder")));
+  folder_ = new QLineEdit(folder);
+  folder_->setAccessibleName(tr("Folder to export to"));
+  place->addWidget(folder_, 1);
+  auto* browse = makeButton(tr("Choose …"), "folder-open");
+  place->addWidget(browse);
+  column->addLayout(place);
+  connect(browse, &QPushButton::clicked, this, [this] {
+    const QString chosen = QFileDialog::getExistingDirectory(this, tr("Folder to export to"), folder_->text());
+    if (!chosen.isEmpty()) folder_->setText(chosen);
+  });
+  message_ = new Callout;
+  column->addWidget(message_);
+  auto* buttons = new QHBoxLayout;
+  buttons->addStretch();
+  auto* close = new QPushButton(tr("Close"));
+  auto* write = makeButton(tr("Export"), nullptr, "primary");
+  write->setDefault(true);
+  buttons->addWidget(close);
+  buttons->addWidget(write);
+  column->addLayout(buttons);
+  connect(close, &QPushButton::clicked, this, &QDialog::accept);
+  connect(write, &QPushButton::clicked, this, [this] { exportNow(); });
+}
+
+QString ExportDialog::folder() const {
+  return folder_->text();
+}
+
+bool ExportDialog::exportNow() {
+  int count = 0;
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    if (list_->item(static_cast<int>(i))->checkState() != Qt::Checked) continue;
+    const QString file =
+        QDir(folder_->text())
+            .filePath(fileNameOf(items_[i].name) + QLatin1Char('.') + formats_[i]->currentData().toString());
+    try {
+      QDir().mkpath(folder_->text());
+      items_[i].write(file);
+      ++count;
+    } catch (const std::exception& e) {
+      message_->show(Tone::Bad, QString::fromUtf8(e.what()));
+      return false;
+    }
+  }
+  message_->show(Tone::Good, tr("%n file(s) written to %1", nullptr, count).arg(folder_->text()));
+  return true;
+}
+
+}  // namespace spindrift::gui

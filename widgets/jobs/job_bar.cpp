@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/jobs/job_bar.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+
+#include "widgets/common/parts.h"
+
+namespace spindrift::gui {
+
+JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent) {
+  setProperty("role", QStringLiteral("bar"));
+  setFixedHeight(52);
+  auto* line = new QHBoxLayout(this);
+  line->setContentsMargins(16, 6, 8, 6);
+  line->setSpacing(10);
+  icon_ = new IconLabel(QStringLiteral("check-circle"), Tone::Neutral);
+  text_ = new QLabel(tr("Ready"));
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  progress_ = new QProgressBar;
+  progress_->setRange(0, 1000);
+  progress_->setTextVisible(false);
+  progress_->setFixedWidth(240);
+  progress_->setAccessibleName(tr("Progress"));
+  progress_->hide();
+  cancel_ = makeButton(tr("Cancel"), "x");
+  cancel_->setToolTip(tr("Stop what is running; nothing of it is applied"));
+  cancel_->hide();
+  hint_ = makeLabel({}, "secondaryText");
+  line->addWidget(icon_);
+  line->addWidget(text_, 1);
+  line->addWidget(hint_);
+  line->addWidget(progress_);
+  line->addWidget(cancel_);
+
+  connect(cancel_, &QPushButton::clicked, this, [this, &runner] {
+    runner.cancel();
+    cancel_->setEnabled(false);
+    text_->setText(tr("Stopping …"));
+  });
+  connect(&runner, &JobRunner::started, this, [this](const QString& title) {
+    icon_->set(QStringLiteral("in-progress"), Tone::Accent);
+    text_->setText(title);
+    progress_->setValue(0);
+    progress_->show();
+    cancel_->setEnabled(true);
+    cancel_->show();
+  });
+  connect(&runner, &JobRunner::progressed, this, [this, &runner](double fraction, const QString& stage) {
+    progress_->setValue(static_cast<int>(1000 * fraction));
+    if (cancel_->isEnabled()) {
+      text_->setText(stage.isEmpty() ? runner.title() : runner.title() + QStringLiteral(": ") + stage);
+    }
+  });
+  connect(&runner, &JobRunner::finished, this,
+          [this, &runner](const QString& title, JobOutcome outcome, const QString& sentence) {
+            switch (outcome) {
+              case JobOutcome::Done:
+                icon_->set(QStringLiteral("check-circle"), Tone::Good);
+                text_->setText(tr("%1: done").arg(title));
+                break;
+              case JobOutcome::Failed:
+                icon_->set(QStringLiteral("error"), Tone::Bad);
+                text_->setText(sentence);
+                break;
+              case JobOutcome::Cancelled:
+                icon_->set(QStringLiteral("info"), Tone::Neutral);
+                text_->setText(tr("%1: cancelled, nothing was changed").arg(title));
+                break;
+            }
+            if (runner.waiting() == 0) {
+              progress_->hide();
+              cancel_->hide();
+            }
+          });
+}
+
+void JobBar::setHint(const QString& text) {
+  hint_->setText(text);
+}
+
+void JobBar::setMessage(const QString& text) {
+  icon_->set(QStringLiteral("info"), Tone::Neutral);
+  text_->setText(text);
+}
+
+QString JobBar::message() const {
+  return text_->text();
+}
+
+}  // namespace spindrift::gui

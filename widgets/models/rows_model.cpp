@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/models/rows_model.h"
+
+#include <QFont>
+
+#include "widgets/theme/fonts.h"
+#include "widgets/theme/icons.h"
+
+namespace spindrift::gui {
+
+RowsModel::RowsModel(QStringList headers, QObject* parent)
+    : QAbstractTableModel(parent), headers_(std::move(headers)) {}
+
+void RowsModel::setHeaders(const QStringList& headers) {
+  beginResetModel();
+  headers_ = headers;
+  endResetModel();
+}
+
+void RowsModel::setRows(std::vector<Row> rows) {
+  if (rows.size() == rows_.size() && !rows.empty()) {
+    // Same length: keep selection and scroll position.
+    rows_ = std::move(rows);
+    Q_EMIT dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
+    return;
+  }
+  beginResetModel();
+  rows_ = std::move(rows);
+  endResetModel();
+}
+
+QString RowsModel::idAt(int row) const {
+  return row >= 0 && row < rowCount() ? rows_[static_cast<std::size_t>(row)].id : QString();
+}
+
+int RowsModel::rowOf(const QString& id) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (rows_[i].id == id) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+int RowsModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(rows_.size());
+}
+int RowsModel::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(headers_.size());
+}
+
+QVariant RowsModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid() || index.row() >= rowCount()) return {};
+  const Row& row = rows_[static_cast<std::size_t>(index.row())];
+  if (index.column() >= static_cast<int>(row.cells.size())) return {};
+  const Cell& cell = row.cells[static_cast<std::size_t>(index.column())];
+  switch (role) {
+    case Qt::DisplayRole:
+      return cell.text;
+    case Qt::AccessibleTextRole:
+      return headers_[index.column()] + QStringLiteral(": ") + cell.text;
+    case Qt::ToolTipRole:
+      return cell.tip.isEmpty() ? QVariant() : QVariant(cell.tip);
+    case Qt::TextAlignmentRole:
+      return static_cast<int>(Qt::AlignVCenter | (cell.right ? Qt::AlignRight : Qt::AlignLeft));
+    case Qt::ForegroundRole:
+      if (row.faded) return theme().text_disabled;
+      return cell.tone == Tone::Neutral ? QVariant() : QVariant(theme().tone(cell.tone));
+    case Qt::DecorationRole:
+      if (cell.icon == nullptr) return {};
+      return icon(cell.icon, row.faded                    ? theme().text_disabled
+                             : cell.tone == Tone::Neutral ? theme().text_secondary
+                                                          : theme().tone(cell.tone));
+    case Qt::FontRole: {
+      QFont font = textFont(sizes::font_body, cell.bold ? QFont::DemiBold : QFont::Normal);
+      font.setStrikeOut(row.faded && index.column() == 0);
+      return font;
+    }
+    case Qt::CheckStateRole:
+      return cell.checked ? QVariant(*cell.checked ? Qt::Checked : Qt::Unchecked) : QVariant();
+    default:
+      return {};
+  }
+}
+
+QVariant RowsModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  if (orientation != Qt::Horizontal || section >= headers_.size()) return {};
+  if (role == Qt::DisplayRole) return headers_[section];
+  if (role == Qt::TextAlignmentRole && !rows_.empty()) {
+    const auto& cells = rows_.front().cells;
+    const bool right = section < static_cast<int>(cells.size()) && cells[static_cast<std::size_t>(section)].right;
+    return static_cast<int>(Qt::AlignVCenter | (right ? Qt::AlignRight : Qt::AlignLeft));
+  }
+  return {};
+}
+
+Qt::ItemFlags RowsModel::flags(const QModelIndex& index) const {
+  Qt::ItemFlags flags = QAbstractTableModel::flags(index);
+  const Row& row = rows_[static_cast<std::size_t>(index.row())];
+  if (index.column() < static_cast<int>(row.cells.size()) &&
+      row.cells[static_cast<std::size_t>(index.column())].checked) {
+    flags |= Qt::ItemIsUserCheckable;
+  }
+  return flags;
+}
+
+bool RowsModel::setData(const QModelIndex& index, const QVariant& value, int role) {
+  if (role != Qt::CheckStateRole || !index.isValid()) return false;
+  Cell& cell = rows_[static_cast<std::size_t>(index.row())].cells[static_cast<std::size_t>(index.column())];
+  if (!cell.checked) return false;
+  cell.checked = value.toInt() == Qt::Checked;
+  Q_EMIT dataChanged(index, index, {Qt::CheckStateRole});
+  Q_EMIT checkedChanged(idAt(index.row()), index.column(), *cell.checked);
+  return true;
+}
+
+}  // namespace spindrift::gui

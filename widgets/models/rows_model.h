@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A table of texts with meanings, for lists and results that are replaced as a whole.
+#pragma once
+
+#include <QAbstractTableModel>
+#include <QString>
+#include <QStringList>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "widgets/theme/theme.h"
+
+namespace spindrift::gui {
+
+struct Cell {
+  QString text;
+  Tone tone = Tone::Neutral;   ///< other than Neutral: the text has that colour
+  const char* icon = nullptr;  ///< a line icon in front
+  bool right = false;          ///< numbers stand at the right
+  bool bold = false;
+  std::optional<bool> checked;  ///< a box to check in this cell
+  QString tip;
+};
+
+struct Row {
+  QString id;
+  std::vector<Cell> cells;
+  bool faded = false;  ///< excluded
+};
+
+class RowsModel : public QAbstractTableModel {
+  Q_OBJECT
+ public:
+  explicit RowsModel(QStringList headers, QObject* parent = nullptr);
+  void setHeaders(const QStringList& headers);
+  void setRows(std::vector<Row> rows);
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+  [[nodiscard]] QString idAt(int row) const;
+  [[nodiscard]] int rowOf(const QString& id) const;  ///< -1 if it is not there
+
+  [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
+  [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
+  [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
+  [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+  [[nodiscard]] Qt::ItemFlags flags(const QModelIndex& index) const override;
+  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+
+ Q_SIGNALS:
+  /// The user changed a box; the model shows it at once, the owner decides what it means.
+  void checkedChanged(const QString& id, int column, bool checked);
+
+ private:
+  QStringList headers_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace spindrift::gui

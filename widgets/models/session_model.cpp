@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/models/session_model.h"
+
+#include <QDateTime>
+#include <QDir>
+#include <QStandardPaths>
+
+#include "core/base/error.h"
+
+namespace spindrift::gui {
+namespace {
+
+std::string machineKey(std::int64_t campaign) {
+  return "machine/" + std::to_string(campaign);
+}
+
+}  // namespace
+
+SessionModel::SessionModel(QObject* parent) : QObject(parent) {}
+SessionModel::~SessionModel() = default;
+
+void SessionModel::openSession(const std::filesystem::path& folder) {
+  auto opened = std::make_unique<Session>(Session::open(folder));
+  session_ = std::move(opened);
+  const std::vector<CampaignRecord> all = session_->campaigns();
+  campaign_.reset();
+  campaign_id_ = 0;
+  if (!all.empty()) {
+    const auto last = session_->setting("campaign");
+    std::int64_t id = all.back().id;
+    if (last && last->is_number_integer()) {
+      for (const CampaignRecord& record : all) {
+        if (record.id == last->get<std::int64_t>()) id = record.id;
+      }
+    }
+    load(id);
+  }
+  Q_EMIT sessionChanged();
+  Q_EMIT campaignChanged();
+}
+
+void SessionModel::createSession(const std::filesystem::path& folder) {
+  auto made = std::make_unique<Session>(Session::create(folder));
+  session_ = std::move(made);
+  campaign_.reset();
+  campaign_id_ = 0;
+  excluded_.clear();
+  Q_EMIT sessionChanged();
+  Q_EMIT campaignChanged();
+}
+
+void SessionModel::close() {
+  session_.reset();
+  campaign_.reset();
+  campaign_id_ = 0;
+  excluded_.clear();
+  Q_EMIT sessionChanged();
+  Q_EMIT campaignChanged();
+}
+
+std::filesystem::path SessionModel::folder() const {
+  return session_ ? session_->folder() : std::filesystem::path();
+}
+
+QString SessionModel::name() const {
+  return session_ ? QString::fromStdString(session_->folder().filename().string()) : QString();
+}
+
+void SessionModel::adopt(std::unique_ptr<Session> session, std::int64_t campaign) {
+  session_ = std::move(session);
+  load(campaign);
+  session_->setSetting("campaign", campaign);
+  Q_EMIT sessionChanged();
+  Q_EMIT campaignChanged();
+}
+
+std::unique_ptr<Session> SessionModel::release() {
+  std::unique_ptr<Session> out = std::move(session_);
+  close();
+  return out;
+}
+
+void SessionModel::selectCampaign(std::int64_t id) {
+  load(id);
+  session_->setSetting("campaign", id);
+  Q_EMIT campaignChanged();
+}
+
+void SessionModel::load(std::int64_t id) {
+  auto campaign = std::make_shared<Campaign>(Campaign::read(session_->campaign(id).folder));
+  machine_edited_ = false;
+  if (const auto edited = session_->setting(machineKey(id)); edited && edited->is_object() && !edited->empty()) {
+    campaign->machine =
+        MachineDescription::parse(JsonNode::parse(edited->dump(), "machine as edited"), campaign->path("machine.json"));
+    machine_edited_ = true;
+  }
+  campaign_ = std::move(campaign);
+  campaign_id_ = id;
+  excluded_.clear();
+  for (const Exclusion& e : session_->exclusions(id)) {
+    excluded_[QString::fromStdString(e.item)] = QString::fromStdString(e.reason);
+  }
+}
+
+std::vector<CampaignRecord> SessionModel::campaigns() const {
+  return session_ ? session_->campaigns() : std::vector<CampaignRecord>();
+}
+
+bool SessionModel::has(Instrument instrument) const {
+  if (campaign_ == nullptr) return false;
+  switch (instrument) {
+    case Instrument::Microscope:
+      return campaign_->captureList("fiducials.csv").has_value();
+    case Instrument::TouchProbe:
+      return campaign_->captureList("touches.csv").has_value();
+    case Instrument::Profiler:
+      return campaign_->captureList("scans.csv").has_value();
+  }
+  return false;
+}
+
+CampaignSnapshot SessionModel::snapshot() const {
+  CampaignSnapshot copy;
+  if (campaign_ == nullptr) return copy;
+  auto campaign = std::make_shared<Campaign>(*campaign_);
+  for (const auto& [item, reason] : excluded_) {
+    copy.excluded.insert(item.toStdString());
+    campaign->excluded_captures.insert(item.toStdString());
+  }
+  copy.campaign = std::move(campaign);
+  return copy;
+}
+
+nlohmann::json payloadOf(const CampaignEvaluation& evaluation) {
+  nlohmann::json covariance = nlohmann::json::array();
+  for (const CovarianceEntry& e : evaluation.observations.covariance)
+    covariance.push_back({e.row, e.column, e.covariance});
+  return {{"json", evaluation.json()},
+          {"summary", evaluation.summary()},
+          {"good_enough", evaluation.good_enough},
+          {"observations", evaluation.observations.csv()},
+          {"covariance", covariance}};
+}
+
+StoredEvaluation evaluationFrom(const StoredResult& result) {
+  StoredEvaluation evaluation;
+  evaluation.id = result.id;
+  const nlohmann::json& p = result.payload;
+  evaluation.details = p.at("json");
+  evaluation.summary = p.at("summary").get<std::string>();
+  evaluation.good_enough = p.at("good_enough").get<bool>();
+  evaluation.observations = ObservationSet::parse(p.at("observations").get<std::string>(), "stored observations");
+  for (const auto& e : p.at("covariance")) {
+    evaluation.observations.covariance.push_back(
+        {e.at(0).get<std::size_t>(), e.at(1).get<std::size_t>(), e.at(2).get<double>()});
+  }
+  for (const auto& r : evaluation.details.value("rejected", nlohmann::json::array())) {
+    evaluation.rejected.push_back({r.at("capture").get<std::string>(), r.at("reason").get<std::string>()});
+  }
+  for (const auto& w : evaluation.details.value("warnings", nlohmann::json::array())) {
+    evaluation.warnings.push_back(w.get<std::string>());
+  }
+  return evaluation;
+}
+
+std::shared_ptr<const StoredEvaluation> SessionModel::evaluation() const {
+  const auto found = result("evaluate");
+  if (!found) return nullptr;
+  if (evaluation_ == nullptr || evaluation_->id != found->id) {
+    evaluation_ = std::make_shared<StoredEvaluation>(evaluationFrom(*found));
+  }
+  return evaluation_;
+}
+
+std::optional<ObservationSet> SessionModel::observations() const {
+  if (campaign_ == nullptr) return std::nullopt;
+  std::optional<ObservationSet> set = campaign_->observations;
+  if (!set) {
+    if (const auto stored = evaluation()) set = stored->observations;
+  }
+  if (!set) return std::nullopt;
+  for (Observation& o : set->rows) {
+    const std::string item = o.state + "/" + o.point + "/" + std::string(toString(o.component));
+    if (excluded_.contains(QString::fromStdString(item))) o.use = ObservationUse::Exclude;
+  }
+  return set;
+}
+
+void SessionModel::setMachine(const nlohmann::json& machine_json) {
+  if (session_ == nullptr || campaign_ == nullptr) return;
+  if (!machine_json.empty()) {
+    // Refuse what cannot be read before anything is stored.
+    (void)MachineDescription::parse(JsonNode::parse(machine_json.dump(), "machine as edited"), "machine as edited");
+  }
+  session_->setSetting(machineKey(campaign_id_), machine_json.is_null() ? nlohmann::json::object() : machine_json);
+  load(campaign_id_);
+  Q_EMIT campaignChanged();
+  Q_EMIT inputsChanged();
+}
+
+nlohmann::json SessionModel::commonOptions() const {
+  nlohmann::json options = nlohmann::json::object();
+  if (machine_edited_) options["machine"] = campaign_->machine.source;
+  return options;
+}
+
+void SessionModel::storeResult(const std::string& kind, const nlohmann::json& options, const nlohmann::json& payload) {
+  if (session_ == nullptr || campaign_ == nullptr) return;
+  nlohmann::json all = commonOptions();
+  all.update(options);
+  session_->addResult(campaign_id_, kind, all, payload);
+  Q_EMIT resultChanged(QString::fromStdString(kind));
+}
+
+std::optional<StoredResult> SessionModel::result(const std::string& kind) const {
+  if (session_ == nullptr || campaign_ == nullptr) return std::nullopt;
+  return session_->latestResult(campaign_id_, kind);
+}
+
+ResultState SessionModel::state(const std::string& kind) const {
+  ResultState state;
+  if (const auto found = result(kind)) {
+    state.there = true;
+    state.current = session_->isCurrent(*found) && found->provenance.options.value("machine", nlohmann::json()) ==
+                                                       commonOptions().value("machine", nlohmann::json());
+    state.created_utc = found->provenance.created_utc;
+    state.program_version = found->provenance.program_version;
+  }
+  return state;
+}
+
+void SessionModel::setExcluded(const QString& item, const QString& reason) {
+  if (session_ == nullptr || campaign_ == nullptr) return;
+  if (reason.isEmpty()) {
+    session_->restore(campaign_id_, item.toStdString());
+    excluded_.erase(item);
+  } else {
+    session_->exclude(campaign_id_, item.toStdString(), reason.toStdString());
+    excluded_[item] = reason;
+  }
+  Q_EMIT inputsChanged();
+}
+
+void SessionModel::setSetting(const std::string& key, const nlohmann::json& value) {
+  if (session_ != nullptr) session_->setSetting(key, value);
+}
+
+nlohmann::json SessionModel::setting(const std::string& key, const nlohmann::json& otherwise) const {
+  if (session_ == nullptr) return otherwise;
+  return session_->setting(key).value_or(otherwise);
+}
+
+std::filesystem::path sessionsFolder() {
+  QString place = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  if (place.isEmpty()) place = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
+  return QDir(place).filePath(QStringLiteral("Spindrift")).toStdString();
+}
+
+std::filesystem::path newSessionFolder(const QString& name) {
+  QString clean;
+  for (const QChar c : name) clean += c.isLetterOrNumber() || c == QLatin1Char('-') ? c : QLatin1Char('_');
+  const QString stamp = QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd_HH-mm-ss"));
+  const std::filesystem::path base = sessionsFolder() / (clean + QLatin1Char('_') + stamp).toStdString();
+  std::filesystem::path folder = base;
+  for (int i = 2; std::filesystem::exists(folder); ++i) folder = base.string() + "_" + std::to_string(i);
+  return folder;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the pages see of the session on disk: the campaign at hand, its results with their freshness, what was excluded.
+// Lives on the GUI thread; jobs get copies (`snapshot()`).
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/machine/campaign.h"
+#include "core/machine/instrument_evaluation.h"
+#include "core/session/session.h"
+#include "core/workflows/evaluate_campaign.h"
+
+namespace spindrift::gui {
+
+/// The instruments a campaign may hold captures of.
+enum class Instrument { Microscope, TouchProbe, Profiler };
+
+/// Everything a job needs, copied.
+struct CampaignSnapshot {
+  std::shared_ptr<const Campaign> campaign;
+  std::set<std::string> excluded;  ///< items as in Exclusion
+};
+
+/// The evaluation of a campaign's captures, as it was stored.
+struct StoredEvaluation {
+  std::int64_t id = 0;
+  ObservationSet observations;
+  nlohmann::json details = nlohmann::json::object();  ///< JSON of `evaluate` (FORMATS.md)
+  std::vector<RejectedCapture> rejected;
+  std::vector<std::string> warnings;
+  std::string summary;
+  bool good_enough = true;
+};
+
+/// Payload of a result of kind "evaluate" and back.
+[[nodiscard]] nlohmann::json payloadOf(const CampaignEvaluation& evaluation);
+[[nodiscard]] StoredEvaluation evaluationFrom(const StoredResult& result);
+
+/// A result with what is known about its freshness.
+struct ResultState {
+  bool there = false;
+  bool current = false;
+  std::string created_utc;
+  std::string program_version;
+};
+
+class SessionModel : public QObject {
+  Q_OBJECT
+ public:
+  explicit SessionModel(QObject* parent = nullptr);
+  ~SessionModel() override;
+
+  // The session. All of these throw InputError and leave what was open as it is.
+  void openSession(const std::filesystem::path& folder);
+  void createSession(const std::filesystem::path& folder);
+  void close();
+  [[nodiscard]] bool isOpen() const { return session_ != nullptr; }
+  [[nodiscard]] Session* session() { return session_.get(); }
+  [[nodiscard]] std::filesystem::path folder() const;
+  [[nodiscard]] QString name() const;
+
+  // The campaign at hand.
+  /// Takes over a session that a job has made or added a campaign to.
+  void adopt(std::unique_ptr<Session> session, std::int64_t campaign);
+  /// Hands the session to a job; until it comes back through adopt() nothing is open.
+  [[nodiscard]] std::unique_ptr<Session> release();
+  void selectCampaign(std::int64_t id);
+  [[nodiscard]] std::vector<CampaignRecord> campaigns() const;
+  [[nodiscard]] std::int64_t campaignId() const { return campaign_id_; }
+  [[nodiscard]] std::shared_ptr<const Campaign> campaign() const { return campaign_; }
+  [[nodiscard]] bool has(Instrument instrument) const;
+  [[nodiscard]] CampaignSnapshot snapshot() const;
+  /// The machine as edited by the user, in place of machine.json (which is never altered); empty JSON: back to the
+  /// file.
+  void setMachine(const nlohmann::json& machine_json);
+  [[nodiscard]] bool machineEdited() const { return machine_edited_; }
+
+  // Results. `kind` names what was computed ("evaluate", "fit", "check").
+  void storeResult(const std::string& kind, const nlohmann::json& options, const nlohmann::json& payload);
+  [[nodiscard]] std::optional<StoredResult> result(const std::string& kind) const;
+  [[nodiscard]] ResultState state(const std::string& kind) const;
+  /// The last evaluation, whether it is current or not; null if there is none.
+  [[nodiscard]] std::shared_ptr<const StoredEvaluation> evaluation() const;
+  /// Observations to fit: the campaign's own, else those of the last evaluation; what the user excluded is marked so.
+  [[nodiscard]] std::optional<ObservationSet> observations() const;
+  /// Options every result depends on (the edited machine), to be merged into its own.
+  [[nodiscard]] nlohmann::json commonOptions() const;
+
+  // Exclusions; `reason` empty takes an item back in. Undo commands call these.
+  void setExcluded(const QString& item, const QString& reason);
+  [[nodiscard]] const std::map<QString, QString>& excluded() const { return excluded_; }
+
+  // Settings that belong to the session.
+  void setSetting(const std::string& key, const nlohmann::json& value);
+  [[nodiscard]] nlohmann::json setting(const std::string& key, const nlohmann::json& otherwise) const;
+
+ Q_SIGNALS:
+  void sessionChanged();
+  void campaignChanged();
+  void resultChanged(const QString& kind);
+  /// Something results depend on changed: exclusions, machine, options.
+  void inputsChanged();
+
+ private:
+  void load(std::int64_t id);
+
+  std::unique_ptr<Session> session_;
+  std::int64_t campaign_id_ = 0;
+  std::shared_ptr<const Campaign> campaign_;
+  std::map<QString, QString> excluded_;
+  bool machine_edited_ = false;
+  mutable std::shared_ptr<const StoredEvaluation> evaluation_;
+};
+
+/// Folder in which new sessions are made: <documents>/Spindrift, or the application's data folder.
+[[nodiscard]] std::filesystem::path sessionsFolder();
+/// A folder in it that does not exist yet, named after the campaign and the time.
+[[nodiscard]] std::filesystem::path newSessionFolder(const QString& name);
+
+}  // namespace spindrift::gui

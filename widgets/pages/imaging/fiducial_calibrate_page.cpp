@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/imaging/fiducial_calibrate_page.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/imaging/jog_validation.h"
+#include "core/workflows/evaluate_campaign.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/plots/plot.h"
+
+namespace spindrift::gui {
+namespace {
+
+Cell dash() {
+  Cell cell{QStringLiteral("–")};
+  cell.right = true;
+  return cell;
+}
+
+/// {"value", "standard_uncertainty"} as one text.
+Cell cellOf(const nlohmann::json& quantity) {
+  Cell cell = dash();
+  if (!quantity.is_object() || !quantity.value("value", nlohmann::json()).is_number()) return cell;
+  const nlohmann::json sigma = quantity.value("standard_uncertainty", nlohmann::json());
+  cell.text = QString::fromStdString(
+                  withUncertainty(quantity["value"].get<double>(), sigma.is_number() ? sigma.get<double>() : 0.0, ""))
+                  .trimmed();
+  return cell;
+}
+
+}  // namespace
+
+FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Calibrate, parent) {
+  evaluate_ = makeButton(tr("Evaluate the captures"), nullptr, "primary");
+  addAction(evaluate_);
+  auto* tiles = new Card;
+  auto* line = new QHBoxLayout;
+  line->setSpacing(24);
+  pixel_ = new NumberTile(tr("Pixel length"));
+  centre_ = new NumberTile(tr("Centre of rotation in the image"));
+  axes_ = new NumberTile(tr("Angle from X to Y"));
+  rejected_count_ = new NumberTile(tr("Captures left out"));
+  for (NumberTile* tile : {pixel_, centre_, axes_, rejected_count_}) line->addWidget(tile, 1);
+  tiles->body()->addLayout(line);
+  content()->addWidget(tiles);
+
+  auto* left = new Card;
+  tabs_ = makeTabs();
+  displacements_ = new RowsModel({tr("Fiducial"), tr("State"), tr("EX / um"), tr("EY / um"), tr("EZ / um")}, this);
+  tabs_->addTab(
+      makeTable(displacements_, tr("Deviations"), tr("Deviations of each fiducial appear after the evaluation.")),
+      tr("Deviations"));
+  sets_ = new RowsModel({tr("Fiducial"), tr("State"), tr("Centre x / px"), tr("Centre y / px"), tr("Scatter / um"),
+                         tr("Angle X to Y − 90° / urad"), tr("Peak height / um")},
+                        this);
+  tabs_->addTab(makeTable(sets_, tr("Sets"), tr("Centres, directions and heights appear after the evaluation.")),
+                tr("Sets"));
+  rejected_ = new RowsModel({tr("Capture"), tr("Why it was left out")}, this);
+  tabs_->addTab(makeTable(rejected_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
+  auto* checks = new QWidget;
+  auto* checks_column = new QVBoxLayout(checks);
+  checks_column->setContentsMargins(0, 8, 0, 0);
+  check_kind_ = new QComboBox;
+  check_kind_->setAccessibleName(tr("What the states are"));
+  check_kind_->addItems({tr("The states are thermal states: nothing to check"),
+                         tr("The states are jogs: within one resolution"),
+                         tr("The states repeat the cold machine: within half a resolution")});
+  checks_column->addWidget(check_kind_);
+  check_verdict_ = new Callout;
+  checks_column->addWidget(check_verdict_);
+  resolution_ = new RowsModel(
+      {tr("Axis"), tr("Largest / um"), tr("At"), tr("rms / um"), tr("Allowed / um"), tr("Verdict")}, this);
+  checks_column->addWidget(makeTable(resolution_, tr("Check against the resolution"),
+                                     tr("Say what the states are to compare them with the resolution of the axes.")),
+                           1);
+  tabs_->addTab(checks, tr("Resolution"));
+  connect(check_kind_, &QComboBox::activated, this, &FiducialCalibratePage::showResolutionCheck);
+  left->body()->addWidget(tabs_, 1);
+  auto* right = new Card(tr("Contrast over height"));
+  fiducial_ = new QComboBox;
+  fiducial_->setAccessibleName(tr("Fiducial whose contrast curves are shown"));
+  fiducial_->setMinimumWidth(120);
+  right->addToTitle(fiducial_);
+  connect(fiducial_, &QComboBox::activated, this, &FiducialCalibratePage::showContrast);
+  contrast_ = new Plot;
+  contrast_->setAxes(tr("Commanded height / um"), tr("Contrast, normalised"));
+  contrast_->setEmptyText(tr("Contrast curves will appear here"),
+                          tr("Evaluate the captures: the peak of each curve is the height of its fiducial."));
+  right->body()->addWidget(contrast_, 1);
+  content()->addWidget(makeSplitter(left, right, 6, 6), 1);
+  showHints(contrast_);
+  connect(evaluate_, &QPushButton::clicked, this, &FiducialCalibratePage::evaluate);
+}
+
+void FiducialCalibratePage::evaluate() {
+  const CampaignSnapshot snapshot = session().snapshot();
+  if (snapshot.campaign == nullptr) return;
+  run(tr("Evaluating the captures"), [this, snapshot](JobContext& job) -> std::function<void()> {
+    const CampaignEvaluation evaluation = evaluateCampaign(*snapshot.campaign, {}, job);
+    return [this, payload = payloadOf(evaluation)] {
+      session().storeResult("evaluate", nlohmann::json::object(), payload);
+      refresh();
+    };
+  });
+}
+
+void FiducialCalibratePage::refresh() {
+  if (session().campaign() == nullptr) return;
+  const auto evaluation = session().evaluation();
+  const ResultState state = session().state("evaluate");
+  if (evaluation == nullptr) {
+    displacements_->setRows({});
+    sets_->setRows({});
+    rejected_->setRows({});
+    contrast_->setContent({});
+    fiducial_->clear();
+    for (NumberTile* tile : {pixel_, centre_, axes_, rejected_count_}) tile->set(QStringLiteral("–"));
+    callout()->show(Tone::Accent,
+                    tr("Press Evaluate the captures. Bad ones are listed with their reason, the rest is evaluated."));
+    return;
+  }
+  if (!state.current) {
+    callout()->show(Tone::Outdated,
+                    tr("Captures, exclusions or the machine have changed since this was evaluated. Evaluate again."));
+  } else if (!evaluation->good_enough || !evaluation->warnings.empty()) {
+    QStringList sentences;
+    for (const std::string& w : evaluation->warnings) sentences << QString::fromStdString(w);
+    callout()->show(Tone::Attention,
+                    sentences.mid(0, 2).join(QLatin1Char(' ')) +
+                        (sentences.size() > 2 ? tr(" And %1 more.").arg(sentences.size() - 2) : QString()));
+  } else {
+    callout()->show(Tone::Good, tr("%n deviation(s) found, no warnings.", nullptr,
+                                   static_cast<int>(evaluation->observations.rows.size())));
+  }
+  showDetails(*evaluation);
+}
+
+void FiducialCalibratePage::showDetails(const StoredEvaluation& evaluation) {
+  std::map<std::pair<std::string, std::string>, std::map<Component, const Observation*>> table;
+  std::vector<std::pair<std::string, std::string>> order;
+  for (const Observation& o : evaluation.observations.rows) {
+    const auto key = std::make_pair(o.point, o.state);
+    if (!table.contains(key)) order.push_back(key);
+    table[key][o.component] = &o;
+  }
+  std::vector<Row> rows;
+  for (const auto& key : order) {
+    Row row;
+    row.id = QString::fromStdString(key.second + "/" + key.first);
+    Cell name{QString::fromStdString(key.first)};
+    name.bold = true;
+    row.cells = {name, {QString::fromStdString(key.second)}};
+    for (const Component c : {Component::EX, Component::EY, Component::EZ}) {
+      const auto found = table[key].find(c);
+      Cell cell;
+      cell.right = true;
+      cell.text =
+          found == table[key].end()
+              ? QStringLiteral("–")
+              : QString::fromStdString(withUncertainty(found->second->value, found->second->sigma, "")).trimmed();
+      row.cells.push_back(cell);
+    }
+    rows.push_back(std::move(row));
+  }
+  displacements_->setRows(std::move(rows));
+  rows.clear();
+  for (const RejectedCapture& r : evaluation.rejected) {
+    Row row;
+    row.id = QString::fromStdString(r.capture);
+    row.cells = {{row.id, Tone::Bad, "error"}, {QString::fromStdString(r.reason)}};
+    row.cells[1].tip = row.cells[1].text;
+    rows.push_back(std::move(row));
+  }
+  tabs_->setTabText(2, tr("Left out (%1)").arg(rows.size()));
+  rejected_count_->set(QString::number(rows.size()), rows.empty() ? tr("every capture was used") : tr("see the list"),
+                       rows.empty() ? Tone::Neutral : Tone::Attention);
+  rejected_->setRows(std::move(rows));
+  showSets(evaluation);
+  showContrast();
+  showResolutionCheck();
+}
+
+void FiducialCalibratePage::showResolutionCheck() {
+  resolution_->setRows({});
+  check_verdict_->set(Tone::Neutral, {});
+  const auto set = session().observations();
+  if (!set || check_kind_->currentIndex() == 0) return;
+  try {
+    const ResolutionCheck check =
+        checkAgainstResolution(*set, session().campaign()->machine, check_kind_->currentIndex() == 1 ? 1.0 : 0.5);
+    std::vector<Row> rows;
+    for (const AxisVerdict& v : check.axes) {
+      Row row;
+      row.id = QString::fromStdString(std::string(toString(v.component)));
+      Cell name{row.id};
+      name.bold = true;
+      row.cells = {name,
+                   {QString::fromStdString(withUncertainty(v.largest_um, v.largest_sigma_um, "")).trimmed()},
+                   {QString::fromStdString(v.largest_at)},
+                   {QString::number(v.rms_um, 'f', 2)},
+                   {QString::number(v.limit_um, 'f', 2)},
+                   {v.passed ? tr("passed") : tr("not passed"), v.passed ? Tone::Good : Tone::Bad,
+                    v.passed ? "check-circle" : "error"}};
+      rows.push_back(std::move(row));
+    }
+    resolution_->setRows(std::move(rows));
+    check_verdict_->show(check.passed ? Tone::Good : Tone::Attention, QString::fromStdString(check.reason));
+  } catch (const InputError& e) {
+    check_verdict_->show(Tone::Attention, QString::fromUtf8(e.what()));
+  }
+}
+
+void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
+  const nlohmann::json& d = evaluation.details;
+  std::vector<Row> rows;
+  double orthogonality = 0;
+  double weight = 0;
+  nlohmann::json centre;
+  const QString chosen = fiducial_->currentText();
+  fiducial_->clear();
+  for (const auto& fiducial : d.value("fiducials", nlohmann::json::array())) {
+    const QString name = QString::fromStdString(fiducial.value("fiducial", std::string()));
+    fiducial_->addItem(name);
+    for (const auto& state : fiducial.value("states", nlohmann::json::array())) {
+      Row row;
+      row.id = name + QLatin1Char('/') + QString::fromStdString(state.value("state", std::string()));
+      Cell first{name};
+      first.bold = true;
+      row.cells = {first, {QString::fromStdString(state.value("state", std::string()))}};
+      const nlohmann::json c = state.value("centre_of_rotation", nlohmann::json());
+      const nlohmann::json a = state.value("axis_directions", nlohmann::json());
+      const nlohmann::json f = state.value("focus", nlohmann::json());
+      if (c.is_object() && centre.is_null()) centre = c;
+      row.cells.push_back(c.is_object() ? cellOf(c.value("x_px", nlohmann::json())) : dash());
+      row.cells.push_back(c.is_object() ? cellOf(c.value("y_px", nlohmann::json())) : dash());
+      Cell scatter = dash();
+      if (c.is_object() && c.value("rms_um", nlohmann::json()).is_number()) {
+        scatter.text = QString::number(c["rms_um"].get<double>(), 'f', 2);
+      }
+      row.cells.push_back(scatter);
+      const nlohmann::json o = a.is_object() ? a.value("orthogonality_urad", nlohmann::json()) : nlohmann::json();
+      row.cells.push_back(cellOf(o));
+      if (o.is_object() && o["value"].is_number() && o["standard_uncertainty"].is_number()) {
+        const double w = 1 / std::max(1e-12, std::pow(o["standard_uncertainty"].get<double>(), 2));
+        orthogonality += w * o["value"].get<double>();
+        weight += w;
+      }
+      row.cells.push_back(f.is_object() ? cellOf(f.value("peak_z_um", nlohmann::json())) : dash());
+      rows.push_back(std::move(row));
+    }
+  }
+  sets_->setRows(std::move(rows));
+  fiducial_->setCurrentIndex(std::max(0, fiducial_->findText(chosen)));
+
+  const nlohmann::json camera = d.value("camera", nlohmann::json::object());
+  const nlohmann::json length = camera.value("pixel_length_um", nlohmann::json());
+  pixel_->set(length.is_number() ? QStringLiteral("%1 um").arg(length.get<double>(), 0, 'f', 4) : QStringLiteral("–"),
+              tr("from the pattern itself"));
+  const nlohmann::json pooled = d.value("centre_of_rotation", nlohmann::json::object());
+  if (centre.is_object()) {
+    const double x = centre["x_px"].value("value", 0.0);
+    const double y = centre["y_px"].value("value", 0.0);
+    const double s = centre["x_px"].value("standard_uncertainty", 0.0);
+    const QString pooling = QString::fromStdString(pooled.value("pooling", std::string("?")));
+    centre_->set(QStringLiteral("%1, %2 px").arg(x, 0, 'f', 1).arg(y, 0, 'f', 1),
+                 tr("± %1 px, one for %2; spindle repeats to %3 um")
+                     .arg(s, 0, 'f', 2)
+                     .arg(pooling)
+                     .arg(pooled.value("spindle_repeatability_um", 0.0), 0, 'f', 2));
+  } else {
+    centre_->set(QStringLiteral("–"), tr("needs three spindle orientations"));
+  }
+  if (weight > 0) {
+    axes_->set(QString::fromStdString(withUncertainty(orthogonality / weight, 1 / std::sqrt(weight), "urad")),
+               tr("off a right angle, mean of all fiducials"));
+  } else {
+    axes_->set(QStringLiteral("–"), tr("needs positions along both axes"));
+  }
+}
+
+void FiducialCalibratePage::showContrast() {
+  const auto evaluation = session().evaluation();
+  if (evaluation == nullptr) return;
+  const nlohmann::json& d = evaluation->details;
+  const nlohmann::json shape =
+      d.value("contrast_curve", nlohmann::json::object()).value("shape_per_mm", nlohmann::json());
+  std::vector<Series> series;
+  int colour = 0;
+  for (const auto& fiducial : d.value("fiducials", nlohmann::json::array())) {
+    if (QString::fromStdString(fiducial.value("fiducial", std::string())) != fiducial_->currentText()) continue;
+    for (const auto& state : fiducial.value("states", nlohmann::json::array())) {
+      const nlohmann::json focus = state.value("focus", nlohmann::json());
+      if (!focus.is_object()) continue;
+      Series measured;
+      measured.name = tr("state %1").arg(QString::fromStdString(state.value("state", std::string())));
+      measured.style = SeriesStyle::Points;
+      measured.colour = colour;
+      for (const auto& p : focus.value("curve", nlohmann::json::array())) {
+        if (!p.value("contrast", nlohmann::json()).is_number()) continue;
+        measured.x.push_back(1000 * p["z_mm"].get<double>());
+        measured.y.push_back(p["contrast"].get<double>());
+      }
+      const nlohmann::json peak = focus.value("peak_z_um", nlohmann::json());
+      if (shape.is_array() && shape.size() == 3 && peak.is_object() && peak["value"].is_number() &&
+          measured.x.size() >= 2) {
+        // 1 / n = g H(z - p), H = 1 + a2 u^2 + a3 u^3 + a4 u^4 with u in mm: the gain is what fits the points.
+        const auto h = [&](double z_um) {
+          const double u = (z_um - peak["value"].get<double>()) * 1e-3;
+          return 1 + u * u * (shape[0].get<double>() + u * (shape[1].get<double>() + u * shape[2].get<double>()));
+        };
+        double log_gain = 0;
+        for (std::size_t i = 0; i < measured.x.size(); ++i) log_gain -= std::log(measured.y[i] * h(measured.x[i]));
+        const double gain = std::exp(log_gain / static_cast<double>(measured.x.size()));
+        Series fitted;
+        fitted.style = SeriesStyle::Line;
+        fitted.colour = colour;
+        fitted.legend = false;
+        const auto [low, high] = std::minmax_element(measured.x.begin(), measured.x.end());
+        for (int i = 0; i <= 120; ++i) {
+          const double z = *low + (*high - *low) * i / 120;
+          fitted.x.push_back(z);
+          fitted.y.push_back(1 / (gain * h(z)));
+        }
+        series.push_back(std::move(fitted));
+      }
+      series.push_back(std::move(measured));
+      ++colour;
+    }
+  }
+  contrast_->setContent(std::move(series));
+}
+
+std::vector<Exportable> FiducialCalibratePage::exportables() {
+  std::vector<Exportable> items{exportableOf(tr("Deviations"), displacements_),
+                                exportableOf(tr("Left out"), rejected_)};
+  if (!contrast_->empty()) items.push_back(exportableOf(tr("Contrast curves"), contrast_));
+  return items;
+}
+
+}  // namespace spindrift::gui

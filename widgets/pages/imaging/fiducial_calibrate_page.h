@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Step Calibrate for a microscope: captures to deviations, with everything in between that can go wrong made visible.
+#pragma once
+
+#include "widgets/pages/page.h"
+
+class QComboBox;
+class QTabWidget;
+
+namespace spindrift::gui {
+
+class NumberTile;
+class Plot;
+class RowsModel;
+
+class FiducialCalibratePage : public Page {
+  Q_OBJECT
+ public:
+  explicit FiducialCalibratePage(PageContext context, QWidget* parent = nullptr);
+  void refresh() override;
+  [[nodiscard]] std::vector<Exportable> exportables() override;
+  [[nodiscard]] QPushButton* primaryButton() const override { return evaluate_; }
+  void runAll() override { evaluate(); }
+
+ private:
+  void evaluate();
+  void showDetails(const StoredEvaluation& evaluation);
+  void showSets(const StoredEvaluation& evaluation);
+  void showContrast();
+  void showResolutionCheck();
+
+  QPushButton* evaluate_;
+  NumberTile* pixel_;
+  NumberTile* centre_;
+  NumberTile* axes_;
+  NumberTile* rejected_count_;
+  RowsModel* displacements_;
+  RowsModel* sets_;
+  RowsModel* rejected_;
+  Plot* contrast_;
+  QTabWidget* tabs_;
+  QComboBox* fiducial_;
+  QComboBox* check_kind_;
+  Callout* check_verdict_;
+  RowsModel* resolution_;
+};
+
+}  // namespace spindrift::gui

@@ -1,0 +1,471 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/imaging/fiducial_capture_page.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QInputDialog>
+#include <QSplitter>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <mutex>
+#include <set>
+
+#include "core/base/csv.h"
+#include "core/base/error.h"
+#include "core/imaging/decoder.h"
+#include "core/imaging/image.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/image_view/image_view.h"
+#include "widgets/models/rows_model.h"
+
+namespace spindrift::gui {
+namespace {
+
+QString roleName(const QString& role) {
+  if (role == QLatin1String("rotation")) return FiducialCapturePage::tr("rotation");
+  if (role == QLatin1String("x_axis")) return FiducialCapturePage::tr("along X");
+  if (role == QLatin1String("y_axis")) return FiducialCapturePage::tr("along Y");
+  if (role == QLatin1String("focus")) return FiducialCapturePage::tr("focus");
+  return role;
+}
+
+QString number(double value) {
+  return QString::number(value).replace(QLatin1Char('-'), QChar(0x2212));
+}
+
+/// How many captures of a role the evaluation needs at least.
+int needed(const QString& role) {
+  return role == QLatin1String("focus") ? 5 : 3;
+}
+
+struct Check {
+  bool good = false;
+  QString sentence;
+  int ellipses = 0;
+  double blur_px = 0;
+};
+
+/// The verdict over one image, as a sentence for the person at the machine.
+Check judge(const DecodeResult& result) {
+  Check check;
+  check.ellipses = static_cast<int>(result.subpatterns.size());
+  check.blur_px = result.exposure.blur_sigma_px;
+  check.good = result.usable();
+  if (!result.usable()) {
+    check.sentence = QString::fromStdString(result.message);
+    return check;
+  }
+  check.sentence =
+      FiducialCapturePage::tr("%n ellipse(s) decoded, blur %1 px, centres within %2 px rms of the pattern.", nullptr,
+                              check.ellipses)
+          .arg(check.blur_px, 0, 'f', 1)
+          .arg(result.map_rms_px, 0, 'f', 3);
+  if (result.exposure.saturated_fraction > 0.02) {
+    check.sentence += QLatin1Char(' ') + FiducialCapturePage::tr("%1 % of the pixels are overexposed: take less light.")
+                                             .arg(100 * result.exposure.saturated_fraction, 0, 'f', 0);
+  }
+  return check;
+}
+
+std::vector<ImageMark> marksOf(const DecodeResult& result) {
+  std::vector<ImageMark> marks;
+  const FiducialPattern& pattern = standardPattern();
+  const double scale = result.map.pixel_length_um > 0 ? 1.0 / result.map.pixel_length_um : 0.0;
+  for (const Subpattern& s : result.subpatterns) {
+    ImageMark mark;
+    mark.centre_px = {s.x_px, s.y_px};
+    mark.radius_x_px = pattern.semi_axis_x_um * scale;
+    mark.radius_y_px = pattern.semi_axis_y_um * scale;
+    mark.tilt_rad = s.tilt_rad;
+    mark.label = QStringLiteral("%1 %2").arg(s.row).arg(s.column);
+    mark.tone = s.from_neighbours ? Tone::Attention : Tone::Good;
+    marks.push_back(mark);
+  }
+  for (const CircleMark& c : result.circles) {
+    ImageMark mark;
+    mark.centre_px = {c.x_px, c.y_px};
+    mark.radius_x_px = mark.radius_y_px = pattern.circle_radius_um * scale * 1.25;
+    mark.tone = Tone::Accent;
+    marks.push_back(mark);
+  }
+  return marks;
+}
+
+QImage toImage(const GrayImage& gray) {
+  QImage image(gray.width(), gray.height(), QImage::Format_Grayscale8);
+  for (int y = 0; y < gray.height(); ++y) {
+    std::copy_n(gray.row(y), gray.width(), image.scanLine(y));
+  }
+  return image;
+}
+
+}  // namespace
+
+FiducialCapturePage::FiducialCapturePage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Capture, parent) {
+  check_ = makeButton(tr("Check all captures"), nullptr, "primary");
+  addAction(check_);
+
+  auto* list = new Card(tr("Captures"));
+  auto* filters = new QHBoxLayout;
+  state_filter_ = new QComboBox;
+  state_filter_->setAccessibleName(tr("Thermal state"));
+  verdict_filter_ = new QComboBox;
+  verdict_filter_->setAccessibleName(tr("Verdict"));
+  verdict_filter_->addItems({tr("All verdicts"), tr("Good"), tr("Bad"), tr("Not checked"), tr("Excluded")});
+  filters->addWidget(state_filter_, 1);
+  filters->addWidget(verdict_filter_, 1);
+  list->body()->addLayout(filters);
+  model_ = new RowsModel({tr("Capture"), tr("State"), tr("Role"), tr("Verdict"), tr("Blur / px")}, this);
+  table_ = makeTable(model_, tr("Captures"), tr("No capture has this state and verdict."));
+  list->body()->addWidget(table_, 3);
+  list->body()->addWidget(makeLabel(tr("Plan: taken of needed"), "sectionTitle"));
+  plan_ = new RowsModel({tr("Fiducial"), tr("State"), tr("Rotation"), tr("X"), tr("Y"), tr("Focus")}, this);
+  auto* plan_table = makeTable(plan_, tr("Plan"), tr("The plan appears with the first capture."));
+  plan_table->setSelectionMode(QAbstractItemView::NoSelection);
+  plan_table->setFocusPolicy(Qt::NoFocus);
+  list->body()->addWidget(plan_table, 2);
+
+  auto* picture = new Card(tr("Image"));
+  badge_ = new Badge;
+  picture->addToTitle(badge_);
+  image_ = new ImageView;
+  image_->setEmptyText(tr("The image will appear here"),
+                       tr("Choose a capture in the list. What was decoded is drawn on top."));
+  picture->body()->addWidget(image_, 1);
+  verdict_ = new Callout;
+  picture->body()->addWidget(verdict_);
+  auto* buttons = new QHBoxLayout;
+  exclude_ = makeButton(tr("Exclude …"), "exclude");
+  exclude_->setToolTip(tr("Leave this capture out of the evaluation; it stays on the disk and can be brought back"));
+  overlay_ = makeButton(tr("Overlay"), "eye");
+  overlay_->setCheckable(true);
+  overlay_->setChecked(true);
+  auto* fit = makeButton(tr("Whole image"), "fit-window");
+  buttons->addWidget(exclude_);
+  buttons->addStretch();
+  buttons->addWidget(overlay_);
+  buttons->addWidget(fit);
+  picture->body()->addLayout(buttons);
+  content()->addWidget(makeSplitter(list, picture, 5, 7), 1);
+  showHints(image_);
+
+  connect(check_, &QPushButton::clicked, this, &FiducialCapturePage::checkAll);
+  connect(state_filter_, &QComboBox::activated, this, &FiducialCapturePage::fillTable);
+  connect(verdict_filter_, &QComboBox::activated, this, &FiducialCapturePage::fillTable);
+  connect(fit, &QPushButton::clicked, image_, &ImageView::fit);
+  connect(overlay_, &QPushButton::toggled, image_, &ImageView::setMarksVisible);
+  connect(exclude_, &QPushButton::clicked, this, &FiducialCapturePage::toggleExcluded);
+  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this](const QModelIndex& now) { showImage(model_->idAt(now.row())); });
+}
+
+void FiducialCapturePage::load() {
+  captures_.clear();
+  const auto campaign = session().campaign();
+  const auto file = campaign == nullptr ? std::nullopt : campaign->captureList("fiducials.csv");
+  if (!file) return;
+  try {
+    const CsvTable table = CsvTable::read(*file);
+    const std::size_t state = table.column("state");
+    const std::size_t fiducial = table.column("fiducial");
+    const std::size_t role = table.column("role");
+    const std::size_t index = table.column("index");
+    const std::size_t z = table.column("z_mm");
+    const std::size_t spindle = table.column("spindle_deg");
+    const std::size_t image = table.column("image");
+    for (std::size_t r = 0; r < table.rowCount(); ++r) {
+      CaptureVerdict c;
+      c.image = QString::fromStdString(table.requiredText(r, image));
+      c.state = QString::fromStdString(std::string(table.text(r, state)));
+      c.fiducial = QString::fromStdString(table.requiredText(r, fiducial));
+      c.role = QString::fromStdString(table.requiredText(r, role));
+      c.index = static_cast<int>(table.number(r, index));
+      c.z_mm = table.number(r, z);
+      c.spindle_deg = table.number(r, spindle);
+      captures_.push_back(std::move(c));
+    }
+  } catch (const InputError& e) {
+    callout()->show(Tone::Bad, QString::fromUtf8(e.what()));
+  }
+  if (const auto stored = session().result("check")) {
+    std::map<QString, const nlohmann::json*> by_image;
+    for (const auto& entry : stored->payload.at("captures")) {
+      by_image[QString::fromStdString(entry.at("image").get<std::string>())] = &entry;
+    }
+    for (CaptureVerdict& c : captures_) {
+      const auto found = by_image.find(c.image);
+      if (found == by_image.end()) continue;
+      const nlohmann::json& e = *found->second;
+      c.checked = true;
+      c.good = e.at("good").get<bool>();
+      c.sentence = QString::fromStdString(e.at("sentence").get<std::string>());
+      c.ellipses = e.at("ellipses").get<int>();
+      c.sharpness_px = e.at("blur_px").get<double>();
+    }
+  }
+}
+
+void FiducialCapturePage::refresh() {
+  if (session().campaign() == nullptr) return;
+  const bool other = loaded_campaign_ != session().campaignId();
+  loaded_campaign_ = session().campaignId();
+  callout()->set(Tone::Neutral, {});
+  load();
+  QStringList states;
+  for (const CaptureVerdict& c : captures_) {
+    if (!states.contains(c.state)) states << c.state;
+  }
+  const QString chosen = other ? QString() : state_filter_->currentData().toString();
+  state_filter_->clear();
+  state_filter_->addItem(tr("All states"), QString());
+  for (const QString& s : states) state_filter_->addItem(tr("State %1").arg(s), s);
+  state_filter_->setCurrentIndex(std::max(0, state_filter_->findData(chosen)));
+  fillTable();
+  fillPlan();
+
+  const auto bad = std::count_if(captures_.begin(), captures_.end(), [this](const CaptureVerdict& c) {
+    return c.checked && !c.good && !session().excluded().contains(c.image);
+  });
+  const auto unchecked =
+      std::count_if(captures_.begin(), captures_.end(), [](const CaptureVerdict& c) { return !c.checked; });
+  if (callout()->sentence().isEmpty()) {
+    if (captures_.empty()) {
+      callout()->show(Tone::Attention, tr("The campaign lists no captures yet."));
+    } else if (unchecked == static_cast<std::ptrdiff_t>(captures_.size())) {
+      callout()->show(Tone::Accent, tr("%1 captures are there and none is checked yet. Checking decodes every image "
+                                       "and says which to take again.")
+                                        .arg(captures_.size()));
+    } else if (bad > 0) {
+      callout()->show(
+          Tone::Attention,
+          tr("%1 of %2 captures cannot be used. Take them again, or exclude them: the rest is evaluated without.")
+              .arg(bad)
+              .arg(captures_.size()));
+    } else {
+      callout()->show(Tone::Good, tr("All %1 captures are checked and can be used.").arg(captures_.size()));
+    }
+  }
+  if (other || shown_.isEmpty()) {
+    if (model_->rowCount() > 0) table_->selectRow(0);
+  } else {
+    const int row = model_->rowOf(shown_);
+    if (row >= 0) table_->selectRow(row);
+    showImage(shown_);
+  }
+}
+
+void FiducialCapturePage::fillTable() {
+  std::vector<Row> rows;
+  const QString state = state_filter_->currentData().toString();
+  for (const CaptureVerdict& c : captures_) {
+    const bool excluded = session().excluded().contains(c.image);
+    if (!state.isEmpty() && c.state != state) continue;
+    switch (verdict_filter_->currentIndex()) {
+      case 1:
+        if (!c.checked || !c.good || excluded) continue;
+        break;
+      case 2:
+        if (!c.checked || c.good || excluded) continue;
+        break;
+      case 3:
+        if (c.checked) continue;
+        break;
+      case 4:
+        if (!excluded) continue;
+        break;
+      default:
+        break;
+    }
+    Row row;
+    row.id = c.image;
+    row.faded = excluded;
+    row.cells = {
+        {QStringLiteral("%1 · %2").arg(c.fiducial).arg(c.index + 1), Tone::Neutral, nullptr, false, false, {}, c.image},
+        {c.state},
+        {roleName(c.role)},
+        {}};
+    if (excluded) {
+      row.cells[3] = {tr("excluded"), Tone::Neutral, "exclude"};
+      row.cells[3].tip = session().excluded().at(c.image);
+    } else if (!c.checked) {
+      row.cells[3] = {tr("not checked"), Tone::Neutral, "not-started"};
+    } else if (c.good) {
+      row.cells[3] = {tr("good"), Tone::Good, "check-circle"};
+    } else {
+      row.cells[3] = {tr("bad"), Tone::Bad, "error"};
+    }
+    if (row.cells[3].tip.isEmpty()) row.cells[3].tip = c.sentence;
+    Cell blur;
+    blur.text = c.checked && c.sharpness_px > 0 ? QString::number(c.sharpness_px, 'f', 1) : QStringLiteral("–");
+    row.cells.push_back(blur);
+    rows.push_back(std::move(row));
+  }
+  model_->setRows(std::move(rows));
+}
+
+void FiducialCapturePage::fillPlan() {
+  struct Count {
+    std::map<QString, int> usable, taken;
+  };
+  std::vector<std::pair<QString, QString>> order;
+  std::map<std::pair<QString, QString>, Count> counts;
+  std::set<QString> with_axes;
+  for (const CaptureVerdict& c : captures_) {
+    const auto key = std::make_pair(c.fiducial, c.state);
+    if (!counts.contains(key)) order.push_back(key);
+    Count& count = counts[key];
+    ++count.taken[c.role];
+    if (!session().excluded().contains(c.image) && (!c.checked || c.good)) ++count.usable[c.role];
+    if (c.role.endsWith(QLatin1String("_axis"))) with_axes.insert(c.state);
+  }
+  std::vector<Row> rows;
+  for (const auto& key : order) {
+    const Count& count = counts[key];
+    Row row;
+    row.id = key.first + key.second;
+    row.cells = {{key.first}, {key.second}};
+    for (const char* role : {"rotation", "x_axis", "y_axis", "focus"}) {
+      const QString name = QString::fromLatin1(role);
+      const auto found = count.usable.find(name);
+      const int have = found == count.usable.end() ? 0 : found->second;
+      Cell cell;
+      if (name.endsWith(QLatin1String("_axis")) && !count.taken.contains(name) && !with_axes.contains(key.second)) {
+        cell.text = tr("as before");
+        cell.tip = tr("Directions of the axes are measured once, in the reference state.");
+      } else {
+        cell.text = tr("%1 of %2").arg(have).arg(needed(name));
+        cell.tone = have >= needed(name) ? Tone::Good : Tone::Attention;
+        cell.icon = have >= needed(name) ? "check" : "alert";
+      }
+      row.cells.push_back(cell);
+    }
+    rows.push_back(std::move(row));
+  }
+  plan_->setRows(std::move(rows));
+}
+
+const CaptureVerdict* FiducialCapturePage::find(const QString& image) const {
+  for (const CaptureVerdict& c : captures_) {
+    if (c.image == image) return &c;
+  }
+  return nullptr;
+}
+
+void FiducialCapturePage::select(const QString& image) {
+  const int row = model_->rowOf(image);
+  if (row >= 0) table_->selectRow(row);
+}
+
+QString FiducialCapturePage::selectedImage() const {
+  return shown_;
+}
+
+void FiducialCapturePage::showImage(const QString& image) {
+  const CaptureVerdict* capture = find(image);
+  if (capture == nullptr) return;
+  const bool same = shown_ == image && !image_->empty();
+  shown_ = image;
+  const bool excluded = session().excluded().contains(image);
+  exclude_->setText(excluded ? tr("Bring back") : tr("Exclude …"));
+  if (excluded) {
+    badge_->set(QStringLiteral("exclude"), Tone::Neutral, tr("excluded"));
+    verdict_->show(Tone::Neutral, tr("Excluded: %1").arg(session().excluded().at(image)));
+  } else if (!capture->checked) {
+    badge_->set(QStringLiteral("not-started"), Tone::Neutral, tr("not checked"));
+    verdict_->set(Tone::Neutral, {});
+  } else {
+    badge_->set(QString::fromLatin1(capture->good ? "check-circle" : "error"), capture->good ? Tone::Good : Tone::Bad,
+                capture->good ? tr("good") : tr("bad"));
+    verdict_->show(capture->good ? Tone::Good : Tone::Bad, capture->sentence);
+  }
+  image_->setCaption(tr("%1, state %2, %3 %4, spindle %5°, z %6 mm")
+                         .arg(capture->fiducial, capture->state, roleName(capture->role))
+                         .arg(capture->index + 1)
+                         .arg(number(capture->spindle_deg), number(capture->z_mm)));
+  if (same) return;
+  // Decoded in the background; only the last choice is shown.
+  const int request = ++request_;
+  const std::filesystem::path file = session().campaign()->path(image.toStdString());
+  Job job;
+  job.quiet = true;
+  job.title = tr("Decoding %1").arg(QString::fromStdString(file.filename().string()));
+  job.work = [this, file, request](JobContext&) -> std::function<void()> {
+    const GrayImage gray = readImage(file);
+    const QImage shown = toImage(gray);
+    const DecodeResult decoded = decodeImage(gray);
+    return [this, shown, marks = marksOf(decoded), request] {
+      if (request != request_) return;
+      image_->setImage(shown);
+      image_->setMarks(marks);
+    };
+  };
+  job.failed = [this, request](const QString& sentence) {
+    if (request != request_) return;
+    image_->setImage({});
+    image_->setEmptyText(tr("This image cannot be shown"), sentence);
+  };
+  context().jobs.run(std::move(job));
+}
+
+void FiducialCapturePage::toggleExcluded() {
+  const QString image = selectedImage();
+  if (image.isEmpty()) return;
+  if (session().excluded().contains(image)) {
+    context().undo.push(new ExcludeCommand(session(), {image}, {}));
+    return;
+  }
+  const CaptureVerdict* capture = find(image);
+  bool ok = true;
+  const QString proposed =
+      capture != nullptr && capture->checked && !capture->good ? capture->sentence : tr("disturbed");
+  const QString reason =
+      QInputDialog::getText(this, tr("Exclude a capture"), tr("Why is it left out?"), QLineEdit::Normal, proposed, &ok);
+  if (ok && !reason.trimmed().isEmpty()) context().undo.push(new ExcludeCommand(session(), {image}, reason.trimmed()));
+}
+
+void FiducialCapturePage::checkAll() {
+  const CampaignSnapshot snapshot = session().snapshot();
+  if (snapshot.campaign == nullptr || captures_.empty()) return;
+  std::vector<std::string> images;
+  for (const CaptureVerdict& c : captures_) images.push_back(c.image.toStdString());
+  run(tr("Checking %1 captures").arg(images.size()),
+      [this, snapshot, images](JobContext& job) -> std::function<void()> {
+        std::vector<Check> checks(images.size());
+        std::mutex mutex;
+        std::size_t done = 0;
+        parallelFor(images.size(), job, [&](std::size_t i) {
+          try {
+            checks[i] = judge(decodeImage(readImage(snapshot.campaign->path(images[i]))));
+          } catch (const InputError& e) {
+            checks[i].sentence = QString::fromUtf8(e.what());
+          }
+          const std::lock_guard lock(mutex);
+          ++done;
+          job.report(static_cast<double>(done) / static_cast<double>(images.size()),
+                     std::to_string(done) + " / " + std::to_string(images.size()));
+        });
+        nlohmann::json payload = nlohmann::json::array();
+        for (std::size_t i = 0; i < images.size(); ++i) {
+          payload.push_back({{"image", images[i]},
+                             {"good", checks[i].good},
+                             {"sentence", checks[i].sentence.toStdString()},
+                             {"ellipses", checks[i].ellipses},
+                             {"blur_px", checks[i].blur_px}});
+        }
+        return [this, payload] {
+          session().storeResult("check", nlohmann::json::object(), {{"captures", payload}});
+          refresh();
+        };
+      });
+}
+
+std::vector<Exportable> FiducialCapturePage::exportables() {
+  std::vector<Exportable> items{exportableOf(tr("Captures"), model_), exportableOf(tr("Capture plan"), plan_)};
+  if (!image_->empty()) items.push_back(exportableOf(tr("Image with overlay"), image_));
+  return items;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,567 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/kinematics/nine_parameter_page.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <cmath>
+#include <map>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr auto options_key = "nine-parameter";
+constexpr std::array<Component, 3> shown_components{Component::EX, Component::EY, Component::EZ};
+
+QString parameterName(int i) {
+  static const std::array<const char*, nine_parameter_count> names{"EX", "EY",   "EZ", "EA", "EB",
+                                                                   "EC", "EC0Y", "αX", "αY"};
+  return QString::fromUtf8(names[static_cast<std::size_t>(i)]);
+}
+
+QString parameterMeaning(int i) {
+  switch (i) {
+    case 0:
+      return NineParameterPage::tr("displacement along X");
+    case 1:
+      return NineParameterPage::tr("displacement along Y");
+    case 2:
+      return NineParameterPage::tr("displacement along Z");
+    case 3:
+      return NineParameterPage::tr("rotation about X");
+    case 4:
+      return NineParameterPage::tr("rotation about Y");
+    case 5:
+      return NineParameterPage::tr("rotation about Z");
+    case 6:
+      return NineParameterPage::tr("squareness of Y to X");
+    case 7:
+      return NineParameterPage::tr("expansion along X");
+    default:
+      return NineParameterPage::tr("expansion along Y");
+  }
+}
+
+Cell number(double value, double sigma, std::string_view unit) {
+  Cell cell;
+  cell.text = QString::fromStdString(withUncertainty(value, sigma, unit));
+  cell.right = true;
+  return cell;
+}
+
+double niceExaggeration(double table_mm, double largest_um) {
+  if (!(largest_um > 0)) return 1000;
+  const double raw = 0.12 * table_mm / (largest_um * 1e-3);
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double f : {5.0, 2.0, 1.0}) {
+    if (f * power <= raw) return f * power;
+  }
+  return power;
+}
+
+}  // namespace
+
+NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Model, parent) {
+  fit_button_ = makeButton(tr("Fit the model"), nullptr, "primary");
+  addAction(fit_button_);
+
+  auto* left = new Card;
+  auto* choices = new QHBoxLayout;
+  choices->addWidget(new QLabel(tr("State")));
+  state_ = new QComboBox;
+  state_->setAccessibleName(tr("Thermal state to fit"));
+  choices->addWidget(state_, 1);
+  choices->addWidget(new QLabel(tr("Outliers")));
+  robust_ = new QComboBox;
+  robust_->setAccessibleName(tr("How outliers are treated"));
+  robust_->addItem(tr("keep"), 0);
+  robust_->addItem(tr("Huber"), 1);
+  robust_->addItem(tr("Tukey"), 2);
+  choices->addWidget(robust_, 1);
+  left->body()->addLayout(choices);
+  left->body()->addWidget(makeLabel(tr("Points: checked ones fit, the others validate"), "sectionTitle"));
+  points_ = new RowsModel({tr("Point"), tr("x / mm"), tr("y / mm"), tr("EX / um"), tr("EY / um"), tr("EZ / um")}, this);
+  auto* point_table = makeTable(points_, tr("Points"), tr("Points appear when there are observations."));
+  left->body()->addWidget(point_table, 2);
+
+  auto* tiles = new QHBoxLayout;
+  tiles->setSpacing(16);
+  rms_fit_ = new NumberTile(tr("rms of the fit"));
+  rms_validation_ = new NumberTile(tr("rms of the validation"));
+  condition_ = new NumberTile(tr("Condition number"));
+  tiles->addWidget(rms_fit_, 1);
+  tiles->addWidget(rms_validation_, 1);
+  tiles->addWidget(condition_, 1);
+  left->body()->addLayout(tiles);
+
+  tabs_ = makeTabs();
+  parameters_ = new RowsModel({tr("Parameter"), tr("Value"), tr("Meaning")}, this);
+  tabs_->addTab(
+      makeTable(parameters_, tr("Parameters"), tr("Nine parameters with their uncertainty appear after the fit.")),
+      tr("Parameters"));
+  residuals_ =
+      new RowsModel({tr("Point"), tr("Component"), tr("Measured"), tr("Residual"), tr("In sigma"), tr("Used")}, this);
+  residual_table_ =
+      makeTable(residuals_, tr("Residuals"), tr("What the model does not explain appears after the fit."));
+  tabs_->addTab(residual_table_, tr("Residuals"));
+  auto* compare = new QWidget;
+  auto* compare_column = new QVBoxLayout(compare);
+  compare_column->setContentsMargins(0, 8, 0, 0);
+  comparison_verdict_ = new Callout;
+  compare_column->addWidget(comparison_verdict_);
+  comparison_ =
+      new RowsModel({tr("Parameter"), tr("Checked points"), tr("Other points"), tr("Difference"), tr("p")}, this);
+  compare_column->addWidget(
+      makeTable(comparison_, tr("Comparison of two sets of points"), tr("Fit the model to compare sets of points.")),
+      1);
+  tabs_->addTab(compare, tr("Compare sets"));
+  left->body()->addWidget(tabs_, 3);
+
+  auto* right = new Card;
+  auto* view_line = new QHBoxLayout;
+  component_ = new Segments({QStringLiteral("EX"), QStringLiteral("EY"), QStringLiteral("EZ")}, tr("Component"));
+  view_line->addWidget(component_);
+  view_line->addStretch();
+  arrows_ = new QCheckBox(tr("Arrows"));
+  arrows_->setChecked(true);
+  relief_ = new QCheckBox(tr("Relief"));
+  machine_ = new QCheckBox(tr("Machine"));
+  view_line->addWidget(arrows_);
+  view_line->addWidget(relief_);
+  view_line->addWidget(machine_);
+  right->body()->addLayout(view_line);
+  view_ = new View3D;
+  view_->setEmptyText(tr("The heat map will appear here"),
+                      tr("Fit the model: it is drawn over the table with the measured points on top."));
+  view_->setMachineVisible(false);
+  right->body()->addWidget(view_, 1);
+  content()->addWidget(makeSplitter(left, right, 6, 7), 1);
+  showHints(view_);
+
+  connect(fit_button_, &QPushButton::clicked, this, &NineParameterPage::fit);
+  connect(state_, &QComboBox::activated, this, [this](int) {
+    changeOptions(tr("choose state"), {{"state", state_->currentText().toStdString()}});
+  });
+  connect(robust_, &QComboBox::activated, this, [this](int index) {
+    changeOptions(tr("treat outliers"), {{"robust", index}});
+  });
+  connect(points_, &RowsModel::checkedChanged, this, [this](const QString&, int, bool) {
+    nlohmann::json chosen = nlohmann::json::array();
+    for (const Row& row : points_->rows()) {
+      if (row.cells[0].checked.value_or(false)) chosen.push_back(row.id.toStdString());
+    }
+    changeOptions(tr("choose points"), {{"points", chosen}});
+  });
+  connect(component_, &Segments::chosen, this, &NineParameterPage::showField);
+  connect(arrows_, &QCheckBox::toggled, this, &NineParameterPage::showField);
+  connect(relief_, &QCheckBox::toggled, this, [this](bool on) {
+    view_->resetCamera(on || machine_->isChecked() ? StandardView::Isometric : StandardView::Top);
+    showField();
+  });
+  connect(machine_, &QCheckBox::toggled, this, [this](bool on) {
+    view_->setMachineVisible(on);
+    view_->resetCamera(on || relief_->isChecked() ? StandardView::Isometric : StandardView::Top);
+  });
+  connect(view_, &View3D::pointPicked, this, [this, point_table](const QString& id) {
+    const int row = points_->rowOf(id);
+    if (row >= 0) point_table->selectRow(row);
+  });
+  connect(point_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this](const QModelIndex& now) { view_->setSelected(points_->idAt(now.row())); });
+  view_->resetCamera(StandardView::Top);
+}
+
+nlohmann::json NineParameterPage::optionsJson() const {
+  return const_cast<NineParameterPage*>(this)->session().setting(options_key, nlohmann::json::object());
+}
+
+NineParameterOptions NineParameterPage::options() const {
+  const nlohmann::json json = optionsJson();
+  NineParameterOptions o;
+  if (json.is_object()) {
+    o.state = json.value("state", std::string());
+    if (json.contains("points")) o.points = json["points"].get<std::vector<std::string>>();
+    o.robust = static_cast<RobustLoss>(json.value("robust", 0));
+  }
+  return o;
+}
+
+void NineParameterPage::changeOptions(const QString& what, const nlohmann::json& change) {
+  if (filling_) return;
+  nlohmann::json after = optionsJson();
+  if (!after.is_object()) after = nlohmann::json::object();
+  after.update(change);
+  context().undo.push(new OptionsCommand(session(), what, options_key, after, [this] {
+    refresh();
+    fit();
+  }));
+}
+
+void NineParameterPage::refresh() {
+  const auto campaign = session().campaign();
+  if (campaign == nullptr) return;
+  filling_ = true;
+  const auto set = session().observations();
+  const QString chosen = QString::fromStdString(options().state);
+  state_->clear();
+  if (set) {
+    const std::vector<std::string> states = set->states();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      if (i == 0 && states.size() > 1) continue;  // the reference
+      state_->addItem(QString::fromStdString(states[i]));
+    }
+    const int index = state_->findText(chosen);
+    state_->setCurrentIndex(index >= 0 ? index : state_->count() - 1);
+  }
+  robust_->setCurrentIndex(static_cast<int>(options().robust));
+  filling_ = false;
+  fit_button_->setEnabled(set.has_value());
+  if (!set) {
+    callout()->show(Tone::Attention, tr("There are no observations yet. Evaluate the captures first."));
+    callout()->setAction(tr("Go to Calibrate"), [this] { context().workflow.goTo(StepId::Calibrate); });
+    result_.reset();
+  } else if (!result_) {
+    // A stored fit is worked out again from its options: it takes milliseconds.
+    if (session().state("fit").there) {
+      try {
+        result_ = fitNineParameters(*set, options());
+      } catch (const InputError&) {
+        result_.reset();
+      }
+    }
+  }
+  fillPoints();
+  showFit();
+}
+
+void NineParameterPage::fillPoints() {
+  const auto set = session().observations();
+  std::vector<Row> rows;
+  if (set) {
+    const NineParameterOptions o = options();
+    const std::string state = state_->currentText().toStdString();
+    const std::string reference = set->states().empty() ? std::string() : set->states().front();
+    std::map<std::string, std::map<Component, std::pair<double, double>>> values;
+    std::map<std::string, Eigen::Vector3d> positions;
+    for (const Observation& row : set->rows) {
+      if (row.state == state) {
+        values[row.point][row.component] = {row.value, row.sigma};
+        positions[row.point] = row.position_mm;
+      }
+    }
+    for (const Observation& row : set->rows) {
+      if (row.state == reference && reference != state && values.contains(row.point) &&
+          values[row.point].contains(row.component)) {
+        auto& v = values[row.point][row.component];
+        v = {v.first - row.value, std::hypot(v.second, row.sigma)};
+      }
+    }
+    for (const std::string& point : set->points()) {
+      if (!values.contains(point)) continue;
+      Row row;
+      row.id = QString::fromStdString(point);
+      Cell name{row.id};
+      name.bold = true;
+      name.checked = o.points.empty() || std::find(o.points.begin(), o.points.end(), point) != o.points.end();
+      row.cells = {
+          name, {QString::number(positions[point].x(), 'f', 1)}, {QString::number(positions[point].y(), 'f', 1)}};
+      for (Cell* c : {&row.cells[1], &row.cells[2]}) c->right = true;
+      for (const Component c : shown_components) {
+        const auto found = values[point].find(c);
+        Cell cell;
+        cell.right = true;
+        cell.text = found == values[point].end()
+                        ? QStringLiteral("–")
+                        : QString::fromStdString(withUncertainty(found->second.first, found->second.second, ""));
+        cell.text = cell.text.trimmed();
+        row.cells.push_back(cell);
+      }
+      rows.push_back(std::move(row));
+    }
+  }
+  points_->setRows(std::move(rows));
+}
+
+void NineParameterPage::fit() {
+  const auto set = session().observations();
+  if (!set) return;
+  const NineParameterOptions o = options();
+  const nlohmann::json options_json = optionsJson();
+  run(tr("Fitting the nine-parameter model"),
+      [this, set = *set, o, options_json](JobContext&) -> std::function<void()> {
+        const NineParameterFit fitted = fitNineParameters(set, o);
+        return [this, fitted, options_json] {
+          result_ = fitted;
+          nlohmann::json parameters = nlohmann::json::object();
+          for (int i = 0; i < nine_parameter_count; ++i) {
+            parameters[std::string(nine_parameter_names[static_cast<std::size_t>(i)])] = {
+                {"value", jsonNumber(fitted.determined(i) ? fitted.parameters[i] : std::nan(""))},
+                {"standard_uncertainty", jsonNumber(fitted.standardUncertainty(i))}};
+          }
+          session().storeResult("fit", {{"model", "nine-parameter"}, {"options", options_json}},
+                                {{"parameters", parameters},
+                                 {"state", fitted.state},
+                                 {"status", std::string(toString(fitted.status))},
+                                 {"message", fitted.message}});
+          showFit();
+        };
+      });
+}
+
+void NineParameterPage::showFit() {
+  if (!result_) {
+    parameters_->setRows({});
+    residuals_->setRows({});
+    comparison_->setRows({});
+    comparison_verdict_->set(Tone::Neutral, {});
+    for (NumberTile* tile : {rms_fit_, rms_validation_, condition_}) tile->set(QStringLiteral("–"));
+    view_->clear();
+    if (session().observations()) {
+      callout()->setAction({}, {});
+      callout()->show(Tone::Accent, tr("Choose the points that fit, then press Fit the model."));
+    }
+    return;
+  }
+  const NineParameterFit& f = *result_;
+  callout()->setAction({}, {});
+  const QString message = QString::fromStdString(f.message);
+  QString warnings;
+  for (const std::string& w : f.warnings) warnings += QLatin1Char(' ') + QString::fromStdString(w);
+  if (f.status == FitStatus::Converged) {
+    if (!warnings.isEmpty()) {
+      callout()->show(Tone::Attention, warnings.trimmed());
+    } else {
+      callout()->show(Tone::Good,
+                      tr("State %1 against %2: all nine parameters are determined.")
+                          .arg(QString::fromStdString(f.state),
+                               QString::fromStdString(f.reference_state.empty() ? "zero" : f.reference_state)));
+    }
+  } else {
+    callout()->show(f.status == FitStatus::Degenerate ? Tone::Attention : Tone::Bad, message + warnings);
+  }
+  std::vector<Row> rows;
+  for (int i = 0; i < nine_parameter_count; ++i) {
+    Row row;
+    row.id = parameterName(i);
+    Cell name{parameterName(i)};
+    name.bold = true;
+    Cell value;
+    if (f.determined(i)) {
+      value = number(f.parameters[i], f.standardUncertainty(i), nineParameterUnit(i));
+    } else {
+      value = {tr("not determined"), Tone::Attention, "alert"};
+      value.right = true;
+    }
+    row.cells = {name, value, {parameterMeaning(i)}};
+    rows.push_back(std::move(row));
+  }
+  parameters_->setRows(std::move(rows));
+  rows.clear();
+  for (const NineParameterResidual& r : f.residuals) {
+    Row row;
+    row.id =
+        QString::fromStdString(r.point) + QLatin1Char('/') + QString::fromStdString(std::string(toString(r.component)));
+    Cell name{QString::fromStdString(r.point)};
+    name.bold = true;
+    const double ratio = r.sigma_um > 0 ? r.residual_um / r.sigma_um : 0;
+    Cell in_sigma{QString::number(std::abs(ratio), 'f', 1)};
+    in_sigma.right = true;
+    if (std::abs(ratio) > 3) {
+      in_sigma.tone = Tone::Attention;
+      in_sigma.icon = "alert";
+    }
+    Cell residual{QString::number(r.residual_um, 'f', 2).replace(QLatin1Char('-'), QChar(0x2212)) +
+                  QStringLiteral(" um")};
+    residual.right = true;
+    row.cells = {
+        name,
+        {QString::fromStdString(std::string(toString(r.component)))},
+        number(r.value_um, r.sigma_um, "um"),
+        residual,
+        in_sigma,
+        {r.used ? (r.weight < 0.99 ? tr("weight %1").arg(r.weight, 0, 'f', 2) : tr("fit")) : tr("validation")}};
+    rows.push_back(std::move(row));
+  }
+  residuals_->setRows(std::move(rows));
+  const auto rms = [](const std::optional<double>& v) {
+    return v ? QStringLiteral("%1 um").arg(*v, 0, 'f', 2) : QStringLiteral("–");
+  };
+  rms_fit_->set(rms(f.rms_fit_um), tr("over the checked points"));
+  rms_validation_->set(rms(f.rms_validation_um),
+                       f.rms_validation_um ? tr("over the other points") : tr("uncheck a point to validate"));
+  condition_->set(QString::number(f.condition_number, 'g', 3),
+                  f.p_value ? tr("χ² test: p = %1").arg(*f.p_value, 0, 'g', 2) : tr("no degrees of freedom left"));
+  showComparison();
+  showField();
+}
+
+void NineParameterPage::showComparison() {
+  comparison_->setRows({});
+  const auto set = session().observations();
+  if (!set || !result_) return;
+  NineParameterOptions a = options();
+  NineParameterOptions b = a;
+  b.points.clear();
+  for (const Row& row : points_->rows()) {
+    if (!row.cells[0].checked.value_or(true)) b.points.push_back(row.id.toStdString());
+  }
+  if (a.points.empty() || b.points.size() < 3) {
+    comparison_verdict_->show(
+        Tone::Neutral, tr("Uncheck at least three points: the checked set is then compared with the other one."));
+    return;
+  }
+  try {
+    const NineParameterComparison c = compareNineParameters(*set, a, b);
+    std::vector<Row> rows;
+    QStringList differing;
+    for (int i = 0; i < nine_parameter_count; ++i) {
+      Row row;
+      Cell name{parameterName(i)};
+      name.bold = true;
+      const bool known = c.a.determined(i) && c.b.determined(i);
+      row.cells = {name,
+                   c.a.determined(i) ? number(c.a.parameters[i], c.a.standardUncertainty(i), nineParameterUnit(i))
+                                     : Cell{QStringLiteral("–")},
+                   c.b.determined(i) ? number(c.b.parameters[i], c.b.standardUncertainty(i), nineParameterUnit(i))
+                                     : Cell{QStringLiteral("–")},
+                   known ? number(c.difference[i], std::sqrt(std::max(0.0, c.covariance(i, i))), nineParameterUnit(i))
+                         : Cell{QStringLiteral("–")},
+                   {known ? QString::number(c.p_value[static_cast<std::size_t>(i)], 'g', 2) : QStringLiteral("–")}};
+      if (std::find(c.significant.begin(), c.significant.end(), i) != c.significant.end()) {
+        row.cells[3].tone = Tone::Attention;
+        row.cells[3].icon = "alert";
+        differing << parameterName(i);
+      }
+      rows.push_back(std::move(row));
+    }
+    comparison_->setRows(std::move(rows));
+    if (differing.isEmpty()) {
+      comparison_verdict_->show(Tone::Good,
+                                tr("Both sets of points give the same model within their uncertainty (p = %1).")
+                                    .arg(c.p_value_all, 0, 'g', 2));
+    } else {
+      comparison_verdict_->show(Tone::Attention,
+                                tr("The sets differ in %1: one of them sees something the model does not have.")
+                                    .arg(differing.join(QStringLiteral(", "))));
+    }
+  } catch (const InputError& e) {
+    comparison_verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
+  }
+}
+
+FieldGrid NineParameterPage::tableGrid(int nodes) const {
+  const MachineDescription& machine = const_cast<NineParameterPage*>(this)->session().campaign()->machine;
+  FieldGrid grid;
+  const LinearAxis* x = machine.findAxis("X");
+  const LinearAxis* y = machine.findAxis("Y");
+  grid.x_from_mm = x != nullptr ? x->travel_mm[0] : 0;
+  grid.x_to_mm = x != nullptr ? x->travel_mm[1] : 100;
+  grid.y_from_mm = y != nullptr ? y->travel_mm[0] : 0;
+  grid.y_to_mm = y != nullptr ? y->travel_mm[1] : 100;
+  if (result_ && !result_->residuals.empty()) {
+    double z = 0;
+    for (const auto& r : result_->residuals) z += r.position_mm.z();
+    grid.z_mm = z / static_cast<double>(result_->residuals.size());
+  }
+  const double longer = std::max(grid.x_to_mm - grid.x_from_mm, grid.y_to_mm - grid.y_from_mm);
+  grid.nx = std::max(2, static_cast<int>(std::lround(nodes * (grid.x_to_mm - grid.x_from_mm) / longer)));
+  grid.ny = std::max(2, static_cast<int>(std::lround(nodes * (grid.y_to_mm - grid.y_from_mm) / longer)));
+  return grid;
+}
+
+void NineParameterPage::setComponent(int index) {
+  component_->setCurrent(index);
+  showField();
+}
+
+void NineParameterPage::showField() {
+  if (!result_ || session().campaign() == nullptr) return;
+  const NineParameterFit& f = *result_;
+  const NineParameterModel model = f.model();
+  const Component component = shown_components[static_cast<std::size_t>(component_->current())];
+  std::vector<Eigen::Vector2d> measured;
+  std::vector<ViewPoint> points;
+  std::map<std::string, ViewArrow> arrow_of;
+  double largest = 0;
+  const FieldGrid grid = tableGrid(120);
+  // One scale for the three components, so that their pictures can be compared.
+  for (const Component c : shown_components) {
+    for (const int ix : {0, grid.nx - 1}) {
+      for (const int iy : {0, grid.ny - 1}) {
+        DeviationQuery corner;
+        corner.position_mm = {grid.x_mm(ix), grid.y_mm(iy), grid.z_mm};
+        const PredictedComponent p = model.predict(corner, c);
+        if (std::isfinite(p.sigma)) largest = std::max(largest, std::abs(p.value));
+      }
+    }
+  }
+  double largest_arrow = 0;
+  for (const NineParameterResidual& r : f.residuals) {
+    largest = std::max(largest, std::abs(r.value_um));
+    ViewArrow& arrow = arrow_of[r.point];
+    arrow.from_mm = r.position_mm;
+    if (!isRotation(r.component)) arrow.deviation_um[axisIndex(r.component)] = r.value_um;
+    largest_arrow = std::max(largest_arrow, arrow.deviation_um.norm());
+    if (r.used) measured.push_back(r.position_mm.head<2>());
+    if (r.component != component) continue;
+    ViewPoint point;
+    point.id = point.label = QString::fromStdString(r.point);
+    point.position_mm = r.position_mm;
+    point.value = r.value_um;
+    point.value_text = QString::fromStdString(withUncertainty(r.value_um, r.sigma_um, "um"));
+    point.used = r.used;
+    points.push_back(point);
+  }
+  DeviationQuery conditions;
+  conditions.state = f.state;
+  auto field = std::make_shared<Field>(evaluateField(model, grid, component, conditions, measured));
+  field_ = field;
+  const QString name = QString::fromStdString(std::string(toString(component)));
+  const ColourScale scale = ColourScale::symmetric(largest, name, QStringLiteral("um"));
+  FieldStyle style;
+  const double table = std::max(grid.x_to_mm - grid.x_from_mm, grid.y_to_mm - grid.y_from_mm);
+  const double exaggeration = niceExaggeration(table, largest_arrow);
+  if (relief_->isChecked()) style.relief_exaggeration = exaggeration;
+  if (view_->empty()) view_->setMachine(session().campaign()->machine);
+  view_->setMachine(session().campaign()->machine);
+  view_->setColourScale(scale);
+  view_->setField(field, style);
+  view_->setPoints(std::move(points));
+  std::vector<ViewArrow> arrows;
+  if (arrows_->isChecked()) {
+    for (auto& [id, arrow] : arrow_of) arrows.push_back(arrow);
+  }
+  view_->setArrows(std::move(arrows), exaggeration);
+  view_->setCaption(tr("%1 of state %2 against %3")
+                        .arg(name, QString::fromStdString(f.state),
+                             QString::fromStdString(f.reference_state.empty() ? "zero" : f.reference_state)));
+}
+
+std::vector<Exportable> NineParameterPage::exportables() {
+  std::vector<Exportable> items{exportableOf(tr("Parameters"), parameters_), exportableOf(tr("Residuals"), residuals_)};
+  if (field_ != nullptr) {
+    const QString name = QString::fromStdString(std::string(toString(field_->component)));
+    items.push_back(exportableOf(tr("Heat map %1").arg(name), view_));
+    const auto field = field_;
+    items.push_back({tr("Heat map %1 values").arg(name), {QStringLiteral("csv")}, [field](const QString& file) {
+                       writeFileAtomically(file.toStdString(), field->csv());
+                     }});
+  }
+  return items;
+}
+
+}  // namespace spindrift::gui

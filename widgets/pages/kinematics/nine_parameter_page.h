@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Step Model for one thermal state: nine parameters fitted to chosen points, validated on the others, shown as heat
+// maps with the measured arrows; two sets of points compared.
+#pragma once
+
+#include <optional>
+
+#include "core/machine/field.h"
+#include "core/machine/nine_parameter_model.h"
+#include "widgets/pages/page.h"
+
+class QCheckBox;
+class QComboBox;
+class QTableView;
+class QTabWidget;
+
+namespace spindrift::gui {
+
+class NumberTile;
+class RowsModel;
+class Segments;
+class View3D;
+
+class NineParameterPage : public Page {
+  Q_OBJECT
+ public:
+  explicit NineParameterPage(PageContext context, QWidget* parent = nullptr);
+  void refresh() override;
+  [[nodiscard]] std::vector<Exportable> exportables() override;
+  [[nodiscard]] QPushButton* primaryButton() const override { return fit_button_; }
+  void runAll() override { fit(); }
+  void setComponent(int index);
+  [[nodiscard]] View3D* view() const { return view_; }
+
+ private:
+  void readOptions();
+  void changeOptions(const QString& what, const nlohmann::json& change);
+  void fillPoints();
+  void fit();
+  void showFit();
+  void showField();
+  void showComparison();
+  [[nodiscard]] NineParameterOptions options() const;
+  [[nodiscard]] nlohmann::json optionsJson() const;
+  [[nodiscard]] FieldGrid tableGrid(int nodes) const;
+
+  QPushButton* fit_button_;
+  QComboBox* state_;
+  QComboBox* robust_;
+  RowsModel* points_;
+  RowsModel* parameters_;
+  RowsModel* residuals_;
+  RowsModel* comparison_;
+  QTableView* residual_table_;
+  NumberTile* rms_fit_;
+  NumberTile* rms_validation_;
+  NumberTile* condition_;
+  QTabWidget* tabs_;
+  Callout* comparison_verdict_;
+  Segments* component_;
+  QCheckBox* arrows_;
+  QCheckBox* machine_;
+  QCheckBox* relief_;
+  View3D* view_;
+  std::optional<NineParameterFit> result_;
+  std::string result_error_;
+  bool fitted_now_ = false;
+  std::shared_ptr<const Field> field_;
+  bool filling_ = false;
+};
+
+}  // namespace spindrift::gui

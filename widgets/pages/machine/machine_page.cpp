@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/machine/machine_page.h"
+
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLineEdit>
+#include <QSplitter>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_name) {
+  auto* table = new QTableWidget(0, static_cast<int>(headers.size()));
+  table->setHorizontalHeaderLabels(headers);
+  table->setAccessibleName(accessible_name);
+  table->setShowGrid(false);
+  table->verticalHeader()->hide();
+  table->verticalHeader()->setDefaultSectionSize(40);
+  table->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table->horizontalHeader()->setStretchLastSection(true);
+  table->horizontalHeader()->setHighlightSections(false);
+  table->setSelectionMode(QAbstractItemView::SingleSelection);
+  table->setTabKeyNavigation(false);
+  table->setMinimumHeight(150);
+  return table;
+}
+
+QString numberText(const std::optional<double>& value) {
+  return value ? QString::fromStdString(exactNumber(*value)) : QString();
+}
+
+QString textAt(const QTableWidget* table, int row, int column) {
+  const QTableWidgetItem* item = table->item(row, column);
+  return item == nullptr ? QString() : item->text().trimmed();
+}
+
+void set(QTableWidget* table, int row, int column, const QString& text) {
+  table->setItem(row, column, new QTableWidgetItem(text));
+}
+
+/// A number, or the text itself so that the reader can say what is wrong with it.
+nlohmann::json numberOrText(const QString& text) {
+  double value = 0;
+  if (parseNumber(text.toStdString(), value)) return value;
+  return text.toStdString();
+}
+
+}  // namespace
+
+QStringList machineFindings(const MachineDescription& machine) {
+  QStringList findings;
+  for (const LinearAxis& axis : machine.axes) {
+    const QString name = QString::fromStdString(axis.name);
+    if (!axis.resolution_um) {
+      findings << MachinePage::tr("Axis %1 has no resolution: verdicts against the resolution are left out.").arg(name);
+    }
+    if (axis.drive_type == "ball_screw" && !axis.fixed_bearing_mm) {
+      findings
+          << MachinePage::tr("The screw of axis %1 has no fixed bearing: its expansion cannot be placed.").arg(name);
+    }
+  }
+  for (const MachinePoint& point : machine.points) {
+    for (int i = 0; i < 3; ++i) {
+      const LinearAxis* axis = machine.findAxis(std::string(1, "XYZ"[i]));
+      if (axis == nullptr) continue;
+      const double p = point.position_mm[i];
+      if (p < axis->travel_mm[0] - 1e-9 || p > axis->travel_mm[1] + 1e-9) {
+        findings << MachinePage::tr("Point %1 lies outside the travel of axis %2 (%3 mm; travel %4 to %5 mm).")
+                        .arg(QString::fromStdString(point.id), QString::fromStdString(axis->name))
+                        .arg(p)
+                        .arg(axis->travel_mm[0])
+                        .arg(axis->travel_mm[1]);
+      }
+    }
+  }
+  return findings;
+}
+
+MachinePage::MachinePage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Machine, parent) {
+  discard_ = makeButton(tr("Discard"), "undo");
+  apply_ = makeButton(tr("Apply changes"), nullptr, "primary");
+  original_ = makeButton(tr("Back to machine.json"), "restore");
+  addAction(original_);
+  addAction(discard_);
+  addAction(apply_);
+
+  auto* card = new Card;
+  auto* form = new QFormLayout;
+  form->setSpacing(8);
+  form->setLabelAlignment(Qt::AlignLeft);
+  name_ = new QLineEdit;
+  name_->setAccessibleName(tr("Name of the machine"));
+  chain_ = new QLineEdit;
+  chain_->setAccessibleName(tr("Kinematic chain"));
+  chain_->setToolTip(tr(
+      "From the workpiece w over the bed b to the tool t (ISO 10791-1); ' marks an axis that carries the workpiece"));
+  form->addRow(tr("Name"), name_);
+  form->addRow(tr("Chain"), chain_);
+  card->body()->addLayout(form);
+  card->body()->addWidget(makeLabel(tr("Linear axes"), "sectionTitle"));
+  axes_ = makeEditor({tr("Axis"), tr("From / mm"), tr("To / mm"), tr("Resolution / um"), tr("Drive"), tr("Pitch / mm"),
+                      tr("Fixed bearing / mm"), tr("Scale")},
+                     tr("Linear axes"));
+  card->body()->addWidget(axes_, 2);
+  card->body()->addWidget(makeLabel(tr("Measuring points"), "sectionTitle"));
+  points_ = makeEditor({tr("Point"), tr("Kind"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Measuring points"));
+  card->body()->addWidget(points_, 3);
+  auto* point_buttons = new QHBoxLayout;
+  auto* add = makeButton(tr("Add point"), "plus");
+  auto* remove = makeButton(tr("Remove point"), "trash");
+  point_buttons->addWidget(add);
+  point_buttons->addWidget(remove);
+  point_buttons->addStretch();
+  card->body()->addLayout(point_buttons);
+
+  auto* picture = new Card(tr("How it is built"));
+  view_ = new View3D;
+  view_->setEmptyText(tr("The machine will appear here"), tr("Give its chain and the travel of its axes."));
+  picture->body()->addWidget(view_, 1);
+  content()->addWidget(makeSplitter(card, picture, 6, 6), 1);
+
+  connect(name_, &QLineEdit::textEdited, this, &MachinePage::markEdited);
+  connect(chain_, &QLineEdit::textEdited, this, &MachinePage::markEdited);
+  connect(axes_, &QTableWidget::itemChanged, this, &MachinePage::markEdited);
+  connect(points_, &QTableWidget::itemChanged, this, &MachinePage::markEdited);
+  connect(points_, &QTableWidget::currentCellChanged, this,
+          [this](int row) { view_->setSelected(textAt(points_, row, 0)); });
+  connect(view_, &View3D::pointPicked, this, [this](const QString& id) {
+    for (int row = 0; row < points_->rowCount(); ++row) {
+      if (textAt(points_, row, 0) == id) points_->setCurrentCell(row, 0);
+    }
+  });
+  connect(add, &QPushButton::clicked, this, [this] {
+    const int row = points_->rowCount();
+    points_->insertRow(row);
+    set(points_, row, 0, QStringLiteral("F%1").arg(row + 1));
+    set(points_, row, 1, QStringLiteral("fiducial"));
+    for (int c = 2; c < 5; ++c) set(points_, row, c, QStringLiteral("0"));
+    points_->setCurrentCell(row, 2);
+    markEdited();
+  });
+  connect(remove, &QPushButton::clicked, this, [this] {
+    if (points_->currentRow() < 0) return;
+    points_->removeRow(points_->currentRow());
+    markEdited();
+  });
+  connect(apply_, &QPushButton::clicked, this, &MachinePage::apply);
+  connect(discard_, &QPushButton::clicked, this, &MachinePage::refresh);
+  connect(original_, &QPushButton::clicked, this,
+          [this] { context().undo.push(new MachineCommand(session(), nlohmann::json::object())); });
+}
+
+void MachinePage::refresh() {
+  const auto campaign = session().campaign();
+  if (campaign == nullptr) return;
+  const MachineDescription& machine = campaign->machine;
+  filling_ = true;
+  name_->setText(QString::fromStdString(machine.name));
+  chain_->setText(QString::fromStdString(machine.chain.text()));
+  axes_->setRowCount(static_cast<int>(machine.axes.size()));
+  for (int row = 0; row < axes_->rowCount(); ++row) {
+    const LinearAxis& axis = machine.axes[static_cast<std::size_t>(row)];
+    set(axes_, row, 0, QString::fromStdString(axis.name));
+    set(axes_, row, 1, QString::fromStdString(exactNumber(axis.travel_mm[0])));
+    set(axes_, row, 2, QString::fromStdString(exactNumber(axis.travel_mm[1])));
+    set(axes_, row, 3, numberText(axis.resolution_um));
+    set(axes_, row, 4, QString::fromStdString(axis.drive_type));
+    set(axes_, row, 5, numberText(axis.pitch_mm));
+    set(axes_, row, 6, numberText(axis.fixed_bearing_mm));
+    set(axes_, row, 7, QString::fromStdString(axis.scale));
+  }
+  points_->setRowCount(static_cast<int>(machine.points.size()));
+  std::vector<ViewPoint> shown;
+  for (int row = 0; row < points_->rowCount(); ++row) {
+    const MachinePoint& point = machine.points[static_cast<std::size_t>(row)];
+    set(points_, row, 0, QString::fromStdString(point.id));
+    set(points_, row, 1, QString::fromStdString(point.kind));
+    for (int i = 0; i < 3; ++i) set(points_, row, 2 + i, QString::fromStdString(exactNumber(point.position_mm[i])));
+    ViewPoint v;
+    v.id = v.label = QString::fromStdString(point.id);
+    v.position_mm = point.position_mm;
+    shown.push_back(v);
+  }
+  filling_ = false;
+  view_->setMachine(machine);
+  view_->setPoints(std::move(shown));
+  view_->setCaption(QString::fromStdString(machine.name));
+  apply_->setEnabled(false);
+  discard_->setEnabled(false);
+  original_->setVisible(session().machineEdited());
+  showFindings();
+}
+
+void MachinePage::showFindings() {
+  const QStringList findings = machineFindings(session().campaign()->machine);
+  callout()->setAction({}, {});
+  if (findings.isEmpty()) {
+    callout()->show(Tone::Good, tr("The description is complete for everything Spindrift does with it."));
+  } else {
+    callout()->show(Tone::Attention,
+                    findings.mid(0, 3).join(QLatin1Char(' ')) +
+                        (findings.size() > 3 ? tr(" And %1 more.").arg(findings.size() - 3) : QString()));
+  }
+}
+
+void MachinePage::markEdited() {
+  if (filling_) return;
+  apply_->setEnabled(true);
+  discard_->setEnabled(true);
+}
+
+nlohmann::json MachinePage::edited() const {
+  nlohmann::json machine = const_cast<MachinePage*>(this)->session().campaign()->machine.source;
+  machine["name"] = name_->text().toStdString();
+  machine["chain"] = chain_->text().toStdString();
+  const auto setOrErase = [](nlohmann::json& object, const char* key, const QString& text, bool number) {
+    if (text.isEmpty()) {
+      object.erase(key);
+    } else {
+      object[key] = number ? numberOrText(text) : nlohmann::json(text.toStdString());
+    }
+  };
+  nlohmann::json axes = nlohmann::json::array();
+  for (int row = 0; row < axes_->rowCount(); ++row) {
+    nlohmann::json axis = nlohmann::json::object();
+    if (machine.contains("axes") && row < static_cast<int>(machine["axes"].size())) {
+      axis = machine["axes"][static_cast<std::size_t>(row)];
+    }
+    axis["name"] = textAt(axes_, row, 0).toStdString();
+    axis["travel_mm"] = {numberOrText(textAt(axes_, row, 1)), numberOrText(textAt(axes_, row, 2))};
+    setOrErase(axis, "resolution_um", textAt(axes_, row, 3), true);
+    nlohmann::json drive = axis.value("drive", nlohmann::json::object());
+    setOrErase(drive, "type", textAt(axes_, row, 4), false);
+    setOrErase(drive, "pitch_mm", textAt(axes_, row, 5), true);
+    setOrErase(drive, "fixed_bearing_mm", textAt(axes_, row, 6), true);
+    if (drive.empty()) {
+      axis.erase("drive");
+    } else {
+      axis["drive"] = drive;
+    }
+    setOrErase(axis, "scale", textAt(axes_, row, 7), false);
+    axes.push_back(axis);
+  }
+  machine["axes"] = axes;
+  nlohmann::json points = nlohmann::json::array();
+  for (int row = 0; row < points_->rowCount(); ++row) {
+    points.push_back({{"id", textAt(points_, row, 0).toStdString()},
+                      {"kind", textAt(points_, row, 1).toStdString()},
+                      {"x_mm", numberOrText(textAt(points_, row, 2))},
+                      {"y_mm", numberOrText(textAt(points_, row, 3))},
+                      {"z_mm", numberOrText(textAt(points_, row, 4))}});
+  }
+  machine["points"] = points;
+  return machine;
+}
+
+void MachinePage::apply() {
+  const nlohmann::json machine = edited();
+  try {
+    (void)MachineDescription::parse(JsonNode::parse(machine.dump(), "machine as edited"), "machine as edited");
+  } catch (const InputError& e) {
+    callout()->show(Tone::Bad, QString::fromUtf8(e.what()));
+    return;
+  }
+  context().undo.push(new MachineCommand(session(), machine));
+}
+
+std::vector<Exportable> MachinePage::exportables() {
+  return {exportableOf(tr("Machine"), view_),
+          {tr("Machine description"), {QStringLiteral("json")}, [this](const QString& file) {
+             writeFileAtomically(file.toStdString(), edited().dump(1) + "\n");
+           }}};
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Step Machine: the description, editable, with what is missing for what; the machine in 3D.
+#pragma once
+
+#include "widgets/pages/page.h"
+
+class QLineEdit;
+class QTableWidget;
+
+namespace spindrift::gui {
+
+class Badge;
+class View3D;
+
+class MachinePage : public Page {
+  Q_OBJECT
+ public:
+  explicit MachinePage(PageContext context, QWidget* parent = nullptr);
+  void refresh() override;
+  [[nodiscard]] std::vector<Exportable> exportables() override;
+
+ private:
+  void markEdited();
+  void apply();
+  [[nodiscard]] nlohmann::json edited() const;
+  void showFindings();
+
+  QLineEdit* name_;
+  QLineEdit* chain_;
+  QTableWidget* axes_;
+  QTableWidget* points_;
+  View3D* view_;
+  QPushButton* apply_;
+  QPushButton* discard_;
+  QPushButton* original_;
+  bool filling_ = false;
+};
+
+/// Sentences about what the description lacks for which use.
+[[nodiscard]] QStringList machineFindings(const MachineDescription& machine);
+
+}  // namespace spindrift::gui

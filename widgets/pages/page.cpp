@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/page.h"
+
+#include <QHBoxLayout>
+#include <QVBoxLayout>
+
+#include "widgets/common/parts.h"
+
+namespace spindrift::gui {
+
+Page::Page(PageContext context, StepId step, QWidget* parent)
+    : QWidget(parent), context_(std::move(context)), step_(step) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(24, 16, 24, 16);
+  column->setSpacing(12);
+  auto* head = new QHBoxLayout;
+  head->setSpacing(8);
+  auto* titles = new QVBoxLayout;
+  titles->setSpacing(2);
+  titles->addWidget(makeLabel(stepTitle(step), "pageTitle"));
+  auto* instruction = makeLabel(stepInstruction(step), "instruction");
+  instruction->setWordWrap(true);
+  titles->addWidget(instruction);
+  head->addLayout(titles, 1);
+  actions_ = new QHBoxLayout;
+  actions_->setSpacing(8);
+  head->addLayout(actions_);
+  column->addLayout(head);
+  callout_ = new Callout;
+  column->addWidget(callout_);
+  content_ = new QVBoxLayout;
+  content_->setSpacing(12);
+  column->addLayout(content_, 1);
+  setAccessibleName(stepTitle(step));
+}
+
+void Page::addAction(QWidget* widget) {
+  actions_->addWidget(widget, 0, Qt::AlignVCenter);
+}
+
+void Page::run(const QString& title, std::function<std::function<void()>(JobContext&)> work) {
+  Job job;
+  job.title = title;
+  job.work = std::move(work);
+  job.failed = [this](const QString& sentence) { callout_->show(Tone::Bad, sentence); };
+  context_.jobs.run(std::move(job));
+}
+
+void PageRegistry::add(StepId step, Applies applies, Factory factory, const char* key) {
+  entries_.push_back({step, std::move(applies), std::move(factory), key});
+}
+
+const PageRegistry::Entry* PageRegistry::find(StepId step, const SessionModel& session) const {
+  for (const Entry& entry : entries_) {
+    if (entry.step == step && entry.applies(session)) return &entry;
+  }
+  return nullptr;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A page of a step: what to do now in one sentence, the controls, the result, what it can export.
+//
+// Adding a page: derive from Page, and name it in register_pages.cpp with its step and the campaigns it is for.
+#pragma once
+
+#include <QUndoStack>
+#include <QWidget>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "widgets/export/exportable.h"
+#include "widgets/jobs/job_runner.h"
+#include "widgets/models/session_model.h"
+#include "widgets/workflow/workflow.h"
+
+class QHBoxLayout;
+class QVBoxLayout;
+
+namespace spindrift::gui {
+
+class Callout;
+
+/// What every page works with.
+struct PageContext {
+  SessionModel& session;
+  JobRunner& jobs;
+  QUndoStack& undo;
+  Workflow& workflow;
+  std::function<void(const QString&)> hint;  ///< a short text at the bottom: the value under the cursor
+};
+
+class Page : public QWidget {
+  Q_OBJECT
+ public:
+  Page(PageContext context, StepId step, QWidget* parent = nullptr);
+
+  /// Shows what the session holds now. Called when the page is shown and when the session changed while it is.
+  virtual void refresh() = 0;
+  [[nodiscard]] virtual std::vector<Exportable> exportables() { return {}; }
+  /// The page's main action, for Ctrl+Return; may be null.
+  [[nodiscard]] virtual QPushButton* primaryButton() const { return nullptr; }
+  /// Runs what the page would be asked to run first (the tour and the tests use it).
+  virtual void runAll() {}
+  [[nodiscard]] StepId step() const { return step_; }
+  [[nodiscard]] Callout* callout() const { return callout_; }
+
+ protected:
+  [[nodiscard]] PageContext& context() { return context_; }
+  [[nodiscard]] SessionModel& session() { return context_.session; }
+  [[nodiscard]] QVBoxLayout* content() const { return content_; }
+  /// Places a button at the right of the title.
+  void addAction(QWidget* widget);
+  /// Runs a job whose failure is shown in the page's callout.
+  void run(const QString& title, std::function<std::function<void()>(JobContext&)> work);
+  /// Wires a hover signal to the hint line.
+  template <class View>
+  void showHints(View* view) {
+    connect(view, &View::hovered, this, [this](const QString& text) {
+      if (context_.hint) context_.hint(text);
+    });
+  }
+
+ private:
+  PageContext context_;
+  StepId step_;
+  Callout* callout_;
+  QVBoxLayout* content_;
+  QHBoxLayout* actions_;
+};
+
+/// Which page a step shows for a campaign.
+class PageRegistry {
+ public:
+  using Factory = std::function<Page*(PageContext)>;
+  using Applies = std::function<bool(const SessionModel&)>;
+  /// The first entry of a step that applies is shown.
+  void add(StepId step, Applies applies, Factory factory, const char* key);
+  struct Entry {
+    StepId step;
+    Applies applies;
+    Factory factory;
+    const char* key;
+  };
+  [[nodiscard]] const Entry* find(StepId step, const SessionModel& session) const;
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+/// All pages of the program.
+void registerPages(PageRegistry& registry);
+
+}  // namespace spindrift::gui

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which page a step shows for which campaign. The first line of a step that applies is taken.
+#include "widgets/pages/common/message_page.h"
+#include "widgets/pages/imaging/fiducial_calibrate_page.h"
+#include "widgets/pages/imaging/fiducial_capture_page.h"
+#include "widgets/pages/kinematics/nine_parameter_page.h"
+#include "widgets/pages/machine/machine_page.h"
+#include "widgets/pages/page.h"
+#include "widgets/pages/thermal/warm_up_page.h"
+
+namespace spindrift::gui {
+
+void registerPages(PageRegistry& registry) {
+  const auto always = [](const SessionModel&) { return true; };
+  const auto microscope = [](const SessionModel& s) { return s.has(Instrument::Microscope); };
+  // Nine parameters: for deviations of points in one or a few thermal states.
+  const auto points = [](const SessionModel& s) {
+    return s.has(Instrument::Microscope) || (s.campaign() != nullptr && s.campaign()->observations.has_value());
+  };
+  registry.add(
+      StepId::Machine, always, [](PageContext c) { return new MachinePage(std::move(c)); }, "machine");
+  registry.add(
+      StepId::WarmUp, always, [](PageContext c) { return new WarmUpPage(std::move(c)); }, "warm-up");
+  registry.add(
+      StepId::Capture, microscope, [](PageContext c) { return new FiducialCapturePage(std::move(c)); },
+      "capture-fiducials");
+  registry.add(
+      StepId::Calibrate, microscope, [](PageContext c) { return new FiducialCalibratePage(std::move(c)); },
+      "calibrate-fiducials");
+  registry.add(
+      StepId::Model, points, [](PageContext c) { return new NineParameterPage(std::move(c)); }, "model-nine-parameter");
+  for (const StepId step : all_steps) {
+    registry.add(
+        step, always, [step](PageContext c) { return new MessagePage(std::move(c), step); }, "message");
+  }
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/thermal/warm_up_page.h"
+
+#include <QInputDialog>
+#include <QSplitter>
+#include <QVBoxLayout>
+#include <optional>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/imaging/warm_up.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/plots/plot.h"
+
+namespace spindrift::gui {
+
+WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::WarmUp, parent) {
+  confirm_ = makeButton(tr("The instrument was warm"), "check");
+  confirm_->setToolTip(tr("Records your statement, so that the report can say on what it rests"));
+  addAction(confirm_);
+  auto* drift = new Card(tr("Drift of the most often measured point"));
+  drift_ = new Plot;
+  drift_->setEmptyText(
+      tr("Drift curves will appear here"),
+      tr("Measure one point every 5 minutes while the instrument warms up: its drift shows when it has settled."));
+  drift->body()->addWidget(drift_, 3);
+  verdicts_ =
+      new RowsModel({tr("Axis"), tr("Drift now"), tr("Time constant"), tr("Settles after"), tr("Verdict")}, this);
+  drift->body()->addWidget(
+      makeTable(verdicts_, tr("Drift of each axis"), tr("Drift and time constant of each axis appear here.")), 2);
+  auto* temperature = new Card(tr("Temperatures"));
+  temperature_ = new Plot;
+  temperature_->setEmptyText(tr("Temperatures will appear here"),
+                             tr("They come from log.csv of the campaign; this one has none."));
+  temperature->body()->addWidget(temperature_, 1);
+  content()->addWidget(makeSplitter(drift, temperature, 1, 1, Qt::Vertical), 1);
+  showHints(drift_);
+  showHints(temperature_);
+  connect(confirm_, &QPushButton::clicked, this, &WarmUpPage::confirm);
+}
+
+void WarmUpPage::confirm() {
+  session().storeResult("warm-up", {{"statement", "instrument was warm"}}, {{"settled", true}, {"by", "operator"}});
+  refresh();
+}
+
+void WarmUpPage::refresh() {
+  const auto campaign = session().campaign();
+  if (campaign == nullptr) return;
+  std::vector<Series> temperatures;
+  if (campaign->log) {
+    const OperatingLog& log = *campaign->log;
+    const auto& time = log.time_s();
+    const TimeUnit unit = timeUnit(time.empty() ? 0 : time.back() - time.front());
+    int colour = 0;
+    for (const std::string& name : log.temperatureNames()) {
+      Series s;
+      QString label = QString::fromStdString(name);
+      if (label.startsWith(QLatin1String("T_"))) label.remove(0, 2);
+      if (label.endsWith(QLatin1String("_degC"))) label.chop(5);
+      s.name = label.replace(QLatin1Char('_'), QLatin1Char(' '));
+      for (const double t : time) s.x.push_back(t / unit.seconds);
+      s.y = *log.signal(name);
+      s.style = SeriesStyle::Line;
+      s.colour = colour++;
+      temperatures.push_back(std::move(s));
+      if (colour >= 6) break;
+    }
+    temperature_->setAxes(tr("Time / %1").arg(unit.name), tr("Temperature / °C"));
+  }
+  temperature_->setContent(std::move(temperatures));
+
+  // The point that was measured most often, judged by its drift and not by a fixed time.
+  std::vector<Series> drift;
+  std::vector<Row> rows;
+  std::optional<WarmUpResult> judged;
+  if (const auto set = session().observations()) {
+    try {
+      judged = judgeWarmUp(*set, {});
+    } catch (const InputError&) {
+      judged.reset();
+    }
+  }
+  if (judged && judged->status == FitStatus::Converged) {
+    double last = 0;
+    for (const WarmUpAxis& axis : judged->axes) {
+      if (!axis.time_s.empty()) last = std::max(last, axis.time_s.back() - axis.time_s.front());
+    }
+    const TimeUnit unit = timeUnit(last);
+    int colour = 0;
+    for (const WarmUpAxis& axis : judged->axes) {
+      const QString name = QString::fromStdString(std::string(toString(axis.component)));
+      if (axis.measured && axis.time_s.size() == axis.value_um.size()) {
+        Series s;
+        s.name = name;
+        s.colour = colour;
+        for (const double t : axis.time_s) s.x.push_back(t / unit.seconds);
+        s.y = axis.value_um;
+        drift.push_back(std::move(s));
+      }
+      ++colour;
+      if (!axis.measured) continue;
+      Row row;
+      row.id = name;
+      Cell first{name};
+      first.bold = true;
+      row.cells = {
+          first,
+          {QString::fromStdString(withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "um/h"))},
+          {axis.tau_s ? tr("%1 min").arg(*axis.tau_s / 60, 0, 'f', 0) : QStringLiteral("–")},
+          {axis.settled_after_s ? tr("%1 min").arg(*axis.settled_after_s / 60, 0, 'f', 0) : QStringLiteral("–")},
+          {axis.settled ? tr("settled") : tr("not settled"), axis.settled ? Tone::Good : Tone::Attention,
+           axis.settled ? "check-circle" : "alert"}};
+      rows.push_back(std::move(row));
+    }
+    drift_->setAxes(tr("Time / %1").arg(unit.name),
+                    tr("Deviation of %1 / um").arg(QString::fromStdString(judged->point)));
+  }
+  drift_->setContent(std::move(drift));
+  verdicts_->setRows(std::move(rows));
+  const ResultState state = session().state("warm-up");
+  const bool measured = judged && judged->status == FitStatus::Converged;
+  if (state.there) {
+    callout()->show(Tone::Good, tr("You stated that the instrument was warm. The report says so."));
+  } else if (measured) {
+    callout()->show(judged->settled ? Tone::Good : Tone::Attention, QString::fromStdString(judged->reason));
+  } else {
+    callout()->show(Tone::Attention, tr("This campaign has no warm-up measurement. Either measure one point every 5 "
+                                        "minutes until it settles, or state that the instrument was warm."));
+  }
+  confirm_->setVisible(!state.there);
+}
+
+std::vector<Exportable> WarmUpPage::exportables() {
+  std::vector<Exportable> items;
+  if (!drift_->empty()) items.push_back(exportableOf(tr("Drift"), drift_));
+  if (!temperature_->empty()) items.push_back(exportableOf(tr("Temperatures"), temperature_));
+  return items;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/plots/plot.h"
+
+// QCustomPlot's header is written with Qt's lower-case keywords, which are off in this project.
+#define signals Q_SIGNALS
+#define slots Q_SLOTS
+#define emit
+#define foreach Q_FOREACH
+#include <qcustomplot.h>
+#undef signals
+#undef slots
+#undef emit
+#undef foreach
+
+#include <QEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QSvgGenerator>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "widgets/theme/fonts.h"
+
+namespace spindrift::gui {
+namespace {
+
+QVector<double> toVector(const std::vector<double>& values) {
+  return {values.begin(), values.end()};
+}
+
+/// Numbers on an axis with a true minus sign.
+class Ticker : public QCPAxisTicker {
+ protected:
+  QString getTickLabel(double tick, const QLocale& locale, QChar format, int precision) override {
+    QString text = QCPAxisTicker::getTickLabel(std::abs(tick) < 1e-12 ? 0.0 : tick, locale, format, precision);
+    text.replace(QLatin1Char('-'), QChar(0x2212));
+    return text;
+  }
+};
+
+}  // namespace
+
+TimeUnit timeUnit(double span_s) {
+  if (span_s >= 3 * 3600) return {3600, QStringLiteral("h")};
+  if (span_s >= 180) return {60, QStringLiteral("min")};
+  return {1, QStringLiteral("s")};
+}
+
+Plot::Plot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
+  plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);
+  plot_->setAntialiasedElements(QCP::aeAll);
+  plot_->installEventFilter(this);
+  plot_->setMouseTracking(true);
+  plot_->hide();
+  for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
+    QSharedPointer<Ticker> ticker(new Ticker);
+    ticker->setTickCount(6);
+    axis->setTicker(ticker);
+    axis->setNumberPrecision(6);
+    axis->setNumberFormat(QStringLiteral("gb"));
+  }
+  plot_->axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignRight);
+  plot_->axisRect()->setupFullAxesBox(false);
+  connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] { rebuild(); });
+  restyle();
+}
+
+Plot::~Plot() = default;
+
+void Plot::setAxes(const QString& x_title, const QString& y_title) {
+  x_title_ = x_title;
+  y_title_ = y_title;
+  plot_->xAxis->setLabel(x_title);
+  plot_->yAxis->setLabel(y_title);
+}
+
+void Plot::setContent(std::vector<Series> series, std::vector<Span> spans) {
+  series_ = std::move(series);
+  spans_ = std::move(spans);
+  marks_.clear();
+  rebuild();
+  showAll();
+}
+
+void Plot::addMark(double x, const QString& name, Tone tone) {
+  marks_.push_back({x, name, tone});
+  rebuild();
+}
+
+void Plot::setEmptyText(const QString& title, const QString& how) {
+  empty_title_ = title;
+  empty_how_ = how;
+  update();
+}
+
+void Plot::setLegendVisible(bool visible) {
+  legend_ = visible;
+  rebuild();
+}
+
+void Plot::restyle() {
+  const Theme& t = theme();
+  plot_->setBackground(QBrush(t.surface));
+  plot_->axisRect()->setBackground(QBrush(t.surface));
+  const QFont small = textFont(sizes::font_secondary);
+  for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis, plot_->xAxis2, plot_->yAxis2}) {
+    axis->setBasePen(QPen(t.border_strong, 1));
+    axis->setTickPen(QPen(t.border_strong, 1));
+    axis->setSubTickPen(Qt::NoPen);
+    axis->setTickLabelColor(t.text_secondary);
+    axis->setLabelColor(t.text);
+    axis->setTickLabelFont(small);
+    axis->setLabelFont(small);
+    axis->setTickLengthIn(0);
+    axis->setTickLengthOut(4);
+    axis->setLabelPadding(6);
+    axis->setTickLabels(axis == plot_->xAxis || axis == plot_->yAxis);
+  }
+  for (QCPAxis* axis : {plot_->xAxis2, plot_->yAxis2}) axis->setVisible(false);
+  for (QCPAxis* axis : {plot_->xAxis, plot_->yAxis}) {
+    axis->grid()->setPen(QPen(mixed(t.surface, t.grid, 0.6), 1, Qt::SolidLine));
+    axis->grid()->setZeroLinePen(QPen(t.border_strong, 1));
+  }
+  plot_->legend->setFont(small);
+  plot_->legend->setTextColor(t.text);
+  QColor back = t.surface;
+  back.setAlphaF(0.88F);
+  plot_->legend->setBrush(back);
+  plot_->legend->setBorderPen(QPen(t.border, 1));
+}
+
+void Plot::rebuild() {
+  plot_->clearPlottables();
+  plot_->clearItems();
+  restyle();
+  const Theme& t = theme();
+  int named = 0;
+  for (const Span& span : spans_) {
+    auto* area = new QCPItemRect(plot_);
+    area->setLayer(QStringLiteral("background"));
+    area->topLeft->setTypeX(QCPItemPosition::ptPlotCoords);
+    area->topLeft->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    area->bottomRight->setTypeX(QCPItemPosition::ptPlotCoords);
+    area->bottomRight->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    area->topLeft->setCoords(span.from, 0);
+    area->bottomRight->setCoords(span.to, 1);
+    area->setPen(Qt::NoPen);
+    QColor fill = t.toneSoft(span.tone);
+    fill.setAlphaF(0.75F);
+    area->setBrush(fill);
+    auto* text = new QCPItemText(plot_);
+    text->setText(span.name);
+    text->setFont(textFont(sizes::font_secondary));
+    text->setColor(t.tone(span.tone));
+    text->setPositionAlignment(Qt::AlignLeft | Qt::AlignBottom);
+    text->position->setTypeX(QCPItemPosition::ptPlotCoords);
+    text->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    text->position->setCoords(span.from, 0.985);
+    text->setPadding(QMargins(6, 2, 6, 2));
+  }
+  for (const Series& s : series_) {
+    const QColor colour = t.series[static_cast<std::size_t>(s.colour) % t.series.size()];
+    const QVector<double> x = toVector(s.x);
+    const QVector<double> y = toVector(s.y);
+    const bool line = s.style != SeriesStyle::Points;
+    const bool with_sigma = s.sigma.size() == s.y.size() && !s.sigma.empty();
+    if (line && with_sigma) {
+      QVector<double> low, high;
+      for (std::size_t i = 0; i < s.y.size(); ++i) {
+        low << s.y[i] - s.sigma_factor * s.sigma[i];
+        high << s.y[i] + s.sigma_factor * s.sigma[i];
+      }
+      QCPGraph* bottom = plot_->addGraph();
+      bottom->setData(x, low, true);
+      bottom->setPen(Qt::NoPen);
+      bottom->removeFromLegend();
+      QCPGraph* top = plot_->addGraph();
+      top->setData(x, high, true);
+      top->setPen(Qt::NoPen);
+      top->removeFromLegend();
+      QColor fill = colour;
+      fill.setAlphaF(0.18F);
+      top->setBrush(fill);
+      top->setChannelFillGraph(bottom);
+    }
+    QCPGraph* graph = plot_->addGraph();
+    graph->setData(x, y);
+    graph->setName(s.name);
+    graph->setAdaptiveSampling(true);
+    switch (s.style) {
+      case SeriesStyle::Points:
+        graph->setLineStyle(QCPGraph::lsNone);
+        break;
+      case SeriesStyle::Steps:
+        graph->setLineStyle(QCPGraph::lsStepLeft);
+        break;
+      default:
+        graph->setLineStyle(QCPGraph::lsLine);
+    }
+    graph->setPen(QPen(colour, 1.5, s.style == SeriesStyle::Dashed ? Qt::DashLine : Qt::SolidLine));
+    if (s.style == SeriesStyle::Points || s.style == SeriesStyle::LinePoints) {
+      graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(colour, 1.2),
+                                             QBrush(mixed(colour, t.surface, 0.35)), s.x.size() > 400 ? 3 : 6));
+    }
+    if (!line && with_sigma) {
+      auto* bars = new QCPErrorBars(plot_->xAxis, plot_->yAxis);
+      bars->setDataPlottable(graph);
+      bars->setPen(QPen(colour, 1));
+      bars->setWhiskerWidth(5);
+      QVector<double> half;
+      for (const double v : s.sigma) half << s.sigma_factor * v;
+      bars->setData(half);
+      bars->removeFromLegend();
+    }
+    if (!s.legend || s.name.isEmpty()) {
+      graph->removeFromLegend();
+    } else {
+      ++named;
+    }
+  }
+  for (const Mark& mark : marks_) {
+    auto* line = new QCPItemStraightLine(plot_);
+    line->point1->setCoords(mark.x, 0);
+    line->point2->setCoords(mark.x, 1);
+    line->setPen(QPen(t.tone(mark.tone), 1.2, Qt::DashLine));
+    auto* text = new QCPItemText(plot_);
+    text->setText(mark.name);
+    text->setFont(textFont(sizes::font_secondary));
+    text->setColor(t.tone(mark.tone));
+    text->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
+    text->position->setTypeX(QCPItemPosition::ptPlotCoords);
+    text->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
+    text->position->setCoords(mark.x, 0.02);
+    text->setPadding(QMargins(6, 2, 6, 2));
+  }
+  plot_->legend->setVisible(legend_ && named > 1);
+  plot_->setVisible(!series_.empty());
+  plot_->replot(QCustomPlot::rpQueuedReplot);
+  update();
+}
+
+void Plot::showAll() {
+  double x_low = std::numeric_limits<double>::max();
+  double x_high = -x_low;
+  double y_low = x_low;
+  double y_high = -x_low;
+  for (const Series& s : series_) {
+    const bool with_sigma = s.sigma.size() == s.y.size();
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      if (!std::isfinite(s.y[i])) continue;
+      const double half = with_sigma && std::isfinite(s.sigma[i]) ? s.sigma_factor * s.sigma[i] : 0.0;
+      x_low = std::min(x_low, s.x[i]);
+      x_high = std::max(x_high, s.x[i]);
+      y_low = std::min(y_low, s.y[i] - half);
+      y_high = std::max(y_high, s.y[i] + half);
+    }
+  }
+  if (x_low > x_high) return;
+  if (least_range_ > 0) {
+    y_low = std::min(y_low, -least_range_);
+    y_high = std::max(y_high, least_range_);
+  }
+  const double dx = std::max(x_high - x_low, 1e-9) * 0.03;
+  const double dy = std::max(y_high - y_low, 1e-9) * 0.08;
+  plot_->xAxis->setRange(x_low - dx, x_high + dx);
+  plot_->yAxis->setRange(y_low - dy, y_high + dy);
+  plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+void Plot::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), theme().surface);
+  if (!series_.empty()) return;
+  const QRect area = rect().adjusted(24, 16, -24, -16);
+  painter.setFont(textFont(sizes::font_body, QFont::DemiBold));
+  const QRect title = painter.fontMetrics().boundingRect(area, Qt::AlignHCenter | Qt::TextWordWrap, empty_title_);
+  const QRect how =
+      QFontMetrics(textFont(sizes::font_body)).boundingRect(area, Qt::AlignHCenter | Qt::TextWordWrap, empty_how_);
+  const int top = area.top() + (area.height() - title.height() - 8 - how.height()) / 2;
+  painter.setPen(theme().text);
+  painter.drawText(QRect(area.left(), top, area.width(), title.height()), Qt::AlignHCenter | Qt::TextWordWrap,
+                   empty_title_);
+  painter.setFont(textFont(sizes::font_body));
+  painter.setPen(theme().text_secondary);
+  painter.drawText(QRect(area.left(), top + title.height() + 8, area.width(), how.height() + 4),
+                   Qt::AlignHCenter | Qt::TextWordWrap, empty_how_);
+}
+
+void Plot::resizeEvent(QResizeEvent*) {
+  plot_->setGeometry(rect());
+}
+
+bool Plot::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == plot_) {
+    if (event->type() == QEvent::MouseButtonDblClick) {
+      showAll();
+      return true;
+    }
+    if (event->type() == QEvent::MouseMove) {
+      const QPointF p = static_cast<QMouseEvent*>(event)->position();
+      const auto number = [](double v) {
+        QString text = QString::number(v, 'g', 4);
+        text.replace(QLatin1Char('-'), QChar(0x2212));
+        return text;
+      };
+      Q_EMIT hovered(x_title_ + QStringLiteral(" = ") + number(plot_->xAxis->pixelToCoord(p.x())) +
+                     QStringLiteral(",  ") + y_title_ + QStringLiteral(" = ") +
+                     number(plot_->yAxis->pixelToCoord(p.y())));
+    }
+    if (event->type() == QEvent::Leave) Q_EMIT hovered({});
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+QString Plot::csv() const {
+  QString text = QStringLiteral("series,x,y,sigma\n");
+  for (const Series& s : series_) {
+    const QString name = QString::fromStdString(s.name.contains(QLatin1Char(',')) ? "\"" + s.name.toStdString() + "\""
+                                                                                  : s.name.toStdString());
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      text += name + QLatin1Char(',') + QString::fromStdString(exactNumber(s.x[i])) + QLatin1Char(',') +
+              QString::fromStdString(exactNumber(s.y[i])) + QLatin1Char(',') +
+              (i < s.sigma.size() ? QString::fromStdString(exactNumber(s.sigma[i])) : QString()) + QLatin1Char('\n');
+    }
+  }
+  return text;
+}
+
+void Plot::exportTo(const QString& file) const {
+  const QString lower = file.toLower();
+  const int width = std::max(plot_->width(), 640);
+  const int height = std::max(plot_->height(), 400);
+  bool written = false;
+  if (lower.endsWith(QLatin1String(".csv"))) {
+    writeFileAtomically(file.toStdString(), csv().toStdString());
+    return;
+  }
+  if (lower.endsWith(QLatin1String(".svg"))) {
+    QSvgGenerator generator;
+    generator.setFileName(file);
+    generator.setSize({width, height});
+    generator.setViewBox(QRect(0, 0, width, height));
+    QCPPainter painter;
+    if (painter.begin(&generator)) {
+      painter.setMode(QCPPainter::pmVectorized);
+      plot_->toPainter(&painter, width, height);
+      painter.end();
+      written = true;
+    }
+  } else if (lower.endsWith(QLatin1String(".pdf"))) {
+    written = plot_->savePdf(file, width, height);
+  } else {
+    written = plot_->savePng(file, width, height, 2.0);
+  }
+  if (!written) throw InputError({file.toStdString(), ""}, "the picture could not be written.");
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A plot in the program's manner: axes with quantity / unit, thin lines, points where measured, lines where predicted,
+// bands for uncertainty, shaded spans. Drag pans, wheel zooms, double-click shows everything. QCustomPlot inside.
+#pragma once
+
+#include <QString>
+#include <QWidget>
+#include <optional>
+#include <vector>
+
+#include "widgets/theme/theme.h"
+
+class QCustomPlot;
+
+namespace spindrift::gui {
+
+enum class SeriesStyle {
+  Points,      ///< measured
+  Line,        ///< predicted, or a dense signal
+  LinePoints,  ///< measured, in order
+  Dashed,      ///< a rival, a limit
+  Steps,       ///< a state that holds until the next value
+};
+
+struct Series {
+  QString name;
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> sigma;  ///< empty, or one a point: bars for Points, a band for lines
+  SeriesStyle style = SeriesStyle::LinePoints;
+  int colour = 0;           ///< index into Theme::series
+  double sigma_factor = 2;  ///< the band or bar is value +- this many sigma
+  bool legend = true;
+};
+
+/// A shaded part of the x axis: training, test, warm-up.
+struct Span {
+  double from = 0;
+  double to = 0;
+  QString name;
+  Tone tone = Tone::Accent;
+};
+
+class Plot : public QWidget {
+  Q_OBJECT
+ public:
+  explicit Plot(QWidget* parent = nullptr);
+  ~Plot() override;
+
+  void setAxes(const QString& x_title, const QString& y_title);
+  /// Replaces all series, spans and marks, and shows everything.
+  void setContent(std::vector<Series> series, std::vector<Span> spans = {});
+  /// A vertical line with a name at x.
+  void addMark(double x, const QString& name, Tone tone = Tone::Neutral);
+  void setEmptyText(const QString& title, const QString& how);
+  void showAll();
+  /// Always shows y = 0 and at least +- this much.
+  void setLeastRange(double y) { least_range_ = y; }
+  void setLegendVisible(bool visible);
+
+  /// By the ending: .png, .svg, .pdf (and .csv for the numbers). Throws InputError.
+  void exportTo(const QString& file) const;
+  [[nodiscard]] QString csv() const;
+  [[nodiscard]] bool empty() const { return series_.empty(); }
+  [[nodiscard]] const std::vector<Series>& series() const { return series_; }
+
+  [[nodiscard]] QSize sizeHint() const override { return {480, 280}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {260, 180}; }
+
+ Q_SIGNALS:
+  void hovered(const QString& text);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void rebuild();
+  void restyle();
+
+  QCustomPlot* plot_;
+  QString x_title_, y_title_;
+  QString empty_title_, empty_how_;
+  std::vector<Series> series_;
+  std::vector<Span> spans_;
+  struct Mark {
+    double x;
+    QString name;
+    Tone tone;
+  };
+  std::vector<Mark> marks_;
+  double least_range_ = 0;
+  bool legend_ = true;
+};
+
+/// Seconds as people read them on an axis: factor and unit ("h", "min" or "s") for a span of time.
+struct TimeUnit {
+  double seconds = 1;
+  QString name;
+};
+[[nodiscard]] TimeUnit timeUnit(double span_s);
+
+}  // namespace spindrift::gui

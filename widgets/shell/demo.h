@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The demo campaigns of the virtual machine, offered on the first screen and walked through by the tour.
+#pragma once
+
+#include <QString>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/job_context.h"
+
+namespace spindrift::gui {
+
+struct Demo {
+  std::string name;  ///< "fiducials": for the command line and folder names
+  QString title;
+  QString sentence;
+  const char* icon;
+};
+
+[[nodiscard]] const std::vector<Demo>& demos();
+/// Makes the campaign of a demo in a folder that does not exist yet. `small`: fewer and smaller images, for the tour.
+void makeDemoCampaign(const std::string& name, const std::filesystem::path& folder, bool small, JobContext& job);
+
+}  // namespace spindrift::gui

@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/shell/main_window.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QCloseEvent>
+#include <QComboBox>
+#include <QDir>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QStandardPaths>
+#include <QTemporaryDir>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "core/base/error.h"
+#include "widgets/common/parts.h"
+#include "widgets/export/exportable.h"
+#include "widgets/jobs/job_bar.h"
+#include "widgets/shell/demo.h"
+#include "widgets/shell/step_list.h"
+#include "widgets/shell/welcome_page.h"
+#include "widgets/theme/icons.h"
+
+namespace spindrift::gui {
+
+MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session_) {
+  setWindowIcon(applicationIcon());
+  setMinimumSize(1024, 700);
+  registerPages(registry_);
+
+  auto* centre = new QWidget;
+  auto* column = new QVBoxLayout(centre);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  stack_ = new QStackedWidget;
+  column->addWidget(stack_, 1);
+  job_bar_ = new JobBar(jobs_);
+  column->addWidget(job_bar_);
+  setCentralWidget(centre);
+
+  welcome_ = new WelcomePage;
+  stack_->addWidget(welcome_);
+
+  work_ = new QWidget;
+  auto* work_line = new QHBoxLayout(work_);
+  work_line->setContentsMargins(0, 0, 0, 0);
+  work_line->setSpacing(0);
+  steps_ = new StepList(workflow_);
+  work_line->addWidget(steps_);
+  auto* right = new QVBoxLayout;
+  right->setSpacing(0);
+  auto* top = new QFrame;
+  top->setProperty("role", QStringLiteral("topBar"));
+  auto* top_line = new QHBoxLayout(top);
+  top_line->setContentsMargins(24, 6, 12, 6);
+  top_line->setSpacing(8);
+  session_name_ = makeLabel({}, "secondaryText");
+  campaign_ = new QComboBox;
+  campaign_->setAccessibleName(tr("Campaign"));
+  campaign_->setToolTip(tr("The campaign at hand; a session may hold several"));
+  campaign_->setMinimumWidth(240);
+  top_line->addWidget(campaign_);
+  top_line->addWidget(session_name_, 1);
+  back_ = makeButton(tr("Back"), "chevron-left");
+  next_ = makeButton(tr("Next"), "chevron-right");
+  next_->setLayoutDirection(Qt::RightToLeft);
+  top_line->addWidget(back_);
+  top_line->addWidget(next_);
+  right->addWidget(top);
+  page_stack_ = new QStackedWidget;
+  right->addWidget(page_stack_, 1);
+  work_line->addLayout(right, 1);
+  stack_->addWidget(work_);
+
+  buildMenu();
+
+  connect(back_, &QPushButton::clicked, &workflow_, &Workflow::back);
+  connect(next_, &QPushButton::clicked, &workflow_, &Workflow::next);
+  connect(&workflow_, &Workflow::currentChanged, this, &MainWindow::showStep);
+  connect(&session_, &SessionModel::sessionChanged, this, [this] {
+    undo_.clear();
+    refreshTitle();
+    refreshCampaigns();
+    stack_->setCurrentWidget(session_.isOpen() && session_.campaign() != nullptr ? work_
+                                                                                 : static_cast<QWidget*>(welcome_));
+  });
+  connect(&session_, &SessionModel::campaignChanged, this, [this] {
+    refreshCampaigns();
+    stack_->setCurrentWidget(session_.isOpen() && session_.campaign() != nullptr ? work_
+                                                                                 : static_cast<QWidget*>(welcome_));
+    showStep();
+  });
+  connect(&session_, &SessionModel::inputsChanged, this, &MainWindow::refreshPage);
+  connect(campaign_, &QComboBox::activated, this, [this](int) {
+    const auto id = campaign_->currentData().toLongLong();
+    if (id == session_.campaignId()) return;
+    undo_.clear();
+    session_.selectCampaign(id);
+  });
+  connect(welcome_, &WelcomePage::demoChosen, this, [this](const QString& name) { startDemo(name); });
+  connect(welcome_, &WelcomePage::recentChosen, this, &MainWindow::open);
+  connect(welcome_, &WelcomePage::openSession, this, [this] {
+    const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a session"),
+                                                             QString::fromStdString(sessionsFolder().string()));
+    if (!folder.isEmpty()) open(folder);
+  });
+  connect(welcome_, &WelcomePage::openCampaign, this, [this] {
+    const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a campaign folder"));
+    if (!folder.isEmpty()) open(folder);
+  });
+  connect(welcome_, &WelcomePage::newMeasurement, this, &MainWindow::newMeasurement);
+  connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this,
+          [this] { theme_button_->setIcon(icon(theme().kind == ThemeKind::Dark ? "sun" : "moon")); });
+
+  QSettings settings;
+  welcome_->setRecent(settings.value(QStringLiteral("recent")).toStringList());
+  if (!restoreGeometry(settings.value(QStringLiteral("window")).toByteArray())) resize(1440, 900);
+  refreshTitle();
+}
+
+MainWindow::~MainWindow() {
+  jobs_.cancelAll();
+  // Pages hold references to what stands below them in this class.
+  for (const auto& [entry, page] : pages_) delete page;
+}
+
+void MainWindow::buildMenu() {
+  const auto add = [this](QMenu* menu, const QString& text, const char* icon_name, const QKeySequence& keys,
+                          auto&& what) {
+    QAction* action = menu->addAction(icon(icon_name), text);
+    action->setShortcut(keys);
+    connect(action, &QAction::triggered, this, what);
+    return action;
+  };
+  QMenu* session_menu = menuBar()->addMenu(tr("&Session"));
+  add(session_menu, tr("&New measurement …"), "plus", QKeySequence::New, [this] { newMeasurement(); });
+  add(session_menu, tr("&Open session …"), "folder-open", QKeySequence::Open,
+      [this] { Q_EMIT welcome_->openSession(); });
+  add(session_menu, tr("Open &campaign folder …"), "folder-open", QKeySequence(tr("Ctrl+Shift+O")),
+      [this] { Q_EMIT welcome_->openCampaign(); });
+  session_menu->addSeparator();
+  add(session_menu, tr("&Export …"), "export", QKeySequence(tr("Ctrl+E")),
+      [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); });
+  session_menu->addSeparator();
+  add(session_menu, tr("First &screen"), "home", QKeySequence(tr("Ctrl+H")), [this] { closeSession(); });
+  add(session_menu, tr("&Quit"), "x", QKeySequence::Quit, [this] { close(); });
+
+  QMenu* edit = menuBar()->addMenu(tr("&Edit"));
+  QAction* undo = undo_.createUndoAction(this, tr("&Undo"));
+  undo->setShortcut(QKeySequence::Undo);
+  undo->setIcon(icon("undo"));
+  edit->addAction(undo);
+  QAction* redo = undo_.createRedoAction(this, tr("&Redo"));
+  redo->setShortcut(QKeySequence::Redo);
+  redo->setIcon(icon("redo"));
+  edit->addAction(redo);
+
+  QMenu* go = menuBar()->addMenu(tr("&Go"));
+  add(go, tr("&Back"), "chevron-left", QKeySequence(tr("Alt+Left")), [this] { workflow_.back(); });
+  add(go, tr("&Next"), "chevron-right", QKeySequence(tr("Alt+Right")), [this] { workflow_.next(); });
+  go->addSeparator();
+  int number = 1;
+  for (const StepId step : all_steps) {
+    add(go, stepTitle(step), stepIcon(step), QKeySequence(QStringLiteral("Ctrl+%1").arg(number++)),
+        [this, step] { workflow_.goTo(step); });
+  }
+  go->addSeparator();
+  add(go, tr("&Run the step"), "play", QKeySequence(tr("Ctrl+Return")), [this] {
+    if (page_ != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
+  });
+
+  QMenu* view = menuBar()->addMenu(tr("&View"));
+  add(view, tr("&Light or dark"), "moon", QKeySequence(tr("Ctrl+D")),
+      [this] { setTheme(theme().kind == ThemeKind::Dark ? ThemeKind::Light : ThemeKind::Dark); });
+  QMenu* help = menuBar()->addMenu(tr("&Help"));
+  add(help, tr("&About Spindrift"), "info", {}, [this] { about(); });
+
+  auto* corner = new QWidget;
+  auto* line = new QHBoxLayout(corner);
+  line->setContentsMargins(0, 0, 8, 0);
+  line->setSpacing(4);
+  const auto tool = [&](const char* icon_name, const QString& name, auto&& what) {
+    auto* button = new QToolButton;
+    button->setIcon(icon(icon_name));
+    button->setIconSize({sizes::icon, sizes::icon});
+    button->setToolTip(name);
+    button->setAccessibleName(name);
+    connect(button, &QToolButton::clicked, this, what);
+    line->addWidget(button);
+    return button;
+  };
+  auto* undo_button = tool("undo", tr("Undo"), [this] { undo_.undo(); });
+  auto* redo_button = tool("redo", tr("Redo"), [this] { undo_.redo(); });
+  undo_button->setEnabled(false);
+  redo_button->setEnabled(false);
+  connect(&undo_, &QUndoStack::canUndoChanged, undo_button, &QToolButton::setEnabled);
+  connect(&undo_, &QUndoStack::canRedoChanged, redo_button, &QToolButton::setEnabled);
+  connect(&undo_, &QUndoStack::undoTextChanged, undo_button,
+          [undo_button](const QString& text) { undo_button->setToolTip(tr("Undo: %1").arg(text)); });
+  tool("export", tr("Export pictures and tables of this page"),
+       [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); });
+  theme_button_ = tool(theme().kind == ThemeKind::Dark ? "sun" : "moon", tr("Light or dark"),
+                       [this] { setTheme(theme().kind == ThemeKind::Dark ? ThemeKind::Light : ThemeKind::Dark); });
+  menuBar()->setCornerWidget(corner);
+}
+
+bool MainWindow::welcomeShown() const {
+  return stack_->currentWidget() == welcome_;
+}
+
+void MainWindow::showStep() {
+  if (session_.campaign() == nullptr) {
+    page_ = nullptr;
+    return;
+  }
+  const PageRegistry::Entry* entry = registry_.find(workflow_.current(), session_);
+  Page*& page = pages_[entry];
+  if (page == nullptr) {
+    PageContext context{session_, jobs_, undo_, workflow_, [this](const QString& text) { job_bar_->setHint(text); }};
+    page = entry->factory(std::move(context));
+    page_stack_->addWidget(page);
+  }
+  page_ = page;
+  page_stack_->setCurrentWidget(page);
+  back_->setEnabled(workflow_.canGoBack());
+  next_->setEnabled(workflow_.canGoNext());
+  job_bar_->setHint({});
+  page->refresh();
+}
+
+void MainWindow::refreshPage() {
+  if (refresh_queued_) return;
+  refresh_queued_ = true;
+  QMetaObject::invokeMethod(
+      this,
+      [this] {
+        refresh_queued_ = false;
+        if (page_ != nullptr && session_.campaign() != nullptr) page_->refresh();
+      },
+      Qt::QueuedConnection);
+}
+
+void MainWindow::refreshTitle() {
+  setWindowTitle(session_.isOpen() ? tr("%1 – Spindrift").arg(session_.name()) : QStringLiteral("Spindrift"));
+  session_name_->setText(session_.isOpen() ? tr("Session %1").arg(session_.name()) : QString());
+  session_name_->setToolTip(QString::fromStdString(session_.folder().string()));
+}
+
+void MainWindow::refreshCampaigns() {
+  campaign_->clear();
+  for (const CampaignRecord& record : session_.campaigns()) {
+    campaign_->addItem(QString::fromStdString(record.name), QVariant::fromValue<qlonglong>(record.id));
+    if (record.id == session_.campaignId()) campaign_->setCurrentIndex(campaign_->count() - 1);
+  }
+}
+
+void MainWindow::remember(const QString& folder) {
+  QSettings settings;
+  QStringList recent = settings.value(QStringLiteral("recent")).toStringList();
+  recent.removeAll(folder);
+  recent.prepend(folder);
+  while (recent.size() > 8) recent.removeLast();
+  settings.setValue(QStringLiteral("recent"), recent);
+  welcome_->setRecent(recent);
+}
+
+void MainWindow::openSession(const QString& folder) {
+  try {
+    session_.openSession(folder.toStdString());
+    remember(folder);
+    workflow_.goTo(StepId::Machine);
+    if (session_.session() != nullptr) {
+      for (const std::string& message : session_.session()->migrationMessages())
+        job_bar_->setMessage(QString::fromStdString(message));
+    }
+  } catch (const InputError& e) {
+    job_bar_->setMessage(QString::fromUtf8(e.what()));
+  }
+}
+
+void MainWindow::importInBackground(const QString& title, std::function<std::filesystem::path(JobContext&)> source,
+                                    const QString& name) {
+  const std::filesystem::path folder = newSessionFolder(name);
+  Job job;
+  job.title = title;
+  job.work = [this, source = std::move(source), folder](JobContext& context) -> std::function<void()> {
+    JobContext first = context.part(0.0, 0.8);
+    const std::filesystem::path campaign_folder = source(first);
+    auto session = std::make_shared<std::unique_ptr<Session>>();
+    try {
+      *session = std::make_unique<Session>(Session::create(folder));
+      JobContext second = context.part(0.8, 1.0);
+      const std::int64_t id = (*session)->importCampaign(campaign_folder, second);
+      return [this, session, id, folder] {
+        session_.adopt(std::move(*session), id);
+        remember(QString::fromStdString(folder.string()));
+        workflow_.goTo(StepId::Machine);
+        showStep();
+      };
+    } catch (...) {
+      session->reset();
+      std::error_code ignored;
+      std::filesystem::remove_all(folder, ignored);
+      throw;
+    }
+  };
+  job.failed = [this](const QString& sentence) { job_bar_->setMessage(sentence); };
+  jobs_.run(std::move(job));
+}
+
+void MainWindow::openCampaign(const QString& folder) {
+  const std::filesystem::path path = folder.toStdString();
+  importInBackground(
+      tr("Importing %1").arg(QDir(folder).dirName()), [path](JobContext&) { return path; }, QDir(folder).dirName());
+}
+
+void MainWindow::open(const QString& folder) {
+  if (Session::isSession(folder.toStdString())) {
+    openSession(folder);
+  } else {
+    openCampaign(folder);
+  }
+}
+
+void MainWindow::startDemo(const QString& name, bool small) {
+  auto place = std::make_shared<QTemporaryDir>();
+  const std::filesystem::path folder = std::filesystem::path(place->path().toStdString()) / "campaign";
+  importInBackground(
+      tr("Running the virtual machine: %1").arg(name),
+      [place, folder, small, demo = name.toStdString()](JobContext& job) {
+        makeDemoCampaign(demo, folder, small, job);
+        return folder;
+      },
+      QStringLiteral("demo_") + name);
+}
+
+void MainWindow::closeSession() {
+  session_.close();
+  page_ = nullptr;
+}
+
+void MainWindow::setTheme(ThemeKind kind) {
+  applyTheme(*static_cast<QApplication*>(QCoreApplication::instance()), kind);
+  QSettings().setValue(QStringLiteral("theme"),
+                       kind == ThemeKind::Dark ? QStringLiteral("dark") : QStringLiteral("light"));
+  refreshPage();
+}
+
+void MainWindow::exportTo(const QString& folder) {
+  if (page_ == nullptr) {
+    job_bar_->setMessage(tr("Open a session first; then its pictures and tables can be exported."));
+    return;
+  }
+  std::vector<Exportable> items = page_->exportables();
+  if (items.empty()) {
+    job_bar_->setMessage(tr("This page has nothing to export yet."));
+    return;
+  }
+  auto* dialog = new ExportDialog(std::move(items), folder, this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->open();
+}
+
+void MainWindow::newMeasurement() {
+  const QString machine =
+      QFileDialog::getOpenFileName(this, tr("Choose the machine description"), {}, tr("Machine (*.json)"));
+  if (machine.isEmpty()) return;
+  try {
+    const MachineDescription description = MachineDescription::read(machine.toStdString());
+    auto session =
+        std::make_unique<Session>(Session::create(newSessionFolder(QString::fromStdString(description.name))));
+    const std::int64_t id = session->newCampaign(description.name, utcNow(), description.source.dump(1));
+    const QString folder = QString::fromStdString(session->folder().string());
+    session_.adopt(std::move(session), id);
+    remember(folder);
+    workflow_.goTo(StepId::Machine);
+    showStep();
+  } catch (const InputError& e) {
+    job_bar_->setMessage(QString::fromUtf8(e.what()));
+  }
+}
+
+void MainWindow::about() {
+  QMessageBox::about(this, tr("About Spindrift"),
+                     tr("<h3>Spindrift %1</h3><p>Thermal errors of machine tools: measure, understand, compensate.</p>"
+                        "<p>GPL-3.0-or-later; the core library Apache-2.0.</p>")
+                         .arg(QStringLiteral(SPINDRIFT_VERSION)));
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  QSettings().setValue(QStringLiteral("window"), saveGeometry());
+  jobs_.cancelAll();
+  event->accept();
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one window: steps at the left, the page in the middle, the job bar at the bottom, menu and switches at the top.
+#pragma once
+
+#include <QMainWindow>
+#include <QUndoStack>
+#include <map>
+
+#include "widgets/jobs/job_runner.h"
+#include "widgets/models/session_model.h"
+#include "widgets/pages/page.h"
+#include "widgets/workflow/workflow.h"
+
+class QComboBox;
+class QLabel;
+class QPushButton;
+class QStackedWidget;
+class QToolButton;
+
+namespace spindrift::gui {
+
+class JobBar;
+class StepList;
+class WelcomePage;
+class Badge;
+
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+ public:
+  explicit MainWindow(QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  // What the menu does, without dialogs (the command line, the tour and the tests use these).
+  void openSession(const QString& folder);
+  /// Makes a new session in the user's folder and imports the campaign (in the background).
+  void openCampaign(const QString& folder);
+  /// Opens a folder of either kind.
+  void open(const QString& folder);
+  void startDemo(const QString& name, bool small = false);
+  void closeSession();
+  void setTheme(ThemeKind kind);
+  void exportTo(const QString& folder);  ///< opens the export dialog with this folder
+
+  [[nodiscard]] SessionModel& session() { return session_; }
+  [[nodiscard]] JobRunner& jobs() { return jobs_; }
+  [[nodiscard]] QUndoStack& undoStack() { return undo_; }
+  [[nodiscard]] Workflow& workflow() { return workflow_; }
+  [[nodiscard]] Page* currentPage() const { return page_; }
+  [[nodiscard]] WelcomePage* welcome() const { return welcome_; }
+  [[nodiscard]] StepList* stepList() const { return steps_; }
+  [[nodiscard]] JobBar* jobBar() const { return job_bar_; }
+  [[nodiscard]] QPushButton* nextButton() const { return next_; }
+  [[nodiscard]] QPushButton* backButton() const { return back_; }
+  [[nodiscard]] bool welcomeShown() const;
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  void buildMenu();
+  void showStep();
+  void refreshTitle();
+  void refreshPage();
+  void refreshCampaigns();
+  void remember(const QString& folder);
+  void newMeasurement();
+  void about();
+  void importInBackground(const QString& title, std::function<std::filesystem::path(JobContext&)> source,
+                          const QString& name);
+
+  SessionModel session_;
+  JobRunner jobs_;
+  QUndoStack undo_;
+  Workflow workflow_;
+  PageRegistry registry_;
+  std::map<const PageRegistry::Entry*, Page*> pages_;
+  Page* page_ = nullptr;
+  bool refresh_queued_ = false;
+
+  QStackedWidget* stack_;
+  WelcomePage* welcome_;
+  QWidget* work_;
+  QStackedWidget* page_stack_;
+  StepList* steps_;
+  JobBar* job_bar_;
+  QLabel* session_name_;
+  QComboBox* campaign_;
+  QToolButton* theme_button_;
+  QPushButton* next_;
+  QPushButton* back_;
+};
+
+}  // namespace spindrift::gui

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The first screen: demo sessions with a small picture each, recent sessions, opening one, a new measurement.
+#pragma once
+
+#include <QAbstractButton>
+#include <QWidget>
+
+#include "widgets/shell/demo.h"
+
+class QVBoxLayout;
+
+namespace spindrift::gui {
+
+/// A demo as a card that can be pressed.
+class DemoCard : public QAbstractButton {
+  Q_OBJECT
+ public:
+  explicit DemoCard(const Demo& demo, QWidget* parent = nullptr);
+  [[nodiscard]] QSize sizeHint() const override { return {250, 210}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {200, 200}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  Demo demo_;
+};
+
+class WelcomePage : public QWidget {
+  Q_OBJECT
+ public:
+  explicit WelcomePage(QWidget* parent = nullptr);
+  void setRecent(const QStringList& folders);
+  [[nodiscard]] DemoCard* demoCard(std::size_t index) const { return cards_[index]; }
+
+ Q_SIGNALS:
+  void demoChosen(const QString& name);
+  void openSession();
+  void openCampaign();
+  void newMeasurement();
+  void recentChosen(const QString& folder);
+
+ private:
+  std::vector<DemoCard*> cards_;
+  QVBoxLayout* recent_;
+};
+
+}  // namespace spindrift::gui

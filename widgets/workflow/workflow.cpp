@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/workflow/workflow.h"
+
+#include <algorithm>
+
+#include "widgets/models/session_model.h"
+
+namespace spindrift::gui {
+
+QString stepTitle(StepId step) {
+  switch (step) {
+    case StepId::Machine:
+      return Workflow::tr("Machine");
+    case StepId::WarmUp:
+      return Workflow::tr("Warm-up");
+    case StepId::Capture:
+      return Workflow::tr("Capture");
+    case StepId::Calibrate:
+      return Workflow::tr("Calibrate");
+    case StepId::Model:
+      return Workflow::tr("Model");
+    case StepId::Discrepancy:
+      return Workflow::tr("Discrepancy");
+    case StepId::Compensate:
+      return Workflow::tr("Compensate");
+    case StepId::Report:
+      return Workflow::tr("Report");
+  }
+  return {};
+}
+
+QString stepInstruction(StepId step) {
+  switch (step) {
+    case StepId::Machine:
+      return Workflow::tr("Check that this is the machine in front of you: chain, travels, measuring points.");
+    case StepId::WarmUp:
+      return Workflow::tr("Wait until the instrument has settled; before that its drift would pass for the machine's.");
+    case StepId::Capture:
+      return Workflow::tr("Take every capture of the plan and take bad ones again while you stand at the machine.");
+    case StepId::Calibrate:
+      return Workflow::tr(
+          "Find the centre of rotation, the axis directions and the heights, and turn captures into deviations.");
+    case StepId::Model:
+      return Workflow::tr("Fit the error model, choose which points fit and which validate, and look at the heat map.");
+    case StepId::Discrepancy:
+      return Workflow::tr("Find where simulation and measurement disagree, and which effect is missing.");
+    case StepId::Compensate:
+      return Workflow::tr("See what the model would command, and export it for the control.");
+    case StepId::Report:
+      return Workflow::tr("Read the whole evaluation through and save it as a report.");
+  }
+  return {};
+}
+
+const char* stepIcon(StepId step) {
+  switch (step) {
+    case StepId::Machine:
+      return "machine";
+    case StepId::WarmUp:
+      return "warm-up";
+    case StepId::Capture:
+      return "capture";
+    case StepId::Calibrate:
+      return "calibrate";
+    case StepId::Model:
+      return "model";
+    case StepId::Discrepancy:
+      return "discrepancy";
+    case StepId::Compensate:
+      return "compensate";
+    case StepId::Report:
+      return "report";
+  }
+  return "info";
+}
+
+QString stateWord(StepState state) {
+  switch (state) {
+    case StepState::NotStarted:
+      return Workflow::tr("not started");
+    case StepState::InProgress:
+      return Workflow::tr("in progress");
+    case StepState::Current:
+      return Workflow::tr("current");
+    case StepState::Outdated:
+      return Workflow::tr("outdated");
+    case StepState::Blocked:
+      return Workflow::tr("blocked");
+  }
+  return {};
+}
+
+const char* stateIcon(StepState state) {
+  switch (state) {
+    case StepState::NotStarted:
+      return "not-started";
+    case StepState::InProgress:
+      return "in-progress";
+    case StepState::Current:
+      return "check-circle";
+    case StepState::Outdated:
+      return "outdated";
+    case StepState::Blocked:
+      return "blocked";
+  }
+  return "info";
+}
+
+Tone stateTone(StepState state) {
+  switch (state) {
+    case StepState::InProgress:
+      return Tone::Accent;
+    case StepState::Current:
+      return Tone::Good;
+    case StepState::Outdated:
+      return Tone::Outdated;
+    default:
+      return Tone::Neutral;
+  }
+}
+
+Workflow::Workflow(SessionModel& session, QObject* parent) : QObject(parent), session_(session) {
+  connect(&session_, &SessionModel::campaignChanged, this, &Workflow::refresh);
+  connect(&session_, &SessionModel::sessionChanged, this, &Workflow::refresh);
+  connect(&session_, &SessionModel::resultChanged, this, &Workflow::refresh);
+  connect(&session_, &SessionModel::inputsChanged, this, &Workflow::refresh);
+  refresh();
+}
+
+void Workflow::goTo(StepId step) {
+  if (step == current_) return;
+  current_ = step;
+  Q_EMIT currentChanged(step);
+}
+
+void Workflow::next() {
+  if (canGoNext()) goTo(static_cast<StepId>(static_cast<int>(current_) + 1));
+}
+
+void Workflow::back() {
+  if (canGoBack()) goTo(static_cast<StepId>(static_cast<int>(current_) - 1));
+}
+
+void Workflow::refresh() {
+  std::array<StepStatus, 8> now{};
+  for (const StepId step : all_steps) now[static_cast<std::size_t>(step)] = evaluate(step);
+  if (now == status_) return;
+  status_ = std::move(now);
+  Q_EMIT statusChanged();
+}
+
+StepStatus Workflow::evaluate(StepId step) const {
+  const auto campaign = session_.campaign();
+  if (campaign == nullptr) return {StepState::Blocked, tr("Open a session or a campaign first.")};
+  const bool captures = session_.has(Instrument::Microscope) || session_.has(Instrument::TouchProbe) ||
+                        session_.has(Instrument::Profiler);
+  const bool own_observations = campaign->observations.has_value();
+  const auto fromResult = [&](const char* kind, const QString& how, const QString& done) {
+    const ResultState r = session_.state(kind);
+    if (!r.there) return StepStatus{StepState::NotStarted, how};
+    if (!r.current) return StepStatus{StepState::Outdated, tr("Inputs have changed since. Run it again.")};
+    return StepStatus{StepState::Current, done};
+  };
+  const ResultState evaluated = session_.state("evaluate");
+  const bool observations = own_observations || evaluated.there;
+  switch (step) {
+    case StepId::Machine:
+      return {StepState::Current, session_.machineEdited() ? tr("Edited in this session.") : tr("As in machine.json.")};
+    case StepId::WarmUp:
+      return fromResult("warm-up", tr("Check whether the instrument had settled."), tr("Checked."));
+    case StepId::Capture:
+      if (!captures && !own_observations) return {StepState::NotStarted, tr("No captures yet.")};
+      if (!captures) return {StepState::Current, tr("The campaign holds finished observations.")};
+      return fromResult("check", tr("Check the captures."), tr("All captures are checked."));
+    case StepId::Calibrate:
+      if (!captures && own_observations) return {StepState::Current, tr("The campaign holds finished observations.")};
+      if (!captures) return {StepState::Blocked, tr("There are no captures to evaluate yet.")};
+      return fromResult("evaluate", tr("Evaluate the captures."), tr("Captures are evaluated."));
+    case StepId::Model:
+      if (!observations) return {StepState::Blocked, tr("Evaluate the captures first (Calibrate).")};
+      {
+        StepStatus status = fromResult("fit", tr("Fit the error model."), tr("The model is fitted."));
+        if (status.state == StepState::Current && evaluated.there && !evaluated.current && !own_observations) {
+          status = {StepState::Outdated, tr("The captures have to be evaluated again.")};
+        }
+        return status;
+      }
+    case StepId::Discrepancy:
+      if (campaign->simulation.empty())
+        return {StepState::Blocked, tr("This campaign comes without a simulation to compare with.")};
+      if (!observations) return {StepState::Blocked, tr("Evaluate the captures first (Calibrate).")};
+      return fromResult("discrepancy", tr("Search for what the simulation lacks."), tr("Searched."));
+    case StepId::Compensate: {
+      const ResultState fit = session_.state("fit");
+      if (!fit.there) return {StepState::Blocked, tr("Fit a model first.")};
+      return fromResult("compensation", tr("Work out the corrections."), tr("Corrections are worked out."));
+    }
+    case StepId::Report:
+      if (!observations) return {StepState::Blocked, tr("There is nothing to report yet.")};
+      return fromResult("report", tr("Write the report."), tr("The report is written."));
+  }
+  return {};
+}
+
+}  // namespace spindrift::gui
