@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include "app/cli/command.h"
 #include "core/base/text.h"
+#include "core/machine/component.h"
+#include "core/scanning/artefact_design.h"
 #include "core/scanning/calibration_report.h"
 #include "core/scanning/cloud_file.h"
 #include "core/scanning/profiler_calibration.h"
@@ -92,9 +95,75 @@ void addCalibrate(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
 }
 
+struct DesignArguments {
+  ArtefactSurface surface;
+  ArtefactDesignOptions options;
+  std::string scan_model = "rigid";
+  std::string stl;
+  double base_mm = 10.0;
+  double step_mm = 0.1;
+};
+
+nlohmann::json numberOrNull(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+CommandResult designCommand(DesignArguments arguments) {
+  arguments.options.scan_model = scanModelFromString(arguments.scan_model);
+  const ArtefactDesign d = designArtefact(arguments.surface, arguments.options);
+  CommandResult out;
+  out.json = {{"status", toString(d.status)},         {"message", d.message},
+              {"scan_model", arguments.scan_model},   {"largest_slope_x", d.largest_slope_x},
+              {"largest_slope_y", d.largest_slope_y}, {"visible_part", d.visible_part}};
+  out.summary = d.message + "\n";
+  for (const Component k : all_components) {
+    const double sigma = d.sigma[static_cast<std::size_t>(k)];
+    out.json["sigma"][std::string(toString(k))] = numberOrNull(sigma);
+    out.summary += fmt::format("  {}  {:10.4g} {}\n", toString(k), sigma, unitOf(k));
+  }
+  out.json["weak_directions"] = nlohmann::json::array();
+  for (const WeakDirection& w : d.weak) {
+    out.json["weak_directions"].push_back({{"direction", w.name}, {"sigma_um", numberOrNull(w.sigma_um)}});
+    out.summary += fmt::format("  weak: {} (rotations times {:.3g} mm): {:.4g} um\n", w.name, d.length_mm, w.sigma_um);
+  }
+  out.summary += fmt::format("  slope up to {:.2f} (x), {:.2f} (y); the profiler sees {:.1f} % of the surface\n",
+                             d.largest_slope_x, d.largest_slope_y, 100.0 * d.visible_part);
+  if (!arguments.stl.empty()) writeArtefactStl(arguments.stl, arguments.surface, arguments.base_mm, arguments.step_mm);
+  out.exit_status = d.status == FitStatus::Converged ? Done : NotGoodEnough;
+  return out;
+}
+
+void addDesign(CLI::App& app, CommandLine& line) {
+  auto arguments = std::make_shared<DesignArguments>();
+  CLI::App* command = addCommand(app, line, "design-artefact",
+                                 "What a free-form surface z = ax sin(kx x) + ay sin(ky y) + axy sin(kx x + ky y) "
+                                 "determines: sigma of the six errors at its centroid (um, urad), weak directions, "
+                                 "slopes; STL for milling or printing. Defaults: the surface of the paper",
+                                 [arguments](JobContext&) { return designCommand(*arguments); });
+  ArtefactSurface& s = arguments->surface;
+  command->add_option("--size-x", s.size_mm.x(), "mm")->capture_default_str();
+  command->add_option("--size-y", s.size_mm.y(), "mm, along the scan")->capture_default_str();
+  command->add_option("--ax", s.amplitude_x_mm, "Amplitude, mm")->capture_default_str();
+  command->add_option("--kx", s.wave_number_x_per_mm, "Wave number, rad/mm")->capture_default_str();
+  command->add_option("--ay", s.amplitude_y_mm, "Amplitude, mm")->capture_default_str();
+  command->add_option("--ky", s.wave_number_y_per_mm, "Wave number, rad/mm")->capture_default_str();
+  command->add_option("--axy", s.amplitude_xy_mm, "Amplitude of the product term, mm")->capture_default_str();
+  command->add_option("--noise", arguments->options.noise_um, "Of a point's height, um")->capture_default_str();
+  command->add_option("--points", arguments->options.point_count, "Of one scan")->capture_default_str();
+  command->add_option("--steepest-slope", arguments->options.steepest_slope, "That the profiler sees (dz/dx)")
+      ->capture_default_str();
+  command->add_option("--scan-model", arguments->scan_model, "rigid or push_broom, see register")
+      ->check(CLI::IsMember({"rigid", "push_broom"}))
+      ->capture_default_str();
+  command->add_option("--stl", arguments->stl, "Write the body as binary STL (mm)");
+  command->add_option("--base", arguments->base_mm, "Bottom below the lowest point, mm")->capture_default_str();
+  command->add_option("--step", arguments->step_mm, "Size of the STL's facets, mm")->capture_default_str();
+}
+
 }  // namespace
 
 void addScanningCommands(CLI::App& app, CommandLine& line) {
+  addDesign(app, line);
   addRegister(app, line);
   addCalibrate(app, line);
 }
