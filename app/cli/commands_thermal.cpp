@@ -76,6 +76,8 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
       ->add_option("--temperature-unit", a->request.temperature_unit,
                    "Unit of all temperature columns, in place of their names")
       ->check(CLI::IsMember({"degC", "K", "degF"}));
+  command->add_flag("--peers", a->request.peers,
+                    "Show two plain dynamic models beside: first-order ARX on two inputs, ridge over lagged inputs");
   command->add_option("--prediction", a->prediction, "Write time_s,measured,predicted over all rows to this CSV file")
       ->type_name("FILE");
   command->add_option("--model-out", a->model, "Write the model (spindrift-thermal-model JSON) to this file")

@@ -204,10 +204,18 @@ IdentifyResult identifyThermalModel(const TimeSeries& series, const IdentifyRequ
   result.notes.insert(result.notes.end(), prediction.notes.begin(), prediction.notes.end());
   result.train = runQuality(result.time_s, result.measured, result.predicted, request.train);
   result.test = runQuality(result.time_s, result.measured, result.predicted, request.test);
-  for (const PlainModel& plain : {noModel(series, request.output, request.train.from_s, request.train.to_s),
-                                  staticRegression(series, request.output, request.train.from_s, request.train.to_s)}) {
+  const auto [plain_from, plain_to] = std::pair{request.train.from_s, request.train.to_s};
+  std::vector<PlainModel> plain_models = {noModel(series, request.output, plain_from, plain_to),
+                                          staticRegression(series, request.output, plain_from, plain_to)};
+  if (request.peers) {
+    plain_models.push_back(firstOrderArx(series, request.output, plain_from, plain_to));
+    plain_models.push_back(laggedRidge(series, request.output, plain_from, plain_to));
+  }
+  for (std::size_t i = 0; i < plain_models.size(); ++i) {
+    const PlainModel& plain = plain_models[i];
     result.plain.push_back({plain.name, runQuality(result.time_s, result.measured, plain.prediction, request.train),
                             runQuality(result.time_s, result.measured, plain.prediction, request.test), plain.note});
+    if (i >= 2) continue;  // the peers are other dynamic models: shown, but not what decides
     if (result.test.rmse >= result.plain.back().test.rmse) {
       result.good_enough = false;
       result.notes.push_back(fmt::format(

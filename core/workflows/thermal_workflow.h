@@ -38,6 +38,7 @@ struct IdentifyRequest {
   std::optional<std::array<int, 3>> order;  ///< na, nb, nk
   std::string method;                       ///< "" (by order: arx, else response), "response", "arx", "oe"
   std::string temperature_unit;             ///< "", "degC", "K", "degF"
+  bool peers = false;                       ///< also first-order ARX and ridge over lagged inputs (some 0.1 ... 1 s)
 };
 
 /// Free-run quality over one range. p2p in the output's unit (P2 (4)), fit in % (P2 (5)), rmse in the output's unit.
