@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <mutex>
 #include <stop_token>
@@ -51,6 +54,24 @@ void onInterrupt(int) {
   std::signal(SIGINT, SIG_DFL);
 }
 
+/// A campaign is written once: no result may go into the folder that a command reads.
+void refuseResultsInCampaign(const CLI::App& command) {
+  const CLI::Option* campaign = command.get_option_no_throw("CAMPAIGN");
+  if (campaign == nullptr || campaign->empty()) return;
+  const std::filesystem::path folder = std::filesystem::weakly_canonical(campaign->results().front());
+  for (const char* name : {"--json", "--out", "--csv", "--svg", "--png", "--html", "--prediction", "--model-out"}) {
+    const CLI::Option* target = command.get_option_no_throw(name);
+    if (target == nullptr || target->empty() || target->results().front() == "-") continue;
+    const std::filesystem::path file = std::filesystem::weakly_canonical(target->results().front());
+    const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+    if (end == folder.end()) {
+      throw InputError(
+          {target->results().front(), ""},
+          fmt::format("{} lies in the campaign folder, which is never altered; allowed: a file elsewhere.", name));
+    }
+  }
+}
+
 }  // namespace
 
 CLI::App* addCommand(CLI::App& parent, CommandLine& line, const std::string& name, const std::string& description,
@@ -59,7 +80,12 @@ CLI::App* addCommand(CLI::App& parent, CommandLine& line, const std::string& nam
   command
       ->add_option("--json", line.json_file, "Write the machine-readable result to FILE, or to standard output with -")
       ->type_name("FILE");
-  command->callback([&line, run = std::move(run)] { line.selected = run; });
+  command->callback([&line, command, run = std::move(run)] {
+    line.selected = [command, run](JobContext& job) {
+      refuseResultsInCampaign(*command);
+      return run(job);
+    };
+  });
   return command;
 }
 

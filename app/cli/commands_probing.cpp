@@ -148,8 +148,9 @@ void addImport(CLI::App& app, CommandLine& line) {
                    const JsonNode pattern = JsonNode::read(a->pattern);
                    const PrintedText printed = readPrintedText(readFile(a->printed), a->printed, pattern, machine);
                    printed.touches.checkAgainst(machine);
-                   writeFileAtomically(a->out, printed.touches.csv());
-                   (void)TouchList::read(a->out);  // what was written can be read
+                   const std::string text = printed.touches.csv();
+                   (void)TouchList::parse(text, a->printed);  // only what every command can read is written
+                   writeFileAtomically(a->out, text);
                    CommandResult result;
                    result.json = {{"touches", printed.touches.touches.size()},
                                   {"cycles", printed.touches.cycles()},

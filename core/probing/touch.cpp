@@ -8,6 +8,7 @@
 #include <map>
 #include <unordered_set>
 
+#include "core/base/atomic_file.h"
 #include "core/base/csv.h"
 #include "core/base/text.h"
 
@@ -51,7 +52,11 @@ std::vector<std::string> featureNames(const Artefact& artefact) {
 }
 
 TouchList TouchList::read(const std::filesystem::path& file) {
-  const CsvTable table = CsvTable::read(file);
+  return parse(readFile(file), file);
+}
+
+TouchList TouchList::parse(std::string text, const std::filesystem::path& file) {
+  const CsvTable table = CsvTable::parse(std::move(text), file);
   TouchList list;
   list.file = file;
   const std::size_t time = table.column("time_s");

@@ -37,6 +37,8 @@ struct TouchList {
   /// Reads and checks the list on its own: columns, finite numbers, approach vectors of length one, time that increases
   /// within an artefact, no touch twice. Throws InputError.
   [[nodiscard]] static TouchList read(const std::filesystem::path& file);
+  /// The same from text; `name` stands for the file in messages.
+  [[nodiscard]] static TouchList parse(std::string text, const std::filesystem::path& name);
   /// Checks against the machine: artefact, feature and stylus are known, positions can be millimetres inside the travel
   /// (readings in inches are named as such). Throws InputError.
   void checkAgainst(const MachineDescription& machine) const;

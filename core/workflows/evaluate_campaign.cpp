@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include "core/imaging/evaluate_fiducials.h"
+#include "core/imaging/fiducial_captures.h"
 #include "core/probing/evaluate_touches.h"
 #include "core/scanning/evaluate_scans.h"
+#include "core/scanning/scan_evaluation.h"
 
 namespace spindrift {
 
@@ -55,6 +57,10 @@ CampaignEvaluation evaluateCampaign(const Campaign& campaign, const EvaluateOpti
     throw InputError({campaign.path("captures"), ""},
                      "holds no list of captures; allowed: fiducials.csv, touches.csv or scans.csv.");
   }
+  // A list that cannot be used ends the evaluation: say so before hours of images are looked at.
+  if (fiducials) (void)readFiducialCaptures(*fiducials);
+  if (touches) TouchList::read(*touches).checkAgainst(campaign.machine);
+  if (scans) (void)readScanList(campaign);
   if (fiducials) evaluation.instruments.push_back(evaluateFiducials(campaign, job));
   if (touches) evaluation.instruments.push_back(evaluateTouches(campaign, job));
   if (scans) evaluation.instruments.push_back(evaluateScans(campaign, options.scan_model, job));

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// decode, and evaluate of fiducial images that the virtual microscope made.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "core/base/job_context.h"
+#include "core/imaging/pattern.h"
+#include "core/simulation/virtual_fiducials.h"
+#include "tests/app/cli/child_process.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift::testing {
+namespace {
+
+class Images : public ::testing::Test {
+ public:
+  static void SetUpTestSuite() {
+    folder() = std::make_unique<TempFolder>();
+    VirtualFiducialOptions options;
+    options.width_px = 800;
+    options.height_px = 600;
+    options.cor_px = {402.0, 305.0};
+    options.pixel_length_um = 1.6;
+    options.steps_mm = {-0.1016, 0.0, 0.1016};
+    options.fiducials = {{"F1", {20.0, 15.0}, 0.02, {1400.0, 1400.0}}};
+    options.states = {{"M0", 0.0, {{0, 0, 0}}}, {"M1", 600.0, {{5.0, -3.0, 4.0}}}};
+    JobContext job;
+    writeVirtualFiducialCampaign(*folder() / "campaign", standardPattern(), options, 4, job);
+  }
+  static void TearDownTestSuite() { folder().reset(); }
+
+ protected:
+  static std::unique_ptr<TempFolder>& folder() {
+    static std::unique_ptr<TempFolder> kept;
+    return kept;
+  }
+  static std::filesystem::path campaign() { return *folder() / "campaign"; }
+  static std::filesystem::path copy() {
+    copyCampaign(campaign(), *folder() / "copy");
+    return *folder() / "copy";
+  }
+  static std::filesystem::path firstImage(const std::filesystem::path& from) {
+    const std::string line = linesOf(from / "captures/fiducials.csv")[1];
+    return from / line.substr(line.rfind(',') + 1);
+  }
+};
+
+TEST_F(Images, DecodeGivesTheKeysOfTheContract) {
+  const nlohmann::json j = jsonOf({"decode", firstImage(campaign()).string()});
+  EXPECT_NEAR(j["pixel_length_um"].get<double>(), 1.6, 0.01);
+  EXPECT_TRUE(j["elapsed_ms"].is_number());
+  ASSERT_FALSE(j["subpatterns"].empty());
+  for (const auto& s : j["subpatterns"]) {
+    EXPECT_TRUE(s["row"].get<int>() >= 11 && s["row"].get<int>() <= 19);
+    EXPECT_TRUE(s["column"].get<int>() >= 11 && s["column"].get<int>() <= 19);
+    for (const char* key : {"x_px", "y_px", "sigma_px", "tilt_rad", "score"}) EXPECT_TRUE(s[key].is_number()) << key;
+  }
+}
+
+TEST_F(Images, WhatShowsNoPatternEndsWithOne) {
+  std::string black = "P5\n640 480\n255\n";
+  black.append(640U * 480U, '\0');
+  const auto image = folder()->write("black.pgm", black);
+  const nlohmann::json j = jsonOf({"decode", image.string()}, 1);
+  EXPECT_TRUE(j["subpatterns"].empty());
+  EXPECT_NE(j.dump().find("reason"), std::string::npos) << j.dump();
+  const auto text = folder()->write("text.jpg", "this is not an image");
+  expectBadInput({"decode", text.string()}, {"text.jpg", "allowed"});
+  expectBadInput({"decode", image.string(), "--pattern", text.string()}, {"text.jpg"});
+}
+
+TEST_F(Images, EvaluateListsBadImagesAndEvaluatesTheRest) {
+  const auto c = copy();
+  const std::string jpeg = textOf(firstImage(c));
+  const std::string line = linesOf(c / "captures/fiducials.csv").back();
+  const std::filesystem::path last = c / line.substr(line.rfind(',') + 1);
+  writeText(last, "not an image");
+  const auto before = contentOf(c);
+  const std::string out = (*folder() / "o.csv").string();
+  const nlohmann::json j = jsonOf({"evaluate", c.string(), "--out", out});
+  ASSERT_FALSE(j["rejected"].empty());
+  EXPECT_NE(j["rejected"].dump().find(last.filename().string()), std::string::npos) << j["rejected"].dump();
+  for (const auto& r : j["rejected"]) EXPECT_FALSE(r["reason"].get<std::string>().empty());
+  EXPECT_GT(linesOf(out).size(), 1U);
+  EXPECT_EQ(contentOf(c), before);
+}
+
+TEST_F(Images, WrongListsAreRefusedInOneSentence) {
+  const std::string out = (*folder() / "refused.csv").string();
+  const auto wrong = [&](std::size_t line, const std::string& column, const std::string& value,
+                         std::vector<std::string> parts) {
+    const auto c = copy();
+    setField(c / "captures/fiducials.csv", line, column, value);
+    parts.insert(parts.end(), {"fiducials.csv", "line " + std::to_string(line), "allowed"});
+    expectBadInput({"evaluate", c.string(), "--out", out}, parts);
+    EXPECT_FALSE(std::filesystem::exists(out));
+  };
+  wrong(3, "role", "sideways", {"sideways", "rotation", "focus"});
+  wrong(4, "spindle_deg", "NaN", {"NaN"});
+  wrong(5, "time_s", "-10", {"backwards"});
+  wrong(6, "x_mm", "20,5", {"decimal comma"});
+  const auto c = copy();
+  edit(c / "captures/fiducials.csv", "spindle_deg", "angle");
+  expectBadInput({"evaluate", c.string(), "--out", out}, {"fiducials.csv", "spindle_deg", "missing"});
+}
+
+}  // namespace
+}  // namespace spindrift::testing
