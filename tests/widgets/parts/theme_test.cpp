@@ -31,12 +31,6 @@ TEST(Theme, TextHasEnoughContrast) {
   }
 }
 
-TEST(Theme, FiguresAreTabular) {
-  const QFontMetricsF metrics(bodyFont());
-  const double width = metrics.horizontalAdvance(QLatin1Char('0'));
-  for (char c = '1'; c <= '9'; ++c) EXPECT_NEAR(metrics.horizontalAdvance(QLatin1Char(c)), width, 0.1) << c;
-}
-
 TEST(Theme, EveryStepAndStateHasAnIcon) {
   for (const StepId step : all_steps) {
     EXPECT_TRUE(QFile::exists(QStringLiteral(":/icons/%1.svg").arg(QString::fromLatin1(stepIcon(step)))));
