@@ -17,5 +17,5 @@ if [ "${#missing[@]}" -gt 0 ]; then
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 fi
 
-cmake --preset release "$@" >/dev/null
+cmake --preset release -DSPINDRIFT_TESTS=ON "$@" >/dev/null
 cmake --build build

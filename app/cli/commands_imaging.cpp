@@ -113,7 +113,7 @@ void addDecode(CLI::App& app, CommandLine& line) {
         answer.exit_status = result.usable() ? Done : NotGoodEnough;
         return answer;
       });
-  command->add_option("image", arguments->image, "Microscope image: JPEG, PNG, TIFF, BMP or PGM")->required();
+  command->add_option("IMAGE", arguments->image, "Microscope image: JPEG, PNG, TIFF, BMP or PGM")->required();
   command->add_option("--pattern", arguments->pattern, "Artwork (pattern.json); default: the standard pattern")
       ->type_name("FILE");
   command->add_option("--overlay", arguments->overlay, "Write the image with what was found drawn over it, PNG")

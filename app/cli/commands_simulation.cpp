@@ -22,12 +22,10 @@ CommandResult simulate(const SimulateArguments& arguments, JobContext& job) {
   const Scenario scenario = Scenario::read(arguments.scenario);
   const VirtualCampaign campaign =
       simulateCampaign(scenario, arguments.has_seed ? std::optional(arguments.seed) : std::nullopt, job);
-  writeCampaign(campaign, arguments.out);
+  writeCampaign(campaign, arguments.out, job);
   const std::size_t observations = campaign.campaign.observations ? campaign.campaign.observations->rows.size() : 0;
   if (!arguments.truth.empty()) {
-    const std::vector<Observation> none;
-    const auto& rows = campaign.campaign.observations ? campaign.campaign.observations->rows : none;
-    writeFileAtomically(arguments.truth, campaign.truth.json(rows).dump(1) + "\n");
+    writeFileAtomically(arguments.truth, truthJson(campaign).dump(1) + "\n");
   }
   CommandResult result;
   result.json = {{"campaign", arguments.out},
@@ -36,10 +34,16 @@ CommandResult simulate(const SimulateArguments& arguments, JobContext& job) {
                  {"observations", observations},
                  {"simulation_rows", campaign.simulation.size()},
                  {"touches", campaign.touches.size()},
+                 {"images", campaign.captures ? campaign.captures->images() : 0},
+                 {"scans", campaign.captures ? campaign.captures->scans() : 0},
                  {"elapsed_ms", campaign.elapsed_ms}};
-  result.summary = fmt::format("{}: {} log rows, {} observations, {} rows of simulation, {} touches ({:.0f} ms)",
-                               arguments.out, campaign.campaign.log->time_s().size(), observations,
-                               campaign.simulation.size(), campaign.touches.size(), campaign.elapsed_ms);
+  result.summary = fmt::format(
+      "{}: {} log rows, {} observations, {} rows of simulation, {} touches{} ({:.0f} ms)", arguments.out,
+      campaign.campaign.log->time_s().size(), observations, campaign.simulation.size(), campaign.touches.size(),
+      !campaign.captures
+          ? ""
+          : fmt::format(", {} images, {} scans", campaign.captures->images(), campaign.captures->scans()),
+      campaign.elapsed_ms);
   return result;
 }
 

@@ -60,7 +60,7 @@ int run(int argc, char** argv) {
   const QCommandLineOption demo(QStringLiteral("demo"),
                                 QCoreApplication::translate("main",
                                                             "Open a demo session of the virtual machine; its name may "
-                                                            "follow: fiducials, holes, balls, discrepancy."));
+                                                            "follow: fiducials, holes, balls, scans, discrepancy."));
   const QCommandLineOption tour(
       QStringLiteral("tour"),
       QCoreApplication::translate("main", "Walk through every step on demo data and save pictures in DIR."),

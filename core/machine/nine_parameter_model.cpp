@@ -29,6 +29,17 @@ std::vector<std::string> namesOf(const std::vector<int>& parameters) {
   return names;
 }
 
+/// The last state with a displacement to fit; the last of all if none has one (then the fit says what is missing).
+std::string lastStateToFit(const ObservationSet& set, const std::vector<std::string>& states) {
+  for (auto state = states.rbegin(); state != states.rend(); ++state) {
+    const bool to_fit = std::any_of(set.rows.begin(), set.rows.end(), [&](const Observation& row) {
+      return row.state == *state && row.use == ObservationUse::Fit && !isRotation(row.component);
+    });
+    if (to_fit && (*state != states.front() || states.size() == 1)) return *state;
+  }
+  return states.back();
+}
+
 /// Rows of one state as changes from the reference, with their covariance.
 struct StateChange {
   std::string state;
@@ -43,7 +54,7 @@ StateChange changeOf(const ObservationSet& set, const NineParameterOptions& opti
   const std::vector<std::string> states = set.states();
   if (states.empty()) throw InputError({set.file, ""}, "holds no observation; allowed: at least one row per point.");
   StateChange change;
-  change.state = options.state.empty() ? states.back() : options.state;
+  change.state = options.state.empty() ? lastStateToFit(set, states) : options.state;
   if (std::find(states.begin(), states.end(), change.state) == states.end()) {
     throw InputError({set.file, ""},
                      fmt::format("state \"{}\" is not there; allowed: {}.", change.state, joinedList(states, "or")));

@@ -64,7 +64,7 @@ class NineParameterModel final : public ErrorModel {
 enum class RobustLoss { None, Huber, Tukey };
 
 struct NineParameterOptions {
-  std::string state;                ///< thermal state to fit; empty: the last one
+  std::string state;                ///< thermal state to fit; empty: the last one with a displacement to fit
   std::vector<std::string> points;  ///< points to fit, the others validate; empty: all rows with use `fit`
   RobustLoss robust = RobustLoss::None;
   bool relative_to_reference = true;  ///< false: values as they stand, even if the reference state was measured

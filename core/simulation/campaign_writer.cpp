@@ -57,6 +57,11 @@ std::string simulationCsv(const std::vector<SimulatedRow>& rows) {
 }  // namespace
 
 void writeCampaign(const VirtualCampaign& virtual_campaign, const std::filesystem::path& folder) {
+  JobContext job;
+  writeCampaign(virtual_campaign, folder, job);
+}
+
+void writeCampaign(const VirtualCampaign& virtual_campaign, const std::filesystem::path& folder, JobContext& job) {
   const Campaign& campaign = virtual_campaign.campaign;
   if (std::filesystem::exists(folder) &&
       (!std::filesystem::is_directory(folder) || !std::filesystem::is_empty(folder))) {
@@ -68,7 +73,9 @@ void writeCampaign(const VirtualCampaign& virtual_campaign, const std::filesyste
     json["simulation"] = campaign.simulation;
     json["simulation_gain_uncertainty"] = campaign.simulation_gain_uncertainty;
   }
-  writeFileAtomically(folder / "machine.json", campaign.machine.source.dump(1) + "\n");
+  nlohmann::json machine = campaign.machine.source;
+  if (virtual_campaign.captures) virtual_campaign.captures->write(folder, machine, job);
+  writeFileAtomically(folder / "machine.json", machine.dump(1) + "\n");
   if (campaign.log) writeFileAtomically(folder / "log.csv", logCsv(*campaign.log, virtual_campaign.dropouts));
   if (campaign.observations) campaign.observations->write(folder / "observations.csv");
   if (!virtual_campaign.simulation.empty()) {

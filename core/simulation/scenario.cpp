@@ -330,6 +330,12 @@ Scenario Scenario::parse(const JsonNode& root, const std::filesystem::path& file
   if (const auto node = root.find("measurement")) s.measurement = parseMeasurement(*node, s.machine, s.duration_s);
   if (const auto node = root.find("instrument")) s.instrument = parseInstrument(*node);
   if (const auto node = root.find("touches")) s.touches = parseTouches(*node, s.machine, s.duration_s);
+  if (const auto node = root.find("microscope")) {
+    s.microscope = parseMicroscope(*node, s.machine, parseTimes(*node, "states", s.duration_s));
+  }
+  if (const auto node = root.find("profiler")) {
+    s.profiler = parseProfiler(*node, s.machine, parseTimes(*node, "cycles", s.duration_s));
+  }
   s.sensors = root.has("sensors") ? parseSensors(root.at("sensors")) : standardSensors(s.machine);
   if (const auto log = root.find("log")) {
     if (const auto omit = log->find("omit")) {

@@ -20,6 +20,7 @@
 //    "instrument":{"name","sigma_um","sigma_urad","resolution_um","drift_um_per_h","ar1","dropped","outliers",
 //                  "outlier_size"},
 //    "touches":{"artefact","first_s","every_s","cycles","touch_s","sigma_um","pretravel_um","origin_mm":[x,y,z]},
+//    "microscope":{...}, "profiler":{...} (scenario_instruments.h),
 //    "sensors":[{"name","place","noise_K","resolution_K","bias_K","dead","dropout"}],
 //    "log":{"omit":["coolant"]}}
 //
@@ -39,6 +40,7 @@
 #include "core/machine/component.h"
 #include "core/simulation/environment.h"
 #include "core/simulation/programme.h"
+#include "core/simulation/scenario_instruments.h"
 #include "core/simulation/virtual_machine.h"
 
 namespace spindrift {
@@ -119,6 +121,8 @@ struct Scenario {
   std::optional<MeasurementOptions> measurement;
   InstrumentOptions instrument;
   std::optional<TouchOptions> touches;
+  std::optional<MicroscopeOptions> microscope;
+  std::optional<ProfilerOptions> profiler;
   std::vector<SensorOptions> sensors;
   std::set<std::string> omitted_signals;  ///< columns the log lacks
 

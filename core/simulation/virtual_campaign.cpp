@@ -15,7 +15,18 @@ namespace spindrift {
 namespace {
 
 /// Streams of random numbers of one campaign, one for each purpose, so that a change of one leaves the others alone.
-enum class Stream : std::uint64_t { Programme = 1, Environment, Plant, Base, Plan, Noise, Sensors, Touches };
+enum class Stream : std::uint64_t {
+  Programme = 1,
+  Environment,
+  Plant,
+  Base,
+  Plan,
+  Noise,
+  Sensors,
+  Touches,
+  Images,
+  Scans
+};
 
 std::uint64_t streamSeed(std::uint64_t seed, Stream stream) {
   Random random(seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(stream));
@@ -211,6 +222,14 @@ nlohmann::json CampaignTruth::json(const std::vector<Observation>& rows) const {
   return json;
 }
 
+nlohmann::json truthJson(const VirtualCampaign& campaign) {
+  const std::vector<Observation> none;
+  nlohmann::json json =
+      campaign.truth.json(campaign.campaign.observations ? campaign.campaign.observations->rows : none);
+  if (campaign.captures) json["captures"] = campaign.captures->truth();
+  return json;
+}
+
 VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t> seed_option, const JobContext& job) {
   const auto started = std::chrono::steady_clock::now();
   const std::uint64_t seed = seed_option.value_or(s.seed);
@@ -218,8 +237,9 @@ VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t>
       s.programme ? *s.programme : randomProgramme(s.machine, s.random_programme, streamSeed(seed, Stream::Programme));
   const Environment environment(s.environment, s.duration_s, streamSeed(seed, Stream::Environment));
   const std::uint64_t plant_seed = streamSeed(seed, Stream::Plant);
-  const VirtualMachine plant(s.machine, programme, environment, s.physics, s.duration_s, plant_seed,
-                             job.part(0.0, s.simulation ? 0.45 : 0.9));
+  const auto plant_pointer = std::make_shared<const VirtualMachine>(
+      s.machine, programme, environment, s.physics, s.duration_s, plant_seed, job.part(0.0, s.simulation ? 0.45 : 0.9));
+  const VirtualMachine& plant = *plant_pointer;
 
   VirtualCampaign result;
   CampaignTruth& truth = result.truth;
@@ -324,6 +344,11 @@ VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t>
   if (s.touches) {
     result.touched_artefact = s.touches->artefact;
     result.touches = simulateTouches(plant, *s.touches, truth.settings, streamSeed(seed, Stream::Touches));
+  }
+  if (s.microscope || s.profiler) {
+    result.captures =
+        std::make_shared<const VirtualCaptures>(plant_pointer, truth.settings, s.microscope, s.profiler,
+                                                streamSeed(seed, Stream::Images), streamSeed(seed, Stream::Scans));
   }
   result.elapsed_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count();
   job.report(1.0, "done");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "core/base/job_context.h"
 #include "core/machine/campaign.h"
 #include "core/simulation/scenario.h"
+#include "core/simulation/virtual_captures.h"
 
 namespace spindrift {
 
@@ -60,6 +62,7 @@ struct VirtualCampaign {
   std::string touched_artefact;
   /// Rows of the log in which a sensor dropped out, by signal: empty fields in log.csv (in memory already filled).
   std::map<std::string, std::vector<std::size_t>> dropouts;
+  std::shared_ptr<const VirtualCaptures> captures;  ///< images and clouds; null if the scenario has none
   CampaignTruth truth;
   double elapsed_ms = 0.0;
 };
@@ -68,9 +71,13 @@ struct VirtualCampaign {
 [[nodiscard]] VirtualCampaign simulateCampaign(const Scenario& scenario, std::optional<std::uint64_t> seed,
                                                const JobContext& job);
 
-/// Writes campaign.json, machine.json, log.csv and what there is of observations.csv, simulation.csv and
-/// captures/touches.csv. Throws InputError if the folder is there and not empty.
+/// Writes campaign.json, machine.json, log.csv and what there is of observations.csv, simulation.csv and captures/
+/// (images and clouds are rendered now). Throws InputError if the folder is there and not empty.
+void writeCampaign(const VirtualCampaign& campaign, const std::filesystem::path& folder, JobContext& job);
 void writeCampaign(const VirtualCampaign& campaign, const std::filesystem::path& folder);
+
+/// `truth` as JSON, that of the captures included.
+[[nodiscard]] nlohmann::json truthJson(const VirtualCampaign& campaign);
 
 /// Touches of the scenario's artefact on the plant; sizes of effects as resolved in `settings`.
 [[nodiscard]] std::vector<TouchRow> simulateTouches(const VirtualMachine& plant, const TouchOptions& options,

@@ -45,7 +45,7 @@ PatternMap fiducialView(const VirtualFiducialOptions& options, const VirtualFidu
                 under_axis, options.cor_px, options.k1_per_px2);
 }
 
-void writeVirtualFiducialCampaign(const std::filesystem::path& folder, const FiducialPattern& pattern,
+void writeVirtualFiducialCaptures(const std::filesystem::path& folder, const FiducialPattern& pattern,
                                   const VirtualFiducialOptions& options, std::uint64_t seed, JobContext& job) {
   options.validate();
   Random random(seed);
@@ -56,7 +56,9 @@ void writeVirtualFiducialCampaign(const std::filesystem::path& folder, const Fid
     const VirtualFiducial& fiducial = options.fiducials[f];
     const Eigen::Vector3d commanded(fiducial.position_mm.x() + offset_mm.x(), fiducial.position_mm.y() + offset_mm.y(),
                                     offset_mm.z());
-    Eigen::Vector3d tool = commanded + state.deviation_um[f] * mm_per_um;
+    const Eigen::Vector3d deviation_um =
+        options.deviation_at ? options.deviation_at(fiducial, time_s) : state.deviation_um[f];
+    Eigen::Vector3d tool = commanded + deviation_um * mm_per_um;
     tool.x() +=
         -options.axis_squareness_rad * offset_mm.y() + random.normal(0.0, options.spindle_repeatability_um) * mm_per_um;
     tool.y() += random.normal(0.0, options.spindle_repeatability_um) * mm_per_um;
@@ -108,6 +110,12 @@ void writeVirtualFiducialCampaign(const std::filesystem::path& folder, const Fid
     writeFileAtomically(folder / shots[k].name, encodeJpeg(renderFiducial(pattern, scene, shots[k].seed), quality));
     job.report(static_cast<double>(k + 1) / static_cast<double>(shots.size()), "rendering images");
   });
+  writeFileAtomically(folder / "captures" / "fiducials.csv", csv);
+}
+
+void writeVirtualFiducialCampaign(const std::filesystem::path& folder, const FiducialPattern& pattern,
+                                  const VirtualFiducialOptions& options, std::uint64_t seed, JobContext& job) {
+  writeVirtualFiducialCaptures(folder, pattern, options, seed, job);
   nlohmann::json points = nlohmann::json::array();
   double far_x = 0.0;
   double far_y = 0.0;
@@ -133,7 +141,6 @@ void writeVirtualFiducialCampaign(const std::filesystem::path& folder, const Fid
                                    {"name", "virtual fiducials"},
                                    {"start_utc", "2026-01-01T08:00:00Z"}};
   writeFileAtomically(folder / "campaign.json", campaign.dump(1) + "\n");
-  writeFileAtomically(folder / "captures" / "fiducials.csv", csv);
 }
 
 }  // namespace spindrift

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -59,12 +60,19 @@ struct VirtualFiducialOptions {
   double image_interval_s = 8.0;
   std::vector<VirtualFiducial> fiducials;
   std::vector<VirtualState> states;
+  /// If given, EX, EY, EZ (um) at a fiducial at the time of every shot, in place of those of the states.
+  std::function<Eigen::Vector3d(const VirtualFiducial&, double time_s)> deviation_at;
 
   /// Throws InputError.
   void validate() const;
 };
 
-/// Writes the campaign into `folder` (made if missing). Same options and seed: same files.
+/// Writes `captures/fiducials.csv` and the images into an existing campaign folder. Same options and seed: same files.
+void writeVirtualFiducialCaptures(const std::filesystem::path& folder, const FiducialPattern& pattern,
+                                  const VirtualFiducialOptions& options, std::uint64_t seed, JobContext& job);
+
+/// The same as a complete campaign with machine.json and campaign.json: writes into `folder` (made if missing). Same
+/// options and seed: same files.
 void writeVirtualFiducialCampaign(const std::filesystem::path& folder, const FiducialPattern& pattern,
                                   const VirtualFiducialOptions& options, std::uint64_t seed, JobContext& job);
 

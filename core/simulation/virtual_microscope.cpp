@@ -8,6 +8,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <numbers>
 
 #include "core/base/error.h"
@@ -15,6 +17,10 @@
 
 namespace spindrift {
 namespace {
+
+int nearest(double value) {
+  return static_cast<int>(std::floor(value + 0.5));
+}
 
 double distanceToStroke(const PatternStroke& stroke, const Eigen::Vector2d& p) {
   double best = std::numeric_limits<double>::infinity();
@@ -86,7 +92,8 @@ class ArtworkDistance {
   static constexpr double reach_um = 8.0;
   static constexpr double far_um = 1e3;
 
-  explicit ArtworkDistance(const FiducialPattern& pattern) : pattern_(pattern) {
+  explicit ArtworkDistance(FiducialPattern artwork) : pattern_(std::move(artwork)) {
+    const FiducialPattern& pattern = pattern_;
     const double half = 0.5 * pattern.ellipse_line_width_um;
     ring_ = DistanceTable(pattern.semi_axis_x_um + half + reach_um, pattern.semi_axis_y_um + half + reach_um,
                           [&](double x, double y) {
@@ -103,8 +110,8 @@ class ArtworkDistance {
 
   [[nodiscard]] double at(const Eigen::Vector2d& p) const {
     double best = far_um;
-    const int column = pattern_.first_column + static_cast<int>(std::lround(p.x() / pattern_.pitch_um));
-    const int row = pattern_.first_row + static_cast<int>(std::lround(p.y() / pattern_.pitch_um));
+    const int column = pattern_.first_column + nearest(p.x() / pattern_.pitch_um);
+    const int row = pattern_.first_row + nearest(p.y() / pattern_.pitch_um);
     if (pattern_.contains(row, column)) {
       const Eigen::Vector2d q = p - pattern_.ellipseCentre(row, column);
       if (ring_.covers(q.x(), q.y())) best = ring_.at(q.x(), q.y());
@@ -115,8 +122,8 @@ class ArtworkDistance {
         if (table.covers(d.x(), d.y())) best = std::min(best, table.at(d.x(), d.y()));
       }
     }
-    const int i = static_cast<int>(std::lround((p.x() - pattern_.circle_offset_x_um) / pattern_.pitch_um));
-    const int j = static_cast<int>(std::lround((p.y() - pattern_.circle_offset_y_um) / pattern_.pitch_um));
+    const int i = nearest((p.x() - pattern_.circle_offset_x_um) / pattern_.pitch_um);
+    const int j = nearest((p.y() - pattern_.circle_offset_y_um) / pattern_.pitch_um);
     if (i >= pattern_.first_circle_column && i <= pattern_.last_circle_column && j >= pattern_.first_circle_row &&
         j <= pattern_.last_circle_row) {
       best = std::min(best, (p - pattern_.circleCentre(i, j)).norm() - pattern_.circle_radius_um);
@@ -127,10 +134,24 @@ class ArtworkDistance {
   [[nodiscard]] const DistanceTable& digit(int d) const { return digits_[d]; }
 
  private:
-  const FiducialPattern& pattern_;
+  FiducialPattern pattern_;
   DistanceTable ring_;
   std::array<DistanceTable, 10> digits_;
 };
+
+/// The tables of a pattern, kept from image to image: they take longer than an image.
+std::shared_ptr<const ArtworkDistance> artworkOf(const FiducialPattern& pattern) {
+  static std::mutex mutex;
+  static std::string known;
+  static std::shared_ptr<const ArtworkDistance> tables;
+  const std::string key = patternJson(pattern);
+  const std::lock_guard lock(mutex);
+  if (tables == nullptr || key != known) {
+    tables = std::make_shared<const ArtworkDistance>(pattern);
+    known = key;
+  }
+  return tables;
+}
 
 /// A grid of values finer than the pixels by `fine`; value (i, j) is the mean over its cell.
 struct Canvas {
@@ -145,6 +166,7 @@ void paintPattern(Canvas& canvas, const ArtworkDistance& artwork, const PatternM
   const double cell_px = 1.0 / canvas.fine;
   const double cell_um = cell_px * map.pixel_length_um;
   constexpr int parts = 4;
+  constexpr double known_um = 5.0;
   const double part_um = cell_um / parts;
   // PatternMap::patternOf with the constant parts taken out of the loop.
   const double turn_c = std::cos(map.tilt_rad);
@@ -167,12 +189,20 @@ void paintPattern(Canvas& canvas, const ArtworkDistance& artwork, const PatternM
     return Eigen::Vector2d(map.pixel_length_um * (turn_c * x + turn_s * y), map.mirrored ? across : -across);
   };
   for (int j = 0; j < canvas.height; ++j) {
+    float* line = &canvas.level[static_cast<std::size_t>(j) * canvas.width];
     for (int i = 0; i < canvas.width; ++i) {
       const Eigen::Vector2d p = patternOf((i + 0.5) * cell_px - 0.5, (j + 0.5) * cell_px - 0.5);
       const double d = artwork.at(p);
       double coverage = 0.0;
       if (std::abs(d) >= 0.75 * cell_um) {
-        coverage = d < 0.0 ? 1.0 : 0.0;
+        // No edge is nearer than d (which is known to a few um): the next cells look the same.
+        const double free_um = 0.9 * std::min(std::abs(d), known_um) - 0.75 * cell_um;
+        const int last = std::min(canvas.width - 1, i + std::max(0, static_cast<int>(free_um / cell_um)));
+        if (d < 0.0) {
+          for (int k = i; k <= last; ++k) line[k] += static_cast<float>(mark - ground);
+        }
+        i = last;
+        continue;
       } else {
         // Cell corners turned into the pattern (its own small turn by the distortion does not matter within a cell).
         const double c = turn_c * part_um;
@@ -188,8 +218,7 @@ void paintPattern(Canvas& canvas, const ArtworkDistance& artwork, const PatternM
         }
         coverage /= parts * parts;
       }
-      float& level = canvas.level[static_cast<std::size_t>(j) * canvas.width + i];
-      level += static_cast<float>((mark - ground) * coverage);
+      line[i] += static_cast<float>((mark - ground) * coverage);
     }
   }
 }
@@ -377,7 +406,8 @@ GrayImage renderFiducial(const FiducialPattern& pattern, const MicroscopeScene& 
   canvas.width = scene.width_px * canvas.fine;
   canvas.height = scene.height_px * canvas.fine;
   canvas.level.assign(static_cast<std::size_t>(canvas.width) * canvas.height, static_cast<float>(scene.ground_level));
-  const ArtworkDistance artwork(pattern);
+  const std::shared_ptr<const ArtworkDistance> tables = artworkOf(pattern);
+  const ArtworkDistance& artwork = *tables;
   paintPattern(canvas, artwork, scene.map, scene.ground_level, scene.mark_level);
   for (const PatternMap& further : scene.further_patterns) {
     paintPattern(canvas, artwork, further, scene.ground_level, scene.mark_level);

@@ -242,6 +242,13 @@ namespace {
 /// A table that says what will appear while it has no rows.
 class QuietTable : public QTableView {
  protected:
+  int sizeHintForColumn(int column) const override {
+    const int hint = QTableView::sizeHintForColumn(column);
+    // The style sheet's check box is wider than the one the style counts with.
+    const bool checks =
+        model() != nullptr && model()->rowCount() > 0 && model()->index(0, column).data(Qt::CheckStateRole).isValid();
+    return checks ? hint + 16 : hint;
+  }
   void paintEvent(QPaintEvent* event) override {
     QTableView::paintEvent(event);
     if (model() == nullptr || model()->rowCount() > 0) return;

@@ -56,7 +56,7 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent) {
     }
   });
   connect(&runner, &JobRunner::finished, this,
-          [this, &runner](const QString& title, JobOutcome outcome, const QString& sentence) {
+          [this](const QString& title, JobOutcome outcome, const QString& sentence) {
             switch (outcome) {
               case JobOutcome::Done:
                 icon_->set(QStringLiteral("check-circle"), Tone::Good);
@@ -71,10 +71,9 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent) {
                 text_->setText(tr("%1: cancelled, nothing was changed").arg(title));
                 break;
             }
-            if (runner.waiting() == 0) {
-              progress_->hide();
-              cancel_->hide();
-            }
+            // The next one, if it is to be seen, shows them again.
+            progress_->hide();
+            cancel_->hide();
           });
 }
 

@@ -17,6 +17,7 @@
 #include <QPainter>
 #include <QSvgGenerator>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -268,6 +269,73 @@ void Plot::showAll() {
   const double dy = std::max(y_high - y_low, 1e-9) * 0.08;
   plot_->xAxis->setRange(x_low - dx, x_high + dx);
   plot_->yAxis->setRange(y_low - dy, y_high + dy);
+  placeLegend();
+  plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+/// Into the corner that no data meet; where there is none, into a line above the axes.
+void Plot::placeLegend() {
+  QCPLegend* legend = plot_->legend;
+  if (!legend->visible() || plot_->width() < 40) return;
+  QCPLayoutGrid* outer = plot_->plotLayout();
+  QCPLayoutInset* inset = plot_->axisRect()->insetLayout();
+  const auto move_inside = [&](Qt::Alignment corner) {
+    if (legend->layout() != inset) {
+      outer->take(legend);
+      outer->simplify();
+      legend->setFillOrder(QCPLegend::foRowsFirst);
+      legend->setWrap(0);
+      inset->addElement(legend, corner);
+    }
+    inset->setInsetAlignment(0, corner);
+  };
+  move_inside(Qt::AlignTop | Qt::AlignRight);
+  plot_->replot(QCustomPlot::rpImmediateRefresh);
+  const QRectF axes = plot_->axisRect()->rect();
+  const QSizeF size = QSizeF(legend->outerRect().size()) + QSizeF(16, 16);
+  struct Corner {
+    Qt::Alignment alignment;
+    QRectF area;
+    int hits = 0;
+  };
+  std::array<Corner, 4> corners{
+      {{Qt::AlignTop | Qt::AlignRight, {axes.right() - size.width(), axes.top(), size.width(), size.height()}},
+       {Qt::AlignTop | Qt::AlignLeft, {axes.left(), axes.top(), size.width(), size.height()}},
+       {Qt::AlignBottom | Qt::AlignRight,
+        {axes.right() - size.width(), axes.bottom() - size.height(), size.width(), size.height()}},
+       {Qt::AlignBottom | Qt::AlignLeft, {axes.left(), axes.bottom() - size.height(), size.width(), size.height()}}}};
+  for (const Series& s : series_) {
+    QPointF before;
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      if (!std::isfinite(s.y[i])) continue;
+      const QPointF now(plot_->xAxis->coordToPixel(s.x[i]), plot_->yAxis->coordToPixel(s.y[i]));
+      const int steps = i > 0 && s.style != SeriesStyle::Points
+                            ? std::clamp(static_cast<int>(QLineF(before, now).length() / 12), 1, 100)
+                            : 1;
+      for (int k = 1; k <= steps; ++k) {
+        const QPointF p = steps == 1 ? now : before + (now - before) * (static_cast<double>(k) / steps);
+        for (Corner& corner : corners) corner.hits += corner.area.contains(p) ? 1 : 0;
+      }
+      before = now;
+    }
+  }
+  const auto best = std::min_element(corners.begin(), corners.end(),
+                                     [](const Corner& a, const Corner& b) { return a.hits < b.hits; });
+  const bool fits = size.height() < 0.7 * axes.height() && size.width() < 0.6 * axes.width();
+  if (best->hits == 0 && fits) {
+    move_inside(best->alignment);
+  } else {
+    int widest = 1;
+    for (int i = 0; i < legend->itemCount(); ++i) {
+      widest = std::max(widest, legend->item(i)->minimumOuterSizeHint().width() + legend->columnSpacing());
+    }
+    inset->take(legend);
+    outer->insertRow(0);
+    outer->addElement(0, 0, legend);
+    outer->setRowStretchFactor(0, 0.001);
+    legend->setFillOrder(QCPLegend::foColumnsFirst);
+    legend->setWrap(std::max(1, (plot_->width() - 24) / widest));
+  }
   plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
@@ -292,6 +360,7 @@ void Plot::paintEvent(QPaintEvent*) {
 
 void Plot::resizeEvent(QResizeEvent*) {
   plot_->setGeometry(rect());
+  placeLegend();
 }
 
 bool Plot::eventFilter(QObject* watched, QEvent* event) {

@@ -78,6 +78,7 @@ class Plot : public QWidget {
  private:
   void rebuild();
   void restyle();
+  void placeLegend();
 
   QCustomPlot* plot_;
   QString x_title_, y_title_;

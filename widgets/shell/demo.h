@@ -4,6 +4,7 @@
 
 #include <QString>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,17 @@
 namespace spindrift::gui {
 
 struct Demo {
-  std::string name;  ///< "fiducials": for the command line and folder names
+  std::string name;      ///< "fiducials": for the command line and folder names
+  std::string scenario;  ///< file in resources/scenarios, without its ending
   QString title;
   QString sentence;
   const char* icon;
 };
 
 [[nodiscard]] const std::vector<Demo>& demos();
-/// Makes the campaign of a demo in a folder that does not exist yet. `small`: fewer and smaller images, for the tour.
-void makeDemoCampaign(const std::string& name, const std::filesystem::path& folder, bool small, JobContext& job);
+/// Makes the campaign of a demo in a folder that does not exist yet. `small`: fewer and smaller images and clouds, for
+/// tour and tests. `truth` receives what the virtual machine hides (simulate --truth), if it is not null.
+void makeDemoCampaign(const std::string& name, const std::filesystem::path& folder, bool small, JobContext& job,
+                      nlohmann::json* truth = nullptr);
 
 }  // namespace spindrift::gui

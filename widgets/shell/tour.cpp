@@ -5,6 +5,8 @@
 #include <QElapsedTimer>
 #include <QEventLoop>
 #include <QTimer>
+#include <algorithm>
+#include <vector>
 
 #include "widgets/jobs/job_bar.h"
 #include "widgets/shell/main_window.h"
@@ -13,6 +15,25 @@
 
 namespace spindrift::gui {
 namespace {
+
+/// A demo and the steps whose pages are shown; the steps between are run too.
+struct TourStop {
+  const char* demo;
+  std::vector<StepId> steps;
+};
+
+const std::vector<TourStop>& tourStops() {
+  static const std::vector<TourStop> stops{
+      {"fiducials",
+       {StepId::Machine, StepId::WarmUp, StepId::Capture, StepId::Calibrate, StepId::Model, StepId::Compensate,
+        StepId::Report}},
+      {"holes", {StepId::Machine, StepId::Capture, StepId::Calibrate, StepId::Model}},
+      {"balls", {StepId::Capture, StepId::Model}},
+      {"scans", {StepId::Capture, StepId::Calibrate, StepId::Model}},
+      {"discrepancy", {StepId::Model, StepId::Discrepancy, StepId::Compensate, StepId::Report}},
+  };
+  return stops;
+}
 
 void settle(int ms) {
   QEventLoop loop;
@@ -43,32 +64,38 @@ bool waitForJobs(MainWindow& window, int seconds) {
 TourResult runTour(MainWindow& window, const QString& folder) {
   TourResult result;
   QDir().mkpath(folder);
+  int number = 0;
   const auto shoot = [&](const QString& name) {
     for (const ThemeKind kind : {ThemeKind::Light, ThemeKind::Dark}) {
       window.setTheme(kind);
       if (!waitForJobs(window, 30)) result.failure = QStringLiteral("%1 did not settle").arg(name);
       const QString file = QDir(folder).filePath(
-          QStringLiteral("%1-%2.png")
+          QStringLiteral("%1-%2-%3.png")
+              .arg(number, 2, 10, QLatin1Char('0'))
               .arg(name, kind == ThemeKind::Light ? QStringLiteral("light") : QStringLiteral("dark")));
       if (!window.grab().save(file)) result.failure = QStringLiteral("%1 could not be written").arg(file);
       result.pictures << file;
     }
     window.setTheme(ThemeKind::Light);
+    ++number;
   };
   window.resize(1440, 900);
   window.show();
-  shoot(QStringLiteral("00-welcome"));
-  window.startDemo(QStringLiteral("fiducials"), true);
-  if (!waitForJobs(window, 120) || window.session().campaign() == nullptr) {
-    result.failure = QStringLiteral("the demo campaign could not be made: ") + window.jobBar()->message();
-    return result;
-  }
-  int number = 1;
-  for (const StepId step : all_steps) {
-    window.workflow().goTo(step);
-    if (window.currentPage() != nullptr) window.currentPage()->runAll();
-    waitForJobs(window, 120);
-    shoot(QStringLiteral("%1-%2").arg(number++, 2, 10, QLatin1Char('0')).arg(stepTitle(step).toLower()));
+  shoot(QStringLiteral("welcome"));
+  for (const TourStop& stop : tourStops()) {
+    window.startDemo(QString::fromLatin1(stop.demo), true);
+    if (!waitForJobs(window, 120) || window.session().campaign() == nullptr) {
+      result.failure = QStringLiteral("the demo %1 could not be made: ").arg(QString::fromLatin1(stop.demo)) +
+                       window.jobBar()->message();
+      return result;
+    }
+    for (const StepId step : all_steps) {
+      const bool shown = std::find(stop.steps.begin(), stop.steps.end(), step) != stop.steps.end();
+      window.workflow().goTo(step);
+      if (window.currentPage() != nullptr) window.currentPage()->runAll();
+      if (!waitForJobs(window, 120)) result.failure = QStringLiteral("%1 did not finish").arg(stepTitle(step));
+      if (shown) shoot(QString::fromLatin1(stop.demo) + QLatin1Char('-') + stepTitle(step).toLower());
+    }
   }
   return result;
 }

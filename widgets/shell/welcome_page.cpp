@@ -74,6 +74,30 @@ void drawPicture(QPainter& painter, const QRectF& area, const std::string& name)
       painter.setPen(Qt::NoPen);
       painter.drawEllipse(b, 11, 11);
     }
+  } else if (name == "scans") {
+    // Profiles over a free-form surface, warm above cold, and the fan of laser light that draws one of them.
+    const auto height = [&](double u, double v) { return h * (0.10 * std::sin(9 * u) + 0.09 * std::sin(4.2 * v + 1)); };
+    const auto at = [&](double u, double v, double lift) {
+      return QPointF(w * (0.12 + 0.6 * u + 0.18 * v), h * (0.86 - 0.34 * v) - height(u, v) - lift);
+    };
+    for (const bool warm : {false, true}) {
+      QColor line = t.series[warm ? 1 : 0];
+      line.setAlphaF(warm ? 0.95F : 0.45F);
+      painter.setBrush(Qt::NoBrush);
+      for (int j = 0; j <= 7; ++j) {
+        QPainterPath profile(at(0, j / 7.0, warm ? 7 : 0));
+        for (int i = 1; i <= 40; ++i) profile.lineTo(at(i / 40.0, j / 7.0, warm ? 7 : 0));
+        painter.setPen(QPen(line, warm && j == 4 ? 2.5 : 1.2));
+        painter.drawPath(profile);
+      }
+    }
+    QColor beam = t.series[1];
+    beam.setAlphaF(0.16F);
+    QPainterPath fan(QPointF(w * 0.52, h * 0.04));
+    fan.lineTo(at(0, 4 / 7.0, 7));
+    for (int i = 1; i <= 40; ++i) fan.lineTo(at(i / 40.0, 4 / 7.0, 7));
+    fan.closeSubpath();
+    painter.fillPath(fan, beam);
   } else {
     QPainterPath simulated;
     QPainterPath measured;
@@ -128,10 +152,14 @@ void DemoCard::paintEvent(QPaintEvent*) {
   drawPicture(painter, QRectF(12, 12, width() - 24, 96), demo_.name);
   painter.setPen(t.text);
   painter.setFont(textFont(sizes::font_body, QFont::DemiBold));
-  painter.drawText(QRectF(14, 114, width() - 28, 24), Qt::AlignVCenter, demo_.title);
+  const QRectF title_box(14, 114, width() - 28, 40);
+  painter.drawText(title_box, Qt::AlignTop | Qt::TextWordWrap, demo_.title);
+  const double title_height =
+      painter.fontMetrics().boundingRect(title_box.toRect(), Qt::TextWordWrap, demo_.title).height();
   painter.setPen(t.text_secondary);
   painter.setFont(textFont(sizes::font_secondary));
-  painter.drawText(QRectF(14, 140, width() - 28, height() - 146), Qt::AlignTop | Qt::TextWordWrap, demo_.sentence);
+  painter.drawText(QRectF(14, 118 + title_height, width() - 28, height() - 122 - title_height),
+                   Qt::AlignTop | Qt::TextWordWrap, demo_.sentence);
 }
 
 WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
@@ -147,7 +175,7 @@ WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
   auto* centre = new QHBoxLayout(inner);
   centre->addStretch(1);
   auto* body = new QWidget;
-  body->setMaximumWidth(1120);
+  body->setMaximumWidth(1280);
   body->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   centre->addWidget(body, 20);
   centre->addStretch(1);
@@ -187,8 +215,7 @@ WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
   for (const Demo& demo : demos()) {
     auto* card = new DemoCard(demo);
     cards_.push_back(card);
-    grid->addWidget(card, index / 4, index % 4);
-    ++index;
+    grid->addWidget(card, 0, index++);
     connect(card, &DemoCard::clicked, this,
             [this, name = demo.name] { Q_EMIT demoChosen(QString::fromStdString(name)); });
   }

@@ -16,7 +16,7 @@ class DemoCard : public QAbstractButton {
   Q_OBJECT
  public:
   explicit DemoCard(const Demo& demo, QWidget* parent = nullptr);
-  [[nodiscard]] QSize sizeHint() const override { return {250, 210}; }
+  [[nodiscard]] QSize sizeHint() const override { return {230, 228}; }
   [[nodiscard]] QSize minimumSizeHint() const override { return {200, 200}; }
 
  protected:

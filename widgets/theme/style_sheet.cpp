@@ -87,7 +87,7 @@ QCheckBox::indicator:disabled { background: @window@; border-color: @border@; }
 
 QAbstractItemView { background: @surface@; alternate-background-color: @surface@; color: @text@; border: none;
   selection-background-color: @accent_soft@; selection-color: @text@; gridline-color: @border@; }
-QTableView::item, QTreeView::item, QListView::item { padding: 0 8px; border: none; }
+QTableView::item, QTreeView::item, QListView::item { padding: 0 6px; border: none; }
 QTableView::item:selected, QTreeView::item:selected, QListView::item:selected { background: @accent_soft@; color: @text@; }
 QTableView::item:hover:!selected, QTreeView::item:hover:!selected, QListView::item:hover:!selected { background: @surface_alt@; }
 QTableView::indicator, QTreeView::indicator { width: 18px; height: 18px; border: 1px solid @border_strong@; border-radius: 4px;
@@ -95,7 +95,7 @@ QTableView::indicator, QTreeView::indicator { width: 18px; height: 18px; border:
 QTableView::indicator:checked, QTreeView::indicator:checked { background: @accent@; border-color: @accent@;
   image: url(:/icons/@kind@/check-on-accent.svg); }
 QHeaderView { background: @surface@; border: none; }
-QHeaderView::section { background: @surface@; color: @text_secondary@; border: none; border-bottom: 1px solid @border@; padding: 6px 8px;
+QHeaderView::section { background: @surface@; color: @text_secondary@; border: none; border-bottom: 1px solid @border@; padding: 6px 6px;
   font-size: 12px; font-weight: 600; }
 QAbstractScrollArea::corner { background: transparent; border: none; }
 QTableCornerButton::section { background: @surface@; border: none; }

@@ -31,6 +31,15 @@ TEST(Theme, TextHasEnoughContrast) {
   }
 }
 
+TEST(Theme, FiguresAreTabular) {
+  // Of texts, not of characters: a single character is measured without the features of the font.
+  const QFontMetricsF metrics(bodyFont());
+  const double width = metrics.horizontalAdvance(QStringLiteral("0000000000"));
+  for (char c = '1'; c <= '9'; ++c) {
+    EXPECT_NEAR(metrics.horizontalAdvance(QString(10, QLatin1Char(c))), width, 0.5) << c;
+  }
+}
+
 TEST(Theme, EveryStepAndStateHasAnIcon) {
   for (const StepId step : all_steps) {
     EXPECT_TRUE(QFile::exists(QStringLiteral(":/icons/%1.svg").arg(QString::fromLatin1(stepIcon(step)))));

@@ -275,7 +275,7 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
     const double s = centre["x_px"].value("standard_uncertainty", 0.0);
     const QString pooling = QString::fromStdString(pooled.value("pooling", std::string("?")));
     centre_->set(QStringLiteral("%1, %2 px").arg(x, 0, 'f', 1).arg(y, 0, 'f', 1),
-                 tr("± %1 px, one for %2; spindle repeats to %3 um")
+                 tr("± %1 px, %2; spindle repeats to %3 um")
                      .arg(s, 0, 'f', 2)
                      .arg(pooling)
                      .arg(pooled.value("spindle_repeatability_um", 0.0), 0, 'f', 2));

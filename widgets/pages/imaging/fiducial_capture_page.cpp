@@ -57,11 +57,10 @@ Check judge(const DecodeResult& result) {
     check.sentence = QString::fromStdString(result.message);
     return check;
   }
-  check.sentence =
-      FiducialCapturePage::tr("%n ellipse(s) decoded, blur %1 px, centres within %2 px rms of the pattern.", nullptr,
-                              check.ellipses)
-          .arg(check.blur_px, 0, 'f', 1)
-          .arg(result.map_rms_px, 0, 'f', 3);
+  check.sentence = FiducialCapturePage::tr("Ellipses decoded: %1; blur %2 px, centres within %3 px rms of the pattern.")
+                       .arg(check.ellipses)
+                       .arg(check.blur_px, 0, 'f', 1)
+                       .arg(result.map_rms_px, 0, 'f', 3);
   if (result.exposure.saturated_fraction > 0.02) {
     check.sentence += QLatin1Char(' ') + FiducialCapturePage::tr("%1 % of the pixels are overexposed: take less light.")
                                              .arg(100 * result.exposure.saturated_fraction, 0, 'f', 0);

@@ -138,9 +138,12 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   view_line->addStretch();
   arrows_ = new QCheckBox(tr("Arrows"));
   arrows_->setChecked(true);
+  same_scale_ = new QCheckBox(tr("One scale"));
+  same_scale_->setToolTip(tr("The same limits for EX, EY and EZ, so that their pictures can be compared"));
   relief_ = new QCheckBox(tr("Relief"));
   machine_ = new QCheckBox(tr("Machine"));
   view_line->addWidget(arrows_);
+  view_line->addWidget(same_scale_);
   view_line->addWidget(relief_);
   view_line->addWidget(machine_);
   right->body()->addLayout(view_line);
@@ -168,6 +171,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   });
   connect(component_, &Segments::chosen, this, &NineParameterPage::showField);
   connect(arrows_, &QCheckBox::toggled, this, &NineParameterPage::showField);
+  connect(same_scale_, &QCheckBox::toggled, this, &NineParameterPage::showField);
   connect(relief_, &QCheckBox::toggled, this, [this](bool on) {
     view_->resetCamera(on || machine_->isChecked() ? StandardView::Isometric : StandardView::Top);
     showField();
@@ -278,7 +282,7 @@ void NineParameterPage::fillPoints() {
       name.bold = true;
       name.checked = o.points.empty() || std::find(o.points.begin(), o.points.end(), point) != o.points.end();
       row.cells = {
-          name, {QString::number(positions[point].x(), 'f', 1)}, {QString::number(positions[point].y(), 'f', 1)}};
+          name, {QString::number(positions[point].x(), 'g', 5)}, {QString::number(positions[point].y(), 'g', 5)}};
       for (Cell* c : {&row.cells[1], &row.cells[2]}) c->right = true;
       for (const Component c : shown_components) {
         const auto found = values[point].find(c);
@@ -498,8 +502,9 @@ void NineParameterPage::showField() {
   std::map<std::string, ViewArrow> arrow_of;
   double largest = 0;
   const FieldGrid grid = tableGrid(120);
-  // One scale for the three components, so that their pictures can be compared.
+  const auto counts = [&](Component c) { return same_scale_->isChecked() || c == component; };
   for (const Component c : shown_components) {
+    if (!counts(c)) continue;
     for (const int ix : {0, grid.nx - 1}) {
       for (const int iy : {0, grid.ny - 1}) {
         DeviationQuery corner;
@@ -511,7 +516,7 @@ void NineParameterPage::showField() {
   }
   double largest_arrow = 0;
   for (const NineParameterResidual& r : f.residuals) {
-    largest = std::max(largest, std::abs(r.value_um));
+    if (counts(r.component)) largest = std::max(largest, std::abs(r.value_um));
     ViewArrow& arrow = arrow_of[r.point];
     arrow.from_mm = r.position_mm;
     if (!isRotation(r.component)) arrow.deviation_um[axisIndex(r.component)] = r.value_um;

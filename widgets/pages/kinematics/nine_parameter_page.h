@@ -59,6 +59,7 @@ class NineParameterPage : public Page {
   Callout* comparison_verdict_;
   Segments* component_;
   QCheckBox* arrows_;
+  QCheckBox* same_scale_;
   QCheckBox* machine_;
   QCheckBox* relief_;
   View3D* view_;

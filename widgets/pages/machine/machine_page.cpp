@@ -99,7 +99,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   auto* card = new Card;
   auto* form = new QFormLayout;
   form->setSpacing(8);
-  form->setLabelAlignment(Qt::AlignLeft);
+  form->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   name_ = new QLineEdit;
   name_->setAccessibleName(tr("Name of the machine"));
   chain_ = new QLineEdit;
@@ -110,9 +110,10 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   form->addRow(tr("Chain"), chain_);
   card->body()->addLayout(form);
   card->body()->addWidget(makeLabel(tr("Linear axes"), "sectionTitle"));
-  axes_ = makeEditor({tr("Axis"), tr("From / mm"), tr("To / mm"), tr("Resolution / um"), tr("Drive"), tr("Pitch / mm"),
-                      tr("Fixed bearing / mm"), tr("Scale")},
+  axes_ = makeEditor({tr("Axis"), tr("From\n/ mm"), tr("To\n/ mm"), tr("Resolution\n/ um"), tr("Drive"),
+                      tr("Pitch\n/ mm"), tr("Fixed bearing\n/ mm"), tr("Scale")},
                      tr("Linear axes"));
+  axes_->setMinimumHeight(176);  // three axes under a header of two lines
   card->body()->addWidget(axes_, 2);
   card->body()->addWidget(makeLabel(tr("Measuring points"), "sectionTitle"));
   points_ = makeEditor({tr("Point"), tr("Kind"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Measuring points"));
@@ -129,7 +130,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   view_ = new View3D;
   view_->setEmptyText(tr("The machine will appear here"), tr("Give its chain and the travel of its axes."));
   picture->body()->addWidget(view_, 1);
-  content()->addWidget(makeSplitter(card, picture, 6, 6), 1);
+  content()->addWidget(makeSplitter(card, picture, 7, 5), 1);
 
   connect(name_, &QLineEdit::textEdited, this, &MachinePage::markEdited);
   connect(chain_, &QLineEdit::textEdited, this, &MachinePage::markEdited);

@@ -3,6 +3,7 @@
 
 #include <QInputDialog>
 #include <QSplitter>
+#include <QTabWidget>
 #include <QVBoxLayout>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "core/imaging/warm_up.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/thermal/resolution_check_panel.h"
 #include "widgets/plots/plot.h"
 
 namespace spindrift::gui {
@@ -20,22 +22,40 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   confirm_ = makeButton(tr("The instrument was warm"), "check");
   confirm_->setToolTip(tr("Records your statement, so that the report can say on what it rests"));
   addAction(confirm_);
-  auto* drift = new Card(tr("Drift of the most often measured point"));
+  auto* instrument = new Card;
+  tabs_ = makeTabs();
+  instrument->body()->addWidget(tabs_, 1);
+  auto* drift_tab = new QWidget;
+  auto* drift = new QVBoxLayout(drift_tab);
+  drift->setContentsMargins(0, 8, 0, 0);
   drift_ = new Plot;
   drift_->setEmptyText(
       tr("Drift curves will appear here"),
       tr("Measure one point every 5 minutes while the instrument warms up: its drift shows when it has settled."));
-  drift->body()->addWidget(drift_, 3);
+  drift->addWidget(drift_, 3);
   verdicts_ =
       new RowsModel({tr("Axis"), tr("Drift now"), tr("Time constant"), tr("Settles after"), tr("Verdict")}, this);
-  drift->body()->addWidget(
+  drift->addWidget(
       makeTable(verdicts_, tr("Drift of each axis"), tr("Drift and time constant of each axis appear here.")), 2);
+  tabs_->addTab(drift_tab, tr("Drift"));
+  jogs_ = new ResolutionCheckPanel(
+      session(),
+      tr("Jog the table by known steps, five or more, and capture the same fiducial after each: what the microscope "
+         "reads beside the commanded step must stay within one resolution of the axis."),
+      tr("Check the jogs"), 1.0, "check-jogs");
+  tabs_->addTab(jogs_, tr("Jogs"));
+  repeatability_ = new ResolutionCheckPanel(
+      session(),
+      tr("Measure the same fiducials again and again on the cold machine, one state each time: the readings must come "
+         "back within half a resolution of the axis."),
+      tr("Check the repeatability"), 0.5, "check-repeatability");
+  tabs_->addTab(repeatability_, tr("Cold repeatability"));
   auto* temperature = new Card(tr("Temperatures"));
   temperature_ = new Plot;
   temperature_->setEmptyText(tr("Temperatures will appear here"),
                              tr("They come from log.csv of the campaign; this one has none."));
   temperature->body()->addWidget(temperature_, 1);
-  content()->addWidget(makeSplitter(drift, temperature, 1, 1, Qt::Vertical), 1);
+  content()->addWidget(makeSplitter(instrument, temperature, 1, 1, Qt::Vertical), 1);
   showHints(drift_);
   showHints(temperature_);
   connect(confirm_, &QPushButton::clicked, this, &WarmUpPage::confirm);
@@ -131,6 +151,8 @@ void WarmUpPage::refresh() {
                                         "minutes until it settles, or state that the instrument was warm."));
   }
   confirm_->setVisible(!state.there);
+  jogs_->refresh();
+  repeatability_->refresh();
 }
 
 std::vector<Exportable> WarmUpPage::exportables() {

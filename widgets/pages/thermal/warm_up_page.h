@@ -4,9 +4,12 @@
 
 #include "widgets/pages/page.h"
 
+class QTabWidget;
+
 namespace spindrift::gui {
 
 class Plot;
+class ResolutionCheckPanel;
 class RowsModel;
 
 class WarmUpPage : public Page {
@@ -15,11 +18,16 @@ class WarmUpPage : public Page {
   explicit WarmUpPage(PageContext context, QWidget* parent = nullptr);
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
+  [[nodiscard]] ResolutionCheckPanel* jogs() const { return jogs_; }
+  [[nodiscard]] ResolutionCheckPanel* repeatability() const { return repeatability_; }
 
  private:
   void confirm();
 
   QPushButton* confirm_;
+  QTabWidget* tabs_;
+  ResolutionCheckPanel* jogs_;
+  ResolutionCheckPanel* repeatability_;
   RowsModel* verdicts_;
   Plot* drift_;
   Plot* temperature_;

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation/scenario_instruments.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/units.h"
+
+namespace spindrift {
+namespace {
+
+void readPositive(const JsonNode& node, std::string_view key, double& value) {
+  if (const auto found = node.find(key)) value = found->positiveNumber();
+}
+
+void readNonNegative(const JsonNode& node, std::string_view key, double& value) {
+  if (const auto found = node.find(key)) value = found->nonNegativeNumber();
+}
+
+void readCount(const JsonNode& node, std::string_view key, int& value, int least, int most) {
+  const auto found = node.find(key);
+  if (!found) return;
+  value = found->integer();
+  if (value < least || value > most) {
+    found->reject("a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+  }
+}
+
+void readNumbers(const JsonNode& node, std::string_view key, std::vector<double>& values, std::size_t least) {
+  const auto found = node.find(key);
+  if (!found) return;
+  values = found->numbers();
+  if (values.size() < least) found->reject("at least " + std::to_string(least) + " numbers");
+}
+
+/// A small angle of its own for every fiducial, as nobody glues them straight: +-2 degrees, decided by the number.
+double gluedTurn_rad(std::size_t number) {
+  constexpr double golden = 0.6180339887498949;
+  const double unit = static_cast<double>(number + 1) * golden;
+  return 4.0 * rad_per_deg * (unit - std::floor(unit) - 0.5);
+}
+
+}  // namespace
+
+MicroscopeOptions parseMicroscope(const JsonNode& node, const MachineDescription& machine,
+                                  std::vector<double> times_s) {
+  MicroscopeOptions options;
+  options.times_s = std::move(times_s);
+  VirtualFiducialOptions& o = options.images;
+  readCount(node, "width_px", o.width_px, 320, 8192);
+  readCount(node, "height_px", o.height_px, 240, 8192);
+  readPositive(node, "pixel_length_um", o.pixel_length_um);
+  o.cor_px = {0.5 * o.width_px - 0.2, 0.5 * o.height_px + 0.4};
+  if (const auto centre = node.find("centre_px")) {
+    const std::vector<double> xy = centre->numbers();
+    if (xy.size() != 2) centre->reject("two numbers");
+    o.cor_px = {xy[0], xy[1]};
+  }
+  o.camera_turn_rad = node.numberOr("camera_turn_deg", o.camera_turn_rad / rad_per_deg) * rad_per_deg;
+  readPositive(node, "blur_sigma_px", o.blur_sigma_px);
+  readPositive(node, "defocus_px_per_um", o.defocus_px_per_um);
+  readNonNegative(node, "noise_level", o.noise_level);
+  o.gradient_x = node.numberOr("gradient_x", o.gradient_x);
+  o.gradient_y = node.numberOr("gradient_y", o.gradient_y);
+  readNonNegative(node, "flicker", o.flicker);
+  readNonNegative(node, "spindle_repeatability_um", o.spindle_repeatability_um);
+  readNonNegative(node, "axis_repeatability_um", o.axis_repeatability_um);
+  readCount(node, "dust", o.dust, 0, 1000);
+  readCount(node, "jpeg_quality", o.jpeg_quality, 1, 100);
+  readNumbers(node, "rotations_deg", o.rotations_deg, 3);
+  readNumbers(node, "steps_mm", o.steps_mm, 3);
+  readNumbers(node, "heights_mm", o.heights_mm, 5);
+  readNonNegative(node, "image_interval_s", o.image_interval_s);
+  std::vector<std::string> wanted;
+  if (const auto list = node.find("fiducials")) {
+    for (const JsonNode& item : list->items()) {
+      wanted.push_back(item.name());
+      const MachinePoint* point = machine.findPoint(wanted.back());
+      if (point == nullptr || point->kind != "fiducial") item.reject("the id of a fiducial of the machine");
+    }
+  }
+  for (const MachinePoint& point : machine.points) {
+    if (point.kind != "fiducial") continue;
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), point.id) == wanted.end()) continue;
+    VirtualFiducial fiducial;
+    fiducial.id = point.id;
+    fiducial.position_mm = point.position_mm.head<2>();
+    fiducial.turn_rad = gluedTurn_rad(o.fiducials.size());
+    o.fiducials.push_back(fiducial);
+  }
+  if (o.fiducials.empty()) node.reject("a machine with fiducials");
+  return options;
+}
+
+ProfilerOptions parseProfiler(const JsonNode& node, const MachineDescription& machine, std::vector<double> times_s) {
+  if (!machine.profiler) node.reject("a machine with a profiler");
+  const ProfilerDescription& described = *machine.profiler;
+  ProfilerOptions o;
+  o.times_s = std::move(times_s);
+  readNonNegative(node, "seconds_per_artefact", o.seconds_per_artefact);
+  o.mounting.scan_model = described.scan_model;
+  o.mounting.lift_mm = described.lift_mm;
+  o.mounting.lever_mm = described.lever_mm;
+  o.mounting.alpha_rad = node.numberOr("alpha_rad", 0.0);
+  o.mounting.beta_rad = node.numberOr("beta_rad", 0.0);
+  o.mounting.gamma_rad = node.numberOr("gamma_rad", 0.0);
+  if (const auto offset = node.find("offset_mm")) o.mounting.offset_mm = offset->vector3();
+  if (described.profile_points) o.optics.profile_points = *described.profile_points;
+  if (described.profile_interval_mm) o.optics.profile_interval_mm = *described.profile_interval_mm;
+  readPositive(node, "profile_spacing_mm", o.optics.profile_spacing_mm);
+  readNonNegative(node, "white_noise_um", o.optics.white_noise_um);
+  readNonNegative(node, "speckle_noise_um", o.optics.speckle_noise_um);
+  if (described.calibration_circle_mm) o.pocket.circle_mm = *described.calibration_circle_mm;
+  const double reach = o.pocket.circle_mm[3] + 3.5;
+  o.pocket.scan_from_mm = o.pocket.circle_mm[1] - reach;
+  o.pocket.scan_to_mm = o.pocket.circle_mm[1] + reach;
+  for (const JsonNode& item : node.at("artefacts").items()) {
+    VirtualArtefact artefact;
+    artefact.id = item.at("point").name();
+    const MachinePoint* point = machine.findPoint(artefact.id);
+    if (point == nullptr || point->kind != "surface") item.at("point").reject("the id of a surface of the machine");
+    artefact.y_mm = item.at("y_mm").number();
+    artefact.yaw_rad = item.numberOr("turn_rad", 0.0);
+    if (const auto bumps = item.find("bumps")) {
+      for (const JsonNode& bump : bumps->items()) {
+        artefact.surface.bumps.push_back({{bump.at("x_mm").number(), bump.at("y_mm").number()},
+                                          bump.at("radius_mm").positiveNumber(),
+                                          bump.at("height_mm").number()});
+      }
+    }
+    artefact.surface.validate();
+    o.artefacts.push_back(artefact);
+    o.artefact_at_mm.push_back(point->position_mm);
+  }
+  if (o.artefacts.empty()) node.at("artefacts").reject("at least one artefact");
+  o.optics.validate();
+  return o;
+}
+
+}  // namespace spindrift
