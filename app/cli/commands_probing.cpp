@@ -7,7 +7,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/probing/cycle_program.h"
+#include "core/probing/checked_program.h"
 #include "core/probing/cycle_studies.h"
 #include "core/probing/evaluate_touches.h"
 #include "core/probing/printed_text.h"
@@ -70,14 +70,8 @@ void addCycle(CLI::App& app, CommandLine& line) {
         }
         ProgramOptions program = a->program;
         program.dialect = programDialect(a->control);
-        const CyclePlan plan = planCycle(machine, artefact, plan_options);
-        const std::string text = writeProgram(plan, machine, artefact, plan_options, program);
-        ProgramCheckOptions check_options;
-        check_options.first_ball_mm = plan_options.first_ball_mm;
-        check_options.rotary_sign = program.rotary_sign;
-        check_options.overtravel_mm = plan_options.overtravel_mm + 0.5;
-        check_options.clearance_mm = std::min(1.0, plan_options.clearance_mm);
-        const ProgramCheck check = checkProgram(text, machine, artefact, check_options);
+        const CheckedProgram checked = makeCheckedProgram(machine, artefact, plan_options, program);
+        const auto& [plan, text, check] = checked;
         CommandResult result;
         result.json = {{"artefact", artefact.id},     {"touches", check.touches},
                        {"moves", check.moves.size()}, {"safe_height_mm", plan.safe_height_mm},

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct CycleParameter {
 struct RejectedTouch {
   std::size_t touch = 0;  ///< index into the list
   std::string reason;
+  /// By how much it misses what all other touches say; NaN where it was left out for another reason.
+  double residual_um = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What hole and ball cycles have in common.

@@ -143,6 +143,14 @@ TouchEvaluation evaluateTouchList(const Campaign& campaign, TouchList touches, c
   TouchEvaluation evaluation;
   evaluation.touches = std::move(touches);
   evaluation.touches.checkAgainst(campaign.machine);
+  if (!campaign.excluded_captures.empty()) {
+    std::vector<Touch>& all = evaluation.touches.touches;
+    const auto kept = std::stable_partition(
+        all.begin(), all.end(), [&](const Touch& t) { return !campaign.excluded_captures.contains(t.id()); });
+    evaluation.excluded.assign(kept, all.end());
+    all.erase(kept, all.end());
+    if (all.empty()) throw InputError({evaluation.touches.file, ""}, "has no touches left: all are excluded.");
+  }
   const std::vector<std::string> artefacts = evaluation.touches.artefacts();
   for (std::size_t i = 0; i < artefacts.size(); ++i) {
     job.throwIfCancelled();

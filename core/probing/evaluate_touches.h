@@ -14,7 +14,8 @@ namespace spindrift {
 
 /// Everything that was found, for pages and reports.
 struct TouchEvaluation {
-  TouchList touches;
+  TouchList touches;                         ///< without those the user excluded
+  std::vector<Touch> excluded;               ///< by the user (Campaign::excluded_captures names them by Touch::id)
   std::vector<HoleCycleResult> hole_cycles;  ///< one per hole bar
   std::vector<BallCycleResult> ball_cycles;  ///< one per ball artefact
 };

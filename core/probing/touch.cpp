@@ -41,6 +41,10 @@ std::string Touch::label() const {
   return text;
 }
 
+std::string Touch::id() const {
+  return fmt::format("touch/{}/{}/{}/{}/{:g}/{}", cycle, artefact, feature, stylus, c_deg, touch);
+}
+
 std::vector<std::string> featureNames(const Artefact& artefact) {
   std::vector<std::string> names;
   if (artefact.kind == "hole_bar") {

@@ -28,6 +28,8 @@ struct Touch {
 
   /// "M3 H2 at 90 deg, touch 4 (line 118)".
   [[nodiscard]] std::string label() const;
+  /// What exclusions call it: "touch/M3/bar/H2/p0/90/4".
+  [[nodiscard]] std::string id() const;
 };
 
 struct TouchList {

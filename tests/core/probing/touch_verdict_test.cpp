@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/probing/touch_verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tests/core/probing/probing_machines.h"
+
+namespace spindrift {
+namespace {
+
+using namespace probing_test;
+
+struct Judged {
+  TouchEvaluation evaluation;
+  std::vector<TouchVerdict> verdicts;
+  [[nodiscard]] int count(TouchState state) const {
+    return static_cast<int>(
+        std::count_if(verdicts.begin(), verdicts.end(), [&](const TouchVerdict& v) { return v.state == state; }));
+  }
+};
+
+Judged judge(const TouchList& list, const std::set<std::string>& excluded) {
+  Campaign campaign;
+  campaign.machine = machineFrom(holeMachineText());
+  campaign.excluded_captures = excluded;
+  JobContext job;
+  Judged judged;
+  judged.evaluation = evaluateTouchList(campaign, list, {}, {}, job);
+  judged.verdicts = touchVerdicts(judged.evaluation, judged.evaluation.hole_cycles.front());
+  return judged;
+}
+
+TEST(TouchVerdicts, EveryTouchOfGoodCyclesIsUsed) {
+  const VirtualRun run = runCycles(machineFrom(holeMachineText()), 3, {}, 5);
+  const Judged judged = judge(run.list, {});
+  EXPECT_EQ(judged.verdicts.size(), run.list.touches.size());
+  EXPECT_EQ(judged.count(TouchState::Used), static_cast<int>(run.list.touches.size()));
+  for (const TouchVerdict& v : judged.verdicts) EXPECT_TRUE(std::isfinite(v.residual_um));
+}
+
+TEST(TouchVerdicts, BadMissingAndExcludedTouchesAreToldApart) {
+  VirtualRun run = runCycles(machineFrom(holeMachineText()), 5, {}, 6);
+  std::string bad, excluded;
+  for (Touch& t : run.list.touches) {
+    if (t.c_deg != 0.0) continue;
+    if (t.cycle == "M2" && t.feature == "H3" && t.touch == 1) {
+      t.position_mm += 0.03 * t.approach;
+      bad = t.id();
+    }
+    if (t.cycle == "M4" && t.feature == "H6" && t.touch == 0) excluded = t.id();
+  }
+  removeTouches(run.list,
+                [](const Touch& t) { return t.cycle == "M3" && t.feature == "H5" && t.touch == 2 && t.c_deg == 0.0; });
+  const Judged judged = judge(run.list, {excluded});
+  EXPECT_EQ(judged.count(TouchState::LeftOut), 1);
+  EXPECT_EQ(judged.count(TouchState::Missing), 1);
+  EXPECT_EQ(judged.count(TouchState::Excluded), 1);
+  EXPECT_EQ(judged.evaluation.touches.touches.size(), run.list.touches.size() - 1);
+  for (const TouchVerdict& v : judged.verdicts) {
+    if (v.state == TouchState::Used) continue;
+    EXPECT_FALSE(v.reason.empty());
+    if (v.state == TouchState::LeftOut) {
+      EXPECT_EQ(v.touch.id(), bad);
+      EXPECT_NEAR(std::abs(v.residual_um), 30.0, 3.0);
+    }
+    if (v.state == TouchState::Missing) {
+      EXPECT_EQ(v.touch.cycle, "M3");
+      EXPECT_EQ(v.touch.feature, "H5");
+      EXPECT_EQ(v.touch.touch, 2);
+    }
+    if (v.state == TouchState::Excluded) {
+      EXPECT_EQ(v.touch.id(), excluded);
+    }
+  }
+}
+
+TEST(TouchVerdicts, IdsAreUnique) {
+  const VirtualRun run = runCycles(machineFrom(ballMachineText()), 2, {}, 7);
+  std::set<std::string> ids;
+  for (const Touch& t : run.list.touches) EXPECT_TRUE(ids.insert(t.id()).second) << t.id();
+}
+
+TEST(TouchVerdicts, ExcludingEverythingIsRefused) {
+  const VirtualRun run = runCycles(machineFrom(holeMachineText()), 2, {}, 8);
+  std::set<std::string> all;
+  for (const Touch& t : run.list.touches) all.insert(t.id());
+  EXPECT_THROW(judge(run.list, all), InputError);
+}
+
+}  // namespace
+}  // namespace spindrift
