@@ -285,17 +285,21 @@ void paintPoints(QPainter& painter, const Camera& camera, const QSizeF& size, co
   }
   for (const auto& [p, point] : marks) {
     const QColor fill = point->value && scale ? scale->colour(*point->value) : t.tone(point->tone);
-    painter.setPen(QPen(t.view_top, 4));
-    painter.setBrush(Qt::NoBrush);
-    painter.drawEllipse(p, 6, 6);
+    if (point->mark) {
+      painter.setPen(QPen(t.view_top, 4));
+      painter.setBrush(Qt::NoBrush);
+      painter.drawEllipse(p, 6, 6);
+    }
     if (point->id == selected && !selected.isEmpty()) {
       painter.setPen(QPen(t.accent, 3));
       painter.drawEllipse(p, 11, 11);
     }
-    painter.setPen(QPen(t.text, 1.6, point->used ? Qt::SolidLine : Qt::DotLine));
-    painter.setBrush(point->used ? QBrush(fill) : QBrush(mixed(fill, t.view_top, 0.55)));
-    painter.drawEllipse(p, 6, 6);
-    if (!point->used) {
+    if (point->mark) {
+      painter.setPen(QPen(t.text, 1.6, point->used ? Qt::SolidLine : Qt::DotLine));
+      painter.setBrush(point->used ? QBrush(fill) : QBrush(mixed(fill, t.view_top, 0.55)));
+      painter.drawEllipse(p, 6, 6);
+    }
+    if (point->mark && !point->used) {
       painter.setPen(QPen(t.text, 1.6));
       painter.drawPoint(p);
     }

@@ -29,6 +29,7 @@
 #include "widgets/view3d/field_texture.h"
 #include "widgets/view3d/offscreen_window.h"
 #include "widgets/view3d/overlay.h"
+#include "widgets/view3d/shapes.h"
 
 namespace spindrift::gui {
 namespace {
@@ -154,6 +155,8 @@ struct Scene::Impl {
   Piece lower, lower_edges;
   Piece upper, upper_edges;
   Piece surface, contour_lines, zero_line, significance_lines, border_lines;
+  Piece shape_faces, shape_lines;
+  std::vector<ViewShape> shapes;
   vtkNew<vtkTexture> texture;
   vtkNew<vtkImageData> texture_image;
   std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> field_bounds;
@@ -180,7 +183,7 @@ struct Scene::Impl {
     renderer->AddLight(from_above);
     renderer->AddLight(from_viewer);
     for (Piece* piece : {&table, &table_edges, &grid_lines, &lower, &lower_edges, &upper, &upper_edges, &surface,
-                         &contour_lines, &zero_line, &significance_lines, &border_lines}) {
+                         &contour_lines, &zero_line, &significance_lines, &border_lines, &shape_faces, &shape_lines}) {
       piece->actor->VisibilityOff();
       renderer->AddActor(piece->actor);
     }
@@ -242,6 +245,19 @@ struct Scene::Impl {
     makeLines(grid_lines, lines);
     setColour(grid_lines, theme().grid);
     showBodies();
+  }
+
+  void buildShapes() {
+    makeShapeFaces(shape_faces.data, shapes);
+    makeShapeLines(shape_lines.data, shapes);
+    shape_faces.mapper->SetColorModeToDirectScalars();
+    shape_faces.actor->GetProperty()->SetAmbient(0.40);
+    shape_faces.actor->GetProperty()->SetDiffuse(0.85);
+    shape_faces.actor->SetVisibility(shape_faces.data->GetNumberOfPolys() > 0);
+    shape_lines.mapper->SetColorModeToDirectScalars();
+    shape_lines.mapper->SetScalarModeToUseCellData();
+    shape_lines.actor->GetProperty()->LightingOff();
+    shape_lines.actor->SetVisibility(shape_lines.data->GetNumberOfLines() > 0);
   }
 
   /// Points k, k + n, k + 2n ... of the cloud: every part is a thinned picture of the whole.
@@ -307,6 +323,12 @@ void Scene::setColours() {
   impl_->renderer->SetBackground(t.view_bottom.redF(), t.view_bottom.greenF(), t.view_bottom.blueF());
   impl_->renderer->SetBackground2(t.view_top.redF(), t.view_top.greenF(), t.view_top.blueF());
   impl_->buildBodies();
+  impl_->buildShapes();
+}
+
+void Scene::setShapes(const std::vector<ViewShape>& shapes) {
+  impl_->shapes = shapes;
+  impl_->buildShapes();
 }
 
 void Scene::setBodies(const MachineBodies& bodies) {
@@ -495,6 +517,10 @@ std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> Scene::bounds() const
       }
     }
   }
+  for (const ViewShape& shape : impl_->shapes) {
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(shape.kind == ShapeKind::Path ? 0.0 : shape.radius_mm);
+    for (const Eigen::Vector3d& p : shape.points_mm) include(p - reach, p + reach);
+  }
   if (impl_->field_bounds) include(impl_->field_bounds->first, impl_->field_bounds->second);
   if (impl_->cloud_bounds) include(impl_->cloud_bounds->first, impl_->cloud_bounds->second);
   return box;
@@ -503,8 +529,8 @@ std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> Scene::bounds() const
 QImage Scene::draw(const Camera& camera, const QSize& pixels, double ratio) {
   Impl& s = *impl_;
   s.window->SetSize(pixels.width(), pixels.height());
-  for (Piece* piece :
-       {&s.table_edges, &s.lower_edges, &s.upper_edges, &s.grid_lines, &s.contour_lines, &s.border_lines}) {
+  for (Piece* piece : {&s.table_edges, &s.lower_edges, &s.upper_edges, &s.grid_lines, &s.contour_lines, &s.border_lines,
+                       &s.shape_lines}) {
     piece->actor->GetProperty()->SetLineWidth(static_cast<float>(ratio));
   }
   s.zero_line.actor->GetProperty()->SetLineWidth(static_cast<float>(1.6 * ratio));

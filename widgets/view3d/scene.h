@@ -21,6 +21,7 @@ class Scene {
   void setBodiesVisible(bool all, bool tool_side);
   void setField(const Field* field, const FieldStyle& style, const ColourScale& scale);
   void setCloud(const ViewCloud& cloud, const std::optional<ColourScale>& scale);
+  void setShapes(const std::vector<ViewShape>& shapes);
   void setColours();  ///< from the theme
 
   [[nodiscard]] const std::optional<MachineBodies>& bodies() const;

@@ -60,12 +60,14 @@ void View3D::ensureScene() {
   scene_->setBodiesVisible(machine_visible_, tool_side_visible_);
   if (field_ != nullptr && scale_) scene_->setField(field_.get(), field_style_, *scale_);
   if (cloud_.xyz_mm != nullptr) scene_->setCloud(cloud_, scale_);
+  scene_->setShapes(shapes_);
 }
 
 void View3D::clear() {
   bodies_.reset();
   points_.clear();
   arrows_.clear();
+  shapes_.clear();
   field_.reset();
   cloud_ = {};
   scale_.reset();
@@ -76,6 +78,7 @@ void View3D::clear() {
     scene_->setBodies({});
     scene_->setField(nullptr, {}, {});
     scene_->setCloud({}, std::nullopt);
+    scene_->setShapes({});
   }
   changed();
 }
@@ -113,6 +116,12 @@ void View3D::setArrows(std::vector<ViewArrow> arrows, double exaggeration) {
   arrows_ = std::move(arrows);
   exaggeration_ = exaggeration;
   update();
+}
+
+void View3D::setShapes(std::vector<ViewShape> shapes) {
+  shapes_ = std::move(shapes);
+  if (scene_ != nullptr) scene_->setShapes(shapes_);
+  changed();
 }
 
 void View3D::setField(std::shared_ptr<const Field> field, const FieldStyle& style) {
@@ -159,7 +168,8 @@ void View3D::setSelected(const QString& point_id) {
 }
 
 bool View3D::empty() const {
-  return !bodies_ && field_ == nullptr && (cloud_.xyz_mm == nullptr || cloud_.xyz_mm->empty()) && points_.empty();
+  return !bodies_ && field_ == nullptr && (cloud_.xyz_mm == nullptr || cloud_.xyz_mm->empty()) && points_.empty() &&
+         shapes_.empty();
 }
 
 void View3D::setCamera(const Camera& camera) {

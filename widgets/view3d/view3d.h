@@ -39,12 +39,27 @@ struct ViewPoint {
   std::optional<double> value;  ///< colour by the scale of the view
   bool used = true;             ///< false: drawn hollow (validation, excluded)
   Tone tone = Tone::Accent;     ///< colour without a value
+  bool mark = true;             ///< false: the label alone, for what is drawn as a shape
 };
 
 /// A deviation at a place, drawn `exaggeration` times larger.
 struct ViewArrow {
   Eigen::Vector3d from_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d deviation_um = Eigen::Vector3d::Zero();
+  Tone tone = Tone::Neutral;
+};
+
+enum class ShapeKind {
+  Sphere,  ///< one point: the centre
+  Rod,     ///< two points: the ends of a cylinder
+  Path,    ///< a line through all points
+};
+
+/// A simple solid or a path. Neutral: the colour of bodies, or of secondary text for paths.
+struct ViewShape {
+  ShapeKind kind = ShapeKind::Sphere;
+  std::vector<Eigen::Vector3d> points_mm;
+  double radius_mm = 1.0;  ///< of spheres and rods
   Tone tone = Tone::Neutral;
 };
 
@@ -75,6 +90,9 @@ class View3D : public QWidget {
   void setToolSideVisible(bool visible);  ///< column, head, spindle
   void setPoints(std::vector<ViewPoint> points);
   void setArrows(std::vector<ViewArrow> arrows, double exaggeration);
+  /// Balls, styli, the path of a programme: part of the scene, covered and lit as bodies are.
+  void setShapes(std::vector<ViewShape> shapes);
+  [[nodiscard]] const std::vector<ViewShape>& shapes() const { return shapes_; }
   void setField(std::shared_ptr<const Field> field, const FieldStyle& style = {});
   void setCloud(const ViewCloud& cloud);
   void setColourScale(const std::optional<ColourScale>& scale);
@@ -159,6 +177,7 @@ class View3D : public QWidget {
   std::vector<ViewPoint> points_;
   std::vector<ViewArrow> arrows_;
   double exaggeration_ = 0;
+  std::vector<ViewShape> shapes_;
   std::shared_ptr<const Field> field_;
   FieldStyle field_style_;
   QString caption_;
