@@ -18,9 +18,9 @@ Page::Page(PageContext context, StepId step, QWidget* parent)
   auto* titles = new QVBoxLayout;
   titles->setSpacing(2);
   titles->addWidget(makeLabel(stepTitle(step), "pageTitle"));
-  auto* instruction = makeLabel(stepInstruction(step), "instruction");
-  instruction->setWordWrap(true);
-  titles->addWidget(instruction);
+  instruction_ = makeLabel(stepInstruction(step), "instruction");
+  instruction_->setWordWrap(true);
+  titles->addWidget(instruction_);
   head->addLayout(titles, 1);
   actions_ = new QHBoxLayout;
   actions_->setSpacing(8);
@@ -32,6 +32,10 @@ Page::Page(PageContext context, StepId step, QWidget* parent)
   content_->setSpacing(12);
   column->addLayout(content_, 1);
   setAccessibleName(stepTitle(step));
+}
+
+void Page::setInstruction(const QString& sentence) {
+  instruction_->setText(sentence);
 }
 
 void Page::addAction(QWidget* widget) {

@@ -16,6 +16,7 @@
 #include "widgets/workflow/workflow.h"
 
 class QHBoxLayout;
+class QLabel;
 class QVBoxLayout;
 
 namespace spindrift::gui {
@@ -50,6 +51,8 @@ class Page : public QWidget {
   [[nodiscard]] PageContext& context() { return context_; }
   [[nodiscard]] SessionModel& session() { return context_.session; }
   [[nodiscard]] QVBoxLayout* content() const { return content_; }
+  /// Replaces the sentence under the title where the step's general one does not fit the instrument.
+  void setInstruction(const QString& sentence);
   /// Places a button at the right of the title.
   void addAction(QWidget* widget);
   /// Runs a job whose failure is shown in the page's callout.
@@ -65,6 +68,7 @@ class Page : public QWidget {
  private:
   PageContext context_;
   StepId step_;
+  QLabel* instruction_;
   Callout* callout_;
   QVBoxLayout* content_;
   QHBoxLayout* actions_;

@@ -6,6 +6,9 @@
 #include "widgets/pages/kinematics/nine_parameter_page.h"
 #include "widgets/pages/machine/machine_page.h"
 #include "widgets/pages/page.h"
+#include "widgets/pages/probing/cycle_model_page.h"
+#include "widgets/pages/probing/touch_capture_page.h"
+#include "widgets/pages/probing/touch_evaluation_page.h"
 #include "widgets/pages/thermal/warm_up_page.h"
 
 namespace spindrift::gui {
@@ -27,6 +30,14 @@ void registerPages(PageRegistry& registry) {
   registry.add(
       StepId::Calibrate, microscope, [](PageContext c) { return new FiducialCalibratePage(std::move(c)); },
       "calibrate-fiducials");
+  const auto touches = [](const SessionModel& s) { return s.has(Instrument::TouchProbe); };
+  registry.add(
+      StepId::Capture, touches, [](PageContext c) { return new TouchCapturePage(std::move(c)); }, "capture-touches");
+  registry.add(
+      StepId::Calibrate, touches, [](PageContext c) { return new TouchEvaluationPage(std::move(c)); },
+      "evaluate-touches");
+  registry.add(
+      StepId::Model, touches, [](PageContext c) { return new CycleModelPage(std::move(c)); }, "model-cycles");
   registry.add(
       StepId::Model, points, [](PageContext c) { return new NineParameterPage(std::move(c)); }, "model-nine-parameter");
   for (const StepId step : all_steps) {

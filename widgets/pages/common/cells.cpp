@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/common/cells.h"
+
+#include <cmath>
+
+#include "core/base/text.h"
+#include "widgets/common/parts.h"
+
+namespace spindrift::gui {
+
+Cell nameCell(const QString& text) {
+  Cell cell{text};
+  cell.bold = true;
+  return cell;
+}
+
+Cell dashCell() {
+  Cell cell{QStringLiteral("–")};
+  cell.right = true;
+  return cell;
+}
+
+Cell numberCell(double value, int decimals) {
+  Cell cell = dashCell();
+  if (!std::isfinite(value)) return cell;
+  cell.text = QString::number(value, 'f', decimals);
+  // A rounded zero has no sign.
+  if (cell.text.toDouble() == 0.0) cell.text.remove(QLatin1Char('-'));
+  cell.text.replace(QLatin1Char('-'), QChar(0x2212));
+  return cell;
+}
+
+Cell quantityCell(double value, double sigma) {
+  Cell cell = dashCell();
+  if (std::isfinite(value)) cell.text = QString::fromStdString(withUncertainty(value, sigma, "")).trimmed();
+  return cell;
+}
+
+Cell toneCell(const QString& text, Tone tone) {
+  Cell cell{text};
+  cell.tone = tone;
+  cell.icon = toneIcon(tone);
+  return cell;
+}
+
+QString fromCore(const std::string& text) {
+  return QString::fromStdString(text);
+}
+
+QString parameterTitle(const std::string& name) {
+  return QString::fromStdString(name.substr(0, name.find('_')));
+}
+
+QString parameterUnit(const std::string& name) {
+  const std::size_t at = name.find('_');
+  if (at == std::string::npos) return {};
+  QString unit = QString::fromStdString(name.substr(at + 1));
+  return unit.replace(QStringLiteral("_per_"), QStringLiteral("/"));
+}
+
+QString quantityText(double value, double sigma, const QString& unit) {
+  if (!std::isfinite(value)) return QStringLiteral("–");
+  return QString::fromStdString(withUncertainty(value, sigma, unit.toStdString()));
+}
+
+}  // namespace spindrift::gui

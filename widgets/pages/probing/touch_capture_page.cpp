@@ -1,0 +1,481 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/probing/touch_capture_page.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QInputDialog>
+#include <QSplitter>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/probing/printed_text.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/pages/probing/probing_scene.h"
+#include "widgets/pages/probing/touch_results.h"
+
+namespace spindrift::gui {
+namespace {
+
+QString stateName(TouchState state) {
+  switch (state) {
+    case TouchState::Used:
+      return TouchCapturePage::tr("plausible");
+    case TouchState::LeftOut:
+      return TouchCapturePage::tr("rejected");
+    case TouchState::Missing:
+      return TouchCapturePage::tr("missing");
+    case TouchState::Excluded:
+      return TouchCapturePage::tr("excluded");
+  }
+  return {};
+}
+
+QString direction(const Eigen::Vector3d& n) {
+  int axis = 0;
+  n.cwiseAbs().maxCoeff(&axis);
+  if (std::abs(n(axis)) < 0.95) return TouchCapturePage::tr("slanted");
+  return (n(axis) > 0 ? QStringLiteral("+") : QString(QChar(0x2212))) + QLatin1Char("XYZ"[axis]);
+}
+
+}  // namespace
+
+TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Capture, parent), results_(TouchResults::of(session())) {
+  setInstruction(tr("Run the measuring cycle on the machine, check every touch, and take missing ones again."));
+  check_ = makeButton(tr("Check the touches"), nullptr, "primary");
+  addAction(check_);
+
+  auto* list = new Card(tr("Cycles"));
+  cycles_ = new RowsModel({tr("Cycle"), tr("Time / min"), tr("Good"), tr("Rejected"), tr("Missing")}, this);
+  cycle_table_ = makeTable(cycles_, tr("Cycles"), tr("Cycles appear with the first touch."));
+  list->body()->addWidget(cycle_table_, 2);
+  auto* filters = new QHBoxLayout;
+  filters->addWidget(makeLabel(tr("Touches of the cycle"), "sectionTitle"), 1);
+  state_filter_ = new QComboBox;
+  state_filter_->setAccessibleName(tr("State of the touches"));
+  state_filter_->addItems({tr("All states"), tr("Plausible"), tr("Rejected"), tr("Excluded"), tr("Missing")});
+  filters->addWidget(state_filter_);
+  list->body()->addLayout(filters);
+  touches_ = new RowsModel({tr("Touch"), tr("State"), tr("Residual / um"), tr("Station"), tr("Towards")}, this);
+  touch_table_ = makeTable(touches_, tr("Touches"), tr("No touch of this cycle has this state."));
+  touch_table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  list->body()->addWidget(touch_table_, 4);
+  reason_ = new Callout;
+  list->body()->addWidget(reason_);
+  auto* buttons = new QHBoxLayout;
+  exclude_ = makeButton(tr("Exclude …"), "exclude");
+  exclude_->setToolTip(tr("Leave the chosen touches out; they stay on the disk and can be brought back"));
+  buttons->addWidget(exclude_);
+  buttons->addStretch();
+  list->body()->addLayout(buttons);
+
+  auto* right = new Card(tr("Measuring cycle"));
+  control_ = new QComboBox;
+  control_->setAccessibleName(tr("Dialect of the control"));
+  control_->addItem(tr("Fanuc"), QStringLiteral("fanuc"));
+  control_->addItem(tr("Generic"), QStringLiteral("generic"));
+  make_program_ = makeButton(tr("Programme"), "check");
+  make_program_->setToolTip(tr("Write the measuring programme for this control, read it back and check it"));
+  view_ = new View3D;
+  view_->setEmptyText(tr("The measuring cycle will appear here"),
+                      tr("It needs an artefact and a stylus in the machine description (step Machine)."));
+  right->body()->addWidget(view_, 1);
+  auto* shown = new QHBoxLayout;
+  path_ = new QCheckBox(tr("Path"));
+  path_->setChecked(true);
+  machine_ = new QCheckBox(tr("Machine and travel"));
+  for (QCheckBox* box : {path_, machine_}) shown->addWidget(box);
+  shown->addStretch();
+  shown->addWidget(control_);
+  shown->addWidget(make_program_);
+  right->body()->addLayout(shown);
+  program_verdict_ = new Callout;
+  right->body()->addWidget(program_verdict_);
+  content()->addWidget(makeSplitter(list, right, 6, 6), 1);
+  showHints(view_);
+  view_->setMachineVisible(false);
+
+  connect(check_, &QPushButton::clicked, this, [this] { evaluate(true); });
+  connect(make_program_, &QPushButton::clicked, this, &TouchCapturePage::makeProgram);
+  connect(control_, &QComboBox::activated, this, &TouchCapturePage::makeProgram);
+  connect(state_filter_, &QComboBox::activated, this, &TouchCapturePage::fillTouches);
+  connect(exclude_, &QPushButton::clicked, this, &TouchCapturePage::toggleExcluded);
+  for (QCheckBox* box : {path_, machine_}) connect(box, &QCheckBox::toggled, this, &TouchCapturePage::showScene);
+  connect(machine_, &QCheckBox::toggled, view_, &View3D::setMachineVisible);
+  connect(cycle_table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this](const QModelIndex& now) {
+            if (filling_ || !now.isValid()) return;
+            cycle_ = cycles_->idAt(now.row());
+            fillTouches();
+            showScene();
+          });
+  connect(touch_table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
+    if (filling_) return;
+    showVerdict();
+    showScene();
+  });
+}
+
+const Artefact* TouchCapturePage::artefact() const {
+  auto* self = const_cast<TouchCapturePage*>(this);
+  return artefactOf(*self->session().campaign(), self->results_.touches().get());
+}
+
+void TouchCapturePage::runAll() {
+  evaluate(true);
+  makeProgram();
+}
+
+void TouchCapturePage::evaluate(bool store) {
+  const CampaignSnapshot snapshot = session().snapshot();
+  const auto list = results_.touches();
+  if (snapshot.campaign == nullptr || list == nullptr) return;
+  run(tr("Checking the touches"),
+      [this, snapshot, list, store, key = results_.key()](JobContext& job) -> std::function<void()> {
+        auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, {}, {}, job));
+        return [this, evaluation, store, key] {
+          results_.set(key, evaluation);
+          if (store) {
+            nlohmann::json counts = nlohmann::json::object();
+            if (const CycleEvaluation* cycles = cyclesOf(evaluation.get())) {
+              for (const TouchVerdict& v : touchVerdicts(*evaluation, *cycles)) {
+                const std::string name = stateName(v.state).toStdString();
+                counts[name] = counts.value(name, 0) + 1;
+              }
+            }
+            session().storeResult("check", nlohmann::json::object(), {{"touches", counts}});
+          }
+          refresh();
+        };
+      });
+}
+
+void TouchCapturePage::refresh() {
+  const auto campaign = session().campaign();
+  if (campaign == nullptr) return;
+  const bool other = shown_campaign_ != session().campaignId();
+  shown_campaign_ = session().campaignId();
+  const auto list = results_.touches();
+  if (list == nullptr) {
+    verdicts_.clear();
+    fillCycles();
+    callout()->show(Tone::Bad,
+                    results_.failure().isEmpty() ? tr("The campaign lists no touches yet.") : results_.failure());
+    return;
+  }
+  if (other) {
+    program_.reset();
+    program_verdict_->set(Tone::Neutral, {});
+    cycle_.clear();
+    view_->clear();
+    view_->setMachine(campaign->machine);
+    view_->setMachineVisible(machine_->isChecked());
+    if (session().state("check").there && !results_.current()) evaluate(false);
+  }
+  const auto evaluation = results_.last();
+  const CycleEvaluation* cycles = cyclesOf(evaluation.get());
+  judged_ = cycles != nullptr;
+  verdicts_.clear();
+  if (judged_) {
+    verdicts_ = touchVerdicts(*evaluation, *cycles);
+  } else {
+    for (const Touch& t : list->touches) {
+      TouchVerdict v;
+      v.touch = t;
+      verdicts_.push_back(std::move(v));
+    }
+  }
+  fillCycles();
+  const ResultState state = session().state("check");
+  const auto count = [&](TouchState s) {
+    return std::count_if(verdicts_.begin(), verdicts_.end(), [s](const TouchVerdict& v) { return v.state == s; });
+  };
+  if (!judged_) {
+    callout()->show(Tone::Accent, tr("%1 touches are there and none is checked yet. Checking compares every touch "
+                                     "with all others and says which to take again.")
+                                      .arg(verdicts_.size()));
+  } else if (!state.current || !results_.current()) {
+    callout()->show(Tone::Outdated, tr("Exclusions or the machine have changed since. Check the touches again."));
+  } else if (count(TouchState::LeftOut) + count(TouchState::Missing) > 0) {
+    callout()->show(Tone::Attention, tr("%1 touches are rejected and %2 are missing. Take them again while the machine "
+                                        "is in this state; the rest is evaluated without them.")
+                                         .arg(count(TouchState::LeftOut))
+                                         .arg(count(TouchState::Missing)));
+  } else {
+    callout()->show(Tone::Good, tr("All %1 touches are plausible and none is missing.").arg(verdicts_.size()));
+  }
+  showScene();
+}
+
+void TouchCapturePage::fillCycles() {
+  struct Count {
+    double time = 0;
+    int all = 0;
+    std::map<TouchState, int> of;
+  };
+  std::vector<std::string> order;
+  std::map<std::string, Count> counts;
+  for (const TouchVerdict& v : verdicts_) {
+    if (!counts.contains(v.touch.cycle)) order.push_back(v.touch.cycle);
+    Count& c = counts[v.touch.cycle];
+    if (v.state != TouchState::Missing) {
+      c.time += v.touch.time_s;
+      ++c.all;
+    }
+    ++c.of[v.state];
+  }
+  std::vector<Row> rows;
+  for (const std::string& name : order) {
+    const Count& c = counts[name];
+    Row row;
+    row.id = fromCore(name);
+    row.cells = {nameCell(row.id), numberCell(c.all > 0 ? c.time / c.all / 60.0 : std::nan(""), 1)};
+    if (!judged_) {
+      row.cells.push_back(toneCell(tr("not checked"), Tone::Neutral));
+      row.cells.push_back(dashCell());
+      row.cells.push_back(dashCell());
+    } else {
+      const auto of = [&](TouchState s) { return c.of.contains(s) ? c.of.at(s) : 0; };
+      row.cells.push_back(toneCell(QString::number(of(TouchState::Used)), Tone::Good));
+      for (const TouchState s : {TouchState::LeftOut, TouchState::Missing}) {
+        row.cells.push_back(of(s) > 0 ? toneCell(QString::number(of(s)), toneOf(s)) : Cell{QStringLiteral("0")});
+      }
+    }
+    rows.push_back(std::move(row));
+  }
+  filling_ = true;
+  cycles_->setRows(std::move(rows));
+  int at = cycles_->rowOf(cycle_);
+  if (at < 0 && cycles_->rowCount() > 0) at = 0;
+  if (at >= 0) {
+    cycle_ = cycles_->idAt(at);
+    cycle_table_->selectRow(at);
+  }
+  filling_ = false;
+  fillTouches();
+}
+
+void TouchCapturePage::selectCycle(const QString& cycle) {
+  const int row = cycles_->rowOf(cycle);
+  if (row >= 0) cycle_table_->selectRow(row);
+}
+
+std::vector<TouchVerdict> TouchCapturePage::verdictsOf(const QString& cycle) const {
+  std::vector<TouchVerdict> some;
+  for (const TouchVerdict& v : verdicts_) {
+    if (fromCore(v.touch.cycle) == cycle) some.push_back(v);
+  }
+  return some;
+}
+
+void TouchCapturePage::fillTouches() {
+  const QStringList chosen = selectedTouches();
+  const Artefact* a = session().campaign() == nullptr ? nullptr : artefact();
+  std::vector<Row> rows;
+  for (const TouchVerdict& v : verdictsOf(cycle_)) {
+    const QString id = fromCore(v.touch.id());
+    const bool taken_out = session().excluded().contains(id);
+    const TouchState state = taken_out ? TouchState::Excluded : v.state;
+    const int filter = state_filter_->currentIndex();
+    if (filter == 1 && state != TouchState::Used) continue;
+    if (filter == 2 && state != TouchState::LeftOut) continue;
+    if (filter == 3 && state != TouchState::Excluded) continue;
+    if (filter == 4 && state != TouchState::Missing) continue;
+    Row row;
+    row.id = id;
+    row.faded = state == TouchState::Excluded;
+    row.cells = {
+        nameCell(QStringLiteral("%1 · %2").arg(fromCore(v.touch.feature)).arg(v.touch.touch)),
+        !judged_ && !taken_out ? toneCell(tr("not checked"), Tone::Neutral) : toneCell(stateName(state), toneOf(state)),
+        numberCell(v.residual_um, 2),
+        Cell{a != nullptr && a->kind == "hole_bar" ? QStringLiteral("%1°").arg(v.touch.c_deg)
+                                                   : fromCore(v.touch.stylus)},
+        Cell{direction(v.touch.approach)}};
+    row.cells[1].tip = fromCore(v.reason);
+    rows.push_back(std::move(row));
+  }
+  filling_ = true;
+  touches_->setRows(std::move(rows));
+  for (const QString& id : chosen) {
+    const int row = touches_->rowOf(id);
+    if (row >= 0) {
+      touch_table_->selectionModel()->select(touches_->index(row, 0),
+                                             QItemSelectionModel::Select | QItemSelectionModel::Rows);
+    }
+  }
+  filling_ = false;
+  showVerdict();
+}
+
+QStringList TouchCapturePage::selectedTouches() const {
+  QStringList ids;
+  for (const QModelIndex& index : touch_table_->selectionModel()->selectedRows()) ids << touches_->idAt(index.row());
+  return ids;
+}
+
+void TouchCapturePage::showVerdict() {
+  const QStringList chosen = selectedTouches();
+  bool any = false;
+  bool all_excluded = !chosen.isEmpty();
+  QString sentence;
+  Tone tone = Tone::Neutral;
+  for (const TouchVerdict& v : verdicts_) {
+    const QString id = fromCore(v.touch.id());
+    if (!chosen.contains(id)) continue;
+    if (v.state != TouchState::Missing) any = true;
+    if (!session().excluded().contains(id)) all_excluded = false;
+    if (chosen.size() == 1) {
+      const Eigen::Vector3d& p = v.touch.position_mm;
+      sentence = tr("%1 · %2 at x %3, y %4, z %5 mm")
+                     .arg(fromCore(v.touch.feature))
+                     .arg(v.touch.touch)
+                     .arg(p.x(), 0, 'f', 4)
+                     .arg(p.y(), 0, 'f', 4)
+                     .arg(p.z(), 0, 'f', 4);
+      if (v.state == TouchState::Missing) sentence = tr("%1 · %2").arg(fromCore(v.touch.feature)).arg(v.touch.touch);
+      if (!v.reason.empty()) sentence += QStringLiteral(": ") + fromCore(v.reason);
+      sentence += QLatin1Char('.');
+      tone = judged_ ? toneOf(v.state) : Tone::Neutral;
+    }
+    if (chosen.size() == 1 && session().excluded().contains(id)) {
+      sentence = tr("Excluded: %1.").arg(session().excluded().at(id));
+      tone = Tone::Neutral;
+    }
+  }
+  reason_->set(tone, sentence);
+  exclude_->setEnabled(any);
+  exclude_->setText(QChar(0x2009) + (all_excluded && any ? tr("Bring back") : tr("Exclude …")));
+}
+
+void TouchCapturePage::toggleExcluded() {
+  const QStringList chosen = selectedTouches();
+  if (chosen.isEmpty()) return;
+  const bool all_excluded = std::all_of(chosen.begin(), chosen.end(),
+                                        [this](const QString& id) { return session().excluded().contains(id); });
+  QString reason;
+  if (!all_excluded) {
+    bool given = false;
+    reason = QInputDialog::getText(
+        this, tr("Exclude touches"),
+        tr("Why are %n touch(es) left out? The report will say so.", nullptr, static_cast<int>(chosen.size())),
+        QLineEdit::Normal, tr("bad touch"), &given);
+    if (!given || reason.trimmed().isEmpty()) return;
+  }
+  context().undo.push(new ExcludeCommand(session(), chosen, reason));
+}
+
+void TouchCapturePage::showScene() {
+  const auto campaign = session().campaign();
+  const Artefact* a = artefact();
+  if (campaign == nullptr || a == nullptr) return;
+  const auto list = results_.touches();
+  const auto evaluation = results_.last();
+  const std::vector<TouchVerdict> verdicts = verdictsOf(cycle_);
+  const QStringList chosen = selectedTouches();
+  const TouchVerdict* selected = nullptr;
+  for (const TouchVerdict& v : verdicts) {
+    if (!chosen.isEmpty() && fromCore(v.touch.id()) == chosen.front()) selected = &v;
+  }
+  const double c_deg = selected != nullptr ? selected->touch.c_deg : 0.0;
+  const Eigen::Vector3d first_ball =
+      firstBallPosition(*a, list.get(), evaluation.get()).value_or(Eigen::Vector3d::Zero());
+  std::vector<ViewShape> shapes;
+  try {
+    addArtefact(shapes, campaign->machine, *a, first_ball, c_deg);
+    addTouches(shapes, verdicts, c_deg);
+    if (machine_->isChecked()) addTravel(shapes, campaign->machine);
+    if (path_->isChecked() && program_) addPath(shapes, program_->plan, c_deg);
+    if (selected != nullptr) {
+      addStyli(shapes, campaign->machine, selected->touch.stylus, selected->touch.position_mm);
+    } else if (!verdicts.empty()) {
+      addStyli(shapes, campaign->machine, verdicts.front().touch.stylus, verdicts.front().touch.position_mm);
+    }
+    view_->setPoints(featureLabels(campaign->machine, *a, first_ball, c_deg));
+  } catch (const InputError& e) {
+    program_verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
+  }
+  view_->setShapes(std::move(shapes));
+  QString caption = tr("Cycle %1").arg(cycle_);
+  if (a->kind == "hole_bar") caption += tr(", table at %1°").arg(c_deg, 0, 'g', 4);
+  view_->setCaption(caption);
+}
+
+void TouchCapturePage::makeProgram() {
+  const auto campaign = session().campaign();
+  const Artefact* a = artefact();
+  if (campaign == nullptr || a == nullptr) return;
+  CyclePlanOptions plan;
+  const auto ball = firstBallPosition(*a, results_.touches().get(), results_.last().get());
+  if (a->kind == "balls") {
+    if (!ball) {
+      program_verdict_->show(Tone::Attention, tr("Where the first ball stands is not known. Touch it once by hand; "
+                                                 "then the programme can be planned."));
+      return;
+    }
+    plan.first_ball_mm = *ball;
+  }
+  ProgramOptions options;
+  options.dialect = programDialect(control_->currentData().toString().toStdString());
+  run(tr("Planning the measuring cycle"),
+      [this, campaign, artefact = *a, plan, options](JobContext&) -> std::function<void()> {
+        auto made = std::make_shared<std::optional<CheckedProgram>>();
+        std::string failure;
+        try {
+          *made = makeCheckedProgram(campaign->machine, artefact, plan, options);
+        } catch (const InputError& e) {
+          failure = e.what();
+        }
+        return [this, made, failure] {
+          program_ = std::move(*made);
+          if (!program_) {
+            program_verdict_->show(Tone::Bad, tr("No programme: %1").arg(QString::fromUtf8(failure.c_str())));
+          } else if (!program_->check.good()) {
+            const ProgramIssue& first = program_->check.issues.front();
+            program_verdict_->show(
+                Tone::Bad, tr("The check found %n issue(s), the programme is not given away. Line %1: %2", nullptr,
+                              static_cast<int>(program_->check.issues.size()))
+                               .arg(first.line)
+                               .arg(fromCore(first.what)));
+          } else {
+            program_verdict_->show(
+                Tone::Good,
+                tr("Programme checked: %1 touches in %2 moves inside the travel, none through the artefact, a "
+                   "retract after each, safe height %3 mm. Export writes it.")
+                    .arg(program_->check.touches)
+                    .arg(program_->check.moves.size())
+                    .arg(program_->plan.safe_height_mm, 0, 'f', 1));
+          }
+          showScene();
+        };
+      });
+}
+
+std::vector<Exportable> TouchCapturePage::exportables() {
+  std::vector<Exportable> items{exportableOf(tr("Cycles"), cycles_), exportableOf(tr("Touches"), touches_),
+                                exportableOf(tr("Measuring cycle"), view_)};
+  const Artefact* a = session().campaign() == nullptr ? nullptr : artefact();
+  if (program_ && program_->check.good() && a != nullptr) {
+    items.push_back({tr("Measuring programme"), {QStringLiteral("nc")}, [text = program_->text](const QString& file) {
+                       writeFileAtomically(file.toStdString(), text);
+                     }});
+    ProgramOptions options;
+    options.dialect = programDialect(control_->currentData().toString().toStdString());
+    const std::string pattern = printedTextTemplate(session().campaign()->machine, *a, options).dump(1) + "\n";
+    items.push_back({tr("Template of what it prints"), {QStringLiteral("json")}, [pattern](const QString& file) {
+                       writeFileAtomically(file.toStdString(), pattern);
+                     }});
+  }
+  return items;
+}
+
+}  // namespace spindrift::gui

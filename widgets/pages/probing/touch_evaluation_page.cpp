@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/probing/touch_evaluation_page.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/units.h"
+#include "core/workflows/evaluate_campaign.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/pages/probing/touch_results.h"
+#include "widgets/plots/plot.h"
+
+namespace spindrift::gui {
+namespace {
+
+QWidget* withVerdict(Callout* verdict, QWidget* table) {
+  auto* page = new QWidget;
+  auto* column = new QVBoxLayout(page);
+  column->setContentsMargins(0, 8, 0, 0);
+  column->addWidget(verdict);
+  column->addWidget(table, 1);
+  return page;
+}
+
+QString stationName(const ProbedFeature& f, bool holes) {
+  if (!holes) return QStringLiteral("%1 / %2").arg(fromCore(f.feature), fromCore(f.stylus));
+  return f.c_deg == 0.0 ? fromCore(f.feature) : QStringLiteral("%1 @ %2°").arg(fromCore(f.feature)).arg(f.c_deg);
+}
+
+}  // namespace
+
+TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Calibrate, parent), results_(TouchResults::of(session())) {
+  setInstruction(tr("Turn touches into features and deviations, and see whether probe and artefact can be trusted."));
+  evaluate_ = makeButton(tr("Evaluate the touches"), nullptr, "primary");
+  addAction(evaluate_);
+  auto* tiles = new Card;
+  auto* line = new QHBoxLayout;
+  line->setSpacing(24);
+  used_ = new NumberTile(tr("Touches used"));
+  noise_ = new NumberTile(tr("Touch noise"));
+  length_ = new NumberTile(tr("Largest length error"));
+  probe_ = new NumberTile(tr("Probe"));
+  for (NumberTile* tile : {used_, noise_, length_, probe_}) line->addWidget(tile, 1);
+  tiles->body()->addLayout(line);
+  content()->addWidget(tiles);
+
+  auto* left = new Card(tr("Features"));
+  cycle_ = new QComboBox;
+  cycle_->setAccessibleName(tr("Cycle whose features are listed"));
+  cycle_->setMinimumWidth(120);
+  left->addToTitle(cycle_);
+  tabs_ = makeTabs();
+  features_ = new RowsModel(
+      {tr("Feature"), tr("x / mm"), tr("y / mm"), tr("z / mm"), tr("± / um"), tr("D / mm"), tr("Form / um")}, this);
+  tabs_->addTab(makeTable(features_, tr("Features"),
+                          tr("Centre, diameter and form of every hole or ball appear after the evaluation.")),
+                tr("Features"));
+  left_out_ = new RowsModel({tr("Touch"), tr("Why it was left out")}, this);
+  tabs_->addTab(makeTable(left_out_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
+  lengths_ = new RowsModel({}, this);
+  tabs_->addTab(makeTable(lengths_, tr("Lengths"), tr("Distances and straightness appear after the evaluation.")),
+                tr("Lengths"));
+  repeatability_verdict_ = new Callout;
+  repeatability_ =
+      new RowsModel({tr("Parameter"), tr("Repeatability, k = 2"), tr("From touch noise"), tr("Unit")}, this);
+  tabs_->addTab(
+      withVerdict(repeatability_verdict_, makeTable(repeatability_, tr("Repeatability"),
+                                                    tr("How well a cycle repeats appears with at least 18 cycles."))),
+      tr("Repeatability"));
+  health_verdict_ = new Callout;
+  health_ = new RowsModel({tr("Stylus"), tr("Sphere"), tr("Radius / mm"), tr("Pre-travel / um"), tr("Repeats / um"),
+                           tr("Step / um"), tr("Verdict")},
+                          this);
+  tabs_->addTab(
+      withVerdict(health_verdict_, makeTable(health_, tr("Health of the probe"),
+                                             tr("Touch a sphere from at least five directions to qualify the styli."))),
+      tr("Probe"));
+  left->body()->addWidget(tabs_, 1);
+
+  auto* right = new Card(tr("Deviation over time"));
+  point_ = new QComboBox;
+  point_->setAccessibleName(tr("Feature whose deviations are shown"));
+  point_->setMinimumWidth(140);
+  right->addToTitle(point_);
+  plot_ = new Plot;
+  plot_->setAxes(tr("Time / h"), tr("Deviation / um"));
+  plot_->setEmptyText(tr("Deviations will appear here"),
+                      tr("Evaluate the touches: every feature is compared with the first cycle."));
+  right->body()->addWidget(plot_, 1);
+  content()->addWidget(makeSplitter(left, right, 9, 5), 1);
+  showHints(plot_);
+  connect(evaluate_, &QPushButton::clicked, this, &TouchEvaluationPage::evaluate);
+  connect(cycle_, &QComboBox::activated, this, &TouchEvaluationPage::showFeatures);
+  connect(point_, &QComboBox::activated, this, &TouchEvaluationPage::showDeviations);
+}
+
+TouchEvaluationPage::Details TouchEvaluationPage::detailsOf(const CampaignSnapshot& snapshot, const TouchList& list,
+                                                            JobContext& job) {
+  Details details;
+  auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, list, {}, {}, job));
+  // Only spheres qualify a probe; a hole bar says nothing about it.
+  if (!evaluation->ball_cycles.empty())
+    details.health = checkProbeHealth(evaluation->touches, snapshot.campaign->machine);
+  if (const CycleEvaluation* cycles = cyclesOf(evaluation.get())) details.repeatability = studyRepeatability(*cycles);
+  details.evaluation = std::move(evaluation);
+  return details;
+}
+
+void TouchEvaluationPage::evaluate() {
+  const CampaignSnapshot snapshot = session().snapshot();
+  const auto list = results_.touches();
+  if (snapshot.campaign == nullptr || list == nullptr) return;
+  run(tr("Evaluating the touches"),
+      [this, snapshot, list, key = results_.key()](JobContext& job) -> std::function<void()> {
+        JobContext first = job.part(0.0, 0.5);
+        JobContext second = job.part(0.5, 1.0);
+        const CampaignEvaluation evaluation = evaluateCampaign(*snapshot.campaign, {}, first);
+        auto details = std::make_shared<Details>(detailsOf(snapshot, *list, second));
+        return [this, payload = payloadOf(evaluation), details, key] {
+          details_ = *details;
+          results_.set(key, details_.evaluation);
+          session().storeResult("evaluate", nlohmann::json::object(), payload);
+          refresh();
+        };
+      });
+}
+
+void TouchEvaluationPage::restore() {
+  const CampaignSnapshot snapshot = session().snapshot();
+  const auto list = results_.touches();
+  if (snapshot.campaign == nullptr || list == nullptr) return;
+  run(tr("Reading the evaluation"),
+      [this, snapshot, list, key = results_.key()](JobContext& job) -> std::function<void()> {
+        auto details = std::make_shared<Details>(detailsOf(snapshot, *list, job));
+        return [this, details, key] {
+          if (key != results_.key()) return;
+          details_ = *details;
+          results_.set(key, details_.evaluation);
+          refresh();
+        };
+      });
+}
+
+void TouchEvaluationPage::clear() {
+  for (RowsModel* rows : {features_, left_out_, lengths_, repeatability_, health_}) rows->setRows({});
+  plot_->setContent({});
+  cycle_->clear();
+  point_->clear();
+  repeatability_verdict_->set(Tone::Neutral, {});
+  health_verdict_->set(Tone::Neutral, {});
+  for (NumberTile* tile : {used_, noise_, length_, probe_}) tile->set(QStringLiteral("–"));
+}
+
+void TouchEvaluationPage::refresh() {
+  if (session().campaign() == nullptr) return;
+  if (shown_campaign_ != session().campaignId()) {
+    shown_campaign_ = session().campaignId();
+    details_ = {};
+    clear();
+  }
+  if (results_.touches() == nullptr) {
+    callout()->show(Tone::Bad, results_.failure());
+    return;
+  }
+  const auto stored = session().evaluation();
+  if (stored == nullptr) {
+    clear();
+    callout()->show(Tone::Accent, tr("Press Evaluate the touches. Bad ones are listed with their reason, the rest is "
+                                     "evaluated."));
+    return;
+  }
+  const ResultState state = session().state("evaluate");
+  if (!state.current) {
+    callout()->show(Tone::Outdated,
+                    tr("Touches, exclusions or the machine have changed since this was evaluated. Evaluate again."));
+  } else if (!stored->good_enough || !stored->warnings.empty()) {
+    QStringList sentences;
+    for (const std::string& w : stored->warnings) sentences << fromCore(w);
+    callout()->show(Tone::Attention,
+                    sentences.mid(0, 2).join(QLatin1Char(' ')) +
+                        (sentences.size() > 2 ? tr(" And %1 more.").arg(sentences.size() - 2) : QString()));
+  } else {
+    callout()->show(Tone::Good, tr("%n deviation(s) found, no warnings.", nullptr,
+                                   static_cast<int>(stored->observations.rows.size())));
+  }
+  const CycleEvaluation* cycles = cyclesOf(details_.evaluation.get());
+  if (cycles == nullptr) {
+    if (state.current) restore();
+    showDeviations();
+    return;
+  }
+  const QString chosen = cycle_->currentText();
+  cycle_->clear();
+  for (const std::string& name : cycles->cycles) cycle_->addItem(fromCore(name));
+  const int at = cycle_->findText(chosen);
+  cycle_->setCurrentIndex(at >= 0 ? at : cycle_->count() - 1);
+  showTiles(*cycles);
+  showFeatures();
+  showLeftOut(*details_.evaluation, *cycles);
+  showLengths();
+  showRepeatability();
+  showHealth();
+  showDeviations();
+}
+
+void TouchEvaluationPage::showTiles(const CycleEvaluation& cycles) {
+  const auto used = static_cast<std::size_t>(std::count(cycles.fit.used.begin(), cycles.fit.used.end(), true));
+  used_->set(QString::number(used),
+             cycles.rejected.empty() ? tr("none left out") : tr("%1 left out").arg(cycles.rejected.size()),
+             cycles.rejected.empty() ? Tone::Neutral : Tone::Attention);
+  const auto& sigma = cycles.fit.group_sigma_mm;
+  if (!sigma.empty()) {
+    QString note = tr("across the surface, one standard deviation");
+    if (sigma.size() > 1) note = tr("%1 um along the axis").arg(sigma[1] * um_per_mm, 0, 'f', 2);
+    noise_->set(QStringLiteral("%1 um").arg(sigma[0] * um_per_mm, 0, 'f', 2), note);
+  }
+  if (!details_.evaluation->hole_cycles.empty()) {
+    const HoleCycleResult& holes = details_.evaluation->hole_cycles.front();
+    length_->set(QStringLiteral("%1 um").arg(holes.largest_nonlinearity_um, 0, 'f', 2),
+                 tr("of a hole off the straight line, all cycles"));
+  } else {
+    double largest = 0;
+    for (const BallDistance& d : details_.evaluation->ball_cycles.front().distances)
+      largest = std::max(largest, std::abs(d.error_um));
+    length_->set(QStringLiteral("%1 um").arg(largest, 0, 'f', 1), tr("of a distance between balls"));
+  }
+  int known = 0;
+  int healthy = 0;
+  for (const StylusHealth& h : details_.health) {
+    if (h.status != FitStatus::Converged) continue;
+    ++known;
+    if (h.healthy) ++healthy;
+  }
+  if (known == 0) {
+    probe_->set(tr("not judged"), tr("needs touches on a sphere"));
+  } else {
+    probe_->set(tr("%1 of %2").arg(healthy).arg(known), tr("stylus-sphere pairs repeat"));
+  }
+}
+
+void TouchEvaluationPage::showFeatures() {
+  const CycleEvaluation* cycles = cyclesOf(details_.evaluation.get());
+  if (cycles == nullptr) return;
+  const bool holes = !details_.evaluation->hole_cycles.empty();
+  std::vector<Row> rows;
+  for (const ProbedFeature& f : cycles->features) {
+    if (fromCore(f.cycle) != cycle_->currentText()) continue;
+    Row row;
+    const QString name = stationName(f, holes);
+    row.id = fromCore(f.cycle) + QLatin1Char('/') + name;
+    const bool good = f.status == FitStatus::Converged;
+    row.cells = {good ? nameCell(name) : toneCell(name, Tone::Bad)};
+    row.cells.front().tip = fromCore(f.message);
+    double largest_sigma = 0;
+    for (int k = 0; k < 3; ++k) {
+      row.cells.push_back(numberCell(good ? f.centre_mm(k) : std::nan(""), 4));
+      largest_sigma = std::max(largest_sigma, std::sqrt(f.covariance(k, k)) * um_per_mm);
+    }
+    row.cells.push_back(numberCell(good ? largest_sigma : std::nan(""), 2));
+    row.cells.back().tip = tr("The largest standard uncertainty of x, y and z");
+    row.cells.push_back(numberCell(good ? f.diameter_mm : std::nan(""), 4));
+    row.cells.back().tip = quantityText(f.diameter_mm, f.diameter_sigma_mm, QStringLiteral("mm"));
+    row.cells.push_back(numberCell(good ? f.form_mm * um_per_mm : std::nan(""), 2));
+    rows.push_back(std::move(row));
+  }
+  features_->setRows(std::move(rows));
+}
+
+void TouchEvaluationPage::showLeftOut(const TouchEvaluation& evaluation, const CycleEvaluation& cycles) {
+  std::vector<Row> rows;
+  for (const RejectedTouch& r : cycles.rejected) {
+    const Touch& t = evaluation.touches.touches[r.touch];
+    Row row;
+    row.id = fromCore(t.id());
+    row.cells = {toneCell(fromCore(t.label()), Tone::Bad), Cell{fromCore(r.reason)}};
+    row.cells[1].tip = row.cells[1].text;
+    rows.push_back(std::move(row));
+  }
+  for (const Touch& t : evaluation.excluded) {
+    Row row;
+    row.id = fromCore(t.id());
+    const auto reason = session().excluded().find(row.id);
+    row.cells = {Cell{fromCore(t.label())},
+                 Cell{tr("excluded: %1").arg(reason == session().excluded().end() ? QString() : reason->second)}};
+    row.faded = true;
+    rows.push_back(std::move(row));
+  }
+  tabs_->setTabText(1, tr("Left out (%1)").arg(rows.size()));
+  left_out_->setRows(std::move(rows));
+}
+
+void TouchEvaluationPage::showLengths() {
+  std::vector<Row> rows;
+  if (!details_.evaluation->hole_cycles.empty()) {
+    lengths_->setHeaders({tr("Hole"), tr("rms / um"), tr("Largest / um"), tr("In cycle"), tr("Noise / um")});
+    tabs_->setTabText(2, tr("Straight line"));
+    for (const LinearityDeviation& d : details_.evaluation->hole_cycles.front().linearity) {
+      Row row;
+      row.id = fromCore(d.feature);
+      row.cells = {nameCell(row.id), numberCell(d.rms_um, 2), numberCell(d.largest_um, 2),
+                   Cell{fromCore(d.largest_cycle)}, numberCell(d.sigma_um, 2)};
+      rows.push_back(std::move(row));
+    }
+  } else {
+    lengths_->setHeaders(
+        {tr("Balls"), tr("Cycle"), tr("Stylus"), tr("Error / um"), tr("Certified / mm"), tr("Verdict")});
+    tabs_->setTabText(2, tr("Distances"));
+    for (const BallDistance& d : details_.evaluation->ball_cycles.front().distances) {
+      Row row;
+      row.id = fromCore(d.cycle + d.stylus + d.from + d.to);
+      const bool inside = std::abs(d.error_um) <= 2.0 * d.standard_uncertainty_um;
+      row.cells = {nameCell(fromCore(d.from + " – " + d.to)),
+                   Cell{fromCore(d.cycle)},
+                   Cell{fromCore(d.stylus)},
+                   quantityCell(d.error_um, d.standard_uncertainty_um),
+                   numberCell(d.certified_mm, 4),
+                   inside ? toneCell(tr("within two uncertainties"), Tone::Good)
+                          : toneCell(tr("the machine differs"), Tone::Attention)};
+      rows.push_back(std::move(row));
+    }
+  }
+  lengths_->setRows(std::move(rows));
+}
+
+void TouchEvaluationPage::showRepeatability() {
+  const RepeatabilityStudy& study = details_.repeatability;
+  std::vector<Row> rows;
+  for (const Repeatability& r : study.parameters) {
+    Row row;
+    row.id = fromCore(r.name);
+    row.cells = {nameCell(parameterTitle(r.name)), quantityCell(r.repeatability, r.standard_uncertainty),
+                 numberCell(r.expected, 3), Cell{parameterUnit(r.name)}};
+    rows.push_back(std::move(row));
+  }
+  repeatability_->setRows(std::move(rows));
+  if (study.status == FitStatus::Converged) {
+    repeatability_verdict_->show(Tone::Neutral, tr("Drifts slower than nine cycles are taken out; what is left is how "
+                                                   "well one cycle repeats."));
+  } else {
+    repeatability_verdict_->set(Tone::Attention, fromCore(study.message));
+  }
+}
+
+void TouchEvaluationPage::showHealth() {
+  std::vector<Row> rows;
+  QString worst;
+  for (const StylusHealth& h : details_.health) {
+    Row row;
+    row.id = fromCore(h.stylus + "/" + h.feature);
+    const bool good = h.status == FitStatus::Converged;
+    row.cells = {nameCell(fromCore(h.stylus)),
+                 Cell{fromCore(h.feature)},
+                 good ? quantityCell(h.effective_radius_mm, h.effective_radius_sigma_mm) : dashCell(),
+                 numberCell(good ? h.pre_travel_range_um : std::nan(""), 2),
+                 numberCell(good && h.repeatability_dof > 0 ? h.repeatability_um : std::nan(""), 2),
+                 numberCell(good ? h.largest_step_um : std::nan(""), 2),
+                 !good       ? toneCell(tr("not judged"), Tone::Attention)
+                 : h.loose   ? toneCell(tr("loose, or warming up"), Tone::Attention)
+                 : h.healthy ? toneCell(tr("healthy"), Tone::Good)
+                             : toneCell(tr("look at it"), Tone::Attention)};
+    row.cells.back().tip = fromCore(h.message);
+    if (!h.healthy && worst.isEmpty()) {
+      worst = tr("%1 on %2: %3").arg(fromCore(h.stylus), fromCore(h.feature), fromCore(h.message));
+    }
+    rows.push_back(std::move(row));
+  }
+  const bool none = rows.empty();
+  health_->setRows(std::move(rows));
+  if (none) {
+    health_verdict_->set(Tone::Neutral, {});
+  } else if (worst.isEmpty()) {
+    health_verdict_->show(Tone::Good, tr("All styli repeat as a healthy probe does."));
+  } else {
+    health_verdict_->show(Tone::Attention, worst + tr(". A machine that warms up between the passes moves the sphere "
+                                                      "too: qualify in a steady state."));
+  }
+}
+
+void TouchEvaluationPage::showDeviations() {
+  const auto stored = session().evaluation();
+  if (stored == nullptr) return;
+  const std::vector<std::string> points = stored->observations.points();
+  const QString chosen = point_->currentText();
+  point_->clear();
+  for (const std::string& p : points) point_->addItem(fromCore(p));
+  const int at = point_->findText(chosen);
+  point_->setCurrentIndex(at >= 0 ? at : point_->count() - 1);
+  const std::string point = point_->currentText().toStdString();
+  double first = 1e300;
+  double last = -1e300;
+  for (const Observation& o : stored->observations.rows) {
+    first = std::min(first, o.time_s);
+    last = std::max(last, o.time_s);
+  }
+  const TimeUnit unit = timeUnit(last - first);
+  std::vector<Series> series;
+  for (const Component c : {Component::EX, Component::EY, Component::EZ}) {
+    Series s;
+    s.name = fromCore(std::string(toString(c)));
+    s.colour = static_cast<int>(c);
+    for (const Observation& o : stored->observations.rows) {
+      if (o.point != point || o.component != c) continue;
+      s.x.push_back(o.time_s / unit.seconds);
+      s.y.push_back(o.value);
+      s.sigma.push_back(o.sigma);
+    }
+    if (!s.x.empty()) series.push_back(std::move(s));
+  }
+  plot_->setAxes(tr("Time / %1").arg(unit.name), tr("Deviation of %1 / um").arg(point_->currentText()));
+  plot_->setContent(std::move(series));
+}
+
+std::vector<Exportable> TouchEvaluationPage::exportables() {
+  std::vector<Exportable> items{exportableOf(tr("Features"), features_),
+                                exportableOf(tr("Touches left out"), left_out_), exportableOf(tr("Lengths"), lengths_),
+                                exportableOf(tr("Repeatability"), repeatability_),
+                                exportableOf(tr("Health of the probe"), health_)};
+  if (!plot_->empty()) items.push_back(exportableOf(tr("Deviation over time"), plot_));
+  return items;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Step Calibrate for a touch probe: features with centre, diameter and form, what was left out, distances, health of
+// the probe, and the deviations of every feature over time.
+#pragma once
+
+#include "core/probing/cycle_studies.h"
+#include "core/probing/evaluate_touches.h"
+#include "core/probing/probe_health.h"
+#include "widgets/pages/page.h"
+
+class QComboBox;
+class QTabWidget;
+
+namespace spindrift::gui {
+
+class NumberTile;
+class Plot;
+class RowsModel;
+class TouchResults;
+
+class TouchEvaluationPage : public Page {
+  Q_OBJECT
+ public:
+  explicit TouchEvaluationPage(PageContext context, QWidget* parent = nullptr);
+  void refresh() override;
+  [[nodiscard]] std::vector<Exportable> exportables() override;
+  [[nodiscard]] QPushButton* primaryButton() const override { return evaluate_; }
+  void runAll() override { evaluate(); }
+  [[nodiscard]] RowsModel* features() const { return features_; }
+  [[nodiscard]] RowsModel* leftOut() const { return left_out_; }
+  [[nodiscard]] Plot* deviations() const { return plot_; }
+
+ private:
+  /// What a job finds beside the stored result.
+  struct Details {
+    std::shared_ptr<const TouchEvaluation> evaluation;
+    std::vector<StylusHealth> health;
+    RepeatabilityStudy repeatability;
+  };
+  void evaluate();
+  void restore();
+  [[nodiscard]] static Details detailsOf(const CampaignSnapshot& snapshot, const TouchList& list, JobContext& job);
+  void clear();
+  void showTiles(const CycleEvaluation& cycles);
+  void showFeatures();
+  void showLeftOut(const TouchEvaluation& evaluation, const CycleEvaluation& cycles);
+  void showLengths();
+  void showRepeatability();
+  void showHealth();
+  void showDeviations();
+
+  TouchResults& results_;
+  Details details_;
+  std::int64_t shown_campaign_ = 0;
+  QPushButton* evaluate_;
+  NumberTile* used_;
+  NumberTile* noise_;
+  NumberTile* length_;
+  NumberTile* probe_;
+  QTabWidget* tabs_;
+  QComboBox* cycle_;
+  QComboBox* point_;
+  RowsModel* features_;
+  RowsModel* left_out_;
+  RowsModel* lengths_;
+  RowsModel* repeatability_;
+  RowsModel* health_;
+  Callout* repeatability_verdict_;
+  Callout* health_verdict_;
+  Plot* plot_;
+};
+
+}  // namespace spindrift::gui

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/probing/touch_results.h"
+
+#include "core/base/error.h"
+
+namespace spindrift::gui {
+
+TouchResults::TouchResults(SessionModel& session) : QObject(&session), session_(session) {}
+
+TouchResults& TouchResults::of(SessionModel& session) {
+  auto* found = session.findChild<TouchResults*>(QString(), Qt::FindDirectChildrenOnly);
+  return found != nullptr ? *found : *new TouchResults(session);
+}
+
+void TouchResults::follow() {
+  const std::string folder = session_.campaign() == nullptr ? std::string() : session_.campaign()->folder.string();
+  if (campaign_ == session_.campaignId() && folder_ == folder) return;
+  campaign_ = session_.campaignId();
+  folder_ = folder;
+  touches_.reset();
+  failure_.clear();
+  evaluation_.reset();
+  evaluated_key_.clear();
+}
+
+std::shared_ptr<const TouchList> TouchResults::touches() {
+  follow();
+  if (touches_ == nullptr && failure_.isEmpty() && session_.campaign() != nullptr) {
+    if (const auto file = session_.campaign()->captureList("touches.csv")) {
+      try {
+        touches_ = std::make_shared<TouchList>(TouchList::read(*file));
+      } catch (const InputError& e) {
+        failure_ = QString::fromUtf8(e.what());
+      }
+    }
+  }
+  return touches_;
+}
+
+std::string TouchResults::key() const {
+  std::string text = std::to_string(session_.campaignId());
+  for (const auto& [item, reason] : session_.excluded()) text += "|" + item.toStdString();
+  return text + "|" + session_.commonOptions().dump();
+}
+
+std::shared_ptr<const TouchEvaluation> TouchResults::last() {
+  follow();
+  return evaluation_;
+}
+
+bool TouchResults::current() {
+  follow();
+  return evaluation_ != nullptr && evaluated_key_ == key();
+}
+
+void TouchResults::set(const std::string& key, std::shared_ptr<const TouchEvaluation> evaluation) {
+  follow();
+  evaluated_key_ = key;
+  evaluation_ = std::move(evaluation);
+}
+
+const CycleEvaluation* cyclesOf(const TouchEvaluation* evaluation) {
+  if (evaluation == nullptr) return nullptr;
+  if (!evaluation->hole_cycles.empty()) return &evaluation->hole_cycles.front();
+  if (!evaluation->ball_cycles.empty()) return &evaluation->ball_cycles.front();
+  return nullptr;
+}
+
+const Artefact* artefactOf(const Campaign& campaign, const TouchList* touches) {
+  if (touches != nullptr && !touches->touches.empty()) {
+    if (const Artefact* a = campaign.machine.findArtefact(touches->touches.front().artefact)) return a;
+  }
+  return campaign.machine.artefacts.empty() ? nullptr : &campaign.machine.artefacts.front();
+}
+
+}  // namespace spindrift::gui
