@@ -35,7 +35,7 @@ namespace spindrift::gui {
 namespace {
 
 /// About 35 ms with software rendering.
-constexpr std::size_t points_per_part = 500'000;
+constexpr std::size_t points_per_part = 200'000;
 
 struct Piece {
   vtkNew<vtkPolyData> data;

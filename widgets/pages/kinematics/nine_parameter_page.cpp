@@ -152,7 +152,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
                       tr("Fit the model: it is drawn over the table with the measured points on top."));
   view_->setMachineVisible(false);
   right->body()->addWidget(view_, 1);
-  content()->addWidget(makeSplitter(left, right, 6, 7), 1);
+  content()->addWidget(makeSplitter(left, right, 1, 1), 1);
   showHints(view_);
 
   connect(fit_button_, &QPushButton::clicked, this, &NineParameterPage::fit);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/pages/machine/machine_page.h"
 
-#include <QFormLayout>
+#include <QComboBox>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QLabel>
 #include <QLineEdit>
+#include <QSpinBox>
 #include <QSplitter>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -12,6 +15,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/workflows/fit_campaign.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/view3d/view3d.h"
@@ -97,17 +101,18 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   addAction(apply_);
 
   auto* card = new Card;
-  auto* form = new QFormLayout;
+  auto* form = new QGridLayout;
   form->setSpacing(8);
-  form->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   name_ = new QLineEdit;
   name_->setAccessibleName(tr("Name of the machine"));
   chain_ = new QLineEdit;
   chain_->setAccessibleName(tr("Kinematic chain"));
   chain_->setToolTip(tr(
       "From the workpiece w over the bed b to the tool t (ISO 10791-1); ' marks an axis that carries the workpiece"));
-  form->addRow(tr("Name"), name_);
-  form->addRow(tr("Chain"), chain_);
+  form->addWidget(new QLabel(tr("Name")), 0, 0);
+  form->addWidget(name_, 0, 1);
+  form->addWidget(new QLabel(tr("Chain")), 1, 0);
+  form->addWidget(chain_, 1, 1);
   card->body()->addLayout(form);
   card->body()->addWidget(makeLabel(tr("Linear axes"), "sectionTitle"));
   axes_ = makeEditor({tr("Axis"), tr("From\n/ mm"), tr("To\n/ mm"), tr("Resolution\n/ um"), tr("Drive"),
@@ -124,6 +129,21 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   point_buttons->addWidget(add);
   point_buttons->addWidget(remove);
   point_buttons->addStretch();
+  suggest_count_ = new QSpinBox;
+  suggest_count_->setRange(3, 20);
+  suggest_count_->setValue(6);
+  suggest_count_->setAccessibleName(tr("How many points to suggest"));
+  suggest_goal_ = new QComboBox;
+  suggest_goal_->addItem(tr("best heat map"), static_cast<int>(PlacementCriterion::I));
+  suggest_goal_->addItem(tr("best parameters"), static_cast<int>(PlacementCriterion::D));
+  suggest_goal_->setAccessibleName(tr("What the points shall be best for"));
+  suggest_ = makeButton(tr("Suggest points"), "target");
+  suggest_->setToolTip(
+      tr("Chooses, from a lattice over the table, where so many fiducials determine the nine parameters best: smallest "
+         "mean variance of the heat map (I-optimal) or smallest confidence region of the parameters (D-optimal)"));
+  point_buttons->addWidget(suggest_count_);
+  point_buttons->addWidget(suggest_goal_);
+  point_buttons->addWidget(suggest_);
   card->body()->addLayout(point_buttons);
 
   auto* picture = new Card(tr("How it is built"));
@@ -157,6 +177,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
     points_->removeRow(points_->currentRow());
     markEdited();
   });
+  connect(suggest_, &QPushButton::clicked, this, &MachinePage::suggestPoints);
   connect(apply_, &QPushButton::clicked, this, &MachinePage::apply);
   connect(discard_, &QPushButton::clicked, this, &MachinePage::refresh);
   connect(original_, &QPushButton::clicked, this,
@@ -265,6 +286,51 @@ nlohmann::json MachinePage::edited() const {
   }
   machine["points"] = points;
   return machine;
+}
+
+void MachinePage::suggestPoints() {
+  PlacementRequest request;
+  request.lattice_nx = 9;
+  request.lattice_ny = 7;
+  request.options.count = suggest_count_->value();
+  request.options.criterion = static_cast<PlacementCriterion>(suggest_goal_->currentData().toInt());
+  run(tr("Choosing measuring points"),
+      [this, machine = session().campaign()->machine, request](JobContext& job) -> std::function<void()> {
+        const PlacementAnswer answer = placeFiducials(machine, request, job);
+        return [this, answer] { showSuggestion(answer); };
+      });
+}
+
+void MachinePage::showSuggestion(const PlacementAnswer& answer) {
+  if (answer.result.status != FitStatus::Converged) {
+    callout()->show(Tone::Attention, QString::fromStdString(answer.result.message));
+    return;
+  }
+  int number = 1;
+  const auto taken = [&](const QString& id) {
+    for (int row = 0; row < points_->rowCount(); ++row) {
+      if (textAt(points_, row, 0) == id) return true;
+    }
+    return false;
+  };
+  for (const std::size_t index : answer.result.chosen) {
+    const Eigen::Vector3d& at = answer.candidates_mm[index];
+    while (taken(QStringLiteral("P%1").arg(number))) ++number;
+    const int row = points_->rowCount();
+    points_->insertRow(row);
+    set(points_, row, 0, QStringLiteral("P%1").arg(number));
+    set(points_, row, 1, QStringLiteral("fiducial"));
+    for (int i = 0; i < 3; ++i) set(points_, row, 2 + i, QString::number(at[i], 'f', 1));
+  }
+  points_->scrollToBottom();
+  markEdited();
+  callout()->show(
+      Tone::Accent,
+      tr("%1 points added below. With them the heat map would be uncertain by %2 um on average and %3 um at "
+         "worst (0.5 um in X and Y, 1 um in Z per fiducial). Apply the changes, or discard them.")
+          .arg(answer.result.chosen.size())
+          .arg(answer.result.mean_sigma_um, 0, 'f', 2)
+          .arg(answer.result.largest_sigma_um, 0, 'f', 2));
 }
 
 void MachinePage::apply() {

@@ -4,8 +4,14 @@
 
 #include "widgets/pages/page.h"
 
+class QComboBox;
 class QLineEdit;
+class QSpinBox;
 class QTableWidget;
+
+namespace spindrift {
+struct PlacementAnswer;
+}
 
 namespace spindrift::gui {
 
@@ -22,6 +28,8 @@ class MachinePage : public Page {
  private:
   void markEdited();
   void apply();
+  void suggestPoints();
+  void showSuggestion(const PlacementAnswer& answer);
   [[nodiscard]] nlohmann::json edited() const;
   void showFindings();
 
@@ -30,6 +38,9 @@ class MachinePage : public Page {
   QTableWidget* axes_;
   QTableWidget* points_;
   View3D* view_;
+  QSpinBox* suggest_count_;
+  QComboBox* suggest_goal_;
+  QPushButton* suggest_;
   QPushButton* apply_;
   QPushButton* discard_;
   QPushButton* original_;
