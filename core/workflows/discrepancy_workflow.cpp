@@ -13,6 +13,15 @@
 
 namespace spindrift {
 
+DiscrepancyRun searchDiscrepancy(const Campaign& campaign, ObservationSet observations,
+                                 const DiscrepancyOptions& options, JobContext& job) {
+  options.validate();
+  DiscrepancyRun run;
+  run.input = discrepancyInput(campaign, std::move(observations));
+  run.result = findDiscrepancy(run.input, options, job);
+  return run;
+}
+
 DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job) {
   request.options.validate();
   const Campaign campaign = Campaign::read(request.campaign);
@@ -23,10 +32,9 @@ DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job
     }
   }
   JobContext first = job.part(0.0, 0.2);
-  DiscrepancyRun run;
-  run.input = discrepancyInput(campaign, observationsOf(campaign, request.observations, {}, first));
+  ObservationSet observations = observationsOf(campaign, request.observations, {}, first);
   JobContext second = job.part(0.2, 1.0);
-  run.result = findDiscrepancy(run.input, request.options, second);
+  DiscrepancyRun run = searchDiscrepancy(campaign, std::move(observations), request.options, second);
   if (!request.model_out.empty()) writeFileAtomically(request.model_out, run.result.model->json().dump(2) + "\n");
   if (!request.prediction.empty()) {
     std::string text = "time_s,point,component,predicted\n";

@@ -23,6 +23,10 @@ struct DiscrepancyRun {
   DiscrepancyResult result;
 };
 
+/// The search on a campaign in memory, with the observations given in place of its own.
+[[nodiscard]] DiscrepancyRun searchDiscrepancy(const Campaign& campaign, ObservationSet observations,
+                                               const DiscrepancyOptions& options, JobContext& job);
+
 /// Throws InputError; nothing is written then. The campaign folder is never written to.
 [[nodiscard]] DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job);
 

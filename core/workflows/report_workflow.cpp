@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "core/base/text.h"
-#include "core/discrepancy/discrepancy.h"
 #include "core/reporting/campaign_report.h"
 #include "core/reporting/discrepancy_report.h"
 #include "core/reporting/heatmap_picture.h"
@@ -24,8 +23,9 @@ bool spreadsOverTheTable(const ObservationSet& observations) {
 
 /// The nine-parameter model of one state with its heat maps, or the reason why there is none.
 void addState(HtmlDocument& document, const Campaign& campaign, const ObservationSet& observations,
-              const std::string& state) {
+              const NineParameterOptions& fit_options, const std::string& state) {
   HeatmapOptions options;
+  options.fit = fit_options;
   options.fit.state = state;
   document.subsection(fmt::format("State {}", state));
   try {
@@ -81,14 +81,14 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
     input.sections.push_back({"Thermal error of the table", [&](HtmlDocument& document) {
                                 const std::vector<std::string> states = input.observations.states();
                                 for (std::size_t i = 1; i < states.size(); ++i) {
-                                  addState(document, campaign, input.observations, states[i]);
+                                  addState(document, campaign, input.observations, options.fit, states[i]);
                                 }
                               }});
   }
   if (options.discrepancy && !campaign.simulation.empty()) {
     JobContext searching = job.part(0.6, 0.95);
     auto data = std::make_shared<DiscrepancyInput>(discrepancyInput(campaign, input.observations));
-    auto result = std::make_shared<DiscrepancyResult>(findDiscrepancy(*data, DiscrepancyOptions(), searching));
+    auto result = std::make_shared<DiscrepancyResult>(findDiscrepancy(*data, options.search, searching));
     input.sections.push_back({"Where simulation and measurement disagree", [data, result](HtmlDocument& document) {
                                 addDiscrepancyStory(document, *data, *result);
                               }});

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "core/base/job_context.h"
+#include "core/discrepancy/discrepancy.h"
 #include "core/machine/campaign.h"
+#include "core/machine/nine_parameter_model.h"
 #include "core/workflows/evaluate_campaign.h"
 
 namespace spindrift {
@@ -16,7 +18,9 @@ namespace spindrift {
 struct ReportOptions {
   std::filesystem::path observations_file;  ///< in place of the campaign's own observations or captures
   EvaluateOptions evaluate;
-  bool discrepancy = true;  ///< search for a missing effect where the campaign names a simulation
+  bool discrepancy = true;    ///< search for a missing effect where the campaign names a simulation
+  DiscrepancyOptions search;  ///< of that search: effects put in or left out by the user
+  NineParameterOptions fit;   ///< of the model of each state; its state is set
   std::string operator_name;
   std::vector<std::pair<std::string, std::string>> exclusions;
   std::vector<std::string> notes;

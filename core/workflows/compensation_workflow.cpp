@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/compensation_workflow.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/base/json_reader.h"
+#include "core/base/text.h"
+#include "core/discrepancy/effect_model.h"
+
+namespace spindrift {
+namespace {
+
+constexpr std::array<const char*, 3> axis_names{"X", "Y", "Z"};
+
+/// The simulation, with its stated gain uncertainty, and the effects added.
+class SumModel final : public ErrorModel {
+ public:
+  SumModel(std::shared_ptr<const ErrorModel> base, double gain_uncertainty, std::shared_ptr<const ErrorModel> effects)
+      : base_(std::move(base)), gain_uncertainty_(gain_uncertainty), effects_(std::move(effects)) {}
+  [[nodiscard]] std::string description() const override {
+    return effects_->description() + " on top of " + base_->description();
+  }
+  [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override {
+    const PredictedComponent a = base_->predict(query, component);
+    const PredictedComponent b = effects_->predict(query, component);
+    return {a.value + b.value, std::hypot(a.sigma, gain_uncertainty_ * a.value, b.sigma)};
+  }
+
+ private:
+  std::shared_ptr<const ErrorModel> base_;
+  double gain_uncertainty_;
+  std::shared_ptr<const ErrorModel> effects_;
+};
+
+std::string chosenState(const ObservationSet& observations, const std::string& asked) {
+  const std::vector<std::string> states = observations.states();
+  if (states.empty()) throw InputError({observations.file, ""}, "holds no observation; allowed: at least one state.");
+  if (asked.empty()) return states.back();
+  if (std::find(states.begin(), states.end(), asked) == states.end()) {
+    throw InputError(fmt::format("state \"{}\" was not observed; allowed: {}.", asked, joinedList(states, "or")));
+  }
+  return asked;
+}
+
+struct Prepared {
+  std::shared_ptr<const ErrorModel> everywhere;  ///< what the grid and the tables are made of
+  DeviationQuery conditions;
+};
+
+void finishPoint(CompensationPoint& p) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (p.measured_um[i]) p.remains_um[i] = *p.measured_um[i] + p.correction_um[static_cast<Eigen::Index>(i)];
+  }
+}
+
+Prepared prepareNineParameters(const ObservationSet& observations, const CompensationRequest& request,
+                               CompensationPlan& plan) {
+  NineParameterOptions options = request.fit;
+  options.state = plan.state;
+  const NineParameterFit fit = fitNineParameters(observations, options);
+  if (fit.status != FitStatus::Converged) {
+    throw InputError(fmt::format("state {} cannot be compensated: {}", fit.state, fit.message));
+  }
+  plan.reference = fit.reference_state.empty() ? "zero" : "state " + fit.reference_state;
+  plan.model = fmt::format("Nine-parameter model of state {} against {}", fit.state, plan.reference);
+  plan.warnings = fit.warnings;
+  auto model = std::make_shared<NineParameterModel>(fit.model());
+  Prepared out{model, {}};
+  out.conditions.state = fit.state;
+  std::map<std::string, std::size_t> index;
+  for (const NineParameterResidual& r : fit.residuals) {
+    plan.time_s = std::max(plan.time_s, r.time_s);
+    if (isRotation(r.component)) continue;
+    const auto [at, fresh] = index.try_emplace(r.point, plan.points.size());
+    if (fresh) {
+      plan.points.emplace_back();
+      plan.points.back().point = r.point;
+      plan.points.back().position_mm = r.position_mm;
+    }
+    CompensationPoint& p = plan.points[at->second];
+    const auto i = static_cast<std::size_t>(axisIndex(r.component));
+    p.measured_um[i] = r.value_um;
+    p.measured_sigma_um[i] = r.sigma_um;
+    p.used = p.used && r.used;
+  }
+  for (CompensationPoint& p : plan.points) {
+    DeviationQuery query = out.conditions;
+    query.position_mm = p.position_mm;
+    for (int i = 0; i < 3; ++i) {
+      const PredictedComponent predicted = model->predict(query, static_cast<Component>(i));
+      p.correction_um[i] = 0.0 - predicted.value;
+      p.sigma_um[i] = predicted.sigma;
+    }
+  }
+  return out;
+}
+
+void addMeasuredRows(const DiscrepancyRun& run, CompensationPlan& plan, DeviationQuery& conditions) {
+  struct Sum {
+    double count = 0.0, measured = 0.0, correction = 0.0, sigma = 0.0, model_sigma = 0.0;
+  };
+  std::map<std::string, std::size_t> index;
+  std::vector<std::array<Sum, 3>> sums;
+  const auto& rows = run.input.observations.rows;
+  double time = 0.0;
+  double used = 0.0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Observation& o = rows[r];
+    if (o.state != plan.state || o.use == ObservationUse::Exclude || isRotation(o.component)) continue;
+    if (!std::isfinite(run.result.completed[r]) || !std::isfinite(run.result.constant[r])) continue;
+    const auto [at, fresh] = index.try_emplace(o.point, plan.points.size());
+    if (fresh) {
+      plan.points.emplace_back();
+      plan.points.back().point = o.point;
+      plan.points.back().position_mm = o.position_mm;
+      sums.emplace_back();
+    }
+    plan.points[at->second].used = o.use == ObservationUse::Fit;
+    Sum& s = sums[at->second][static_cast<std::size_t>(axisIndex(o.component))];
+    s.count += 1.0;
+    s.measured += o.value - run.result.constant[r];
+    s.sigma += o.sigma * o.sigma;
+    s.correction -= run.result.completed[r];
+    s.model_sigma += std::hypot(run.result.model->predict(DeviationQuery::of(o), o.component).sigma,
+                                run.input.simulation_gain_uncertainty * run.input.predicted[r]);
+    time += o.time_s;
+    used += 1.0;
+  }
+  if (plan.points.empty()) {
+    throw InputError(fmt::format("state {} has no displacement with a prediction; choose another state.", plan.state));
+  }
+  plan.time_s = conditions.time_s = time / used;
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    CompensationPoint& p = plan.points[k];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Sum& s = sums[k][i];
+      if (!(s.count > 0.0)) continue;
+      p.measured_um[i] = s.measured / s.count;
+      p.measured_sigma_um[i] = std::sqrt(s.sigma) / s.count * run.result.noise_scale;
+      p.correction_um[static_cast<Eigen::Index>(i)] = 0.0 + s.correction / s.count;
+      p.sigma_um[static_cast<Eigen::Index>(i)] = s.model_sigma / s.count;
+    }
+  }
+}
+
+Prepared prepareCompleted(const Campaign& campaign, const ObservationSet& observations,
+                          const CompensationRequest& request, CompensationPlan& plan, JobContext& job) {
+  DiscrepancyOptions options;
+  options.accept = request.added;
+  options.reject = request.reject;
+  options.max_effects = 0;
+  options.suggest = false;
+  const DiscrepancyRun run = searchDiscrepancy(campaign, observations, options, job);
+  std::vector<std::string> names;
+  for (const FoundEffect& e : run.result.effects) names.push_back(e.id);
+  if (names.empty()) throw InputError("no effect of the model can be fitted to these observations; choose others.");
+  plan.reference = "the start of the log";
+  plan.warnings = run.result.warnings;
+  plan.model = fmt::format("Simulation completed by {}", joinedList(names));
+  Prepared out;
+  out.conditions.state = plan.state;
+  addMeasuredRows(run, plan, out.conditions);
+  if (run.input.base != nullptr) {
+    out.everywhere =
+        std::make_shared<SumModel>(run.input.base, run.input.simulation_gain_uncertainty, run.result.model);
+  } else {
+    out.everywhere = run.result.model;
+    plan.limitation = fmt::format(
+        "The simulation is a table ({}) and knows only the measured points. Grid and tables hold the effects added "
+        "alone: use them where the control already compensates what was simulated.",
+        run.input.base_table);
+  }
+  return out;
+}
+
+void makeFiles(const MachineDescription& machine, const Prepared& prepared, const CompensationRequest& request,
+               CompensationPlan& plan) {
+  const ErrorModel& model = *prepared.everywhere;
+  const std::string relative = fmt::format("relative to {}, for state {}", plan.reference, plan.state);
+  std::string csv = fmt::format(
+      "# correction to add to the command = minus the predicted deviation (actual minus commanded), {}\n"
+      "point,x_mm,y_mm,z_mm,correction_x_um,correction_y_um,correction_z_um,sigma_x_um,sigma_y_um,sigma_z_um,"
+      "measured_x_um,measured_y_um,measured_z_um,remains_x_um,remains_y_um,remains_z_um\n",
+      relative);
+  for (const CompensationPoint& p : plan.points) {
+    csv += fmt::format("{},{},{},{}", p.point, p.position_mm.x(), p.position_mm.y(), p.position_mm.z());
+    for (int i = 0; i < 3; ++i) csv += fmt::format(",{:.4f}", p.correction_um[i]);
+    for (int i = 0; i < 3; ++i) csv += fmt::format(",{:.4f}", p.sigma_um[i]);
+    for (const auto* list : {&p.measured_um, &p.remains_um}) {
+      for (const auto& v : *list) csv += v ? fmt::format(",{:.4f}", *v) : std::string(",");
+    }
+    csv += '\n';
+  }
+  plan.files.push_back({"compensation_points.csv", "Corrections at the measured points",
+                        fmt::format("Correction to add to the command: minus the deviation, {}.", relative), csv});
+  CompensationGridOptions grid = CompensationGridOptions::travelOf(machine);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (grid.nodes[i] > 1) grid.nodes[i] = request.positions;
+  }
+  plan.nodes = grid.nodes;
+  plan.files.push_back(
+      {"compensation_grid.csv", "Corrections on a grid",
+       fmt::format("Correction to add to the command: minus the predicted deviation (actual minus commanded), {}.",
+                   relative),
+       compensationGridCsv(compensationGrid(model, grid, prepared.conditions))});
+  for (const char* axis : axis_names) {
+    if (machine.findAxis(axis) == nullptr) continue;
+    plan.files.push_back(
+        {fmt::format("iso230_{}.csv", axis), fmt::format("ISO 230-1 component errors of {}", axis),
+         fmt::format("Deviation, not correction: actual minus commanded, {}, zero at the reference position.",
+                     relative),
+         axisComponentsCsv(
+             axisComponents(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions))});
+    plan.files.push_back(
+        {fmt::format("linuxcnc_{}.comp", axis), fmt::format("LinuxCNC screw compensation of {}", axis),
+         fmt::format("Nominal, forward, reverse in mm (COMP_FILE_TYPE = 0): where the axis really is; LinuxCNC "
+                     "subtracts by itself. {}{}.",
+                     static_cast<char>(std::toupper(relative[0])), relative.substr(1)),
+         linuxcncCompensation(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions)});
+  }
+}
+
+void addNumbers(CompensationPlan& plan) {
+  double before = 0.0, after = 0.0, count = 0.0, sigma = 0.0, sigma_count = 0.0;
+  for (CompensationPoint& p : plan.points) {
+    finishPoint(p);
+    plan.largest_um = std::max(plan.largest_um, p.correction_um.norm());
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!p.measured_um[i]) continue;
+      before += *p.measured_um[i] * *p.measured_um[i];
+      after += *p.remains_um[i] * *p.remains_um[i];
+      count += 1.0;
+      const double s = p.sigma_um[static_cast<Eigen::Index>(i)];
+      sigma += s * s;
+      sigma_count += 1.0;
+    }
+  }
+  if (count > 0.0) {
+    plan.rms_before_um = std::sqrt(before / count);
+    plan.rms_after_um = std::sqrt(after / count);
+    plan.rms_sigma_um = std::sqrt(sigma / sigma_count);
+  }
+}
+
+}  // namespace
+
+std::string_view toString(CompensationSource source) noexcept {
+  return source == CompensationSource::NineParameters ? "nine-parameter" : "completed";
+}
+
+void CompensationRequest::validate() const {
+  if (positions < 2 || positions > 51) {
+    throw InputError(fmt::format("{} positions along an axis are not allowed; allowed: 2 to 51.", positions));
+  }
+  if (source == CompensationSource::CompletedModel && added.empty()) {
+    throw InputError("the completed model needs at least one effect that was added; add one in the discrepancy.");
+  }
+}
+
+CompensationPlan planCompensation(const Campaign& campaign, const ObservationSet& observations,
+                                  const CompensationRequest& request, JobContext& job) {
+  request.validate();
+  CompensationPlan plan;
+  plan.state = chosenState(observations, request.state);
+  plan.reference_mm.setZero();
+  for (int i = 0; i < 3; ++i) {
+    if (const LinearAxis* axis = campaign.machine.findAxis(axis_names[static_cast<std::size_t>(i)])) {
+      plan.reference_mm[i] = 0.5 * (axis->travel_mm[0] + axis->travel_mm[1]);
+    }
+  }
+  if (request.reference_mm) plan.reference_mm = *request.reference_mm;
+  JobContext fitting = job.part(0.0, 0.7);
+  const Prepared prepared = request.source == CompensationSource::NineParameters
+                                ? prepareNineParameters(observations, request, plan)
+                                : prepareCompleted(campaign, observations, request, plan, fitting);
+  addNumbers(plan);
+  job.throwIfCancelled();
+  job.report(0.7, "writing the tables");
+  makeFiles(campaign.machine, prepared, request, plan);
+  job.report(1.0, "done");
+  return plan;
+}
+
+nlohmann::json CompensationPlan::json() const {
+  nlohmann::json list = nlohmann::json::array();
+  for (const CompensationPoint& p : points) {
+    const auto vector = [](const Eigen::Vector3d& v) {
+      return nlohmann::json{jsonNumber(v.x()), jsonNumber(v.y()), jsonNumber(v.z())};
+    };
+    const auto optional = [](const std::array<std::optional<double>, 3>& v) {
+      return nlohmann::json{jsonNumber(v[0]), jsonNumber(v[1]), jsonNumber(v[2])};
+    };
+    list.push_back({{"point", p.point},
+                    {"position_mm", vector(p.position_mm)},
+                    {"measured_um", optional(p.measured_um)},
+                    {"correction_um", vector(p.correction_um)},
+                    {"standard_uncertainty_um", vector(p.sigma_um)},
+                    {"remains_um", optional(p.remains_um)},
+                    {"used", p.used}});
+  }
+  nlohmann::json written = nlohmann::json::array();
+  for (const CompensationFile& f : files) {
+    written.push_back({{"name", f.name}, {"title", f.title}, {"convention", f.convention}});
+  }
+  return {{"model", model},
+          {"reference", reference},
+          {"state", state},
+          {"time_s", jsonNumber(time_s)},
+          {"rms_before_um", jsonNumber(rms_before_um)},
+          {"rms_after_um", jsonNumber(rms_after_um)},
+          {"standard_uncertainty_um", jsonNumber(rms_sigma_um)},
+          {"largest_correction_um", jsonNumber(largest_um)},
+          {"limitation", limitation.empty() ? nlohmann::json() : nlohmann::json(limitation)},
+          {"points", list},
+          {"files", written},
+          {"warnings", warnings}};
+}
+
+std::string CompensationPlan::summary() const {
+  std::string text = fmt::format(
+      "{}, relative to {}\n  rms of the measured deviations of state {}: {:.2f} um before, {:.2f} um with the "
+      "correction "
+      "(model uncertainty {:.2f} um), largest correction {:.2f} um\n",
+      model, reference, state, rms_before_um, rms_after_um, rms_sigma_um, largest_um);
+  if (!limitation.empty()) text += fmt::format("  note: {}\n", limitation);
+  for (const std::string& w : warnings) text += fmt::format("  note: {}\n", w);
+  for (const CompensationFile& f : files) text += fmt::format("  {}: {} {}\n", f.name, f.title, f.convention);
+  return text;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a fitted model would make a control command: at every measured point, what would remain, and the tables that
+// controls read. Compensation = -deviation (FORMATS.md). Units um and urad, mm in MCF, s.
+//
+// Two models can be used: the nine parameters of one thermal state (change from the reference state), and the completed
+// model of a discrepancy, simulation plus the effects that were added, at the time of a state (change since the start
+// of the log). A simulation that is a table knows only the points and times it lists: corrections at the measured
+// points then stand, a grid over the volume can be made of the added effects alone and says so.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/machine/compensation.h"
+#include "core/machine/nine_parameter_model.h"
+#include "core/workflows/discrepancy_workflow.h"
+
+namespace spindrift {
+
+enum class CompensationSource { NineParameters, CompletedModel };
+[[nodiscard]] std::string_view toString(CompensationSource source) noexcept;
+
+struct CompensationRequest {
+  CompensationSource source = CompensationSource::NineParameters;
+  std::string state;               ///< thermal state; empty: the last one
+  NineParameterOptions fit;        ///< of the nine parameters; its state is set
+  std::vector<std::string> added;  ///< effects of the completed model, at least one
+  std::vector<std::string> reject;
+  int positions = 11;                           ///< along each axis, 2 to 51
+  std::optional<Eigen::Vector3d> reference_mm;  ///< where the component tables pass through; else the middle of travel
+  /// Throws InputError.
+  void validate() const;
+};
+
+/// One measured point. Components that were not measured have no value; a prediction always has one.
+struct CompensationPoint {
+  std::string point;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  std::array<std::optional<double>, 3> measured_um;  ///< deviation before, about the constant of its series
+  std::array<double, 3> measured_sigma_um{};
+  Eigen::Vector3d correction_um = Eigen::Vector3d::Zero();  ///< to add to the command
+  Eigen::Vector3d sigma_um = Eigen::Vector3d::Zero();       ///< of the correction: expected error that remains
+  std::array<std::optional<double>, 3> remains_um;          ///< measured plus correction
+  bool used = true;                                         ///< took part in the fit
+};
+
+/// A file for a control or for people.
+struct CompensationFile {
+  std::string name;        ///< "compensation_grid.csv"
+  std::string title;       ///< "Corrections on a grid"
+  std::string convention;  ///< sign and reference, one sentence
+  std::string content;
+};
+
+struct CompensationPlan {
+  std::string model;      ///< one sentence: what predicts
+  std::string reference;  ///< "state M0" or "the start of the log": the corrections hold relative to it
+  std::string state;
+  double time_s = 0.0;
+  std::vector<CompensationPoint> points;
+  double rms_before_um = 0.0;  ///< of the measured deviations, all displacements
+  double rms_after_um = 0.0;   ///< of what remains of them
+  double rms_sigma_um = 0.0;   ///< of the expected error
+  double largest_um = 0.0;     ///< largest correction at a measured point, as a vector
+  std::string limitation;      ///< what the grid and the tables do not hold; empty: nothing
+  Eigen::Vector3d reference_mm = Eigen::Vector3d::Zero();
+  std::array<int, 3> nodes{};  ///< of the grid
+  std::vector<CompensationFile> files;
+  std::vector<std::string> warnings;
+
+  [[nodiscard]] nlohmann::json json() const;  ///< without the content of the files
+  [[nodiscard]] std::string summary() const;
+};
+
+/// Throws InputError: nothing to fit, a state that does not exist, no effect added, parameters that the points do not
+/// determine.
+[[nodiscard]] CompensationPlan planCompensation(const Campaign& campaign, const ObservationSet& observations,
+                                                const CompensationRequest& request, JobContext& job);
+
+}  // namespace spindrift

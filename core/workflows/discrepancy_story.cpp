@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/discrepancy_story.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace spindrift {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double excess(double rms, double noise) {
+  return std::isfinite(rms) ? std::sqrt(std::max(0.0, rms * rms - noise * noise)) : nan;
+}
+
+/// Constants and rms of one series from its rows with use `fit`.
+void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double noise_scale) {
+  double weights = 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < s.value.size(); ++i) {
+    if (s.held_out[i]) continue;
+    const double w = 1.0 / (sigma[i] * sigma[i]);
+    weights += w;
+    sum += w * (s.value[i] - s.simulated[i]);
+  }
+  s.constant_before = sum / weights;
+  double before = 0.0;
+  double after = 0.0;
+  double variance = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < s.value.size(); ++i) {
+    if (s.held_out[i]) continue;
+    const double b = s.value[i] - s.simulated[i] - s.constant_before;
+    before += b * b;
+    variance += sigma[i] * sigma[i];
+    count += 1.0;
+    if (s.completed.empty()) continue;
+    const double a = s.value[i] - s.completed[i] - s.constant_after;
+    after += a * a;
+  }
+  s.noise = std::sqrt(variance / count) * noise_scale;
+  s.rms_before = std::sqrt(before / count);
+  s.rms_after = s.completed.empty() ? nan : std::sqrt(after / count);
+  s.excess_before = excess(s.rms_before, s.noise);
+  s.excess_after = excess(s.rms_after, s.noise);
+}
+
+/// `model` holds the effects added alone; null: none were added.
+std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const DiscrepancyResult& search,
+                                        const DiscrepancyResult* model) {
+  const auto& rows = input.observations.rows;
+  std::vector<DiscrepancySeries> out;
+  std::vector<std::vector<double>> sigmas;
+  std::map<std::pair<std::string, Component>, std::size_t> index;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Observation& o = rows[i];
+    // A series without any row to fit has no constant.
+    if (o.use == ObservationUse::Exclude || !std::isfinite(search.simulated[i]) || !std::isfinite(search.constant[i])) {
+      continue;
+    }
+    const auto [at, fresh] = index.try_emplace({o.point, o.component}, out.size());
+    if (fresh) {
+      out.emplace_back();
+      sigmas.emplace_back();
+      out.back().point = o.point;
+      out.back().component = o.component;
+    }
+    DiscrepancySeries& s = out[at->second];
+    s.position_mm += o.position_mm;
+    s.time_s.push_back(o.time_s);
+    s.value.push_back(o.value);
+    s.simulated.push_back(search.simulated[i]);
+    s.held_out.push_back(o.use == ObservationUse::Holdout);
+    if (!search.effects.empty()) s.explained.push_back(search.effect_part[i] + search.constant[i]);
+    sigmas[at->second].push_back(o.sigma);
+    if (model != nullptr) {
+      s.completed.push_back(model->completed[i]);
+      s.constant_after = model->constant[i];
+    }
+  }
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    out[k].position_mm /= static_cast<double>(out[k].value.size());
+    finishSeries(out[k], sigmas[k], search.noise_scale);
+    for (double& e : out[k].explained) e -= out[k].constant_before;
+  }
+  return out;
+}
+
+nlohmann::json gapJson(const DiscrepancyGap& g) {
+  return {{"rms_before_um", jsonNumber(g.rms_before_um)},
+          {"rms_after_um", jsonNumber(g.rms_after_um)},
+          {"noise_um", jsonNumber(g.noise_um)},
+          {"heldout_rms_before_um", jsonNumber(g.heldout_rms_before_um)},
+          {"heldout_rms_after_um", jsonNumber(g.heldout_rms_after_um)}};
+}
+
+double numberOf(const nlohmann::json& json, const char* key) {
+  const auto& v = json.at(key);
+  return v.is_number() ? v.get<double>() : nan;
+}
+
+std::vector<double> numbersOf(const nlohmann::json& json) {
+  std::vector<double> out;
+  for (const auto& v : json) out.push_back(v.is_number() ? v.get<double>() : nan);
+  return out;
+}
+
+DiscrepancyGap gapOf(const nlohmann::json& json) {
+  return {numberOf(json, "rms_before_um"), numberOf(json, "rms_after_um"), numberOf(json, "noise_um"),
+          numberOf(json, "heldout_rms_before_um"), numberOf(json, "heldout_rms_after_um")};
+}
+
+Component componentOf(const nlohmann::json& json) {
+  const auto component = componentFromString(json.get<std::string>());
+  if (!component) throw InputError("the stored discrepancy names a component that does not exist; search again.");
+  return *component;
+}
+
+nlohmann::json effectJson(const FoundEffect& e) {
+  nlohmann::json parameters = nlohmann::json::array();
+  for (const FittedParameter& p : e.parameters) {
+    parameters.push_back({p.name, jsonNumber(p.value), jsonNumber(p.standard_uncertainty)});
+  }
+  return {{"id", e.id},
+          {"physics", e.physics},
+          {"drivers", e.drivers},
+          {"rivals", e.rivals},
+          {"containers", e.containers},
+          {"confidence", jsonNumber(e.confidence)},
+          {"parameters", parameters},
+          {"delta_bic", jsonNumber(e.delta_bic)},
+          {"delta_chi2", jsonNumber(e.delta_chi2)},
+          {"rms_um", jsonNumber(e.rms_um)},
+          {"crossvalidated", {jsonNumber(e.crossvalidated_rms_before_um), jsonNumber(e.crossvalidated_rms_after_um)}},
+          {"heldout", {jsonNumber(e.heldout_rms_before_um), jsonNumber(e.heldout_rms_after_um)}},
+          {"forced", e.forced}};
+}
+
+FoundEffect effectOf(const nlohmann::json& json) {
+  FoundEffect e;
+  e.id = json.at("id").get<std::string>();
+  e.physics = json.at("physics").get<std::string>();
+  e.drivers = json.at("drivers").get<std::string>();
+  e.rivals = json.at("rivals").get<std::vector<std::string>>();
+  e.containers = json.at("containers").get<std::vector<std::string>>();
+  e.confidence = numberOf(json, "confidence");
+  for (const auto& p : json.at("parameters")) {
+    const std::vector<double> numbers = numbersOf({p.at(1), p.at(2)});
+    e.parameters.push_back({p.at(0).get<std::string>(), numbers[0], numbers[1]});
+  }
+  e.delta_bic = numberOf(json, "delta_bic");
+  e.delta_chi2 = numberOf(json, "delta_chi2");
+  e.rms_um = numberOf(json, "rms_um");
+  const std::vector<double> cv = numbersOf(json.at("crossvalidated"));
+  e.crossvalidated_rms_before_um = cv.at(0);
+  e.crossvalidated_rms_after_um = cv.at(1);
+  const std::vector<double> held = numbersOf(json.at("heldout"));
+  e.heldout_rms_before_um = held.at(0);
+  e.heldout_rms_after_um = held.at(1);
+  e.forced = json.at("forced").get<bool>();
+  return e;
+}
+
+nlohmann::json seriesJson(const DiscrepancySeries& s) {
+  const auto numbers = [](const std::vector<double>& values) {
+    nlohmann::json out = nlohmann::json::array();
+    for (const double v : values) out.push_back(jsonNumber(v));
+    return out;
+  };
+  return {{"point", s.point},
+          {"component", std::string(toString(s.component))},
+          {"position_mm", {s.position_mm.x(), s.position_mm.y(), s.position_mm.z()}},
+          {"time_s", s.time_s},
+          {"value", s.value},
+          {"simulated", s.simulated},
+          {"completed", numbers(s.completed)},
+          {"explained", numbers(s.explained)},
+          {"held_out", s.held_out},
+          {"constants", {jsonNumber(s.constant_before), jsonNumber(s.constant_after)}},
+          {"noise", jsonNumber(s.noise)},
+          {"rms", {jsonNumber(s.rms_before), jsonNumber(s.rms_after)}}};
+}
+
+DiscrepancySeries seriesOf(const nlohmann::json& json) {
+  DiscrepancySeries s;
+  s.point = json.at("point").get<std::string>();
+  s.component = componentOf(json.at("component"));
+  const std::vector<double> position = numbersOf(json.at("position_mm"));
+  s.position_mm = {position.at(0), position.at(1), position.at(2)};
+  s.time_s = numbersOf(json.at("time_s"));
+  s.value = numbersOf(json.at("value"));
+  s.simulated = numbersOf(json.at("simulated"));
+  s.completed = numbersOf(json.at("completed"));
+  s.explained = numbersOf(json.at("explained"));
+  s.held_out = json.at("held_out").get<std::vector<bool>>();
+  const std::vector<double> constants = numbersOf(json.at("constants"));
+  s.constant_before = constants.at(0);
+  s.constant_after = constants.at(1);
+  s.noise = numberOf(json, "noise");
+  const std::vector<double> rms = numbersOf(json.at("rms"));
+  s.rms_before = rms.at(0);
+  s.rms_after = rms.at(1);
+  s.excess_before = excess(s.rms_before, s.noise);
+  s.excess_after = excess(s.rms_after, s.noise);
+  return s;
+}
+
+DiscrepancyVerdict verdictOf(const std::string& text) {
+  for (const DiscrepancyVerdict v : {DiscrepancyVerdict::Named, DiscrepancyVerdict::Ambiguous,
+                                     DiscrepancyVerdict::Unknown, DiscrepancyVerdict::None}) {
+    if (toString(v) == text) return v;
+  }
+  throw InputError("the stored discrepancy has a verdict that does not exist; search again.");
+}
+
+void parsePlaces(const nlohmann::json& result, DiscrepancyStory& story) {
+  for (const auto& p : result.at("where")) {
+    DisagreementPlace place;
+    place.component = componentOf(p.at("component"));
+    place.points = p.at("points").get<std::vector<std::string>>();
+    place.from_s = numberOf(p, "from_s");
+    place.to_s = numberOf(p, "to_s");
+    place.excess_um = numberOf(p, "excess_um");
+    place.p_value = numberOf(p, "p_value");
+    if (p.at("condition").is_string()) place.condition = p.at("condition").get<std::string>();
+    story.where.push_back(std::move(place));
+  }
+}
+
+void parseRest(const nlohmann::json& result, DiscrepancyStory& story) {
+  story.verdict = verdictOf(result.at("verdict").get<std::string>());
+  story.decided = result.at("decided").get<bool>();
+  story.message = result.at("message").get<std::string>();
+  parsePlaces(result, story);
+  if (const auto& s = result.at("suggestion"); s.is_object()) {
+    story.suggestion = MeasurementSuggestion{s.at("points").get<std::vector<std::string>>(), numbersOf(s.at("times_s")),
+                                             s.at("conditions").get<std::string>(),
+                                             s.at("separates").get<std::string>(), numberOf(s, "expected_delta_bic")};
+  }
+  if (result.at("leftover").is_string()) story.leftover = result.at("leftover").get<std::string>();
+  for (const auto& s : result.at("steps")) {
+    story.steps.push_back({s.at("id").get<std::string>(), s.at("accepted").get<bool>(), numberOf(s, "delta_bic"),
+                           numberOf(s, "delta_chi2"), s.at("reason").get<std::string>()});
+  }
+  story.warnings = result.at("warnings").get<std::vector<std::string>>();
+  const auto& noise = result.at("noise");
+  story.noise_scale = numberOf(noise, "scale");
+  story.noise_correlated_part = numberOf(noise, "correlated_part");
+  story.noise_correlation_time_s = numberOf(noise, "correlation_time_s");
+}
+
+}  // namespace
+
+const FoundEffect* DiscrepancyStory::nextProposal() const {
+  const auto found = std::find_if(effects.begin(), effects.end(), [](const FoundEffect& e) { return !e.forced; });
+  return found == effects.end() ? nullptr : &*found;
+}
+
+const DiscrepancySeries* DiscrepancyStory::find(const std::string& point, Component component) const {
+  const auto found = std::find_if(series.begin(), series.end(), [&](const DiscrepancySeries& s) {
+    return s.point == point && s.component == component;
+  });
+  return found == series.end() ? nullptr : &*found;
+}
+
+double DiscrepancyStory::largestRms(bool rotations) const {
+  double largest = 0.0;
+  for (const DiscrepancySeries& s : series) {
+    if (isRotation(s.component) != rotations) continue;
+    largest = std::max(largest, s.rms_before);
+    if (std::isfinite(s.rms_after)) largest = std::max(largest, s.rms_after);
+  }
+  return largest;
+}
+
+nlohmann::json DiscrepancyStory::json() const {
+  nlohmann::json found = nlohmann::json::array();
+  for (const FoundEffect& e : effects) found.push_back(effectJson(e));
+  nlohmann::json lines = nlohmann::json::array();
+  for (const DiscrepancySeries& s : series) lines.push_back(seriesJson(s));
+  return {{"format", "spindrift-discrepancy-story"},
+          {"version", 1},
+          {"added", added},
+          {"effects", found},
+          {"gap", gapJson(gap)},
+          {"proposed", proposed ? gapJson(*proposed) : nlohmann::json()},
+          {"has_holdout", has_holdout},
+          {"series", lines},
+          {"result", result}};
+}
+
+DiscrepancyStory DiscrepancyStory::parse(const nlohmann::json& json) {
+  try {
+    if (json.at("format") != "spindrift-discrepancy-story" || json.at("version") != 1) {
+      throw InputError("the stored discrepancy is of another version; search again.");
+    }
+    DiscrepancyStory story;
+    story.result = json.at("result");
+    parseRest(story.result, story);
+    story.added = json.at("added").get<std::vector<std::string>>();
+    for (const auto& e : json.at("effects")) story.effects.push_back(effectOf(e));
+    story.gap = gapOf(json.at("gap"));
+    if (json.at("proposed").is_object()) story.proposed = gapOf(json.at("proposed"));
+    story.has_holdout = json.at("has_holdout").get<bool>();
+    for (const auto& s : json.at("series")) story.series.push_back(seriesOf(s));
+    return story;
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError(fmt::format("the stored discrepancy cannot be read ({}); search again.", e.what()));
+  }
+}
+
+DiscrepancyStory tellDiscrepancy(const Campaign& campaign, ObservationSet observations,
+                                 const DiscrepancyOptions& options, JobContext& job) {
+  JobContext searching = job.part(0.0, 0.75);
+  const DiscrepancyRun run = searchDiscrepancy(campaign, std::move(observations), options, searching);
+  const DiscrepancyResult& found = run.result;
+  DiscrepancyStory story;
+  story.verdict = found.verdict;
+  story.decided = found.decided;
+  story.message = found.message;
+  story.effects = found.effects;
+  story.where = found.where;
+  story.suggestion = found.suggestion;
+  story.leftover = found.leftover;
+  story.steps = found.steps;
+  story.warnings = found.warnings;
+  story.noise_scale = found.noise_scale;
+  story.noise_correlated_part = found.noise_correlated_part;
+  story.noise_correlation_time_s = found.noise_correlation_time_s;
+  story.result = found.json();
+  const auto& rows = run.input.observations.rows;
+  story.has_holdout =
+      std::any_of(rows.begin(), rows.end(), [](const Observation& o) { return o.use == ObservationUse::Holdout; });
+  for (const FoundEffect& e : found.effects) {
+    if (e.forced) story.added.push_back(e.id);
+  }
+  const bool proposes = story.added.size() < found.effects.size();
+  DiscrepancyResult alone;
+  const DiscrepancyResult* model = story.added.empty() ? nullptr : &found;
+  if (model != nullptr && proposes) {
+    DiscrepancyOptions only = options;
+    only.max_effects = 0;
+    only.suggest = false;
+    JobContext fitting = job.part(0.75, 1.0);
+    alone = findDiscrepancy(run.input, only, fitting);
+    model = &alone;
+  }
+  story.gap = model != nullptr ? model->gap : found.gap;
+  if (model == nullptr) {
+    story.gap.rms_after_um = nan;
+    story.gap.heldout_rms_after_um = nan;
+  }
+  if (proposes) story.proposed = found.gap;
+  story.series = seriesOf(run.input, found, model);
+  job.report(1.0, "done");
+  return story;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The discrepancy between simulation and measurement as a story with steps: what a search found, which effects the user
+// has added to the model so far, and every series of observations before and after. Can be kept in a session and told
+// again without a new search. Units as in FORMATS.md: um and urad, mm in MCF, s.
+//
+//   before  simulation alone                                  residual = value - simulated - constant_before
+//   after   simulation plus the effects added, jointly fitted  residual = value - completed - constant_after
+//
+// `rms`, `noise` and `excess` of a series are over its rows with use `fit`; excess^2 = max(0, rms^2 - noise^2).
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/workflows/discrepancy_workflow.h"
+
+namespace spindrift {
+
+/// Observations of one component at one point, in order of time. Rows that are excluded or have no simulation are not
+/// in it.
+struct DiscrepancySeries {
+  std::string point;
+  Component component = Component::EX;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< mean
+  std::vector<double> time_s;
+  std::vector<double> value;      ///< as observed
+  std::vector<double> simulated;  ///< as given
+  std::vector<double> completed;  ///< empty while nothing has been added
+  /// What all effects found, added or not, explain of value - simulated - constant_before; empty if there are none.
+  std::vector<double> explained;
+  std::vector<bool> held_out;
+  double constant_before = 0.0;
+  double constant_after = 0.0;
+  double noise = 0.0;  ///< stated sigma times the noise scale found
+  double rms_before = 0.0;
+  double rms_after = 0.0;  ///< NaN while nothing has been added
+  double excess_before = 0.0;
+  double excess_after = 0.0;  ///< NaN while nothing has been added
+};
+
+struct DiscrepancyStory {
+  DiscrepancyVerdict verdict = DiscrepancyVerdict::None;
+  bool decided = true;
+  std::string message;
+  std::vector<std::string> added;          ///< ids, in the order in which the user added them
+  std::vector<FoundEffect> effects;        ///< added ones (`forced`) first, then those that the search proposes
+  std::vector<DisagreementPlace> where;    ///< of the simulation alone
+  DiscrepancyGap gap;                      ///< with the effects added; `after` is NaN while there are none
+  std::optional<DiscrepancyGap> proposed;  ///< with those proposed too; empty if nothing is proposed
+  bool has_holdout = false;                ///< false: the held-out numbers are of blocks left out in turn
+  std::optional<MeasurementSuggestion> suggestion;
+  std::string leftover;
+  std::vector<DiscrepancyStep> steps;
+  std::vector<std::string> warnings;
+  double noise_scale = 1.0;
+  double noise_correlated_part = 0.0;
+  double noise_correlation_time_s = 0.0;
+  std::vector<DiscrepancySeries> series;
+  nlohmann::json result;  ///< of the search, as FORMATS.md has it
+
+  /// The first effect that is proposed and not added; null if there is none.
+  [[nodiscard]] const FoundEffect* nextProposal() const;
+  [[nodiscard]] const DiscrepancySeries* find(const std::string& point, Component component) const;
+  /// Largest rms of a series, before and after, of displacements or of rotations: the limit of a common colour scale.
+  [[nodiscard]] double largestRms(bool rotations) const;
+
+  [[nodiscard]] nlohmann::json json() const;
+  /// Reads what `json` wrote. Throws InputError if it is something else.
+  [[nodiscard]] static DiscrepancyStory parse(const nlohmann::json& json);
+};
+
+/// Searches with `options.accept` in the model, and fits the model that holds these alone. Throws InputError as
+/// findDiscrepancy, Cancelled.
+[[nodiscard]] DiscrepancyStory tellDiscrepancy(const Campaign& campaign, ObservationSet observations,
+                                               const DiscrepancyOptions& options, JobContext& job);
+
+}  // namespace spindrift
