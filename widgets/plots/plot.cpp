@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -265,6 +266,7 @@ void Plot::showAll() {
     y_low = std::min(y_low, -least_range_);
     y_high = std::max(y_high, least_range_);
   }
+  if (fixed_range_) std::tie(y_low, y_high) = *fixed_range_;
   const double dx = std::max(x_high - x_low, 1e-9) * 0.03;
   const double dy = std::max(y_high - y_low, 1e-9) * 0.08;
   plot_->xAxis->setRange(x_low - dx, x_high + dx);

@@ -6,6 +6,7 @@
 #include <QString>
 #include <QWidget>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "widgets/theme/theme.h"
@@ -57,6 +58,8 @@ class Plot : public QWidget {
   /// Always shows y = 0 and at least +- this much.
   void setLeastRange(double y) { least_range_ = y; }
   void setLegendVisible(bool visible);
+  /// Fixes what showAll() shows of the y axis, so that plots side by side can be compared; empty: from the data.
+  void setRange(const std::optional<std::pair<double, double>>& y) { fixed_range_ = y; }
 
   /// By the ending: .png, .svg, .pdf (and .csv for the numbers). Throws InputError.
   void exportTo(const QString& file) const;
@@ -92,6 +95,7 @@ class Plot : public QWidget {
   };
   std::vector<Mark> marks_;
   double least_range_ = 0;
+  std::optional<std::pair<double, double>> fixed_range_;
   bool legend_ = true;
 };
 

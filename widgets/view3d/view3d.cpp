@@ -243,9 +243,14 @@ void View3D::ensureFrame(const QSize& size, double ratio) {
   refine_timer_.start(rest_before_refining_ms);
 }
 
+bool View3D::showsScale() const {
+  return scale_ &&
+         (field_ != nullptr || cloud_.scalar != nullptr ||
+          std::any_of(points_.begin(), points_.end(), [](const ViewPoint& p) { return p.value.has_value(); }));
+}
+
 double View3D::reservedRight(const QSize& size) const {
-  const bool bar = scale_ && (field_ != nullptr || cloud_.scalar != nullptr);
-  return bar && size.width() > 320 ? 84.0 : 0.0;
+  return showsScale() && size.width() > 240 ? 84.0 : 0.0;
 }
 
 void View3D::refineStep() {
@@ -340,7 +345,7 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size) const {
   }
   paintArrows(painter, camera_, area, arrows_, exaggeration_);
   QRectF bar;
-  if (scale_ && (field_ != nullptr || cloud_.scalar != nullptr)) bar = paintColourBar(painter, whole, *scale_);
+  if (showsScale()) bar = paintColourBar(painter, whole, *scale_);
   paintPoints(painter, camera_, area, points_, scale_, selected_, bar);
   paintTriad(painter, whole, camera_);
 

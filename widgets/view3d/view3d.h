@@ -103,6 +103,9 @@ class View3D : public QWidget {
 
   [[nodiscard]] bool empty() const;
   [[nodiscard]] const std::optional<ColourScale>& colourScale() const { return scale_; }
+  [[nodiscard]] const std::vector<ViewPoint>& points() const { return points_; }
+  [[nodiscard]] const std::vector<ViewArrow>& arrows() const { return arrows_; }
+  [[nodiscard]] const QString& selected() const { return selected_; }
 
   // Camera.
   [[nodiscard]] const Camera& camera() const { return camera_; }
@@ -163,6 +166,8 @@ class View3D : public QWidget {
   void refineStep();
   /// Draws the next of the shifted pictures whose average has smooth edges. True when the average is in frame_.
   bool smoothStep();
+  /// True if something is coloured by the scale, so that its bar has to be there.
+  [[nodiscard]] bool showsScale() const;
   [[nodiscard]] double reservedRight(const QSize& size) const;
 
   void ensureScene();
