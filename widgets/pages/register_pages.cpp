@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which page a step shows for which campaign. The first line of a step that applies is taken.
 #include "widgets/pages/common/message_page.h"
+#include "widgets/pages/compensate/compensate_page.h"
+#include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/imaging/fiducial_calibrate_page.h"
 #include "widgets/pages/imaging/fiducial_capture_page.h"
 #include "widgets/pages/kinematics/nine_parameter_page.h"
@@ -40,6 +42,10 @@ void registerPages(PageRegistry& registry) {
       StepId::Model, touches, [](PageContext c) { return new CycleModelPage(std::move(c)); }, "model-cycles");
   registry.add(
       StepId::Model, points, [](PageContext c) { return new NineParameterPage(std::move(c)); }, "model-nine-parameter");
+  registry.add(
+      StepId::Discrepancy, always, [](PageContext c) { return new DiscrepancyPage(std::move(c)); }, "discrepancy");
+  registry.add(
+      StepId::Compensate, always, [](PageContext c) { return new CompensatePage(std::move(c)); }, "compensate");
   for (const StepId step : all_steps) {
     registry.add(
         step, always, [step](PageContext c) { return new MessagePage(std::move(c), step); }, "message");

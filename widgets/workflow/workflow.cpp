@@ -161,6 +161,24 @@ StepStatus Workflow::evaluate(StepId step) const {
     if (!r.current) return StepStatus{StepState::Outdated, tr("Inputs have changed since. Run it again.")};
     return StepStatus{StepState::Current, done};
   };
+  // Effects that the user added or left out are an option of the results that follow.
+  const auto choice = [&] {
+    const nlohmann::json json =
+        session_.setting("discrepancy/" + std::to_string(session_.campaignId()), nlohmann::json::object());
+    return json.is_object() ? json : nlohmann::json::object();
+  };
+  const auto withChoice = [&](StepStatus status, const char* kind) {
+    if (status.state != StepState::Current) return status;
+    const auto result = session_.result(kind);
+    const nlohmann::json& options = result->provenance.options;
+    const nlohmann::json& depends = options.contains("depends") ? options["depends"] : options;
+    const nlohmann::json then = depends.value("discrepancy", nlohmann::json::object());
+    if (then.value("added", nlohmann::json::array()) != choice().value("added", nlohmann::json::array()) ||
+        then.value("rejected", nlohmann::json::array()) != choice().value("rejected", nlohmann::json::array())) {
+      return StepStatus{StepState::Outdated, tr("The effects in the model have changed since. Run it again.")};
+    }
+    return status;
+  };
   const ResultState evaluated = session_.state("evaluate");
   const bool observations = own_observations || evaluated.there;
   switch (step) {
@@ -189,15 +207,21 @@ StepStatus Workflow::evaluate(StepId step) const {
       if (campaign->simulation.empty())
         return {StepState::Blocked, tr("This campaign comes without a simulation to compare with.")};
       if (!observations) return {StepState::Blocked, tr("Evaluate the captures first (Calibrate).")};
-      return fromResult("discrepancy", tr("Search for what the simulation lacks."), tr("Searched."));
+      return withChoice(fromResult("discrepancy", tr("Search for what the simulation lacks."), tr("Searched.")),
+                        "discrepancy");
     case StepId::Compensate: {
-      const ResultState fit = session_.state("fit");
-      if (!fit.there) return {StepState::Blocked, tr("Fit a model first.")};
-      return fromResult("compensation", tr("Work out the corrections."), tr("Corrections are worked out."));
+      const bool added = !choice().value("added", nlohmann::json::array()).empty();
+      if (!session_.state("fit").there && !added) {
+        return {StepState::Blocked, campaign->simulation.empty()
+                                        ? tr("Fit a model first.")
+                                        : tr("Fit a model or add a missing effect to the simulation first.")};
+      }
+      return withChoice(fromResult("compensation", tr("Work out the corrections."), tr("Corrections are worked out.")),
+                        "compensation");
     }
     case StepId::Report:
       if (!observations) return {StepState::Blocked, tr("There is nothing to report yet.")};
-      return fromResult("report", tr("Write the report."), tr("The report is written."));
+      return withChoice(fromResult("report", tr("Write the report."), tr("The report is written.")), "report");
   }
   return {};
 }

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The discrepancy page in the real window: search, see the verdict, add, undo, look at every tab, export.
+#include "widgets/pages/discrepancy/discrepancy_page.h"
+
+#include <QComboBox>
+#include <QFileInfo>
+#include <QLabel>
+#include <QPushButton>
+#include <QTabWidget>
+#include <QTableView>
+#include <QTest>
+#include <cmath>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "tests/widgets/pages/story_support.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/pages/discrepancy/gap_panel.h"
+#include "widgets/pages/discrepancy/what_panel.h"
+#include "widgets/pages/discrepancy/where_panel.h"
+#include "widgets/plots/plot.h"
+#include "widgets/shell/tour.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+class DiscrepancyPageTest : public StoryTest {
+ protected:
+  void search(Hidden hidden) {
+    open(writeStoryCampaign(folder_, hidden), StepId::Discrepancy);
+    page_ = page<DiscrepancyPage>();
+    ASSERT_NE(page_, nullptr);
+    EXPECT_EQ(state(), StepState::NotStarted);
+    QTest::mouseClick(page_->primaryButton(), Qt::LeftButton);
+    wait();
+    ASSERT_NE(page_->story(), nullptr) << page_->callout()->sentence().toStdString();
+    EXPECT_EQ(state(), StepState::Current);
+  }
+  [[nodiscard]] StepState state() const { return window_->workflow().status(StepId::Discrepancy).state; }
+  [[nodiscard]] QString verdict() const { return page_->verdict()->text(); }
+  DiscrepancyPage* page_ = nullptr;
+};
+
+TEST_F(DiscrepancyPageTest, NamesTheHiddenEffectAddsItAndUndoes) {
+  search(Hidden::SpindleGrowth);
+  EXPECT_TRUE(verdict().contains(QStringLiteral("growth of the spindle along Z"))) << verdict().toStdString();
+  EXPECT_TRUE(verdict().startsWith(QStringLiteral("The simulation lacks")));
+  const double before = page_->story()->gap.rms_before_um;
+  EXPECT_TRUE(std::isnan(page_->story()->gap.rms_after_um)) << "nothing has been added yet";
+  EXPECT_TRUE(page_->gap()->plot(true)->empty());
+  EXPECT_FALSE(page_->removeButton()->isVisible());
+
+  QTest::mouseClick(page_->addButton(), Qt::LeftButton);
+  wait();
+  ASSERT_EQ(page_->story()->added.size(), 1U);
+  EXPECT_EQ(page_->story()->added.front(), "spindle.growth.z");
+  EXPECT_TRUE(verdict().startsWith(QStringLiteral("With growth of the spindle"))) << verdict().toStdString();
+  EXPECT_EQ(page_->tabs()->currentWidget(), page_->gap());
+  // The gap closes down to the noise, also on what was held out. 6 um rms in one of three components.
+  EXPECT_GT(before, 1.5);
+  EXPECT_LT(page_->story()->gap.rms_after_um, 0.5);
+  EXPECT_LT(page_->story()->gap.heldout_rms_after_um, 0.6);
+  EXPECT_NEAR(page_->story()->gap.noise_um, 0.4, 0.08);
+  const auto lines = page_->gap()->plot(true)->series();
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(page_->gap()->view(false)->colourScale(), page_->gap()->view(true)->colourScale());
+  EXPECT_EQ(page_->gap()->view(true)->points().size(), 6U);
+  EXPECT_FALSE(page_->addButton()->isVisible()) << "nothing more is proposed";
+
+  EXPECT_EQ(window_->undoStack().undoText(), QStringLiteral("add growth of the spindle along Z"));
+  window_->undoStack().undo();
+  wait();
+  EXPECT_TRUE(page_->story()->added.empty());
+  EXPECT_TRUE(page_->gap()->plot(true)->empty());
+  EXPECT_EQ(state(), StepState::Current);
+  window_->undoStack().redo();
+  wait();
+  EXPECT_EQ(page_->story()->added.size(), 1U);
+}
+
+TEST_F(DiscrepancyPageTest, TableViewAndPlotShowTheSamePlace) {
+  search(Hidden::SpindleGrowth);
+  WherePanel* where = page_->where();
+  ASSERT_GT(where->placeTable()->model()->rowCount(), 0);
+  EXPECT_EQ(where->component(), Component::EZ);
+  EXPECT_FALSE(where->plot()->empty());
+  const QString first = where->view()->selected();
+  EXPECT_EQ(first.toStdString(), where->point());
+  // Points coloured by excess: the growth of the spindle is the same for all of them.
+  for (const ViewPoint& p : where->view()->points()) {
+    EXPECT_GT(p.value.value(), 1.0) << p.id.toStdString();
+    EXPECT_TRUE(p.used) << p.id.toStdString();
+  }
+  // From the table to view and plot.
+  const QModelIndex row = where->pointTable()->model()->index(4, 0);
+  where->pointTable()->scrollTo(row);
+  QTest::mouseClick(where->pointTable()->viewport(), Qt::LeftButton, {}, where->pointTable()->visualRect(row).center());
+  EXPECT_EQ(where->point(), "P5");
+  EXPECT_EQ(where->view()->selected(), QStringLiteral("P5"));
+  // From the view to the table: N picks the next point.
+  QTest::keyClick(where->view(), Qt::Key_N);
+  EXPECT_EQ(where->point(), "P6");
+  EXPECT_EQ(where->pointTable()->currentIndex().data().toString(), QStringLiteral("P6"));
+  // Residuals over time: the noise band and one value a state.
+  const auto series = where->plot()->series();
+  ASSERT_EQ(series.size(), 2U);
+  EXPECT_EQ(series[1].x.size(), 24U);
+}
+
+TEST_F(DiscrepancyPageTest, SaysUnknownWithoutAName) {
+  search(Hidden::Oscillation);
+  EXPECT_EQ(page_->story()->verdict, DiscrepancyVerdict::Unknown);
+  EXPECT_TRUE(verdict().contains(QStringLiteral("no effect of the catalogue explains"))) << verdict().toStdString();
+  EXPECT_FALSE(page_->addButton()->isVisible());
+  EXPECT_TRUE(page_->story()->effects.empty());
+}
+
+TEST_F(DiscrepancyPageTest, SaysNoneWhereNothingIsMissing) {
+  search(Hidden::Nothing);
+  EXPECT_EQ(page_->story()->verdict, DiscrepancyVerdict::None);
+  EXPECT_EQ(verdict(), QStringLiteral("Measured and simulated agree within the noise."));
+  EXPECT_EQ(page_->where()->placeTable()->model()->rowCount(), 0);
+}
+
+TEST_F(DiscrepancyPageTest, LeavingAnEffectOutSearchesAgainWithoutIt) {
+  search(Hidden::SpindleGrowth);
+  page_->tabs()->setCurrentWidget(page_->what());
+  EXPECT_EQ(page_->what()->chosen(), "spindle.growth.z");
+  QTest::mouseClick(page_->what()->rejectButton(), Qt::LeftButton);
+  wait();
+  for (const FoundEffect& e : page_->story()->effects) EXPECT_NE(e.id, "spindle.growth.z");
+  window_->undoStack().undo();
+  wait();
+  EXPECT_TRUE(verdict().contains(QStringLiteral("growth of the spindle along Z")));
+}
+
+TEST_F(DiscrepancyPageTest, TurnsOutdatedAndComesBackAfterReopening) {
+  search(Hidden::SpindleGrowth);
+  QTest::mouseClick(page_->addButton(), Qt::LeftButton);
+  wait();
+  window_->undoStack().push(
+      new ExcludeCommand(window_->session(), {QStringLiteral("M3/P2/EX")}, QStringLiteral("chip on the ball")));
+  EXPECT_EQ(state(), StepState::Outdated);
+  QTest::qWait(20);
+  EXPECT_EQ(page_->callout()->tone(), Tone::Outdated);
+  window_->undoStack().undo();
+  EXPECT_EQ(state(), StepState::Current);
+  const QString before = verdict();
+  const QString session = QString::fromStdString(window_->session().folder().string());
+  window_->closeSession();
+  window_->open(session);
+  wait();
+  window_->workflow().goTo(StepId::Discrepancy);
+  page_ = page<DiscrepancyPage>();
+  EXPECT_EQ(state(), StepState::Current);
+  EXPECT_EQ(verdict(), before);
+  EXPECT_FALSE(page_->gap()->plot(true)->empty());
+}
+
+TEST_F(DiscrepancyPageTest, CancelLeavesEverythingAsItWas) {
+  open(writeStoryCampaign(folder_, Hidden::SpindleGrowth), StepId::Discrepancy);
+  page_ = page<DiscrepancyPage>();
+  page_->runAll();
+  window_->jobs().cancel();
+  wait();
+  EXPECT_EQ(page_->story(), nullptr);
+  EXPECT_EQ(state(), StepState::NotStarted);
+  EXPECT_TRUE(page_->primaryButton()->isEnabled());
+}
+
+TEST_F(DiscrepancyPageTest, SaysWhatIsMissingWithoutASimulation) {
+  open(writeStoryCampaign(folder_, Hidden::SpindleGrowth, false), StepId::Discrepancy);
+  page_ = page<DiscrepancyPage>();
+  ASSERT_NE(page_, nullptr);
+  EXPECT_FALSE(page_->primaryButton()->isEnabled());
+  EXPECT_EQ(state(), StepState::Blocked);
+  bool said = false;
+  for (const QLabel* label : page_->findChildren<QLabel*>()) {
+    said = said || (label->isVisible() && label->text().contains(QStringLiteral("simulation.csv")));
+  }
+  EXPECT_TRUE(said);
+}
+
+TEST_F(DiscrepancyPageTest, ExportsPicturesAndTables) {
+  search(Hidden::SpindleGrowth);
+  QTest::mouseClick(page_->addButton(), Qt::LeftButton);
+  wait();
+  const auto items = page_->exportables();
+  EXPECT_GE(items.size(), 12U);
+  const QString folder = QString::fromStdString((folder_ / "out").string());
+  std::filesystem::create_directories(folder_ / "out");
+  for (const Exportable& item : items) {
+    const QString file = folder + QLatin1Char('/') + fileNameOf(item.name) + QLatin1Char('.') + item.formats.front();
+    item.write(file);
+    EXPECT_GT(QFileInfo(file).size(), 20) << file.toStdString();
+  }
+}
+
+TEST(DiscrepancyStoryTest, ReadsBackWhatItWrote) {
+  const testing::TempFolder folder;
+  const Campaign campaign = Campaign::read(writeStoryCampaign(folder, Hidden::SpindleGrowth));
+  DiscrepancyOptions options;
+  options.accept = {"spindle.growth.z"};
+  JobContext job;
+  const DiscrepancyStory story = tellDiscrepancy(campaign, *campaign.observations, options, job);
+  const DiscrepancyStory again = DiscrepancyStory::parse(story.json());
+  EXPECT_EQ(again.json(), story.json());
+  EXPECT_EQ(again.series.size(), 18U);
+  EXPECT_THROW((void)DiscrepancyStory::parse({{"format", "else"}}), InputError);
+  // Constants make residuals zero in the mean over the rows that were fitted.
+  const DiscrepancySeries* s = again.find("P2", Component::EZ);
+  ASSERT_NE(s, nullptr);
+  double before = 0.0;
+  double after = 0.0;
+  for (std::size_t i = 0; i < s->value.size(); ++i) {
+    if (s->held_out[i]) continue;
+    before += s->value[i] - s->simulated[i] - s->constant_before;
+    after += s->value[i] - s->completed[i] - s->constant_after;
+  }
+  EXPECT_NEAR(before, 0.0, 1e-9);
+  EXPECT_NEAR(after / 18.0, 0.0, 1e-6);
+}
+
+TEST(EffectTitles, EveryIdOfTheCatalogueHasWords) {
+  for (const char* id :
+       {"spindle.growth.z", "spindle.drift.x", "head.tilt.a", "column.bending.b", "ball_screw.expansion.y",
+        "frame.rotation.c", "fixture.slip.F3", "periodic.pitch.x", "backlash.y", "coolant.shock.z", "external_heat.z",
+        "heat_source.position.y", "rotary.tilt.c0c", "artefact.expansion"}) {
+    EXPECT_FALSE(effectTitle(id).contains(QLatin1Char('.'))) << id;
+    EXPECT_FALSE(effectTitle(id).contains(QLatin1Char('%'))) << id;
+  }
+  EXPECT_EQ(effectTitle("ball_screw.expansion.y"), QStringLiteral("thermal expansion of the Y ball screw"));
+  EXPECT_EQ(probabilityText(3e-5), QString::fromUtf8("3×10⁻⁵"));
+}
+
+}  // namespace
+}  // namespace spindrift::gui

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A small campaign with a simulation that lacks something, and the real window on it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "tests/support/temp_folder.h"
+#include "widgets/shell/main_window.h"
+
+namespace spindrift::gui {
+
+/// What the simulation lacks.
+enum class Hidden { Nothing, SpindleGrowth, Oscillation };
+
+/// Six points in a volume, 24 states over eight hours, a spindle that runs in two steps; the last 6 states are held
+/// out. The growth is 9 um (1 - exp(-t / 40 min)) at full speed along Z; the oscillation has no driver (EX, 23 min).
+/// Noise 0.4 um, seeded.
+[[nodiscard]] std::filesystem::path writeStoryCampaign(const testing::TempFolder& folder, Hidden hidden,
+                                                       bool with_simulation = true);
+
+class StoryTest : public ::testing::Test {
+ protected:
+  void SetUp() override;
+  /// Opens the campaign and goes to the step.
+  void open(const std::filesystem::path& campaign, StepId step);
+  template <class PageType>
+  [[nodiscard]] PageType* page() {
+    return qobject_cast<PageType*>(window_->currentPage());
+  }
+  void wait();
+
+  testing::TempFolder folder_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+}  // namespace spindrift::gui

@@ -1,0 +1,554 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/compensate/compensate_page.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDir>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFontDatabase>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QPlainTextEdit>
+#include <QSpinBox>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QStandardPaths>
+#include <QTabWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/discrepancy/discrepancy_page.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr auto result_kind = "compensation";
+constexpr auto fit_options_key = "nine-parameter";  // of the Model step
+constexpr std::array<const char*, 3> axis_names{"X", "Y", "Z"};
+constexpr int preview_lines = 200;
+
+double niceExaggeration(double size_mm, double largest_um) {
+  if (!(largest_um > 0)) return 1000;
+  const double raw = 0.3 * size_mm / (largest_um * 1e-3);
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double f : {5.0, 2.0, 1.0}) {
+    if (f * power <= raw) return f * power;
+  }
+  return power;
+}
+
+Cell number(const QString& text) {
+  Cell cell{text.trimmed()};
+  cell.right = true;
+  return cell;
+}
+
+/// Correction, measured and what remains of one axis as cells with their uncertainty.
+QString valueText(double value, double sigma) {
+  // Hundredths of a micrometre are the last that mean anything to a control.
+  if (!(sigma > 0.0)) return sizeText(value, {});
+  const double shown = std::max(sigma, 0.01);
+  const int decimals = shown < 0.295 ? 2 : shown < 2.95 ? 1 : 0;
+  QString text = QString::number(value, 'f', decimals);
+  if (text.toDouble() == 0.0) text.remove(QLatin1Char('-'));
+  text.replace(QLatin1Char('-'), QChar(0x2212));
+  return text + QStringLiteral(" ± ") + QString::number(shown, 'f', decimals);
+}
+
+}  // namespace
+
+CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Compensate, parent) {
+  export_ = makeButton(tr("Export files …"), "export");
+  addAction(export_);
+  compute_ = makeButton(tr("Work out the corrections"), nullptr, "primary");
+  addAction(compute_);
+
+  stack_ = new QStackedWidget;
+  empty_ = new EmptyState("compensate", {}, {});
+  stack_->addWidget(empty_);
+  auto* work = new QWidget;
+  auto* column = new QVBoxLayout(work);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(12);
+  auto* head = new Card;
+  auto* choices = new QHBoxLayout;
+  choices->setSpacing(8);
+  source_ = new QComboBox;
+  source_->setAccessibleName(tr("Model to compensate with"));
+  state_ = new QComboBox;
+  state_->setAccessibleName(tr("Thermal state to compensate"));
+  state_->setMinimumWidth(88);
+  positions_ = new QSpinBox;
+  positions_->setRange(2, 51);
+  positions_->setAccessibleName(tr("Positions along each axis in the files"));
+  positions_->setToolTip(tr("Positions along each axis in the grid and the tables"));
+  choices->addWidget(new QLabel(tr("Model")));
+  choices->addWidget(source_, 2);
+  choices->addWidget(new QLabel(tr("State")));
+  choices->addWidget(state_, 1);
+  auto* file_choices = new QHBoxLayout;
+  file_choices->setSpacing(8);
+  file_choices->addWidget(new QLabel(tr("Positions")));
+  file_choices->addWidget(positions_);
+  file_choices->addWidget(new QLabel(tr("through / mm")));
+  for (std::size_t i = 0; i < 3; ++i) {
+    reference_[i] = new QDoubleSpinBox;
+    reference_[i]->setDecimals(1);
+    reference_[i]->setPrefix(QString::fromLatin1(axis_names[i]) + QLatin1Char(' '));
+    reference_[i]->setAccessibleName(tr("Reference position %1 of the tables in mm").arg(axis_names[i]));
+    reference_[i]->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    reference_[i]->setMinimumWidth(84);
+    file_choices->addWidget(reference_[i], 1);
+  }
+  head->body()->addLayout(choices);
+  auto* tiles = new QHBoxLayout;
+  tiles->setSpacing(24);
+  before_ = new NumberTile(tr("Measured before, rms"));
+  after_ = new NumberTile(tr("Measured with the correction, rms"));
+  expected_ = new NumberTile(tr("Uncertainty of the correction"));
+  largest_ = new NumberTile(tr("Largest correction"));
+  for (NumberTile* tile : {before_, after_, expected_, largest_}) tiles->addWidget(tile, 1);
+  head->body()->addLayout(tiles);
+  model_ = makeLabel({}, "secondaryText");
+  model_->setWordWrap(true);
+  head->body()->addWidget(model_);
+  column->addWidget(head);
+
+  auto* left = new Card;
+  tabs_ = makeTabs();
+  points_ = new RowsModel({tr("Point"), tr("X / um"), tr("Y / um"), tr("Z / um"), tr("Remains")}, this);
+  point_table_ = makeTable(points_, tr("Correction at each point"), tr("Corrections appear here."));
+  stretchColumn(point_table_, 0);
+  tabs_->addTab(point_table_, tr("Correction at the points"));
+  auto* files = new QWidget;
+  auto* files_column = new QVBoxLayout(files);
+  files_column->setContentsMargins(0, 8, 0, 0);
+  files_column->addLayout(file_choices);
+  files_ = new RowsModel({tr("File"), tr("What it holds")}, this);
+  files_column->setSpacing(8);
+  file_table_ = makeTable(files_, tr("Files for the control"), tr("Files appear here."));
+  files_column->addWidget(file_table_, 4);
+  convention_ = makeLabel({}, "instruction");
+  convention_->setWordWrap(true);
+  files_column->addWidget(convention_);
+  preview_ = new QPlainTextEdit;
+  preview_->setReadOnly(true);
+  preview_->setLineWrapMode(QPlainTextEdit::NoWrap);
+  preview_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  preview_->setAccessibleName(tr("Beginning of the file"));
+  files_column->addWidget(preview_, 4);
+  tabs_->addTab(files, tr("Files and their signs"));
+  left->body()->addWidget(tabs_, 1);
+
+  auto* right = new Card;
+  auto* view_line = new QHBoxLayout;
+  arrows_ = new Segments({tr("Correction"), tr("Measured"), tr("Remains")}, tr("What the arrows show"));
+  view_line->addWidget(arrows_);
+  view_line->addStretch();
+  machine_ = new QCheckBox(tr("Machine"));
+  view_line->addWidget(machine_);
+  right->body()->addLayout(view_line);
+  view_ = new View3D;
+  view_->setMachineVisible(false);
+  view_->setEmptyText(tr("Arrows at the points will appear here"), tr("Work out the corrections."));
+  right->body()->addWidget(view_, 1);
+  column->addWidget(makeSplitter(left, right, 6, 6), 1);
+  stack_->addWidget(work);
+  content()->addWidget(stack_, 1);
+  showHints(view_);
+
+  connect(compute_, &QPushButton::clicked, this, &CompensatePage::compute);
+  connect(export_, &QPushButton::clicked, this, [this] {
+    const QString folder = QFileDialog::getExistingDirectory(
+        this, tr("Folder for the files"), QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation));
+    if (!folder.isEmpty()) exportFiles(folder);
+  });
+  connect(source_, &QComboBox::activated, this, [this](int) {
+    changeOptions(tr("choose the model to compensate with"), {{"source", source_->currentData().toInt()}});
+  });
+  connect(state_, &QComboBox::activated, this, [this](int) {
+    changeOptions(tr("choose the state to compensate"), {{"state", state_->currentText().toStdString()}});
+  });
+  connect(positions_, &QSpinBox::editingFinished, this, [this] {
+    if (positions_->value() != request().positions) {
+      changeOptions(tr("change the positions of the files"), {{"positions", positions_->value()}});
+    }
+  });
+  for (QDoubleSpinBox* box : reference_) {
+    connect(box, &QDoubleSpinBox::editingFinished, this, [this] {
+      if (filling_ || !plan_) return;
+      const nlohmann::json now{reference_[0]->value(), reference_[1]->value(), reference_[2]->value()};
+      const Eigen::Vector3d& shown = plan_->reference_mm;
+      const Eigen::Vector3d asked(reference_[0]->value(), reference_[1]->value(), reference_[2]->value());
+      if ((asked - shown).cwiseAbs().maxCoeff() > 0.05) {
+        changeOptions(tr("change the reference position of the tables"), {{"reference_mm", now}});
+      }
+    });
+  }
+  connect(arrows_, &Segments::chosen, this, [this](int) { showView(); });
+  connect(machine_, &QCheckBox::toggled, this, [this](bool on) {
+    view_->setMachineVisible(on);
+    view_->resetCamera(StandardView::Isometric);
+  });
+  connect(view_, &View3D::pointPicked, this, [this](const QString& id) {
+    const int row = points_->rowOf(id);
+    if (row >= 0) point_table_->selectRow(row);
+  });
+  connect(point_table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this](const QModelIndex& now) { view_->setSelected(points_->idAt(now.row())); });
+  connect(file_table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this](const QModelIndex&) { showFiles(); });
+}
+
+nlohmann::json CompensatePage::optionsJson() const {
+  auto& model = const_cast<CompensatePage*>(this)->session();
+  nlohmann::json json = model.setting("compensation/" + std::to_string(model.campaignId()), nlohmann::json::object());
+  return json.is_object() ? json : nlohmann::json::object();
+}
+
+bool CompensatePage::hasSource(CompensationSource source) const {
+  auto& model = const_cast<CompensatePage*>(this)->session();
+  if (source == CompensationSource::NineParameters) return model.state("fit").there;
+  return !DiscrepancyChoice::of(model).added.empty();
+}
+
+CompensationRequest CompensatePage::request() const {
+  auto& model = const_cast<CompensatePage*>(this)->session();
+  const nlohmann::json json = optionsJson();
+  CompensationRequest r;
+  const CompensationSource first = hasSource(CompensationSource::CompletedModel) ? CompensationSource::CompletedModel
+                                                                                 : CompensationSource::NineParameters;
+  r.source = static_cast<CompensationSource>(json.value("source", static_cast<int>(first)));
+  if (!hasSource(r.source)) r.source = first;
+  r.state = json.value("state", std::string());
+  if (r.state.empty() && r.source == CompensationSource::NineParameters) {
+    if (const auto fitted = model.result("fit")) r.state = fitted->payload.value("state", std::string());
+  }
+  r.positions = json.value("positions", 11);
+  if (json.contains("reference_mm")) {
+    const auto v = json["reference_mm"].get<std::vector<double>>();
+    if (v.size() == 3) r.reference_mm = Eigen::Vector3d(v[0], v[1], v[2]);
+  }
+  const nlohmann::json fit = model.setting(fit_options_key, nlohmann::json::object());
+  if (fit.is_object()) {
+    if (fit.contains("points")) r.fit.points = fit["points"].get<std::vector<std::string>>();
+    r.fit.robust = static_cast<RobustLoss>(fit.value("robust", 0));
+  }
+  const DiscrepancyChoice choice = DiscrepancyChoice::of(model);
+  r.added = choice.added;
+  r.reject = choice.rejected;
+  return r;
+}
+
+nlohmann::json CompensatePage::dependencies() const {
+  auto& model = const_cast<CompensatePage*>(this)->session();
+  return {{"options", optionsJson()},
+          {"source", std::string(toString(request().source))},
+          {"fit", model.setting(fit_options_key, nlohmann::json::object())},
+          {"discrepancy", DiscrepancyChoice::of(model).json()}};
+}
+
+void CompensatePage::changeOptions(const QString& what, const nlohmann::json& change) {
+  if (filling_) return;
+  nlohmann::json after = optionsJson();
+  after.update(change);
+  context().undo.push(
+      new OptionsCommand(session(), what, "compensation/" + std::to_string(session().campaignId()), after, [this] {
+        context().workflow.refresh();
+        refresh();
+        compute();
+      }));
+}
+
+void CompensatePage::fillChoices() {
+  filling_ = true;
+  const CompensationRequest r = request();
+  source_->clear();
+  if (hasSource(CompensationSource::CompletedModel)) {
+    source_->addItem(tr("Completed simulation"), static_cast<int>(CompensationSource::CompletedModel));
+  }
+  if (hasSource(CompensationSource::NineParameters)) {
+    source_->addItem(tr("Nine parameters"), static_cast<int>(CompensationSource::NineParameters));
+  }
+  source_->setCurrentIndex(std::max(0, source_->findData(static_cast<int>(r.source))));
+  state_->clear();
+  if (const auto set = session().observations()) {
+    const std::vector<std::string> states = set->states();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      if (i == 0 && states.size() > 1) continue;  // the reference
+      state_->addItem(QString::fromStdString(states[i]));
+    }
+    const int index = state_->findText(QString::fromStdString(r.state));
+    state_->setCurrentIndex(index >= 0 ? index : state_->count() - 1);
+  }
+  positions_->setValue(r.positions);
+  const MachineDescription& machine = session().campaign()->machine;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const LinearAxis* axis = machine.findAxis(axis_names[i]);
+    reference_[i]->setVisible(axis != nullptr);
+    if (axis == nullptr) continue;
+    reference_[i]->setRange(axis->travel_mm[0], axis->travel_mm[1]);
+    reference_[i]->setValue(r.reference_mm ? (*r.reference_mm)[static_cast<Eigen::Index>(i)]
+                                           : 0.5 * (axis->travel_mm[0] + axis->travel_mm[1]));
+  }
+  filling_ = false;
+}
+
+void CompensatePage::refresh() {
+  if (session().campaign() == nullptr) return;
+  callout()->setAction({}, {});
+  const bool possible = session().observations().has_value() && (hasSource(CompensationSource::NineParameters) ||
+                                                                 hasSource(CompensationSource::CompletedModel));
+  compute_->setEnabled(possible);
+  if (session().campaignId() != shown_campaign_) {
+    plan_.reset();
+    shown_result_ = 0;
+    shown_campaign_ = session().campaignId();
+  }
+  if (!possible) {
+    plan_.reset();
+    shown_result_ = 0;
+    export_->setEnabled(false);
+    empty_->setTexts(
+        tr("There is no model to compensate with yet"),
+        tr("Fit the nine parameters (Model), or add a missing effect to the simulation (Discrepancy). Then "
+           "this page says what would be commanded at each point and writes the files for the control."));
+    callout()->set(Tone::Neutral, {});
+    stack_->setCurrentIndex(0);
+    return;
+  }
+  stack_->setCurrentIndex(1);
+  fillChoices();
+  const auto stored = session().result(result_kind);
+  if (!stored) {
+    plan_.reset();
+    showPlan();
+    callout()->show(Tone::Accent, tr("Choose model and state, then press Work out the corrections."));
+    return;
+  }
+  const bool same = stored->provenance.options.value("depends", nlohmann::json()) == dependencies();
+  if (!session().state(result_kind).current || !same) {
+    callout()->show(Tone::Outdated, tr("The model, its options or the observations have changed since the corrections "
+                                       "were worked out."));
+    callout()->setAction(tr("Work out again"), [this] { compute(); });
+  } else {
+    callout()->set(Tone::Neutral, {});
+    // The plan is worked out again from what is stored: it takes less time than reading it would.
+    if (!plan_ && stored->id != shown_result_) {
+      shown_result_ = stored->id;
+      runPlan(false);
+    }
+  }
+  showPlan();
+}
+
+void CompensatePage::compute() {
+  runPlan(true);
+}
+
+void CompensatePage::runPlan(bool store) {
+  const auto observations = session().observations();
+  if (!observations ||
+      !(hasSource(CompensationSource::NineParameters) || hasSource(CompensationSource::CompletedModel)))
+    return;
+  const std::int64_t campaign = session().campaignId();
+  Job job;
+  job.title = tr("Working out the corrections");
+  job.work = [this, store, campaign, set = *observations, asked = request(), depends = dependencies(),
+              data = session().snapshot().campaign](JobContext& progress) -> std::function<void()> {
+    const CompensationPlan plan = planCompensation(*data, set, asked, progress);
+    return [this, store, campaign, plan, depends] {
+      if (session().campaignId() != campaign) return;
+      plan_ = plan;
+      if (store) {
+        session().storeResult(result_kind, {{"depends", depends}}, plan.json());
+        if (const auto stored = session().result(result_kind)) shown_result_ = stored->id;
+      }
+      refresh();
+    };
+  };
+  job.failed = [this](const QString& sentence) {
+    plan_.reset();
+    showPlan();
+    callout()->setAction({}, {});
+    callout()->show(Tone::Bad, sentence);
+  };
+  context().jobs.run(std::move(job));
+}
+
+void CompensatePage::showPlan() {
+  export_->setEnabled(plan_.has_value());
+  if (!plan_) {
+    for (NumberTile* tile : {before_, after_, expected_, largest_}) tile->set(QStringLiteral("–"));
+    model_->clear();
+    points_->setRows({});
+    files_->setRows({});
+    convention_->clear();
+    preview_->clear();
+    view_->clear();
+    return;
+  }
+  const QString um = QStringLiteral("um");
+  const QString state = QString::fromStdString(plan_->state);
+  before_->set(sizeText(plan_->rms_before_um, um), tr("state %1").arg(state));
+  after_->set(sizeText(plan_->rms_after_um, um), tr("noise of the measurement included"),
+              plan_->rms_after_um < plan_->rms_before_um ? Tone::Good : Tone::Attention);
+  expected_->set(QStringLiteral("± ") + sizeText(plan_->rms_sigma_um, um), tr("one standard uncertainty, rms"));
+  largest_->set(sizeText(plan_->largest_um, um), tr("length of the vector at a point"));
+  QString text = QString::fromStdString(plan_->model) + QLatin1Char('.');
+  if (request().source == CompensationSource::CompletedModel) {
+    text = tr("Simulation completed by %1.").arg(effectTitles(request().added, tr("and")));
+  }
+  text += QLatin1Char(' ') + tr("Relative to %1.").arg(QString::fromStdString(plan_->reference));
+  if (!plan_->limitation.empty()) text += QLatin1Char(' ') + QString::fromStdString(plan_->limitation);
+  model_->setText(text);
+  showPoints();
+  std::vector<Row> rows;
+  for (const CompensationFile& f : plan_->files) {
+    Row row;
+    row.id = QString::fromStdString(f.name);
+    Cell name{row.id};
+    name.bold = true;
+    row.cells = {name, {QString::fromStdString(f.title)}};
+    rows.push_back(std::move(row));
+  }
+  const QModelIndex chosen = file_table_->selectionModel()->currentIndex();
+  const int row = chosen.isValid() ? chosen.row() : 0;
+  files_->setRows(std::move(rows));
+  file_table_->selectRow(std::min(row, files_->rowCount() - 1));
+  showFiles();
+  showView();
+}
+
+void CompensatePage::showPoints() {
+  std::vector<Row> rows;
+  for (const CompensationPoint& p : plan_->points) {
+    Row row;
+    row.id = QString::fromStdString(p.point);
+    Cell name{row.id};
+    name.bold = true;
+    if (!p.used) name.tip = tr("Not used by the fit: it only validates");
+    row.cells = {name};
+    for (int i = 0; i < 3; ++i) row.cells.push_back(number(valueText(p.correction_um[i], p.sigma_um[i])));
+    const auto length = [](const std::array<std::optional<double>, 3>& v) {
+      double sum = 0.0;
+      bool any = false;
+      for (const auto& one : v) {
+        if (!one) continue;
+        sum += *one * *one;
+        any = true;
+      }
+      return any ? std::sqrt(sum) : std::nan("");
+    };
+    row.cells.push_back(number(sizeText(length(p.remains_um), {})));
+    QStringList parts;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (p.remains_um[i]) {
+        parts << QString::fromLatin1(axis_names[i]) + QLatin1Char(' ') +
+                     valueText(*p.remains_um[i],
+                               std::hypot(p.measured_sigma_um[i], p.sigma_um[static_cast<Eigen::Index>(i)]));
+      }
+    }
+    row.cells.back().tip = tr("Measured %1 um; remains / um: %2")
+                               .arg(sizeText(length(p.measured_um), {}), parts.join(QStringLiteral(", ")));
+    rows.push_back(std::move(row));
+  }
+  points_->setHeaders({tr("Point"), tr("X / um"), tr("Y / um"), tr("Z / um"), tr("Remains")});
+  points_->setRows(std::move(rows));
+}
+
+void CompensatePage::showFiles() {
+  const QModelIndex now = file_table_->selectionModel()->currentIndex();
+  if (!plan_ || !now.isValid() || now.row() >= static_cast<int>(plan_->files.size())) return;
+  const CompensationFile& f = plan_->files[static_cast<std::size_t>(now.row())];
+  convention_->setText(QString::fromStdString(f.convention));
+  const QStringList lines = QString::fromStdString(f.content).split(QLatin1Char('\n'));
+  QString text = lines.mid(0, preview_lines).join(QLatin1Char('\n'));
+  if (lines.size() > preview_lines) text += tr("\n… %1 lines in all").arg(lines.size() - 1);
+  preview_->setPlainText(text);
+}
+
+void CompensatePage::showView() {
+  if (!plan_) return;
+  view_->setMachine(session().campaign()->machine);
+  std::vector<ViewPoint> points;
+  std::vector<ViewArrow> arrows;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
+  Eigen::Vector3d high = -low;
+  double largest = plan_->largest_um;
+  const int what = arrows_->current();
+  for (const CompensationPoint& p : plan_->points) {
+    ViewPoint point;
+    point.id = point.label = QString::fromStdString(p.point);
+    point.position_mm = p.position_mm;
+    point.used = p.used;
+    ViewArrow arrow;
+    arrow.from_mm = p.position_mm;
+    arrow.tone = what == 0 ? Tone::Accent : what == 1 ? Tone::Attention : Tone::Good;
+    Eigen::Vector3d measured = Eigen::Vector3d::Zero();
+    Eigen::Vector3d remains = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      measured[static_cast<Eigen::Index>(i)] = p.measured_um[i].value_or(0.0);
+      remains[static_cast<Eigen::Index>(i)] = p.remains_um[i].value_or(0.0);
+    }
+    largest = std::max(largest, measured.norm());
+    arrow.deviation_um = what == 0 ? p.correction_um : what == 1 ? measured : remains;
+    point.value_text = sizeText(arrow.deviation_um.norm(), QStringLiteral("um"));
+    points.push_back(std::move(point));
+    arrows.push_back(arrow);
+    low = low.cwiseMin(p.position_mm);
+    high = high.cwiseMax(p.position_mm);
+  }
+  // The same exaggeration for all three, so that they can be compared.
+  const double size = plan_->points.empty() ? 100.0 : std::max(50.0, (high - low).norm());
+  view_->setPoints(std::move(points));
+  view_->setArrows(std::move(arrows), niceExaggeration(size, largest));
+  const QString state = QString::fromStdString(plan_->state);
+  view_->setCaption(what == 0   ? tr("Correction to add to the command, state %1").arg(state)
+                    : what == 1 ? tr("Measured deviation of state %1").arg(state)
+                                : tr("What remains of state %1 with the correction").arg(state));
+}
+
+void CompensatePage::exportFiles(const QString& folder) {
+  if (!plan_) return;
+  try {
+    QDir().mkpath(folder);
+    for (const CompensationFile& f : plan_->files) {
+      writeFileAtomically((QDir(folder).filePath(QString::fromStdString(f.name))).toStdString(), f.content);
+    }
+    callout()->setAction({}, {});
+    callout()->show(Tone::Good,
+                    tr("%n file(s) written to %1", nullptr, static_cast<int>(plan_->files.size())).arg(folder));
+  } catch (const std::exception& e) {
+    callout()->setAction({}, {});
+    callout()->show(Tone::Bad, QString::fromUtf8(e.what()));
+  }
+}
+
+std::vector<Exportable> CompensatePage::exportables() {
+  std::vector<Exportable> items;
+  if (!plan_) return items;
+  items.push_back(exportableOf(tr("Corrections at the points"), points_));
+  items.push_back(exportableOf(tr("Corrections on the machine"), view_));
+  for (const CompensationFile& f : plan_->files) {
+    const QString name = QString::fromStdString(f.name);
+    items.push_back({name.section(QLatin1Char('.'), 0, 0),
+                     {name.section(QLatin1Char('.'), -1)},
+                     [content = f.content](const QString& file) { writeFileAtomically(file.toStdString(), content); }});
+  }
+  return items;
+}
+
+}  // namespace spindrift::gui

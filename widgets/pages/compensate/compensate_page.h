@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Step Compensate: what the fitted model would command at each point, what would remain, and the files for the control,
+// each with its sign.
+#pragma once
+
+#include <optional>
+
+#include "core/workflows/compensation_workflow.h"
+#include "widgets/pages/page.h"
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QPlainTextEdit;
+class QSpinBox;
+class QDoubleSpinBox;
+class QStackedWidget;
+class QTableView;
+class QTabWidget;
+
+namespace spindrift::gui {
+
+class EmptyState;
+class NumberTile;
+class RowsModel;
+class Segments;
+class View3D;
+
+class CompensatePage : public Page {
+  Q_OBJECT
+ public:
+  explicit CompensatePage(PageContext context, QWidget* parent = nullptr);
+  void refresh() override;
+  [[nodiscard]] std::vector<Exportable> exportables() override;
+  [[nodiscard]] QPushButton* primaryButton() const override { return compute_; }
+  void runAll() override { compute(); }
+
+  /// Writes all files into a folder and says so.
+  void exportFiles(const QString& folder);
+  [[nodiscard]] const CompensationPlan* plan() const { return plan_ ? &*plan_ : nullptr; }
+  [[nodiscard]] QComboBox* stateBox() const { return state_; }
+  [[nodiscard]] QTableView* pointTable() const { return point_table_; }
+  [[nodiscard]] View3D* view() const { return view_; }
+
+ private:
+  void compute();
+  /// `store`: keep the result in the session; else only show what is stored already.
+  void runPlan(bool store);
+  void changeOptions(const QString& what, const nlohmann::json& change);
+  [[nodiscard]] nlohmann::json optionsJson() const;
+  /// Everything the result depends on besides the files.
+  [[nodiscard]] nlohmann::json dependencies() const;
+  [[nodiscard]] CompensationRequest request() const;
+  [[nodiscard]] bool hasSource(CompensationSource source) const;
+  void fillChoices();
+  void showPlan();
+  void showPoints();
+  void showFiles();
+  void showView();
+
+  QPushButton* compute_;
+  QPushButton* export_;
+  QStackedWidget* stack_;
+  EmptyState* empty_;
+  QComboBox* source_;
+  QComboBox* state_;
+  QSpinBox* positions_;
+  std::array<QDoubleSpinBox*, 3> reference_{};
+  NumberTile* before_;
+  NumberTile* after_;
+  NumberTile* expected_;
+  NumberTile* largest_;
+  QLabel* model_;
+  QTabWidget* tabs_;
+  RowsModel* points_;
+  QTableView* point_table_;
+  RowsModel* files_;
+  QTableView* file_table_;
+  QLabel* convention_;
+  QPlainTextEdit* preview_;
+  Segments* arrows_;
+  QCheckBox* machine_;
+  View3D* view_;
+  std::optional<CompensationPlan> plan_;
+  std::int64_t shown_campaign_ = 0;
+  std::int64_t shown_result_ = 0;
+  bool filling_ = false;
+};
+
+}  // namespace spindrift::gui

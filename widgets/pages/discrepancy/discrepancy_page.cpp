@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/discrepancy/discrepancy_page.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QStackedWidget>
+#include <QTabWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/pages/discrepancy/gap_panel.h"
+#include "widgets/pages/discrepancy/next_panel.h"
+#include "widgets/pages/discrepancy/what_panel.h"
+#include "widgets/pages/discrepancy/where_panel.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr auto result_kind = "discrepancy";
+constexpr auto option_name = "discrepancy";
+
+struct Sentence {
+  QString text;
+  QString note;
+  Tone tone = Tone::Neutral;
+};
+
+QString gapSentence(const DiscrepancyGap& gap) {
+  return DiscrepancyPage::tr("The rms falls from %1 to %2; the noise alone is %3.")
+      .arg(sizeText(gap.rms_before_um, QStringLiteral("um")), sizeText(gap.rms_after_um, QStringLiteral("um")),
+           sizeText(gap.noise_um, QStringLiteral("um")));
+}
+
+/// What is missing beside what has been added.
+QString missingEffects(const DiscrepancyStory& story) {
+  QStringList parts;
+  for (const FoundEffect& e : story.effects) {
+    if (e.forced) continue;
+    std::vector<std::string> names{e.id};
+    names.insert(names.end(), e.rivals.begin(), e.rivals.end());
+    parts << effectTitles(names, DiscrepancyPage::tr("or"));
+  }
+  return parts.join(DiscrepancyPage::tr("; and "));
+}
+
+Sentence verdictOf(const DiscrepancyStory& story) {
+  const bool added = !story.added.empty();
+  const QString names = effectTitles(story.added, DiscrepancyPage::tr("and"));
+  if (!story.decided) {
+    return {DiscrepancyPage::tr("These data cannot decide what is missing."), QString::fromStdString(story.message),
+            Tone::Neutral};
+  }
+  const QString left = story.leftover.empty()
+                           ? QString()
+                           : DiscrepancyPage::tr("What is left: %1. ").arg(QString::fromStdString(story.leftover));
+  switch (story.verdict) {
+    case DiscrepancyVerdict::None:
+      return {DiscrepancyPage::tr("Measured and simulated agree within the noise."),
+              DiscrepancyPage::tr("The rms is %1, the noise %2. Nothing is missing.")
+                  .arg(sizeText(story.gap.rms_before_um, QStringLiteral("um")),
+                       sizeText(story.gap.noise_um, QStringLiteral("um"))),
+              Tone::Good};
+    case DiscrepancyVerdict::Unknown:
+      return {added ? DiscrepancyPage::tr("Beside %1 something is missing that no effect of the catalogue explains.")
+                          .arg(names)
+                    : DiscrepancyPage::tr("Something is missing that no effect of the catalogue explains."),
+              left + (added ? gapSentence(story.gap)
+                            : DiscrepancyPage::tr("The rms is %1, the noise %2.")
+                                  .arg(sizeText(story.gap.rms_before_um, QStringLiteral("um")),
+                                       sizeText(story.gap.noise_um, QStringLiteral("um")))),
+              Tone::Bad};
+    case DiscrepancyVerdict::Named:
+    case DiscrepancyVerdict::Ambiguous:
+      break;
+  }
+  const FoundEffect* next = story.nextProposal();
+  if (next == nullptr) {
+    return {DiscrepancyPage::tr("With %1 the simulation agrees with the measurement.").arg(names),
+            gapSentence(story.gap) + QLatin1Char(' ') + left, Tone::Good};
+  }
+  Sentence s;
+  s.tone = Tone::Attention;
+  s.text = added ? DiscrepancyPage::tr("Beside %1 the simulation lacks: %2.").arg(names, missingEffects(story))
+                 : DiscrepancyPage::tr("The simulation lacks: %1.").arg(missingEffects(story));
+  if (story.proposed) {
+    DiscrepancyGap gap = *story.proposed;
+    s.note =
+        DiscrepancyPage::tr("Confidence %1. Adding it takes the rms from %2 to %3; the noise alone is %4. %5")
+            .arg(QString::number(next->confidence, 'f', 2),
+                 sizeText(added ? story.gap.rms_after_um : gap.rms_before_um, QStringLiteral("um")),
+                 sizeText(gap.rms_after_um, QStringLiteral("um")), sizeText(gap.noise_um, QStringLiteral("um")), left);
+  }
+  return s;
+}
+
+}  // namespace
+
+std::string DiscrepancyChoice::key(const SessionModel& session) {
+  return "discrepancy/" + std::to_string(session.campaignId());
+}
+
+DiscrepancyChoice DiscrepancyChoice::of(const SessionModel& session) {
+  DiscrepancyChoice choice;
+  const nlohmann::json json = session.setting(key(session), nlohmann::json::object());
+  if (json.is_object()) {
+    choice.added = json.value("added", std::vector<std::string>());
+    choice.rejected = json.value("rejected", std::vector<std::string>());
+  }
+  return choice;
+}
+
+nlohmann::json DiscrepancyChoice::json() const {
+  return {{"added", added}, {"rejected", rejected}};
+}
+
+DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Discrepancy, parent) {
+  search_ = makeButton(tr("Search"), nullptr, "primary");
+  search_->setToolTip(tr("Look where measured and simulated disagree and try every effect of the catalogue"));
+  addAction(search_);
+
+  stack_ = new QStackedWidget;
+  empty_ = new EmptyState("discrepancy", {}, {});
+  stack_->addWidget(empty_);
+  auto* told = new QWidget;
+  auto* column = new QVBoxLayout(told);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(8);
+  auto* banner = new Card;
+  auto* line = new QHBoxLayout;
+  line->setSpacing(16);
+  verdict_icon_ = new IconLabel(QStringLiteral("info"), Tone::Neutral, 32);
+  line->addWidget(verdict_icon_, 0, Qt::AlignTop);
+  auto* words = new QVBoxLayout;
+  words->setSpacing(4);
+  verdict_ = makeLabel({}, "bigNumber");
+  verdict_->setWordWrap(true);
+  verdict_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  verdict_->setAccessibleName(tr("Verdict"));
+  verdict_note_ = makeLabel({}, "instruction");
+  verdict_note_->setWordWrap(true);
+  words->addWidget(verdict_);
+  words->addWidget(verdict_note_);
+  line->addLayout(words, 1);
+  add_ = makeButton(tr("Add to the model"), nullptr, "primary");
+  remove_ = makeButton(tr("Take out again"), "undo");
+  line->addWidget(remove_, 0, Qt::AlignVCenter);
+  line->addWidget(add_, 0, Qt::AlignVCenter);
+  banner->body()->addLayout(line);
+  column->addWidget(banner);
+
+  tabs_ = makeTabs();
+  where_ = new WherePanel;
+  what_ = new WhatPanel;
+  gap_ = new GapPanel;
+  next_ = new NextPanel;
+  tabs_->addTab(where_, tr("Where"));
+  tabs_->addTab(what_, tr("What is missing"));
+  tabs_->addTab(gap_, tr("Gap before and after"));
+  tabs_->addTab(next_, tr("What to measure next"));
+  column->addWidget(tabs_, 1);
+  stack_->addWidget(told);
+  content()->addWidget(stack_, 1);
+  showHints(where_);
+  showHints(what_);
+  showHints(gap_);
+
+  connect(search_, &QPushButton::clicked, this, &DiscrepancyPage::search);
+  connect(add_, &QPushButton::clicked, this, &DiscrepancyPage::add);
+  connect(remove_, &QPushButton::clicked, this, &DiscrepancyPage::removeLast);
+  connect(what_, &WhatPanel::choiceChanged, this, &DiscrepancyPage::updateButtons);
+  connect(what_, &WhatPanel::rejectAsked, this, [this](const std::string& id) {
+    DiscrepancyChoice choice = DiscrepancyChoice::of(session());
+    choice.rejected.push_back(id);
+    change(tr("leave out %1").arg(effectTitle(id)), choice);
+  });
+  connect(where_, &WherePanel::chosen, this, [this] {
+    gap_->choose(where_->point(), where_->component());
+    what_->choose(where_->point(), where_->component());
+  });
+  connect(&context().jobs, &JobRunner::started, this, &DiscrepancyPage::updateButtons);
+  connect(&context().jobs, &JobRunner::finished, this, &DiscrepancyPage::updateButtons);
+}
+
+QString DiscrepancyPage::missing() const {
+  auto& self = const_cast<DiscrepancyPage&>(*this);
+  const auto campaign = self.session().campaign();
+  if (campaign == nullptr) return tr("Open a session or a campaign first.");
+  const bool simulation = !campaign->simulation.empty() || std::filesystem::exists(campaign->path("simulation.csv")) ||
+                          std::filesystem::exists(campaign->path("model.json"));
+  if (!simulation) {
+    return tr(
+        "This campaign comes without a simulation to compare with. Put simulation.csv or model.json beside "
+        "campaign.json, name it there (\"simulation\": \"simulation.csv\") and open the campaign again.");
+  }
+  if (!self.session().observations()) {
+    return tr("There are no observations to compare with the simulation. Evaluate the captures first (Calibrate).");
+  }
+  return {};
+}
+
+void DiscrepancyPage::refresh() {
+  if (session().campaign() == nullptr) return;
+  const QString lacks = missing();
+  callout()->setAction({}, {});
+  if (!lacks.isEmpty()) {
+    story_.reset();
+    shown_result_ = 0;
+    empty_->setTexts(tr("Nothing to compare yet"), lacks);
+    stack_->setCurrentIndex(0);
+    callout()->set(Tone::Neutral, {});
+    updateButtons();
+    return;
+  }
+  const auto stored = session().result(result_kind);
+  if (!stored) {
+    story_.reset();
+    shown_result_ = 0;
+    empty_->setTexts(tr("What does the simulation lack?"),
+                     tr("Press Search: every effect of the catalogue is tried on what is left between measurement and "
+                        "simulation. It takes a few seconds, can be cancelled, and changes nothing."));
+    stack_->setCurrentIndex(0);
+    callout()->set(Tone::Neutral, {});
+    updateButtons();
+    return;
+  }
+  if (stored->id != shown_result_ || story_ == nullptr) {
+    try {
+      story_ = std::make_shared<const DiscrepancyStory>(DiscrepancyStory::parse(stored->payload));
+      shown_result_ = stored->id;
+    } catch (const InputError& e) {
+      story_.reset();
+      callout()->show(Tone::Attention, QString::fromUtf8(e.what()));
+      stack_->setCurrentIndex(0);
+      updateButtons();
+      return;
+    }
+    show();
+  }
+  stack_->setCurrentIndex(1);
+  const bool same =
+      stored->provenance.options.value(option_name, nlohmann::json()) == DiscrepancyChoice::of(session()).json();
+  if (!session().state(result_kind).current || !same) {
+    callout()->show(Tone::Outdated,
+                    tr("Observations, exclusions, the machine or the model have changed since this was found."));
+    callout()->setAction(tr("Search again"), [this] { search(); });
+  } else if (!story_->warnings.empty()) {
+    QString text = QString::fromStdString(story_->warnings.front());
+    if (story_->warnings.size() > 1) text += QLatin1Char(' ') + tr("And %1 more.").arg(story_->warnings.size() - 1);
+    callout()->show(Tone::Attention, text);
+  } else {
+    callout()->set(Tone::Neutral, {});
+  }
+  updateButtons();
+}
+
+void DiscrepancyPage::search() {
+  if (context().jobs.busy() || !missing().isEmpty()) return;
+  const DiscrepancyChoice choice = DiscrepancyChoice::of(session());
+  DiscrepancyOptions options;
+  options.accept = choice.added;
+  options.reject = choice.rejected;
+  const std::int64_t campaign = session().campaignId();
+  Job job;
+  job.title = tr("Searching for what the simulation lacks");
+  job.work = [this, campaign, options, choice, data = session().snapshot().campaign,
+              observations = *session().observations()](JobContext& progress) -> std::function<void()> {
+    const DiscrepancyStory story = tellDiscrepancy(*data, observations, options, progress);
+    return [this, campaign, choice, payload = story.json()] {
+      if (session().campaignId() != campaign) return;
+      session().storeResult(result_kind, {{option_name, choice.json()}}, payload);
+      refresh();
+    };
+  };
+  job.failed = [this](const QString& sentence) {
+    refresh();
+    callout()->setAction({}, {});
+    callout()->show(Tone::Bad, sentence);
+    context().workflow.refresh();
+  };
+  job.cancelled = [this] {
+    context().workflow.refresh();
+    refresh();
+  };
+  context().jobs.run(std::move(job));
+}
+
+void DiscrepancyPage::change(const QString& what, const DiscrepancyChoice& after) {
+  context().undo.push(new OptionsCommand(session(), what, DiscrepancyChoice::key(session()), after.json(),
+                                         [this] { choiceChanged(); }));
+}
+
+void DiscrepancyPage::choiceChanged() {
+  // Undo must not wait for a search that was made before.
+  const nlohmann::json wanted = DiscrepancyChoice::of(session()).json();
+  if (Session* store = session().session(); store != nullptr) {
+    const std::vector<StoredResult> all = store->results(session().campaignId());
+    for (auto it = all.rbegin(); it != all.rend(); ++it) {
+      if (it->kind != result_kind || it->provenance.options.value(option_name, nlohmann::json()) != wanted) continue;
+      if (!store->isCurrent(*it)) continue;
+      const nlohmann::json payload = it->payload;
+      session().storeResult(result_kind, {{option_name, wanted}}, payload);
+      refresh();
+      return;
+    }
+  }
+  context().workflow.refresh();
+  refresh();
+  search();
+}
+
+void DiscrepancyPage::add() {
+  if (story_ == nullptr) return;
+  // What is marked in the table of effects (a rival, say), else the first that is proposed.
+  std::string id = what_->chosen();
+  if (id.empty() || what_->chosenIsAdded()) id = story_->nextProposal() != nullptr ? story_->nextProposal()->id : "";
+  if (id.empty()) return;
+  DiscrepancyChoice choice = DiscrepancyChoice::of(session());
+  choice.added.push_back(id);
+  tabs_->setCurrentWidget(gap_);
+  change(tr("add %1").arg(effectTitle(id)), choice);
+}
+
+void DiscrepancyPage::removeLast() {
+  DiscrepancyChoice choice = DiscrepancyChoice::of(session());
+  if (choice.added.empty()) return;
+  const QString title = effectTitle(choice.added.back());
+  choice.added.pop_back();
+  change(tr("take out %1").arg(title), choice);
+}
+
+void DiscrepancyPage::updateButtons() {
+  const bool idle = !context().jobs.busy();
+  search_->setEnabled(idle && missing().isEmpty());
+  const bool proposes =
+      story_ != nullptr && (story_->nextProposal() != nullptr || (!what_->chosen().empty() && !what_->chosenIsAdded()));
+  add_->setVisible(proposes);
+  add_->setEnabled(idle && proposes);
+  remove_->setVisible(story_ != nullptr && !story_->added.empty());
+  remove_->setEnabled(idle);
+  what_->rejectButton()->setEnabled(idle);
+  if (!proposes) return;
+  std::string id = what_->chosen();
+  if (id.empty() || what_->chosenIsAdded()) id = story_->nextProposal() != nullptr ? story_->nextProposal()->id : "";
+  add_->setToolTip(id.empty() ? QString() : tr("Add %1 and fit all parameters again").arg(effectTitle(id)));
+}
+
+void DiscrepancyPage::show() {
+  const auto campaign = session().campaign();
+  where_->show(story_, &campaign->machine);
+  what_->show(story_);
+  gap_->show(story_, &campaign->machine);
+  gap_->choose(where_->point(), where_->component());
+  what_->choose(where_->point(), where_->component());
+  next_->show(story_);
+  showVerdict();
+}
+
+void DiscrepancyPage::showVerdict() {
+  const Sentence s = verdictOf(*story_);
+  verdict_icon_->set(QString::fromLatin1(toneIcon(s.tone)), s.tone);
+  verdict_->setText(s.text);
+  verdict_note_->setText(s.note.trimmed());
+  verdict_note_->setVisible(!s.note.isEmpty());
+}
+
+std::vector<Exportable> DiscrepancyPage::exportables() {
+  std::vector<Exportable> items;
+  if (story_ == nullptr) return items;
+  for (auto&& list : {where_->exportables(), what_->exportables(), gap_->exportables(), next_->exportables()}) {
+    items.insert(items.end(), list.begin(), list.end());
+  }
+  const auto story = story_;
+  items.push_back({tr("Discrepancy"), {QStringLiteral("json")}, [story](const QString& file) {
+                     writeFileAtomically(file.toStdString(), story->result.dump(2) + "\n");
+                   }});
+  if (story_->result.at("model").is_object()) {
+    items.push_back({tr("Model"), {QStringLiteral("json")}, [story](const QString& file) {
+                       writeFileAtomically(file.toStdString(), story->result.at("model").dump(2) + "\n");
+                     }});
+  }
+  return items;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What people call the effects of the catalogue, and the numbers of a discrepancy as they are written on the pages.
+#pragma once
+
+#include <QString>
+#include <string>
+#include <vector>
+
+#include "core/machine/component.h"
+
+class QTableView;
+
+namespace spindrift::gui {
+
+/// "ball_screw.expansion.y" -> "thermal expansion of the Y ball screw". An id that is not known stays as it is.
+[[nodiscard]] QString effectTitle(const std::string& id);
+/// "head.tilt.a or frame.rotation.a" by their titles.
+[[nodiscard]] QString effectTitles(const std::vector<std::string>& ids, const QString& last_word);
+/// The first letter as a capital.
+[[nodiscard]] QString sentenceStart(QString text);
+
+/// A size with two or three digits and its unit; "–" if it is not finite.
+[[nodiscard]] QString sizeText(double value, const QString& unit);
+/// "3×10⁻⁵", "< 10⁻¹²", "0.004".
+[[nodiscard]] QString probabilityText(double p);
+/// "0.0–6.0 h", in the unit that suits the whole of it.
+[[nodiscard]] QString spanText(double from_s, double to_s, double whole_s);
+/// "all 10", "F1, F2", "7 of 10".
+[[nodiscard]] QString pointsText(const std::vector<std::string>& points, std::size_t all);
+[[nodiscard]] QString componentName(Component component);
+[[nodiscard]] QString componentUnit(Component component);
+
+/// Columns as wide as their content, one takes what is left (its texts are shortened): no horizontal scrolling.
+void stretchColumn(QTableView* table, int column);
+
+}  // namespace spindrift::gui

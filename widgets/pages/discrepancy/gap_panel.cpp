@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/discrepancy/gap_panel.h"
+
+#include <QComboBox>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "widgets/common/parts.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/pages/discrepancy/gap_bars.h"
+#include "widgets/plots/plot.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+/// From this height on plots and views fit below one another.
+constexpr int height_for_both = 500;
+
+}  // namespace
+
+GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
+  auto* line = new QHBoxLayout(this);
+  line->setContentsMargins(0, 8, 0, 0);
+  line->setSpacing(12);
+  auto* left = new Card(tr("How large the gap is"));
+  left->setFixedWidth(296);
+  bars_ = new GapBars;
+  left->body()->addWidget(bars_);
+  model_ = makeLabel({}, "secondaryText");
+  model_->setWordWrap(true);
+  left->body()->addWidget(model_);
+  left->body()->addWidget(makeLine(Qt::Horizontal));
+  auto* choice = new QHBoxLayout;
+  component_ = new QComboBox;
+  component_->setAccessibleName(tr("Component shown"));
+  point_ = new QComboBox;
+  point_->setAccessibleName(tr("Point shown over time"));
+  choice->addWidget(component_, 1);
+  choice->addWidget(point_, 1);
+  left->body()->addLayout(choice);
+  what_ = new Segments({tr("Over time"), tr("On the machine")}, tr("What is compared"));
+  left->body()->addWidget(what_);
+  story_text_ = makeLabel({}, "secondaryText");
+  story_text_->setWordWrap(true);
+  left->body()->addWidget(story_text_);
+  left->body()->addStretch(1);
+  line->addWidget(left);
+
+  grid_ = new QGridLayout;
+  auto* grid = grid_;
+  grid->setSpacing(12);
+  for (int after = 0; after < 2; ++after) {
+    const auto i = static_cast<std::size_t>(after);
+    plot_cards_[i] = new Card(after != 0 ? tr("After, over time") : tr("Before, over time"));
+    plots_[i] = new Plot;
+    plots_[i]->setLegendVisible(false);
+    plot_cards_[i]->body()->addWidget(plots_[i], 1);
+    view_cards_[i] = new Card(after != 0 ? tr("After, on the machine") : tr("Before, on the machine"));
+    views_[i] = new View3D;
+    views_[i]->setMachineVisible(false);
+    views_[i]->setToolSideVisible(false);
+    view_cards_[i]->body()->addWidget(views_[i], 1);
+    grid->addWidget(plot_cards_[i], 0, after);
+    grid->addWidget(view_cards_[i], 1, after);
+    grid->setColumnStretch(after, 1);
+    connect(plots_[i], &Plot::hovered, this, &GapPanel::hovered);
+    connect(views_[i], &View3D::hovered, this, &GapPanel::hovered);
+    connect(views_[i], &View3D::pointPicked, this, [this](const QString& id) {
+      point_->setCurrentText(id);
+      showPlots();
+      showViews();
+    });
+  }
+  plots_[0]->setEmptyText(tr("Measured and simulated"), tr("Search to compare them over time."));
+  plots_[1]->setEmptyText(tr("Nothing has been added yet"),
+                          tr("Press Add to the model: the fit with the effect appears here."));
+  views_[0]->setEmptyText(tr("rms of each point"), tr("Search to see it on the machine."));
+  views_[1]->setEmptyText(tr("Nothing has been added yet"),
+                          tr("Press Add to the model: what remains at each point appears here."));
+  views_[0]->link(views_[1]);
+  line->addLayout(grid, 1);
+  connect(component_, &QComboBox::activated, this, [this](int) {
+    showPlots();
+    showViews();
+  });
+  connect(point_, &QComboBox::activated, this, [this](int) {
+    showPlots();
+    showViews();
+  });
+  connect(what_, &Segments::chosen, this, [this](int) { arrange(); });
+  arrange();
+}
+
+void GapPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  arrange();
+}
+
+void GapPanel::arrange() {
+  const bool both = height() >= height_for_both;
+  what_->setVisible(!both);
+  story_text_->setVisible(both);
+  grid_->setRowStretch(0, both || what_->current() == 0 ? 1 : 0);
+  grid_->setRowStretch(1, both || what_->current() == 1 ? 1 : 0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    plot_cards_[i]->setVisible(both || what_->current() == 0);
+    view_cards_[i]->setVisible(both || what_->current() == 1);
+  }
+}
+
+void GapPanel::fillChoices() {
+  const QString component = component_->currentText();
+  const QString point = point_->currentText();
+  component_->clear();
+  point_->clear();
+  for (const DiscrepancySeries& s : discrepancy_->series) {
+    const QString id = QString::fromStdString(s.point);
+    if (point_->findText(id) < 0) point_->addItem(id);
+    const QString name = componentName(s.component);
+    if (component_->findText(name) < 0) component_->addItem(name, static_cast<int>(s.component));
+  }
+  component_->setCurrentIndex(std::max(0, component_->findText(component)));
+  point_->setCurrentIndex(std::max(0, point_->findText(point)));
+}
+
+const DiscrepancySeries* GapPanel::series() const {
+  if (discrepancy_ == nullptr || component_->count() == 0) return nullptr;
+  return discrepancy_->find(point_->currentText().toStdString(),
+                            static_cast<Component>(component_->currentData().toInt()));
+}
+
+void GapPanel::show(const std::shared_ptr<const DiscrepancyStory>& story, const MachineDescription* machine) {
+  discrepancy_ = story;
+  if (discrepancy_ == nullptr || machine == nullptr) {
+    bars_->clear();
+    model_->clear();
+    story_text_->clear();
+    component_->clear();
+    point_->clear();
+    for (Plot* plot : plots_) plot->setContent({});
+    for (View3D* view : views_) view->clear();
+    return;
+  }
+  bars_->set(discrepancy_->gap, discrepancy_->has_holdout);
+  if (discrepancy_->added.empty()) {
+    model_->setText(discrepancy_->proposed
+                        ? tr("Nothing has been added yet. With what is proposed the rms would fall to %1.")
+                              .arg(sizeText(discrepancy_->proposed->rms_after_um, QStringLiteral("um")))
+                        : tr("Nothing has been added to the simulation."));
+  } else {
+    model_->setText(tr("After: simulation plus %1, fitted jointly.").arg(effectTitles(discrepancy_->added, tr("and"))));
+  }
+  QString noise = tr("Noise: %1 times the stated sigma").arg(discrepancy_->noise_scale, 0, 'f', 2);
+  if (discrepancy_->noise_correlated_part > 0.05) {
+    const TimeUnit unit = timeUnit(discrepancy_->noise_correlation_time_s * 3);
+    noise += tr(", %1 % of it correlated over %2 %3")
+                 .arg(100 * discrepancy_->noise_correlated_part, 0, 'f', 0)
+                 .arg(discrepancy_->noise_correlation_time_s / unit.seconds, 0, 'f', 1)
+                 .arg(unit.name);
+  }
+  story_text_->setText(tr("Points: measured. Line: model, with ± 2 σ of the noise.") + QLatin1Char(' ') + noise +
+                       QLatin1Char('.'));
+  fillChoices();
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (i == 1 && discrepancy_->added.empty()) {
+      views_[i]->clear();
+    } else {
+      views_[i]->setMachine(*machine);
+    }
+  }
+  showPlots();
+  showViews();
+}
+
+void GapPanel::choose(const std::string& point, Component component) {
+  if (discrepancy_ == nullptr) return;
+  const int p = point_->findText(QString::fromStdString(point));
+  const int c = component_->findText(componentName(component));
+  if (p < 0 || c < 0) return;
+  point_->setCurrentIndex(p);
+  component_->setCurrentIndex(c);
+  showPlots();
+  showViews();
+}
+
+void GapPanel::showPlots() {
+  const DiscrepancySeries* s = series();
+  if (s == nullptr || s->time_s.empty()) {
+    for (Plot* plot : plots_) plot->setContent({});
+    return;
+  }
+  const TimeUnit unit = timeUnit(s->time_s.back());
+  const QString y_title = QStringLiteral("%1 / %2").arg(componentName(s->component), componentUnit(s->component));
+  double low = 0.0;
+  double high = 0.0;
+  std::array<std::vector<Series>, 2> content;
+  std::vector<Span> spans;
+  double held_from = std::nan("");
+  double held_to = 0.0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::vector<double>& model = side == 0 ? s->simulated : s->completed;
+    if (model.empty()) continue;
+    const double constant = side == 0 ? s->constant_before : s->constant_after;
+    Series measured;
+    measured.name = tr("measured");
+    measured.style = SeriesStyle::Points;
+    measured.colour = 1;
+    Series line;
+    line.name = side == 0 ? tr("simulated") : tr("simulated + added");
+    line.style = SeriesStyle::Line;
+    line.colour = 0;
+    for (std::size_t i = 0; i < s->time_s.size(); ++i) {
+      const double t = s->time_s[i] / unit.seconds;
+      measured.x.push_back(t);
+      measured.y.push_back(s->value[i] - constant);
+      line.x.push_back(t);
+      line.y.push_back(model[i]);
+      line.sigma.push_back(s->noise);
+      low = std::min({low, s->value[i] - constant, model[i] - 2 * s->noise});
+      high = std::max({high, s->value[i] - constant, model[i] + 2 * s->noise});
+      if (side == 0 && s->held_out[i]) {
+        if (std::isnan(held_from)) held_from = t;
+        held_to = t;
+      }
+    }
+    content[side] = {line, measured};
+  }
+  if (!std::isnan(held_from)) spans.push_back({held_from, held_to, tr("held out"), Tone::Accent});
+  for (std::size_t side = 0; side < 2; ++side) {
+    plots_[side]->setAxes(tr("Time / %1").arg(unit.name), y_title);
+    plots_[side]->setRange(std::make_pair(low, high));
+    plots_[side]->setContent(content[side], content[side].empty() ? std::vector<Span>() : spans);
+    const QString point = QString::fromStdString(s->point);
+    plot_cards_[side]->setTitle(
+        side == 0 ? tr("Before: %1 of %2, rms %3")
+                        .arg(componentName(s->component), point, sizeText(s->rms_before, componentUnit(s->component)))
+        : content[1].empty()
+            ? tr("After")
+            : tr("After: %1 of %2, rms %3")
+                  .arg(componentName(s->component), point, sizeText(s->rms_after, componentUnit(s->component))));
+  }
+}
+
+void GapPanel::showViews() {
+  if (discrepancy_ == nullptr || component_->count() == 0) return;
+  const auto component = static_cast<Component>(component_->currentData().toInt());
+  const QString unit = componentUnit(component);
+  // One scale for both, and for all components of the same unit.
+  const ColourScale scale =
+      ColourScale::magnitude(discrepancy_->largestRms(isRotation(component)), componentName(component), unit);
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (side == 1 && discrepancy_->added.empty()) continue;
+    std::vector<ViewPoint> points;
+    for (const DiscrepancySeries& s : discrepancy_->series) {
+      if (s.component != component) continue;
+      ViewPoint p;
+      p.id = p.label = QString::fromStdString(s.point);
+      p.position_mm = s.position_mm;
+      p.value = side == 0 ? s.rms_before : s.rms_after;
+      if (p.id == point_->currentText()) p.value_text = sizeText(*p.value, unit);
+      points.push_back(std::move(p));
+    }
+    views_[side]->setColourScale(scale);
+    views_[side]->setPoints(std::move(points));
+    views_[side]->setSelected(point_->currentText());
+    views_[side]->setCaption(tr("rms of %1, measured − model").arg(componentName(component)));
+  }
+}
+
+std::vector<Exportable> GapPanel::exportables() {
+  std::vector<Exportable> items;
+  if (discrepancy_ == nullptr) return items;
+  items.push_back({tr("Gap rms"), {QStringLiteral("png"), QStringLiteral("svg")}, [this](const QString& file) {
+                     bars_->exportTo(file);
+                   }});
+  const QString name = component_->currentText() + QLatin1Char(' ') + point_->currentText();
+  if (!plots_[0]->empty()) items.push_back(exportableOf(tr("Before %1").arg(name), plots_[0]));
+  if (!plots_[1]->empty()) items.push_back(exportableOf(tr("After %1").arg(name), plots_[1]));
+  items.push_back(exportableOf(tr("Before on the machine %1").arg(component_->currentText()), views_[0]));
+  if (!discrepancy_->added.empty()) {
+    items.push_back(exportableOf(tr("After on the machine %1").arg(component_->currentText()), views_[1]));
+  }
+  return items;
+}
+
+}  // namespace spindrift::gui

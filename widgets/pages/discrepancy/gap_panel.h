@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The gap between measured and simulated, before and after, side by side with the same scales.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+#include "core/machine/machine_description.h"
+#include "core/workflows/discrepancy_story.h"
+#include "widgets/export/exportable.h"
+
+class QComboBox;
+class QGridLayout;
+class QLabel;
+
+namespace spindrift::gui {
+
+class Card;
+class GapBars;
+class Plot;
+class Segments;
+class View3D;
+
+class GapPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit GapPanel(QWidget* parent = nullptr);
+  void show(const std::shared_ptr<const DiscrepancyStory>& story, const MachineDescription* machine);
+  /// Shows this series (carried over from the place that was chosen).
+  void choose(const std::string& point, Component component);
+  [[nodiscard]] std::vector<Exportable> exportables();
+  [[nodiscard]] View3D* view(bool after) const { return views_[after ? 1 : 0]; }
+  [[nodiscard]] Plot* plot(bool after) const { return plots_[after ? 1 : 0]; }
+
+ Q_SIGNALS:
+  void hovered(const QString& text);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void fillChoices();
+  void showPlots();
+  void showViews();
+  void arrange();
+  [[nodiscard]] const DiscrepancySeries* series() const;
+
+  GapBars* bars_;
+  QLabel* model_;
+  QLabel* story_text_;
+  QComboBox* component_;
+  QComboBox* point_;
+  Segments* what_;
+  QGridLayout* grid_;
+  std::array<Card*, 2> plot_cards_{};
+  std::array<Card*, 2> view_cards_{};
+  std::array<Plot*, 2> plots_{};
+  std::array<View3D*, 2> views_{};
+  std::shared_ptr<const DiscrepancyStory> discrepancy_;
+};
+
+}  // namespace spindrift::gui

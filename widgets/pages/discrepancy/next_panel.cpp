@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/discrepancy/next_panel.h"
+
+#include <QHeaderView>
+#include <QLabel>
+#include <QSplitter>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include "core/base/text.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/plots/plot.h"
+
+namespace spindrift::gui {
+
+NextPanel::NextPanel(QWidget* parent) : QWidget(parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 8, 0, 0);
+  auto* left = new Card(tr("What to measure next"));
+  suggestion_ = new QLabel;
+  suggestion_->setWordWrap(true);
+  suggestion_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  left->body()->addWidget(suggestion_);
+  gain_ = new NumberTile(tr("Expected gain in BIC"));
+  left->body()->addWidget(gain_);
+  times_ = new RowsModel({tr("Time of the programme"), tr("Points to measure")}, this);
+  time_table_ = makeTable(times_, tr("When and where to measure"));
+  left->body()->addWidget(time_table_, 1);
+  left->body()->addStretch(0);
+  auto* right = new Card(tr("How it was found"));
+  leftover_ = new Callout;
+  right->body()->addWidget(leftover_);
+  steps_ = new RowsModel({tr("Effect tried"), tr("Decision"), tr("Gain in BIC"), tr("Why")}, this);
+  QTableView* steps =
+      makeTable(steps_, tr("Steps of the search"), tr("Every step of the search appears here with its evidence."));
+  stretchColumn(steps, 3);
+  right->body()->addWidget(steps, 1);
+  warnings_ = makeLabel({}, "secondaryText");
+  warnings_->setWordWrap(true);
+  right->body()->addWidget(warnings_);
+  column->addWidget(makeSplitter(left, right, 5, 7), 1);
+  show(nullptr);
+}
+
+void NextPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
+  story_ = story;
+  showSuggestion();
+  std::vector<Row> rows;
+  QStringList notes;
+  leftover_->set(Tone::Neutral, {});
+  if (story_ != nullptr) {
+    if (!story_->leftover.empty()) {
+      leftover_->show(Tone::Attention, tr("Left over: %1.").arg(QString::fromStdString(story_->leftover)));
+    } else {
+      leftover_->show(Tone::Good, tr("Nothing is left over beyond the noise."));
+    }
+    int index = 0;
+    for (const DiscrepancyStep& s : story_->steps) {
+      Row row;
+      row.id = QString::number(index++);
+      Cell name{sentenceStart(effectTitle(s.id))};
+      name.tip = QString::fromStdString(s.id);
+      Cell gain{QString::number(s.delta_bic, 'f', 0).replace(QLatin1Char('-'), QChar(0x2212))};
+      gain.right = true;
+      Cell reason{QString::fromStdString(s.reason)};
+      reason.tip = reason.text;
+      row.cells = {name,
+                   s.accepted ? Cell{tr("in"), Tone::Good, "check-circle"} : Cell{tr("not"), Tone::Neutral, "exclude"},
+                   gain, reason};
+      rows.push_back(std::move(row));
+    }
+    for (const std::string& w : story_->warnings) notes << QString::fromStdString(w);
+  }
+  steps_->setRows(std::move(rows));
+  warnings_->setText(notes.join(QLatin1Char('\n')));
+  warnings_->setVisible(!notes.isEmpty());
+}
+
+void NextPanel::showSuggestion() {
+  std::vector<Row> rows;
+  gain_->setVisible(story_ != nullptr && story_->suggestion.has_value());
+  if (story_ == nullptr) {
+    suggestion_->setText(tr("After the search this says which measurement tells rivals apart."));
+  } else if (story_->suggestion) {
+    const MeasurementSuggestion& s = *story_->suggestion;
+    // "A from B" by the ids of the core.
+    QString separates = QString::fromStdString(s.separates);
+    const qsizetype from = separates.indexOf(QLatin1String(" from "));
+    if (from > 0) {
+      separates =
+          tr("%1 from %2")
+              .arg(effectTitle(separates.left(from).toStdString()), effectTitle(separates.mid(from + 6).toStdString()));
+    }
+    suggestion_->setText(tr("To tell %1: %2.").arg(separates, QString::fromStdString(s.conditions)));
+    gain_->set(QString::number(s.expected_delta_bic, 'f', 0), tr("above 10 decides between the two"));
+    const double last = s.times_s.empty() ? 0.0 : s.times_s.back();
+    const TimeUnit unit = timeUnit(last);
+    for (const double t : s.times_s) {
+      Row row;
+      row.id = QString::number(t);
+      Cell time{QStringLiteral("%1 %2").arg(t / unit.seconds, 0, 'f', 2).arg(unit.name)};
+      row.cells = {time, {QString::fromStdString(joinedList(s.points))}};
+      rows.push_back(std::move(row));
+    }
+  } else if (story_->verdict == DiscrepancyVerdict::Unknown) {
+    suggestion_->setText(tr(
+        "No effect of the catalogue fits, so there are no rivals to tell apart. Log what else happens at the machine "
+        "(hydraulics, pumps, doors, neighbours) at the times of the disagreement, and measure again."));
+  } else if (story_->verdict == DiscrepancyVerdict::None) {
+    suggestion_->setText(tr("Nothing: measured and simulated agree."));
+  } else {
+    suggestion_->setText(tr("Nothing: no rival fits as well as the effect that was named."));
+  }
+  time_table_->setVisible(!rows.empty());
+  times_->setRows(std::move(rows));
+}
+
+std::vector<Exportable> NextPanel::exportables() {
+  std::vector<Exportable> items;
+  if (story_ == nullptr) return items;
+  if (story_->suggestion) items.push_back(exportableOf(tr("What to measure next"), times_));
+  if (!story_->steps.empty()) items.push_back(exportableOf(tr("Steps of the search"), steps_));
+  return items;
+}
+
+}  // namespace spindrift::gui

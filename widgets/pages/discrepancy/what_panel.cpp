@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/discrepancy/what_panel.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSplitter>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "core/base/text.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/plots/plot.h"
+
+namespace spindrift::gui {
+namespace {
+
+Cell number(const QString& text) {
+  Cell cell{text};
+  cell.right = true;
+  return cell;
+}
+
+/// "gain_um_per_krpm2" -> "gain / (um/krpm²)", "tau_s" -> "time constant / s".
+QString parameterTitle(const std::string& name) {
+  QString text = QString::fromStdString(name);
+  static const std::vector<std::pair<QString, QString>> known{
+      {QStringLiteral("tau_on"), WhatPanel::tr("time constant, on")},
+      {QStringLiteral("tau_off"), WhatPanel::tr("time constant, off")},
+      {QStringLiteral("tau"), WhatPanel::tr("time constant")},
+      {QStringLiteral("onset"), WhatPanel::tr("onset")},
+      {QStringLiteral("length"), WhatPanel::tr("length")}};
+  if (text.startsWith(QLatin1String("gain_"))) {
+    const QString unit =
+        text.mid(5).replace(QLatin1String("_per_"), QLatin1String(" per ")).replace(QLatin1Char('_'), QLatin1Char(' '));
+    QString shown = unit;
+    shown.replace(QLatin1String("um per m per "), QLatin1String("um/m per "))
+        .replace(QLatin1String("m per min"), QLatin1String("m/min"));
+    return WhatPanel::tr("gain / (%1)").arg(shown);
+  }
+  for (const auto& [stem, title] : known) {
+    if (!text.startsWith(stem)) continue;
+    QString rest = text.mid(stem.size());
+    QString unit;
+    if (rest.endsWith(QLatin1String("_s"))) {
+      unit = QStringLiteral(" / s");
+      rest.chop(2);
+    }
+    return title + rest.replace(QLatin1Char('_'), QLatin1Char(' ')) + unit;
+  }
+  return text;
+}
+
+}  // namespace
+
+WhatPanel::WhatPanel(QWidget* parent) : QWidget(parent) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 8, 0, 0);
+  auto* left = new Card(tr("Effects"));
+  effects_ = new RowsModel({tr("Effect"), tr("State"), tr("Gain in BIC")}, this);
+  effect_table_ = makeTable(effects_, tr("Effects found"), tr("Effects appear after the search."));
+  stretchColumn(effect_table_, 0);
+  left->body()->addWidget(effect_table_, 4);
+  left->body()->addWidget(makeLabel(tr("Parameters, jointly fitted"), "sectionTitle"));
+  parameters_ = new RowsModel({tr("Parameter"), tr("Value ± standard uncertainty")}, this);
+  left->body()->addWidget(makeTable(parameters_, tr("Parameters of the effect"), tr("Choose an effect.")), 4);
+
+  detail_ = new Card;
+  reject_ = makeButton(tr("Do not consider"), "exclude");
+  reject_->setToolTip(tr("Search again without this effect"));
+  detail_->addToTitle(reject_);
+  auto* tiles = new QHBoxLayout;
+  tiles->setSpacing(16);
+  confidence_ = new NumberTile(tr("Confidence"));
+  gain_ = new NumberTile(tr("Gain in BIC"));
+  held_out_ = new NumberTile(tr("Held-out rms"));
+  for (NumberTile* tile : {confidence_, gain_, held_out_}) tiles->addWidget(tile, 1);
+  detail_->body()->addLayout(tiles);
+  rivals_ = new Callout;
+  detail_->body()->addWidget(rivals_);
+  drivers_ = makeLabel({}, "instruction");
+  drivers_->setWordWrap(true);
+  physics_ = new QLabel;
+  physics_->setWordWrap(true);
+  physics_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  auto* text = new QWidget;
+  auto* text_column = new QVBoxLayout(text);
+  text_column->setContentsMargins(0, 0, 8, 0);
+  text_column->addWidget(drivers_);
+  text_column->addWidget(makeLabel(tr("What happens"), "sectionTitle"));
+  text_column->addWidget(physics_);
+  text_column->addStretch(1);
+  auto* scroll = new QScrollArea;
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(text);
+  detail_->body()->addWidget(scroll, 3);
+  plot_title_ = makeLabel({}, "sectionTitle");
+  detail_->body()->addWidget(plot_title_);
+  plot_ = new Plot;
+  plot_->setEmptyText(tr("What the effects explain will appear here"), tr("Search, or choose another place."));
+  detail_->body()->addWidget(plot_, 4);
+  connect(plot_, &Plot::hovered, this, &WhatPanel::hovered);
+  column->addWidget(makeSplitter(left, detail_, 6, 6), 1);
+
+  connect(effect_table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this] {
+    showEffect();
+    Q_EMIT choiceChanged();
+  });
+  connect(reject_, &QPushButton::clicked, this, [this] {
+    if (const std::string id = chosen(); !id.empty()) Q_EMIT rejectAsked(id);
+  });
+  show(nullptr);
+}
+
+void WhatPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
+  const std::string before = chosen();
+  story_ = story;
+  std::vector<Row> rows;
+  int select = 0;
+  if (story_ != nullptr) {
+    for (const FoundEffect& e : story_->effects) {
+      Row row;
+      row.id = QString::fromStdString(e.id);
+      Cell name{sentenceStart(effectTitle(e.id))};
+      name.bold = true;
+      name.tip = row.id;
+      Cell state =
+          e.forced ? Cell{tr("added"), Tone::Good, "check-circle"} : Cell{tr("proposed"), Tone::Accent, "discrepancy"};
+      row.cells = {name, state, number(QString::number(e.delta_bic, 'f', 0))};
+      if (!e.forced && select == 0 && !rows.empty()) select = static_cast<int>(rows.size());
+      rows.push_back(std::move(row));
+      for (const std::string& rival : e.rivals) {
+        Row other;
+        other.id = QString::fromStdString(rival);
+        Cell rival_name{tr("or: %1").arg(effectTitle(rival))};
+        rival_name.tip = other.id;
+        other.cells = {rival_name, {tr("rival"), Tone::Attention, "compare"}, number(QStringLiteral("–"))};
+        rows.push_back(std::move(other));
+      }
+    }
+    QString empty = tr("No effect is missing.");
+    if (story_->verdict == DiscrepancyVerdict::Unknown) {
+      empty = tr("No effect of the catalogue explains what is left. A wrong name would be worse than none.");
+    }
+    effect_table_->setProperty("emptyText", empty);
+  } else {
+    effect_table_->setProperty("emptyText", tr("Effects appear after the search."));
+  }
+  effects_->setRows(std::move(rows));
+  const int again = before.empty() ? -1 : effects_->rowOf(QString::fromStdString(before));
+  if (effects_->rowCount() > 0) effect_table_->selectRow(again >= 0 ? again : select);
+  showEffect();
+}
+
+std::string WhatPanel::chosen() const {
+  const QModelIndex now = effect_table_->selectionModel()->currentIndex();
+  return now.isValid() ? effects_->idAt(now.row()).toStdString() : std::string();
+}
+
+bool WhatPanel::chosenIsAdded() const {
+  const std::string id = chosen();
+  return story_ != nullptr && std::find(story_->added.begin(), story_->added.end(), id) != story_->added.end();
+}
+
+const FoundEffect* WhatPanel::effectOf(const std::string& id) const {
+  if (story_ == nullptr) return nullptr;
+  for (const FoundEffect& e : story_->effects) {
+    if (e.id == id || std::find(e.rivals.begin(), e.rivals.end(), id) != e.rivals.end()) return &e;
+  }
+  return nullptr;
+}
+
+void WhatPanel::showEffect() {
+  const std::string id = chosen();
+  const FoundEffect* e = effectOf(id);
+  reject_->setVisible(e != nullptr && !chosenIsAdded());
+  std::vector<Row> rows;
+  if (e == nullptr) {
+    parameters_->setRows({});
+    detail_->setTitle(tr("What happens in the machine"));
+    for (NumberTile* tile : {confidence_, gain_, held_out_}) tile->set(QStringLiteral("–"));
+    rivals_->set(Tone::Neutral, {});
+    drivers_->clear();
+    physics_->setText(story_ == nullptr ? tr("The physics of the effect and the evidence for it will appear here.")
+                      : story_->leftover.empty()
+                          ? tr("Nothing is missing in the simulation.")
+                          : tr("What is left: %1.").arg(QString::fromStdString(story_->leftover)));
+    return;
+  }
+  const bool rival = id != e->id;
+  detail_->setTitle(sentenceStart(effectTitle(id)));
+  confidence_->set(QString::number(e->confidence, 'f', 2),
+                   rival ? tr("of %1").arg(effectTitle(e->id)) : tr("that the name is right"));
+  gain_->set(QString::number(e->delta_bic, 'f', 0), tr("above 10 is very strong"));
+  held_out_->set(tr("%1 → %2").arg(sizeText(e->heldout_rms_before_um, {}),
+                                   sizeText(e->heldout_rms_after_um, QStringLiteral("um"))),
+                 story_->has_holdout ? tr("observations held out") : tr("blocks left out in turn"));
+  if (e->rivals.empty()) {
+    rivals_->set(Tone::Neutral, {});
+  } else {
+    std::vector<std::string> all{e->id};
+    all.insert(all.end(), e->rivals.begin(), e->rivals.end());
+    rivals_->show(Tone::Attention,
+                  tr("These data cannot tell apart: %1. Choose the one you know to be there, or measure "
+                     "what the last tab proposes.")
+                      .arg(effectTitles(all, tr("or"))));
+  }
+  QString drivers = tr("Driven by %1.").arg(QString::fromStdString(e->drivers));
+  if (!e->containers.empty()) {
+    drivers += QLatin1Char(' ') + tr("Also part of %1.").arg(effectTitles(e->containers, tr("and")));
+  }
+  drivers += QLatin1Char(' ') + tr("It moves the tool by %1 rms. Id: %2.")
+                                    .arg(sizeText(e->rms_um, QStringLiteral("um")), QString::fromStdString(e->id));
+  drivers_->setText(drivers);
+  physics_->setText(rival ? tr("The numbers are those of %1, which fits as well. Add this one instead to see its own.")
+                                .arg(effectTitle(e->id))
+                          : QString::fromStdString(e->physics));
+  if (!rival) {
+    for (const FittedParameter& p : e->parameters) {
+      Row row;
+      row.id = QString::fromStdString(p.name);
+      Cell name{parameterTitle(p.name)};
+      name.tip = row.id;
+      row.cells = {name, number(QString::fromStdString(withUncertainty(p.value, p.standard_uncertainty, "")))};
+      rows.push_back(std::move(row));
+    }
+  }
+  parameters_->setRows(std::move(rows));
+}
+
+void WhatPanel::choose(const std::string& point, Component component) {
+  const DiscrepancySeries* s = story_ == nullptr ? nullptr : story_->find(point, component);
+  plot_title_->setVisible(s != nullptr);
+  if (s == nullptr || s->time_s.empty()) {
+    plot_->setContent({});
+    return;
+  }
+  const TimeUnit unit = timeUnit(s->time_s.back());
+  plot_title_->setText(
+      s->explained.empty()
+          ? tr("%1 of %2: nothing explains it").arg(componentName(component), QString::fromStdString(point))
+          : tr("%1 of %2: what the effects explain").arg(componentName(component), QString::fromStdString(point)));
+  plot_->setAxes(tr("Time / %1").arg(unit.name),
+                 tr("%1 residual / %2").arg(componentName(component), componentUnit(component)));
+  Series measured;
+  measured.name = tr("measured − simulated");
+  measured.style = SeriesStyle::Points;
+  measured.colour = 1;
+  Series line;
+  line.name = tr("effects, ± 2 σ of the noise");
+  line.style = SeriesStyle::Line;
+  line.colour = 0;
+  for (std::size_t i = 0; i < s->time_s.size(); ++i) {
+    measured.x.push_back(s->time_s[i] / unit.seconds);
+    measured.y.push_back(s->value[i] - s->simulated[i] - s->constant_before);
+    if (s->explained.empty()) continue;
+    line.x.push_back(s->time_s[i] / unit.seconds);
+    line.y.push_back(s->explained[i]);
+    line.sigma.push_back(s->noise);
+  }
+  std::vector<Series> series{measured};
+  if (!line.x.empty()) series.insert(series.begin(), line);
+  plot_->setContent(std::move(series));
+}
+
+std::vector<Exportable> WhatPanel::exportables() {
+  std::vector<Exportable> items;
+  if (story_ == nullptr || story_->effects.empty()) return items;
+  items.push_back(exportableOf(tr("Effects"), effects_));
+  items.push_back(exportableOf(tr("Parameters of the effect"), parameters_));
+  if (!plot_->empty()) items.push_back(exportableOf(tr("What the effects explain"), plot_));
+  return items;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where measurement and simulation disagree: places, points, the machine and the residual over time, selected together.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+#include <vector>
+
+#include "core/machine/machine_description.h"
+#include "core/workflows/discrepancy_story.h"
+#include "widgets/export/exportable.h"
+
+class QCheckBox;
+class QLabel;
+class QTableView;
+class QVBoxLayout;
+
+namespace spindrift::gui {
+
+class Card;
+class Plot;
+class RowsModel;
+class Segments;
+class View3D;
+
+class WherePanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit WherePanel(QWidget* parent = nullptr);
+  /// Null: nothing has been searched.
+  void show(const std::shared_ptr<const DiscrepancyStory>& story, const MachineDescription* machine);
+  [[nodiscard]] std::vector<Exportable> exportables();
+  [[nodiscard]] View3D* view() const { return view_; }
+  [[nodiscard]] Plot* plot() const { return plot_; }
+  [[nodiscard]] QTableView* placeTable() const { return place_table_; }
+  [[nodiscard]] QTableView* pointTable() const { return point_table_; }
+  [[nodiscard]] Component component() const { return component_; }
+  [[nodiscard]] const std::string& point() const { return point_; }
+
+ Q_SIGNALS:
+  void hovered(const QString& text);
+  /// The user chose another component or point.
+  void chosen();
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  void fillPlaces();
+  void fillSegments();
+  void fillPoints();
+  void showView();
+  void showPlot();
+  void choosePlace(int row);
+  void chooseComponent(Component component);
+  void choosePoint(const std::string& point);
+  void arrange();
+  [[nodiscard]] bool deviates(const std::string& point, Component component) const;
+
+  RowsModel* places_;
+  RowsModel* points_;
+  QTableView* place_table_;
+  QTableView* point_table_;
+  QVBoxLayout* segment_place_;
+  Segments* segments_ = nullptr;
+  QCheckBox* machine_box_;
+  QLabel* points_title_;
+  QLabel* plot_title_;
+  Segments* which_;
+  Card* view_card_;
+  Card* plot_card_;
+  View3D* view_;
+  Plot* plot_;
+  std::shared_ptr<const DiscrepancyStory> story_;
+  std::vector<Component> components_;
+  Component component_ = Component::EX;
+  std::string point_;
+  int place_ = -1;
+  bool following_ = false;  ///< a selection is being carried over
+};
+
+}  // namespace spindrift::gui
