@@ -102,7 +102,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   file_choices->setSpacing(8);
   file_choices->addWidget(new QLabel(tr("Positions")));
   file_choices->addWidget(positions_);
-  file_choices->addWidget(new QLabel(tr("through / mm")));
+  file_choices->addWidget(new QLabel(tr("At / mm")));
   for (std::size_t i = 0; i < 3; ++i) {
     reference_[i] = new QDoubleSpinBox;
     reference_[i]->setDecimals(1);
