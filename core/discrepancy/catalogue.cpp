@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/discrepancy/catalogue.h"
 
+#include <algorithm>
+
 namespace spindrift {
 
 std::string_view toString(Dynamics dynamics) noexcept {
@@ -47,6 +49,22 @@ std::vector<Effect> effectCatalogue(const CatalogueContext& context) {
   addHeatSourceEffects(context, out);
   addRotaryEffects(context, out);
   addArtefactEffects(context, out);
+  // What an effect holds, all that this holds is held as well.
+  for (std::size_t pass = 0; pass < 3; ++pass) {
+    for (Effect& effect : out) {
+      std::vector<std::string> more;
+      for (const std::string& id : effect.contains) {
+        for (const Effect& inner : out) {
+          if (inner.id == id) more.insert(more.end(), inner.contains.begin(), inner.contains.end());
+        }
+      }
+      for (const std::string& id : more) {
+        if (std::find(effect.contains.begin(), effect.contains.end(), id) == effect.contains.end()) {
+          effect.contains.push_back(id);
+        }
+      }
+    }
+  }
   return out;
 }
 

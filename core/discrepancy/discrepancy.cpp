@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/discrepancy/discrepancy_numbers.h"
 #include "core/discrepancy/discrepancy_search.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/math/distributions.h"
@@ -21,211 +22,6 @@ namespace {
 using Eigen::Index;
 
 constexpr std::size_t unit_limit = 3000;
-
-/// Observations in mm instead of um (or the simulation): a slope of a thousand between the two.
-void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& rows) {
-  std::map<std::pair<std::string, int>, std::array<double, 3>> means;
-  for (const std::size_t row : rows) {
-    const Observation& o = input.observations.rows[row];
-    auto& m = means[{o.point, static_cast<int>(o.component)}];
-    m[0] += 1.0;
-    m[1] += o.value;
-    m[2] += input.predicted[row];
-  }
-  double oo = 0.0;
-  double ss = 0.0;
-  double os = 0.0;
-  for (const std::size_t row : rows) {
-    const Observation& o = input.observations.rows[row];
-    const auto& m = means[{o.point, static_cast<int>(o.component)}];
-    const double a = o.value - m[1] / m[0];
-    const double b = input.predicted[row] - m[2] / m[0];
-    oo += a * a;
-    ss += b * b;
-    os += a * b;
-  }
-  if (!(oo > 0.0) || !(ss > 0.0) || rows.size() < 20) return;
-  const double correlation = os / std::sqrt(oo * ss);
-  const double ratio = std::sqrt(oo / ss);
-  const std::filesystem::path file = input.observations.file;
-  if (correlation > 0.6 && ratio > 300.0) {
-    throw InputError({file, ""},
-                     fmt::format("the deviations move {:.0f} times as much as the simulation predicts, in the "
-                                 "same way: the simulation looks as if it were in mm; allowed: um and urad.",
-                                 ratio));
-  }
-  if (correlation > 0.6 && ratio < 1.0 / 300.0) {
-    throw InputError({file, ""},
-                     fmt::format("the deviations move {:.0f} times less than the simulation predicts, in the "
-                                 "same way: they look as if they were in mm; allowed: um and urad.",
-                                 1.0 / ratio));
-  }
-}
-
-void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings) {
-  if (!input.log || input.log->empty()) {
-    warnings.emplace_back("There is no operating log: effects that follow speed, feed or temperature cannot be tried.");
-    return;
-  }
-  for (const std::string& name : drivers.dead()) {
-    if (OperatingLog::isTemperature(name)) {
-      warnings.push_back(fmt::format("The sensor {} never moves; it is left out as dead.", name));
-    }
-  }
-  if (!input.log->has("spindle_rpm"))
-    warnings.emplace_back("The log has no spindle_rpm: spindle heat is known from temperatures at best.");
-  const auto& t = input.log->time_s();
-  if (t.size() > 3) {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
-    const double typical = median(steps);
-    const auto gap = std::max_element(steps.begin(), steps.end());
-    if (*gap > std::max(1800.0, 20.0 * typical)) {
-      warnings.push_back(
-          fmt::format("The log has a gap of {:.0f} s after {:.0f} s; states are taken as unchanged in it.", *gap,
-                      t[static_cast<std::size_t>(gap - steps.begin())]));
-    }
-  }
-}
-
-/// Gains and lags of a joint fit with their covariance (linearised at the solution).
-std::vector<ModelEffect> modelEffects(const EffectSearch& search, const ResidualProblem& problem,
-                                      const DriverTable& drivers, const JointFit& fit, const std::string& source,
-                                      double chi2_scale) {
-  if (fit.terms.empty()) return {};
-  std::vector<Eigen::MatrixXd> parts;
-  Index total = 0;
-  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
-    const Eigen::MatrixXd x = search.columns(fit.terms[t]);
-    Eigen::MatrixXd part(x.rows(), x.cols() + static_cast<Index>(fit.terms[t].parameters.size()));
-    part.leftCols(x.cols()) = x;
-    for (std::size_t p = 0; p < fit.terms[t].parameters.size(); ++p) {
-      const bool lag = search.parameterIsLag(fit.terms[t], p);
-      const double value = fit.terms[t].parameters[p];
-      const double step = lag ? std::max(1.0, 0.02 * value) : 30.0;
-      ModelTerm up = fit.terms[t];
-      up.parameters[p] = value + step;
-      part.col(x.cols() + static_cast<Index>(p)) = (search.columns(up) * fit.gains[t] - x * fit.gains[t]) / step;
-    }
-    total += part.cols();
-    parts.push_back(std::move(part));
-  }
-  Eigen::MatrixXd jacobian(problem.size(), total);
-  Index at = 0;
-  for (const Eigen::MatrixXd& part : parts) {
-    jacobian.middleCols(at, part.cols()) = part;
-    at += part.cols();
-  }
-  const Eigen::MatrixXd x = problem.projected(jacobian);
-  Eigen::VectorXd norm = x.colwise().norm();
-  Eigen::MatrixXd scaled = x;
-  for (Index c = 0; c < total; ++c) scaled.col(c) /= norm[c] > 0.0 ? norm[c] : 1.0;
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod(scaled);
-  const Eigen::MatrixXd inverse = cod.pseudoInverse();
-  Eigen::MatrixXd covariance = inverse * inverse.transpose() * chi2_scale;
-  for (Index r = 0; r < total; ++r) {
-    for (Index c = 0; c < total; ++c) {
-      covariance(r, c) /= (norm[r] > 0.0 ? norm[r] : 1.0) * (norm[c] > 0.0 ? norm[c] : 1.0);
-    }
-  }
-  std::vector<ModelEffect> out;
-  at = 0;
-  (void)drivers;
-  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
-    ModelEffect e;
-    e.effect = *fit.terms[t].effect;
-    e.variant = fit.terms[t].variant;
-    e.parameters = fit.terms[t].parameters;
-    e.gains = fit.gains[t];
-    e.covariance = covariance.block(at, at, parts[t].cols(), parts[t].cols());
-    const Eigen::VectorXd sd = e.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-    e.gain_uncertainty = sd.head(e.gains.size());
-    for (std::size_t p = 0; p < e.parameters.size(); ++p) {
-      e.parameter_uncertainty.push_back(sd[e.gains.size() + static_cast<Index>(p)]);
-    }
-    e.source = source;
-    at += parts[t].cols();
-    out.push_back(std::move(e));
-  }
-  return out;
-}
-
-std::string driversText(const ModelEffect& e) {
-  std::string text;
-  std::size_t next = 0;
-  for (const EffectInput& input : e.variant.inputs) {
-    if (!text.empty()) text += " + ";
-    switch (input.dynamics) {
-      case Dynamics::None:
-        text += input.driver.empty() ? "steady" : input.driver + " without lag";
-        break;
-      case Dynamics::Lag: {
-        const double tau = e.parameters[e.variant.shared_lag ? 0 : next++];
-        text += tau > 0.0 ? fmt::format("{} (lag {:.0f} s)", input.driver, tau) : input.driver;
-        break;
-      }
-      case Dynamics::AsymmetricLag:
-        text +=
-            fmt::format("{} (lag {:.0f} s on, {:.0f} s off)", input.driver, e.parameters[next], e.parameters[next + 1]);
-        next += 2;
-        break;
-      case Dynamics::Step:
-        text += fmt::format("step at {:.0f} s", e.parameters[next++]);
-        break;
-      case Dynamics::Pulse:
-        text += fmt::format("from {:.0f} s to {:.0f} s (lag {:.0f} s)", e.parameters[next],
-                            e.parameters[next] + e.parameters[next + 1], e.parameters[next + 2]);
-        next += 3;
-        break;
-    }
-  }
-  return text;
-}
-
-struct RowResult {
-  std::vector<double> constant;  // per row
-  double fit_rms = 0.0;
-  double holdout_rms = 0.0;
-  std::size_t holdout_rows = 0;
-};
-
-/// Constants of the series from the fit rows, and the rms of what is left.
-RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::size_t>& fit_rows,
-                       const std::vector<double>& effect_part) {
-  const auto& rows = input.observations.rows;
-  RowResult out;
-  out.constant.assign(rows.size(), std::numeric_limits<double>::quiet_NaN());
-  std::map<std::pair<std::string, int>, std::array<double, 2>> sums;
-  for (const std::size_t row : fit_rows) {
-    const Observation& o = rows[row];
-    auto& s = sums[{o.point, static_cast<int>(o.component)}];
-    const double w = 1.0 / (o.sigma * o.sigma);
-    s[0] += w;
-    s[1] += w * (o.value - input.predicted[row] - effect_part[row]);
-  }
-  double fit = 0.0;
-  double fit_count = 0.0;
-  double held = 0.0;
-  const std::set<std::size_t> fitted(fit_rows.begin(), fit_rows.end());
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    const Observation& o = rows[row];
-    const auto found = sums.find({o.point, static_cast<int>(o.component)});
-    if (found == sums.end() || !std::isfinite(input.predicted[row])) continue;
-    out.constant[row] = found->second[1] / found->second[0];
-    if (isRotation(o.component)) continue;
-    const double r = o.value - input.predicted[row] - effect_part[row] - out.constant[row];
-    if (fitted.contains(row)) {
-      fit += r * r;
-      fit_count += 1.0;
-    } else if (o.use == ObservationUse::Holdout) {
-      held += r * r;
-      ++out.holdout_rows;
-    }
-  }
-  if (fit_count > 0.0) out.fit_rms = std::sqrt(fit / fit_count);
-  if (out.holdout_rows > 0) out.holdout_rms = std::sqrt(held / static_cast<double>(out.holdout_rows));
-  return out;
-}
 
 }  // namespace
 
@@ -379,20 +175,37 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.noise_correlation_time_s = problem.noise.correlation_time_s;
   result.steps = outcome.steps;
   result.explained_fraction = outcome.explained_fraction;
+  result.leftover_p_value = outcome.leftover_p_value;
+  result.leftover_fraction = outcome.unknown_course.advantage;
+  result.smallest_part = outcome.unknown_course.smallest_part;
 
   // Verdict.
-  const bool unexplained = outcome.leftover_p_value < 1e-3 && outcome.explained_fraction < limits.least_explained;
+  const bool left = outcome.leftover_p_value < 1e-3;
+  const bool unexplained = (left && (outcome.explained_fraction < limits.least_explained ||
+                                     outcome.unknown_course.advantage > limits.unknown_advantage ||
+                                     outcome.unknown_course.smallest_part < limits.least_over_leftover)) ||
+                           outcome.crowded || !outcome.composite.empty();
   bool ambiguous = false;
   bool too_many = false;
   JointFit named = outcome.fit;
   std::vector<TermEvidence> evidence = outcome.evidence;
   std::vector<bool> forced = outcome.forced;
+  std::vector<std::string> alike;
+  std::size_t alike_term = 0;
   for (const TermEvidence& e : evidence) {
     int rivals = 0;
     for (const RivalFit& r : e.rivals) rivals += r.container ? 0 : 1;
     ambiguous = ambiguous || rivals > 0;
+    if (rivals > 2 && !too_many) {
+      alike.push_back(outcome.fit.terms[alike_term].effect->id);
+      for (const RivalFit& r : e.rivals) {
+        if (!r.container) alike.push_back(r.id);
+      }
+    }
     too_many = too_many || rivals > 2;
+    ++alike_term;
   }
+  if (outcome.leftover.empty()) outcome.leftover = outcome.composite;
   result.leftover =
       unexplained || outcome.fit.terms.empty() || outcome.explained_fraction < 0.98 ? outcome.leftover : "";
   if (outcome.fit.terms.empty()) {
@@ -406,8 +219,9 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   if (result.verdict == DiscrepancyVerdict::Unknown) {
     // A name beside something that nothing explains is worse than none, unless the user put it there.
     if (result.leftover.empty()) {
-      result.leftover =
-          too_many ? "more effects fit equally well than could be named" : "a part that no effect explains";
+      result.leftover = too_many          ? "more effects fit equally well than could be named"
+                        : outcome.crowded ? "several effects together imitate what is left, none of them alone"
+                                          : "a part that no effect explains";
     }
     JointFit kept;
     std::vector<TermEvidence> kept_evidence;
@@ -428,7 +242,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   // Numbers of the model.
   problem.setNuisances(base);
   const double chi2_scale = std::max(1.0, outcome.chi2_after / std::max(1.0, static_cast<double>(outcome.dof_before)));
-  std::vector<ModelEffect> effects = modelEffects(search, problem, *drivers, named, "fit of the residual", chi2_scale);
+  std::vector<ModelEffect> effects = modelEffects(search, problem, named, "fit of the residual", chi2_scale);
   result.model = std::make_shared<EffectModel>(drivers, effects, nullptr, input.base_table);
 
   // Rows: simulated, completed, gap, held-out.
@@ -457,6 +271,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
     found.drivers = driversText(e);
     found.delta_bic = evidence[t].delta_bic;
     found.delta_chi2 = evidence[t].delta_chi2;
+    found.margin = std::min(evidence[t].margin, 1e6);
     found.forced = forced[t];
     const auto& cv = evidence[t].crossvalidation;
     found.crossvalidated_rms_before_um = cv.before_um;
@@ -472,7 +287,14 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
     for (std::size_t p = 0; p < names.size(); ++p) {
       found.parameters.push_back({names[p], e.parameters[p], e.parameter_uncertainty[p]});
     }
-    for (const RivalFit& r : evidence[t].rivals) (r.container ? found.containers : found.rivals).push_back(r.id);
+    for (const RivalFit& r : evidence[t].rivals) {
+      (r.container ? found.containers : found.rivals).push_back(r.id);
+      if (r.undriven) {
+        result.warnings.push_back(
+            fmt::format("{} cannot be told from {}, because the log lacks what drives the latter: log it next time.",
+                        found.id, r.id));
+      }
+    }
     for (const Component c : all_components) {
       double power = 0.0;
       double count = 0.0;
@@ -528,7 +350,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   if (options.suggest && enough) {
     for (std::size_t t = 0; t < evidence.size() && !result.suggestion; ++t) {
       for (const RivalFit& rival : evidence[t].rivals) {
-        if (rival.container) continue;
+        if (rival.container || rival.undriven) continue;
         result.suggestion = suggestMeasurement(input, *drivers, problem, named, rival.joint,
                                                named.terms[t].effect->id + " from " + rival.id, search.logN());
         break;

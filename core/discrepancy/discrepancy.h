@@ -76,7 +76,8 @@ struct FoundEffect {
   std::vector<FittedParameter> parameters;
   double delta_bic = 0.0;  ///< gain in BIC when the effect enters
   double delta_chi2 = 0.0;
-  double rms_um = 0.0;                        ///< of its contribution in the component where it is largest
+  double margin = 0.0;  ///< in score (chi-squared minus parameters x ln n) ahead of the best other effect
+  double rms_um = 0.0;  ///< of its contribution in the component where it is largest
   double crossvalidated_rms_before_um = 0.0;  ///< blocks of fit rows left out, predicted without this effect
   double crossvalidated_rms_after_um = 0.0;
   double heldout_rms_before_um = 0.0;  ///< rows marked holdout (the left-out blocks where there are none)
@@ -146,6 +147,9 @@ struct DiscrepancyResult {
   double noise_correlated_part = 0.0;  ///< 0 ... 1
   double noise_correlation_time_s = 0.0;
   double explained_fraction = 0.0;  ///< of the structured part of the residual
+  double leftover_fraction = 0.0;
+  double smallest_part = 1e9;
+  double leftover_p_value = 1.0;
 
   /// The JSON of FORMATS.md.
   [[nodiscard]] nlohmann::json json() const;

@@ -31,6 +31,8 @@ nlohmann::json DiscrepancyResult::json() const {
                     {"heldout_rms_after_um", jsonNumber(e.heldout_rms_after_um)},
                     {"crossvalidated_rms_before_um", jsonNumber(e.crossvalidated_rms_before_um)},
                     {"crossvalidated_rms_after_um", jsonNumber(e.crossvalidated_rms_after_um)},
+                    {"delta_chi2", jsonNumber(e.delta_chi2)},
+                    {"margin", jsonNumber(e.margin)},
                     {"forced", e.forced}});
   }
   json places = json::array();
@@ -79,6 +81,9 @@ nlohmann::json DiscrepancyResult::json() const {
                   {"correlated_part", jsonNumber(noise_correlated_part)},
                   {"correlation_time_s", jsonNumber(noise_correlation_time_s)}};
   out["explained_fraction"] = jsonNumber(explained_fraction);
+  out["leftover_fraction"] = jsonNumber(leftover_fraction);
+  out["smallest_part"] = jsonNumber(smallest_part);
+  out["leftover_p_value"] = jsonNumber(leftover_p_value);
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/math/distributions.h"
 
@@ -36,42 +37,61 @@ std::vector<NuisanceColumn> nuisancesOf(const EffectSearch& search, const std::v
   return out;
 }
 
-/// A second lag or another driver of the same effect, as long as the evidence grows.
-JointFit refineDynamics(const EffectSearch& search, JointFit fit, std::size_t from) {
-  for (std::size_t t = from; t < fit.terms.size(); ++t) {
-    const ModelTerm& term = fit.terms[t];
-    if (term.variant.inputs[0].driver.empty() || term.variant.inputs.size() > 2 || term.variant.shared_lag) continue;
-    if (term.variant.inputs[0].dynamics != Dynamics::Lag) continue;
-    if (static_cast<Index>(term.variant.inputs.size() + 1) * static_cast<Index>(term.effect->shape.size()) > 8)
-      continue;
-    JointFit best = fit;
-    std::vector<std::string> drivers;
-    for (const EffectVariant& variant : term.effect->variants) {
-      for (const EffectInput& input : variant.inputs) {
-        if (input.dynamics == Dynamics::Lag &&
-            std::find(drivers.begin(), drivers.end(), input.driver) == drivers.end()) {
-          drivers.push_back(input.driver);
-        }
-      }
-    }
-    for (const std::string& driver : drivers) {
-      // The best of a few starts for the further lag, then one line search.
-      JointFit start;
-      start.score = -1e300;
-      for (const double tau : {300.0, 1200.0, 4800.0, 14400.0}) {
-        std::vector<ModelTerm> terms = fit.terms;
-        terms[t].variant.inputs.push_back({driver, Dynamics::Lag});
-        terms[t].parameters.push_back(tau);
-        JointFit trial = search.solve(terms);
-        if (trial.score > start.score) start = std::move(trial);
-      }
-      if (start.score < best.score - 12.0) continue;
-      JointFit trial = search.refine(start.terms, 1);
-      if (trial.score > best.score + 4.0) best = std::move(trial);
-    }
-    fit = std::move(best);
-  }
+/// Refines the dynamics of the terms from `from` on.
+JointFit refineDynamics(const EffectSearch& search, JointFit fit, std::size_t from,
+                        const std::vector<NuisanceColumn>& base) {
+  for (std::size_t t = from; t < fit.terms.size(); ++t) fit = search.refineDynamics(std::move(fit), t, base);
   return fit;
+}
+
+/// Both act through one and the same shape over the units.
+bool sameShape(const EffectSearch& search, const Effect& a, const Effect& b) {
+  const Eigen::MatrixXd& first = search.shape(a);
+  const Eigen::MatrixXd& second = search.shape(b);
+  if (first.cols() != 1 || second.cols() != 1) return false;
+  const double dot = first.col(0).dot(second.col(0));
+  return std::abs(dot) > 0.999 * first.col(0).norm() * second.col(0).norm() && dot != 0.0;
+}
+
+/// An onset that no log shows may as well be an effect of the same shape whose driver the log lacks.
+void addUndrivenRivals(const EffectSearch& search, SearchOutcome& out) {
+  for (std::size_t t = 0; t < out.fit.terms.size(); ++t) {
+    const ModelTerm& term = out.fit.terms[t];
+    if (term.variant.inputs[0].dynamics != Dynamics::Pulse) continue;
+    for (const Effect& effect : search.catalogue()) {
+      if (!effect.driver_missing || effect.id == term.effect->id || !sameShape(search, effect, *term.effect)) continue;
+      if (effect.id.starts_with("heat_source.")) {
+        for (std::size_t other = 0; other < out.fit.terms.size(); ++other) {
+          if (other == t || !contains(effect, out.fit.terms[other].effect->id)) continue;
+          out.composite =
+              fmt::format("{} and {} together look like {}, for which the log lacks the position of the axes",
+                          out.fit.terms[other].effect->id, term.effect->id, effect.id);
+        }
+        continue;
+      }
+      auto& rivals = out.evidence[t].rivals;
+      if (std::any_of(rivals.begin(), rivals.end(), [&](const RivalFit& r) { return r.id == effect.id; })) continue;
+      rivals.push_back({effect.id, out.fit.score, false, {}, true});
+    }
+  }
+}
+
+/// How many effects have their main part in one and the same component, at most.
+int mostInOneComponent(const ResidualProblem& problem, const JointFit& fit) {
+  std::map<Component, int> count;
+  for (const Eigen::VectorXd& part : fit.contribution) {
+    std::map<Component, double> power;
+    for (Index u = 0; u < problem.size(); ++u) {
+      const double z = part[u] / problem.sigma[u];
+      power[problem.component[static_cast<std::size_t>(u)]] += z * z;
+    }
+    const auto largest =
+        std::max_element(power.begin(), power.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    ++count[largest->first];
+  }
+  int most = 0;
+  for (const auto& [component, effects] : count) most = std::max(most, effects);
+  return most;
 }
 
 }  // namespace
@@ -101,7 +121,7 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
     problem.setNuisances(base);
     std::vector<ModelTerm> terms = fit.terms;
     terms.push_back(candidate.term);
-    fit = refineDynamics(search, search.refine(terms, 2), terms.size() - 1);
+    fit = refineDynamics(search, search.refine(terms, 2), terms.size() - 1, base);
     out.forced.push_back(true);
     out.steps.push_back({id, true, candidate.score, candidate.delta_chi2, "accepted by the user"});
   }
@@ -156,7 +176,7 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
       out.steps.push_back(step);
       break;
     }
-    joint = refineDynamics(search, joint, 0);
+    joint = refineDynamics(search, joint, 0, base);
     step.accepted = true;
     step.reason = "";
     out.steps.push_back(step);
@@ -195,7 +215,7 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
       std::vector<ModelTerm> terms = fit.terms;
       terms[t] = candidate.term;
       JointFit joint = search.refine(terms, 2);
-      joint = refineDynamics(search, joint, t);
+      joint = refineDynamics(search, joint, t, base);
       const bool is_container = contains(other, id);
       const bool is_simpler = contains(*fit.terms[t].effect, other.id);
       const double ahead = joint.score - fit.score;
@@ -217,6 +237,24 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
     out.evidence[t] = std::move(evidence);
   }
 
+  // A simpler effect beside one that contains it leaves, where the larger can do without it.
+  for (std::size_t t = fit.terms.size(); t-- > 0;) {
+    const std::string id = fit.terms[t].effect->id;
+    if (out.forced[t] || std::none_of(fit.terms.begin(), fit.terms.end(),
+                                      [&](const ModelTerm& other) { return contains(*other.effect, id); })) {
+      continue;
+    }
+    std::vector<ModelTerm> terms = fit.terms;
+    terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(t));
+    problem.setNuisances(base);
+    JointFit joint = refineDynamics(search, search.refine(terms, 2), 0, base);
+    if (joint.score < fit.score - std::max(20.0, limits.container_margin * fit.delta_chi2)) continue;
+    out.steps.push_back({id, false, fit.score - joint.score, fit.delta_chi2 - joint.delta_chi2,
+                         "left again: contained in another effect of the model"});
+    fit = std::move(joint);
+    out.evidence.erase(out.evidence.begin() + static_cast<std::ptrdiff_t>(t));
+    out.forced.erase(out.forced.begin() + static_cast<std::ptrdiff_t>(t));
+  }
   // An effect that no longer earns its place leaves.
   for (std::size_t t = fit.terms.size(); t-- > 0;) {
     if (out.forced[t] || fit.terms.size() < 2) continue;
@@ -247,132 +285,22 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
   const double explained = std::max(0.0, out.chi2_before - out.chi2_after - fit.parameter_count);
   out.explained_fraction = explained + out.leftover_power > 0.0 ? explained / (explained + out.leftover_power) : 1.0;
   Eigen::VectorXd residual = problem.projectedResidual();
-  if (!fit.terms.empty()) {
-    for (std::size_t t = 0; t < fit.terms.size(); ++t) {
-      residual -= problem.projected(search.columns(fit.terms[t])) * fit.gains[t];
-    }
+  std::vector<NamedPart> parts;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    const Eigen::VectorXd part = problem.projected(search.columns(fit.terms[t])) * fit.gains[t];
+    residual -= part;
+    parts.push_back({part.head(problem.size()),
+                     static_cast<int>(fit.gains[t].size() + static_cast<Index>(fit.terms[t].parameters.size()))});
   }
-  const Eigen::VectorXd whitened_residual = residual.head(problem.size());
-  const StructureTest structure = testStructure(problem, whitened_residual);
+  const StructureTest structure = testStructure(problem, residual.head(problem.size()));
   out.leftover_p_value = structure.p_value;
   if (structure.p_value < 0.01) out.leftover = structure.description;
+  out.unknown_course = testUnknownCourse(problem, residual.head(problem.size()), parts, limits.leftover_error, log_n);
   out.significant_before =
       testStructure(problem, Eigen::VectorXd(problem.projectedResidual().head(problem.size()))).p_value < 0.01;
   out.fit = std::move(fit);
-  return out;
-}
-
-StructureTest testStructure(const ResidualProblem& problem, const Eigen::VectorXd& z) {
-  struct Candidate {
-    double p = 1.0;
-    std::string text;
-    Component component = Component::EX;
-  };
-  std::vector<Candidate> tests;
-  const int epochs = problem.epoch_count;
-  const double dof_part = std::max(
-      0.3, static_cast<double>(problem.degreesOfFreedom()) / std::max<double>(1.0, static_cast<double>(z.size())));
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
-  Eigen::Vector3d high = -low;
-  for (const DeviationQuery& q : problem.place) {
-    low = low.cwiseMin(q.position_mm);
-    high = high.cwiseMax(q.position_mm);
-  }
-  for (const Component c : all_components) {
-    double sum = 0.0;
-    double rows = 0.0;
-    for (Index u = 0; u < z.size(); ++u) {
-      if (problem.component[static_cast<std::size_t>(u)] != c) continue;
-      sum += z[u] * z[u];
-      rows += 1.0;
-    }
-    if (rows < 4.0) continue;
-    tests.push_back({chiSquaredTail(sum, std::max(1.0, rows * dof_part)),
-                     fmt::format("{} scatters more than its noise", toString(c)), c});
-    // A course in time common to all points (kind 0) or growing along x, y, z (1..3): dof = epochs - 1.
-    for (int kind = 0; kind < 4; ++kind) {
-      if (kind > 0 && !(high[kind - 1] - low[kind - 1] > 1.0)) continue;
-      Eigen::VectorXd num = Eigen::VectorXd::Zero(epochs);
-      Eigen::VectorXd den = Eigen::VectorXd::Zero(epochs);
-      for (Index u = 0; u < z.size(); ++u) {
-        const auto i = static_cast<std::size_t>(u);
-        if (problem.component[i] != c) continue;
-        const double w = kind == 0 ? 1.0
-                                   : (problem.place[i].position_mm[kind - 1] - 0.5 * (low[kind - 1] + high[kind - 1])) /
-                                         (0.5 * (high[kind - 1] - low[kind - 1]));
-        num[problem.epoch[i]] += w * z[u];
-        den[problem.epoch[i]] += w * w;
-      }
-      double statistic = 0.0;
-      int used = 0;
-      for (int e = 0; e < epochs; ++e) {
-        if (!(den[e] > 0.0)) continue;
-        statistic += num[e] * num[e] / den[e];
-        ++used;
-      }
-      if (used < 3) continue;
-      std::string text = kind == 0 ? fmt::format("{} of all points follows a common course in time", toString(c))
-                                   : fmt::format("{} follows a course in time that grows along {}", toString(c),
-                                                 std::string(1, static_cast<char>('x' + kind - 1)));
-      // Its period, if one frequency holds much of it.
-      if (used >= 12) {
-        const double start = problem.epoch_time_s.front();
-        const double span = problem.epoch_time_s.back() - start;
-        double best = 0.0;
-        double total = 0.0;
-        double period = 0.0;
-        for (int e = 0; e < epochs; ++e) {
-          if (den[e] > 0.0) total += num[e] * num[e] / den[e];
-        }
-        for (int k = 3; k <= epochs - 1; ++k) {
-          const double omega = 3.14159265358979323846 * k / span;
-          double cc = 0.0;
-          double ss = 0.0;
-          double cs = 0.0;
-          double cy = 0.0;
-          double sy = 0.0;
-          for (int e = 0; e < epochs; ++e) {
-            if (!(den[e] > 0.0)) continue;
-            const double t = omega * (problem.epoch_time_s[static_cast<std::size_t>(e)] - start);
-            const double v = num[e] / den[e];
-            cc += den[e] * std::cos(t) * std::cos(t);
-            ss += den[e] * std::sin(t) * std::sin(t);
-            cs += den[e] * std::cos(t) * std::sin(t);
-            cy += den[e] * std::cos(t) * v;
-            sy += den[e] * std::sin(t) * v;
-          }
-          const double det = cc * ss - cs * cs;
-          if (!(det > 1e-9)) continue;
-          const double power = (ss * cy * cy - 2.0 * cs * cy * sy + cc * sy * sy) / det;
-          if (power > best) {
-            best = power;
-            period = 2.0 * span / k;
-          }
-        }
-        if (total > 0.0 && best > 0.6 * total) text += fmt::format(", with a period of about {:.0f} s", period);
-      }
-      tests.push_back({chiSquaredTail(statistic, std::max(1.0, (used - 1) * std::max(dof_part, 0.8))), text, c});
-    }
-  }
-  for (int s = 0; s < problem.seriesCount(); ++s) {
-    const Index from = problem.series_begin[static_cast<std::size_t>(s)];
-    const Index count = problem.series_begin[static_cast<std::size_t>(s) + 1] - from;
-    if (count < 4) continue;
-    const Component c = problem.component[static_cast<std::size_t>(from)];
-    tests.push_back({chiSquaredTail(z.segment(from, count).squaredNorm(), static_cast<double>(count - 1)),
-                     fmt::format("{} of point {} deviates by itself", toString(c),
-                                 problem.series_point[static_cast<std::size_t>(s)]),
-                     c});
-  }
-  StructureTest out;
-  for (const Candidate& test : tests) {
-    const double p = std::min(1.0, test.p * static_cast<double>(tests.size()));
-    if (p < out.p_value) {
-      out.p_value = p;
-      out.description = test.text;
-      out.component = test.component;
-    }
-  }
+  out.crowded = mostInOneComponent(problem, out.fit) > limits.most_in_one_component || out.unknown_course.cancelling;
+  addUndrivenRivals(search, out);
   return out;
 }
 

@@ -12,11 +12,15 @@ namespace spindrift {
 
 /// Limits of the search. Parts are of power (chi-squared) unless they say "amplitude".
 struct SearchLimits {
-  double model_error = 0.08;       ///< amplitude: how far an accepted effect may be from the machine's own behaviour
-  double container_margin = 0.01;  ///< part of an effect's power by which a container must be better to be named
-  double rival_margin = 0.01;      ///< part of an effect's power within which another effect is a rival
-  double smallest_part = 0.01;     ///< part of the power explained so far that a further effect must have
-  double least_explained = 0.95;   ///< part of the structured power below which nothing is named
+  double model_error = 0.08;         ///< amplitude: how far an accepted effect may be from the machine's own behaviour
+  double leftover_error = 0.10;      ///< the same, where it is decided whether what is left speaks for an unknown cause
+  double container_margin = 0.01;    ///< part of an effect's power by which a container must be better to be named
+  double rival_margin = 0.01;        ///< part of an effect's power within which another effect is a rival
+  double smallest_part = 0.01;       ///< part of the power explained so far that a further effect must have
+  double least_explained = 0.95;     ///< part of the structured power below which nothing is named
+  double unknown_advantage = 0.0;    ///< in BIC, by which an unknown course may be better than the effects named
+  double least_over_leftover = 0.8;  ///< an effect's power beside what is left in its component
+  int most_in_one_component = 2;     ///< effects; more of them imitate any course
 };
 
 struct RivalFit {
@@ -24,6 +28,7 @@ struct RivalFit {
   double score = 0.0;
   bool container = false;
   JointFit joint;
+  bool undriven = false;  ///< its driver is not logged: it cannot be fitted, nor told apart
 };
 
 struct TermEvidence {
@@ -32,6 +37,20 @@ struct TermEvidence {
   std::vector<RivalFit> rivals;  ///< containers included
   double margin = 1e9;           ///< score ahead of the best other effect that is no container
   EffectSearch::CrossValidation crossvalidation;
+};
+
+/// What an accepted effect explains, whitened, over the units.
+struct NamedPart {
+  Eigen::VectorXd explained;
+  int parameter_count = 0;
+};
+
+/// The rival of all names: a pattern in space and a course in time that nothing in the catalogue has.
+struct UnknownCourse {
+  double advantage = 0.0;      ///< in BIC over the accepted effects of a component; positive: nothing should be named
+  double smallest_part = 1e9;  ///< of an accepted effect's power beside what is left in its component
+  bool cancelling = false;     ///< an effect is much larger than all effects of its component together
+  Component component = Component::EX;
 };
 
 struct SearchOutcome {
@@ -48,7 +67,9 @@ struct SearchOutcome {
   double leftover_p_value = 1.0;  ///< of the most structured part of what is left
   std::string leftover;           ///< sentence, if significant
   bool significant_before = false;
-  std::vector<RivalFit> undriven;  ///< effects whose driver is not logged and whose shape fits what is left
+  UnknownCourse unknown_course;
+  bool crowded = false;   ///< more effects in one component than can be told from an unknown course
+  std::string composite;  ///< sentence: two of the effects together look like one whose driver is not logged
 };
 
 [[nodiscard]] SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem,
@@ -62,6 +83,12 @@ struct StructureTest {
   Component component = Component::EX;
 };
 [[nodiscard]] StructureTest testStructure(const ResidualProblem& problem, const Eigen::VectorXd& residual);
+
+/// Compares the accepted effects, component by component, with an unknown cause: one free course in time common to all
+/// points, or one free pattern over the points times a free course, E + P - 2 parameters. Of the leftover, what the
+/// effects may be wrong by (`model_error` of their amplitude) does not count.
+[[nodiscard]] UnknownCourse testUnknownCourse(const ResidualProblem& problem, const Eigen::VectorXd& residual,
+                                              const std::vector<NamedPart>& parts, double model_error, double log_n);
 
 /// Where the residual is larger than noise allows.
 [[nodiscard]] std::vector<DisagreementPlace> findPlaces(const ResidualProblem& problem, const DriverTable& drivers,

@@ -92,6 +92,9 @@ DriverTable::DriverTable(const MachineDescription& machine, const OperatingLog* 
   for (const char* name : {"coolant", "instrument_on"}) {
     if (const auto* on = log->signal(name)) add({name, "on", false, SensorRole::Other, scaled(*on, 1.0, 1.0)});
   }
+  if (log->signal("instrument_on") == nullptr) {
+    add({"instrument_on_assumed", "on", false, SensorRole::Other, std::vector<double>(n, 1.0)});
+  }
   std::vector<double> front(n, 0.0);
   std::vector<double> rear(n, 0.0);
   int fronts = 0;
@@ -160,6 +163,12 @@ std::vector<std::string> DriverTable::temperatures() const {
   for (const Driver& d : drivers_) {
     if (d.unit == "K" && d.name != "column_difference") names.push_back(d.name);
   }
+  return names;
+}
+
+std::vector<std::string> DriverTable::room() const {
+  std::vector<std::string> names = temperatures({SensorRole::Room});
+  if (names.empty()) names = temperatures({SensorRole::ColumnRear, SensorRole::Table});
   return names;
 }
 

@@ -32,7 +32,8 @@ struct Driver {
 
 /// Signals by name: "spindle_rpm^1", "^1.5", "^2" (krpm^p), "feed_x" (m/min), "speed_c", "coolant", "instrument_on",
 /// every temperature under its own name, "column_difference" (front minus rear), and heat times position
-/// "spindle_rpm^1*pos_y". Signals that never change are left out and named in `dead`.
+/// "spindle_rpm^1*pos_y", and "instrument_on_assumed" (on from the first row) where the log does not say when the
+/// instrument was switched on. Signals that never change are left out and named in `dead`.
 class DriverTable {
  public:
   DriverTable() = default;
@@ -43,6 +44,8 @@ class DriverTable {
   [[nodiscard]] const std::vector<Driver>& all() const noexcept { return drivers_; }
   [[nodiscard]] std::vector<std::string> temperatures(std::initializer_list<SensorRole> roles) const;
   [[nodiscard]] std::vector<std::string> temperatures() const;
+  /// Temperatures of the room, or, where the log has none, of the parts that follow it: rear of the column, table.
+  [[nodiscard]] std::vector<std::string> room() const;
   /// Spindle heat: powers of the speed and spindle temperatures.
   [[nodiscard]] std::vector<std::string> spindleHeat() const;
   [[nodiscard]] const std::vector<std::string>& dead() const noexcept { return dead_; }

@@ -59,6 +59,10 @@ class EffectSearch {
   [[nodiscard]] JointFit solve(const std::vector<ModelTerm>& terms) const;
   /// Line searches over all non-linear parameters; `rounds` passes.
   [[nodiscard]] JointFit refine(const std::vector<ModelTerm>& terms, int rounds) const;
+  /// Another driver or lag, a second and a third one for term `t`, as long as the evidence grows and states that were
+  /// left out are predicted better. What is heated also follows the room a little: the room may come in as far as it
+  /// stays small beside the effect's own driver.
+  [[nodiscard]] JointFit refineDynamics(JointFit fit, std::size_t t, const std::vector<NuisanceColumn>& base) const;
   /// Columns by which a fitted term may be wrong: other gains and lags (free), and a model error in time and space of
   /// the given part of its size (prior).
   [[nodiscard]] std::vector<NuisanceColumn> termNuisances(const ModelTerm& term, const Eigen::VectorXd& gains,

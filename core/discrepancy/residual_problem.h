@@ -86,8 +86,8 @@ class ResidualProblem {
   Eigen::VectorXd projected_y_;
 };
 
-/// Estimates scale and correlation in time from what differs between points at the same time, which the effects of a
-/// machine hardly do, then (with `residual` of a fitted model) from all of it.
+/// Estimates scale and correlation in time from what is not of low rank in the tables points x epochs; `fitted`: the
+/// residual is that of a fitted model, so that less signal is in it. Deterministic.
 [[nodiscard]] NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted);
 
 }  // namespace spindrift

@@ -62,6 +62,7 @@ struct Effect {
   double origin_low_mm = 0.0;
   double origin_high_mm = 0.0;
   bool refinement = false;      ///< refines another effect of the same cause (ball_screw.nonuniform)
+  bool follows_room = false;    ///< what the driver heats also follows the room, a little
   bool driver_missing = false;  ///< the driver that matters most for this effect is not in the log
 };
 

@@ -5,7 +5,7 @@ namespace spindrift {
 
 // The whole machine follows the room and shifts the tool against the table, the same everywhere.
 void addAmbientEffects(const CatalogueContext& context, std::vector<Effect>& out) {
-  const auto room = context.drivers->temperatures({SensorRole::Room});
+  const auto room = context.drivers->room();
   for (int axis = 0; axis < 3; ++axis) {
     Effect effect;
     effect.id = std::string("ambient.drift.") + axis_letters[axis];
@@ -13,7 +13,7 @@ void addAmbientEffects(const CatalogueContext& context, std::vector<Effect>& out
         "The structure follows the temperature of the room and shifts the tool, the same at every position.";
     effect.shape = {constantShape(static_cast<Component>(axis))};
     addLagVariants(effect, room);
-    effect.driver_missing = room.empty();
+    effect.driver_missing = context.drivers->temperatures({SensorRole::Room}).empty();
     out.push_back(std::move(effect));
   }
 }

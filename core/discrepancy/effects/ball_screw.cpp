@@ -8,7 +8,7 @@ namespace spindrift {
 // linear.
 void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& out) {
   const DriverTable& drivers = *context.drivers;
-  const auto room = drivers.temperatures({SensorRole::Room});
+  const auto room = drivers.room();
   const auto screw = drivers.temperatures({SensorRole::Screw});
   for (int axis = 0; axis < 3; ++axis) {
     const std::string letter = axis_letters[axis];

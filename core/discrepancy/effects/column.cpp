@@ -9,7 +9,7 @@ void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out)
   if (!context.machine->column_base_mm) return;
   const DriverTable& drivers = *context.drivers;
   const double base = *context.machine->column_base_mm;
-  const auto room = drivers.temperatures({SensorRole::Room});
+  const auto room = drivers.room();
   const auto column = drivers.temperatures({SensorRole::ColumnFront, SensorRole::ColumnRear, SensorRole::Column});
   std::vector<std::string> bending_drivers;
   if (drivers.has("column_difference")) bending_drivers.emplace_back("column_difference");
@@ -40,6 +40,7 @@ void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out)
                         return c == turn ? h : 0.0;
                       }}};
     addLagVariants(bending, bending_drivers);
+    bending.follows_room = true;
     bending.driver_missing = !drivers.has("column_difference");
     out.push_back(bending);
   }
@@ -54,6 +55,7 @@ void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out)
       constantShape(Component::EZ)};
   addLagVariants(growth, growth_drivers);
   growth.contains = {"spindle.growth.z", "ambient.drift.z", "scale.expansion.z", "spindle.centrifugal.z"};
+  growth.follows_room = true;
   growth.driver_missing = column.empty();
   out.push_back(growth);
 }

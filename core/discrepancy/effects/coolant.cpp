@@ -16,6 +16,9 @@ void addCoolantEffects(const CatalogueContext& context, std::vector<Effect>& out
     if (logged) {
       addLagVariants(effect, {"coolant"});
       effect.variants.push_back({{{"coolant", Dynamics::AsymmetricLag}}, false});
+    } else {
+      // Not logged: on for one unknown span of time.
+      effect.variants.push_back({{{"", Dynamics::Pulse}}, false});
     }
     effect.driver_missing = !logged;
     out.push_back(std::move(effect));

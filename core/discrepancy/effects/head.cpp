@@ -21,6 +21,7 @@ void addHeadEffects(const CatalogueContext& context, std::vector<Effect>& out) {
                   {"urad", [turn](const DeviationQuery&, Component c) { return c == turn ? 1.0 : 0.0; }}};
     addLagVariants(tilt, heat);
     tilt.contains = {axis == 0 ? "spindle.drift.y" : "spindle.drift.x", "spindle.growth.z", "spindle.centrifugal.z"};
+    tilt.follows_room = true;
     tilt.driver_missing = heat.empty();
     out.push_back(tilt);
   }

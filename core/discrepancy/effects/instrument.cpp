@@ -14,7 +14,9 @@ void addInstrumentEffects(const CatalogueContext& context, std::vector<Effect>& 
         "has no "
         "part in it.";
     effect.shape = {constantShape(static_cast<Component>(axis))};
+    // Not logged: taken as switched on when the log starts.
     if (logged) addLagVariants(effect, {"instrument_on"});
+    if (context.drivers->has("instrument_on_assumed")) addLagVariants(effect, {"instrument_on_assumed"});
     effect.driver_missing = !logged;
     out.push_back(std::move(effect));
   }

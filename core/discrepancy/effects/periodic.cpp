@@ -31,6 +31,7 @@ void addPeriodicEffects(const CatalogueContext& context, std::vector<Effect>& ou
     if (drivers.has(feed)) addLagVariants(effect, {feed});
     addLagVariants(effect, drivers.temperatures({SensorRole::Room, SensorRole::Screw}));
     if (context.position_varies) effect.variants.push_back({{{"", Dynamics::None}}, false});
+    effect.follows_room = true;
     effect.driver_missing = !drivers.has(feed);
     out.push_back(std::move(effect));
   }

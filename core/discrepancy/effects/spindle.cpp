@@ -17,6 +17,7 @@ void addSpindleEffects(const CatalogueContext& context, std::vector<Effect>& out
   growth.shape = {constantShape(Component::EZ)};
   addLagVariants(growth, heat);
   growth.contains = {"spindle.centrifugal.z"};
+  growth.follows_room = true;
   growth.driver_missing = heat.empty();
   out.push_back(growth);
 
@@ -40,6 +41,7 @@ void addSpindleEffects(const CatalogueContext& context, std::vector<Effect>& out
         "following the spindle heat through one or two lags.";
     drift.shape = {constantShape(static_cast<Component>(axis))};
     addLagVariants(drift, heat);
+    drift.follows_room = true;
     drift.driver_missing = heat.empty();
     out.push_back(drift);
   }

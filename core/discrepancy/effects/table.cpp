@@ -24,7 +24,7 @@ void addTableEffects(const CatalogueContext& context, std::vector<Effect>& out) 
   }
   const auto table = drivers.temperatures({SensorRole::Table});
   addLagVariants(effect, table);
-  const auto room = drivers.temperatures({SensorRole::Room});
+  const auto room = drivers.room();
   addLagVariants(effect, room);
   std::vector<EffectInput> feeds;
   for (const char* name : {"feed_x", "feed_y", "speed_c"}) {
@@ -39,6 +39,7 @@ void addTableEffects(const CatalogueContext& context, std::vector<Effect>& out) 
     effect.variants.push_back({all, true});
   }
   effect.sign = 1;
+  effect.follows_room = true;
   effect.driver_missing = table.empty();
   out.push_back(std::move(effect));
 }

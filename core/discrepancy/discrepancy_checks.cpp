@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/discrepancy/discrepancy_numbers.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+
+void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& rows) {
+  std::map<std::pair<std::string, int>, std::array<double, 3>> means;
+  for (const std::size_t row : rows) {
+    const Observation& o = input.observations.rows[row];
+    auto& m = means[{o.point, static_cast<int>(o.component)}];
+    m[0] += 1.0;
+    m[1] += o.value;
+    m[2] += input.predicted[row];
+  }
+  double oo = 0.0;
+  double ss = 0.0;
+  double os = 0.0;
+  for (const std::size_t row : rows) {
+    const Observation& o = input.observations.rows[row];
+    const auto& m = means[{o.point, static_cast<int>(o.component)}];
+    const double a = o.value - m[1] / m[0];
+    const double b = input.predicted[row] - m[2] / m[0];
+    oo += a * a;
+    ss += b * b;
+    os += a * b;
+  }
+  if (!(oo > 0.0) || !(ss > 0.0) || rows.size() < 20) return;
+  const double correlation = os / std::sqrt(oo * ss);
+  const double ratio = std::sqrt(oo / ss);
+  const std::filesystem::path file = input.observations.file;
+  if (correlation > 0.6 && ratio > 300.0) {
+    throw InputError({file, ""},
+                     fmt::format("the deviations move {:.0f} times as much as the simulation predicts, in the "
+                                 "same way: the simulation looks as if it were in mm; allowed: um and urad.",
+                                 ratio));
+  }
+  if (correlation > 0.6 && ratio < 1.0 / 300.0) {
+    throw InputError({file, ""},
+                     fmt::format("the deviations move {:.0f} times less than the simulation predicts, in the "
+                                 "same way: they look as if they were in mm; allowed: um and urad.",
+                                 1.0 / ratio));
+  }
+}
+
+void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings) {
+  if (!input.log || input.log->empty()) {
+    warnings.emplace_back("There is no operating log: effects that follow speed, feed or temperature cannot be tried.");
+    return;
+  }
+  for (const std::string& name : drivers.dead()) {
+    if (OperatingLog::isTemperature(name)) {
+      warnings.push_back(fmt::format("The sensor {} never moves; it is left out as dead.", name));
+    }
+  }
+  if (!input.log->has("spindle_rpm"))
+    warnings.emplace_back("The log has no spindle_rpm: spindle heat is known from temperatures at best.");
+  const auto& t = input.log->time_s();
+  if (t.size() > 3) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+    const double typical = median(steps);
+    const auto gap = std::max_element(steps.begin(), steps.end());
+    if (*gap > std::max(1800.0, 20.0 * typical)) {
+      warnings.push_back(
+          fmt::format("The log has a gap of {:.0f} s after {:.0f} s; states are taken as unchanged in it.", *gap,
+                      t[static_cast<std::size_t>(gap - steps.begin())]));
+    }
+  }
+}
+
+}  // namespace spindrift

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/discrepancy_numbers.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace spindrift {
+namespace {
+
+using Eigen::Index;
+
+}  // namespace
+
+std::vector<ModelEffect> modelEffects(const EffectSearch& search, const ResidualProblem& problem, const JointFit& fit,
+                                      const std::string& source, double chi2_scale) {
+  if (fit.terms.empty()) return {};
+  std::vector<Eigen::MatrixXd> parts;
+  Index total = 0;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    const Eigen::MatrixXd x = search.columns(fit.terms[t]);
+    Eigen::MatrixXd part(x.rows(), x.cols() + static_cast<Index>(fit.terms[t].parameters.size()));
+    part.leftCols(x.cols()) = x;
+    for (std::size_t p = 0; p < fit.terms[t].parameters.size(); ++p) {
+      const bool lag = search.parameterIsLag(fit.terms[t], p);
+      const double value = fit.terms[t].parameters[p];
+      const double step = lag ? std::max(1.0, 0.02 * value) : 30.0;
+      ModelTerm up = fit.terms[t];
+      up.parameters[p] = value + step;
+      part.col(x.cols() + static_cast<Index>(p)) = (search.columns(up) * fit.gains[t] - x * fit.gains[t]) / step;
+    }
+    total += part.cols();
+    parts.push_back(std::move(part));
+  }
+  Eigen::MatrixXd jacobian(problem.size(), total);
+  Index at = 0;
+  for (const Eigen::MatrixXd& part : parts) {
+    jacobian.middleCols(at, part.cols()) = part;
+    at += part.cols();
+  }
+  const Eigen::MatrixXd x = problem.projected(jacobian);
+  Eigen::VectorXd norm = x.colwise().norm();
+  Eigen::MatrixXd scaled = x;
+  for (Index c = 0; c < total; ++c) scaled.col(c) /= norm[c] > 0.0 ? norm[c] : 1.0;
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod(scaled);
+  const Eigen::MatrixXd inverse = cod.pseudoInverse();
+  Eigen::MatrixXd covariance = inverse * inverse.transpose() * chi2_scale;
+  for (Index r = 0; r < total; ++r) {
+    for (Index c = 0; c < total; ++c) {
+      covariance(r, c) /= (norm[r] > 0.0 ? norm[r] : 1.0) * (norm[c] > 0.0 ? norm[c] : 1.0);
+    }
+  }
+  std::vector<ModelEffect> out;
+  at = 0;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    ModelEffect e;
+    e.effect = *fit.terms[t].effect;
+    e.variant = fit.terms[t].variant;
+    e.parameters = fit.terms[t].parameters;
+    e.gains = fit.gains[t];
+    e.covariance = covariance.block(at, at, parts[t].cols(), parts[t].cols());
+    const Eigen::VectorXd sd = e.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+    e.gain_uncertainty = sd.head(e.gains.size());
+    for (std::size_t p = 0; p < e.parameters.size(); ++p) {
+      e.parameter_uncertainty.push_back(sd[e.gains.size() + static_cast<Index>(p)]);
+    }
+    e.source = source;
+    at += parts[t].cols();
+    out.push_back(std::move(e));
+  }
+  return out;
+}
+
+std::string driversText(const ModelEffect& e) {
+  std::string text;
+  std::size_t next = 0;
+  for (const EffectInput& input : e.variant.inputs) {
+    if (!text.empty()) text += " + ";
+    switch (input.dynamics) {
+      case Dynamics::None:
+        text += input.driver.empty() ? "steady" : input.driver + " without lag";
+        break;
+      case Dynamics::Lag: {
+        const double tau = e.parameters[e.variant.shared_lag ? 0 : next++];
+        text += tau > 0.0 ? fmt::format("{} (lag {:.0f} s)", input.driver, tau) : input.driver;
+        break;
+      }
+      case Dynamics::AsymmetricLag:
+        text +=
+            fmt::format("{} (lag {:.0f} s on, {:.0f} s off)", input.driver, e.parameters[next], e.parameters[next + 1]);
+        next += 2;
+        break;
+      case Dynamics::Step:
+        text += fmt::format("step at {:.0f} s", e.parameters[next++]);
+        break;
+      case Dynamics::Pulse:
+        text += fmt::format("from {:.0f} s to {:.0f} s (lag {:.0f} s)", e.parameters[next],
+                            e.parameters[next] + e.parameters[next + 1], e.parameters[next + 2]);
+        next += 3;
+        break;
+    }
+  }
+  return text;
+}
+
+RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::size_t>& fit_rows,
+                       const std::vector<double>& effect_part) {
+  const auto& rows = input.observations.rows;
+  RowResult out;
+  out.constant.assign(rows.size(), std::numeric_limits<double>::quiet_NaN());
+  std::map<std::pair<std::string, int>, std::array<double, 2>> sums;
+  for (const std::size_t row : fit_rows) {
+    const Observation& o = rows[row];
+    auto& s = sums[{o.point, static_cast<int>(o.component)}];
+    const double w = 1.0 / (o.sigma * o.sigma);
+    s[0] += w;
+    s[1] += w * (o.value - input.predicted[row] - effect_part[row]);
+  }
+  double fit = 0.0;
+  double fit_count = 0.0;
+  double held = 0.0;
+  const std::set<std::size_t> fitted(fit_rows.begin(), fit_rows.end());
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const Observation& o = rows[row];
+    const auto found = sums.find({o.point, static_cast<int>(o.component)});
+    if (found == sums.end() || !std::isfinite(input.predicted[row])) continue;
+    out.constant[row] = found->second[1] / found->second[0];
+    if (isRotation(o.component)) continue;
+    const double r = o.value - input.predicted[row] - effect_part[row] - out.constant[row];
+    if (fitted.contains(row)) {
+      fit += r * r;
+      fit_count += 1.0;
+    } else if (o.use == ObservationUse::Holdout) {
+      held += r * r;
+      ++out.holdout_rows;
+    }
+  }
+  if (fit_count > 0.0) out.fit_rms = std::sqrt(fit / fit_count);
+  if (out.holdout_rows > 0) out.holdout_rms = std::sqrt(held / static_cast<double>(out.holdout_rows));
+  return out;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks of the input and the numbers of a result: gains with their covariance, rms over rows. Internal to
+// core/discrepancy.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/discrepancy/discrepancy.h"
+#include "core/discrepancy/effect_model.h"
+#include "core/discrepancy/effect_search.h"
+
+namespace spindrift {
+
+/// Throws InputError when observations and simulation move alike but a thousand times as far: mm in place of um.
+void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& rows);
+
+/// What the log lacks that the search would need.
+void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings);
+
+/// Gains and lags of a joint fit with their covariance (linearised at the solution).
+[[nodiscard]] std::vector<ModelEffect> modelEffects(const EffectSearch& search, const ResidualProblem& problem,
+                                                    const JointFit& fit, const std::string& source, double chi2_scale);
+
+/// "feed_y (lag 2400 s) + T_room_degC (lag 900 s)".
+[[nodiscard]] std::string driversText(const ModelEffect& effect);
+
+struct RowResult {
+  std::vector<double> constant;  ///< per row, NaN where the series was not fitted
+  double fit_rms = 0.0;
+  double holdout_rms = 0.0;
+  std::size_t holdout_rows = 0;
+};
+
+/// Constants of the series from the fit rows, and the rms of what is left in displacements (um).
+[[nodiscard]] RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::size_t>& fit_rows,
+                                     const std::vector<double>& effect_part);
+
+}  // namespace spindrift
