@@ -7,11 +7,14 @@
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTimer>
+#include <algorithm>
 #include <clocale>
 #include <cstdio>
 
+#include "core/base/atomic_file.h"
 #include "core/base/log.h"
 #include "widgets/shell/main_window.h"
+#include "widgets/shell/self_test.h"
 #include "widgets/shell/tour.h"
 #include "widgets/theme/theme.h"
 
@@ -29,17 +32,29 @@ void applyScale(int argc, char** argv) {
   }
 }
 
+int selfTest(spindrift::gui::MainWindow& window, const QString& json_file) {
+  const spindrift::gui::SelfTestResult result = spindrift::gui::runSelfTest(window);
+  const std::string json = result.json().dump(1) + "\n";
+  if (json_file == QLatin1String("-")) {
+    std::fputs(json.c_str(), stdout);
+  } else {
+    for (const auto& part : result.parts) {
+      std::printf("%-4s  %-12s %s\n", part.passed ? "pass" : "FAIL", qPrintable(part.name), qPrintable(part.sentence));
+    }
+    std::printf("%s\n", result.passed() ? "passed" : "NOT passed");
+    if (!json_file.isEmpty()) spindrift::writeFileAtomically(json_file.toStdString(), json);
+  }
+  return result.passed() ? exit_done : exit_not_good_enough;
+}
+
 int run(int argc, char** argv) {
   using namespace spindrift::gui;
   applyScale(argc, argv);
-  const bool tour_asked = [&] {
-    for (int i = 1; i < argc; ++i) {
-      if (qstrcmp(argv[i], "--tour") == 0) return true;
-    }
-    return false;
-  }();
+  const bool unattended = std::any_of(argv + 1, argv + argc, [](const char* argument) {
+    return qstrcmp(argument, "--tour") == 0 || qstrcmp(argument, "--self-test") == 0;
+  });
   if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") &&
-      (tour_asked || (qEnvironmentVariableIsEmpty("DISPLAY") && qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY")))) {
+      (unattended || (qEnvironmentVariableIsEmpty("DISPLAY") && qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY")))) {
     qputenv("QT_QPA_PLATFORM", "offscreen");
   }
   QApplication application(argc, argv);
@@ -70,7 +85,14 @@ int run(int argc, char** argv) {
   const QCommandLineOption scale(QStringLiteral("scale"),
                                  QCoreApplication::translate("main", "Scale of everything, 0.5 to 4."),
                                  QStringLiteral("N"));
-  parser.addOptions({demo, tour, theme_option, scale});
+  const QCommandLineOption self_test(
+      QStringLiteral("self-test"),
+      QCoreApplication::translate("main", "Run all demos and hold them against the truth: pass or fail for each."));
+  const QCommandLineOption json(
+      QStringLiteral("json"),
+      QCoreApplication::translate("main", "With --self-test: write the result to FILE, or to standard output with -."),
+      QStringLiteral("FILE"));
+  parser.addOptions({demo, tour, theme_option, scale, self_test, json});
   if (!parser.parse(application.arguments())) {
     std::fprintf(stderr, "%s\n", qPrintable(parser.errorText()));
     return exit_bad_input;
@@ -83,7 +105,7 @@ int run(int argc, char** argv) {
     std::printf("spindrift %s\n", SPINDRIFT_VERSION);
     return exit_done;
   }
-  if (parser.isSet(tour)) QStandardPaths::setTestModeEnabled(true);
+  if (parser.isSet(tour) || parser.isSet(self_test)) QStandardPaths::setTestModeEnabled(true);
   const QString data = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
   if (!data.isEmpty()) spindrift::startLogFile((data + QStringLiteral("/spindrift.log")).toStdString());
 
@@ -108,6 +130,7 @@ int run(int argc, char** argv) {
     }
     return exit_done;
   }
+  if (parser.isSet(self_test)) return selfTest(window, parser.value(json));
   window.show();
   const QStringList folders = parser.positionalArguments();
   if (parser.isSet(demo)) {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/base/random.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
 
 namespace spindrift {
@@ -222,11 +223,52 @@ nlohmann::json CampaignTruth::json(const std::vector<Observation>& rows) const {
   return json;
 }
 
+namespace {
+
+/// Mean deviation of the tip over the touches of a feature, from that of the first cycle.
+nlohmann::json touchTruth(const VirtualCampaign& campaign) {
+  struct Mean {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    int count = 0;
+  };
+  const Artefact* artefact = campaign.campaign.machine.findArtefact(campaign.touched_artefact);
+  const bool balls = artefact != nullptr && artefact->kind == "balls";
+  std::map<std::string, std::map<std::string, Mean>> means;
+  std::vector<std::string> cycles;
+  for (const TouchRow& touch : campaign.touches) {
+    std::string point = touch.feature;
+    if (balls) point += "/" + touch.stylus;
+    if (!balls && touch.c_deg != 0.0) point += "@" + exactNumber(touch.c_deg);
+    if (cycles.empty() || cycles.back() != touch.cycle) cycles.push_back(touch.cycle);
+    Mean& mean = means[touch.cycle][point];
+    mean.sum += touch.deviation_mm;
+    ++mean.count;
+  }
+  nlohmann::json list = nlohmann::json::array();
+  for (const std::string& cycle : cycles) {
+    for (const auto& [point, mean] : means[cycle]) {
+      const Mean& first = means[cycles.front()][point];
+      if (first.count == 0) continue;
+      const Eigen::Vector3d change_um = (mean.sum / mean.count - first.sum / first.count) * um_per_mm;
+      for (std::size_t k = 0; k < 3; ++k) {
+        list.push_back({{"state", cycle},
+                        {"point", point},
+                        {"component", toString(all_components[k])},
+                        {"value", change_um[static_cast<Eigen::Index>(k)]}});
+      }
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
 nlohmann::json truthJson(const VirtualCampaign& campaign) {
   const std::vector<Observation> none;
   nlohmann::json json =
       campaign.truth.json(campaign.campaign.observations ? campaign.campaign.observations->rows : none);
   if (campaign.captures) json["captures"] = campaign.captures->truth();
+  if (!campaign.touches.empty()) json["captures"] = touchTruth(campaign);
   return json;
 }
 

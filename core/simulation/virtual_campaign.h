@@ -35,6 +35,7 @@ struct TouchRow {
   int touch = 0;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d approach = Eigen::Vector3d::Zero();
+  Eigen::Vector3d deviation_mm = Eigen::Vector3d::Zero();  ///< of the tip, truth: in no file of the campaign
 };
 
 /// What no file of the campaign holds. Signals are noise-free and stand beside the observations, row by row (um, urad).
@@ -76,7 +77,9 @@ struct VirtualCampaign {
 void writeCampaign(const VirtualCampaign& campaign, const std::filesystem::path& folder, JobContext& job);
 void writeCampaign(const VirtualCampaign& campaign, const std::filesystem::path& folder);
 
-/// `truth` as JSON, that of the captures included.
+/// `truth` as JSON; "captures" lists what images, clouds and touches should lead to: [{"state","point","component",
+/// "value"}], um and urad, deviation from the first state (touches: mean over the touches of a feature, `point` as
+/// `evaluate` names it).
 [[nodiscard]] nlohmann::json truthJson(const VirtualCampaign& campaign);
 
 /// Touches of the scenario's artefact on the plant; sizes of effects as resolved in `settings`.

@@ -110,8 +110,14 @@ nlohmann::json VirtualCaptures::truth() const {
       const Eigen::Vector3d at(fiducials[f].position_mm.x(), fiducials[f].position_mm.y(), 0.0);
       SmallError cold;
       for (std::size_t k = 0; k < microscope_->times_s.size(); ++k) {
-        const double middle_s = microscope_->times_s[k] + (static_cast<double>(f) + 0.5) * seconds_per_fiducial();
-        const SmallError now = deviation(middle_s, at, fiducials[f].id);
+        // The plane is measured first, the height last.
+        const VirtualFiducialOptions& o = microscope_->images;
+        const double start_s = microscope_->times_s[k] + static_cast<double>(f) * seconds_per_fiducial();
+        const double plane_s = start_s + 0.5 * o.image_interval_s * static_cast<double>(o.rotations_deg.size());
+        const double height_s =
+            start_s + seconds_per_fiducial() - 0.5 * o.image_interval_s * static_cast<double>(o.heights_mm.size());
+        SmallError now = deviation(plane_s, at, fiducials[f].id);
+        now.translation_mm.z() = deviation(height_s, at, fiducials[f].id).translation_mm.z();
         if (k == 0) cold = now;
         addTruth(list, fmt::format("M{}", k), fiducials[f].id, now - cold, false);
       }

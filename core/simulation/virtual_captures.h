@@ -27,7 +27,8 @@ class VirtualCaptures {
   void write(const std::filesystem::path& folder, nlohmann::json& machine, JobContext& job) const;
 
   /// What the captures should lead to: [{"state","point","component","value"}], deviation from the first state (um; for
-  /// surfaces urad too). A state has the time of the middle of its captures of that point.
+  /// surfaces urad too). EX and EY hold when the plane of the point is
+  /// captured, EZ when its height is.
   [[nodiscard]] nlohmann::json truth() const;
 
   [[nodiscard]] std::size_t images() const;

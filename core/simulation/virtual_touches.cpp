@@ -36,10 +36,12 @@ class Prober {
     PlantQuery query{row.time_s, start_mm, row.c_deg * rad_per_deg, approach, stylus.offset_mm, row.feature};
     Eigen::Vector3d commanded = start_mm;
     // The deviation hardly changes over the approach: twice is enough.
+    Eigen::Vector3d last_deviation = Eigen::Vector3d::Zero();
     for (int pass = 0; pass < 2; ++pass) {
       query.position_mm = commanded;
       Eigen::Vector3d deviation = Eigen::Vector3d::Zero();
       for (const auto& [size, function] : functions_) deviation += size * function(query).translation_mm;
+      last_deviation = deviation;
       const Eigen::Vector3d side = start_mm + deviation - target.centre_mm;
       const Eigen::Vector3d across = side - approach * approach.dot(side);
       double depth = 0.0;  // of the tip's centre along the approach, from the centre of the target
@@ -58,6 +60,7 @@ class Prober {
     }
     const double late_mm = (options_.pretravel_um + options_.sigma_um * random_.normal()) * mm_per_um;
     row.position_mm = commanded + approach * late_mm;
+    row.deviation_mm = last_deviation;
     for (double& value : row.position_mm) value = std::round(value * 1e6) / 1e6;
     row.stylus = stylus.id;
     row.approach = approach;

@@ -10,6 +10,7 @@
 #include <QTabWidget>
 #include <QTableView>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
@@ -67,9 +68,18 @@ Callout::Callout(QWidget* parent) : QFrame(parent) {
   hide();
 }
 
+/// A sentence starts with a capital, unless it starts with a file name or an id.
+static QString capitalised(QString sentence) {
+  const qsizetype end = sentence.indexOf(QLatin1Char(' '));
+  const QString word = end < 0 ? sentence : sentence.left(end);
+  const bool plain = std::all_of(word.begin(), word.end(), [](QChar c) { return c.isLetter() && !c.isUpper(); });
+  if (plain && !word.isEmpty()) sentence[0] = sentence[0].toUpper();
+  return sentence;
+}
+
 void Callout::show(Tone tone, const QString& sentence) {
   tone_ = tone;
-  text_->setText(sentence);
+  text_->setText(capitalised(sentence));
   icon_->set(QString::fromLatin1(toneIcon(tone)), tone);
   setAccessibleName(sentence);
   setVisible(true);

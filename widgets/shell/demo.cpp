@@ -63,6 +63,18 @@ void makeSmall(Scenario& scenario) {
   }
 }
 
+Scenario scenarioOf(const std::string& name, bool small) {
+  const auto found = std::find_if(demos().begin(), demos().end(), [&](const Demo& demo) { return demo.name == name; });
+  if (found == demos().end()) {
+    std::string known;
+    for (const Demo& demo : demos()) known += (known.empty() ? "" : ", ") + demo.name;
+    throw InputError("demo \"" + name + "\" is not known; allowed: " + known + ".");
+  }
+  Scenario scenario = demoScenario(found->scenario);
+  if (small) makeSmall(scenario);
+  return scenario;
+}
+
 }  // namespace
 
 const std::vector<Demo>& demos() {
@@ -82,22 +94,17 @@ const std::vector<Demo>& demos() {
   return list;
 }
 
-void makeDemoCampaign(const std::string& name, const std::filesystem::path& folder, bool small, JobContext& job,
-                      nlohmann::json* truth) {
-  const auto found = std::find_if(demos().begin(), demos().end(), [&](const Demo& demo) { return demo.name == name; });
-  if (found == demos().end()) {
-    std::string known;
-    for (const Demo& demo : demos()) known += (known.empty() ? "" : ", ") + demo.name;
-    throw InputError("demo \"" + name + "\" is not known; allowed: " + known + ".");
-  }
-  Scenario scenario = demoScenario(found->scenario);
-  if (small) makeSmall(scenario);
+void makeDemoCampaign(const std::string& name, const std::filesystem::path& folder, bool small, JobContext& job) {
+  const Scenario scenario = scenarioOf(name, small);
   JobContext simulating = job.part(0.0, 0.2);
   const VirtualCampaign campaign = simulateCampaign(scenario, std::nullopt, simulating);
   JobContext writing = job.part(0.2, 1.0);
   writeCampaign(campaign, folder, writing);
   if (scenario.microscope) spoil(folder);
-  if (truth != nullptr) *truth = truthJson(campaign);
+}
+
+nlohmann::json demoTruth(const std::string& name, bool small, JobContext& job) {
+  return truthJson(simulateCampaign(scenarioOf(name, small), std::nullopt, job));
 }
 
 }  // namespace spindrift::gui

@@ -22,8 +22,9 @@ struct Demo {
 
 [[nodiscard]] const std::vector<Demo>& demos();
 /// Makes the campaign of a demo in a folder that does not exist yet. `small`: fewer and smaller images and clouds, for
-/// tour and tests. `truth` receives what the virtual machine hides (simulate --truth), if it is not null.
-void makeDemoCampaign(const std::string& name, const std::filesystem::path& folder, bool small, JobContext& job,
-                      nlohmann::json* truth = nullptr);
+/// tour and tests.
+void makeDemoCampaign(const std::string& name, const std::filesystem::path& folder, bool small, JobContext& job);
+/// What the virtual machine hides in that demo (simulate --truth): nothing of it is in the campaign.
+[[nodiscard]] nlohmann::json demoTruth(const std::string& name, bool small, JobContext& job);
 
 }  // namespace spindrift::gui

@@ -15,7 +15,10 @@
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/models/rows_model.h"
 #include "widgets/pages/kinematics/nine_parameter_page.h"
+#include "widgets/pages/thermal/resolution_check_panel.h"
+#include "widgets/pages/thermal/warm_up_page.h"
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/tour.h"
 #include "widgets/shell/welcome_page.h"
@@ -189,6 +192,46 @@ TEST_F(MainWindowTest, ButtonsAreLargeAndNamed) {
       EXPECT_GE(button->width(), button->minimumSizeHint().width()) << button->text().toStdString();
     }
   }
+}
+
+TEST_F(MainWindowTest, SuggestedPointsAreAddedAndCanBeDiscarded) {
+  openEightPoints();
+  auto* page = window_->currentPage();
+  QPushButton* suggest = nullptr;
+  QPushButton* discard = nullptr;
+  for (QPushButton* button : page->findChildren<QPushButton*>()) {
+    if (button->accessibleName() == QLatin1String("Suggest points")) suggest = button;
+    if (button->accessibleName() == QLatin1String("Discard")) discard = button;
+  }
+  ASSERT_NE(suggest, nullptr);
+  ASSERT_NE(discard, nullptr);
+  const auto tables = page->findChildren<QTableWidget*>();
+  const auto points = std::find_if(tables.begin(), tables.end(), [](const QTableWidget* table) {
+    return table->accessibleName() == QLatin1String("Measuring points");
+  });
+  ASSERT_NE(points, tables.end());
+  EXPECT_EQ((*points)->rowCount(), 8);
+  QTest::mouseClick(suggest, Qt::LeftButton);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  ASSERT_EQ((*points)->rowCount(), 14);
+  EXPECT_EQ((*points)->item(8, 0)->text(), QStringLiteral("P1"));
+  EXPECT_TRUE(page->callout()->sentence().contains(QStringLiteral("6 points")))
+      << page->callout()->sentence().toStdString();
+  QTest::mouseClick(discard, Qt::LeftButton);
+  EXPECT_EQ((*points)->rowCount(), 8);
+}
+
+TEST_F(MainWindowTest, JogsAreHeldAgainstTheResolution) {
+  openEightPoints();
+  window_->workflow().goTo(StepId::WarmUp);
+  auto* page = qobject_cast<WarmUpPage*>(window_->currentPage());
+  ASSERT_NE(page, nullptr);
+  ASSERT_TRUE(page->jogs()->button()->isEnabled());
+  page->jogs()->check();  // two thermal states tens of um apart are no jogs that read true
+  EXPECT_EQ(page->jogs()->rows()->rowCount(), 3);
+  EXPECT_EQ(page->jogs()->verdict()->tone(), Tone::Attention);
+  EXPECT_TRUE(page->jogs()->verdict()->sentence().startsWith(QStringLiteral("Not passed")))
+      << page->jogs()->verdict()->sentence().toStdString();
 }
 
 TEST_F(MainWindowTest, ThemeSwitches) {
