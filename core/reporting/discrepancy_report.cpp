@@ -86,10 +86,19 @@ void addPoints(HtmlDocument& document, const DiscrepancyInput& input, const std:
     cell.before += residuals[i].before * residuals[i].before;
     cell.after += residuals[i].after * residuals[i].after;
   }
+  std::vector<Component> components;
+  std::vector<std::string> header{"Point"};
+  for (const Component component : all_components) {
+    if (std::none_of(cells.begin(), cells.end(), [&](const auto& cell) { return cell.first.second == component; })) {
+      continue;
+    }
+    components.push_back(component);
+    header.push_back(fmt::format("{} / {}", toString(component), unitOf(component)));
+  }
   std::vector<std::vector<std::string>> table;
   for (const std::string& point : input.observations.points()) {
     std::vector<std::string> row{point};
-    for (const Component component : all_components) {
+    for (const Component component : components) {
       const auto cell = cells.find({point, component});
       row.push_back(cell == cells.end()
                         ? ""
@@ -98,8 +107,7 @@ void addPoints(HtmlDocument& document, const DiscrepancyInput& input, const std:
     }
     table.push_back(std::move(row));
   }
-  document.table({"Point", "EX / um", "EY / um", "EZ / um", "EA / urad", "EB / urad", "EC / urad"}, table,
-                 "rms per point and component, before \u2192 after");
+  document.table(header, table, "rms per point and component, before \u2192 after");
 }
 
 void addEffect(HtmlDocument& document, const FoundEffect& effect) {
@@ -157,7 +165,7 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyInput& input, 
       rows.push_back({std::string(toString(place.component)), joinedList(place.points),
                       fmt::format("{:.1f} to {:.1f}", place.from_s / seconds_per_hour, place.to_s / seconds_per_hour),
                       place.condition, fmt::format("{:.2f} {}", place.excess_um, unitOf(place.component)),
-                      fmt::format("{:.1e}", place.p_value)});
+                      place.p_value < 1e-12 ? std::string("< 1e-12") : fmt::format("{:.1e}", place.p_value)});
     }
     document.table({"Component", "Points", "Time / h", "Condition", "Beyond the noise", "p"}, rows,
                    "Where measured and simulated disagree; p holds for all places looked at together");

@@ -11,6 +11,7 @@
 #include "widgets/pages/probing/cycle_model_page.h"
 #include "widgets/pages/probing/touch_capture_page.h"
 #include "widgets/pages/probing/touch_evaluation_page.h"
+#include "widgets/pages/report/report_page.h"
 #include "widgets/pages/thermal/warm_up_page.h"
 
 namespace spindrift::gui {
@@ -46,6 +47,8 @@ void registerPages(PageRegistry& registry) {
       StepId::Discrepancy, always, [](PageContext c) { return new DiscrepancyPage(std::move(c)); }, "discrepancy");
   registry.add(
       StepId::Compensate, always, [](PageContext c) { return new CompensatePage(std::move(c)); }, "compensate");
+  registry.add(
+      StepId::Report, always, [](PageContext c) { return new ReportPage(std::move(c)); }, "report");
   for (const StepId step : all_steps) {
     registry.add(
         step, always, [step](PageContext c) { return new MessagePage(std::move(c), step); }, "message");
