@@ -87,6 +87,7 @@ void SessionModel::selectCampaign(std::int64_t id) {
 }
 
 void SessionModel::load(std::int64_t id) {
+  evaluation_.reset();  // ids start again in every session
   auto campaign = std::make_shared<Campaign>(Campaign::read(session_->campaign(id).folder));
   machine_edited_ = false;
   if (const auto edited = session_->setting(machineKey(id)); edited && edited->is_object() && !edited->empty()) {
