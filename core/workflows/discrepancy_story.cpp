@@ -8,6 +8,8 @@
 #include <limits>
 #include <map>
 
+#include "core/math/distributions.h"
+
 namespace spindrift {
 namespace {
 
@@ -18,7 +20,7 @@ double excess(double rms, double noise) {
 }
 
 /// Constants and rms of one series from its rows with use `fit`.
-void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double noise_scale) {
+void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double noise_scale, double gain_uncertainty) {
   double weights = 0.0;
   double sum = 0.0;
   for (std::size_t i = 0; i < s.value.size(); ++i) {
@@ -32,21 +34,46 @@ void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double
   double after = 0.0;
   double variance = 0.0;
   double count = 0.0;
+  double simulated = 0.0;
+  double simulated_square = 0.0;
   for (std::size_t i = 0; i < s.value.size(); ++i) {
     if (s.held_out[i]) continue;
     const double b = s.value[i] - s.simulated[i] - s.constant_before;
     before += b * b;
     variance += sigma[i] * sigma[i];
+    simulated += s.simulated[i];
+    simulated_square += s.simulated[i] * s.simulated[i];
     count += 1.0;
     if (s.completed.empty()) continue;
     const double a = s.value[i] - s.completed[i] - s.constant_after;
     after += a * a;
   }
-  s.noise = std::sqrt(variance / count) * noise_scale;
+  const double moved = std::max(0.0, simulated_square / count - simulated * simulated / (count * count));
+  s.noise = std::hypot(std::sqrt(variance / count) * noise_scale, gain_uncertainty * std::sqrt(moved));
   s.rms_before = std::sqrt(before / count);
   s.rms_after = s.completed.empty() ? nan : std::sqrt(after / count);
   s.excess_before = excess(s.rms_before, s.noise);
   s.excess_after = excess(s.rms_after, s.noise);
+}
+
+/// Marks series that deviate more than noise allows. Noise that is correlated in time has fewer independent values.
+void markSignificant(std::vector<DiscrepancySeries>& series, const DiscrepancyResult& search) {
+  constexpr double level = 0.01;
+  for (DiscrepancySeries& s : series) {
+    const bool in_place = std::any_of(search.where.begin(), search.where.end(), [&](const DisagreementPlace& p) {
+      return p.component == s.component && std::find(p.points.begin(), p.points.end(), s.point) != p.points.end();
+    });
+    const auto count = static_cast<double>(std::count(s.held_out.begin(), s.held_out.end(), false));
+    const double span = s.time_s.back() - s.time_s.front();
+    const double spacing = s.time_s.size() > 1 ? span / static_cast<double>(s.time_s.size() - 1) : 0.0;
+    const double neighbour = spacing > 0.0 && search.noise_correlation_time_s > 0.0
+                                 ? search.noise_correlated_part * std::exp(-spacing / search.noise_correlation_time_s)
+                                 : 0.0;
+    const double independent = std::max(2.0, count * (1.0 - neighbour) / (1.0 + neighbour));
+    const double statistic = s.rms_before * s.rms_before / (s.noise * s.noise) * independent;
+    const double p = chiSquaredTail(statistic, independent - 1.0) * static_cast<double>(series.size());
+    s.significant = in_place || p < level;
+  }
 }
 
 /// `model` holds the effects added alone; null: none were added.
@@ -84,9 +111,10 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
   }
   for (std::size_t k = 0; k < out.size(); ++k) {
     out[k].position_mm /= static_cast<double>(out[k].value.size());
-    finishSeries(out[k], sigmas[k], search.noise_scale);
+    finishSeries(out[k], sigmas[k], search.noise_scale, input.simulation_gain_uncertainty);
     for (double& e : out[k].explained) e -= out[k].constant_before;
   }
+  markSignificant(out, search);
   return out;
 }
 
@@ -182,6 +210,7 @@ nlohmann::json seriesJson(const DiscrepancySeries& s) {
           {"held_out", s.held_out},
           {"constants", {jsonNumber(s.constant_before), jsonNumber(s.constant_after)}},
           {"noise", jsonNumber(s.noise)},
+          {"significant", s.significant},
           {"rms", {jsonNumber(s.rms_before), jsonNumber(s.rms_after)}}};
 }
 
@@ -201,6 +230,7 @@ DiscrepancySeries seriesOf(const nlohmann::json& json) {
   s.constant_before = constants.at(0);
   s.constant_after = constants.at(1);
   s.noise = numberOf(json, "noise");
+  s.significant = json.at("significant").get<bool>();
   const std::vector<double> rms = numbersOf(json.at("rms"));
   s.rms_before = rms.at(0);
   s.rms_after = rms.at(1);

@@ -6,7 +6,9 @@
 //   before  simulation alone                                  residual = value - simulated - constant_before
 //   after   simulation plus the effects added, jointly fitted  residual = value - completed - constant_after
 //
-// `rms`, `noise` and `excess` of a series are over its rows with use `fit`; excess^2 = max(0, rms^2 - noise^2).
+// `rms`, `noise` and `excess` of a series are over its rows with use `fit`; excess^2 = max(0, rms^2 - noise^2). Noise
+// is the stated sigma times the scale found, with what the stated gain uncertainty of the simulation lets this series
+// move.
 #pragma once
 
 #include <memory>
@@ -33,11 +35,13 @@ struct DiscrepancySeries {
   std::vector<bool> held_out;
   double constant_before = 0.0;
   double constant_after = 0.0;
-  double noise = 0.0;  ///< stated sigma times the noise scale found
+  double noise = 0.0;
   double rms_before = 0.0;
   double rms_after = 0.0;  ///< NaN while nothing has been added
   double excess_before = 0.0;
   double excess_after = 0.0;  ///< NaN while nothing has been added
+  /// The series by itself, or a place it belongs to, deviates more than the noise allows (1 % for all series together).
+  bool significant = false;
 };
 
 struct DiscrepancyStory {

@@ -25,6 +25,8 @@ namespace {
 constexpr auto result_kind = "discrepancy";
 constexpr auto option_name = "discrepancy";
 
+constexpr qsizetype longest_large_sentence = 72;
+
 struct Sentence {
   QString text;
   QString note;
@@ -44,7 +46,8 @@ QString missingEffects(const DiscrepancyStory& story) {
     if (e.forced) continue;
     std::vector<std::string> names{e.id};
     names.insert(names.end(), e.rivals.begin(), e.rivals.end());
-    parts << effectTitles(names, DiscrepancyPage::tr("or"));
+    const QString text = effectTitles(names, DiscrepancyPage::tr("or"));
+    parts << (names.size() > 1 ? DiscrepancyPage::tr("one of %1").arg(text) : text);
   }
   return parts.join(DiscrepancyPage::tr("; and "));
 }
@@ -365,6 +368,8 @@ void DiscrepancyPage::show() {
 void DiscrepancyPage::showVerdict() {
   const Sentence s = verdictOf(*story_);
   verdict_icon_->set(QString::fromLatin1(toneIcon(s.tone)), s.tone);
+  // The longest sentences are set smaller, so that they stay within two lines.
+  setRole(verdict_, s.text.size() > longest_large_sentence ? "pageTitle" : "bigNumber");
   verdict_->setText(s.text);
   verdict_note_->setText(s.note.trimmed());
   verdict_note_->setVisible(!s.note.isEmpty());

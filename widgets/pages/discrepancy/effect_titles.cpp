@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "widgets/plots/plot.h"
+#include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
 namespace {
@@ -77,7 +78,11 @@ QString effectTitle(const std::string& id) {
     // The id of a point may hold dots of its own.
     const bool slip = qstrcmp(title.stem, "fixture.slip") == 0 && whole.startsWith(QLatin1String("fixture.slip."));
     if (slip) return translated(title.text).arg(whole.mid(13));
-    if (stem == QLatin1String(title.stem)) return translated(title.text).arg(last.toUpper());
+    if (stem != QLatin1String(title.stem)) continue;
+    // Rotations a, b, c are about X, Y, Z.
+    const qsizetype about = QStringLiteral("abc").indexOf(last);
+    return translated(title.text)
+        .arg(about >= 0 && last.size() == 1 ? QString(QLatin1Char("XYZ"[about])) : last.toUpper());
   }
   return whole;
 }
@@ -120,6 +125,14 @@ QString spanText(double from_s, double to_s, double whole_s) {
       .arg(unit.name);
 }
 
+QString clockText(double time_s) {
+  const auto minutes = static_cast<int>(std::lround(time_s / 60.0));
+  if (minutes < 60) return QCoreApplication::translate("Effect", "%1 min").arg(minutes);
+  return QCoreApplication::translate("Effect", "%1 h %2 min")
+      .arg(minutes / 60)
+      .arg(minutes % 60, 2, 10, QLatin1Char('0'));
+}
+
 QString pointsText(const std::vector<std::string>& points, std::size_t all) {
   if (points.size() == all && all > 1) return QCoreApplication::translate("Effect", "all %1").arg(all);
   QStringList names;
@@ -134,6 +147,16 @@ QString componentName(Component component) {
 
 QString componentUnit(Component component) {
   return QString::fromStdString(std::string(unitOf(component)));
+}
+
+QString legendText(const std::vector<std::pair<int, QString>>& names) {
+  QStringList parts;
+  for (const auto& [colour, name] : names) {
+    const auto index = static_cast<std::size_t>(colour) % theme().series.size();
+    parts << QString::fromUtf8("<span style=\"color:%1\">●</span>&nbsp;%2")
+                 .arg(theme().series[index].name(), name.toHtmlEscaped());
+  }
+  return parts.join(QStringLiteral("&nbsp;&nbsp; "));
 }
 
 void stretchColumn(QTableView* table, int column) {

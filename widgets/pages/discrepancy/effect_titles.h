@@ -4,6 +4,7 @@
 
 #include <QString>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/machine/component.h"
@@ -25,10 +26,15 @@ namespace spindrift::gui {
 [[nodiscard]] QString probabilityText(double p);
 /// "0.0–6.0 h", in the unit that suits the whole of it.
 [[nodiscard]] QString spanText(double from_s, double to_s, double whole_s);
+/// "1 h 37 min".
+[[nodiscard]] QString clockText(double time_s);
 /// "all 10", "F1, F2", "7 of 10".
 [[nodiscard]] QString pointsText(const std::vector<std::string>& points, std::size_t all);
 [[nodiscard]] QString componentName(Component component);
 [[nodiscard]] QString componentUnit(Component component);
+
+/// Names of series with a dot in the colour of each (index into Theme::series), as rich text for a label.
+[[nodiscard]] QString legendText(const std::vector<std::pair<int, QString>>& names);
 
 /// Columns as wide as their content, one takes what is left (its texts are shortened): no horizontal scrolling.
 void stretchColumn(QTableView* table, int column);

@@ -25,10 +25,8 @@ NextPanel::NextPanel(QWidget* parent) : QWidget(parent) {
   left->body()->addWidget(suggestion_);
   gain_ = new NumberTile(tr("Expected gain in BIC"));
   left->body()->addWidget(gain_);
-  times_ = new RowsModel({tr("Time of the programme"), tr("Points to measure")}, this);
-  time_table_ = makeTable(times_, tr("When and where to measure"));
-  left->body()->addWidget(time_table_, 1);
-  left->body()->addStretch(0);
+  times_ = new RowsModel({tr("Time / s"), tr("Point")}, this);
+  left->body()->addStretch(1);
   auto* right = new Card(tr("How it was found"));
   leftover_ = new Callout;
   right->body()->addWidget(leftover_);
@@ -93,17 +91,25 @@ void NextPanel::showSuggestion() {
           tr("%1 from %2")
               .arg(effectTitle(separates.left(from).toStdString()), effectTitle(separates.mid(from + 6).toStdString()));
     }
-    suggestion_->setText(tr("To tell %1: %2.").arg(separates, QString::fromStdString(s.conditions)));
-    gain_->set(QString::number(s.expected_delta_bic, 'f', 0), tr("above 10 decides between the two"));
-    const double last = s.times_s.empty() ? 0.0 : s.times_s.back();
-    const TimeUnit unit = timeUnit(last);
+    QStringList times;
     for (const double t : s.times_s) {
-      Row row;
-      row.id = QString::number(t);
-      Cell time{QStringLiteral("%1 %2").arg(t / unit.seconds, 0, 'f', 2).arg(unit.name)};
-      row.cells = {time, {QString::fromStdString(joinedList(s.points))}};
-      rows.push_back(std::move(row));
+      times << clockText(t);
+      for (const std::string& point : s.points) {
+        Row row;
+        row.id = QString::number(t);
+        row.cells = {{QString::number(t, 'f', 0)}, {QString::fromStdString(point)}};
+        rows.push_back(std::move(row));
+      }
     }
+    QStringList places;
+    for (const std::string& p : s.points) places << QString::fromStdString(p);
+    const auto item = [](const QString& name, const QString& text) {
+      return QStringLiteral("<p><b>%1</b><br>%2</p>").arg(name.toHtmlEscaped(), text.toHtmlEscaped());
+    };
+    suggestion_->setText(item(tr("To tell"), separates) + item(tr("Where"), places.join(QStringLiteral("; "))) +
+                         item(tr("When, from the start of the programme"), times.join(QStringLiteral(", "))) +
+                         item(tr("How"), QString::fromStdString(s.conditions)));
+    gain_->set(QString::number(s.expected_delta_bic, 'f', 0), tr("above 10 decides between the two"));
   } else if (story_->verdict == DiscrepancyVerdict::Unknown) {
     suggestion_->setText(tr(
         "No effect of the catalogue fits, so there are no rivals to tell apart. Log what else happens at the machine "
@@ -113,7 +119,6 @@ void NextPanel::showSuggestion() {
   } else {
     suggestion_->setText(tr("Nothing: no rival fits as well as the effect that was named."));
   }
-  time_table_->setVisible(!rows.empty());
   times_->setRows(std::move(rows));
 }
 

@@ -10,7 +10,6 @@
 #include "widgets/export/exportable.h"
 
 class QLabel;
-class QTableView;
 
 namespace spindrift::gui {
 
@@ -31,7 +30,6 @@ class NextPanel : public QWidget {
   QLabel* suggestion_;
   NumberTile* gain_;
   RowsModel* times_;
-  QTableView* time_table_;
   Callout* leftover_;
   QLabel* warnings_;
   RowsModel* steps_;

@@ -20,6 +20,9 @@
 namespace spindrift::gui {
 namespace {
 
+/// From this height on the plot has room below the text.
+constexpr int height_for_plot = 440;
+
 Cell number(const QString& text) {
   Cell cell{text};
   cell.right = true;
@@ -68,7 +71,7 @@ WhatPanel::WhatPanel(QWidget* parent) : QWidget(parent) {
   left->body()->addWidget(effect_table_, 4);
   left->body()->addWidget(makeLabel(tr("Parameters, jointly fitted"), "sectionTitle"));
   parameters_ = new RowsModel({tr("Parameter"), tr("Value ± standard uncertainty")}, this);
-  left->body()->addWidget(makeTable(parameters_, tr("Parameters of the effect"), tr("Choose an effect.")), 4);
+  left->body()->addWidget(makeTable(parameters_, tr("Parameters of the effect"), tr("No effect is chosen.")), 4);
 
   detail_ = new Card;
   reject_ = makeButton(tr("Do not consider"), "exclude");
@@ -99,10 +102,17 @@ WhatPanel::WhatPanel(QWidget* parent) : QWidget(parent) {
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setWidget(text);
+  scroll->setMinimumHeight(112);
   detail_->body()->addWidget(scroll, 3);
   plot_title_ = makeLabel({}, "sectionTitle");
-  detail_->body()->addWidget(plot_title_);
+  auto* plot_line = new QHBoxLayout;
+  plot_line->addWidget(plot_title_);
+  plot_line->addStretch(1);
+  legend_ = makeLabel({}, "secondaryText");
+  plot_line->addWidget(legend_);
+  detail_->body()->addLayout(plot_line);
   plot_ = new Plot;
+  plot_->setLegendVisible(false);
   plot_->setEmptyText(tr("What the effects explain will appear here"), tr("Search, or choose another place."));
   detail_->body()->addWidget(plot_, 4);
   connect(plot_, &Plot::hovered, this, &WhatPanel::hovered);
@@ -180,11 +190,12 @@ void WhatPanel::showEffect() {
   const std::string id = chosen();
   const FoundEffect* e = effectOf(id);
   reject_->setVisible(e != nullptr && !chosenIsAdded());
+  arrange();
   std::vector<Row> rows;
   if (e == nullptr) {
     parameters_->setRows({});
     detail_->setTitle(tr("What happens in the machine"));
-    for (NumberTile* tile : {confidence_, gain_, held_out_}) tile->set(QStringLiteral("–"));
+    for (NumberTile* tile : {confidence_, gain_, held_out_}) tile->hide();
     rivals_->set(Tone::Neutral, {});
     drivers_->clear();
     physics_->setText(story_ == nullptr ? tr("The physics of the effect and the evidence for it will appear here.")
@@ -193,6 +204,7 @@ void WhatPanel::showEffect() {
                           : tr("What is left: %1.").arg(QString::fromStdString(story_->leftover)));
     return;
   }
+  for (NumberTile* tile : {confidence_, gain_, held_out_}) tile->show();
   const bool rival = id != e->id;
   detail_->setTitle(sentenceStart(effectTitle(id)));
   confidence_->set(QString::number(e->confidence, 'f', 2),
@@ -234,18 +246,31 @@ void WhatPanel::showEffect() {
   parameters_->setRows(std::move(rows));
 }
 
+void WhatPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  arrange();
+}
+
+void WhatPanel::arrange() {
+  const int rivals = story_ != nullptr && effectOf(chosen()) != nullptr && !effectOf(chosen())->rivals.empty() ? 80 : 0;
+  const bool room = height() - rivals >= height_for_plot && has_plot_;
+  plot_->setVisible(room);
+  plot_title_->setVisible(room);
+  legend_->setVisible(room);
+}
+
 void WhatPanel::choose(const std::string& point, Component component) {
   const DiscrepancySeries* s = story_ == nullptr ? nullptr : story_->find(point, component);
-  plot_title_->setVisible(s != nullptr);
+  has_plot_ = s != nullptr;
+  arrange();
   if (s == nullptr || s->time_s.empty()) {
     plot_->setContent({});
     return;
   }
   const TimeUnit unit = timeUnit(s->time_s.back());
-  plot_title_->setText(
-      s->explained.empty()
-          ? tr("%1 of %2: nothing explains it").arg(componentName(component), QString::fromStdString(point))
-          : tr("%1 of %2: what the effects explain").arg(componentName(component), QString::fromStdString(point)));
+  plot_title_->setText(s->explained.empty()
+                           ? tr("%1 of %2: unexplained").arg(componentName(component), QString::fromStdString(point))
+                           : tr("%1 of %2: explained").arg(componentName(component), QString::fromStdString(point)));
   plot_->setAxes(tr("Time / %1").arg(unit.name),
                  tr("%1 residual / %2").arg(componentName(component), componentUnit(component)));
   Series measured;
@@ -253,7 +278,7 @@ void WhatPanel::choose(const std::string& point, Component component) {
   measured.style = SeriesStyle::Points;
   measured.colour = 1;
   Series line;
-  line.name = tr("effects, ± 2 σ of the noise");
+  line.name = tr("effects, ± 2 σ noise");
   line.style = SeriesStyle::Line;
   line.colour = 0;
   for (std::size_t i = 0; i < s->time_s.size(); ++i) {
@@ -264,6 +289,9 @@ void WhatPanel::choose(const std::string& point, Component component) {
     line.y.push_back(s->explained[i]);
     line.sigma.push_back(s->noise);
   }
+  std::vector<std::pair<int, QString>> names{{1, measured.name}};
+  if (!line.x.empty()) names.emplace_back(0, line.name);
+  legend_->setText(legendText(names));
   std::vector<Series> series{measured};
   if (!line.x.empty()) series.insert(series.begin(), line);
   plot_->setContent(std::move(series));

@@ -41,7 +41,11 @@ class WhatPanel : public QWidget {
   void hovered(const QString& text);
   void rejectAsked(const std::string& id);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  void arrange();
   void showEffect();
   [[nodiscard]] const FoundEffect* effectOf(const std::string& id) const;
 
@@ -57,7 +61,9 @@ class WhatPanel : public QWidget {
   NumberTile* held_out_;
   QPushButton* reject_;
   QLabel* plot_title_;
+  QLabel* legend_;
   Plot* plot_;
+  bool has_plot_ = false;
   std::shared_ptr<const DiscrepancyStory> story_;
 };
 

@@ -69,8 +69,14 @@ WherePanel::WherePanel(QWidget* parent) : QWidget(parent) {
   plot_card_ = new Card;
   auto* plot_card = plot_card_;
   plot_title_ = makeLabel({}, "sectionTitle");
-  plot_card->body()->addWidget(plot_title_);
+  auto* plot_line = new QHBoxLayout;
+  plot_line->addWidget(plot_title_);
+  plot_line->addStretch(1);
+  legend_ = makeLabel({}, "secondaryText");
+  plot_line->addWidget(legend_);
+  plot_card->body()->addLayout(plot_line);
   plot_ = new Plot;
+  plot_->setLegendVisible(false);
   plot_->setEmptyText(tr("The residual over time will appear here"),
                       tr("Search, then choose a place in the table or a point on the machine."));
   plot_card->body()->addWidget(plot_, 1);
@@ -90,6 +96,9 @@ WherePanel::WherePanel(QWidget* parent) : QWidget(parent) {
     view_->setMachineVisible(on);
     view_->setToolSideVisible(on);
     view_->resetCamera(StandardView::Isometric);
+  });
+  connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] {
+    if (story_ != nullptr) showPlot();
   });
   connect(which_, &Segments::chosen, this, [this](int) { arrange(); });
   connect(view_, &View3D::hovered, this, &WherePanel::hovered);
@@ -118,6 +127,7 @@ void WherePanel::show(const std::shared_ptr<const DiscrepancyStory>& story, cons
     view_->clear();
     plot_->setContent({});
     plot_title_->clear();
+    legend_->clear();
     place_ = -1;
     fillSegments();
     return;
@@ -196,12 +206,6 @@ void WherePanel::fillSegments() {
   });
 }
 
-bool WherePanel::deviates(const std::string& point, Component component) const {
-  return std::any_of(story_->where.begin(), story_->where.end(), [&](const DisagreementPlace& p) {
-    return p.component == component && std::find(p.points.begin(), p.points.end(), point) != p.points.end();
-  });
-}
-
 void WherePanel::fillPoints() {
   following_ = true;
   const QString unit = componentUnit(component_);
@@ -214,10 +218,10 @@ void WherePanel::fillPoints() {
     Cell name{row.id};
     name.bold = true;
     Cell beyond = number(sizeText(s.excess_before, {}));
-    if (deviates(s.point, component_)) {
+    if (s.significant) {
       beyond.tone = Tone::Attention;
       beyond.icon = "alert";
-      beyond.tip = tr("Belongs to a place that deviates more than the noise allows");
+      beyond.tip = tr("More than the noise allows");
     }
     row.cells = {name, number(sizeText(s.rms_before, {})), number(sizeText(s.rms_after, {})),
                  number(sizeText(s.noise, {})), beyond};
@@ -306,13 +310,14 @@ void WherePanel::showView() {
     p.position_mm = s.position_mm;
     p.value = s.excess_before;
     if (s.point == point_) p.value_text = sizeText(s.excess_before, unit);
-    p.used = deviates(s.point, component_);
+    p.used = s.significant;
     points.push_back(std::move(p));
   }
   view_->setColourScale(ColourScale::magnitude(largest, componentName(component_), unit));
   view_->setPoints(std::move(points));
   view_->setSelected(QString::fromStdString(point_));
-  view_->setCaption(tr("%1 beyond the noise, rms over time; dotted: within the noise").arg(componentName(component_)));
+  view_->setCaption(
+      tr("%1 beyond the noise, rms over time; dotted: the noise explains it").arg(componentName(component_)));
 }
 
 void WherePanel::showPlot() {
@@ -320,6 +325,7 @@ void WherePanel::showPlot() {
   if (s == nullptr || s->time_s.empty()) {
     plot_->setContent({});
     plot_title_->clear();
+    legend_->clear();
     return;
   }
   const TimeUnit unit = timeUnit(s->time_s.back());
@@ -369,6 +375,9 @@ void WherePanel::showPlot() {
     noise.y.push_back(0.0);
     noise.sigma.push_back(s->noise);
   }
+  std::vector<std::pair<int, QString>> names{{1, before.name}, {2, noise.name}};
+  if (!after.x.empty()) names.insert(names.begin() + 1, {0, after.name});
+  legend_->setText(legendText(names));
   std::vector<Series> series{noise, before};
   if (!after.x.empty()) series.push_back(after);
   plot_->setContent(std::move(series), std::move(spans));

@@ -55,7 +55,6 @@ class WherePanel : public QWidget {
   void chooseComponent(Component component);
   void choosePoint(const std::string& point);
   void arrange();
-  [[nodiscard]] bool deviates(const std::string& point, Component component) const;
 
   RowsModel* places_;
   RowsModel* points_;
@@ -66,6 +65,7 @@ class WherePanel : public QWidget {
   QCheckBox* machine_box_;
   QLabel* points_title_;
   QLabel* plot_title_;
+  QLabel* legend_;
   Segments* which_;
   Card* view_card_;
   Card* plot_card_;
