@@ -46,5 +46,6 @@ void addReportingCommands(CLI::App& app, CommandLine& line);
 void addScanningCommands(CLI::App& app, CommandLine& line);
 void addSimulationCommands(CLI::App& app, CommandLine& line);
 void addThermalCommands(CLI::App& app, CommandLine& line);
+void addThermalReplayCommands(CLI::App& thermal, CommandLine& line);
 
 }  // namespace spindrift::cli

@@ -226,6 +226,7 @@ void addThermalCommands(CLI::App& app, CommandLine& line) {
   addTrack(*thermal, line);
   addCompensate(*thermal, line);
   addIso230(*thermal, line);
+  addThermalReplayCommands(*thermal, line);
 }
 
 }  // namespace spindrift::cli

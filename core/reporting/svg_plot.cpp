@@ -187,10 +187,10 @@ std::string svgPlot(const std::vector<PlotSeries>& series, const PlotOptions& op
                        f.top + 13, escapedXml(range.label));
   }
   out += axes(f, options);
-  out +=
-      fmt::format(R"(<clipPath id="c{0}"><rect x="{1:.1f}" y="{2:.1f}" width="{3:.1f}" height="{4:.1f}"/></clipPath>)"
-                  R"svg(<g clip-path="url(#c{0})">)svg",
-                  options.width_px * 10000 + options.height_px, f.left, f.top, f.width, f.height);
+  out += fmt::format(
+      R"(<clipPath id="c{0}"><rect x="{1:.1f}" y="{2:.1f}" width="{3:.1f}" height="{4:.1f}"/></clipPath>)"
+      R"svg(<g clip-path="url(#c{0})">)svg",
+      options.width_px * 1000000 + options.height_px * 100 + static_cast<int>(f.top), f.left, f.top, f.width, f.height);
   for (std::size_t i = 0; i < series.size(); ++i) out += drawSeries(series[i], f, palette[i % palette.size()]);
   out += "</g>";
   if (legend) {
@@ -213,6 +213,20 @@ std::string svgPlot(const std::vector<PlotSeries>& series, const PlotOptions& op
                        f.left + f.width / 2, f.top + f.height / 2);
   }
   return out + "</svg>";
+}
+
+std::string svgPlotStack(const std::vector<StackedPlot>& plots) {
+  int width = 160;
+  int height = 0;
+  std::string body;
+  for (const StackedPlot& plot : plots) {
+    body += fmt::format(R"svg(<g transform="translate(0 {})">{}</g>)svg", height, svgPlot(plot.series, plot.options));
+    width = std::max(width, plot.options.width_px);
+    height += plot.options.height_px;
+  }
+  return fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}">{2}</svg>)", width,
+      std::max(1, height), body);
 }
 
 }  // namespace spindrift

@@ -41,6 +41,13 @@ struct PlotOptions {
 /// The whole <svg> element. Non-finite values are left out and break a line. Without any point it says so in the plot.
 [[nodiscard]] std::string svgPlot(const std::vector<PlotSeries>& series, const PlotOptions& options);
 
+/// Plots one under another in one <svg>, all as wide as the widest.
+struct StackedPlot {
+  std::vector<PlotSeries> series;
+  PlotOptions options;
+};
+[[nodiscard]] std::string svgPlotStack(const std::vector<StackedPlot>& plots);
+
 /// Round tick values (1, 2 or 5 times a power of ten) inside [from, to], about `wanted` of them.
 [[nodiscard]] std::vector<double> roundTicks(double from, double to, int wanted = 6);
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -19,10 +20,17 @@ namespace {
 /// to r).
 struct LiveModel {
   std::vector<double> run;
-  std::vector<double> model_sigma;  ///< of the model alone, without its remainder
+  Eigen::MatrixXf error;  ///< rows: the model's own error at two rows differs by |row - row| (standard uncertainty)
   std::vector<char> outside;
   std::vector<std::string> inputs;
   double remainder = 1.0;
+
+  /// How far the model's own error may have moved since it was last corrected.
+  [[nodiscard]] double sigmaSince(std::size_t corrected, std::size_t row) const {
+    const auto a = static_cast<Eigen::Index>(corrected);
+    const auto b = static_cast<Eigen::Index>(row);
+    return static_cast<double>((error.row(b) - error.row(a)).norm());
+  }
 };
 
 class Replay {
@@ -51,8 +59,12 @@ class Replay {
       if (!std::isfinite(truth_[e][row])) continue;
       for (Signal& s : known_.signals)
         if (s.name == errors_[e].name)
-          s.values[row] = truth_[e][row] + random_.normal(0.0, errors_[e].measurement_sigma);
+          s.values[row] =
+              truth_[e][row] + (options_.add_noise ? random_.normal(0.0, errors_[e].measurement_sigma) : 0.0);
     }
+  }
+  [[nodiscard]] bool measurable(std::size_t row) const {
+    return std::any_of(truth_.begin(), truth_.end(), [row](const auto& t) { return std::isfinite(t[row]); });
   }
   [[nodiscard]] double measured(std::size_t error, std::size_t row) const {
     return known_.at(errors_[error].name).values[row];
@@ -83,10 +95,10 @@ class Replay {
     live.outside = p.outside;
     const ThermalOutput& output = result.model.outputs.front();
     live.remainder = std::max(output.noise_sigma, errors_[error].measurement_sigma);
-    for (const double s : p.sigma) {
-      const double total = s / output.uncertainty_factor;
-      live.model_sigma.push_back(std::sqrt(std::max(0.0, total * total - output.noise_sigma * output.noise_sigma)));
-    }
+    const Eigen::MatrixXd x = result.model.features(series_, 0);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(output.covariance);
+    live.error =
+        (x * solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal()).cast<float>();
     for (const ThermalInput& input : result.model.inputs)
       if (std::find(live.inputs.begin(), live.inputs.end(), input.name) == live.inputs.end())
         live.inputs.push_back(input.name);
@@ -119,11 +131,14 @@ AdaptiveResult Replay::run() {
   const double start = time.front();
   const double live_from = start + options_.setup_s;
   std::size_t row = 0;
+  const double half_row = 0.5 * series_.medianPeriod_s();  // recorded cycles stand at the nearest row
+  std::size_t last_setup_row = 0;
   double next = start;
   for (; row < time.size() && time[row] < live_from; ++row) {
-    if (time[row] < next) continue;
-    next += options_.setup_interval_s;
+    if (time[row] < next || !measurable(row)) continue;
+    next = std::max(next + options_.setup_interval_s, time[row] - half_row + options_.setup_interval_s);
     measure(row);
+    last_setup_row = row;
     ++result.setup_measurements;
   }
   if (row >= time.size()) {
@@ -152,6 +167,7 @@ AdaptiveResult Replay::run() {
                      models.back().inputs.size(), joinedList(models.back().inputs))});
   }
   double last_measurement = live_from;
+  std::size_t measured_row = last_setup_row;
   double next_decision = live_from;
   double demanded = -1.0;  // time of a measurement that an exceedance asked for
   std::string trigger;
@@ -161,21 +177,23 @@ AdaptiveResult Replay::run() {
       filters[e].advance(dt);
       result.errors[e].adaptive_prediction[row] = filters[e].value(models[e].run[row]);
     }
-    if (time[row] < next_decision) continue;
+    if (time[row] < next_decision || !measurable(row)) continue;
     while (next_decision <= time[row]) next_decision += options_.decision_s;
     if (row % 64 == 0)
       job_.report(static_cast<double>(row) / static_cast<double>(time.size()), "replaying the campaign");
     job_.throwIfCancelled();
     const double since = time[row] - last_measurement;
-    if (since < options_.shortest_interval_s) continue;
+    if (since + half_row < options_.shortest_interval_s) continue;
     trigger.clear();
-    if (demanded >= 0.0 && time[row] >= demanded) trigger = "asked for by the last exceedance";
-    if (trigger.empty() && since >= options_.longest_interval_s) trigger = "longest interval without a measurement";
+    if (demanded >= 0.0 && time[row] + half_row >= demanded) trigger = "asked for by the last exceedance";
+    if (trigger.empty() && since + half_row >= options_.longest_interval_s)
+      trigger = "longest interval without a measurement";
     for (std::size_t e = 0; e < errors_.size() && trigger.empty(); ++e) {
-      const double sigma = std::hypot(filters[e].sigma(models[e].run[row]), models[e].model_sigma[row]);
+      const double sigma = std::hypot(filters[e].sigma(models[e].run[row]), models[e].sigmaSince(measured_row, row));
       if (sigma > errors_[e].trigger_sigma) {
         trigger = fmt::format("uncertainty of {} is {:.2f}", errors_[e].name, sigma);
-      } else if (models[e].outside[row] != 0 && since >= 2.0 * options_.shortest_interval_s) {
+      } else if (models[e].outside[row] > models[e].outside[measured_row] &&
+                 since >= 2.0 * options_.shortest_interval_s) {
         trigger = fmt::format("a temperature pattern that the model of {} has not seen", errors_[e].name);
       }
     }
@@ -183,6 +201,7 @@ AdaptiveResult Replay::run() {
     measure(row);
     ++result.measurements;
     last_measurement = time[row];
+    measured_row = row;
     demanded = -1.0;
     result.events.push_back({time[row], AdaptiveEventKind::Measurement, trigger});
     std::vector<std::size_t> exceeded;

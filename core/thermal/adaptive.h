@@ -14,8 +14,9 @@
 //                 newly chosen inputs (group LASSO over the lags of each input), and the next measurement comes after
 //                 `shortest_interval_s`
 //
-// The replay runs over a recorded (or simulated) series in which the errors are known at every row: the algorithm sees
-// them, with noise, only at its measurements; the full record is for judging. Beside it: uncompensated, and static (the
+// The replay runs over a recorded (or simulated) series in which the errors are known at every row, or at some (the
+// cycles of a campaign; elsewhere NaN): the algorithm sees them only at its measurements, which it can make only where
+// something was recorded; the full record is for judging. Beside it: uncompensated, and static (the
 // models of the setup, never touched again). Units: errors as their columns say; time s. Failure: InputError for a
 // series that ends before the setup or lacks a column. Source: P1 section 4 and its references [2], [10], [11].
 #pragma once
@@ -43,6 +44,9 @@ struct AdaptiveOptions {
   double decision_s = 300.0;  ///< how often triggers are looked at
   bool select_inputs = true;  ///< group LASSO at every identification; false: all candidates
   int maximum_reidentifications = 40;
+  /// Noise of `measurement_sigma` is added to every measurement: for series without noise of their own (a simulated
+  /// truth). false: the recorded values are measurements as they stand.
+  bool add_noise = true;
   std::uint64_t seed = 1;  ///< of the measurement noise
 
   /// Throws InputError.

@@ -51,15 +51,36 @@ const ThermalOutput* ThermalModel::findOutput(std::string_view name) const noexc
   return nullptr;
 }
 
+Eigen::MatrixXd ThermalModel::features(const TimeSeries& series, std::size_t which) const {
+  SPINDRIFT_ASSERT(which < outputs.size(), "no such output");
+  const ThermalOutput& output = outputs[which];
+  const auto count = static_cast<Eigen::Index>(series.time_s.size());
+  Eigen::MatrixXd out(count, static_cast<Eigen::Index>(output.terms.size() + 1));
+  out.col(0).setOnes();
+  std::vector<std::vector<double>> transformed(inputs.size());
+  for (std::size_t k = 0; k < output.terms.size(); ++k) {
+    const LagTerm& term = output.terms[k];
+    const ThermalInput& input = inputs[term.input];
+    const bool hold = holdsUntilNextRow(input.kind);
+    std::vector<double>& f = transformed[term.input];
+    if (f.empty()) {
+      f = bridged(series.time_s, series.at(input.name).values, hold);
+      for (double& u : f) u = input.transformed(u);
+    }
+    const std::vector<double> x = lagFiltered(series.time_s, f, term.tau_s, hold);
+    out.col(static_cast<Eigen::Index>(k + 1)) =
+        Eigen::Map<const Eigen::VectorXd>(x.data(), count).array() - input.reference;
+  }
+  return out;
+}
+
 ThermalPrediction ThermalModel::predict(const TimeSeries& series, std::size_t which) const {
   SPINDRIFT_ASSERT(which < outputs.size(), "no such output");
   const ThermalOutput& output = outputs[which];
   const std::size_t count = series.time_s.size();
-  const std::size_t terms = output.terms.size();
   ThermalPrediction prediction;
-  prediction.value.assign(count, output.offset);
+  prediction.value.resize(count);
   prediction.outside.assign(count, 0);
-  std::vector<std::vector<double>> transformed(inputs.size());
   std::set<std::string> reported;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const bool needed = std::any_of(output.terms.begin(), output.terms.end(),
@@ -67,11 +88,9 @@ ThermalPrediction ThermalModel::predict(const TimeSeries& series, std::size_t wh
     if (!needed) continue;
     const Signal& signal = series.at(inputs[i].name);
     const std::vector<double> u = bridged(series.time_s, signal.values, holdsUntilNextRow(inputs[i].kind));
-    transformed[i].resize(count);
     const double margin = 0.02 * (inputs[i].train_max - inputs[i].train_min);
     double worst = 0.0;
     for (std::size_t r = 0; r < count; ++r) {
-      transformed[i][r] = inputs[i].transformed(u[r]);
       const double beyond = std::max(u[r] - inputs[i].train_max, inputs[i].train_min - u[r]);
       if (beyond > margin) {
         prediction.outside[r] = 1;
@@ -83,25 +102,18 @@ ThermalPrediction ThermalModel::predict(const TimeSeries& series, std::size_t wh
                                              inputs[i].name, inputs[i].train_min, inputs[i].train_max, worst));
     }
   }
-  const bool with_sigma = output.covariance.rows() == static_cast<Eigen::Index>(terms + 1);
-  Eigen::MatrixXd features(with_sigma ? static_cast<Eigen::Index>(count) : 0, static_cast<Eigen::Index>(terms + 1));
-  if (with_sigma) features.col(0).setOnes();
-  for (std::size_t k = 0; k < terms; ++k) {
-    const LagTerm& term = output.terms[k];
-    const ThermalInput& input = inputs[term.input];
-    const std::vector<double> x =
-        lagFiltered(series.time_s, transformed[term.input], term.tau_s, holdsUntilNextRow(input.kind));
-    for (std::size_t r = 0; r < count; ++r) {
-      prediction.value[r] += term.gain * (x[r] - input.reference);
-      if (with_sigma) features(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(k + 1)) = x[r] - input.reference;
-    }
-  }
-  if (with_sigma) {
+  const Eigen::MatrixXd x = features(series, which);
+  Eigen::VectorXd coefficients(x.cols());
+  coefficients[0] = output.offset;
+  for (std::size_t k = 0; k < output.terms.size(); ++k)
+    coefficients[static_cast<Eigen::Index>(k + 1)] = output.terms[k].gain;
+  Eigen::Map<Eigen::VectorXd>(prediction.value.data(), x.rows()) = x * coefficients;
+  if (output.covariance.rows() == x.cols()) {
     prediction.sigma.resize(count);
-    const Eigen::MatrixXd half = features * output.covariance;
+    const Eigen::MatrixXd half = x * output.covariance;
     for (std::size_t r = 0; r < count; ++r) {
       const auto row = static_cast<Eigen::Index>(r);
-      const double variance = std::max(0.0, half.row(row).dot(features.row(row)));
+      const double variance = std::max(0.0, half.row(row).dot(x.row(row)));
       prediction.sigma[r] = output.uncertainty_factor * std::sqrt(variance + output.noise_sigma * output.noise_sigma);
     }
   }

@@ -84,6 +84,9 @@ struct ThermalModel {
   [[nodiscard]] const ThermalOutput* findOutput(std::string_view name) const noexcept;
   /// Free run over a series: no measured output is used. Throws InputError if an input is not in the series.
   [[nodiscard]] ThermalPrediction predict(const TimeSeries& series, std::size_t output) const;
+  /// Rows x (1 + terms): what the coefficients (offset, gains) of an output are multiplied with at every row, so that
+  /// the covariance of the model's error at two rows is row' * covariance * row. Throws as `predict`.
+  [[nodiscard]] Eigen::MatrixXd features(const TimeSeries& series, std::size_t output) const;
   [[nodiscard]] StepResponse stepResponse(std::size_t output, const std::string& input, std::size_t points = 60) const;
 
   [[nodiscard]] nlohmann::json json() const;

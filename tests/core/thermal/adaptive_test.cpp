@@ -75,6 +75,26 @@ TEST(Adaptive, SeesTheErrorsOnlyWhereItMeasures) {
   EXPECT_EQ(first.errors[0].adaptive_prediction, second.errors[0].adaptive_prediction);
 }
 
+TEST(Adaptive, MeasuresOnlyWhereSomethingWasRecorded) {
+  TimeSeries s = campaign(4);
+  std::vector<double>& y = s.signals.back().values;
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    if (k % 6 != 0) y[k] = std::nan("");
+  }
+  AdaptiveOptions options;
+  options.setup_s = 16.0 * 3600.0;
+  options.add_noise = false;
+  const AdaptiveResult r =
+      replayAdaptive(s, {{"exx_um", 0.3, 4.0, 2.0}}, {"feed_x_mm_min", "T_1_degC", "T_2_degC"}, options, {});
+  EXPECT_EQ(r.setup_measurements, 32U);
+  EXPECT_GT(r.measurements, 0U);
+  for (const AdaptiveEvent& e : r.events) {
+    if (e.kind != AdaptiveEventKind::Measurement) continue;
+    EXPECT_EQ(std::fmod(e.time_s, 1800.0), 0.0) << e.time_s;
+  }
+  EXPECT_GT(r.errors[0].adaptive_reduction_percent, 75.0);
+}
+
 TEST(Adaptive, RefusesARecordShorterThanItsSetup) {
   AdaptiveOptions options;
   options.setup_s = 1e6;
