@@ -159,7 +159,7 @@ bool ExportDialog::exportNow() {
       return false;
     }
   }
-  message_->show(Tone::Good, tr("%n file(s) written to %1", nullptr, count).arg(folder_->text()));
+  message_->show(Tone::Good, tr("Files written to %1: %2").arg(folder_->text()).arg(count));
   return true;
 }
 

@@ -233,7 +233,9 @@ void Plot::rebuild() {
     text->setText(mark.name);
     text->setFont(textFont(sizes::font_secondary));
     text->setColor(t.tone(mark.tone));
-    text->setPositionAlignment(Qt::AlignLeft | Qt::AlignTop);
+    // On the side with more room.
+    const bool right_half = mark.x > plot_->xAxis->range().center();
+    text->setPositionAlignment((right_half ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignTop);
     text->position->setTypeX(QCPItemPosition::ptPlotCoords);
     text->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
     text->position->setCoords(mark.x, 0.02);
@@ -278,7 +280,7 @@ void Plot::showAll() {
 /// Into the corner that no data meet; where there is none, into a line above the axes.
 void Plot::placeLegend() {
   QCPLegend* legend = plot_->legend;
-  if (!legend->visible() || plot_->width() < 40) return;
+  if (!legend->visible() || plot_->width() < 60 || plot_->height() < 60) return;
   QCPLayoutGrid* outer = plot_->plotLayout();
   QCPLayoutInset* inset = plot_->axisRect()->insetLayout();
   const auto move_inside = [&](Qt::Alignment corner) {
@@ -292,6 +294,7 @@ void Plot::placeLegend() {
     inset->setInsetAlignment(0, corner);
   };
   move_inside(Qt::AlignTop | Qt::AlignRight);
+  plot_->setViewport(QRect(QPoint(0, 0), plot_->size()));  // a hidden widget has not been told its size yet
   plot_->replot(QCustomPlot::rpImmediateRefresh);
   const QRectF axes = plot_->axisRect()->rect();
   const QSizeF size = QSizeF(legend->outerRect().size()) + QSizeF(16, 16);
@@ -317,6 +320,13 @@ void Plot::placeLegend() {
       for (int k = 1; k <= steps; ++k) {
         const QPointF p = steps == 1 ? now : before + (now - before) * (static_cast<double>(k) / steps);
         for (Corner& corner : corners) corner.hits += corner.area.contains(p) ? 1 : 0;
+      }
+      if (i < s.sigma.size() && std::isfinite(s.sigma[i])) {
+        const double half = s.sigma_factor * s.sigma[i];
+        for (const double end : {-1.0, -0.5, 0.5, 1.0}) {
+          const QPointF p(now.x(), plot_->yAxis->coordToPixel(s.y[i] + end * half));
+          for (Corner& corner : corners) corner.hits += corner.area.contains(p) ? 1 : 0;
+        }
       }
       before = now;
     }

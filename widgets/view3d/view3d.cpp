@@ -22,6 +22,7 @@ namespace {
 
 constexpr int rest_before_refining_ms = 120;
 constexpr double pick_radius_px = 12;
+constexpr double edge_label_px = 20;
 /// Shifts of the pictures that are averaged, pixels (a rotated grid).
 const std::array<QPointF, 4> smooth_shifts{QPointF(-0.125, -0.375), QPointF(0.375, -0.125), QPointF(0.125, 0.375),
                                            QPointF(-0.375, 0.125)};
@@ -228,8 +229,11 @@ void View3D::ensureFrame(const QSize& size, double ratio) {
     if (box) {
       // The colour bar gets a place of its own.
       const double bar = reservedRight(size);
-      const QSizeF free(size.width() - bar, size.height());
+      // And so do the numbers along the table's edges.
+      const QSizeF free(std::max(40.0, size.width() - bar - 2 * edge_label_px),
+                        std::max(40.0, size.height() - 2.0 * edge_label_px));
       camera_.fit(box->first, box->second, free);
+      camera_.half_height_mm *= size.height() / free.height();
       camera_.pan(QPointF(-bar / 2, 0), QSizeF(size));
       fitted_ = true;
     }

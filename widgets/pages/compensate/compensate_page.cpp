@@ -529,8 +529,7 @@ void CompensatePage::exportFiles(const QString& folder) {
       writeFileAtomically((QDir(folder).filePath(QString::fromStdString(f.name))).toStdString(), f.content);
     }
     callout()->setAction({}, {});
-    callout()->show(Tone::Good,
-                    tr("%n file(s) written to %1", nullptr, static_cast<int>(plan_->files.size())).arg(folder));
+    callout()->show(Tone::Good, tr("Files written to %1: %2").arg(folder).arg(plan_->files.size()));
   } catch (const std::exception& e) {
     callout()->setAction({}, {});
     callout()->show(Tone::Bad, QString::fromUtf8(e.what()));

@@ -367,8 +367,8 @@ void TouchCapturePage::toggleExcluded() {
     bool given = false;
     reason = QInputDialog::getText(
         this, tr("Exclude touches"),
-        tr("Why are %n touch(es) left out? The report will say so.", nullptr, static_cast<int>(chosen.size())),
-        QLineEdit::Normal, tr("bad touch"), &given);
+        tr("Why are the chosen touches (%1) left out? The report will say so.").arg(chosen.size()), QLineEdit::Normal,
+        tr("bad touch"), &given);
     if (!given || reason.trimmed().isEmpty()) return;
   }
   context().undo.push(new ExcludeCommand(session(), chosen, reason));
@@ -441,11 +441,11 @@ void TouchCapturePage::makeProgram() {
             program_verdict_->show(Tone::Bad, tr("No programme: %1").arg(QString::fromUtf8(failure.c_str())));
           } else if (!program_->check.good()) {
             const ProgramIssue& first = program_->check.issues.front();
-            program_verdict_->show(
-                Tone::Bad, tr("The check found %n issue(s), the programme is not given away. Line %1: %2", nullptr,
-                              static_cast<int>(program_->check.issues.size()))
-                               .arg(first.line)
-                               .arg(fromCore(first.what)));
+            program_verdict_->show(Tone::Bad,
+                                   tr("Issues found by the check: %1; the programme is not given away. Line %2: %3")
+                                       .arg(program_->check.issues.size())
+                                       .arg(first.line)
+                                       .arg(fromCore(first.what)));
           } else {
             program_verdict_->show(
                 Tone::Good,

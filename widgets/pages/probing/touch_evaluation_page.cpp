@@ -189,8 +189,7 @@ void TouchEvaluationPage::refresh() {
                     sentences.mid(0, 2).join(QLatin1Char(' ')) +
                         (sentences.size() > 2 ? tr(" And %1 more.").arg(sentences.size() - 2) : QString()));
   } else {
-    callout()->show(Tone::Good, tr("%n deviation(s) found, no warnings.", nullptr,
-                                   static_cast<int>(stored->observations.rows.size())));
+    callout()->show(Tone::Good, tr("Deviations found: %1, no warnings.").arg(stored->observations.rows.size()));
   }
   const CycleEvaluation* cycles = cyclesOf(details_.evaluation.get());
   if (cycles == nullptr) {
