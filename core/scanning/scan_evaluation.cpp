@@ -278,7 +278,10 @@ std::vector<ScanCapture> readScanList(const Campaign& campaign) {
 }
 
 ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string& scan_model, JobContext& job) {
-  const std::vector<ScanCapture> captures = readScanList(campaign);
+  std::vector<ScanCapture> captures = readScanList(campaign);
+  std::erase_if(captures, [&](const ScanCapture& c) { return campaign.excluded_captures.contains(c.cloud); });
+  if (captures.empty())
+    throw InputError({campaign.path("captures/scans.csv"), ""}, "has no scans left: all are excluded.");
   if (!campaign.machine.profiler)
     throw InputError({campaign.machine.file, "$.profiler"}, "is missing; scans cannot be evaluated without it.");
   const ProfilerDescription& profiler = *campaign.machine.profiler;

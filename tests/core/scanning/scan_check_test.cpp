@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/scanning/scan_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/atomic_file.h"
+#include "core/scanning/cloud_file.h"
+#include "core/scanning/scan_picture.h"
+#include "core/simulation/virtual_profiler.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+/// One artefact in three cycles, lifted by 12 um from cycle to cycle.
+void writeScans(const std::filesystem::path& folder) {
+  VirtualScanCampaign c;
+  c.optics.profile_points = 400;
+  c.optics.profile_interval_mm = 0.05;
+  c.optics.profile_spacing_mm = 0.4;
+  VirtualArtefact a;
+  a.surface.bumps = {{{3.0, 9.0}, 2.5, 0.5}};
+  c.artefacts = {a};
+  c.cycles = {{"C0", 0.0, 40.0}, {"C1", 1000.0, 40.0}, {"C2", 2000.0, 40.0}};
+  c.error = [](double time_s, double) {
+    SmallError e;
+    e.translation_mm.z() = 12e-6 * time_s;
+    return e;
+  };
+  JobContext job;
+  writeVirtualScanCampaign(c, folder, 9, job);
+}
+
+TEST(ScanCheck, GoodBrokenAndMissingScansAreToldApart) {
+  const testing::TempFolder folder;
+  writeScans(folder / "c");
+  const auto cut = folder / "c/captures/clouds/A1_C1.pcd";
+  PointCloud cloud = readCloud(cut);
+  cloud.points_mm.resize(cloud.profile_start[cloud.profileCount() / 2]);
+  cloud.profile_start.resize(cloud.profileCount() / 2 + 1);
+  writeCloud(cloud, cut);
+  writeFileAtomically(folder / "c/captures/clouds/A1_C2.pcd", "no cloud");
+  const std::vector<ScanCheck> checks = checkScans(Campaign::read(folder / "c"), JobContext());
+  ASSERT_EQ(checks.size(), 3U);
+  EXPECT_TRUE(checks[0].usable);
+  EXPECT_TRUE(checks[0].reason.empty()) << checks[0].reason;
+  EXPECT_EQ(checks[0].completeness, 1.0);
+  EXPECT_GT(checks[0].edge_points, 0U);
+  EXPECT_GT(checks[0].profiles, 50U);
+  EXPECT_TRUE(checks[1].usable);
+  EXPECT_NEAR(checks[1].completeness, 0.5, 0.05);
+  EXPECT_NE(checks[1].reason.find("cut short"), std::string::npos);
+  EXPECT_FALSE(checks[2].usable);
+  EXPECT_FALSE(checks[2].reason.empty());
+}
+
+TEST(ScanCheck, ExcludedScansAreLeftOut) {
+  const testing::TempFolder folder;
+  writeScans(folder / "c");
+  Campaign campaign = Campaign::read(folder / "c");
+  campaign.excluded_captures = {"captures/clouds/A1_C1.pcd"};
+  EXPECT_EQ(checkScans(campaign, JobContext()).size(), 2U);
+  JobContext job;
+  EXPECT_EQ(evaluateScanCampaign(campaign, "", job).scans.size(), 2U);
+  for (const char* cloud : {"captures/clouds/A1_C0.pcd", "captures/clouds/A1_C2.pcd"})
+    campaign.excluded_captures.insert(cloud);
+  EXPECT_THROW(evaluateScanCampaign(campaign, "", job), InputError);
+}
+
+TEST(ScanPicture, ShowsTheChangeAndWhatRegistrationLeaves) {
+  const testing::TempFolder folder;
+  writeScans(folder / "c");
+  const Campaign campaign = Campaign::read(folder / "c");
+  const auto picture = [&](ScanColouring colouring) {
+    return pictureOfScan(campaign, "captures/clouds/A1_C2.pcd", "captures/clouds/A1_C0.pcd", colouring,
+                         ScanModel::Rigid, JobContext());
+  };
+  const ScanPicture height = picture(ScanColouring::Height);
+  EXPECT_EQ(height.scalar->size(), height.scan->size());
+  EXPECT_EQ(height.xyz_mm->size(), 3 * height.scan->size());
+  EXPECT_EQ(picture(ScanColouring::Overlay).scalar->size(), height.scan->size() + height.reference->size());
+  // A tool that stands 24 um higher reads the surface 24 um lower.
+  const ScanPicture change = picture(ScanColouring::Measured);
+  EXPECT_NEAR(change.median_magnitude, 24.0, 1.0);
+  EXPECT_LT(change.high, 0.0);
+  EXPECT_LT(picture(ScanColouring::Registered).median_magnitude, 1.5);
+  // The reference compared with itself is a picture of heights.
+  EXPECT_EQ(pictureOfScan(campaign, "captures/clouds/A1_C0.pcd", "captures/clouds/A1_C0.pcd", ScanColouring::Measured,
+                          ScanModel::Rigid, JobContext())
+                .colouring,
+            ScanColouring::Height);
+}
+
+}  // namespace
+}  // namespace spindrift
