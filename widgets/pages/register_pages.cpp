@@ -12,6 +12,9 @@
 #include "widgets/pages/probing/touch_capture_page.h"
 #include "widgets/pages/probing/touch_evaluation_page.h"
 #include "widgets/pages/report/report_page.h"
+#include "widgets/pages/scanning/axis_errors_page.h"
+#include "widgets/pages/scanning/profiler_calibration_page.h"
+#include "widgets/pages/scanning/scan_capture_page.h"
 #include "widgets/pages/thermal/warm_up_page.h"
 
 namespace spindrift::gui {
@@ -41,6 +44,14 @@ void registerPages(PageRegistry& registry) {
       "evaluate-touches");
   registry.add(
       StepId::Model, touches, [](PageContext c) { return new CycleModelPage(std::move(c)); }, "model-cycles");
+  const auto scans = [](const SessionModel& s) { return s.has(Instrument::Profiler); };
+  registry.add(
+      StepId::Capture, scans, [](PageContext c) { return new ScanCapturePage(std::move(c)); }, "capture-scans");
+  registry.add(
+      StepId::Calibrate, scans, [](PageContext c) { return new ProfilerCalibrationPage(std::move(c)); },
+      "calibrate-profiler");
+  registry.add(
+      StepId::Model, scans, [](PageContext c) { return new AxisErrorsPage(std::move(c)); }, "model-axis-errors");
   registry.add(
       StepId::Model, points, [](PageContext c) { return new NineParameterPage(std::move(c)); }, "model-nine-parameter");
   registry.add(

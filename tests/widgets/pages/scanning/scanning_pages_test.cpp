@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pages of the laser profiler in the real window, on scans made by the virtual profiler.
+#include <cmath>
+
+#include "core/base/atomic_file.h"
+#include "core/scanning/cloud_file.h"
+#include "core/simulation/virtual_profiler.h"
+#include "tests/widgets/pages/page_test.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/scanning/axis_errors_page.h"
+#include "widgets/pages/scanning/profiler_calibration_page.h"
+#include "widgets/pages/scanning/scan_capture_page.h"
+#include "widgets/plots/plot.h"
+#include "widgets/plots/surface_plot.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr const char* bad_scan = "captures/clouds/A2_C2.pcd";
+
+class ScanningPages : public PageTest {
+ protected:
+  /// Two artefacts in three cycles. `spoil` cuts a third off the last scan, with a correct header.
+  void openScans(const std::string& model, bool spoil) {
+    VirtualScanCampaign c;
+    c.mounting.scan_model = model;
+    c.mounting.alpha_rad = 0.003;
+    c.mounting.beta_rad = -0.002;
+    c.mounting.offset_mm = {1.2, -0.7, 3.1};
+    c.optics.profile_points = 640;
+    c.optics.profile_interval_mm = 0.05;
+    c.optics.profile_spacing_mm = 0.3;
+    c.pocket.circle_mm = {0.0, 0.0, 0.0, 9.0};
+    c.pocket.scan_from_mm = -11.0;
+    c.pocket.scan_to_mm = 11.0;
+    for (const auto& [id, y] : {std::pair<const char*, double>{"A1", 350.0}, {"A2", 1250.0}}) {
+      VirtualArtefact a;
+      a.id = id;
+      a.y_mm = y;
+      a.surface.bumps = {{{3.0, 9.0}, 2.5, 0.5}, {{8.0, 30.0}, 3.0, -0.4}};
+      c.artefacts.push_back(a);
+    }
+    c.cycles = {{"C0", 0.0, 40.0}, {"C1", 1800.0, 40.0}, {"C2", 7200.0, 40.0}};
+    c.error = [](double time_s, double y_mm) {
+      const double q = 1.0 - std::exp(-time_s / 3600.0);
+      SmallError e;
+      e.translation_mm = q * Eigen::Vector3d(-0.002, 0.005 + 2e-5 * y_mm, 0.012);
+      e.rotation_rad = q * Eigen::Vector3d(25e-6, 0.0, -8e-6);
+      return e;
+    };
+    JobContext job;
+    const std::filesystem::path folder = folder_ / "campaign";
+    writeVirtualScanCampaign(c, folder, 5, job);
+    if (spoil) {
+      PointCloud cloud = readCloud(folder / bad_scan);
+      const std::size_t profiles = 2 * cloud.profileCount() / 3;
+      cloud.points_mm.resize(cloud.profile_start[profiles]);
+      cloud.profile_start.resize(profiles + 1);
+      writeCloud(cloud, folder / bad_scan);
+    }
+    open(folder);
+  }
+  std::vector<Cell> cells(const RowsModel& model, const QString& id) {
+    const int row = model.rowOf(id);
+    EXPECT_GE(row, 0) << id.toStdString();
+    return row < 0 ? std::vector<Cell>(8) : model.rows()[static_cast<std::size_t>(row)].cells;
+  }
+};
+
+TEST_F(ScanningPages, CaptureNamesTheIncompleteScanAndShowsClouds) {
+  openScans("rigid", true);
+  auto* page = go<ScanCapturePage>(StepId::Capture);
+  ASSERT_NE(page, nullptr);
+  EXPECT_EQ(page->scans()->rowCount(), 6);
+  press();
+  EXPECT_EQ(window_->workflow().status(StepId::Capture).state, StepState::Current);
+  const auto bad = cells(*page->scans(), QString::fromLatin1(bad_scan));
+  EXPECT_EQ(bad[2].text, QStringLiteral("incomplete"));
+  EXPECT_NEAR(bad[4].text.toDouble(), 66, 4);
+  EXPECT_EQ(cells(*page->scans(), QStringLiteral("captures/clouds/A1_C1.pcd"))[2].text, QStringLiteral("good"));
+  EXPECT_EQ(page->callout()->tone(), Tone::Attention);
+
+  page->select(QStringLiteral("captures/clouds/A1_C2.pcd"));
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(page->picture().colouring, ScanColouring::Height);
+  EXPECT_GT(page->picture().xyz_mm->size(), 50000U);
+  page->setColouring(ScanColouring::Measured);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  const double before = page->picture().median_magnitude;
+  page->setColouring(ScanColouring::Registered);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  // Registration takes the motion of the profiler out; noise of about a micrometre is left.
+  EXPECT_GT(before, 5.0 * page->picture().median_magnitude);
+  EXPECT_LT(page->picture().median_magnitude, 1.5);
+  EXPECT_EQ(page->profile()->series().size(), 2U);
+  page->showProfile(3);
+  EXPECT_GT(page->profile()->series().back().x.size(), 150U);
+  exportAll();
+}
+
+TEST_F(ScanningPages, ExcludingAScanIsUndoneByUndo) {
+  openScans("rigid", true);
+  auto* page = go<ScanCapturePage>(StepId::Capture);
+  press();
+  window_->undoStack().push(
+      new ExcludeCommand(window_->session(), {QString::fromLatin1(bad_scan)}, QStringLiteral("cut")));
+  ASSERT_TRUE(waitForJobs(*window_, 10));
+  EXPECT_EQ(page->callout()->tone(), Tone::Outdated);
+  press();
+  EXPECT_EQ(page->callout()->tone(), Tone::Good);
+  go<ProfilerCalibrationPage>(StepId::Calibrate);
+  press();
+  auto* calibrate = go<ProfilerCalibrationPage>(StepId::Calibrate);
+  EXPECT_EQ(calibrate->registrations()->rowCount(), 2 * 5);
+  window_->undoStack().undo();
+  ASSERT_TRUE(waitForJobs(*window_, 10));
+  EXPECT_EQ(window_->workflow().status(StepId::Calibrate).state, StepState::Outdated);
+  press();
+  EXPECT_EQ(calibrate->registrations()->rowCount(), 2 * 6);
+}
+
+TEST_F(ScanningPages, CalibrationShowsWhatItCannotDetermine) {
+  openScans("rigid", false);
+  auto* page = go<ProfilerCalibrationPage>(StepId::Calibrate);
+  ASSERT_NE(page, nullptr);
+  press();
+  ASSERT_EQ(page->calibration()->rowCount(), 6);
+  // A circle looks the same after a turn about its axis.
+  EXPECT_EQ(cells(*page->calibration(), QStringLiteral("gamma_rad"))[2].tone, Tone::Attention);
+  EXPECT_EQ(cells(*page->calibration(), QStringLiteral("beta_rad"))[2].tone, Tone::Good);
+  EXPECT_TRUE(cells(*page->calibration(), QStringLiteral("beta_rad"))[1].text.startsWith(QChar(0x2212)));
+  ASSERT_FALSE(page->residuals()->empty());
+  double squares = 0;
+  const Series& rim = page->residuals()->series().front();
+  for (const double v : rim.y) squares += v * v;
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(rim.y.size())), 40.0);
+  exportAll();
+}
+
+TEST_F(ScanningPages, ModelShowsTheSixErrorsUnderEitherScanModel) {
+  openScans("push_broom", false);
+  auto* page = go<AxisErrorsPage>(StepId::Model);
+  ASSERT_NE(page, nullptr);
+  EXPECT_FALSE(page->primaryButton()->isEnabled());
+  go<ProfilerCalibrationPage>(StepId::Calibrate);
+  press();
+  go<AxisErrorsPage>(StepId::Model);
+  press();
+  EXPECT_EQ(page->scanModel()->current(), 1);
+  page->setComponent(2);  // EZY
+  EXPECT_EQ(page->values()->rowCount(), 4);
+  EXPECT_EQ(page->series()->series().size(), 2U);
+  ASSERT_FALSE(page->surface()->empty());
+  EXPECT_EQ(page->surface()->data().x.size(), 2U);
+  EXPECT_EQ(page->surface()->data().y.size(), 3U);
+  // The first cycle is the reference.
+  EXPECT_EQ(page->surface()->data().value.front(), 0.0);
+  EXPECT_EQ(window_->session().result("fit")->payload.at("scan_model"), "push_broom");
+  exportAll();
+
+  QTest::mouseClick(page->scanModel()->button(0), Qt::LeftButton);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(window_->session().result("fit")->payload.at("scan_model"), "rigid");
+  EXPECT_EQ(page->callout()->tone(), Tone::Attention) << "the machine says push broom";
+  window_->undoStack().undo();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(window_->session().result("fit")->payload.at("scan_model"), "push_broom");
+}
+
+}  // namespace
+}  // namespace spindrift::gui

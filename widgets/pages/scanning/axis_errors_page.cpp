@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/scanning/axis_errors_page.h"
+
+#include <QHBoxLayout>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/base/units.h"
+#include "core/scanning/evaluate_scans.h"
+#include "core/scanning/scan_evaluation.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/pages/scanning/scan_results.h"
+#include "widgets/plots/plot.h"
+#include "widgets/plots/surface_plot.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr auto options_key = "scan-model";
+constexpr std::array<const char*, 2> models{"rigid", "push_broom"};
+
+double factorOf(int component) {
+  return component < 3 ? um_per_mm : urad_per_rad;
+}
+
+QString unitText(int component) {
+  return component < 3 ? QStringLiteral("um") : QStringLiteral("urad");
+}
+
+/// Value at the slide's origin and its uncertainty, um or urad; NaN where it is not determined.
+std::pair<double, double> atOrigin(const ScanResult& s, int i) {
+  if (!s.axis.determined(i)) return {std::nan(""), std::nan("")};
+  return {valueOf(s.axis.error, static_cast<Component>(i)), factorOf(i) * std::sqrt(s.axis.covariance(i, i))};
+}
+
+std::pair<double, double> atArtefact(const ScanResult& s, int i) {
+  const double sigma = s.registration.standardUncertainty(i);
+  if (!std::isfinite(sigma)) return {std::nan(""), std::nan("")};
+  return {valueOf(SmallError{s.registration.translation_mm, s.registration.rotation_rad}, static_cast<Component>(i)),
+          factorOf(i) * sigma};
+}
+
+/// Scans of one cycle belong together: the longest time that any cycle takes.
+double cycleDuration(const ScanEvaluation& evaluation) {
+  std::map<std::string, std::pair<double, double>> span;
+  for (const ScanResult& s : evaluation.scans) {
+    auto& [first, last] = span.try_emplace(s.capture.cycle, s.capture.time_s, s.capture.time_s).first->second;
+    first = std::min(first, s.capture.time_s);
+    last = std::max(last, s.capture.time_s);
+  }
+  double longest = 1.0;
+  for (const auto& [cycle, times] : span) longest = std::max(longest, times.second - times.first + 1.0);
+  return longest;
+}
+
+}  // namespace
+
+AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Model, parent), results_(ScanResults::of(session())) {
+  setInstruction(tr("See the six errors of the axis over positions and time, and which of them the scans can show."));
+  fit_ = makeButton(tr("Find the six errors"), nullptr, "primary");
+  addAction(fit_);
+  auto* choices = new QHBoxLayout;
+  component_ = new Segments({QStringLiteral("EXY"), QStringLiteral("EYY"), QStringLiteral("EZY"), QStringLiteral("EAY"),
+                             QStringLiteral("EBY"), QStringLiteral("ECY")},
+                            tr("Error of the axis"));
+  model_ = new Segments({tr("Rigid"), tr("Push broom")}, tr("Scan model"));
+  model_->button(0)->setToolTip(tr("The cloud moves as one body"));
+  model_->button(1)->setToolTip(tr("Every profile is taken at its own position of the carriage"));
+  choices->addWidget(component_);
+  choices->addStretch();
+  choices->addWidget(makeLabel(tr("Scan model"), "secondaryText"));
+  choices->addWidget(model_);
+  content()->addLayout(choices);
+
+  auto* left = new Card(tr("At the slide's origin"));
+  over_ = new Segments({tr("Over time"), tr("Over position")}, tr("Horizontal axis"));
+  left->addToTitle(over_);
+  series_ = new Plot;
+  series_->setAxes(tr("Time / min"), tr("EXY / um"));
+  series_->setEmptyText(tr("Errors of the axis will appear here"),
+                        tr("Find the six errors: each is drawn over time with its uncertainty."));
+  left->body()->addWidget(series_, 5);
+  tabs_ = makeTabs();
+  values_ = new RowsModel({tr("Scan"), tr("At the origin"), tr("At the artefact"), tr("Observed")}, this);
+  tabs_->addTab(makeTable(values_, tr("Values"), tr("Every scan's error with its uncertainty appears here.")),
+                tr("Values"));
+  observability_ = new RowsModel({tr("Error"), tr("± at the origin"), tr("± at the artefact"), tr("Observable")}, this);
+  tabs_->addTab(makeTable(observability_, tr("What the scan model can observe"),
+                          tr("Which errors this scan model can show appears after the fit.")),
+                tr("Observability"));
+  left->body()->addWidget(tabs_, 5);
+  auto* right = new Card(tr("Over position and time"));
+  surface_ = new SurfacePlot;
+  surface_->setEmptyText(tr("The surface will appear here"),
+                         tr("It needs at least two positions and two times with a determined error."));
+  right->body()->addWidget(surface_, 1);
+  content()->addWidget(makeSplitter(left, right, 6, 6), 1);
+  showHints(series_);
+  connect(fit_, &QPushButton::clicked, this, [this] { fit(true); });
+  connect(model_, &Segments::chosen, this, &AxisErrorsPage::chooseModel);
+  const auto again = [this] {
+    if (const auto evaluation = results_.last(chosenModel())) show(*evaluation);
+  };
+  connect(component_, &Segments::chosen, this, again);
+  connect(over_, &Segments::chosen, this, again);
+}
+
+std::string AxisErrorsPage::chosenModel() const {
+  auto* self = const_cast<AxisErrorsPage*>(this);
+  const nlohmann::json stored = self->session().setting(options_key, nullptr);
+  const std::string model = stored.is_string() ? stored.get<std::string>() : std::string();
+  return model.empty() ? self->results_.modelOfMachine() : model;
+}
+
+void AxisErrorsPage::chooseModel(int index) {
+  const std::string model = models[static_cast<std::size_t>(index)];
+  if (model == chosenModel()) return;
+  context().undo.push(new OptionsCommand(session(), tr("choose the scan model"), options_key, model, [this] {
+    refresh();
+    if (session().state("fit").there) fit(true);
+  }));
+}
+
+void AxisErrorsPage::setComponent(int index) {
+  component_->setCurrent(index);
+  if (const auto evaluation = results_.last(chosenModel())) show(*evaluation);
+}
+
+void AxisErrorsPage::fit(bool store) {
+  const CampaignSnapshot snapshot = session().snapshot();
+  if (snapshot.campaign == nullptr || !session().state("evaluate").there) return;
+  run(tr("Finding the six errors"),
+      [this, snapshot, store, key = results_.key(), model = chosenModel()](JobContext& job) -> std::function<void()> {
+        JobContext first = job.part(0.0, store ? 0.5 : 1.0);
+        JobContext second = job.part(0.5, 1.0);
+        auto evaluation = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, model, first));
+        nlohmann::json payload;
+        if (store) payload = evaluateScans(*snapshot.campaign, model, second).details;
+        return [this, evaluation, payload, store, key, model] {
+          if (key != results_.key()) return;
+          results_.set(model, evaluation);
+          if (store) session().storeResult("fit", {{"model", "axis-errors"}, {"scan_model", model}}, payload);
+          refresh();
+        };
+      });
+}
+
+void AxisErrorsPage::clear() {
+  values_->setRows({});
+  observability_->setRows({});
+  series_->setContent({});
+  surface_->setData({}, {});
+}
+
+void AxisErrorsPage::refresh() {
+  if (session().campaign() == nullptr) return;
+  if (shown_campaign_ != session().campaignId()) {
+    shown_campaign_ = session().campaignId();
+    clear();
+  }
+  model_->setCurrent(chosenModel() == models[1] ? 1 : 0);
+  const bool evaluated = session().state("evaluate").there;
+  fit_->setEnabled(evaluated);
+  callout()->setAction({}, {});
+  if (!evaluated) {
+    callout()->show(Tone::Attention, tr("The scans are not evaluated yet."));
+    callout()->setAction(tr("Go to Calibrate"), [this] { context().workflow.goTo(StepId::Calibrate); });
+    return;
+  }
+  const ResultState state = session().state("fit");
+  if (!state.there) {
+    clear();
+    callout()->show(Tone::Accent, tr("Press Find the six errors. They hold at the origin of the slide, far from the "
+                                     "artefact: the levers of the machine carry the rotations there."));
+    return;
+  }
+  const auto evaluation = results_.last(chosenModel());
+  if (evaluation == nullptr) {
+    fit(false);
+    return;
+  }
+  if (!state.current) {
+    callout()->show(Tone::Outdated, tr("Scans, exclusions or the machine have changed since. Find the errors again."));
+  } else if (chosenModel() != results_.modelOfMachine()) {
+    callout()->show(Tone::Attention, tr("The machine description says that its scans are %1. Under another scan model "
+                                        "the numbers below are wrong by more than they say.")
+                                         .arg(model_->button(model_->current() == 0 ? 1 : 0)->text().toLower()));
+  } else {
+    callout()->show(
+        Tone::Good,
+        tr("%1 scans, six errors each, relative to the first scan of their artefact.").arg(evaluation->scans.size()));
+  }
+  show(*evaluation);
+}
+
+void AxisErrorsPage::show(const ScanEvaluation& evaluation) {
+  const int c = component_->current();
+  const QString name = component_->button(c)->text();
+  double last = 0;
+  for (const ScanResult& s : evaluation.scans) last = std::max(last, s.capture.time_s);
+  const TimeUnit unit = timeUnit(last);
+  const bool over_time = over_->current() == 0;
+  std::map<std::string, Series> by_group;
+  std::vector<std::string> order;
+  for (const ScanResult& s : evaluation.scans) {
+    const auto [value, sigma] = atOrigin(s, c);
+    if (!std::isfinite(value)) continue;
+    const std::string group = over_time ? s.capture.artefact : s.capture.cycle;
+    if (!by_group.contains(group)) {
+      order.push_back(group);
+      by_group[group].name =
+          over_time ? tr("%1 at %2 mm").arg(fromCore(group)).arg(s.capture.y_mm, 0, 'f', 0) : fromCore(group);
+      by_group[group].colour = static_cast<int>(order.size()) - 1;
+    }
+    Series& series = by_group[group];
+    series.x.push_back(over_time ? s.capture.time_s / unit.seconds : s.capture.y_mm);
+    series.y.push_back(value);
+    series.sigma.push_back(std::isfinite(sigma) ? sigma : 0.0);
+  }
+  std::vector<Series> series;
+  for (const std::string& group : order) series.push_back(std::move(by_group[group]));
+  series_->setAxes(over_time ? tr("Time / %1").arg(unit.name) : tr("Position of the carriage / mm"),
+                   tr("%1 / %2").arg(name, unitText(c)));
+  series_->setContent(std::move(series));
+
+  std::vector<AxisErrorSample> samples;
+  for (const ScanResult& s : evaluation.scans) {
+    if (s.axis.determined(c)) samples.push_back({s.capture.time_s, s.capture.y_mm, s.axis});
+  }
+  SurfaceData grid;
+  double largest = 0;
+  if (!samples.empty()) {
+    const AxisErrorSurface found = axisErrorSurfaces(samples, cycleDuration(evaluation))[static_cast<std::size_t>(c)];
+    grid.x = found.positions_mm;
+    for (const double t : found.times_s) grid.y.push_back(t / unit.seconds);
+    grid.value = found.values;
+    grid.sigma = found.sigmas;
+    for (const double v : grid.value) {
+      if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
+    }
+  }
+  surface_->setAxes(tr("Position / mm"), tr("Time / %1").arg(unit.name), tr("%1 / %2").arg(name, unitText(c)));
+  surface_->setData(std::move(grid), ColourScale::symmetric(std::max(largest, 0.1), name, unitText(c)));
+  showValues(evaluation);
+  showObservability(evaluation);
+}
+
+void AxisErrorsPage::showValues(const ScanEvaluation& evaluation) {
+  const int c = component_->current();
+  values_->setHeaders({tr("Scan"), tr("At the origin / %1").arg(unitText(c)),
+                       tr("At the artefact / %1").arg(unitText(c)), tr("Observed")});
+  std::vector<Row> rows;
+  for (const ScanResult& s : evaluation.scans) {
+    if (s.reference) continue;
+    Row row;
+    row.id = fromCore(s.capture.cloud);
+    row.cells = {nameCell(QStringLiteral("%1 · %2").arg(fromCore(s.capture.artefact), fromCore(s.capture.cycle)))};
+    const auto origin = atOrigin(s, c);
+    const auto artefact = atArtefact(s, c);
+    row.cells.push_back(quantityCell(origin.first, origin.second));
+    row.cells.push_back(quantityCell(artefact.first, artefact.second));
+    const auto why = std::find_if(s.not_observed.begin(), s.not_observed.end(),
+                                  [&](const auto& n) { return static_cast<int>(n.first) == c; });
+    row.cells.push_back(why == s.not_observed.end() ? toneCell(tr("yes"), Tone::Good)
+                                                    : toneCell(tr("no"), Tone::Attention));
+    if (why != s.not_observed.end()) row.cells.back().tip = fromCore(why->second);
+    rows.push_back(std::move(row));
+  }
+  values_->setRows(std::move(rows));
+}
+
+void AxisErrorsPage::showObservability(const ScanEvaluation& evaluation) {
+  std::vector<Row> rows;
+  for (int c = 0; c < 6; ++c) {
+    double origin = 0, artefact = 0;
+    QString reason;
+    int seen = 0, all = 0;
+    for (const ScanResult& s : evaluation.scans) {
+      if (s.reference) continue;
+      ++all;
+      const auto a = atOrigin(s, c);
+      const auto b = atArtefact(s, c);
+      if (std::isfinite(a.second)) origin = std::max(origin, a.second);
+      if (std::isfinite(b.second)) {
+        artefact = std::max(artefact, b.second);
+        ++seen;
+      }
+      for (const auto& [component, sentence] : s.not_observed) {
+        if (static_cast<int>(component) == c) reason = fromCore(sentence);
+      }
+    }
+    Row row;
+    row.id = component_->button(c)->text();
+    const auto text = [&](double v) {
+      Cell cell = dashCell();
+      if (v > 0) cell.text = QStringLiteral("%1 %2").arg(v, 0, 'g', 2).arg(unitText(c));
+      return cell;
+    };
+    row.cells = {nameCell(row.id), text(origin), text(artefact),
+                 all > 0 && seen == all ? toneCell(tr("yes"), Tone::Good)
+                 : seen > 0             ? toneCell(tr("in %1 of %2 scans").arg(seen).arg(all), Tone::Attention)
+                                        : toneCell(tr("no"), Tone::Bad)};
+    row.cells.back().tip = reason;
+    rows.push_back(std::move(row));
+  }
+  observability_->setRows(std::move(rows));
+}
+
+std::vector<Exportable> AxisErrorsPage::exportables() {
+  std::vector<Exportable> items{exportableOf(tr("Errors of the axis"), values_),
+                                exportableOf(tr("Observability"), observability_)};
+  if (!series_->empty()) items.push_back(exportableOf(tr("Errors over time"), series_));
+  if (!surface_->empty()) {
+    items.push_back({tr("Surface over position and time"),
+                     {QStringLiteral("png"), QStringLiteral("csv")},
+                     [this](const QString& file) { surface_->exportTo(file); }});
+  }
+  return items;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Step Model for a laser profiler: the six errors of the axis that carries it, over positions and time, under either
+// scan model, with what each model can observe.
+#pragma once
+
+#include <array>
+
+#include "core/scanning/axis_errors.h"
+#include "widgets/pages/page.h"
+
+class QTabWidget;
+
+namespace spindrift {
+struct ScanEvaluation;
+}
+
+namespace spindrift::gui {
+
+class Plot;
+class RowsModel;
+class ScanResults;
+class Segments;
+class SurfacePlot;
+
+class AxisErrorsPage : public Page {
+  Q_OBJECT
+ public:
+  explicit AxisErrorsPage(PageContext context, QWidget* parent = nullptr);
+  void refresh() override;
+  [[nodiscard]] std::vector<Exportable> exportables() override;
+  [[nodiscard]] QPushButton* primaryButton() const override { return fit_; }
+  void runAll() override { fit(true); }
+  [[nodiscard]] RowsModel* values() const { return values_; }
+  [[nodiscard]] RowsModel* observability() const { return observability_; }
+  [[nodiscard]] Plot* series() const { return series_; }
+  [[nodiscard]] SurfacePlot* surface() const { return surface_; }
+  /// 0 ... 5: EX, EY, EZ, EA, EB, EC of the axis.
+  void setComponent(int index);
+  [[nodiscard]] Segments* scanModel() const { return model_; }
+
+ private:
+  [[nodiscard]] std::string chosenModel() const;
+  void fit(bool store);
+  void chooseModel(int index);
+  void clear();
+  void show(const ScanEvaluation& evaluation);
+  void showValues(const ScanEvaluation& evaluation);
+  void showObservability(const ScanEvaluation& evaluation);
+
+  ScanResults& results_;
+  std::int64_t shown_campaign_ = 0;
+  QPushButton* fit_;
+  Segments* model_;
+  Segments* component_;
+  Segments* over_;
+  Plot* series_;
+  SurfacePlot* surface_;
+  QTabWidget* tabs_;
+  RowsModel* values_;
+  RowsModel* observability_;
+};
+
+}  // namespace spindrift::gui

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/scanning/profiler_calibration_page.h"
+
+#include <QHBoxLayout>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/units.h"
+#include "core/workflows/evaluate_campaign.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/pages/scanning/scan_results.h"
+#include "widgets/plots/plot.h"
+
+namespace spindrift::gui {
+
+ProfilerCalibrationPage::ProfilerCalibrationPage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Calibrate, parent), results_(ScanResults::of(session())) {
+  setInstruction(tr("Find where the profiler sits in the tool frame, and register every scan onto the first one."));
+  evaluate_ = makeButton(tr("Evaluate the scans"), nullptr, "primary");
+  addAction(evaluate_);
+  auto* tiles = new Card;
+  auto* line = new QHBoxLayout;
+  line->setSpacing(24);
+  rim_ = new NumberTile(tr("Rim of the pocket, rms"));
+  plane_ = new NumberTile(tr("Plate, rms"));
+  scans_ = new NumberTile(tr("Scans compared"));
+  rejected_count_ = new NumberTile(tr("Scans left out"));
+  for (NumberTile* tile : {rim_, plane_, scans_, rejected_count_}) line->addWidget(tile, 1);
+  tiles->body()->addLayout(line);
+  content()->addWidget(tiles);
+
+  auto* left = new Card;
+  tabs_ = makeTabs();
+  auto* first = new QWidget;
+  auto* column = new QVBoxLayout(first);
+  column->setContentsMargins(0, 8, 0, 0);
+  undetermined_ = new Callout;
+  column->addWidget(undetermined_);
+  calibration_ = new RowsModel({tr("Parameter"), tr("Value"), tr("From the scan")}, this);
+  column->addWidget(makeTable(calibration_, tr("Calibration"),
+                              tr("Three angles and three lengths with their uncertainty appear after the evaluation.")),
+                    1);
+  tabs_->addTab(first, tr("Calibration"));
+  registrations_ = new RowsModel({tr("Scan"), tr("X"), tr("Y"), tr("Z"), tr("rms / um")}, this);
+  tabs_->addTab(makeTable(registrations_, tr("Registrations"),
+                          tr("The deviation at every artefact appears after the evaluation.")),
+                tr("At the artefacts"));
+  rejected_ = new RowsModel({tr("Scan"), tr("Why it was left out")}, this);
+  tabs_->addTab(makeTable(rejected_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
+  left->body()->addWidget(tabs_, 1);
+  auto* right = new Card(tr("Residuals of the rim"));
+  residuals_ = new Plot;
+  residuals_->setAxes(tr("Angle around the pocket / °"), tr("Distance from the circle / um"));
+  residuals_->setEmptyText(tr("Residuals will appear here"),
+                           tr("Evaluate the scans: every crossing of the rim is compared with the fitted circle."));
+  right->body()->addWidget(residuals_, 1);
+  content()->addWidget(makeSplitter(left, right, 9, 5), 1);
+  showHints(residuals_);
+  connect(evaluate_, &QPushButton::clicked, this, [this] { evaluate(true); });
+}
+
+void ProfilerCalibrationPage::evaluate(bool store) {
+  const CampaignSnapshot snapshot = session().snapshot();
+  if (snapshot.campaign == nullptr) return;
+  run(store ? tr("Evaluating the scans") : tr("Reading the evaluation"),
+      [this, snapshot, store, key = results_.key(),
+       model = results_.modelOfMachine()](JobContext& job) -> std::function<void()> {
+        JobContext first = job.part(0.0, store ? 0.5 : 1.0);
+        JobContext second = job.part(0.5, 1.0);
+        auto details = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, "", first));
+        nlohmann::json payload;
+        if (store) payload = payloadOf(evaluateCampaign(*snapshot.campaign, {}, second));
+        return [this, details, payload, store, key, model] {
+          if (key != results_.key()) return;
+          results_.set(model, details);
+          if (store) session().storeResult("evaluate", nlohmann::json::object(), payload);
+          refresh();
+        };
+      });
+}
+
+void ProfilerCalibrationPage::clear() {
+  for (RowsModel* rows : {calibration_, registrations_, rejected_}) rows->setRows({});
+  residuals_->setContent({});
+  undetermined_->set(Tone::Neutral, {});
+  for (NumberTile* tile : {rim_, plane_, scans_, rejected_count_}) tile->set(QStringLiteral("–"));
+}
+
+void ProfilerCalibrationPage::refresh() {
+  if (session().campaign() == nullptr) return;
+  if (shown_campaign_ != session().campaignId()) {
+    shown_campaign_ = session().campaignId();
+    clear();
+  }
+  const auto stored = session().evaluation();
+  if (stored == nullptr) {
+    clear();
+    callout()->show(Tone::Accent, tr("Press Evaluate the scans. Bad ones are listed with their reason, the rest is "
+                                     "evaluated."));
+    return;
+  }
+  const ResultState state = session().state("evaluate");
+  if (!state.current) {
+    callout()->show(Tone::Outdated,
+                    tr("Scans, exclusions or the machine have changed since this was evaluated. Evaluate again."));
+  } else if (!stored->good_enough || !stored->warnings.empty()) {
+    QStringList sentences;
+    for (const std::string& w : stored->warnings) {
+      // What the calibration cannot determine stands beside its numbers.
+      if (w.rfind("Calibration of the profiler", 0) != 0) sentences << fromCore(w);
+    }
+    if (sentences.isEmpty()) {
+      callout()->show(Tone::Good, tr("%n deviation(s) found; see what the calibration cannot determine.", nullptr,
+                                     static_cast<int>(stored->observations.rows.size())));
+    } else {
+      callout()->show(Tone::Attention,
+                      sentences.mid(0, 2).join(QLatin1Char(' ')) +
+                          (sentences.size() > 2 ? tr(" And %1 more.").arg(sentences.size() - 2) : QString()));
+    }
+  } else {
+    callout()->show(Tone::Good, tr("%n deviation(s) found, no warnings.", nullptr,
+                                   static_cast<int>(stored->observations.rows.size())));
+  }
+  const auto evaluation = results_.last(results_.modelOfMachine());
+  if (evaluation == nullptr) {
+    if (state.current) evaluate(false);
+    return;
+  }
+  showCalibration(*evaluation);
+  showScans(*evaluation);
+}
+
+void ProfilerCalibrationPage::showCalibration(const ScanEvaluation& evaluation) {
+  const ProfilerCalibration& c = evaluation.mounting.calibration;
+  const std::array<const char*, 6> keys{"alpha_rad", "beta_rad", "gamma_rad", "dx_mm", "dy_mm", "dz_mm"};
+  const std::array<double, 6> values{c.alpha_rad,     c.beta_rad,      c.gamma_rad,
+                                     c.offset_mm.x(), c.offset_mm.y(), c.offset_mm.z()};
+  const std::array<QString, 6> names{tr("α about X"), tr("β about Y"), tr("γ about Z"), tr("dx"), tr("dy"), tr("dz")};
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < 6; ++i) {
+    Row row;
+    row.id = QString::fromLatin1(keys[i]);
+    const bool open = std::find(c.undetermined.begin(), c.undetermined.end(), keys[i]) != c.undetermined.end();
+    const double factor = i < 3 ? 1e3 : 1.0;
+    Cell value{quantityText(factor * values[i], factor * c.standardUncertainty(static_cast<int>(i)),
+                            i < 3 ? QStringLiteral("mrad") : QStringLiteral("mm"))};
+    value.right = true;
+    row.cells = {
+        nameCell(names[i]), value,
+        open ? toneCell(tr("no: taken from the mounting"), Tone::Attention) : toneCell(tr("determined"), Tone::Good)};
+    rows.push_back(std::move(row));
+  }
+  calibration_->setRows(std::move(rows));
+  if (!c.usable()) {
+    undetermined_->show(
+        Tone::Attention,
+        fromCore(c.message.empty() && !evaluation.warnings.empty() ? evaluation.warnings.front() : c.message));
+  } else {
+    undetermined_->set(c.undetermined.empty() ? Tone::Neutral : Tone::Attention, fromCore(c.message));
+  }
+  rim_->set(c.usable() ? QStringLiteral("%1 um").arg(c.rim_rms_um, 0, 'f', 2) : QStringLiteral("–"),
+            tr("%1 crossings").arg(c.rim.size()));
+  plane_->set(c.usable() ? QStringLiteral("%1 um").arg(c.plane_rms_um, 0, 'f', 2) : QStringLiteral("–"),
+              tr("around the pocket"));
+  Series used, unused;
+  used.name = tr("Used");
+  used.style = unused.style = SeriesStyle::Points;
+  unused.name = tr("Left out");
+  unused.colour = 1;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const RimPoint& p : c.rim) centre += p.point_mm / static_cast<double>(c.rim.size());
+  for (const RimPoint& p : c.rim) {
+    Series& s = p.used ? used : unused;
+    const Eigen::Vector3d d = p.point_mm - centre;
+    s.x.push_back(std::atan2(d.y(), d.x()) * 180.0 / 3.14159265358979323846);
+    s.y.push_back(p.residual_um);
+  }
+  std::vector<Series> series;
+  if (!used.x.empty()) series.push_back(std::move(used));
+  if (!unused.x.empty()) series.push_back(std::move(unused));
+  residuals_->setContent(std::move(series));
+}
+
+void ProfilerCalibrationPage::showScans(const ScanEvaluation& evaluation) {
+  std::vector<Row> rows;
+  int compared = 0;
+  for (const ScanResult& s : evaluation.scans) {
+    if (!s.reference) ++compared;
+    // Two rows a scan: the displacement and the rotation of the tool at the artefact.
+    for (const int first : {0, 3}) {
+      Row row;
+      row.id = fromCore(s.capture.cloud) + (first == 0 ? QString() : QStringLiteral("/rotation"));
+      const QString scan = QStringLiteral("%1 · %2").arg(fromCore(s.capture.artefact), fromCore(s.capture.cycle));
+      row.cells = {first == 0 ? nameCell(tr("%1 / um").arg(scan)) : Cell{s.reference ? tr("reference") : tr("urad")}};
+      row.cells[0].tip = tr("%1 % of the reference seen").arg(100.0 * s.registration.overlap, 0, 'f', 0);
+      const double factor = first == 0 ? um_per_mm : urad_per_rad;
+      for (int i = first; i < first + 3; ++i) {
+        const double value = i < 3 ? s.registration.translation_mm(i) : s.registration.rotation_rad(i - 3);
+        const double sigma = s.registration.standardUncertainty(i);
+        if (s.reference || !std::isfinite(sigma)) {
+          row.cells.push_back(dashCell());
+          row.cells.back().tip =
+              s.reference ? tr("All others are compared with this scan") : tr("Not observed under this scan model");
+        } else {
+          row.cells.push_back(quantityCell(factor * value, factor * sigma));
+        }
+      }
+      row.cells.push_back(first == 0 ? numberCell(s.registration.rms_mm * um_per_mm, 2) : Cell{});
+      rows.push_back(std::move(row));
+    }
+  }
+  registrations_->setRows(std::move(rows));
+  scans_->set(QString::number(compared),
+              tr("scan model %1").arg(fromCore(std::string(toString(evaluation.scan_model)))));
+  rows.clear();
+  for (const RejectedCapture& r : evaluation.rejected) {
+    Row row;
+    row.id = fromCore(r.capture);
+    row.cells = {toneCell(row.id, Tone::Bad), Cell{fromCore(r.reason)}};
+    row.cells[1].tip = row.cells[1].text;
+    rows.push_back(std::move(row));
+  }
+  tabs_->setTabText(2, tr("Left out (%1)").arg(rows.size()));
+  rejected_count_->set(QString::number(rows.size()), rows.empty() ? tr("every scan was used") : tr("see the list"),
+                       rows.empty() ? Tone::Neutral : Tone::Attention);
+  rejected_->setRows(std::move(rows));
+}
+
+std::vector<Exportable> ProfilerCalibrationPage::exportables() {
+  std::vector<Exportable> items{exportableOf(tr("Calibration of the profiler"), calibration_),
+                                exportableOf(tr("Deviations at the artefacts"), registrations_),
+                                exportableOf(tr("Scans left out"), rejected_)};
+  if (!residuals_->empty()) items.push_back(exportableOf(tr("Residuals of the rim"), residuals_));
+  return items;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/scanning/scan_capture_page.h"
+
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QInputDialog>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QSplitter>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/pages/scanning/scan_results.h"
+#include "widgets/plots/plot.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+nlohmann::json payloadOf(const std::vector<ScanCheck>& checks) {
+  nlohmann::json scans = nlohmann::json::array();
+  for (const ScanCheck& c : checks) {
+    scans.push_back({{"cloud", c.capture.cloud},
+                     {"usable", c.usable},
+                     {"reason", c.reason},
+                     {"points", c.points},
+                     {"profiles", c.profiles},
+                     {"completeness", c.completeness},
+                     {"edge_points", c.edge_points},
+                     {"outlier_points", c.outlier_points}});
+  }
+  return {{"scans", scans}};
+}
+
+ScanCheck checkFrom(const nlohmann::json& json) {
+  ScanCheck c;
+  c.capture.cloud = json.at("cloud").get<std::string>();
+  c.usable = json.at("usable").get<bool>();
+  c.reason = json.at("reason").get<std::string>();
+  c.points = json.at("points").get<std::size_t>();
+  c.profiles = json.at("profiles").get<std::size_t>();
+  c.completeness = json.at("completeness").get<double>();
+  c.edge_points = json.at("edge_points").get<std::size_t>();
+  c.outlier_points = json.at("outlier_points").get<std::size_t>();
+  return c;
+}
+
+/// Profile `index` of a cloud as x and z (mm, um about its mean).
+Series profileSeries(const PointCloud& cloud, std::size_t index, const QString& name, int colour) {
+  Series s;
+  s.name = name;
+  s.colour = colour;
+  s.style = SeriesStyle::Points;
+  if (index >= cloud.profileCount()) return s;
+  for (std::size_t i = cloud.profile_start[index]; i < cloud.profile_start[index + 1]; ++i) {
+    s.x.push_back(cloud.points_mm[i].x());
+    s.y.push_back(cloud.points_mm[i].z());
+  }
+  return s;
+}
+
+double carriageOf(const PointCloud& cloud, std::size_t profile) {
+  return cloud.points_mm[cloud.profile_start[profile]].y();
+}
+
+/// The profile of `cloud` whose carriage position is nearest to `y_mm`.
+std::size_t nearestProfile(const PointCloud& cloud, double y_mm) {
+  std::size_t best = 0;
+  for (std::size_t k = 0; k < cloud.profileCount(); ++k) {
+    if (std::abs(carriageOf(cloud, k) - y_mm) < std::abs(carriageOf(cloud, best) - y_mm)) best = k;
+  }
+  return best;
+}
+
+}  // namespace
+
+ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Capture, parent), results_(ScanResults::of(session())) {
+  setInstruction(tr("Scan every artefact in every cycle, check the clouds, and scan incomplete ones again."));
+  check_ = makeButton(tr("Check the scans"), nullptr, "primary");
+  addAction(check_);
+
+  auto* list = new Card(tr("Scans"));
+  rows_ = new RowsModel({tr("Scan"), tr("Time / min"), tr("State"), tr("Points"), tr("Full / %")}, this);
+  table_ = makeTable(rows_, tr("Scans"), tr("Scans appear with the first row of captures/scans.csv."));
+  list->body()->addWidget(table_, 1);
+  verdict_ = new Callout;
+  list->body()->addWidget(verdict_);
+  auto* buttons = new QHBoxLayout;
+  exclude_ = makeButton(tr("Exclude …"), "exclude");
+  exclude_->setToolTip(tr("Leave this scan out of the evaluation; it stays on the disk and can be brought back"));
+  buttons->addWidget(exclude_);
+  buttons->addStretch();
+  list->body()->addLayout(buttons);
+
+  auto* right = new Card;
+  colouring_ = new Segments({tr("Height"), tr("Cold and warm"), tr("Change"), tr("Left over")}, tr("Colours"));
+  colouring_->button(2)->setToolTip(tr("Height over the cold scan as it was measured"));
+  colouring_->button(3)->setToolTip(tr("Height over the cold scan after registration"));
+  right->body()->addWidget(colouring_);
+  view_ = new View3D;
+  view_->setEmptyText(tr("The cloud will appear here"), tr("Choose a scan in the list. It is read in the background."));
+  profile_ = new Plot;
+  profile_->setAxes(tr("Along the profile / mm"), tr("Height / mm"));
+  profile_->setEmptyText(tr("A profile will appear here"), tr("Choose a scan in the list."));
+  right->body()->addWidget(view_, 5);
+  auto* line = new QHBoxLayout;
+  line->addWidget(makeLabel(tr("Profile"), "sectionTitle"));
+  slider_ = new QSlider(Qt::Horizontal);
+  slider_->setAccessibleName(tr("Profile shown"));
+  slider_->setMinimumHeight(sizes::control_height);
+  slider_->setEnabled(false);
+  line->addWidget(slider_, 1);
+  slider_text_ = new QLabel;
+  slider_text_->setMinimumWidth(150);
+  line->addWidget(slider_text_);
+  right->body()->addLayout(line);
+  right->body()->addWidget(profile_, 3);
+  content()->addWidget(makeSplitter(list, right, 5, 7), 1);
+  showHints(profile_);
+  showHints(view_);
+
+  connect(check_, &QPushButton::clicked, this, &ScanCapturePage::check);
+  connect(exclude_, &QPushButton::clicked, this, &ScanCapturePage::toggleExcluded);
+  connect(colouring_, &Segments::chosen, this, &ScanCapturePage::loadCloud);
+  connect(slider_, &QSlider::valueChanged, this, &ScanCapturePage::showProfile);
+  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this](const QModelIndex& now) {
+    if (filling_ || !now.isValid()) return;
+    showVerdict();
+    loadCloud();
+  });
+}
+
+QString ScanCapturePage::selected() const {
+  const QModelIndex now = table_->selectionModel()->currentIndex();
+  return now.isValid() ? rows_->idAt(now.row()) : QString();
+}
+
+std::string ScanCapturePage::referenceOf(const std::string& cloud) const {
+  auto* self = const_cast<ScanCapturePage*>(this);
+  const std::vector<ScanCapture>& all = self->results_.captures();
+  const auto own = std::find_if(all.begin(), all.end(), [&](const ScanCapture& c) { return c.cloud == cloud; });
+  if (own == all.end()) return {};
+  for (const ScanCapture& c : all) {
+    if (c.artefact == own->artefact && !self->session().excluded().contains(fromCore(c.cloud))) return c.cloud;
+  }
+  return {};
+}
+
+void ScanCapturePage::check() {
+  const CampaignSnapshot snapshot = session().snapshot();
+  if (snapshot.campaign == nullptr) return;
+  run(tr("Checking the scans"), [this, snapshot](JobContext& job) -> std::function<void()> {
+    const nlohmann::json payload = payloadOf(checkScans(*snapshot.campaign, job));
+    return [this, payload] {
+      session().storeResult("check", nlohmann::json::object(), payload);
+      refresh();
+    };
+  });
+}
+
+void ScanCapturePage::refresh() {
+  if (session().campaign() == nullptr) return;
+  const bool other = shown_campaign_ != session().campaignId();
+  shown_campaign_ = session().campaignId();
+  if (other) {
+    picture_ = {};
+    shown_.clear();
+    view_->clear();
+    profile_->setContent({});
+  }
+  checks_.clear();
+  if (const auto stored = session().result("check"); stored && stored->payload.contains("scans")) {
+    for (const auto& entry : stored->payload.at("scans")) {
+      const ScanCheck c = checkFrom(entry);
+      checks_[fromCore(c.capture.cloud)] = c;
+    }
+  }
+  fillTable();
+  const std::vector<ScanCapture>& captures = results_.captures();
+  const auto bad = std::count_if(checks_.begin(), checks_.end(), [this](const auto& c) {
+    return (!c.second.usable || !c.second.reason.empty()) && !session().excluded().contains(c.first);
+  });
+  if (!results_.failure().isEmpty()) {
+    callout()->show(Tone::Bad, results_.failure());
+  } else if (checks_.empty()) {
+    callout()->show(Tone::Accent, tr("%1 scans are there and none is checked yet. Checking reads every cloud and says "
+                                     "which to take again.")
+                                      .arg(captures.size()));
+  } else if (!session().state("check").current) {
+    callout()->show(Tone::Outdated, tr("Exclusions or the machine have changed since. Check the scans again."));
+  } else if (bad > 0) {
+    callout()->show(Tone::Attention, tr("%1 of %2 scans are incomplete or cannot be used. Scan again, or exclude them: "
+                                        "the rest is evaluated without.")
+                                         .arg(bad)
+                                         .arg(captures.size()));
+  } else {
+    callout()->show(Tone::Good, tr("All %1 scans are complete and can be used.").arg(captures.size()));
+  }
+  if (selected().isEmpty() && rows_->rowCount() > 0) {
+    table_->selectRow(0);
+  } else if (!selected().isEmpty() && shown_ != selected()) {
+    loadCloud();
+  }
+  showVerdict();
+}
+
+void ScanCapturePage::fillTable() {
+  const QString chosen = selected();
+  std::map<QString, QString> rejected;
+  if (const auto evaluation = session().evaluation()) {
+    for (const RejectedCapture& r : evaluation->rejected) rejected[fromCore(r.capture)] = fromCore(r.reason);
+  }
+  std::vector<Row> rows;
+  for (const ScanCapture& c : results_.captures()) {
+    Row row;
+    row.id = fromCore(c.cloud);
+    row.cells = {nameCell(QStringLiteral("%1 · %2").arg(fromCore(c.artefact), fromCore(c.cycle))),
+                 numberCell(c.time_s / 60.0, 1)};
+    const auto found = checks_.find(row.id);
+    const ScanCheck* check = found == checks_.end() ? nullptr : &found->second;
+    if (session().excluded().contains(row.id)) {
+      row.faded = true;
+      row.cells.push_back(Cell{tr("excluded"), Tone::Neutral, "exclude"});
+      row.cells.back().tip = session().excluded().at(row.id);
+    } else if (check == nullptr) {
+      row.cells.push_back(toneCell(tr("not checked"), Tone::Neutral));
+    } else if (!check->usable || rejected.contains(row.id)) {
+      row.cells.push_back(toneCell(tr("rejected"), Tone::Bad));
+      row.cells.back().tip = rejected.contains(row.id) ? rejected[row.id] : fromCore(check->reason);
+    } else if (!check->reason.empty()) {
+      row.cells.push_back(toneCell(tr("incomplete"), Tone::Attention));
+      row.cells.back().tip = fromCore(check->reason);
+    } else {
+      row.cells.push_back(toneCell(tr("good"), Tone::Good));
+    }
+    row.cells.push_back(check == nullptr ? dashCell() : numberCell(static_cast<double>(check->points), 0));
+    row.cells.push_back(numberCell(check == nullptr ? std::nan("") : 100.0 * check->completeness, 0));
+    rows.push_back(std::move(row));
+  }
+  filling_ = true;
+  rows_->setRows(std::move(rows));
+  if (const int at = rows_->rowOf(chosen); at >= 0) table_->selectRow(at);
+  filling_ = false;
+}
+
+void ScanCapturePage::select(const QString& cloud) {
+  const int row = rows_->rowOf(cloud);
+  if (row >= 0) table_->selectRow(row);
+}
+
+void ScanCapturePage::setColouring(ScanColouring colouring) {
+  colouring_->setCurrent(static_cast<int>(colouring));
+  loadCloud();
+}
+
+void ScanCapturePage::showVerdict() {
+  const QString id = selected();
+  exclude_->setEnabled(!id.isEmpty());
+  const bool excluded = session().excluded().contains(id);
+  exclude_->setText(QChar(0x2009) + (excluded ? tr("Bring back") : tr("Exclude …")));
+  const int row = rows_->rowOf(id);
+  if (row < 0) return verdict_->set(Tone::Neutral, {});
+  const Cell& state = rows_->rows()[static_cast<std::size_t>(row)].cells[2];
+  const auto check = checks_.find(id);
+  if (excluded) {
+    verdict_->show(Tone::Neutral, tr("Excluded: %1.").arg(session().excluded().at(id)));
+  } else if (!state.tip.isEmpty()) {
+    verdict_->show(state.tone, state.tip);
+  } else if (check != checks_.end()) {
+    verdict_->show(Tone::Good, tr("%1 profiles; %2 points near edges and %3 outliers are not used.")
+                                   .arg(check->second.profiles)
+                                   .arg(check->second.edge_points)
+                                   .arg(check->second.outlier_points));
+  } else {
+    verdict_->set(Tone::Neutral, {});
+  }
+}
+
+void ScanCapturePage::toggleExcluded() {
+  const QString id = selected();
+  if (id.isEmpty()) return;
+  QString reason;
+  if (!session().excluded().contains(id)) {
+    bool given = false;
+    reason = QInputDialog::getText(this, tr("Exclude a scan"), tr("Why is it left out? The report will say so."),
+                                   QLineEdit::Normal, tr("bad scan"), &given);
+    if (!given || reason.trimmed().isEmpty()) return;
+  }
+  context().undo.push(new ExcludeCommand(session(), {id}, reason));
+}
+
+void ScanCapturePage::loadCloud() {
+  const QString id = selected();
+  const CampaignSnapshot snapshot = session().snapshot();
+  if (id.isEmpty() || snapshot.campaign == nullptr) return;
+  shown_ = id;
+  const int request = ++request_;
+  const auto colouring = static_cast<ScanColouring>(colouring_->current());
+  const std::string cloud = id.toStdString();
+  const std::string reference = referenceOf(cloud);
+  const ScanModel model = scanModelFromString(results_.modelOfMachine());
+  Job job;
+  job.title = tr("Reading %1").arg(QFileInfo(id).fileName());
+  job.work = [this, snapshot, cloud, reference, colouring, model, request](JobContext& job_context) {
+    // A scan chosen in the meantime makes this one pointless.
+    auto picture = std::make_shared<ScanPicture>(
+        pictureOfScan(*snapshot.campaign, cloud, reference, colouring, model, job_context));
+    return std::function<void()>([this, picture, request] {
+      if (request != request_) return;
+      picture_ = *picture;
+      showCloud();
+    });
+  };
+  job.failed = [this, request](const QString& sentence) {
+    if (request != request_) return;
+    picture_ = {};
+    view_->clear();
+    view_->setEmptyText(tr("This cloud cannot be shown"), sentence);
+    profile_->setContent({});
+    slider_->setEnabled(false);
+  };
+  context().jobs.run(std::move(job));
+}
+
+void ScanCapturePage::showCloud() {
+  ColourScale scale;
+  QString caption =
+      rows_->rowOf(shown_) < 0 ? shown_ : rows_->rows()[static_cast<std::size_t>(rows_->rowOf(shown_))].cells[0].text;
+  switch (picture_.colouring) {
+    case ScanColouring::Height:
+      scale.map = ColourMap::Sequential;
+      scale.low = picture_.low;
+      scale.high = std::max(picture_.high, picture_.low + 1e-6);
+      scale.title = tr("z");
+      scale.unit = QStringLiteral("mm");
+      if (!picture_.message.empty()) {
+        caption += QStringLiteral(": ") + fromCore(picture_.message);
+      } else if (picture_.reference == nullptr && colouring_->current() != 0) {
+        caption += tr(": the reference itself");
+      }
+      break;
+    case ScanColouring::Overlay:
+      scale = ColourScale::symmetric(1.0, QString(), tr("cold, warm"));
+      caption += tr(": blue the cold scan, red this one");
+      break;
+    default:
+      scale = ColourScale::symmetric(std::max({std::abs(picture_.low), std::abs(picture_.high), 0.1}), tr("dz"),
+                                     QStringLiteral("um"));
+      caption += picture_.colouring == ScanColouring::Measured
+                     ? tr(" over the cold scan, median |dz| %1 um").arg(picture_.median_magnitude, 0, 'f', 2)
+                     : tr(" after registration, median |dz| %1 um").arg(picture_.median_magnitude, 0, 'f', 2);
+  }
+  const bool first = view_->empty();
+  ViewCloud cloud;
+  cloud.xyz_mm = picture_.xyz_mm;
+  cloud.scalar = picture_.scalar;
+  view_->setColourScale(scale);
+  view_->setCloud(cloud);
+  view_->setCaption(caption);
+  if (first) view_->resetCamera(StandardView::Isometric);
+  const auto profiles = static_cast<int>(picture_.scan == nullptr ? 0 : picture_.scan->profileCount());
+  {
+    const QSignalBlocker quiet(slider_);
+    const int before = slider_->value();
+    slider_->setRange(0, std::max(0, profiles - 1));
+    slider_->setValue(before > 0 ? std::min(before, profiles - 1) : profiles / 2);
+    slider_->setEnabled(profiles > 1);
+  }
+  showProfile(slider_->value());
+}
+
+void ScanCapturePage::showProfile(int index) {
+  std::vector<Series> series;
+  slider_text_->clear();
+  if (picture_.scan != nullptr && index >= 0 && static_cast<std::size_t>(index) < picture_.scan->profileCount()) {
+    const auto k = static_cast<std::size_t>(index);
+    const double y = carriageOf(*picture_.scan, k);
+    if (slider_->value() != index) {
+      const QSignalBlocker quiet(slider_);
+      slider_->setValue(index);
+    }
+    if (picture_.reference != nullptr && picture_.reference->profileCount() > 0) {
+      series.push_back(profileSeries(*picture_.reference, nearestProfile(*picture_.reference, y), tr("Cold"), 0));
+    }
+    series.push_back(profileSeries(*picture_.scan, k, picture_.reference == nullptr ? tr("Cold") : tr("This scan"), 1));
+    slider_text_->setText(tr("%1 of %2, y %3 mm").arg(index + 1).arg(picture_.scan->profileCount()).arg(y, 0, 'f', 2));
+  }
+  profile_->setContent(std::move(series));
+}
+
+std::vector<Exportable> ScanCapturePage::exportables() {
+  std::vector<Exportable> items{exportableOf(tr("Scans"), rows_)};
+  if (!view_->empty()) items.push_back(exportableOf(tr("Cloud"), view_));
+  if (!profile_->empty()) items.push_back(exportableOf(tr("Profile"), profile_));
+  return items;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/scanning/scan_results.h"
+
+#include "core/base/error.h"
+
+namespace spindrift::gui {
+
+ScanResults::ScanResults(SessionModel& session) : QObject(&session), session_(session) {}
+
+ScanResults& ScanResults::of(SessionModel& session) {
+  auto* found = session.findChild<ScanResults*>(QString(), Qt::FindDirectChildrenOnly);
+  return found != nullptr ? *found : *new ScanResults(session);
+}
+
+void ScanResults::follow() {
+  const std::string folder = session_.campaign() == nullptr ? std::string() : session_.campaign()->folder.string();
+  if (folder_ == folder) return;
+  folder_ = folder;
+  read_ = false;
+  captures_.clear();
+  failure_.clear();
+  evaluations_.clear();
+}
+
+const std::vector<ScanCapture>& ScanResults::captures() {
+  follow();
+  if (!read_ && session_.campaign() != nullptr) {
+    read_ = true;
+    try {
+      captures_ = readScanList(*session_.campaign());
+    } catch (const InputError& e) {
+      failure_ = QString::fromUtf8(e.what());
+    }
+  }
+  return captures_;
+}
+
+std::shared_ptr<const ScanEvaluation> ScanResults::last(const std::string& scan_model) {
+  follow();
+  const auto found = evaluations_.find(scan_model);
+  return found == evaluations_.end() ? nullptr : found->second;
+}
+
+void ScanResults::set(const std::string& scan_model, std::shared_ptr<const ScanEvaluation> evaluation) {
+  follow();
+  evaluations_[scan_model] = std::move(evaluation);
+}
+
+std::string ScanResults::key() const {
+  std::string text = std::to_string(session_.campaignId());
+  for (const auto& [item, reason] : session_.excluded()) text += "|" + item.toStdString();
+  return text + "|" + session_.commonOptions().dump();
+}
+
+std::string ScanResults::modelOfMachine() const {
+  const auto campaign = session_.campaign();
+  return campaign != nullptr && campaign->machine.profiler ? campaign->machine.profiler->scan_model : "rigid";
+}
+
+}  // namespace spindrift::gui
