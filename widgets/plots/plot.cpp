@@ -375,8 +375,61 @@ void Plot::resizeEvent(QResizeEvent*) {
   placeLegend();
 }
 
+double Plot::pixelOfX(double x) const {
+  return plot_->xAxis->coordToPixel(x);
+}
+
+std::optional<std::pair<std::size_t, bool>> Plot::spanEdgeAt(double pixel_x) const {
+  constexpr double reach_px = 8;
+  std::optional<std::pair<std::size_t, bool>> best;
+  double nearest = reach_px;
+  for (std::size_t i = 0; i < spans_.size(); ++i) {
+    for (const bool left : {true, false}) {
+      const double d = std::abs(pixelOfX(left ? spans_[i].from : spans_[i].to) - pixel_x);
+      if (d >= nearest) continue;
+      nearest = d;
+      best = {i, left};
+    }
+  }
+  return best;
+}
+
+bool Plot::dragSpan(QEvent* event) {
+  if (!spans_movable_) return false;
+  const auto place = [event] { return static_cast<QMouseEvent*>(event)->position().x(); };
+  switch (event->type()) {
+    case QEvent::MouseButtonPress:
+      if (static_cast<QMouseEvent*>(event)->button() != Qt::LeftButton) return false;
+      dragged_edge_ = spanEdgeAt(place());
+      return dragged_edge_.has_value();
+    case QEvent::MouseMove: {
+      if (!dragged_edge_) {
+        plot_->setCursor(spanEdgeAt(place()) ? Qt::SizeHorCursor : Qt::ArrowCursor);
+        return false;
+      }
+      Span& span = spans_[dragged_edge_->first];
+      const double x = plot_->xAxis->pixelToCoord(place());
+      (dragged_edge_->second ? span.from : span.to) = x;
+      rebuild();
+      return true;
+    }
+    case QEvent::MouseButtonRelease: {
+      if (!dragged_edge_) return false;
+      const std::size_t index = dragged_edge_->first;
+      dragged_edge_.reset();
+      Span& span = spans_[index];
+      if (span.from > span.to) std::swap(span.from, span.to);
+      Q_EMIT spanMoved(static_cast<int>(index), span.from, span.to);
+      return true;
+    }
+    default:
+      return false;
+  }
+}
+
 bool Plot::eventFilter(QObject* watched, QEvent* event) {
   if (watched == plot_) {
+    if (dragSpan(event)) return true;
     if (event->type() == QEvent::MouseButtonDblClick) {
       showAll();
       return true;

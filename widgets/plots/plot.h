@@ -58,6 +58,11 @@ class Plot : public QWidget {
   /// Always shows y = 0 and at least +- this much.
   void setLeastRange(double y) { least_range_ = y; }
   void setLegendVisible(bool visible);
+  /// The edges of the spans can be dragged; `spanMoved` tells where one stands when it is let go.
+  void setSpansMovable(bool movable) { spans_movable_ = movable; }
+  [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
+  /// Horizontal place of a value, pixels of this widget.
+  [[nodiscard]] double pixelOfX(double x) const;
   /// Fixes what showAll() shows of the y axis, so that plots side by side can be compared; empty: from the data.
   void setRange(const std::optional<std::pair<double, double>>& y) { fixed_range_ = y; }
 
@@ -72,6 +77,7 @@ class Plot : public QWidget {
 
  Q_SIGNALS:
   void hovered(const QString& text);
+  void spanMoved(int index, double from, double to);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -94,6 +100,12 @@ class Plot : public QWidget {
     Tone tone;
   };
   std::vector<Mark> marks_;
+  /// The edge of a span at a place of the plot: span and whether it is the left one.
+  [[nodiscard]] std::optional<std::pair<std::size_t, bool>> spanEdgeAt(double pixel_x) const;
+  bool dragSpan(QEvent* event);
+
+  bool spans_movable_ = false;
+  std::optional<std::pair<std::size_t, bool>> dragged_edge_;
   double least_range_ = 0;
   std::optional<std::pair<double, double>> fixed_range_;
   bool legend_ = true;
