@@ -6,6 +6,7 @@
 #include <QStandardPaths>
 
 #include "core/base/error.h"
+#include "core/workflows/log_campaign.h"
 
 namespace spindrift::gui {
 namespace {
@@ -118,6 +119,11 @@ bool SessionModel::has(Instrument instrument) const {
       return campaign_->captureList("scans.csv").has_value();
   }
   return false;
+}
+
+bool SessionModel::isLogOnly() const {
+  return campaign_ != nullptr && campaign_->log && !campaign_->observations && hasOutputSignals(*campaign_->log) &&
+         !has(Instrument::Microscope) && !has(Instrument::TouchProbe) && !has(Instrument::Profiler);
 }
 
 CampaignSnapshot SessionModel::snapshot() const {

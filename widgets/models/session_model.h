@@ -77,6 +77,8 @@ class SessionModel : public QObject {
   [[nodiscard]] std::int64_t campaignId() const { return campaign_id_; }
   [[nodiscard]] std::shared_ptr<const Campaign> campaign() const { return campaign_; }
   [[nodiscard]] bool has(Instrument instrument) const;
+  /// True for a campaign that is a log with a measured output over time, without captures or observations.
+  [[nodiscard]] bool isLogOnly() const;
   [[nodiscard]] CampaignSnapshot snapshot() const;
   /// The machine as edited by the user, in place of machine.json (which is never altered); empty JSON: back to the
   /// file.

@@ -15,6 +15,7 @@
 #include "widgets/pages/scanning/axis_errors_page.h"
 #include "widgets/pages/scanning/profiler_calibration_page.h"
 #include "widgets/pages/scanning/scan_capture_page.h"
+#include "widgets/pages/thermal/thermal_model_page.h"
 #include "widgets/pages/thermal/warm_up_page.h"
 
 namespace spindrift::gui {
@@ -52,6 +53,9 @@ void registerPages(PageRegistry& registry) {
       "calibrate-profiler");
   registry.add(
       StepId::Model, scans, [](PageContext c) { return new AxisErrorsPage(std::move(c)); }, "model-axis-errors");
+  registry.add(
+      StepId::Model, [](const SessionModel& s) { return s.isLogOnly(); },
+      [](PageContext c) { return new ThermalModelPage(std::move(c)); }, "model-over-time");
   registry.add(
       StepId::Model, points, [](PageContext c) { return new NineParameterPage(std::move(c)); }, "model-nine-parameter");
   registry.add(

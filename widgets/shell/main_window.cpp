@@ -7,6 +7,7 @@
 #include <QComboBox>
 #include <QDir>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
@@ -21,6 +22,7 @@
 #include <QVBoxLayout>
 
 #include "core/base/error.h"
+#include "core/workflows/log_campaign.h"
 #include "widgets/common/parts.h"
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/job_bar.h"
@@ -146,6 +148,10 @@ void MainWindow::buildMenu() {
       [this] { Q_EMIT welcome_->openSession(); });
   add(session_menu, tr("Open &campaign folder …"), "folder-open", QKeySequence(tr("Ctrl+Shift+O")),
       [this] { Q_EMIT welcome_->openCampaign(); });
+  add(session_menu, tr("Open &log …"), "folder-open", QKeySequence(tr("Ctrl+L")), [this] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Open a log over time"), {}, tr("Log (*.csv)"));
+    if (!file.isEmpty()) openLog(file);
+  });
   session_menu->addSeparator();
   add(session_menu, tr("&Export …"), "export", QKeySequence(tr("Ctrl+E")),
       [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); });
@@ -322,9 +328,24 @@ void MainWindow::openCampaign(const QString& folder) {
       tr("Importing %1").arg(QDir(folder).dirName()), [path](JobContext&) { return path; }, QDir(folder).dirName());
 }
 
+void MainWindow::openLog(const QString& file) {
+  const std::filesystem::path csv = file.toStdString();
+  auto place = std::make_shared<QTemporaryDir>();
+  const std::filesystem::path folder = std::filesystem::path(place->path().toStdString()) / "campaign";
+  importInBackground(
+      tr("Importing %1").arg(QFileInfo(file).fileName()),
+      [place, csv, folder](JobContext&) {
+        writeLogCampaign(csv, folder);
+        return folder;
+      },
+      QFileInfo(file).completeBaseName());
+}
+
 void MainWindow::open(const QString& folder) {
   if (Session::isSession(folder.toStdString())) {
     openSession(folder);
+  } else if (QFileInfo(folder).isFile()) {
+    openLog(folder);
   } else {
     openCampaign(folder);
   }

@@ -180,6 +180,7 @@ StepStatus Workflow::evaluate(StepId step) const {
     return status;
   };
   const ResultState evaluated = session_.state("evaluate");
+  const bool log_only = session_.isLogOnly();
   const bool observations = own_observations || evaluated.there;
   switch (step) {
     case StepId::Machine:
@@ -187,14 +188,17 @@ StepStatus Workflow::evaluate(StepId step) const {
     case StepId::WarmUp:
       return fromResult("warm-up", tr("Check whether the instrument had settled."), tr("Checked."));
     case StepId::Capture:
+      if (log_only) return {StepState::Current, tr("The campaign is a log over time: nothing to capture.")};
       if (!captures && !own_observations) return {StepState::NotStarted, tr("No captures yet.")};
       if (!captures) return {StepState::Current, tr("The campaign holds finished observations.")};
       return fromResult("check", tr("Check the captures."), tr("All captures are checked."));
     case StepId::Calibrate:
+      if (log_only) return {StepState::Current, tr("The campaign is a log over time: nothing to calibrate.")};
       if (!captures && own_observations) return {StepState::Current, tr("The campaign holds finished observations.")};
       if (!captures) return {StepState::Blocked, tr("There are no captures to evaluate yet.")};
       return fromResult("evaluate", tr("Evaluate the captures."), tr("Captures are evaluated."));
     case StepId::Model:
+      if (log_only) return fromResult("thermal", tr("Identify a model over time."), tr("The model is identified."));
       if (!observations) return {StepState::Blocked, tr("Evaluate the captures first (Calibrate).")};
       {
         StepStatus status = fromResult("fit", tr("Fit the error model."), tr("The model is fitted."));

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page of models over time in the real window, on a log whose output is a known lag of a known input.
+#include "widgets/pages/thermal/thermal_model_page.h"
+
+#include <QComboBox>
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/base/text.h"
+#include "core/workflows/log_campaign.h"
+#include "tests/widgets/pages/page_test.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/plots/plot.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr double tau_s = 3000.0;
+constexpr double gain = 12.0;  // um at 3000 rpm
+
+class ThermalPages : public PageTest {
+ protected:
+  /// 20 h at 30 s: speed in steps, the output a first-order lag of it with 0.1 um of noise, one sensor that knows
+  /// nothing.
+  std::filesystem::path writeLog() {
+    Random random(4);
+    std::string text = "time_s,spindle_rpm,ez_um,T_room_degC\n";
+    double state = 0;
+    double speed = 0;
+    for (int i = 0; i < 2400; ++i) {
+      if (i % 120 == 0) speed = 1000.0 * std::floor(random.uniform(0.0, 4.0));
+      text += std::to_string(30 * i) + "," + exactNumber(speed) + "," +
+              exactNumber(gain * state + random.normal(0, 0.1)) + "," +
+              exactNumber(20 + 0.3 * std::sin(i / 300.0) + random.normal(0, 0.02)) + "\n";
+      state += (1 - std::exp(-30.0 / tau_s)) * (speed / 3000.0 - state);
+    }
+    folder_.write("spindle run.csv", text);
+    return folder_ / "spindle run.csv";
+  }
+};
+
+TEST_F(ThermalPages, ALogIsOpenedAndItsModelIdentified) {
+  open(writeLog());
+  auto* page = go<ThermalModelPage>(StepId::Model);
+  ASSERT_NE(page, nullptr);
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::NotStarted);
+  EXPECT_EQ(page->seriesPlot()->series().size(), 1U);
+  ASSERT_EQ(page->seriesPlot()->spans().size(), 2U);
+  press();
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Current);
+  ASSERT_NE(page->result(), nullptr);
+  EXPECT_LT(page->result()->test.rmse, 0.2 * page->result()->plain.front().test.rmse);
+  EXPECT_EQ(page->seriesPlot()->series().size(), 2U);
+  ASSERT_EQ(page->comparison()->rowCount(), 3);
+  EXPECT_NE(page->comparison()->rows()[1].cells[0].text.indexOf(QStringLiteral("no model")), -1);
+  // The step response of the speed ends where the truth does.
+  const auto& steps = page->result()->step_responses;
+  const auto speed =
+      std::find_if(steps.begin(), steps.end(), [](const StepResponse& s) { return s.input == "spindle_rpm"; });
+  ASSERT_NE(speed, steps.end());
+  EXPECT_NEAR(speed->final_value, gain * speed->step / 3000.0, 5.0 * speed->final_sigma + 0.1);
+  EXPECT_FALSE(page->stepPlot()->empty());
+  exportAll();
+
+  // Reopening shows the same.
+  const QString session = QString::fromStdString(window_->session().folder().string());
+  const double rms = page->result()->test.rmse;
+  window_->closeSession();
+  window_->open(session);
+  page = go<ThermalModelPage>(StepId::Model);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  ASSERT_NE(page->result(), nullptr);
+  EXPECT_DOUBLE_EQ(page->result()->test.rmse, rms);
+}
+
+TEST_F(ThermalPages, DraggingTheTrainingRangeChangesItAndUndoBringsItBack) {
+  open(writeLog());
+  auto* page = go<ThermalModelPage>(StepId::Model);
+  press();
+  const TimeRange before = page->request().train;
+  Plot* plot = page->seriesPlot();
+  QWidget* canvas = plot->childAt(plot->rect().center());
+  ASSERT_NE(canvas, nullptr);
+  // From the end of training to 5 h.
+  const int y = plot->height() / 2;
+  const QPoint from(static_cast<int>(plot->pixelOfX(plot->spans()[0].to)) - 3, y);
+  const QPoint to(static_cast<int>(plot->pixelOfX(5.0)), y);
+  QTest::mousePress(canvas, Qt::LeftButton, Qt::NoModifier, from);
+  QTest::mouseMove(canvas, (from + to) / 2);
+  QTest::mouseMove(canvas, to);
+  QTest::mouseRelease(canvas, Qt::LeftButton, Qt::NoModifier, to);
+  EXPECT_NEAR(page->request().train.to_s, 5.0 * 3600, 200);
+  EXPECT_EQ(page->request().train.from_s, before.from_s);
+  EXPECT_EQ(page->callout()->tone(), Tone::Outdated);
+  press();
+  EXPECT_NE(page->callout()->tone(), Tone::Outdated);
+  EXPECT_NEAR(page->result()->model.train_to_s, 5.0 * 3600, 200);
+  window_->undoStack().undo();
+  EXPECT_EQ(page->request().train.to_s, before.to_s);
+  EXPECT_EQ(page->callout()->tone(), Tone::Outdated);
+}
+
+TEST_F(ThermalPages, InputsAndMethodAreChosen) {
+  open(writeLog());
+  auto* page = go<ThermalModelPage>(StepId::Model);
+  ASSERT_EQ(page->inputs()->rowCount(), 2);
+  const int room = page->inputs()->rowOf(QStringLiteral("T_room_degC"));
+  ASSERT_GE(room, 0);
+  page->inputs()->setData(page->inputs()->index(room, 0), Qt::Unchecked, Qt::CheckStateRole);
+  EXPECT_EQ(page->request().inputs, (std::vector<std::string>{"spindle_rpm"}));
+  for (auto* box : page->findChildren<QComboBox*>()) {
+    if (box->accessibleName() == QLatin1String("How the model is found")) {
+      box->setCurrentIndex(1);
+      Q_EMIT box->activated(1);
+    }
+  }
+  EXPECT_EQ(page->request().method, "arx");
+  press();
+  ASSERT_NE(page->result(), nullptr);
+  EXPECT_EQ(page->result()->inputs, (std::vector<std::string>{"spindle_rpm"}));
+  // The slowest pole is the truth's time constant.
+  double slowest = 0;
+  for (const auto& t : page->result()->structure.at("time_constants"))
+    slowest = std::max(slowest, t["value_s"].get<double>());
+  EXPECT_NEAR(slowest, tau_s, 0.25 * tau_s);
+  EXPECT_GT(page->lags()->rowCount(), 0);
+}
+
+TEST_F(ThermalPages, AFileThatIsNoLogGivesOneSentence) {
+  folder_.write("words.csv", "a,b\nx,y\n");
+  window_->open(QString::fromStdString((folder_ / "words.csv").string()));
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  EXPECT_TRUE(window_->welcomeShown());
+  EXPECT_TRUE(window_->jobBar()->message().contains(QStringLiteral("words.csv")))
+      << window_->jobBar()->message().toStdString();
+  folder_.write("nothing.csv", "time_s,T_a_degC\n0,20\n1,20\n");
+  EXPECT_THROW(writeLogCampaign(folder_ / "nothing.csv", folder_ / "c"), InputError);
+}
+
+}  // namespace
+}  // namespace spindrift::gui
