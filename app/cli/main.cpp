@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   spindrift::cli::addProbingCommands(app, line);
   spindrift::cli::addThermalCommands(app, line);
   spindrift::cli::addSimulationCommands(app, line);
+  spindrift::cli::addCompensationCommands(app, line);
   spindrift::cli::addDiscrepancyCommands(app, line);
   spindrift::cli::addReportingCommands(app, line);
   try {

@@ -192,12 +192,31 @@ TEST_F(Simulated, ReportIsOneFile) {
   EXPECT_EQ(html.find("src=\"http"), std::string::npos);
 }
 
+TEST_F(Simulated, CompensateWritesTheTablesOfACompletedModel) {
+  const Outcome outcome =
+      runCli({"compensate", campaign(), "--model", "completed", "--accept", "column.bending.a", "--state", "M20",
+              "--positions", "5", "--json", in("c.json"), "--out", in("control")});
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  const nlohmann::json j = nlohmann::json::parse(textOf(in("c.json")));
+  EXPECT_EQ(j["state"], "M20");
+  EXPECT_LT(j["rms_after_um"].get<double>(), j["rms_before_um"].get<double>());
+  ASSERT_FALSE(j["points"].empty());
+  for (const auto& file : j["files"]) {
+    EXPECT_FALSE(textOf(in("control/" + file["name"].get<std::string>())).empty()) << file.dump();
+    EXPECT_FALSE(file["convention"].get<std::string>().empty());
+  }
+  expectBadInput({"compensate", campaign(), "--model", "completed"}, {"at least one effect"});
+  expectBadInput({"compensate", campaign(), "--reference", "1,2"}, {"--reference 1,2"});
+  expectBadInput({"compensate", campaign(), "--state", "M99"}, {"M99"});
+}
+
 TEST_F(Simulated, NoResultGoesIntoTheCampaign) {
   const std::string there = campaign() + "/result";
   for (const auto& words : std::vector<std::vector<std::string>>{{"fit", campaign(), "--state", "M5", "--json", there},
                                                                  {"heatmap", campaign(), "--csv", there},
                                                                  {"report", campaign(), "--out", there},
                                                                  {"discrepancy", campaign(), "--prediction", there},
+                                                                 {"compensate", campaign(), "--out", there},
                                                                  {"evaluate", campaign(), "--out", there}}) {
     expectBadInput(words, {there, "never altered"});
   }

@@ -18,6 +18,7 @@ const std::vector<std::vector<std::string>> every_command = {{"decode"},
                                                              {"thermal", "track"},
                                                              {"simulate"},
                                                              {"discrepancy"},
+                                                             {"compensate"},
                                                              {"report"},
                                                              {"import-touches"},
                                                              {"cycle"}};

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/cli/command.h"
+#include "core/base/atomic_file.h"
+#include "core/base/text.h"
+#include "core/workflows/compensation_workflow.h"
+#include "core/workflows/evaluate_campaign.h"
+
+namespace spindrift::cli {
+namespace {
+
+struct CompensationArguments {
+  std::string campaign;
+  std::string observations;
+  std::string model = "nine-parameter";
+  std::string points;
+  std::string reference;
+  std::string out;
+  CompensationRequest request;
+};
+
+CommandResult runCompensate(const CompensationArguments& a, JobContext& job) {
+  CompensationRequest request = a.request;
+  if (a.model == "completed") request.source = CompensationSource::CompletedModel;
+  request.fit.points = splitList(a.points);
+  if (!a.reference.empty()) {
+    const std::vector<std::string> parts = splitList(a.reference);
+    Eigen::Vector3d reference;
+    bool read = parts.size() == 3;
+    for (std::size_t i = 0; read && i < 3; ++i) read = parseNumber(parts[i], reference[static_cast<Eigen::Index>(i)]);
+    if (!read) {
+      throw InputError(
+          fmt::format("--reference {} is not a position; allowed: X,Y,Z in mm such as 250,200,150.", a.reference));
+    }
+    request.reference_mm = reference;
+  }
+  request.validate();
+  const Campaign campaign = Campaign::read(a.campaign);
+  JobContext first = job.part(0.0, 0.5);
+  const ObservationSet observations = observationsOf(campaign, a.observations, {}, first);
+  JobContext second = job.part(0.5, 1.0);
+  const CompensationPlan plan = planCompensation(campaign, observations, request, second);
+  if (!a.out.empty()) {
+    for (const CompensationFile& f : plan.files) {
+      writeFileAtomically(std::filesystem::path(a.out) / f.name, f.content);
+    }
+  }
+  return {plan.json(), plan.summary(), Done};
+}
+
+}  // namespace
+
+void addCompensationCommands(CLI::App& app, CommandLine& line) {
+  auto a = std::make_shared<CompensationArguments>();
+  CLI::App* command = addCommand(
+      app, line, "compensate", "What a fitted model would make a control command, and the tables for the control (um)",
+      [a](JobContext& job) { return runCompensate(*a, job); });
+  command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign")->required();
+  command->add_option("--observations", a->observations, "Observations in place of the campaign's own (CSV)")
+      ->type_name("FILE");
+  command
+      ->add_option("--model", a->model,
+                   "nine-parameter: fitted to one state; completed: the simulation with the effects of --accept")
+      ->check(CLI::IsMember({"nine-parameter", "completed"}))
+      ->capture_default_str();
+  command->add_option("--state", a->request.state, "Thermal state; else the last one");
+  command->add_option("--points", a->points, "Points that fit the nine parameters, such as F1,F2,F3");
+  command->add_option("--accept", a->request.added, "Effect that completes the simulation (id, repeatable)")
+      ->type_name("ID");
+  command->add_option("--positions", a->request.positions, "Positions along each axis, 2 to 51")->capture_default_str();
+  command
+      ->add_option("--reference", a->reference,
+                   "Where the component tables pass through, in mm; else the middle of the travels")
+      ->type_name("X,Y,Z");
+  command
+      ->add_option("--out", a->out,
+                   "Folder for the files: corrections at points and on a grid, ISO 230-1 components, LinuxCNC")
+      ->type_name("DIR");
+}
+
+}  // namespace spindrift::cli
