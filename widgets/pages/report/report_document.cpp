@@ -15,6 +15,8 @@
 #include <QTextObjectInterface>
 #include <QTextTable>
 #include <QXmlStreamReader>
+#include <array>
+#include <utility>
 
 #include "core/base/error.h"
 #include "widgets/theme/fonts.h"
@@ -37,6 +39,10 @@ const QColor ink(0x1f, 0x29, 0x33);
 const QColor soft(0x52, 0x60, 0x6d);
 const QColor line_colour(0xd9, 0xde, 0xe4);
 const QColor accent(0x0b, 0x72, 0x85);
+
+/// Around a text, px of the drawing.
+constexpr std::array<std::pair<double, double>, 8> halo_offsets{
+    {{-1.2, 0.0}, {1.2, 0.0}, {0.0, -1.2}, {0.0, 1.2}, {-0.9, -0.9}, {0.9, -0.9}, {-0.9, 0.9}, {0.9, 0.9}}};
 
 constexpr int figure_object = QTextFormat::UserObject + 1;
 constexpr int figure_property = QTextFormat::UserProperty + 1;
@@ -74,19 +80,31 @@ struct Figure {
   }
 };
 
-/// What Qt's renderer does not know is put in other words: a halo becomes a stroked copy below the text, clipping is
-/// left out (nothing reaches beyond the axes), the font is the program's own.
+/// What Qt's renderer does not know is put in other words: the halo of a text becomes white copies around it, clipping
+/// is left out (nothing reaches beyond the axes), the font is the program's own.
 QByteArray forQtSvg(QString svg) {
   static const QRegularExpression clip(QStringLiteral("<clipPath.*?</clipPath>"),
                                        QRegularExpression::DotMatchesEverythingOption);
   static const QRegularExpression clip_use(QStringLiteral(" clip-path=\"[^\"]*\""));
   static const QRegularExpression halo(
-      QStringLiteral("<text([^>]*?) stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\" "
-                     "stroke-linejoin=\"round\">([^<]*)</text>"));
+      QStringLiteral("<text x=\"([^\"]+)\" y=\"([^\"]+)\"([^>]*?) stroke=\"#ffffff\" stroke-width=\"3\" "
+                     "paint-order=\"stroke\" stroke-linejoin=\"round\">([^<]*)</text>"));
   static const QRegularExpression family(QStringLiteral("font-family=\"[^\"]*\""));
   svg.remove(clip);
   svg.remove(clip_use);
-  svg.replace(halo, QStringLiteral("<text\\1 stroke=\"#ffffff\" stroke-width=\"3\">\\2</text><text\\1>\\2</text>"));
+  for (auto match = halo.match(svg); match.hasMatch(); match = halo.match(svg, match.capturedStart())) {
+    const double x = match.captured(1).toDouble();
+    const double y = match.captured(2).toDouble();
+    const auto copy = [&](double dx, double dy, const char* fill) {
+      return QStringLiteral("<text x=\"%1\" y=\"%2\"%3%4>%5</text>")
+          .arg(x + dx)
+          .arg(y + dy)
+          .arg(QLatin1String(fill), match.captured(3), match.captured(4));
+    };
+    QString texts;
+    for (const auto& [dx, dy] : halo_offsets) texts += copy(dx, dy, " fill=\"#ffffff\"");
+    svg.replace(match.capturedStart(), match.capturedLength(), texts + copy(0.0, 0.0, ""));
+  }
   svg.replace(family, QStringLiteral("font-family=\"%1\"").arg(bodyFont().family()));
   return svg.toUtf8();
 }
