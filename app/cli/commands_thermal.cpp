@@ -91,6 +91,8 @@ void addTrack(CLI::App& parent, CommandLine& line) {
     std::string model;
     std::string update = "kalman";
     std::string prediction;
+    std::string context;
+    std::string svg;
     double from_s = -1.0;
   };
   auto a = std::make_shared<Arguments>();
@@ -103,7 +105,9 @@ void addTrack(CLI::App& parent, CommandLine& line) {
                             : a->update == "arx" ? UpdateKind::Arx
                                                  : UpdateKind::Kalman;
         if (a->from_s >= 0.0) a->request.from_s = a->from_s;
+        a->request.context = splitList(a->context);
         const TrackResult result = trackThermalModel(a->request, job);
+        if (!a->svg.empty()) writeFileAtomically(a->svg, result.svg());
         if (!a->prediction.empty()) result.writePrediction(a->prediction);
         const bool worse = result.with.rmse > result.without.rmse;
         std::string summary = result.summary();
@@ -133,6 +137,9 @@ void addTrack(CLI::App& parent, CommandLine& line) {
       ->add_option("--gain-bound", a->request.gain_bound,
                    "Largest gain of --update gain (0: none, as printed in the paper)")
       ->check(CLI::NonNegativeNumber);
+  command->add_option("--context", a->context,
+                      "Columns that the gain may depend on, such as pos_z_mm (kalman only), separated by commas");
+  command->add_option("--svg", a->svg, "Write the diagrams to this file")->type_name("FILE");
   command->add_option("--prediction", a->prediction, "Write time_s,measured,simulated,predicted,sigma to this CSV file")
       ->type_name("FILE");
 }

@@ -13,49 +13,67 @@ void UpdateOptions::validate() const {
   if (!(interval_s > 0.0)) throw InputError("the interval of the on-machine measurements must be positive, in s.");
   if (!(measurement_sigma > 0.0) || !(gain_bound > 0.0) || !(slowest_tau_s > 0.0) || !(offset_tau_s > 0.0) ||
       !(offset_sigma > 0.0) || !(gain_sigma >= 0.0) || !(gain_drift_per_sqrt_h >= 0.0) ||
-      !(smallest_simulated >= 0.0)) {
+      !(smallest_simulated >= 0.0) || !(context_sigma >= 0.0)) {
     throw InputError(
         "an option of the update is negative or zero; allowed: positive sigmas, time constants and bounds.");
   }
 }
 
-GainOffsetFilter::GainOffsetFilter(const UpdateOptions& options)
-    : options_(options),
-      pgg_(options.gain_sigma * options.gain_sigma),
-      poo_(options.offset_sigma * options.offset_sigma) {}
+GainOffsetFilter::GainOffsetFilter(const UpdateOptions& options) : options_(options) {
+  const auto size = static_cast<Eigen::Index>(2 + options.context.size());
+  options_.context.clear();  // only the number matters here
+  state_ = Eigen::VectorXd::Zero(size);
+  state_[0] = 1.0;
+  covariance_ = Eigen::MatrixXd::Zero(size, size);
+  covariance_.diagonal().setConstant(options.context_sigma * options.context_sigma);
+  covariance_(0, 0) = options.gain_sigma * options.gain_sigma;
+  covariance_(1, 1) = options.offset_sigma * options.offset_sigma;
+}
+
+Eigen::VectorXd GainOffsetFilter::row(double simulated, std::span<const double> context) const {
+  SPINDRIFT_ASSERT(static_cast<Eigen::Index>(context.size()) + 2 == state_.size(), "context signals differ in number");
+  Eigen::VectorXd h(state_.size());
+  h[0] = simulated;
+  h[1] = 1.0;
+  for (std::size_t i = 0; i < context.size(); ++i) h[static_cast<Eigen::Index>(i + 2)] = simulated * context[i];
+  return h;
+}
 
 void GainOffsetFilter::advance(double dt_s) {
   if (dt_s <= 0.0) return;
   const double keep = std::exp(-dt_s / options_.offset_tau_s);
   // The gain drifts freely up to a quarter, the offset is a remainder of stated size and memory.
-  pgg_ = std::min(pgg_ + options_.gain_drift_per_sqrt_h * options_.gain_drift_per_sqrt_h * dt_s / 3600.0,
-                  std::max(0.25, options_.gain_sigma) * std::max(0.25, options_.gain_sigma));
-  offset_ *= keep;
-  pgo_ *= keep;
-  poo_ = keep * keep * poo_ + (1.0 - keep * keep) * options_.offset_sigma * options_.offset_sigma;
+  covariance_(0, 0) =
+      std::min(covariance_(0, 0) + options_.gain_drift_per_sqrt_h * options_.gain_drift_per_sqrt_h * dt_s / 3600.0,
+               std::max(covariance_(0, 0), std::max(0.25, options_.gain_sigma) * std::max(0.25, options_.gain_sigma)));
+  state_[1] *= keep;
+  covariance_.row(1) *= keep;
+  covariance_.col(1) *= keep;
+  covariance_(1, 1) += (1.0 - keep * keep) * options_.offset_sigma * options_.offset_sigma;
 }
 
-void GainOffsetFilter::measure(double measured, double simulated) {
-  const double hg = simulated * pgg_ + pgo_;
-  const double ho = simulated * pgo_ + poo_;
-  const double s = simulated * hg + ho + options_.measurement_sigma * options_.measurement_sigma;
-  const double innovation = measured - value(simulated);
-  gain_ += hg / s * innovation;
-  offset_ += ho / s * innovation;
-  pgg_ -= hg * hg / s;
-  pgo_ -= hg * ho / s;
-  poo_ -= ho * ho / s;
+void GainOffsetFilter::measure(double measured, double simulated, std::span<const double> context) {
+  const Eigen::VectorXd h = row(simulated, context);
+  const Eigen::VectorXd ph = covariance_ * h;
+  const double s = h.dot(ph) + options_.measurement_sigma * options_.measurement_sigma;
+  state_ += ph / s * (measured - h.dot(state_));
+  covariance_ -= ph * ph.transpose() / s;
 }
 
-double GainOffsetFilter::sigma(double simulated) const {
-  return std::sqrt(std::max(0.0, simulated * simulated * pgg_ + 2.0 * simulated * pgo_ + poo_));
+double GainOffsetFilter::value(double simulated, std::span<const double> context) const {
+  return row(simulated, context).dot(state_);
+}
+
+double GainOffsetFilter::sigma(double simulated, std::span<const double> context) const {
+  const Eigen::VectorXd h = row(simulated, context);
+  return std::sqrt(std::max(0.0, h.dot(covariance_ * h)));
 }
 
 double GainOffsetFilter::gainSigma() const {
-  return std::sqrt(std::max(0.0, pgg_));
+  return std::sqrt(std::max(0.0, covariance_(0, 0)));
 }
 double GainOffsetFilter::offsetSigma() const {
-  return std::sqrt(std::max(0.0, poo_));
+  return std::sqrt(std::max(0.0, covariance_(1, 1)));
 }
 
 UpdateRun runWithUpdates(std::span<const double> time_s, std::span<const double> measured,
@@ -66,7 +84,10 @@ UpdateRun runWithUpdates(std::span<const double> time_s, std::span<const double>
   run.predicted.assign(simulated.begin(), simulated.end());
   const bool kalman = options.kind == UpdateKind::Kalman;
   if (kalman) run.sigma.assign(simulated.size(), 0.0);
+  for (const auto& signal : options.context)
+    SPINDRIFT_ASSERT(signal.size() == time_s.size(), "a context signal differs in length");
   GainOffsetFilter filter(options);
+  std::vector<double> context(options.context.size());
   double next = options.start_s;
   double zero_measured = 0.0;
   double zero_simulated = 0.0;
@@ -77,15 +98,16 @@ UpdateRun runWithUpdates(std::span<const double> time_s, std::span<const double>
   double last_time = time_s.empty() ? 0.0 : time_s.front();
   for (std::size_t i = 0; i < time_s.size(); ++i) {
     if (kalman) filter.advance(time_s[i] - last_time);
+    for (std::size_t c = 0; c < context.size(); ++c) context[c] = options.context[c][i];
     last_time = time_s[i];
     const double before =
         options.kind == UpdateKind::Gain ? zero_measured + gain * (simulated[i] - zero_simulated)
         : options.kind == UpdateKind::Arx
             ? simulated[i] + correction * std::exp(-(time_s[i] - corrected_at) / options.slowest_tau_s)
-        : kalman ? filter.value(simulated[i] - zero_simulated) + zero_simulated
+        : kalman ? filter.value(simulated[i] - zero_simulated, context) + zero_simulated
                  : simulated[i];
     run.predicted[i] = options.kind == UpdateKind::Gain && !have_zero ? simulated[i] : before;
-    if (kalman) run.sigma[i] = filter.sigma(simulated[i] - zero_simulated);
+    if (kalman) run.sigma[i] = filter.sigma(simulated[i] - zero_simulated, context);
     if (options.kind == UpdateKind::None || time_s[i] < next || !std::isfinite(measured[i])) continue;
     // The row of the measurement itself shows the prediction before it: nothing is judged with its own measurement.
     while (next <= time_s[i]) next += options.interval_s;
@@ -113,7 +135,7 @@ UpdateRun runWithUpdates(std::span<const double> time_s, std::span<const double>
       corrected_at = time_s[i];
       event.offset = correction;
     } else {
-      filter.measure(measured[i] - zero_simulated, simulated[i] - zero_simulated);
+      filter.measure(measured[i] - zero_simulated, simulated[i] - zero_simulated, context);
       event.gain = filter.gain();
       event.offset = filter.offset();
       event.gain_sigma = filter.gainSigma();

@@ -11,11 +11,13 @@
 //   kalman  deviation = gain * simulated + offset; both drift as random walks (gain towards nothing, offset with the
 //   memory of the
 //           model's remainder); Kalman filter with the measurement's uncertainty. Gives a standard uncertainty at every
-//           time.
+//           time. With `context` signals c_i (the height of the spindle, say) the gain is gain + sum g_i c_i with
+//           constant g_i learned from the measurements, so that what was learned at one height holds when it is left.
 // Units: those of the output; time s. A prediction between two measurements only uses measurements before it.
 // Source: P2 section 4, P1 section 4 (state update), Kalman 1960.
 #pragma once
 
+#include <Eigen/Core>
 #include <limits>
 #include <span>
 #include <string>
@@ -37,6 +39,9 @@ struct UpdateOptions {
   double offset_sigma = 5.0;            ///< kalman: size of the model's remainder
   double offset_tau_s = 14400.0;        ///< kalman: its memory
   double gain_sigma = 0.2;              ///< kalman: of the model's gain before the first measurement
+  /// kalman: signals that the gain may depend on, one value per row each, scaled to about -1 ... 1; may be empty.
+  std::vector<std::vector<double>> context;
+  double context_sigma = 0.5;  ///< kalman: of each g_i before the first measurement
 
   /// Throws InputError.
   void validate() const;
@@ -76,26 +81,26 @@ struct IntervalPoint {
                                                         std::span<const double> simulated, const UpdateOptions& options,
                                                         const std::vector<double>& intervals_s);
 
-/// The recursion behind `kalman`, for use outside a replay.
+/// The recursion behind `kalman`, for use outside a replay. `context`: as many values as the options have signals.
 class GainOffsetFilter {
  public:
   explicit GainOffsetFilter(const UpdateOptions& options);
   void advance(double dt_s);
-  void measure(double measured, double simulated);
-  [[nodiscard]] double value(double simulated) const { return gain_ * simulated + offset_; }
-  [[nodiscard]] double sigma(double simulated) const;
-  [[nodiscard]] double gain() const { return gain_; }
-  [[nodiscard]] double offset() const { return offset_; }
+  void measure(double measured, double simulated, std::span<const double> context = {});
+  [[nodiscard]] double value(double simulated, std::span<const double> context = {}) const;
+  [[nodiscard]] double sigma(double simulated, std::span<const double> context = {}) const;
+  [[nodiscard]] double gain() const { return state_[0]; }  ///< where every context signal is 0
+  [[nodiscard]] double offset() const { return state_[1]; }
   [[nodiscard]] double gainSigma() const;
   [[nodiscard]] double offsetSigma() const;
 
  private:
+  /// What the state (gain, offset, g_1, ...) is multiplied with.
+  [[nodiscard]] Eigen::VectorXd row(double simulated, std::span<const double> context) const;
+
   UpdateOptions options_;
-  double gain_ = 1.0;
-  double offset_ = 0.0;
-  double pgg_ = 0.0;
-  double pgo_ = 0.0;
-  double poo_ = 0.0;
+  Eigen::VectorXd state_;
+  Eigen::MatrixXd covariance_;
 };
 
 }  // namespace spindrift

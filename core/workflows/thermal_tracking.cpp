@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/base/atomic_file.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/math/statistics.h"
+#include "core/reporting/svg_plot.h"
 
 namespace spindrift {
 namespace {
@@ -22,6 +24,29 @@ double spreadOf(const std::vector<double>& values) {
   const double centre = mean(finite);
   for (double& v : finite) v -= centre;
   return rootMeanSquare(finite);
+}
+
+/// Columns scaled to -1 ... 1 by their range over the record.
+std::vector<std::vector<double>> contextOf(const TimeSeries& series, const TrackRequest& request) {
+  if (!request.context.empty() && request.update != UpdateKind::Kalman)
+    throw InputError("--context belongs to --update kalman; the other updates know no context.");
+  std::vector<std::vector<double>> out;
+  for (const std::string& name : request.context) {
+    const Signal& signal = series.at(name);
+    if (signal.kind == SignalKind::Displacement)
+      throw InputError({series.file, fmt::format("column {}", name)},
+                       "is a displacement and cannot be a --context; allowed: positions, speeds, temperatures.");
+    std::vector<double> values = bridged(series.time_s, signal.values, holdsUntilNextRow(signal.kind));
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const double middle = 0.5 * (*low + *high);
+    const double half = 0.5 * (*high - *low);
+    if (!(half > 0.0))
+      throw InputError({series.file, fmt::format("column {}", name)},
+                       "never changes, so no gain can depend on it; allowed: a --context that changes.");
+    for (double& v : values) v = (v - middle) / half;
+    out.push_back(std::move(values));
+  }
+  return out;
 }
 
 }  // namespace
@@ -59,6 +84,7 @@ TrackResult trackThermalModel(const TrackRequest& request, const JobContext& job
   if (slowest > 0.0) options.slowest_tau_s = slowest;
   options.offset_sigma =
       std::max(2.0 * output->uncertainty_factor * output->noise_sigma, 4.0 * request.measurement_sigma);
+  options.context = contextOf(series, request);
   result.run = runWithUpdates(result.time_s, result.measured, result.simulated, options);
   const TimeRange judged{result.from_s, 1e300};
   result.without = runQuality(result.time_s, result.measured, result.simulated, judged);
@@ -136,6 +162,45 @@ std::string TrackResult::summary() const {
   }
   for (const std::string& n : notes) text += "note: " + n + "\n";
   return text;
+}
+
+std::string TrackResult::svg() const {
+  PlotSeries truth{"measured", {}, {}, {}, SeriesStyle::Line};
+  PlotSeries free{"without update", {}, {}, {}, SeriesStyle::Line};
+  PlotSeries updated{"with updates", {}, {}, {}, SeriesStyle::Line};
+  const std::size_t stride = std::max<std::size_t>(1, time_s.size() / 4000);
+  for (std::size_t r = 0; r < time_s.size(); r += stride) {
+    if (time_s[r] < from_s) continue;
+    for (const auto& [series, value] :
+         {std::pair{&truth, measured[r]}, {&free, simulated[r]}, {&updated, run.predicted[r]}}) {
+      series->x.push_back(time_s[r] / 3600.0);
+      series->y.push_back(value);
+    }
+  }
+  PlotOptions over_time{
+      .title = output, .x_label = "time / h", .y_label = "deviation / " + unit, .width_px = 860, .height_px = 280};
+  PlotOptions over_interval = over_time;
+  over_interval.x_label = "interval of the on-machine measurements / min";
+  StackedPlot fit{{}, over_interval};
+  StackedPlot p2p{{}, over_interval};
+  fit.options.title = "fit against the interval";
+  fit.options.y_label = "fit / %";
+  p2p.options.title = "peak to peak against the interval";
+  p2p.options.y_label = "p2p / " + unit;
+  p2p.options.y_from = 0.0;
+  fit.series =
+      p2p.series = {{"without update", {}, {}, {}, SeriesStyle::Line}, {"with updates", {}, {}, {}, SeriesStyle::Line}};
+  for (const IntervalPoint& p : sweep) {
+    if (!std::isfinite(p.interval_s)) continue;
+    for (const auto& [plot, never, value] :
+         {std::tuple{&fit, without.fit_percent, p.fit_percent}, std::tuple{&p2p, without.p2p, p.p2p}}) {
+      plot->series[0].x.push_back(p.interval_s / 60.0);
+      plot->series[0].y.push_back(never);
+      plot->series[1].x.push_back(p.interval_s / 60.0);
+      plot->series[1].y.push_back(value);
+    }
+  }
+  return svgPlotStack({{{truth, free, updated}, over_time}, fit, p2p});
 }
 
 void TrackResult::writePrediction(const std::filesystem::path& file) const {

@@ -24,6 +24,8 @@ struct TrackRequest {
   std::optional<double> from_s;  ///< first measurement; default: end of training if the log goes on, else its start
   double measurement_sigma = 0.5;
   double gain_bound = 0.0;  ///< 0: as printed in P2, without a bound
+  /// kalman: columns that the gain may depend on, such as pos_z_mm (height of the spindle); scaled by their range.
+  std::vector<std::string> context;
 };
 
 struct TrackResult {
@@ -42,6 +44,8 @@ struct TrackResult {
 
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string summary() const;
+  /// Series, what is left of them, and fit and p2p against the interval (P2 Figs. 7 to 9).
+  [[nodiscard]] std::string svg() const;
   void writePrediction(const std::filesystem::path& file) const;
 };
 [[nodiscard]] TrackResult trackThermalModel(const TrackRequest& request, const JobContext& job);

@@ -67,6 +67,27 @@ TEST_F(Thermal, IdentifyAndTrackGiveTheKeysOfTheContract) {
   }
 }
 
+TEST_F(Thermal, TrackDrawsAndTakesAContext) {
+  auto words = identify();
+  const std::string model = (folder / "model.json").string();
+  words.insert(words.end(), {"--model-out", model});
+  ASSERT_EQ(runCli(words).status, 0);
+  const std::string svg = (folder / "track.svg").string();
+  const std::vector<std::string> track = {"thermal", "track", log.string(), "--model", model, "--interval", "1800"};
+  words = track;
+  words.insert(words.end(), {"--context", "T_nose_degC", "--svg", svg});
+  EXPECT_EQ(jsonOf(words)["sweep"].size(), 7U);
+  EXPECT_TRUE(textOf(svg).starts_with("<svg"));
+  words = track;
+  words.insert(words.end(), {"--context", "T_nose_degC", "--update", "gain"});
+  expectBadInput(words, {"--context", "kalman"});
+  words = track;
+  words.insert(words.end(), {"--context", "growth_um"});
+  expectBadInput(words, {"growth_um", "--context"});
+  words.back() = "pos_z_mm";
+  expectBadInput(words, {"pos_z_mm"});
+}
+
 TEST_F(Thermal, NothingMeasuredInTheTestRangeIsUsed) {
   const nlohmann::json honest = jsonOf(identify());
   const std::string prediction = (folder / "a.csv").string();

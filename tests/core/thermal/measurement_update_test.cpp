@@ -110,6 +110,32 @@ TEST(MeasurementUpdate, KalmanUncertaintyHoldsAsOftenAsStated) {
   EXPECT_NEAR(static_cast<double>(inside) / total, 0.95, 0.03);
 }
 
+/// The gain is 1 - 0.5 c with c = -1 or 1 in turns; the filter that knows c predicts through a change.
+TEST(MeasurementUpdate, AGainThatDependsOnAKnownSignalIsLearnedOnce) {
+  Random random(11);
+  Record r;
+  UpdateOptions options;
+  options.interval_s = 7200.0;
+  options.offset_sigma = 0.5;
+  std::vector<double> c;
+  for (int k = 0; k < 2000; ++k) {
+    r.time.push_back(60.0 * k);
+    r.simulated.push_back(20.0 + 10.0 * std::sin(k / 90.0));
+    c.push_back((k / 170) % 2 == 0 ? -1.0 : 1.0);
+    r.truth.push_back((1.0 - 0.5 * c.back()) * r.simulated.back() + random.normal(0.0, 0.3));
+  }
+  const auto late = [&r](const UpdateRun& run) {
+    double sum = 0.0;
+    for (std::size_t k = 1000; k < r.time.size(); ++k) sum += std::pow(run.predicted[k] - r.truth[k], 2);
+    return std::sqrt(sum / 1000.0);
+  };
+  const double blind = late(runWithUpdates(r.time, r.truth, r.simulated, options));
+  options.context = {c};
+  const UpdateRun run = runWithUpdates(r.time, r.truth, r.simulated, options);
+  EXPECT_GT(blind, 5.0);
+  EXPECT_LT(late(run), 1.5);
+}
+
 TEST(MeasurementUpdate, NothingIsPredictedWithItsOwnMeasurement) {
   Record r = record(3, 0.7);
   for (const UpdateKind kind : {UpdateKind::Gain, UpdateKind::Arx, UpdateKind::Kalman}) {
