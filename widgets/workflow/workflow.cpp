@@ -181,27 +181,42 @@ StepStatus Workflow::evaluate(StepId step) const {
   };
   const ResultState evaluated = session_.state("evaluate");
   const bool log_only = session_.isLogOnly();
+  const bool touches = session_.has(Instrument::TouchProbe);
+  const bool scans = session_.has(Instrument::Profiler);
   const bool observations = own_observations || evaluated.there;
   switch (step) {
     case StepId::Machine:
       return {StepState::Current, session_.machineEdited() ? tr("Edited in this session.") : tr("As in machine.json.")};
     case StepId::WarmUp:
+      if (log_only) return {StepState::Current, tr("The campaign is a log over time: no instrument to warm up.")};
       return fromResult("warm-up", tr("Check whether the instrument had settled."), tr("Checked."));
     case StepId::Capture:
       if (log_only) return {StepState::Current, tr("The campaign is a log over time: nothing to capture.")};
       if (!captures && !own_observations) return {StepState::NotStarted, tr("No captures yet.")};
       if (!captures) return {StepState::Current, tr("The campaign holds finished observations.")};
-      return fromResult("check", tr("Check the captures."), tr("All captures are checked."));
+      return fromResult("check",
+                        touches ? tr("Check the touches.")
+                        : scans ? tr("Check the scans.")
+                                : tr("Check the captures."),
+                        tr("All captures are checked."));
     case StepId::Calibrate:
       if (log_only) return {StepState::Current, tr("The campaign is a log over time: nothing to calibrate.")};
       if (!captures && own_observations) return {StepState::Current, tr("The campaign holds finished observations.")};
       if (!captures) return {StepState::Blocked, tr("There are no captures to evaluate yet.")};
-      return fromResult("evaluate", tr("Evaluate the captures."), tr("Captures are evaluated."));
+      return fromResult("evaluate",
+                        touches ? tr("Evaluate the touches.")
+                        : scans ? tr("Evaluate the scans.")
+                                : tr("Evaluate the captures."),
+                        tr("Captures are evaluated."));
     case StepId::Model:
       if (log_only) return fromResult("thermal", tr("Identify a model over time."), tr("The model is identified."));
       if (!observations) return {StepState::Blocked, tr("Evaluate the captures first (Calibrate).")};
       {
-        StepStatus status = fromResult("fit", tr("Fit the error model."), tr("The model is fitted."));
+        StepStatus status = fromResult("fit",
+                                       touches ? tr("Separate the errors in every cycle.")
+                                       : scans ? tr("Find the six errors of the axis.")
+                                               : tr("Fit the error model."),
+                                       tr("The model is fitted."));
         if (status.state == StepState::Current && evaluated.there && !evaluated.current && !own_observations) {
           status = {StepState::Outdated, tr("The captures have to be evaluated again.")};
         }
@@ -214,6 +229,7 @@ StepStatus Workflow::evaluate(StepId step) const {
       return withChoice(fromResult("discrepancy", tr("Search for what the simulation lacks."), tr("Searched.")),
                         "discrepancy");
     case StepId::Compensate: {
+      if (log_only) return {StepState::Blocked, tr("Export the model from the step Model; the controller loads it.")};
       const bool added = !choice().value("added", nlohmann::json::array()).empty();
       if (!session_.state("fit").there && !added) {
         return {StepState::Blocked, campaign->simulation.empty()

@@ -85,21 +85,16 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   trends_->setEmptyText(tr("Trends will appear here"),
                         tr("Fit all cycles: every error parameter is drawn over time with its uncertainty."));
   left->body()->addWidget(trends_, 5);
-  auto* choice = new QVBoxLayout;
-  choice->addWidget(makeLabel(tr("Cycle"), "secondaryText"));
+  auto* choice = new QHBoxLayout;
+  choice->addWidget(makeLabel(tr("Cycle"), "sectionTitle"));
   cycle_ = new QComboBox;
   cycle_->setAccessibleName(tr("Cycle shown in detail"));
-  cycle_->setMinimumWidth(120);
+  cycle_->setMinimumWidth(110);
   choice->addWidget(cycle_);
-  choice->addStretch();
-  auto* tiles = new QHBoxLayout;
-  tiles->setSpacing(16);
-  condition_ = new NumberTile(tr("Condition number"));
-  weakest_ = new NumberTile(tr("Determined worst"));
-  tiles->addLayout(choice);
-  tiles->addWidget(condition_, 1);
-  tiles->addWidget(weakest_, 2);
-  left->body()->addLayout(tiles);
+  condition_ = makeLabel({}, "secondaryText");
+  condition_->setWordWrap(true);
+  choice->addWidget(condition_, 1);
+  left->body()->addLayout(choice);
   auto* tabs = makeTabs();
   parameters_ = new RowsModel({tr("Parameter"), tr("Value"), tr("In sigma"), tr("Meaning")}, this);
   tabs->addTab(makeTable(parameters_, tr("Parameters of the cycle"),
@@ -156,9 +151,9 @@ QWidget* CycleModelPage::makeVolumePart() {
 }
 
 QWidget* CycleModelPage::makeBarPart() {
-  auto* card = new Card(tr("What the bar rests on"));
+  auto* card = new Card(tr("Straightness and the second axis"));
   line_ = new Plot;
-  line_->setAxes(tr("Along the bar / mm"), tr("Off the line / um"));
+  line_->setAxes(tr("Along the bar / mm"), tr("Off line / um"));
   line_->setEmptyText(tr("Deviations from a straight line will appear here"),
                       tr("Fit all cycles: what the axis does beyond a uniform growth is drawn per hole."));
   card->body()->addWidget(line_, 3);
@@ -260,7 +255,7 @@ void CycleModelPage::clear() {
   line_->setContent({});
   cycle_->clear();
   view_->clear();
-  for (NumberTile* tile : {condition_, weakest_}) tile->set(QStringLiteral("–"));
+  condition_->clear();
 }
 
 void CycleModelPage::refresh() {
@@ -403,16 +398,14 @@ void CycleModelPage::showCycle() {
   combinations_->setRows(std::move(rows));
   const CycleSolution& solution = cycles->fit.cycles[at];
   if (k == cycles->problem.reference_cycle) {
-    condition_->set(QStringLiteral("–"));
-    weakest_->set(QStringLiteral("–"));
+    condition_->setText(tr("The reference: all others are relative to it."));
   } else {
-    condition_->set(QString::number(solution.condition_number, 'f', 1));
     // The two that are told apart least; the table gives the whole combination.
     const QStringList parts = weakText(solution.weakest, cycles->names).split(QStringLiteral(", "));
-    weakest_->set(
-        parts.size() < 2
-            ? parts.join(QString())
-            : tr("%1 and %2").arg(parts[0].section(QLatin1Char(' '), 0, 0), parts[1].section(QLatin1Char(' '), 0, 0)));
+    QString worst = parts.value(0).section(QLatin1Char(' '), 0, 0);
+    if (parts.size() > 1) worst = tr("%1 and %2").arg(worst, parts[1].section(QLatin1Char(' '), 0, 0));
+    condition_->setText(
+        tr("Condition number %1; told apart worst: %2").arg(solution.condition_number, 0, 'f', 1).arg(worst));
   }
   showVolume();
 }

@@ -19,7 +19,6 @@ class QStackedWidget;
 
 namespace spindrift::gui {
 
-class NumberTile;
 class Plot;
 class RowsModel;
 class Segments;
@@ -63,8 +62,7 @@ class CycleModelPage : public Page {
   Plot* trends_;
   RowsModel* parameters_;
   RowsModel* combinations_;
-  NumberTile* condition_;
-  NumberTile* weakest_;
+  QLabel* condition_;
   QStackedWidget* right_;
   // ball artefact
   Segments* component_;

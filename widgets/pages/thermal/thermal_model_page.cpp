@@ -59,25 +59,20 @@ ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
   addAction(identify_);
   content()->addWidget(makeChoices());
   auto* top = new Card;
-  auto* head = new QHBoxLayout;
   what_ = new Segments({tr("Output"), tr("Inputs"), tr("Left over")}, tr("What is drawn"));
-  head->addWidget(what_);
-  head->addStretch();
+  top->body()->addWidget(what_);
+  auto* tiles = new QHBoxLayout;
   rms_ = new NumberTile(tr("Test, rms"));
   fit_ = new NumberTile(tr("Test, fit"));
   p2p_ = new NumberTile(tr("Test, peak to peak"));
-  for (NumberTile* tile : {rms_, fit_, p2p_}) {
-    tile->setMinimumWidth(130);
-    head->addWidget(tile);
-  }
-  top->body()->addLayout(head);
+  for (NumberTile* tile : {rms_, fit_, p2p_}) tiles->addWidget(tile, 1);
+  top->body()->addLayout(tiles);
   series_plot_ = new Plot;
   series_plot_->setSpansMovable(true);
   series_plot_->setEmptyText(tr("The log will appear here"),
                              tr("It needs a log with at least one displacement (a column ending in _um or _urad)."));
   top->body()->addWidget(series_plot_, 1);
-  auto* body = makeSplitter(top, makeDetails(), 7, 5, Qt::Vertical);
-  content()->addWidget(body, 1);
+  content()->addWidget(makeSplitter(top, makeDetails(), 6, 6), 1);
   for (Plot* plot : {series_plot_, step_plot_, residual_plot_}) showHints(plot);
 
   connect(identify_, &QPushButton::clicked, this, [this] { identify(true); });
@@ -133,12 +128,11 @@ QWidget* ThermalModelPage::makeChoices() {
 QWidget* ThermalModelPage::makeDetails() {
   auto* card = new Card;
   tabs_ = makeTabs();
-  comparison_ = new RowsModel(
-      {tr("Model"), tr("Train rms"), tr("Test rms"), tr("Test fit / %"), tr("Test p2p"), tr("What it is")}, this);
+  comparison_ = new RowsModel({tr("Model"), tr("Train rms"), tr("Test rms"), tr("Fit / %"), tr("p2p")}, this);
   tabs_->addTab(makeTable(comparison_, tr("Comparison"),
                           tr("The model stands beside no model and a static regression after the identification.")),
-                tr("Comparison"));
-  inputs_ = new RowsModel({tr("Input"), tr("Verdict"), tr("Why")}, this);
+                tr("Compare"));
+  inputs_ = new RowsModel({tr("Input"), tr("Verdict"), tr("Part, rms"), tr("Without / %")}, this);
   tabs_->addTab(makeTable(inputs_, tr("Inputs"), tr("The signals of the log appear here.")), tr("Inputs"));
   auto* step = new QWidget;
   auto* step_column = new QVBoxLayout(step);
@@ -155,11 +149,11 @@ QWidget* ThermalModelPage::makeDetails() {
   step_plot_->setEmptyText(tr("Step responses will appear here"),
                            tr("Identify the model: the answer to a step of each input with its uncertainty."));
   step_column->addWidget(step_plot_, 1);
-  tabs_->addTab(step, tr("Step response"));
+  tabs_->addTab(step, tr("Step"));
   lags_ = new RowsModel({tr("Input"), tr("Time constant"), tr("Gain"), tr("Unit")}, this);
   tabs_->addTab(makeTable(lags_, tr("Time constants"),
                           tr("Poles as time constants with their gains appear after the identification.")),
-                tr("Time constants"));
+                tr("Lags"));
   auto* residuals = new QWidget;
   auto* column = new QVBoxLayout(residuals);
   column->setContentsMargins(0, 8, 0, 0);
@@ -173,7 +167,7 @@ QWidget* ThermalModelPage::makeDetails() {
   column->addWidget(makeSplitter(residual_plot_,
                                  makeTable(cross_, tr("Residual against inputs"),
                                            tr("How the residual goes with each input appears here.")),
-                                 6, 5),
+                                 6, 5, Qt::Vertical),
                     1);
   tabs_->addTab(residuals, tr("Residuals"));
   card->body()->addWidget(tabs_, 1);
@@ -373,14 +367,17 @@ void ThermalModelPage::fillInputs() {
     row.id = fromCore(name);
     Cell cell = nameCell(row.id);
     cell.checked = now.inputs.empty() || std::find(now.inputs.begin(), now.inputs.end(), name) != now.inputs.end();
-    row.cells = {cell, dashCell(), Cell{}};
+    row.cells = {cell, Cell{QStringLiteral("–")}, dashCell(), dashCell()};
     if (result_ != nullptr) {
       const auto verdict = std::find_if(result_->verdicts.begin(), result_->verdicts.end(),
                                         [&](const InputVerdict& v) { return v.name == name; });
       if (verdict != result_->verdicts.end()) {
         row.cells[1] = verdict->kept ? toneCell(tr("kept"), Tone::Good) : toneCell(tr("dropped"), Tone::Neutral);
-        row.cells[2] = Cell{fromCore(verdict->reason)};
-        row.cells[2].tip = row.cells[2].text;
+        row.cells[1].tip = fromCore(verdict->reason);
+        if (verdict->contribution_rms > 0) {
+          row.cells[2] = numberCell(verdict->contribution_rms, 3);
+          row.cells[3] = numberCell(verdict->error_without_percent, 0);
+        }
       }
     }
     rows.push_back(std::move(row));
@@ -459,15 +456,18 @@ void ThermalModelPage::showResult() {
   const auto add = [&](const QString& name, const RunQuality& train, const RunQuality& test, const QString& note) {
     Row row;
     row.id = name;
-    row.cells = {nameCell(name),           numberCell(train.rmse, 3),
-                 numberCell(test.rmse, 3), numberCell(test.fit_percent, 1),
-                 numberCell(test.p2p, 2),  Cell{note}};
-    row.cells.back().tip = note;
+    row.cells = {nameCell(name), numberCell(train.rmse, 3), numberCell(test.rmse, 3), numberCell(test.fit_percent, 1),
+                 numberCell(test.p2p, 2)};
+    row.cells.front().tip = note;
     rows.push_back(std::move(row));
   };
   add(tr("This model"), result_->train, result_->test,
       tr("free run, %n input(s)", nullptr, static_cast<int>(result_->inputs.size())));
-  for (const ModelComparison& m : result_->plain) add(fromCore(m.name), m.train, m.test, fromCore(m.note));
+  for (const ModelComparison& m : result_->plain) {
+    // The name without what it is made of: the whole stands in the tip.
+    add(fromCore(m.name).section(QStringLiteral(" on "), 0, 0), m.train, m.test,
+        fromCore(m.name) + QStringLiteral(": ") + fromCore(m.note));
+  }
   comparison_->setRows(std::move(rows));
   const QString chosen = step_input_->currentText();
   step_input_->clear();
