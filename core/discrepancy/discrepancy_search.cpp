@@ -94,6 +94,38 @@ int mostInOneComponent(const ResidualProblem& problem, const JointFit& fit) {
   return most;
 }
 
+struct Leftover {
+  double chi2 = 0.0;
+  double explained_fraction = 0.0;
+  StructureTest structure;
+  UnknownCourse unknown_course;
+};
+
+/// What a fit leaves, against the noise and against an unknown cause.
+Leftover leftoverOf(const EffectSearch& search, ResidualProblem& problem, const std::vector<NuisanceColumn>& base,
+                    const JointFit& fit, const SearchLimits& limits) {
+  problem.setNuisances(base);
+  Leftover out;
+  Eigen::VectorXd residual = problem.projectedResidual();
+  const double before = residual.squaredNorm();
+  std::vector<NamedPart> parts;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    const Eigen::VectorXd part = problem.projected(search.columns(fit.terms[t])) * fit.gains[t];
+    residual -= part;
+    parts.push_back({part.head(problem.size()),
+                     static_cast<int>(fit.gains[t].size() + static_cast<Index>(fit.terms[t].parameters.size()))});
+  }
+  out.chi2 = residual.squaredNorm();
+  const double dof = std::max(1.0, static_cast<double>(problem.degreesOfFreedom() - fit.parameter_count));
+  const double left = std::max(0.0, out.chi2 - dof);
+  const double explained = std::max(0.0, before - out.chi2 - fit.parameter_count);
+  out.explained_fraction = explained + left > 0.0 ? explained / (explained + left) : 1.0;
+  out.structure = testStructure(problem, residual.head(problem.size()));
+  out.unknown_course =
+      testUnknownCourse(problem, residual.head(problem.size()), parts, limits.leftover_error, search.logN());
+  return out;
+}
+
 }  // namespace
 
 SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, const std::vector<NuisanceColumn>& base,
@@ -126,63 +158,79 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
     out.steps.push_back({id, true, candidate.score, candidate.delta_chi2, "accepted by the user"});
   }
 
-  while (static_cast<int>(fit.terms.size()) < options.max_effects) {
-    job.throwIfCancelled();
-    job.report(0.1 + 0.15 * static_cast<double>(fit.terms.size()), "trying every effect");
-    problem.setNuisances(nuisancesOf(search, base, fit, fit.terms.size(), limits.model_error));
-    std::vector<std::string> without = idsOf(fit.terms);
-    without.insert(without.end(), rejected.begin(), rejected.end());
-    std::vector<CandidateFit> candidates = search.sweep(without, job);
-    // A refinement of an accepted effect (or what it contains) is no name of its own.
-    std::erase_if(candidates, [&](const CandidateFit& c) {
-      return std::any_of(fit.terms.begin(), fit.terms.end(), [&](const ModelTerm& term) {
-        return (c.term.effect->refinement && contains(*c.term.effect, term.effect->id)) ||
-               contains(*term.effect, c.term.effect->id);
+  const auto extend = [&](JointFit current, int most, std::vector<DiscrepancyStep>& steps) {
+    while (static_cast<int>(current.terms.size()) < most) {
+      job.throwIfCancelled();
+      job.report(0.1 + 0.15 * static_cast<double>(current.terms.size()), "trying every effect");
+      problem.setNuisances(nuisancesOf(search, base, current, current.terms.size(), limits.model_error));
+      std::vector<std::string> without = idsOf(current.terms);
+      without.insert(without.end(), rejected.begin(), rejected.end());
+      std::vector<CandidateFit> candidates = search.sweep(without, job);
+      // A refinement of an accepted effect (or what it contains) is no name of its own.
+      std::erase_if(candidates, [&](const CandidateFit& c) {
+        return std::any_of(current.terms.begin(), current.terms.end(), [&](const ModelTerm& term) {
+          return (c.term.effect->refinement && contains(*c.term.effect, term.effect->id)) ||
+                 contains(*term.effect, c.term.effect->id);
+        });
       });
-    });
-    if (candidates.empty()) break;
-    double tried = 0.0;
-    for (const CandidateFit& c : candidates) tried += c.tried;
-    // Among those that are nearly as good as the best, the simplest.
-    std::size_t chosen = 0;
-    for (std::size_t c = 1; c < candidates.size(); ++c) {
-      const double margin = std::max(12.0, limits.container_margin * candidates[0].delta_chi2);
-      if (candidates[c].score < candidates[0].score - margin) break;
-      if (contains(*candidates[chosen].term.effect, candidates[c].term.effect->id)) chosen = c;
+      if (candidates.empty()) break;
+      double tried = 0.0;
+      for (const CandidateFit& c : candidates) tried += c.tried;
+      // Among those that are nearly as good as the best, the simplest.
+      std::size_t chosen = 0;
+      for (std::size_t c = 1; c < candidates.size(); ++c) {
+        const double margin = std::max(12.0, limits.container_margin * candidates[0].delta_chi2);
+        if (candidates[c].score < candidates[0].score - margin) break;
+        if (contains(*candidates[chosen].term.effect, candidates[c].term.effect->id)) chosen = c;
+      }
+      const CandidateFit& candidate = candidates[chosen];
+      DiscrepancyStep step{candidate.term.effect->id, false, candidate.score, candidate.delta_chi2, ""};
+      const Dynamics dynamics = candidate.term.variant.inputs[0].dynamics;
+      const bool onset = dynamics == Dynamics::Step || dynamics == Dynamics::Pulse;
+      const double onset_effects =
+          static_cast<double>(std::count_if(candidates.begin(), candidates.end(), [](const CandidateFit& c) {
+            const Dynamics d = c.term.variant.inputs[0].dynamics;
+            return d == Dynamics::Step || d == Dynamics::Pulse;
+          }));
+      const bool by_chance = onset
+                                 ? !(candidate.score > 8.0) || onsetPValue(search, problem, candidate) * onset_effects >
+                                                                   options.false_alarm_rate
+                                 : !significant(candidate.delta_chi2, candidate.parameter_count, tried);
+      if (by_chance) {
+        step.reason = "no more than the largest of all effects tried gains by chance";
+        steps.push_back(step);
+        break;
+      }
+      if (!current.terms.empty() && candidate.delta_chi2 < limits.smallest_part * current.delta_chi2) {
+        step.reason = "too small beside what the accepted effects may miss";
+        steps.push_back(step);
+        break;
+      }
+      problem.setNuisances(base);
+      const JointFit before = current;
+      std::vector<ModelTerm> terms = current.terms;
+      terms.push_back(candidate.term);
+      JointFit joint = search.refine(terms, 2);
+      const auto cv = search.crossValidate(before.terms, joint.terms, base);
+      // What happens within one block (a warm-up at the start) cannot be learnt without it: then every fifth state
+      // decides.
+      const auto scattered = search.crossValidate(before.terms, joint.terms, base, true);
+      if (!(cv.after_chi2 < cv.before_chi2) && !(scattered.after_chi2 + 8.0 < scattered.before_chi2)) {
+        step.reason = "does not predict blocks of states that were left out";
+        steps.push_back(step);
+        break;
+      }
+      joint = refineDynamics(search, joint, 0, base);
+      step.accepted = true;
+      step.reason = "";
+      steps.push_back(step);
+      current = std::move(joint);
     }
-    const CandidateFit& candidate = candidates[chosen];
-    DiscrepancyStep step{candidate.term.effect->id, false, candidate.score, candidate.delta_chi2, ""};
-    if (!significant(candidate.delta_chi2, candidate.parameter_count, tried)) {
-      step.reason = "no more than the largest of all effects tried gains by chance";
-      out.steps.push_back(step);
-      break;
-    }
-    if (!fit.terms.empty() && candidate.delta_chi2 < limits.smallest_part * fit.delta_chi2) {
-      step.reason = "too small beside what the accepted effects may miss";
-      out.steps.push_back(step);
-      break;
-    }
-    problem.setNuisances(base);
-    const JointFit before = fit;
-    std::vector<ModelTerm> terms = fit.terms;
-    terms.push_back(candidate.term);
-    JointFit joint = search.refine(terms, 2);
-    const auto cv = search.crossValidate(before.terms, joint.terms, base);
-    // What happens within one block (a warm-up at the start) cannot be learnt without it: then every fifth state
-    // decides.
-    const auto scattered = search.crossValidate(before.terms, joint.terms, base, true);
-    if (!(cv.after_chi2 < cv.before_chi2) && !(scattered.after_chi2 + 8.0 < scattered.before_chi2)) {
-      step.reason = "does not predict blocks of states that were left out";
-      out.steps.push_back(step);
-      break;
-    }
-    joint = refineDynamics(search, joint, 0, base);
-    step.accepted = true;
-    step.reason = "";
-    out.steps.push_back(step);
-    out.forced.push_back(false);
-    fit = std::move(joint);
-  }
+    return current;
+  };
+  fit = extend(std::move(fit), options.max_effects, out.steps);
+
+  out.forced.resize(fit.terms.size(), false);
 
   // Rivals and exchanges: every term against every other effect, the other terms kept.
   job.report(0.7, "comparing rivals");
@@ -278,24 +326,14 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
 
   // What is left.
   job.report(0.9, "testing what is left");
-  out.chi2_after = fit.terms.empty() ? out.chi2_before : fit.chi2;
-  const double dof_after = std::max(1.0, static_cast<double>(out.dof_before - fit.parameter_count));
+  problem.setNuisances(base);
+  const Leftover left = leftoverOf(search, problem, base, fit, limits);
+  out.chi2_after = left.chi2;
   out.structured_power = std::max(0.0, out.chi2_before - out.dof_before);
-  out.leftover_power = std::max(0.0, out.chi2_after - dof_after);
-  const double explained = std::max(0.0, out.chi2_before - out.chi2_after - fit.parameter_count);
-  out.explained_fraction = explained + out.leftover_power > 0.0 ? explained / (explained + out.leftover_power) : 1.0;
-  Eigen::VectorXd residual = problem.projectedResidual();
-  std::vector<NamedPart> parts;
-  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
-    const Eigen::VectorXd part = problem.projected(search.columns(fit.terms[t])) * fit.gains[t];
-    residual -= part;
-    parts.push_back({part.head(problem.size()),
-                     static_cast<int>(fit.gains[t].size() + static_cast<Index>(fit.terms[t].parameters.size()))});
-  }
-  const StructureTest structure = testStructure(problem, residual.head(problem.size()));
-  out.leftover_p_value = structure.p_value;
-  if (structure.p_value < 0.01) out.leftover = structure.description;
-  out.unknown_course = testUnknownCourse(problem, residual.head(problem.size()), parts, limits.leftover_error, log_n);
+  out.explained_fraction = left.explained_fraction;
+  out.leftover_p_value = left.structure.p_value;
+  if (left.structure.p_value < 0.01) out.leftover = left.structure.description;
+  out.unknown_course = left.unknown_course;
   out.significant_before =
       testStructure(problem, Eigen::VectorXd(problem.projectedResidual().head(problem.size()))).p_value < 0.01;
   out.fit = std::move(fit);

@@ -62,7 +62,6 @@ struct SearchOutcome {
   double chi2_after = 0.0;
   int dof_before = 0;
   double structured_power = 0.0;  ///< chi2_before beyond the noise
-  double leftover_power = 0.0;
   double explained_fraction = 0.0;
   double leftover_p_value = 1.0;  ///< of the most structured part of what is left
   std::string leftover;           ///< sentence, if significant
@@ -75,6 +74,13 @@ struct SearchOutcome {
 [[nodiscard]] SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem,
                                           const std::vector<NuisanceColumn>& base, const DiscrepancyOptions& options,
                                           const SearchLimits& limits, const JobContext& job);
+
+/// Probability that the largest gain over all onsets (and lengths and lags) of this effect is as large by chance. BIC
+/// is not valid where an onset is searched; the distribution of the maximum comes from a parametric bootstrap: 120
+/// draws of the noise as it was estimated (white once whitened, so correlation in time is in it; seeded), the same
+/// search over all onsets on each, and a Gumbel tail fitted to the maxima. Sources: Davies 1987; Gumbel 1958.
+[[nodiscard]] double onsetPValue(const EffectSearch& search, const ResidualProblem& problem,
+                                 const CandidateFit& candidate);
 
 /// The most significant structure in a whitened residual: common courses in time, gradients, single points.
 struct StructureTest {
@@ -94,9 +100,11 @@ struct StructureTest {
 [[nodiscard]] std::vector<DisagreementPlace> findPlaces(const ResidualProblem& problem, const DriverTable& drivers,
                                                         const Eigen::VectorXd& residual);
 
-/// What to measure to tell two fits apart, from the observations' points and times.
+/// What to measure to tell two fits apart: the places (points measured, corners of the travel) and times of the log at
+/// which they differ most beyond what the second could take up by fitting it again.
 [[nodiscard]] std::optional<MeasurementSuggestion> suggestMeasurement(const DiscrepancyInput& input,
                                                                       const DriverTable& drivers,
+                                                                      const EffectSearch& search,
                                                                       const ResidualProblem& problem,
                                                                       const JointFit& first, const JointFit& second,
                                                                       const std::string& separates, double log_n);

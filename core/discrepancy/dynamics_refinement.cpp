@@ -63,16 +63,20 @@ SetGain gainOf(const std::vector<std::size_t>& set, const std::vector<LagOption>
 
 JointFit EffectSearch::refineDynamics(JointFit fit, std::size_t t, const std::vector<NuisanceColumn>& base) const {
   constexpr double largest_room_part = 0.35;
-  constexpr std::size_t most_inputs = 3;
   const ModelTerm term = fit.terms[t];
-  if (term.variant.inputs[0].dynamics != Dynamics::Lag || term.variant.shared_lag) return fit;
+  if (term.variant.inputs[0].dynamics != Dynamics::Lag) return fit;
   const Effect& effect = *term.effect;
   const Index k = shape(effect).cols();
+  if (term.variant.shared_lag) return fit;
+  constexpr std::size_t most_inputs = 3;
+  const double longest = parameterBounds({&effect, {{{"", Dynamics::Lag}}, false}, {0.0}}, 0).second;
   std::vector<LagOption> options;
   const auto addDriver = [&](const std::string& driver, bool room_beside) {
     if (std::any_of(options.begin(), options.end(), [&](const LagOption& o) { return o.driver == driver; })) return;
     if (drivers_->find(driver)->linear) options.push_back({driver, 0.0, room_beside});
-    for (const double tau : lags_) options.push_back({driver, tau, room_beside});
+    for (const double tau : lags_) {
+      if (tau <= longest) options.push_back({driver, tau, room_beside});
+    }
   };
   for (const EffectVariant& variant : effect.variants) {
     if (variant.shared_lag) continue;
@@ -144,6 +148,8 @@ JointFit EffectSearch::refineDynamics(JointFit fit, std::size_t t, const std::ve
     // One more gain per shape column and one more lag.
     const double cost = inputs > 1 ? static_cast<double>(k + 1) * log_n_ : 0.0;
     if (!(gain > set_gain + cost + (inputs > 1 ? 4.0 : 0.0))) break;
+    set = trial;
+    set_gain = gain;
     JointFit next = fit;
     ModelTerm& changed = next.terms[t];
     changed.variant = {};
@@ -164,8 +170,6 @@ JointFit EffectSearch::refineDynamics(JointFit fit, std::size_t t, const std::ve
       if (!better && !((as_good || blind) && scattered.after_chi2 + 8.0 < scattered.before_chi2)) break;
       best = std::move(next);
     }
-    set = trial;
-    set_gain = gain;
   }
   return best;
 }

@@ -47,6 +47,8 @@ class EffectSearch {
   [[nodiscard]] const std::vector<Effect>& catalogue() const noexcept { return *catalogue_; }
   [[nodiscard]] const Effect* find(std::string_view id) const;
   [[nodiscard]] double logN() const noexcept { return log_n_; }
+  /// The grid of onsets, s.
+  [[nodiscard]] const std::vector<double>& onsets() const noexcept { return onsets_; }
 
   /// The best variant of one effect on the grid of lags and onsets, under the problem's present nuisances.
   [[nodiscard]] CandidateFit best(const Effect& effect) const;

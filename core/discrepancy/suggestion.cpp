@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,8 +15,8 @@ namespace {
 
 using Eigen::Index;
 
-double valueAt(const DriverTable& drivers, const JointFit& fit, const DeviationQuery& query, Component component,
-               std::size_t time_index, const std::vector<Eigen::MatrixXd>& responses) {
+double valueAt(const JointFit& fit, const DeviationQuery& query, Component component, std::size_t time_index,
+               const std::vector<Eigen::MatrixXd>& responses) {
   double sum = 0.0;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     const Effect& effect = *fit.terms[t].effect;
@@ -28,16 +29,134 @@ double valueAt(const DriverTable& drivers, const JointFit& fit, const DeviationQ
       }
     }
   }
-  (void)drivers;
   return sum;
+}
+
+/// How the prediction of a fit changes with its gains and non-linear parameters, and what the data at hand know of
+/// them.
+class Tangent {
+ public:
+  Tangent(const EffectSearch& search, const ResidualProblem& problem, const JointFit& fit) {
+    std::vector<Eigen::MatrixXd> parts;
+    for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+      const Eigen::MatrixXd x = search.columns(fit.terms[t]);
+      Eigen::MatrixXd part(x.rows(), x.cols() + static_cast<Index>(fit.terms[t].parameters.size()));
+      part.leftCols(x.cols()) = x;
+      for (std::size_t p = 0; p < fit.terms[t].parameters.size(); ++p) {
+        const auto [term, step] = moved(fit.terms[t], p);
+        part.col(x.cols() + static_cast<Index>(p)) = (search.columns(term) - x) * fit.gains[t] / step;
+      }
+      parameters_ += part.cols();
+      parts.push_back(std::move(part));
+    }
+    Eigen::MatrixXd all(problem.size(), parameters_);
+    Index at = 0;
+    for (const Eigen::MatrixXd& part : parts) {
+      all.middleCols(at, part.cols()) = part;
+      at += part.cols();
+    }
+    const Eigen::MatrixXd x = problem.projected(all);
+    information_ = x.transpose() * x;
+  }
+
+  [[nodiscard]] Index parameters() const { return parameters_; }
+  [[nodiscard]] const Eigen::MatrixXd& information() const { return information_; }
+
+  /// The responses after a small change of every non-linear parameter, term by term.
+  using Moved = std::vector<std::vector<std::pair<Eigen::MatrixXd, double>>>;
+  [[nodiscard]] static Moved movedResponses(const DriverTable& drivers, const JointFit& fit,
+                                            const std::vector<double>& times) {
+    Moved out;
+    for (const ModelTerm& term : fit.terms) {
+      auto& responses = out.emplace_back();
+      for (std::size_t p = 0; p < term.parameters.size(); ++p) {
+        const auto [changed, step] = moved(term, p);
+        responses.emplace_back(inputResponses(drivers, changed.variant, changed.parameters, times), step);
+      }
+    }
+    return out;
+  }
+
+  [[nodiscard]] Eigen::RowVectorXd row(const JointFit& fit, const DeviationQuery& query, Component component,
+                                       std::size_t time_index, const std::vector<Eigen::MatrixXd>& responses,
+                                       const Moved& moved_responses) const {
+    Eigen::RowVectorXd out = Eigen::RowVectorXd::Zero(parameters_);
+    const auto at_time = static_cast<Index>(time_index);
+    Index at = 0;
+    for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+      const Effect& effect = *fit.terms[t].effect;
+      const auto k = static_cast<Index>(effect.shape.size());
+      const Index gains = responses[t].cols() * k;
+      for (Index c = 0; c < k; ++c) {
+        const double shape = effect.shape[static_cast<std::size_t>(c)].value(query, component);
+        if (shape == 0.0) continue;
+        for (Index i = 0; i < responses[t].cols(); ++i) {
+          out[at + i * k + c] = shape * responses[t](at_time, i);
+          for (std::size_t p = 0; p < moved_responses[t].size(); ++p) {
+            const auto& [response, step] = moved_responses[t][p];
+            out[at + gains + static_cast<Index>(p)] +=
+                shape * fit.gains[t][i * k + c] * (response(at_time, i) - responses[t](at_time, i)) / step;
+          }
+        }
+      }
+      at += gains + static_cast<Index>(moved_responses[t].size());
+    }
+    return out;
+  }
+
+ private:
+  static std::pair<ModelTerm, double> moved(const ModelTerm& term, std::size_t p) {
+    ModelTerm out = term;
+    const double step = std::max(30.0, 0.05 * std::abs(term.parameters[p]));
+    out.parameters[p] += step;
+    return {out, step};
+  }
+
+  Index parameters_ = 0;
+  Eigen::MatrixXd information_;
+};
+
+/// One component at one place over all candidate times, in units of sigma.
+struct SuggestedSeries {
+  Eigen::VectorXd difference;
+  Eigen::MatrixXd tangent;
+};
+
+/// Chi-squared by which the first fit would be ahead after measuring at these times and fitting the second again.
+double expectedGain(const std::vector<SuggestedSeries>& series, const std::vector<std::size_t>& times,
+                    const Eigen::MatrixXd& information) {
+  const auto n = static_cast<Index>(times.size());
+  const Index m = information.cols();
+  double power = 0.0;
+  Eigen::MatrixXd known = information;
+  Eigen::VectorXd pull = Eigen::VectorXd::Zero(m);
+  for (const SuggestedSeries& s : series) {
+    Eigen::VectorXd d(n);
+    Eigen::MatrixXd j(n, m);
+    for (Index i = 0; i < n; ++i) {
+      d[i] = s.difference[static_cast<Index>(times[static_cast<std::size_t>(i)])];
+      j.row(i) = s.tangent.row(static_cast<Index>(times[static_cast<std::size_t>(i)]));
+    }
+    d.array() -= d.mean();
+    j.rowwise() -= j.colwise().mean().eval();
+    power += d.squaredNorm();
+    known.noalias() += j.transpose() * j;
+    pull.noalias() += j.transpose() * d;
+  }
+  if (m == 0) return power;
+  const Eigen::VectorXd scale = known.diagonal().cwiseMax(1e-30).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd scaled = scale.asDiagonal() * known * scale.asDiagonal();
+  scaled.diagonal().array() += 1e-9;
+  const Eigen::VectorXd b = scale.cwiseProduct(pull);
+  return std::max(0.0, power - b.dot(scaled.ldlt().solve(b)));
 }
 
 }  // namespace
 
 std::optional<MeasurementSuggestion> suggestMeasurement(const DiscrepancyInput& input, const DriverTable& drivers,
-                                                        const ResidualProblem& problem, const JointFit& first,
-                                                        const JointFit& second, const std::string& separates,
-                                                        double log_n) {
+                                                        const EffectSearch& search, const ResidualProblem& problem,
+                                                        const JointFit& first, const JointFit& second,
+                                                        const std::string& separates, double log_n) {
   if (problem.size() == 0) return std::nullopt;
   // Candidate times: the whole log, in 96 steps; candidate places: the points measured and the corners of the travel.
   double start = problem.node_time_s.front();
@@ -56,6 +175,7 @@ std::optional<MeasurementSuggestion> suggestMeasurement(const DiscrepancyInput& 
   };
   const auto first_responses = responsesOf(first);
   const auto second_responses = responsesOf(second);
+  const auto moved_responses = Tangent::movedResponses(drivers, second, times);
   struct Place {
     std::string name;
     DeviationQuery query;
@@ -90,50 +210,79 @@ std::optional<MeasurementSuggestion> suggestMeasurement(const DiscrepancyInput& 
     sigmas[problem.component[static_cast<std::size_t>(u)]] += problem.sigma[u];
     ++counts[problem.component[static_cast<std::size_t>(u)]];
   }
-  // What a place gives in one run over the times: the difference about its mean, in units of sigma.
+  // What a place gives in one run over the times: the difference of the two fits, less what the second could take up by
+  // other gains and lags (its tangent), given what is known from the data at hand, and less a constant per series.
+  const Tangent tangent(search, problem, second);
   struct Value {
     double power = 0.0;
     std::size_t place = 0;
-    std::vector<double> by_time;
   };
-  std::vector<Value> values;
-  std::vector<double> total(times.size(), 0.0);
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    Value v;
-    v.place = p;
-    v.by_time.assign(times.size(), 0.0);
+  const auto seriesOf = [&](std::size_t place) {
+    std::vector<SuggestedSeries> out;
     for (auto& [component, sum] : sigmas) {
+      SuggestedSeries s;
       const double sigma = sum / counts[component] * problem.noise.scale;
-      std::vector<double> d(times.size());
-      double mean = 0.0;
+      s.difference.resize(static_cast<Index>(times.size()));
+      s.tangent.resize(static_cast<Index>(times.size()), tangent.parameters());
       for (std::size_t t = 0; t < times.size(); ++t) {
-        DeviationQuery q = places[p].query;
+        DeviationQuery q = places[place].query;
         q.time_s = times[t];
-        d[t] = valueAt(drivers, first, q, component, t, first_responses) -
-               valueAt(drivers, second, q, component, t, second_responses);
-        mean += d[t] / static_cast<double>(times.size());
+        const auto row = static_cast<Index>(t);
+        s.difference[row] =
+            (valueAt(first, q, component, t, first_responses) - valueAt(second, q, component, t, second_responses)) /
+            sigma;
+        s.tangent.row(row) = tangent.row(second, q, component, t, second_responses, moved_responses) / sigma;
       }
-      for (std::size_t t = 0; t < times.size(); ++t) v.by_time[t] += (d[t] - mean) * (d[t] - mean) / (sigma * sigma);
+      out.push_back(std::move(s));
     }
-    for (const double x : v.by_time) v.power += x;
-    values.push_back(std::move(v));
+    return out;
+  };
+  std::vector<std::size_t> every(times.size());
+  for (std::size_t i = 0; i < every.size(); ++i) every[i] = i;
+  std::vector<Value> values;
+  std::vector<std::vector<SuggestedSeries>> series(places.size());
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    series[p] = seriesOf(p);
+    values.push_back({expectedGain(series[p], every, tangent.information()), p});
   }
-  std::sort(values.begin(), values.end(), [](const Value& a, const Value& b) { return a.power > b.power; });
+  std::stable_sort(values.begin(), values.end(), [](const Value& a, const Value& b) { return a.power > b.power; });
   const std::size_t best_places = std::min<std::size_t>(3, values.size());
+  std::vector<SuggestedSeries> best;
   for (std::size_t p = 0; p < best_places; ++p) {
-    for (std::size_t t = 0; t < times.size(); ++t) total[t] += values[p].by_time[t];
+    for (const SuggestedSeries& s : series[values[p].place]) best.push_back(s);
   }
-  std::vector<std::size_t> order(times.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return total[a] > total[b]; });
-  MeasurementSuggestion out;
-  double expected = 0.0;
+  // Times one by one, each the one that adds most to those before it. A single time tells nothing beside a free
+  // constant, so the first two are found together, on a coarse grid.
   std::vector<std::size_t> chosen;
-  for (const std::size_t i : order) {
-    if (chosen.size() >= 8) break;
-    chosen.push_back(i);
-    expected += total[i];
+  double expected = -1.0;
+  for (std::size_t i = 0; i < times.size(); i += 4) {
+    for (std::size_t j = i + 4; j < times.size(); j += 4) {
+      const double gain = expectedGain(best, {i, j}, tangent.information());
+      if (gain > expected) {
+        expected = gain;
+        chosen = {i, j};
+      }
+    }
   }
+  while (chosen.size() < 8) {
+    std::size_t next = times.size();
+    double largest = expected;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (std::find(chosen.begin(), chosen.end(), i) != chosen.end()) continue;
+      std::vector<std::size_t> trial = chosen;
+      trial.push_back(i);
+      const double gain = expectedGain(best, trial, tangent.information());
+      if (gain > largest) {
+        largest = gain;
+        next = i;
+      }
+    }
+    if (next == times.size()) break;
+    expected = largest;
+    chosen.push_back(next);
+  }
+  const std::size_t clearest = chosen.empty() ? 0 : chosen.front();
+  MeasurementSuggestion out;
   if (!(expected > 0.0) || !std::isfinite(expected)) return std::nullopt;
   // So often that the evidence becomes clear (a difference of 20), at most 20 times.
   const double wanted = 20.0 + log_n;
@@ -145,7 +294,7 @@ std::optional<MeasurementSuggestion> suggestMeasurement(const DiscrepancyInput& 
   out.separates = separates;
   std::vector<std::string> conditions;
   if (input.log && !input.log->empty()) {
-    const double t = times[order.front()];
+    const double t = times[clearest];
     if (input.log->has("spindle_rpm")) {
       const double rpm = input.log->at("spindle_rpm", t);
       conditions.push_back(rpm > 0.0 ? fmt::format("spindle at {:.0f} rpm", rpm) : std::string("spindle at rest"));

@@ -36,16 +36,18 @@ void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& o
                          const double p = (q.position_mm[axis] - origin) * 1e-3;
                          return uniform ? p : p * p;
                        }}};
+      // What is warmer in the middle is colder at the ends: beside the square a part that is linear.
+      if (!uniform) {
+        effect.shape.push_back({"um_per_m", [component, axis, origin](const DeviationQuery& q, Component c) {
+                                  return c == component ? (q.position_mm[axis] - origin) * 1e-3 : 0.0;
+                                }});
+      }
       if (!known) {
         effect.shape.push_back(constantShape(component));
         if (uniform) {
           effect.free_origin = true;
           effect.origin_low_mm = linear->travel_mm[0] - 500.0;
           effect.origin_high_mm = linear->travel_mm[1] + 500.0;
-        } else {
-          effect.shape.push_back({"um_per_m", [component, axis](const DeviationQuery& q, Component c) {
-                                    return c == component ? q.position_mm[axis] * 1e-3 : 0.0;
-                                  }});
         }
       }
       if (drivers.has(feed)) {
@@ -53,7 +55,8 @@ void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& o
         for (const std::string& r : room)
           effect.variants.push_back({{{feed, Dynamics::Lag}, {r, Dynamics::Lag}}, false});
       }
-      addLagVariants(effect, room);
+      // A linear scale follows the room by itself; a screw beside it has to show the heat of its own motion.
+      if (linear->scale != "linear_scale") addLagVariants(effect, room);
       addLagVariants(effect, screw);
       effect.driver_missing = !drivers.has(feed);
       effect.refinement = !uniform;

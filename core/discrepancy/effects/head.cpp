@@ -5,20 +5,29 @@ namespace spindrift {
 
 // A head that is warmer on one side turns about a pivot; the nose moves by the lever from the pivot to the tool point.
 // The levers are not in the machine file, so they are free: gains of the turn (urad) and of the two displacements (um).
+// Where the Z axis is a ram between pivot and tool, the vertical lever changes with z: a turn that carries its
+// displacement in proportion to z along.
 void addHeadEffects(const CatalogueContext& context, std::vector<Effect>& out) {
   const std::vector<std::string> heat = context.drivers->spindleHeat();
+  const bool ram = !context.machine->column_base_mm && context.machine->chain.movesTool("Z");
   for (int axis = 0; axis < 2; ++axis) {
     Effect tilt;
     tilt.id = axis == 0 ? "head.tilt.a" : "head.tilt.b";
     tilt.physics =
         "Spindle heat warms one side of the head more than the other; the head turns about a pivot and carries the "
-        "tool "
-        "point with it, sideways and in height.";
+        "tool point with it, sideways and in height.";
     const Component turn = axis == 0 ? Component::EA : Component::EB;
     const Component side = axis == 0 ? Component::EY : Component::EX;
+    const double sign = axis == 0 ? -1.0 : 1.0;
     tilt.shape = {constantShape(side),
                   constantShape(Component::EZ),
                   {"urad", [turn](const DeviationQuery&, Component c) { return c == turn ? 1.0 : 0.0; }}};
+    if (ram) {
+      tilt.shape.push_back({"urad_ram", [turn, side, sign](const DeviationQuery& q, Component c) {
+                              if (c == side) return sign * q.position_mm.z() * 1e-3;
+                              return c == turn ? 1.0 : 0.0;
+                            }});
+    }
     addLagVariants(tilt, heat);
     tilt.contains = {axis == 0 ? "spindle.drift.y" : "spindle.drift.x", "spindle.growth.z", "spindle.centrifugal.z"};
     tilt.follows_room = true;

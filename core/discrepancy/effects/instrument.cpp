@@ -17,7 +17,7 @@ void addInstrumentEffects(const CatalogueContext& context, std::vector<Effect>& 
     // Not logged: taken as switched on when the log starts.
     if (logged) addLagVariants(effect, {"instrument_on"});
     if (context.drivers->has("instrument_on_assumed")) addLagVariants(effect, {"instrument_on_assumed"});
-    effect.driver_missing = !logged;
+    effect.driver_missing = effect.variants.empty();
     out.push_back(std::move(effect));
   }
 }

@@ -165,8 +165,9 @@ void runOne(const Assignment& which, bool plain, Outcomes& all, std::mutex& mute
     all.confidences.emplace_back(listed.confidence, right);
   }
   if (outcome != Outcome::Named) {
-    all.misses.push_back(fmt::format("seed {:5} {:20} hidden {:42} -> {}", which.seed, cell.name,
-                                     joinedList(made.hidden), described(answer)));
+    all.misses.push_back(fmt::format("seed {:5} {:20} hidden {:42} -> {} [explained {:.3f}, {}]", which.seed, cell.name,
+                                     joinedList(made.hidden), described(answer), result.explained_fraction,
+                                     result.leftover.empty() ? "nothing left" : result.leftover));
   }
   if (plain) {
     all.stepwise[which.cell].add(stepwise, judged(stepwise));

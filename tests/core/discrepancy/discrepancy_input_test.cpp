@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bad and incomplete input: refused with a sentence, or worked with and said so.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include "core/base/error.h"
+#include "tests/core/discrepancy/small_plant.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+using namespace small_plant;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+std::string refusal(const DiscrepancyInput& input) {
+  try {
+    (void)run(input);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The log again from the rows that `keep` wants, with the signals but those left out.
+template <typename Keep>
+OperatingLog filtered(const OperatingLog& log, const std::vector<std::string>& without, const Keep& keep) {
+  std::vector<double> time;
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < log.time_s().size(); ++i) {
+    if (!keep(log.time_s()[i])) continue;
+    time.push_back(log.time_s()[i]);
+    rows.push_back(i);
+  }
+  OperatingLog out(time);
+  for (const std::string& name : log.names()) {
+    if (std::find(without.begin(), without.end(), name) != without.end() || log.signal(name) == nullptr) continue;
+    std::vector<double> values;
+    for (const std::size_t i : rows) values.push_back((*log.signal(name))[i]);
+    out.setSignal(name, values);
+  }
+  return out;
+}
+
+const auto all_rows = [](double) { return true; };
+
+TEST(DiscrepancyInput, CountsObservationsThatTheSimulationLacks) {
+  DiscrepancyInput input = campaign(Hidden::SpindleDrift, 31);
+  for (std::size_t i = 0; i < input.predicted.size(); i += 10) {
+    input.predicted[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+  const DiscrepancyResult result = run(input);
+  EXPECT_EQ(result.unmatched, (input.predicted.size() + 9) / 10);
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("no prediction in the simulation")));
+  ASSERT_EQ(result.effects.size(), 1u);
+  EXPECT_EQ(result.effects[0].id, "spindle.drift.y");
+}
+
+TEST(DiscrepancyInput, NamesTheSimulationWhenItMatchesTooLittle) {
+  DiscrepancyInput input = campaign(Hidden::Nothing, 32);
+  input.base_table = "simulation.csv";
+  for (std::size_t i = 0; i < input.predicted.size() * 6 / 10; ++i) {
+    input.predicted[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+  EXPECT_THAT(refusal(input), HasSubstr("simulation.csv"));
+}
+
+TEST(DiscrepancyInput, RefusesSigmaThatIsNotPositive) {
+  for (const double sigma : {0.0, -0.5, std::numeric_limits<double>::quiet_NaN()}) {
+    DiscrepancyInput input = campaign(Hidden::Nothing, 33);
+    input.observations.rows[17].sigma = sigma;
+    const std::string text = refusal(input);
+    EXPECT_THAT(text, HasSubstr("sigma"));
+    EXPECT_THAT(text, HasSubstr("18"));
+  }
+}
+
+TEST(DiscrepancyInput, WorksWithOnePointAlone) {
+  for (const Hidden hidden : {Hidden::Nothing, Hidden::SpindleDrift}) {
+    DiscrepancyInput whole = campaign(hidden, 34, 8.0);
+    DiscrepancyInput input = whole;
+    input.observations.rows.clear();
+    input.predicted.clear();
+    for (std::size_t i = 0; i < whole.predicted.size(); ++i) {
+      if (whole.observations.rows[i].point != "F4") continue;
+      input.observations.rows.push_back(whole.observations.rows[i]);
+      input.predicted.push_back(whole.predicted[i]);
+    }
+    const DiscrepancyResult result = run(input);
+    if (hidden == Hidden::Nothing) {
+      EXPECT_EQ(result.verdict, DiscrepancyVerdict::None);
+    } else {
+      EXPECT_NE(result.verdict, DiscrepancyVerdict::None);
+      // One point cannot tell a drift from what grows along an axis: no other component may be named.
+      for (const FoundEffect& e : result.effects) EXPECT_NE(e.id, "spindle.growth.z");
+    }
+  }
+}
+
+TEST(DiscrepancyInput, SaysWhenTheLogIsShorterThanTheObservations) {
+  DiscrepancyInput input = campaign(Hidden::SpindleDrift, 35);
+  input.log = filtered(*input.log, {}, [](double t) { return t < 22000.0; });
+  const DiscrepancyResult result = run(input);
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("later than the end of the log")));
+  for (const FoundEffect& e : result.effects) EXPECT_EQ(e.id, "spindle.drift.y");
+}
+
+TEST(DiscrepancyInput, SaysWhereTheLogHasAGap) {
+  DiscrepancyInput input = campaign(Hidden::Nothing, 36);
+  input.log = filtered(*input.log, {}, [](double t) { return t < 20000.0 || t > 24000.0; });
+  const DiscrepancyResult result = run(input);
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("gap")));
+  EXPECT_EQ(result.verdict, DiscrepancyVerdict::None);
+}
+
+TEST(DiscrepancyInput, LeavesADeadSensorOut) {
+  DiscrepancyInput input = campaign(Hidden::SpindleDrift, 37);
+  input.log->setSignal("T_spindle_degC", std::vector<double>(input.log->time_s().size(), 20.0));
+  const DiscrepancyResult result = run(input);
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("T_spindle_degC never moves")));
+  ASSERT_EQ(result.effects.size(), 1u);
+  EXPECT_EQ(result.effects[0].id, "spindle.drift.y");
+}
+
+TEST(DiscrepancyInput, WithoutSpindleSpeedATemperatureOfTheSpindleWillDo) {
+  DiscrepancyInput input = campaign(Hidden::SpindleDrift, 38);
+  input.log = filtered(*input.log, {"spindle_rpm"}, all_rows);
+  const DiscrepancyResult result = run(input);
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("no spindle_rpm")));
+  ASSERT_EQ(result.effects.size(), 1u);
+  EXPECT_EQ(result.effects[0].id, "spindle.drift.y");
+}
+
+TEST(DiscrepancyInput, WithoutAnythingThatShowsTheSpindleASetHoldsItOrNothingIsNamed) {
+  for (std::uint64_t seed = 39; seed < 43; ++seed) {
+    DiscrepancyInput input = campaign(Hidden::SpindleDrift, seed);
+    input.log = filtered(*input.log, {"spindle_rpm", "T_spindle_degC"}, all_rows);
+    const DiscrepancyResult result = run(input);
+    if (result.verdict == DiscrepancyVerdict::Unknown) {
+      EXPECT_TRUE(result.effects.empty());
+      EXPECT_FALSE(result.leftover.empty());
+      continue;
+    }
+    ASSERT_EQ(result.verdict, DiscrepancyVerdict::Ambiguous) << result.summary();
+    ASSERT_EQ(result.effects.size(), 1u) << result.summary();
+    EXPECT_LE(result.effects[0].rivals.size(), 2u);
+    EXPECT_THAT(result.effects[0].rivals, Contains("spindle.drift.y")) << result.summary();
+    EXPECT_THAT(result.warnings, Contains(HasSubstr("the log lacks what drives the latter")));
+  }
+}
+
+TEST(DiscrepancyInput, TellsWhichSideIsInMillimetres) {
+  DiscrepancyInput simulation = campaign(Hidden::Nothing, 40);
+  for (double& p : simulation.predicted) p *= 1e-3;
+  EXPECT_THAT(refusal(simulation), HasSubstr("the simulation looks as if it were in mm"));
+  DiscrepancyInput measured = campaign(Hidden::Nothing, 40);
+  for (Observation& o : measured.observations.rows) {
+    o.value *= 1e-3;
+    o.sigma *= 1e-3;
+  }
+  EXPECT_THAT(refusal(measured), HasSubstr("they look as if they were in mm"));
+}
+
+TEST(DiscrepancyInput, ReadsASimulationTableOnlyWhole) {
+  const testing::TempFolder folder;
+  const auto read = [&](const std::string& text) -> std::string {
+    const auto file = folder.path() / "simulation.csv";
+    std::ofstream(file) << text;
+    try {
+      (void)SimulationTable::read(file);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(read("time_s,point,component,predicted\n0,F1,EX,1\n10,F1,EX,2\n"), "");
+  EXPECT_THAT(read("time_s,point,component\n0,F1,EX\n"), HasSubstr("predicted"));
+  EXPECT_THAT(read("time_s,point,component,predicted\n0,F1,EQ,1\n"), HasSubstr("EQ"));
+  EXPECT_THAT(read("time_s,point,component,predicted\n0,F1,EX,nan\n"), HasSubstr("nan"));
+  EXPECT_THAT(read("time_s,point,component,predicted\n9,F1,EX,1\n0,F1,EX,2\n"), HasSubstr("backwards"));
+  EXPECT_THAT(read("time_s,point,component,predicted\n0,F1,EX,1\n0,F1,EX,2\n"), HasSubstr("twice"));
+}
+
+}  // namespace
+}  // namespace spindrift

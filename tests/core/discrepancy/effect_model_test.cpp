@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/discrepancy/effect_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "core/base/random.h"
+#include "core/discrepancy/catalogue.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+/// A machine that can have every effect of the catalogue.
+MachineDescription everyMachine() {
+  return MachineDescription::parse(
+      JsonNode::parse(R"({"format":"spindrift-machine","version":1,"name":"m","chain":"V [w-C'-X'-Y'-b-Z-t]",
+  "axes":[{"name":"X","travel_mm":[0,480],"drive":{"type":"ball_screw","pitch_mm":10,"fixed_bearing_mm":0},
+           "scale":"linear_scale","datum_mm":0},
+          {"name":"Y","travel_mm":[0,400],"drive":{"type":"ball_screw","pitch_mm":10},"scale":"linear_scale"},
+          {"name":"Z","travel_mm":[0,400],"drive":{"type":"ball_screw","pitch_mm":10,"fixed_bearing_mm":0}}],
+  "table":{"centre_mm":[240,200]},"column":{"base_mm":-180},"crossbeam":{"axis":"Y","from_mm":0,"to_mm":400},
+  "rotary":[{"name":"C","centre_mm":[240,200,0]}],
+  "artefacts":[{"id":"bar","kind":"hole_bar","nominal_positions_mm":[0,60,130],"reference_hole":"H1",
+                "reference_in_table_mm":[-150,0,0],"direction_at_c0":[1,0,0],"expansion_um_per_m_K":11.5,
+                "hole_diameter_mm":10}],
+  "temperature_sensors":[{"name":"T_spindle_degC","place":"front bearing"},{"name":"T_room_degC","place":"room"},
+   {"name":"T_front_degC","place":"column front"},{"name":"T_rear_degC","place":"column rear"},
+   {"name":"T_table_degC","place":"table"}]})",
+                      "machine.json"),
+      "machine.json");
+}
+
+OperatingLog everyLog() {
+  Random random(3);
+  std::vector<double> time;
+  for (int i = 0; i < 400; ++i) time.push_back(60.0 * i);
+  OperatingLog log(time);
+  const auto steps = [&](double size) {
+    std::vector<double> v;
+    double level = 0.0;
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      if (i % 40 == 20) level = size * static_cast<double>(random.index(4));
+      v.push_back(level);
+    }
+    return v;
+  };
+  for (const char* name : {"spindle_rpm", "feed_x_mm_min", "feed_y_mm_min", "feed_z_mm_min"}) {
+    log.setSignal(name, steps(1500.0));
+  }
+  for (const char* name : {"pos_x_mm", "pos_y_mm", "pos_z_mm"}) log.setSignal(name, steps(100.0));
+  log.setSignal("speed_c_rpm", steps(10.0));
+  std::vector<double> on = steps(1.0);
+  for (double& v : on) v = v > 0.0 ? 1.0 : 0.0;
+  log.setSignal("coolant", on);
+  log.setSignal("instrument_on", std::vector<double>(time.size(), 1.0));
+  for (const char* name : {"T_spindle_degC", "T_room_degC", "T_front_degC", "T_rear_degC", "T_table_degC"}) {
+    std::vector<double> v;
+    const double period = random.uniform(3000.0, 9000.0);
+    for (const double t : time) v.push_back(20.0 + std::sin(t / period) + random.normal(0.0, 0.02));
+    log.setSignal(name, v);
+  }
+  return log;
+}
+
+TEST(EffectModel, EveryVariantOfEveryFamilySurvivesSavingAndLoading) {
+  const testing::TempFolder folder;
+  const MachineDescription machine = everyMachine();
+  const OperatingLog log = everyLog();
+  const auto drivers = std::make_shared<DriverTable>(machine, &log);
+  CatalogueContext context;
+  context.machine = &machine;
+  context.drivers = drivers.get();
+  context.points = {"F1", "F2"};
+  context.varying_approach = {"x", "y", "z"};
+  context.c_varies = true;
+  context.position_varies = true;
+  const std::vector<Effect> catalogue = effectCatalogue(context);
+  std::set<std::string> families;
+  Random random(7);
+  for (const Effect& effect : catalogue) {
+    families.insert(effect.id.substr(0, effect.id.find('.')));
+    EXPECT_FALSE(effect.variants.empty()) << effect.id;
+    EXPECT_FALSE(effect.physics.empty()) << effect.id;
+    for (const EffectVariant& variant : effect.variants) {
+      ModelEffect e;
+      e.effect = effect;
+      e.variant = variant;
+      for (const std::string& name : parameterNames(variant)) {
+        e.parameters.push_back(name == "onset_s" ? 5000.0 : random.uniform(300.0, 4000.0));
+        e.parameter_uncertainty.push_back(10.0);
+      }
+      e.gains = Eigen::VectorXd(static_cast<Eigen::Index>(variant.inputs.size() * effect.shape.size()));
+      for (double& g : e.gains) g = random.normal();
+      e.gain_uncertainty = 0.1 * e.gains.cwiseAbs();
+      e.source = "a test";
+      const EffectModel model(drivers, {e});
+      const auto file = folder.path() / "model.json";
+      std::ofstream(file) << model.json().dump(2);
+      const auto loaded = EffectModel::read(file, machine, &log, context.points);
+      ASSERT_EQ(loaded->effects().size(), 1u) << effect.id;
+      EXPECT_EQ(loaded->json(), model.json()) << effect.id;
+      double largest = 0.0;
+      for (int i = 0; i < 12; ++i) {
+        DeviationQuery q;
+        q.time_s = random.uniform(0.0, 23000.0);
+        q.point = i % 2 == 0 ? "F1" : effect.id.substr(effect.id.rfind('.') + 1);
+        q.position_mm = {random.uniform(0.0, 480.0), random.uniform(0.0, 400.0), random.uniform(0.0, 400.0)};
+        q.c_deg = 90.0 * static_cast<double>(random.index(4));
+        q.approach = {1.0, -1.0, 1.0};
+        for (const Component c : all_components) {
+          const double value = model.predict(q, c).value;
+          largest = std::max(largest, std::abs(value));
+          EXPECT_EQ(loaded->predict(q, c).value, value) << effect.id;
+        }
+      }
+      EXPECT_GT(largest, 0.0) << effect.id << " predicts nothing at all";
+    }
+  }
+  // One family for every line of the catalogue.
+  for (const char* family : {"spindle", "head", "column", "ball_screw", "scale", "table", "frame", "squareness",
+                             "crossbeam", "ambient", "instrument", "fixture", "periodic", "backlash", "coolant",
+                             "external_heat", "heat_source", "rotary", "artefact"}) {
+    EXPECT_TRUE(families.contains(family)) << family;
+  }
+}
+
+TEST(EffectModel, RefusesADriverThatTheLogDoesNotHold) {
+  const testing::TempFolder folder;
+  const MachineDescription machine = everyMachine();
+  const OperatingLog log = everyLog();
+  const auto file = folder.path() / "model.json";
+  std::ofstream(file) << R"({"format":"spindrift-error-model","version":1,"effects":[{"id":"ambient.drift.x",
+    "parameters":{"gain_um_per_K":1.0,"tau_s":600},"inputs":[{"driver":"T_hall_degC","dynamics":"lag"}]}]})";
+  EXPECT_THROW((void)EffectModel::read(file, machine, &log, {}), InputError);
+}
+
+TEST(EffectModel, HeatWhereTheHeadStoodMovesTheToolAlongZ) {
+  const MachineDescription machine = everyMachine();
+  const OperatingLog log = everyLog();
+  const DriverTable drivers(machine, &log);
+  CatalogueContext context;
+  context.machine = &machine;
+  context.drivers = &drivers;
+  for (const Effect& effect : effectCatalogue(context)) {
+    if (!effect.id.starts_with("heat_source.")) continue;
+    for (const Component c : all_components) {
+      EXPECT_EQ(effect.shape[0].value({}, c), c == Component::EZ ? 1.0 : 0.0) << effect.id;
+    }
+    ASSERT_FALSE(effect.variants.empty());
+    EXPECT_TRUE(effect.variants[0].inputs[0].driver.ends_with(std::string("pos_") + effect.id.back()));
+  }
+}
+
+}  // namespace
+}  // namespace spindrift
