@@ -287,5 +287,30 @@ TEST(View3D, HeatMapTimes) {
       100.0 * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC);
 }
 
+TEST(View3D, ShapesAreDrawnInTheSceneAndCountAsContent) {
+  View3D view;
+  view.setMachine(desktopMill());
+  view.setMachineVisible(false);
+  const QSize size(400, 300);
+  const QImage before = view.picture(size, 1.0);
+  view.setShapes({{ShapeKind::Sphere, {{150, 65, 20}}, 20.0, Tone::Bad},
+                  {ShapeKind::Rod, {{40, 30, 0}, {40, 30, 60}}, 6.0, Tone::Accent},
+                  {ShapeKind::Path, {{10, 10, 5}, {290, 120, 5}}, 1.0, Tone::Neutral}});
+  EXPECT_EQ(view.shapes().size(), 3U);
+  const QImage after = view.picture(size, 1.0);
+  int changed = 0;
+  for (int y = 0; y < size.height(); ++y) {
+    for (int x = 0; x < size.width(); ++x) changed += before.pixel(x, y) != after.pixel(x, y) ? 1 : 0;
+  }
+  EXPECT_GT(changed, 300);
+  // A view with nothing but shapes is not empty; without them it is.
+  View3D alone;
+  EXPECT_TRUE(alone.empty());
+  alone.setShapes({{ShapeKind::Sphere, {{0, 0, 0}}, 5.0, Tone::Good}});
+  EXPECT_FALSE(alone.empty());
+  alone.clear();
+  EXPECT_TRUE(alone.empty());
+}
+
 }  // namespace
 }  // namespace spindrift::gui

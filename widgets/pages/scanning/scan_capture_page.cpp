@@ -310,8 +310,11 @@ void ScanCapturePage::loadCloud() {
   const ScanModel model = scanModelFromString(results_.modelOfMachine());
   Job job;
   job.title = tr("Reading %1").arg(QFileInfo(id).fileName());
-  job.work = [this, snapshot, cloud, reference, colouring, model, request](JobContext& job_context) {
+  latest_->store(request);
+  job.work = [this, snapshot, cloud, reference, colouring, model, request,
+              latest = latest_](JobContext& job_context) -> std::function<void()> {
     // A scan chosen in the meantime makes this one pointless.
+    if (latest->load() != request) return [] {};
     auto picture = std::make_shared<ScanPicture>(
         pictureOfScan(*snapshot.campaign, cloud, reference, colouring, model, job_context));
     return std::function<void()>([this, picture, request] {
