@@ -195,9 +195,13 @@ QWidget* CycleModelPage::makeBarPart() {
   return card;
 }
 
+std::string CycleModelPage::optionsKey() {
+  return options_key + ("/" + std::to_string(session().campaignId()));
+}
+
 nlohmann::json CycleModelPage::optionsJson() const {
-  const nlohmann::json stored =
-      const_cast<CycleModelPage*>(this)->session().setting(options_key, nlohmann::json::object());
+  auto* self = const_cast<CycleModelPage*>(this);
+  const nlohmann::json stored = self->session().setting(self->optionsKey(), nlohmann::json::object());
   return stored.is_object() ? stored : nlohmann::json::object();
 }
 
@@ -219,7 +223,7 @@ void CycleModelPage::changeOptions(const QString& what, const nlohmann::json& ch
   nlohmann::json after = optionsJson();
   after.update(change);
   if (after == optionsJson()) return;
-  context().undo.push(new OptionsCommand(session(), what, options_key, after, [this] {
+  context().undo.push(new OptionsCommand(session(), what, optionsKey(), after, [this] {
     refresh();
     if (session().state("fit").there) fit(true);
   }));
@@ -232,10 +236,12 @@ void CycleModelPage::fit(bool store) {
   if (snapshot.campaign == nullptr || list == nullptr) return;
   const HoleCycleOptions options = holeOptions();
   run(tr("Fitting all cycles"),
-      [this, snapshot, list, options, store, json = optionsJson()](JobContext& job) -> std::function<void()> {
+      [this, snapshot, list, options, store, json = optionsJson(),
+       key = results_.key()](JobContext& job) -> std::function<void()> {
         auto evaluation =
             std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, options, {}, job));
-        return [this, evaluation, store, json] {
+        return [this, evaluation, store, json, key] {
+          if (key != results_.key()) return refresh();  // of inputs that are no more
           evaluation_ = evaluation;
           if (const CycleEvaluation* cycles = cyclesOf(evaluation.get()); cycles != nullptr && store) {
             session().storeResult(
@@ -319,6 +325,11 @@ void CycleModelPage::refresh() {
   for (const std::string& name : cycles->cycles) cycle_->addItem(fromCore(name));
   const int at = cycle_->findText(chosen);
   cycle_->setCurrentIndex(at >= 0 ? at : cycle_->count() - 1);
+  if (evaluation_->hole_cycles.size() + evaluation_->ball_cycles.size() > 1) {
+    callout()->show(Tone::Attention, tr("This page shows %1. The other artefacts are evaluated too: their deviations "
+                                        "stand in the observations and in the report.")
+                                         .arg(fromCore(cycles->artefact)));
+  }
   showTrends();
   showCycle();
   showBar();

@@ -42,6 +42,7 @@ class CycleModelPage : public Page {
   [[nodiscard]] QWidget* makeVolumePart();
   [[nodiscard]] QWidget* makeBarPart();
   [[nodiscard]] HoleCycleOptions holeOptions() const;
+  [[nodiscard]] std::string optionsKey();
   [[nodiscard]] nlohmann::json optionsJson() const;
   void changeOptions(const QString& what, const nlohmann::json& change);
   void fit(bool store);

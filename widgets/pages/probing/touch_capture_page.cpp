@@ -47,6 +47,18 @@ QString direction(const Eigen::Vector3d& n) {
   return (n(axis) > 0 ? QStringLiteral("+") : QString(QChar(0x2212))) + QLatin1Char("XYZ"[axis]);
 }
 
+/// Of all artefacts of the campaign.
+std::vector<TouchVerdict> allVerdicts(const TouchEvaluation& evaluation) {
+  std::vector<TouchVerdict> all;
+  const auto add = [&](const CycleEvaluation& cycles) {
+    std::vector<TouchVerdict> some = touchVerdicts(evaluation, cycles);
+    std::move(some.begin(), some.end(), std::back_inserter(all));
+  };
+  for (const HoleCycleResult& r : evaluation.hole_cycles) add(r);
+  for (const BallCycleResult& r : evaluation.ball_cycles) add(r);
+  return all;
+}
+
 }  // namespace
 
 TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
@@ -144,14 +156,13 @@ void TouchCapturePage::evaluate(bool store) {
       [this, snapshot, list, store, key = results_.key()](JobContext& job) -> std::function<void()> {
         auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, {}, {}, job));
         return [this, evaluation, store, key] {
+          if (key != results_.key()) return refresh();  // of inputs that are no more
           results_.set(key, evaluation);
           if (store) {
             nlohmann::json counts = nlohmann::json::object();
-            if (const CycleEvaluation* cycles = cyclesOf(evaluation.get())) {
-              for (const TouchVerdict& v : touchVerdicts(*evaluation, *cycles)) {
-                const std::string name = stateName(v.state).toStdString();
-                counts[name] = counts.value(name, 0) + 1;
-              }
+            for (const TouchVerdict& v : allVerdicts(*evaluation)) {
+              const std::string name = stateName(v.state).toStdString();
+              counts[name] = counts.value(name, 0) + 1;
             }
             session().storeResult("check", nlohmann::json::object(), {{"touches", counts}});
           }
@@ -183,11 +194,10 @@ void TouchCapturePage::refresh() {
     if (session().state("check").there && !results_.current()) evaluate(false);
   }
   const auto evaluation = results_.last();
-  const CycleEvaluation* cycles = cyclesOf(evaluation.get());
-  judged_ = cycles != nullptr;
+  judged_ = evaluation != nullptr;
   verdicts_.clear();
   if (judged_) {
-    verdicts_ = touchVerdicts(*evaluation, *cycles);
+    verdicts_ = allVerdicts(*evaluation);
   } else {
     for (const Touch& t : list->touches) {
       TouchVerdict v;

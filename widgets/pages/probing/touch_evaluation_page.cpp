@@ -126,6 +126,7 @@ void TouchEvaluationPage::evaluate() {
         const CampaignEvaluation evaluation = evaluateCampaign(*snapshot.campaign, {}, first);
         auto details = std::make_shared<Details>(detailsOf(snapshot, *list, second));
         return [this, payload = payloadOf(evaluation), details, key] {
+          if (key != results_.key()) return refresh();  // of inputs that are no more
           details_ = *details;
           results_.set(key, details_.evaluation);
           session().storeResult("evaluate", nlohmann::json::object(), payload);
@@ -202,6 +203,11 @@ void TouchEvaluationPage::refresh() {
   for (const std::string& name : cycles->cycles) cycle_->addItem(fromCore(name));
   const int at = cycle_->findText(chosen);
   cycle_->setCurrentIndex(at >= 0 ? at : cycle_->count() - 1);
+  if (details_.evaluation->hole_cycles.size() + details_.evaluation->ball_cycles.size() > 1) {
+    callout()->show(Tone::Attention, tr("This page shows %1. The other artefacts are evaluated too: their deviations "
+                                        "stand in the observations and in the report.")
+                                         .arg(fromCore(cycles->artefact)));
+  }
   showTiles(*cycles);
   showFeatures();
   showLeftOut(*details_.evaluation, *cycles);

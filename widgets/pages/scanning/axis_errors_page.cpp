@@ -114,9 +114,13 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
   connect(over_, &Segments::chosen, this, again);
 }
 
+std::string AxisErrorsPage::optionsKey() {
+  return options_key + ("/" + std::to_string(session().campaignId()));
+}
+
 std::string AxisErrorsPage::chosenModel() const {
   auto* self = const_cast<AxisErrorsPage*>(this);
-  const nlohmann::json stored = self->session().setting(options_key, nullptr);
+  const nlohmann::json stored = self->session().setting(self->optionsKey(), nullptr);
   const std::string model = stored.is_string() ? stored.get<std::string>() : std::string();
   return model.empty() ? self->results_.modelOfMachine() : model;
 }
@@ -124,7 +128,7 @@ std::string AxisErrorsPage::chosenModel() const {
 void AxisErrorsPage::chooseModel(int index) {
   const std::string model = models[static_cast<std::size_t>(index)];
   if (model == chosenModel()) return;
-  context().undo.push(new OptionsCommand(session(), tr("choose the scan model"), options_key, model, [this] {
+  context().undo.push(new OptionsCommand(session(), tr("choose the scan model"), optionsKey(), model, [this] {
     refresh();
     if (session().state("fit").there) fit(true);
   }));

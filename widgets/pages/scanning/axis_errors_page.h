@@ -39,6 +39,7 @@ class AxisErrorsPage : public Page {
   [[nodiscard]] Segments* scanModel() const { return model_; }
 
  private:
+  [[nodiscard]] std::string optionsKey();
   [[nodiscard]] std::string chosenModel() const;
   void fit(bool store);
   void chooseModel(int index);
