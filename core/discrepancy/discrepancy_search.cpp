@@ -53,23 +53,26 @@ bool sameShape(const EffectSearch& search, const Effect& a, const Effect& b) {
   return std::abs(dot) > 0.999 * first.col(0).norm() * second.col(0).norm() && dot != 0.0;
 }
 
-/// An onset that no log shows may as well be an effect of the same shape whose driver the log lacks.
+/// An onset that no log shows, or a course that fits several drivers alike, may as well be an effect of the same shape
+/// whose driver the log lacks; an onset and another course in one shape together imitate such an effect.
 void addUndrivenRivals(const EffectSearch& search, SearchOutcome& out) {
   for (std::size_t t = 0; t < out.fit.terms.size(); ++t) {
     const ModelTerm& term = out.fit.terms[t];
-    if (term.variant.inputs[0].dynamics != Dynamics::Pulse) continue;
+    auto& rivals = out.evidence[t].rivals;
+    const bool onset = term.variant.inputs[0].dynamics == Dynamics::Pulse;
+    const bool vague = std::any_of(rivals.begin(), rivals.end(), [](const RivalFit& r) { return !r.container; });
+    if (!onset && !vague) continue;
     for (const Effect& effect : search.catalogue()) {
       if (!effect.driver_missing || effect.id == term.effect->id || !sameShape(search, effect, *term.effect)) continue;
-      if (effect.id.starts_with("heat_source.")) {
-        for (std::size_t other = 0; other < out.fit.terms.size(); ++other) {
-          if (other == t || !contains(effect, out.fit.terms[other].effect->id)) continue;
-          out.composite =
-              fmt::format("{} and {} together look like {}, for which the log lacks the position of the axes",
-                          out.fit.terms[other].effect->id, term.effect->id, effect.id);
-        }
-        continue;
+      const bool by_position = effect.id.starts_with("heat_source.");
+      for (std::size_t other = 0; onset && other < out.fit.terms.size(); ++other) {
+        const Effect& beside = *out.fit.terms[other].effect;
+        const bool alike = by_position ? contains(effect, beside.id) : sameShape(search, effect, beside);
+        if (other == t || !alike || !effect.variants.empty()) continue;
+        out.composite = fmt::format("{} and {} together look like {}, whose driver the log lacks", beside.id,
+                                    term.effect->id, effect.id);
       }
-      auto& rivals = out.evidence[t].rivals;
+      if (by_position || (!onset && !effect.variants.empty())) continue;
       if (std::any_of(rivals.begin(), rivals.end(), [&](const RivalFit& r) { return r.id == effect.id; })) continue;
       rivals.push_back({effect.id, out.fit.score, false, {}, true});
     }
