@@ -156,14 +156,17 @@ class ReportDocument::Builder {
     static const QRegularExpression image(QStringLiteral("<img ([^>]*[^/])>"));
     main.replace(image, QStringLiteral("<img \\1/>"));
     xml_.addData(QStringLiteral("<main>") + main + QStringLiteral("</main>"));
+    // Nothing is laid out before everything is there.
+    cursor_.beginEditBlock();
     while (!xml_.atEnd()) {
       if (xml_.readNext() != QXmlStreamReader::StartElement) continue;
       element();
     }
+    signatures();
+    cursor_.endEditBlock();
     if (xml_.hasError()) {
       throw InputError("the report cannot be laid out as pages: " + xml_.errorString().toStdString());
     }
-    signatures();
   }
 
  private:
@@ -400,6 +403,7 @@ ReportDocument::ReportDocument(const QString& html) : document_(std::make_unique
   const qsizetype from = html.indexOf(QLatin1String("<main>"));
   const qsizetype to = html.lastIndexOf(QLatin1String("</main>"));
   if (from < 0 || to < from) throw InputError("this is no report of Spindrift; write the report again.");
+  document_->setUndoRedoEnabled(false);
   document_->setUseDesignMetrics(true);
   document_->setDocumentMargin(0);
   document_->setDefaultFont(pageFont(text_px));
