@@ -301,7 +301,7 @@ double DiscrepancyStory::largestRms(bool rotations) const {
   double largest = 0.0;
   for (const DiscrepancySeries& s : series) {
     if (isRotation(s.component) != rotations) continue;
-    largest = std::max(largest, s.rms_before);
+    largest = std::max({largest, s.rms_before, s.noise});
     if (std::isfinite(s.rms_after)) largest = std::max(largest, s.rms_after);
   }
   return largest;

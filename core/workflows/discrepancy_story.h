@@ -67,7 +67,8 @@ struct DiscrepancyStory {
   /// The first effect that is proposed and not added; null if there is none.
   [[nodiscard]] const FoundEffect* nextProposal() const;
   [[nodiscard]] const DiscrepancySeries* find(const std::string& point, Component component) const;
-  /// Largest rms of a series, before and after, of displacements or of rotations: the limit of a common colour scale.
+  /// Largest rms of a series, before and after, and not below its noise, of displacements or of rotations: the limit of
+  /// a common colour scale.
   [[nodiscard]] double largestRms(bool rotations) const;
 
   [[nodiscard]] nlohmann::json json() const;

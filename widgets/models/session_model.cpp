@@ -43,6 +43,7 @@ void SessionModel::openSession(const std::filesystem::path& folder) {
 void SessionModel::createSession(const std::filesystem::path& folder) {
   auto made = std::make_unique<Session>(Session::create(folder));
   session_ = std::move(made);
+  latest_.clear();
   campaign_.reset();
   campaign_id_ = 0;
   excluded_.clear();
@@ -52,6 +53,7 @@ void SessionModel::createSession(const std::filesystem::path& folder) {
 
 void SessionModel::close() {
   session_.reset();
+  latest_.clear();
   campaign_.reset();
   campaign_id_ = 0;
   excluded_.clear();
@@ -89,6 +91,7 @@ void SessionModel::selectCampaign(std::int64_t id) {
 
 void SessionModel::load(std::int64_t id) {
   evaluation_.reset();  // ids start again in every session
+  latest_.clear();
   auto campaign = std::make_shared<Campaign>(Campaign::read(session_->campaign(id).folder));
   machine_edited_ = false;
   if (const auto edited = session_->setting(machineKey(id)); edited && edited->is_object() && !edited->empty()) {
@@ -216,17 +219,25 @@ void SessionModel::storeResult(const std::string& kind, const nlohmann::json& op
   nlohmann::json all = commonOptions();
   all.update(options);
   session_->addResult(campaign_id_, kind, all, payload);
+  latest_.erase(kind);
   Q_EMIT resultChanged(QString::fromStdString(kind));
 }
 
+const StoredResult* SessionModel::latest(const std::string& kind) const {
+  if (session_ == nullptr || campaign_ == nullptr) return nullptr;
+  auto found = latest_.find(kind);
+  if (found == latest_.end()) found = latest_.emplace(kind, session_->latestResult(campaign_id_, kind)).first;
+  return found->second ? &*found->second : nullptr;
+}
+
 std::optional<StoredResult> SessionModel::result(const std::string& kind) const {
-  if (session_ == nullptr || campaign_ == nullptr) return std::nullopt;
-  return session_->latestResult(campaign_id_, kind);
+  const StoredResult* found = latest(kind);
+  return found != nullptr ? std::optional<StoredResult>(*found) : std::nullopt;
 }
 
 ResultState SessionModel::state(const std::string& kind) const {
   ResultState state;
-  if (const auto found = result(kind)) {
+  if (const StoredResult* found = latest(kind)) {
     state.there = true;
     state.current = session_->isCurrent(*found) && found->provenance.options.value("machine", nlohmann::json()) ==
                                                        commonOptions().value("machine", nlohmann::json());

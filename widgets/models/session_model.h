@@ -119,7 +119,10 @@ class SessionModel : public QObject {
   std::shared_ptr<const Campaign> campaign_;
   std::map<QString, QString> excluded_;
   bool machine_edited_ = false;
+  /// The latest result of a kind; read from the disk once, large ones take a while. Null: there is none.
+  [[nodiscard]] const StoredResult* latest(const std::string& kind) const;
   mutable std::shared_ptr<const StoredEvaluation> evaluation_;
+  mutable std::map<std::string, std::optional<StoredResult>> latest_;
 };
 
 /// Folder in which new sessions are made: <documents>/Spindrift, or the application's data folder.

@@ -160,6 +160,22 @@ TEST_F(DiscrepancyPageTest, TurnsOutdatedAndComesBackAfterReopening) {
   EXPECT_FALSE(page_->gap()->plot(true)->empty());
 }
 
+TEST_F(DiscrepancyPageTest, AnotherSessionShowsItsOwnStory) {
+  search(Hidden::SpindleGrowth);
+  const QString before = verdict();
+  // The other session has a result with the same id.
+  const testing::TempFolder other;
+  window_->open(QString::fromStdString(writeStoryCampaign(other, Hidden::Nothing).string()));
+  wait();
+  window_->workflow().goTo(StepId::Discrepancy);
+  page_ = page<DiscrepancyPage>();
+  EXPECT_EQ(page_->story(), nullptr);
+  page_->runAll();
+  wait();
+  EXPECT_EQ(verdict(), QStringLiteral("Measured and simulated agree within the noise."));
+  EXPECT_NE(verdict(), before);
+}
+
 TEST_F(DiscrepancyPageTest, CancelLeavesEverythingAsItWas) {
   open(writeStoryCampaign(folder_, Hidden::SpindleGrowth), StepId::Discrepancy);
   page_ = page<DiscrepancyPage>();
@@ -222,6 +238,35 @@ TEST(DiscrepancyStoryTest, ReadsBackWhatItWrote) {
   }
   EXPECT_NEAR(before, 0.0, 1e-9);
   EXPECT_NEAR(after / 18.0, 0.0, 1e-6);
+}
+
+TEST(WhatPanelTest, ShowsRivalsAndLetsTheUserChooseOne) {
+  auto story = std::make_shared<DiscrepancyStory>();
+  story->verdict = DiscrepancyVerdict::Ambiguous;
+  FoundEffect e;
+  e.id = "column.bending.a";
+  e.physics = "The column bends.";
+  e.drivers = "T_ambient_degC (lag 3269 s)";
+  e.rivals = {"ambient.drift.y", "frame.rotation.a"};
+  e.confidence = 0.19;
+  e.delta_bic = 298.0;
+  e.parameters = {{"gain_um_per_m2_per_K", 116.0, 8.0}};
+  story->effects = {e};
+  WhatPanel panel;
+  panel.resize(1100, 600);
+  panel.show(story);
+  panel.QWidget::show();
+  const QAbstractItemModel* rows = panel.effectTable()->model();
+  ASSERT_EQ(rows->rowCount(), 3);
+  EXPECT_EQ(panel.chosen(), "column.bending.a");
+  EXPECT_EQ(rows->index(2, 0).data().toString(), QStringLiteral("or: rotation of the frame about X"));
+  panel.effectTable()->selectRow(1);
+  EXPECT_EQ(panel.chosen(), "ambient.drift.y");
+  EXPECT_FALSE(panel.chosenIsAdded());
+  auto* rivals = panel.findChild<Callout*>();
+  ASSERT_NE(rivals, nullptr);
+  EXPECT_TRUE(rivals->sentence().contains(QStringLiteral("drift with the room temperature along Y")));
+  EXPECT_EQ(rivals->tone(), Tone::Attention);
 }
 
 TEST(EffectTitles, EveryIdOfTheCatalogueHasWords) {

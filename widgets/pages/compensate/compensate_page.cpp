@@ -169,6 +169,11 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   content()->addWidget(stack_, 1);
   showHints(view_);
 
+  // Ids of campaigns and results start again in every session.
+  connect(&session(), &SessionModel::campaignChanged, this, [this] {
+    plan_.reset();
+    shown_result_ = 0;
+  });
   connect(compute_, &QPushButton::clicked, this, &CompensatePage::compute);
   connect(export_, &QPushButton::clicked, this, [this] {
     const QString folder = QFileDialog::getExistingDirectory(
@@ -312,11 +317,6 @@ void CompensatePage::refresh() {
   const bool possible = session().observations().has_value() && (hasSource(CompensationSource::NineParameters) ||
                                                                  hasSource(CompensationSource::CompletedModel));
   compute_->setEnabled(possible);
-  if (session().campaignId() != shown_campaign_) {
-    plan_.reset();
-    shown_result_ = 0;
-    shown_campaign_ = session().campaignId();
-  }
   if (!possible) {
     plan_.reset();
     shown_result_ = 0;

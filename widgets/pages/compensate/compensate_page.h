@@ -82,7 +82,6 @@ class CompensatePage : public Page {
   QCheckBox* machine_;
   View3D* view_;
   std::optional<CompensationPlan> plan_;
-  std::int64_t shown_campaign_ = 0;
   std::int64_t shown_result_ = 0;
   bool filling_ = false;
 };

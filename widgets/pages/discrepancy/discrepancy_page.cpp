@@ -187,6 +187,11 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
     gap_->choose(where_->point(), where_->component());
     what_->choose(where_->point(), where_->component());
   });
+  // Ids of results start again in every session.
+  connect(&session(), &SessionModel::campaignChanged, this, [this] {
+    story_.reset();
+    shown_result_ = 0;
+  });
   connect(&context().jobs, &JobRunner::started, this, &DiscrepancyPage::updateButtons);
   connect(&context().jobs, &JobRunner::finished, this, &DiscrepancyPage::updateButtons);
 }

@@ -299,7 +299,8 @@ void WherePanel::choosePoint(const std::string& point) {
 void WherePanel::showView() {
   double largest = 0.0;
   for (const DiscrepancySeries& s : story_->series) {
-    if (isRotation(s.component) == isRotation(component_)) largest = std::max(largest, s.excess_before);
+    // Not below the noise: what lies within it keeps dark colours.
+    if (isRotation(s.component) == isRotation(component_)) largest = std::max({largest, s.excess_before, s.noise});
   }
   const QString unit = componentUnit(component_);
   std::vector<ViewPoint> points;

@@ -75,6 +75,12 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   line->addWidget(makeSplitter(left, right, 3, 9), 1);
   content()->addWidget(work, 1);
 
+  // Ids of results start again in every session.
+  connect(&session(), &SessionModel::campaignChanged, this, [this] {
+    shown_result_ = 0;
+    document_.reset();
+    pages_->setDocument(nullptr);
+  });
   connect(write_, &QPushButton::clicked, this, &ReportPage::write);
   connect(browser_, &QPushButton::clicked, this, &ReportPage::openInBrowser);
   connect(save_pdf_, &QPushButton::clicked, this, [this] { askAndSave(QStringLiteral("pdf"), tr("PDF (*.pdf)")); });
