@@ -29,17 +29,6 @@ std::vector<std::string> namesOf(const std::vector<int>& parameters) {
   return names;
 }
 
-/// The last state with a displacement to fit; the last of all if none has one (then the fit says what is missing).
-std::string lastStateToFit(const ObservationSet& set, const std::vector<std::string>& states) {
-  for (auto state = states.rbegin(); state != states.rend(); ++state) {
-    const bool to_fit = std::any_of(set.rows.begin(), set.rows.end(), [&](const Observation& row) {
-      return row.state == *state && row.use == ObservationUse::Fit && !isRotation(row.component);
-    });
-    if (to_fit && (*state != states.front() || states.size() == 1)) return *state;
-  }
-  return states.back();
-}
-
 /// Rows of one state as changes from the reference, with their covariance.
 struct StateChange {
   std::string state;
@@ -54,7 +43,7 @@ StateChange changeOf(const ObservationSet& set, const NineParameterOptions& opti
   const std::vector<std::string> states = set.states();
   if (states.empty()) throw InputError({set.file, ""}, "holds no observation; allowed: at least one row per point.");
   StateChange change;
-  change.state = options.state.empty() ? lastStateToFit(set, states) : options.state;
+  change.state = options.state.empty() ? lastStateToFit(set) : options.state;
   if (std::find(states.begin(), states.end(), change.state) == states.end()) {
     throw InputError({set.file, ""},
                      fmt::format("state \"{}\" is not there; allowed: {}.", change.state, joinedList(states, "or")));
@@ -320,6 +309,18 @@ NineParameterModel NineParameterFit::model() const {
   std::string from = reference_state.empty() ? fmt::format("state {}", state)
                                              : fmt::format("the change from state {} to {}", reference_state, state);
   return {parameters, estimable_covariance, fmt::format("nine-parameter model of {}", from), null_space};
+}
+
+std::string lastStateToFit(const ObservationSet& observations) {
+  const std::vector<std::string> states = observations.states();
+  if (states.empty()) return {};
+  for (auto state = states.rbegin(); state != states.rend(); ++state) {
+    const bool to_fit = std::any_of(observations.rows.begin(), observations.rows.end(), [&](const Observation& row) {
+      return row.state == *state && row.use == ObservationUse::Fit && !isRotation(row.component);
+    });
+    if (to_fit && (*state != states.front() || states.size() == 1)) return *state;
+  }
+  return states.back();
 }
 
 NineParameterFit fitNineParameters(const ObservationSet& observations, const NineParameterOptions& options) {

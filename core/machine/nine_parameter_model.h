@@ -117,6 +117,10 @@ struct NineParameterFit {
   [[nodiscard]] NineParameterModel model() const;
 };
 
+/// The state that is fitted if none is named: the last one with a displacement (EX, EY, EZ) of use `fit`, the reference
+/// state only if there is no other; the last of all if none has one; empty without observations.
+[[nodiscard]] std::string lastStateToFit(const ObservationSet& observations);
+
 /// Fits one state. Throws InputError for a state or point that does not exist or a state without any row to fit.
 [[nodiscard]] NineParameterFit fitNineParameters(const ObservationSet& observations,
                                                  const NineParameterOptions& options = {});

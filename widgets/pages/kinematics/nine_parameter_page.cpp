@@ -80,6 +80,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   addAction(fit_button_);
 
   auto* left = new Card;
+  left->setMinimumWidth(536);  // the points with their three displacements, unscrolled
   auto* choices = new QHBoxLayout;
   choices->addWidget(new QLabel(tr("State")));
   state_ = new QComboBox;
@@ -220,7 +221,8 @@ void NineParameterPage::refresh() {
   if (campaign == nullptr) return;
   filling_ = true;
   const auto set = session().observations();
-  const QString chosen = QString::fromStdString(options().state);
+  QString chosen = QString::fromStdString(options().state);
+  if (chosen.isEmpty() && set) chosen = QString::fromStdString(lastStateToFit(*set));
   state_->clear();
   if (set) {
     const std::vector<std::string> states = set->states();
