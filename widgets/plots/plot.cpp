@@ -269,7 +269,7 @@ void Plot::showAll() {
     y_high = std::max(y_high, least_range_);
   }
   if (fixed_range_) std::tie(y_low, y_high) = *fixed_range_;
-  const double dx = std::max(x_high - x_low, 1e-9) * 0.03;
+  const double dx = x_high > x_low ? 0.03 * (x_high - x_low) : 0.5;
   const double dy = std::max(y_high - y_low, 1e-9) * 0.08;
   plot_->xAxis->setRange(x_low - dx, x_high + dx);
   plot_->yAxis->setRange(y_low - dy, y_high + dy);

@@ -104,6 +104,15 @@ TEST_F(DiscrepancyPageTest, TableViewAndPlotShowTheSamePlace) {
   QTest::keyClick(where->view(), Qt::Key_N);
   EXPECT_EQ(where->point(), "P6");
   EXPECT_EQ(where->pointTable()->currentIndex().data().toString(), QStringLiteral("P6"));
+  // Adding the effect keeps the place and the point.
+  const int place = where->placeTable()->currentIndex().row();
+  QTest::mouseClick(page_->addButton(), Qt::LeftButton);
+  wait();
+  EXPECT_EQ(where->placeTable()->currentIndex().row(), place);
+  EXPECT_EQ(where->point(), "P6");
+  EXPECT_EQ(where->plot()->series().size(), 3U) << "after adding beside before";
+  window_->undoStack().undo();
+  wait();
   // Residuals over time: the noise band and one value a state.
   const auto series = where->plot()->series();
   ASSERT_EQ(series.size(), 2U);

@@ -165,6 +165,11 @@ void GapPanel::show(const std::shared_ptr<const DiscrepancyStory>& story, const 
   story_text_->setText(tr("Points: measured. Line: model, with ± 2 σ of the noise.") + QLatin1Char(' ') + noise +
                        QLatin1Char('.'));
   fillChoices();
+  const QString how = discrepancy_->nextProposal() != nullptr
+                          ? tr("Press Add to the model: what is then left appears here.")
+                          : tr("The search proposes no effect to add.");
+  plots_[1]->setEmptyText(tr("Nothing has been added yet"), how);
+  views_[1]->setEmptyText(tr("Nothing has been added yet"), how);
   for (std::size_t i = 0; i < 2; ++i) {
     if (i == 1 && discrepancy_->added.empty()) {
       views_[i]->clear();

@@ -140,7 +140,14 @@ void WherePanel::show(const std::shared_ptr<const DiscrepancyStory>& story, cons
   }
   view_->setMachine(*machine);
   const bool keeps = story_->find(point_, component_) != nullptr;
+  const int place = place_;
   fillPlaces();
+  if (keeps && place >= 0 && place < static_cast<int>(story_->where.size())) {
+    following_ = true;
+    place_table_->selectRow(place);
+    following_ = false;
+    place_ = place;
+  }
   if (!keeps && !components_.empty()) {
     component_ = story_->where.empty() ? components_.front() : story_->where.front().component;
     point_.clear();
