@@ -6,8 +6,6 @@
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QSignalBlocker>
-#include <QSlider>
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QTabWidget>
@@ -18,7 +16,6 @@
 #include <cmath>
 
 #include "core/base/atomic_file.h"
-#include "core/base/error.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
@@ -31,19 +28,7 @@ namespace spindrift::gui {
 namespace {
 
 constexpr auto options_key = "cycle-model";
-constexpr std::array<Component, 3> shown_components{Component::EX, Component::EY, Component::EZ};
 const std::array<const char*, 3> group_units{"um", "urad", "um/m"};
-
-/// 1, 2 or 5 x 10^n, so that the largest arrow is about a tenth of the picture.
-double roundExaggeration(double extent_mm, double largest_um) {
-  if (!(largest_um > 0)) return 1000;
-  const double raw = 0.12 * extent_mm / (largest_um * 1e-3);
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double f : {5.0, 2.0, 1.0}) {
-    if (f * power <= raw) return f * power;
-  }
-  return power;
-}
 
 /// "gZ +0.64, aX −0.62": the names without their units.
 QString weakText(const Eigen::VectorXd& combination, const std::vector<std::string>& names) {
@@ -120,79 +105,6 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
     showTrends();
     showCycle();
   });
-}
-
-QWidget* CycleModelPage::makeVolumePart() {
-  auto* card = new Card(tr("Volumetric error"));
-  component_ = new Segments({QStringLiteral("EX"), QStringLiteral("EY"), QStringLiteral("EZ")}, tr("Component"));
-  card->addToTitle(component_);
-  view_ = new View3D;
-  view_->setEmptyText(tr("The heat map will appear here"),
-                      tr("Fit all cycles: the error is drawn on a plane through the working space."));
-  view_->setMachineVisible(false);
-  card->body()->addWidget(view_, 1);
-  auto* line = new QHBoxLayout;
-  line->addWidget(new QLabel(tr("Plane at Z")));
-  level_ = new QSlider(Qt::Horizontal);
-  level_->setAccessibleName(tr("Height of the plane"));
-  level_->setMinimumHeight(sizes::control_height);
-  line->addWidget(level_, 1);
-  level_text_ = new QLabel;
-  level_text_->setMinimumWidth(72);
-  line->addWidget(level_text_);
-  arrows_ = new QCheckBox(tr("Arrows in the volume"));
-  arrows_->setChecked(true);
-  line->addWidget(arrows_);
-  card->body()->addLayout(line);
-  connect(component_, &Segments::chosen, this, &CycleModelPage::showVolume);
-  connect(arrows_, &QCheckBox::toggled, this, &CycleModelPage::showVolume);
-  connect(level_, &QSlider::valueChanged, this, &CycleModelPage::showVolume);
-  return card;
-}
-
-QWidget* CycleModelPage::makeBarPart() {
-  auto* card = new Card(tr("Straightness and the second axis"));
-  line_ = new Plot;
-  line_->setAxes(tr("Along the bar / mm"), tr("Off line / um"));
-  line_->setEmptyText(tr("Deviations from a straight line will appear here"),
-                      tr("Fit all cycles: what the axis does beyond a uniform growth is drawn per hole."));
-  card->body()->addWidget(line_, 3);
-  auto* extend = new QHBoxLayout;
-  second_axis_ = new QCheckBox(tr("Second axis expands too"));
-  second_axis_->setToolTip(tr("One parameter more; needs a bar whose growth is known"));
-  second_axis_->setObjectName(QStringLiteral("secondAxis"));
-  growth_ = new QDoubleSpinBox;
-  trust_ = new QDoubleSpinBox;
-  const auto prepare = [](QDoubleSpinBox* box, double low, double high, double value, const QString& name) {
-    box->setRange(low, high);
-    box->setDecimals(2);
-    box->setValue(value);
-    box->setSuffix(QStringLiteral(" um/m"));
-    box->setAccessibleName(name);
-    box->setMinimumHeight(sizes::control_height);
-  };
-  prepare(growth_, -1000, 1000, 0, tr("Known growth of the bar"));
-  prepare(trust_, 0.01, 100, 0.1, tr("Standard uncertainty of that growth"));
-  card->body()->addWidget(second_axis_);
-  extend->addWidget(new QLabel(tr("Bar grows by")));
-  extend->addWidget(growth_);
-  extend->addWidget(new QLabel(QStringLiteral("±")));
-  extend->addWidget(trust_);
-  extend->addStretch();
-  card->body()->addLayout(extend);
-  card->body()->addWidget(makeLabel(tr("What an unnoticed growth of the second axis does"), "sectionTitle"));
-  bias_ = new RowsModel({tr("Parameter"), tr("Change per um/m"), tr("Unit")}, this);
-  card->body()->addWidget(makeTable(bias_, tr("Bias by the second axis"), tr("The bias appears after the fit.")), 3);
-  connect(second_axis_, &QCheckBox::toggled, this, [this](bool on) {
-    changeOptions(tr("extend by the second axis"), {{"second_axis", on}});
-  });
-  connect(growth_, &QDoubleSpinBox::editingFinished, this, [this] {
-    changeOptions(tr("growth of the bar"), {{"growth_um_per_m", growth_->value()}});
-  });
-  connect(trust_, &QDoubleSpinBox::editingFinished, this, [this] {
-    changeOptions(tr("uncertainty of the bar"), {{"trust_um_per_m", trust_->value()}});
-  });
-  return card;
 }
 
 std::string CycleModelPage::optionsKey() {
@@ -419,87 +331,6 @@ void CycleModelPage::showCycle() {
         tr("Condition number %1; told apart worst: %2").arg(solution.condition_number, 0, 'f', 1).arg(worst));
   }
   showVolume();
-}
-
-void CycleModelPage::setComponent(int index) {
-  component_->setCurrent(index);
-  showVolume();
-}
-
-void CycleModelPage::showVolume() {
-  const auto campaign = session().campaign();
-  if (campaign == nullptr || evaluation_ == nullptr || evaluation_->ball_cycles.empty()) return;
-  const BallCycleResult& result = evaluation_->ball_cycles.front();
-  const int k = cycle_->currentIndex();
-  const LinearAxis* z = campaign->machine.findAxis("Z");
-  if (k < 0 || z == nullptr || campaign->machine.styli.empty()) return;
-  if (view_->empty()) {
-    const QSignalBlocker quiet(level_);
-    level_->setRange(static_cast<int>(std::min(z->travel_mm[0], z->travel_mm[1])),
-                     static_cast<int>(std::max(z->travel_mm[0], z->travel_mm[1])));
-    level_->setValue((level_->minimum() + level_->maximum()) / 2);
-    view_->setMachine(campaign->machine);
-    view_->setMachineVisible(false);
-  }
-  level_text_->setText(QStringLiteral("%1 mm").arg(level_->value()));
-  const Eigen::Vector3d offset = campaign->machine.styli.front().offset_mm;
-  const BallCycleModel model(result, k);
-  const Component component = shown_components[static_cast<std::size_t>(component_->current())];
-  // One scale for the three components and all heights, so that pictures can be compared.
-  double largest = 0;
-  double largest_arrow = 0;
-  std::vector<ViewArrow> arrows;
-  for (const VolumetricArrow& a : volumetricArrows(model, campaign->machine, offset, 4)) {
-    largest = std::max(largest, a.deviation_um.cwiseAbs().maxCoeff());
-    largest_arrow = std::max(largest_arrow, a.deviation_um.norm());
-    arrows.push_back({a.position_mm, a.deviation_um, Tone::Neutral});
-  }
-  auto field = std::make_shared<Field>(
-      volumetricField(model, campaign->machine, component, 2, static_cast<double>(level_->value()), offset, 41));
-  field_ = field;
-  const QString name = fromCore(std::string(toString(component)));
-  const double extent =
-      std::max(field->grid.x_to_mm - field->grid.x_from_mm, field->grid.y_to_mm - field->grid.y_from_mm);
-  view_->setColourScale(ColourScale::symmetric(std::max(largest, 0.1), name, QStringLiteral("um")));
-  FieldStyle style;
-  style.contours = true;
-  view_->setField(field, style);
-  if (!arrows_->isChecked()) arrows.clear();
-  view_->setArrows(std::move(arrows), roundExaggeration(extent, largest_arrow));
-  view_->setCaption(tr("%1 in cycle %2 against %3, stylus %4")
-                        .arg(name, cycle_->currentText(), fromCore(result.cycles.front()),
-                             fromCore(campaign->machine.styli.front().id)));
-}
-
-void CycleModelPage::showBar() {
-  if (evaluation_ == nullptr || evaluation_->hole_cycles.empty()) return;
-  const HoleCycleResult& holes = evaluation_->hole_cycles.front();
-  Series rms, largest;
-  rms.name = tr("rms over all cycles");
-  rms.style = SeriesStyle::LinePoints;
-  largest.name = tr("Largest");
-  largest.style = SeriesStyle::Points;
-  largest.colour = 1;
-  for (const LinearityDeviation& d : holes.linearity) {
-    const double s = holes.setup.along_mm[static_cast<std::size_t>(HoleBarSetup::holeIndex(d.feature))];
-    rms.x.push_back(s);
-    rms.y.push_back(d.rms_um);
-    largest.x.push_back(s);
-    largest.y.push_back(d.largest_um);
-    largest.sigma.push_back(d.sigma_um);
-  }
-  line_->setLeastRange(0.5);
-  line_->setContent({rms, largest});
-  std::vector<Row> rows;
-  const SecondAxisBias bias = secondAxisBias(holes, evaluation_->touches);
-  for (std::size_t p = 0; p < bias.names.size(); ++p) {
-    Row row;
-    row.id = fromCore(bias.names[p]);
-    row.cells = {nameCell(parameterTitle(bias.names[p])), numberCell(bias.bias_per_um_per_m[p], 3),
-                 Cell{parameterUnit(bias.names[p])}};
-    rows.push_back(std::move(row));
-  }
-  bias_->setRows(std::move(rows));
 }
 
 std::vector<Exportable> CycleModelPage::exportables() {

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The measuring cycle of the page: artefact, touches and path in 3D, and the programme for the control.
+#include <QCheckBox>
+#include <QComboBox>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/probing/printed_text.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/pages/probing/probing_scene.h"
+#include "widgets/pages/probing/touch_capture_page.h"
+#include "widgets/pages/probing/touch_results.h"
+
+namespace spindrift::gui {
+
+void TouchCapturePage::showScene() {
+  const auto campaign = session().campaign();
+  const Artefact* a = artefact();
+  if (campaign == nullptr || a == nullptr) return;
+  const auto list = results_.touches();
+  const auto evaluation = results_.last();
+  const std::vector<TouchVerdict> verdicts = verdictsOf(cycle_);
+  const QStringList chosen = selectedTouches();
+  const TouchVerdict* selected = nullptr;
+  for (const TouchVerdict& v : verdicts) {
+    if (!chosen.isEmpty() && fromCore(v.touch.id()) == chosen.front()) selected = &v;
+  }
+  const double c_deg = selected != nullptr ? selected->touch.c_deg : 0.0;
+  const Eigen::Vector3d first_ball =
+      firstBallPosition(*a, list.get(), evaluation.get()).value_or(Eigen::Vector3d::Zero());
+  std::vector<ViewShape> shapes;
+  try {
+    addArtefact(shapes, campaign->machine, *a, first_ball, c_deg);
+    addTouches(shapes, verdicts, c_deg);
+    if (machine_->isChecked()) addTravel(shapes, campaign->machine);
+    if (path_->isChecked() && program_) addPath(shapes, program_->plan, c_deg);
+    if (selected != nullptr) {
+      addStyli(shapes, campaign->machine, selected->touch.stylus, selected->touch.position_mm);
+    } else if (!verdicts.empty()) {
+      addStyli(shapes, campaign->machine, verdicts.front().touch.stylus, verdicts.front().touch.position_mm);
+    }
+    view_->setPoints(featureLabels(campaign->machine, *a, first_ball, c_deg));
+  } catch (const InputError& e) {
+    program_verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
+  }
+  view_->setShapes(std::move(shapes));
+  QString caption = tr("Cycle %1").arg(cycle_);
+  if (a->kind == "hole_bar") caption += tr(", table at %1°").arg(c_deg, 0, 'g', 4);
+  view_->setCaption(caption);
+}
+
+void TouchCapturePage::makeProgram() {
+  const auto campaign = session().campaign();
+  const Artefact* a = artefact();
+  if (campaign == nullptr || a == nullptr) return;
+  CyclePlanOptions plan;
+  const auto ball = firstBallPosition(*a, results_.touches().get(), results_.last().get());
+  if (a->kind == "balls") {
+    if (!ball) {
+      program_verdict_->show(Tone::Attention, tr("Where the first ball stands is not known. Touch it once by hand; "
+                                                 "then the programme can be planned."));
+      return;
+    }
+    plan.first_ball_mm = *ball;
+  }
+  ProgramOptions options;
+  options.dialect = programDialect(control_->currentData().toString().toStdString());
+  run(tr("Planning the measuring cycle"),
+      [this, campaign, artefact = *a, plan, options](JobContext&) -> std::function<void()> {
+        auto made = std::make_shared<std::optional<CheckedProgram>>();
+        std::string failure;
+        try {
+          *made = makeCheckedProgram(campaign->machine, artefact, plan, options);
+        } catch (const InputError& e) {
+          failure = e.what();
+        }
+        return [this, made, failure] {
+          program_ = std::move(*made);
+          if (!program_) {
+            program_verdict_->show(Tone::Bad, tr("No programme: %1").arg(QString::fromUtf8(failure.c_str())));
+          } else if (!program_->check.good()) {
+            const ProgramIssue& first = program_->check.issues.front();
+            program_verdict_->show(Tone::Bad,
+                                   tr("Issues found by the check: %1; the programme is not given away. Line %2: %3")
+                                       .arg(program_->check.issues.size())
+                                       .arg(first.line)
+                                       .arg(fromCore(first.what)));
+          } else {
+            program_verdict_->show(
+                Tone::Good,
+                tr("Programme checked: %1 touches in %2 moves inside the travel, none through the artefact, a "
+                   "retract after each, safe height %3 mm. Export writes it.")
+                    .arg(program_->check.touches)
+                    .arg(program_->check.moves.size())
+                    .arg(program_->plan.safe_height_mm, 0, 'f', 1));
+          }
+          showScene();
+        };
+      });
+}
+
+std::vector<Exportable> TouchCapturePage::exportables() {
+  std::vector<Exportable> items{exportableOf(tr("Cycles"), cycles_), exportableOf(tr("Touches"), touches_),
+                                exportableOf(tr("Measuring cycle"), view_)};
+  const Artefact* a = session().campaign() == nullptr ? nullptr : artefact();
+  if (program_ && program_->check.good() && a != nullptr) {
+    items.push_back({tr("Measuring programme"), {QStringLiteral("nc")}, [text = program_->text](const QString& file) {
+                       writeFileAtomically(file.toStdString(), text);
+                     }});
+    ProgramOptions options;
+    options.dialect = programDialect(control_->currentData().toString().toStdString());
+    const std::string pattern = printedTextTemplate(session().campaign()->machine, *a, options).dump(1) + "\n";
+    items.push_back({tr("Template of what it prints"), {QStringLiteral("json")}, [pattern](const QString& file) {
+                       writeFileAtomically(file.toStdString(), pattern);
+                     }});
+  }
+  return items;
+}
+
+}  // namespace spindrift::gui
