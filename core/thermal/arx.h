@@ -63,6 +63,8 @@ struct ArxModel {
                                              std::span<const double> start) const;
   /// Response to a unit step of one input.
   [[nodiscard]] std::vector<double> stepResponse(std::size_t input, std::size_t samples) const;
+  /// Standard uncertainty of every value of it, by first-order propagation of the covariance (NaN without one).
+  [[nodiscard]] std::vector<double> stepResponseSigma(std::size_t input, std::size_t samples) const;
 };
 
 /// y and every u at a constant period, all of one length, no missing values.

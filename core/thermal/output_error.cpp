@@ -145,17 +145,41 @@ bool minimise(const Problem& problem, State& s, int maximum_iterations, int& ite
   return false;
 }
 
-/// Yule-Walker by Levinson-Durbin.
-Eigen::VectorXd autoregression(const Eigen::VectorXd& v, int order) {
+/// What a least-squares fit takes out of the autocovariance of the noise: residual = noise - J (estimate - truth), so
+/// E[r r'] = V - J C J' with C the covariance of the parameters. Without it slow noise looks faster and smaller than it
+/// is and the stated uncertainties are too small. `jacobian`: of the simulation, not whitened.
+Eigen::VectorXd absorbed(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& covariance, int order) {
+  const Index n = jacobian.rows();
+  const Eigen::MatrixXd half = jacobian * covariance;
+  Eigen::VectorXd out(order + 1);
+  for (int k = 0; k <= order; ++k)
+    out[k] = half.topRows(n - k).cwiseProduct(jacobian.bottomRows(n - k)).sum() / static_cast<double>(n - k);
+  return out;
+}
+
+/// Yule-Walker; `taken`: what the fit took out of the autocovariance (zeros: nothing).
+Eigen::VectorXd autoregression(const Eigen::VectorXd& v, int order, const Eigen::VectorXd& taken) {
   const Index n = v.size();
   Eigen::VectorXd r(order + 1);
-  for (int k = 0; k <= order; ++k) r[k] = v.tail(n - k).dot(v.head(n - k)) / static_cast<double>(n);
+  for (int k = 0; k <= order; ++k) r[k] = v.tail(n - k).dot(v.head(n - k)) / static_cast<double>(n - k);
+  if (!(r[0] > 0.0)) return Eigen::VectorXd::Zero(order);
+  // Never more than the residual itself: a fit that absorbs most of the noise says little about it.
+  if (taken[0] < r[0]) r += taken;
   Eigen::MatrixXd R(order, order);
   for (int i = 0; i < order; ++i)
     for (int j = 0; j < order; ++j) R(i, j) = r[std::abs(i - j)];
-  if (!(r[0] > 0.0)) return Eigen::VectorXd::Zero(order);
   R.diagonal().array() += 1e-9 * r[0];
   return R.ldlt().solve(r.tail(order));
+}
+
+/// Covariance of the parameters from a whitened Jacobian and residual.
+Eigen::MatrixXd whitenedCovariance(const State& s) {
+  const Eigen::VectorXd length = s.jacobian.colwise().norm().cwiseMax(1e-300);
+  const Eigen::MatrixXd scaled = s.jacobian * length.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd normal = scaled.transpose() * scaled;
+  const double dof = static_cast<double>(std::max<Index>(1, s.jacobian.rows() - s.jacobian.cols()));
+  const Eigen::MatrixXd inverse = (normal + 1e-10 * Eigen::MatrixXd::Identity(normal.rows(), normal.cols())).inverse();
+  return s.cost / dof * (length.cwiseInverse().asDiagonal() * inverse * length.cwiseInverse().asDiagonal());
 }
 
 double heldOutRms(std::span<const double> measured, std::span<const double> simulated, std::size_t from) {
@@ -254,24 +278,28 @@ OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const
       converged = good;
     }
   }
-  // Simulation error before whitening, then the colour of the noise.
-  for (int round = 0; round < 2 && options.noise_order > 0; ++round) {
+  // Simulation error before whitening, then the colour of the noise, then what the fit itself took out of it.
+  for (int round = 0; round < 3 && options.noise_order > 0; ++round) {
+    Eigen::VectorXd taken = Eigen::VectorXd::Zero(options.noise_order + 1);
+    Eigen::MatrixXd covariance;
+    if (round > 0) {
+      problem.evaluate(best, true);
+      covariance = whitenedCovariance(best);
+    }
     problem.setNoise({});
     State plain;
     plain.theta = best.theta;
-    problem.evaluate(plain, false);
-    result.noise_ar = autoregression(plain.residual, options.noise_order);
+    problem.evaluate(plain, round > 0);
+    if (round > 0) taken = absorbed(plain.jacobian, covariance, options.noise_order);
+    result.noise_ar = autoregression(plain.residual, options.noise_order, taken);
     problem.setNoise(result.noise_ar);
+    problem.evaluate(best, false);
     converged = minimise(problem, best, options.maximum_iterations, result.iterations);
   }
   problem.evaluate(best, true);
   const Eigen::MatrixXd whitened = best.jacobian;
-  // Coloured noise leaves fewer independent samples than rows; the parameters are paid from those.
-  const double memory = std::clamp(result.noise_ar.size() > 0 ? result.noise_ar.sum() : 0.0, 0.0, 0.99);
-  const double independent = static_cast<double>(y.size()) * (1.0 - memory) / (1.0 + memory);
-  const auto parameters = static_cast<double>(problem.layout().parameters());
   const double variance =
-      best.cost / static_cast<double>(y.size()) * independent / std::max(1.0, independent - parameters);
+      best.cost / static_cast<double>(std::max<Index>(1, static_cast<Index>(y.size()) - problem.layout().parameters()));
   const Eigen::VectorXd length = whitened.colwise().norm();
   problem.setNoise({});
   problem.evaluate(best, false);
@@ -413,6 +441,41 @@ std::vector<LagTerm> lagsOf(const ArxModel& model, std::string& message) {
     terms.push_back({static_cast<int>(i), 0.0, rest});
   }
   return terms;
+}
+
+Eigen::MatrixXd lagCovariance(const ArxModel& model) {
+  const Index p = model.covariance.rows();
+  const auto coefficients = [&model](Index which, double change) {
+    ArxModel moved = model;
+    Index at = model.a.size();
+    if (which < at) moved.a[which] += change;
+    for (Eigen::VectorXd& b : moved.b) {
+      if (which >= at && which < at + b.size()) b[which - at] += change;
+      at += b.size();
+    }
+    if (which == at) moved.c += change;
+    std::string message;
+    const std::vector<LagTerm> terms = lagsOf(moved, message);
+    Eigen::VectorXd out(static_cast<Index>(terms.empty() ? 0 : 1 + 2 * terms.size()));
+    if (terms.empty()) return out;
+    out[0] = moved.c / (1.0 + moved.a.sum());
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      out[static_cast<Index>(1 + k)] = terms[k].gain;
+      out[static_cast<Index>(1 + terms.size() + k)] = terms[k].tau_s > 0.0 ? std::log(terms[k].tau_s) : 0.0;
+    }
+    return out;
+  };
+  const Index size = coefficients(0, 0.0).size();
+  if (p == 0 || size == 0) return {};
+  Eigen::MatrixXd jacobian(size, p);
+  for (Index j = 0; j < p; ++j) {
+    const double step = 0.01 * std::sqrt(std::max(1e-30, model.covariance(j, j)));
+    const Eigen::VectorXd up = coefficients(j, step);
+    const Eigen::VectorXd down = coefficients(j, -step);
+    if (up.size() != size || down.size() != size) return {};
+    jacobian.col(j) = (up - down) / (2.0 * step);
+  }
+  return jacobian * model.covariance * jacobian.transpose();
 }
 
 }  // namespace spindrift

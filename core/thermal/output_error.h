@@ -6,9 +6,10 @@
 //
 // Parameters: offset, gains, ln(tau). ln(tau) keeps every model stable and conditions slow poles at fast sampling well.
 // Solved by Levenberg-Marquardt with exact simulation of the lags from several starts. v may be coloured: an
-// autoregression of order `noise_order` is fitted to the residual and whitens residual and Jacobian (two rounds), so
-// that the covariance holds for coloured noise too. Units: y and u as given, time s. Failure: InputError for too few
-// samples or unusable inputs; FitStatus NoConvergence or Degenerate with the reason.
+// autoregression of order `noise_order` is fitted to the residual and whitens residual and Jacobian (three rounds; what
+// the fit itself takes out of the autocovariance is put back), so that the covariance holds for coloured noise too.
+// Units: y and u as given, time s. Failure: InputError for too few samples or unusable inputs; FitStatus NoConvergence
+// or Degenerate with the reason.
 #pragma once
 
 #include <Eigen/Core>
@@ -79,5 +80,9 @@ struct OrderChoice {
 /// The lags of an ARX model: poles and residues of every input, what they leave of the static gain as a direct term.
 /// Terms count inputs from 0. Empty with a sentence in `message` if a pole is not real and between 0 and 1.
 [[nodiscard]] std::vector<LagTerm> lagsOf(const ArxModel& model, std::string& message);
+
+/// Covariance of (offset, gains, ln tau) of those lags from that of the ARX coefficients, by central differences.
+/// Empty if the model has no covariance or no lags near it.
+[[nodiscard]] Eigen::MatrixXd lagCovariance(const ArxModel& model);
 
 }  // namespace spindrift

@@ -55,7 +55,9 @@ Eigen::MatrixXd ThermalModel::features(const TimeSeries& series, std::size_t whi
   SPINDRIFT_ASSERT(which < outputs.size(), "no such output");
   const ThermalOutput& output = outputs[which];
   const auto count = static_cast<Eigen::Index>(series.time_s.size());
-  Eigen::MatrixXd out(count, static_cast<Eigen::Index>(output.terms.size() + 1));
+  const auto terms = static_cast<Eigen::Index>(output.terms.size());
+  const bool with_tau = terms > 0 && output.covariance.rows() == 1 + 2 * terms;
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(count, 1 + (with_tau ? 2 : 1) * terms);
   out.col(0).setOnes();
   std::vector<std::vector<double>> transformed(inputs.size());
   for (std::size_t k = 0; k < output.terms.size(); ++k) {
@@ -70,6 +72,13 @@ Eigen::MatrixXd ThermalModel::features(const TimeSeries& series, std::size_t whi
     const std::vector<double> x = lagFiltered(series.time_s, f, term.tau_s, hold);
     out.col(static_cast<Eigen::Index>(k + 1)) =
         Eigen::Map<const Eigen::VectorXd>(x.data(), count).array() - input.reference;
+    if (!with_tau || term.tau_s <= 0.0) continue;
+    // tau x' + x = f differentiated by ln tau: w = dx / d ln tau is the lag of x less x itself.
+    const std::vector<double> again = lagFiltered(series.time_s, x, term.tau_s, false);
+    for (Eigen::Index r = 0; r < count; ++r) {
+      const auto row = static_cast<std::size_t>(r);
+      out(r, 1 + terms + static_cast<Eigen::Index>(k)) = term.gain * (again[row] - x[row]);
+    }
   }
   return out;
 }
@@ -103,11 +112,11 @@ ThermalPrediction ThermalModel::predict(const TimeSeries& series, std::size_t wh
     }
   }
   const Eigen::MatrixXd x = features(series, which);
-  Eigen::VectorXd coefficients(x.cols());
+  Eigen::VectorXd coefficients(static_cast<Eigen::Index>(output.terms.size() + 1));
   coefficients[0] = output.offset;
   for (std::size_t k = 0; k < output.terms.size(); ++k)
     coefficients[static_cast<Eigen::Index>(k + 1)] = output.terms[k].gain;
-  Eigen::Map<Eigen::VectorXd>(prediction.value.data(), x.rows()) = x * coefficients;
+  Eigen::Map<Eigen::VectorXd>(prediction.value.data(), x.rows()) = x.leftCols(coefficients.size()) * coefficients;
   if (output.covariance.rows() == x.cols()) {
     prediction.sigma.resize(count);
     const Eigen::MatrixXd half = x * output.covariance;
@@ -143,7 +152,9 @@ StepResponse ThermalModel::stepResponse(std::size_t which, const std::string& in
   // Geometric spacing shows fast and slow parts alike.
   const double first = shortest / 10.0;
   const double ratio = std::pow(6.0 * longest / first, 1.0 / static_cast<double>(points - 1));
-  Eigen::VectorXd weights(static_cast<Eigen::Index>(output.terms.size() + 1));
+  const auto terms = static_cast<Eigen::Index>(output.terms.size());
+  const bool with_tau = terms > 0 && output.covariance.rows() == 1 + 2 * terms;
+  Eigen::VectorXd weights(1 + (with_tau ? 2 : 1) * terms);
   const auto evaluate = [&](double t, double& value, double& sigma) {
     weights.setZero();
     value = 0.0;
@@ -154,6 +165,10 @@ StepResponse ThermalModel::stepResponse(std::size_t which, const std::string& in
       const double w = size * (term.tau_s > 0.0 ? -std::expm1(-t / term.tau_s) : 1.0);
       weights[static_cast<Eigen::Index>(k + 1)] = w;
       value += w * term.gain;
+      if (with_tau && term.tau_s > 0.0) {
+        const double part = t / term.tau_s;
+        weights[1 + terms + static_cast<Eigen::Index>(k)] = -size * term.gain * part * std::exp(-part);
+      }
     }
     sigma = output.covariance.rows() == weights.size()
                 ? std::sqrt(std::max(0.0, weights.dot(output.covariance * weights)))
@@ -285,10 +300,12 @@ ThermalModel ThermalModel::parse(const JsonNode& root) {
     output.uncertainty_factor = node.numberOr("uncertainty_factor", 1.0);
     if (const auto lower = node.find("covariance_lower")) {
       const std::vector<double> values = lower->numbers();
-      const auto n = static_cast<Eigen::Index>(output.terms.size() + 1);
+      auto n = static_cast<Eigen::Index>(output.terms.size() + 1);
       if (!values.empty()) {
-        if (static_cast<Eigen::Index>(values.size()) != n * (n + 1) / 2)
-          lower->reject("the lower triangle of a square matrix of 1 + terms rows");
+        const auto found = static_cast<Eigen::Index>(values.size());
+        if (found != n * (n + 1) / 2) n += static_cast<Eigen::Index>(output.terms.size());
+        if (found != n * (n + 1) / 2)
+          lower->reject("the lower triangle of a square matrix of 1 + terms or 1 + 2 terms rows");
         output.covariance.resize(n, n);
         std::size_t k = 0;
         for (Eigen::Index r = 0; r < n; ++r)

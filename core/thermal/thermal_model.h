@@ -46,7 +46,8 @@ struct ThermalOutput {
   std::string unit;  ///< "um", "urad"
   double offset = 0.0;
   std::vector<LagTerm> terms;
-  Eigen::MatrixXd covariance;       ///< of (offset, gains), size 1 + terms; empty if not known
+  /// Of (offset, gains), size 1 + terms, or of (offset, gains, ln tau), size 1 + 2 terms; empty if not known.
+  Eigen::MatrixXd covariance;
   double noise_sigma = 0.0;         ///< stationary standard deviation of what the model leaves in training
   double noise_tau_s = 0.0;         ///< correlation time of that remainder
   double uncertainty_factor = 1.0;  ///< held-out error over predicted error in blocks left out, >= 1
@@ -84,8 +85,9 @@ struct ThermalModel {
   [[nodiscard]] const ThermalOutput* findOutput(std::string_view name) const noexcept;
   /// Free run over a series: no measured output is used. Throws InputError if an input is not in the series.
   [[nodiscard]] ThermalPrediction predict(const TimeSeries& series, std::size_t output) const;
-  /// Rows x (1 + terms): what the coefficients (offset, gains) of an output are multiplied with at every row, so that
-  /// the covariance of the model's error at two rows is row' * covariance * row. Throws as `predict`.
+  /// What the prediction changes per change of the coefficients (offset, gains and, where the covariance holds them, ln
+  /// tau) at every row: rows x coefficients. The first 1 + terms columns times (offset, gains) are the prediction; the
+  /// covariance of the model's error at two rows is row' * covariance * row. Throws as `predict`.
   [[nodiscard]] Eigen::MatrixXd features(const TimeSeries& series, std::size_t output) const;
   [[nodiscard]] StepResponse stepResponse(std::size_t output, const std::string& input, std::size_t points = 60) const;
 

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/json_reader.h"
+#include "core/math/distributions.h"
 #include "core/math/statistics.h"
 #include "core/thermal/arx.h"
 #include "core/thermal/output_error.h"
@@ -49,6 +51,30 @@ Bins makeBins(const TimeSeries& series, const IdentifyRequest& request, const st
   b.first = static_cast<std::size_t>(std::lower_bound(grid.time_s.begin(), grid.time_s.end(), request.train.from_s) -
                                      grid.time_s.begin());
   b.last = static_cast<std::size_t>(std::lower_bound(grid.time_s.begin(), grid.time_s.end(), to) - grid.time_s.begin());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto values = [&](std::size_t which) {
+      return std::span<const double>(b.u[which]).subspan(b.first, b.last - b.first);
+    };
+    if (std::all_of(values(i).begin(), values(i).end(), [&](double v) { return v == values(i).front(); })) {
+      throw InputError({series.file, fmt::format("column {}", inputs[i])},
+                       "is constant in the training range, so its effect cannot be learnt; leave it out or train on a "
+                       "range in which it changes.");
+    }
+    if (std::equal(values(i).begin(), values(i).end(), b.y.begin() + static_cast<std::ptrdiff_t>(b.first))) {
+      throw InputError({series.file, fmt::format("column {}", inputs[i])},
+                       fmt::format("is a copy of the output {}, so a model with it would only repeat the measurement; "
+                                   "leave it out.",
+                                   request.output));
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (std::equal(values(i).begin(), values(i).end(), values(j).begin())) {
+        throw InputError(
+            {series.file, fmt::format("column {}", inputs[i])},
+            fmt::format("is identical to {}, so their effects cannot be told apart; leave one of them out.",
+                        inputs[j]));
+      }
+    }
+  }
   std::size_t missing = 0;
   for (std::size_t k = b.first; k < b.last; ++k) missing += !std::isfinite(grid.signals.front().values[k]);
   if (missing > 0)
@@ -90,6 +116,34 @@ nlohmann::json orderJson(const OrderChoice& choice) {
   return tried;
 }
 
+/// p-value of Ljung and Box over 20 lags for the residual of the equation: ARX assumes it white.
+double equationWhiteness(const ArxModel& model, std::span<const double> y,
+                         const std::vector<std::span<const double>>& u) {
+  std::vector<double> e;
+  std::size_t first = static_cast<std::size_t>(model.a.size());
+  for (std::size_t i = 0; i < u.size(); ++i)
+    first = std::max(first, static_cast<std::size_t>(model.order.nk[i] + model.order.nb[i]));
+  for (std::size_t k = first; k < y.size(); ++k) {
+    double v = y[k] - model.c;
+    for (Eigen::Index j = 0; j < model.a.size(); ++j) v += model.a[j] * y[k - 1 - static_cast<std::size_t>(j)];
+    for (std::size_t i = 0; i < u.size(); ++i)
+      for (Eigen::Index j = 0; j < model.b[i].size(); ++j)
+        v -= model.b[i][j] * u[i][k - static_cast<std::size_t>(model.order.nk[i] + j)];
+    e.push_back(v);
+  }
+  constexpr std::size_t lags = 20;
+  if (e.size() < 5 * lags) return 1.0;
+  const double zero = std::inner_product(e.begin(), e.end(), e.begin(), 0.0);
+  if (!(zero > 0.0)) return 1.0;
+  const auto n = static_cast<double>(e.size());
+  double q = 0.0;
+  for (std::size_t lag = 1; lag <= lags; ++lag) {
+    const double r = std::inner_product(e.begin() + static_cast<std::ptrdiff_t>(lag), e.end(), e.begin(), 0.0) / zero;
+    q += r * r / (n - static_cast<double>(lag));
+  }
+  return chiSquaredTail(n * (n + 2.0) * q, static_cast<double>(lags));
+}
+
 StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
                        const std::vector<std::string>& inputs) {
   StructuredFit out;
@@ -113,6 +167,14 @@ StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
   if (!model.stable()) {
     model = stabilised(model);
     out.notes.push_back("the ARX fit was unstable: " + model.message);
+  }
+  const double white = equationWhiteness(model, y, u);
+  out.structure["equation_whiteness_p_value"] = white;
+  if (white < 1e-3) {
+    out.notes.push_back(
+        "the residual of the ARX equation is not white (noise at the output, or missing dynamics): its coefficients "
+        "are "
+        "biased and their uncertainties too small; use --method oe or response.");
   }
   std::vector<std::vector<double>> from_start;
   for (const auto& v : b.u) from_start.emplace_back(v.begin() + static_cast<std::ptrdiff_t>(b.first), v.end());
@@ -143,6 +205,10 @@ StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
   output.terms = lagsOf(model, message);
   if (!message.empty()) out.notes.push_back(message);
   output.offset = model.c / (1.0 + model.a.sum());
+  if (!output.terms.empty()) output.covariance = lagCovariance(model);
+  std::vector<double> left;
+  for (std::size_t k = 0; k < y.size(); ++k) left.push_back(y[k] - simulated[k]);
+  output.noise_sigma = rootMeanSquare(left);
   out.model.kind = "arx";
   describeInputs(b, series, inputs, out.model);
   out.model.outputs.push_back(std::move(output));
@@ -188,8 +254,7 @@ StructuredFit fitByOutputError(const TimeSeries& series, const IdentifyRequest& 
                                        {"tau_standard_uncertainty_s", jsonNumber(fit.tauSigma_s(i, k))}});
     }
   }
-  const auto p = static_cast<Eigen::Index>(output.terms.size()) + 1;
-  output.covariance = fit.covariance.topLeftCorner(p, p);
+  output.covariance = fit.covariance;
   output.noise_sigma = fit.noise_sigma;
   out.structure["noise_autoregression"] =
       std::vector<double>(fit.noise_ar.data(), fit.noise_ar.data() + fit.noise_ar.size());

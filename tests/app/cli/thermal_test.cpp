@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <random>
+#include <tuple>
 
 #include "tests/app/cli/child_process.h"
 #include "tests/support/temp_folder.h"
@@ -130,17 +132,115 @@ TEST_F(Thermal, BadLogsAreRefusedInOneSentence) {
   expectRefused(identify(), {"log.csv", "time_s", "allowed"});
 }
 
-TEST_F(Thermal, ConstantInputAndFewRowsAreSaid) {
+TEST_F(Thermal, ConstantCopiedAndIdenticalInputsAreNamed) {
   const std::string good = textOf(log);
+  std::vector<std::string> lines = linesOf(log);
+  const auto field = [&lines](std::size_t k, int which) {
+    std::size_t from = 0;
+    for (int i = 0; i < which; ++i) from = lines[k].find(',', from) + 1;
+    return lines[k].substr(from, lines[k].find(',', from) - from);
+  };
+  const auto rewrite = [&](const std::function<std::string(std::size_t)>& row, const std::string& header) {
+    std::vector<std::string> out = {header};
+    for (std::size_t k = 1; k < lines.size(); ++k) out.push_back(row(k));
+    writeLines(log, out);
+  };
+  const std::string header = lines[0];
+  for (const char* method : {"response", "arx", "oe"}) {
+    // A constant input: refused where it is asked for, dropped with its reason where it was only a candidate.
+    rewrite([&](std::size_t k) { return field(k, 0) + ",1000," + field(k, 2) + ',' + field(k, 3); }, header);
+    auto words = identify();
+    words.insert(words.end(), {"--method", method});
+    expectRefused(words, {"spindle_rpm", "constant", "range"});
+    // A copy of the output.
+    rewrite([&](std::size_t k) { return field(k, 0) + ',' + field(k, 1) + ',' + field(k, 3) + ',' + field(k, 3); },
+            header);
+    words = identify("T_nose_degC");
+    words.insert(words.end(), {"--method", method});
+    expectRefused(words, {"T_nose_degC", "growth_um", "copy"});
+    // Two identical sensors: one is enough for the averaged lags, the others cannot tell them apart.
+    rewrite([&](std::size_t k) { return field(k, 0) + ',' + field(k, 2) + ',' + field(k, 2) + ',' + field(k, 3); },
+            "time_s,T_twin_degC,T_nose_degC,growth_um");
+    words = identify("T_nose_degC,T_twin_degC");
+    words.insert(words.end(), {"--method", method});
+    if (std::string(method) == "response") {
+      const nlohmann::json j = jsonOf(words);
+      EXPECT_EQ(j["inputs"], nlohmann::json::array({"T_nose_degC"}));
+      EXPECT_NE(j.dump().find("identical to T_nose_degC"), std::string::npos);
+    } else {
+      expectRefused(words, {"T_twin_degC", "identical", "T_nose_degC"});
+    }
+  }
+  rewrite([&](std::size_t k) { return field(k, 0) + ",1000," + field(k, 2) + ',' + field(k, 3); }, header);
+  EXPECT_NE(jsonOf(identify("auto")).dump().find("constant in the training range"), std::string::npos);
+}
+
+TEST_F(Thermal, KelvinAndFahrenheitAreAskedAboutAndConverted) {
+  const nlohmann::json honest = jsonOf(identify("T_nose_degC"));
+  std::vector<std::string> lines = linesOf(log);
+  const auto inUnit = [&](double factor, double offset) {
+    std::vector<std::string> out = lines;
+    for (std::size_t k = 1; k < out.size(); ++k) {
+      const std::size_t from = out[k].find(',', out[k].find(',') + 1) + 1;
+      const std::size_t to = out[k].find(',', from);
+      const double value = std::stod(out[k].substr(from, to - from));
+      out[k] = out[k].substr(0, from) + std::to_string(factor * value + offset) + out[k].substr(to);
+    }
+    writeLines(log, out);
+  };
+  for (const auto& [unit, factor, offset, word] :
+       {std::tuple{"K", 1.0, 273.15, "kelvin"}, {"degF", 1.8, 32.0, "Fahrenheit"}}) {
+    inUnit(factor, offset);
+    expectRefused(identify("T_nose_degC"), {"T_nose_degC", word, "--temperature-unit"});
+    auto words = identify("T_nose_degC");
+    words.insert(words.end(), {"--temperature-unit", unit});
+    EXPECT_NEAR(jsonOf(words)["test"]["rmse"].get<double>(), honest["test"]["rmse"].get<double>(), 1e-3) << unit;
+  }
+}
+
+TEST_F(Thermal, RunsOfMissingValuesAreCountedAndTheTextNanIsRefused) {
+  for (std::size_t line = 100; line < 140; ++line) setField(log, line, "T_nose_degC", "");
+  const nlohmann::json j = jsonOf(identify("spindle_rpm,T_nose_degC"));
+  EXPECT_NE(j["notes"].dump().find("40 of 600 values of T_nose_degC are missing"), std::string::npos) << j["notes"];
+  EXPECT_GT(j["test"]["fit_percent"].get<double>(), 80.0);
+  setField(log, 100, "T_nose_degC", "nan");
+  expectRefused(identify("spindle_rpm,T_nose_degC"), {"line 100", "T_nose_degC", "empty"});
+}
+
+TEST_F(Thermal, FiftySamplesAreTooFew) {
   auto lines = linesOf(log);
   lines.resize(51);
   writeLines(log, lines);
+  for (const char* method : {"response", "arx", "oe"}) {
+    auto words = identify("T_nose_degC");
+    words[8] = "0:900";
+    words[10] = "900:1500";
+    words.insert(words.end(), {"--method", method});
+    expectRefused(words, {"growth_um", "30 samples", "allowed", "longer"});
+  }
+}
+
+TEST_F(Thermal, AnUnstableFitIsNamedAndNotRecommended) {
+  auto lines = linesOf(log);
+  for (std::size_t k = 1; k < lines.size(); ++k)
+    lines[k] = lines[k].substr(0, lines[k].rfind(',') + 1) +
+               std::to_string(std::exp(static_cast<double>(k) / 100.0) + (k % 7 == 0 ? 0.002 : 0.0));
+  writeLines(log, lines);
   auto words = identify();
-  words[8] = "0:900";
-  words[10] = "900:1500";
-  const Outcome few = runCli(words);
-  EXPECT_TRUE(few.status == 1 || few.status == 2) << few.output << few.error;
-  EXPECT_NE(few.output + few.error, "");
+  words.insert(words.end(), {"--order", "2,2,1"});
+  const nlohmann::json j = jsonOf(words, 1);
+  EXPECT_NE(j["notes"].dump().find("unstable"), std::string::npos) << j["notes"];
+  EXPECT_NE(j["notes"].dump().find("do not compensate"), std::string::npos) << j["notes"];
+  for (const auto& pole : j["structure"]["poles"])
+    EXPECT_LT(std::hypot(pole[0].get<double>(), pole[1].get<double>()), 1.0);
+}
+
+TEST_F(Thermal, ArxSaysWhenItsEquationDoesNotFit) {
+  auto words = identify();
+  words.insert(words.end(), {"--order", "1,1,1"});  // noise at the output
+  const nlohmann::json j = jsonOf(words);
+  EXPECT_LT(j["structure"]["equation_whiteness_p_value"].get<double>(), 1e-3);
+  EXPECT_NE(j["notes"].dump().find("not white"), std::string::npos);
 }
 
 }  // namespace

@@ -60,6 +60,32 @@ TEST(Arx, RecoversAKnownSystemWithinItsIntervalsAsOftenAsStated) {
   EXPECT_GT(tau_inside, runs * 0.90);
 }
 
+TEST(Arx, TheStepResponseHoldsItsIntervalsAsOftenAsStated) {
+  std::size_t inside = 0;
+  std::size_t total = 0;
+  ArxModel truth;
+  truth.order = {2, {2}, {1}};
+  truth.a = Eigen::Vector2d(-1.4, 0.45);
+  truth.b = {Eigen::Vector2d(0.3, -0.1)};
+  const std::vector<double> step = truth.stepResponse(0, 61);
+  EXPECT_TRUE(std::isnan(truth.stepResponseSigma(0, 3)[2]));  // no covariance, no uncertainty
+  for (std::uint64_t run = 0; run < 300; ++run) {
+    Random random(3000 + run);
+    const auto u = randomSteps(random, 800);
+    const ArxModel m = fitArx(secondOrder(u, random, 0.05), {u}, truth.order, 10.0);
+    const std::vector<double> estimate = m.stepResponse(0, 61);
+    const std::vector<double> sigma = m.stepResponseSigma(0, 61);
+    EXPECT_EQ(sigma[0], 0.0);  // nothing moves before the delay
+    for (const std::size_t k : {1UL, 8UL, 60UL}) {
+      inside += std::abs(estimate[k] - step[k]) < 1.96 * sigma[k];
+      ++total;
+    }
+  }
+  const RateInterval rate = wilsonInterval(inside, total, 3.3);
+  EXPECT_LT(rate.low, 0.95);
+  EXPECT_GT(rate.high, 0.95);
+}
+
 TEST(Arx, EqualsAQrOfTheFullRegressionForSlowPolesSampledFast) {
   Random random(3);
   std::vector<std::vector<double>> inputs;

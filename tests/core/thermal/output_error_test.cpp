@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/base/json_reader.h"
 #include "core/base/random.h"
 #include "core/math/statistics.h"
 
@@ -40,6 +41,8 @@ Plant plant(std::uint64_t seed, double rho, double sigma) {
 void expectCoverage(double rho) {
   int inside = 0;
   int total = 0;
+  int step_inside = 0;
+  int step_total = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Plant p = plant(1000 + seed, rho, 0.2);
     OutputErrorOptions options;
@@ -54,10 +57,27 @@ void expectCoverage(double rho) {
     const auto [gain, sigma] = r.staticGain(0);
     inside += std::abs(gain + 15.0) < 1.96 * sigma;
     total += 5;
+    // As the model that is written and plotted states it: gains and time constants move together.
+    ThermalModel model;
+    model.inputs = {{"u", SignalKind::Speed}};
+    ThermalOutput output;
+    for (std::size_t k = 0; k < 2; ++k) output.terms.push_back({0, r.taus_s[0][k], r.gains[0][k]});
+    output.covariance = r.covariance;
+    model.outputs = {output};
+    const StepResponse step = model.stepResponse(0, "u", 40);
+    for (const std::size_t k : {15UL, 25UL, 39UL}) {
+      const double t = step.time_s[k];
+      const double truth = 20.0 * std::expm1(-t / 3600.0) - 5.0 * std::expm1(-t / 600.0);
+      step_inside += std::abs(step.value[k] - truth) < 1.96 * step.sigma[k];
+      ++step_total;
+    }
   }
   const double rate = static_cast<double>(inside) / total;
   EXPECT_GT(rate, 0.91);
   EXPECT_LT(rate, 0.985);
+  const double step_rate = static_cast<double>(step_inside) / step_total;
+  EXPECT_GT(step_rate, 0.89);
+  EXPECT_LT(step_rate, 0.99);
 }
 
 TEST(OutputError, IntervalsHoldForWhiteNoise) {
@@ -66,6 +86,37 @@ TEST(OutputError, IntervalsHoldForWhiteNoise) {
 
 TEST(OutputError, IntervalsHoldForColouredNoise) {
   expectCoverage(0.9);
+}
+
+TEST(OutputError, TheModelKeepsTheUncertaintyOfItsTimeConstants) {
+  const Plant p = plant(77, 0.0, 0.2);
+  const OutputErrorResult r = fitOutputError(p.time, p.y, {{p.u, 2, true}});
+  ThermalModel model;
+  model.inputs = {{"u_rpm", SignalKind::Speed, 1.0, 1.0, 0.0, 0.0, 2.0}};
+  ThermalOutput output;
+  output.name = "y_um";
+  output.unit = "um";
+  for (std::size_t k = 0; k < 2; ++k) output.terms.push_back({0, r.taus_s[0][k], r.gains[0][k]});
+  output.covariance = r.covariance;
+  model.outputs = {output};
+  TimeSeries series;
+  series.time_s = p.time;
+  series.signals = {{"u_rpm", SignalKind::Speed, p.u}};
+  // The derivative by ln tau against a difference of two predictions.
+  const Eigen::MatrixXd x = model.features(series, 0);
+  ASSERT_EQ(x.cols(), 5);
+  ThermalModel moved = model;
+  moved.outputs[0].terms[0].tau_s *= std::exp(1e-4);
+  const auto before = model.predict(series, 0);
+  const auto after = moved.predict(series, 0);
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < x.rows(); ++k)
+    largest = std::max(largest, std::abs((after.value[k] - before.value[k]) / 1e-4 - x(k, 3)));
+  EXPECT_LT(largest, 0.02 * x.col(3).cwiseAbs().maxCoeff());
+  // Through the file.
+  const ThermalModel read = ThermalModel::parse(JsonNode::parse(model.json().dump(), "model.json"));
+  ASSERT_EQ(read.outputs[0].covariance.rows(), 5);
+  EXPECT_NEAR(read.predict(series, 0).sigma[900], before.sigma[900], 1e-3 * before.sigma[900]);
 }
 
 TEST(OutputError, SlowPolesSurviveFastSampling) {

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How often the truth lies inside the stated 95 % intervals of identified models: coefficients, static gain, time
+// constants and step response of known ARX and output-error systems under white and coloured noise; and the bias of ARX
+// under noise at the output, of which output error is free. `coverage_study [RUNS]`, default 1000.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/math/statistics.h"
+#include "core/thermal/arx.h"
+#include "core/thermal/output_error.h"
+
+namespace {
+
+using namespace spindrift;
+
+struct Count {
+  std::string name;
+  std::size_t inside = 0;
+  std::size_t total = 0;
+  void add(double estimate, double truth, double sigma) {
+    inside += std::abs(estimate - truth) <= 1.96 * sigma ? 1U : 0U;
+    ++total;
+  }
+};
+
+void print(const char* system, const std::vector<Count>& counts) {
+  std::printf("%s\n", system);
+  for (const Count& c : counts) {
+    if (c.total == 0) {
+      std::printf("  %-26s none: no real poles were found\n", c.name.c_str());
+      continue;
+    }
+    const RateInterval rate = wilsonInterval(c.inside, c.total, 1.96);
+    std::printf("  %-26s %5.1f %% inside (95 %% stated; rate known to %.1f ... %.1f)\n", c.name.c_str(),
+                100.0 * static_cast<double>(c.inside) / static_cast<double>(c.total), 100.0 * rate.low,
+                100.0 * rate.high);
+  }
+}
+
+std::vector<double> steps(Random& random, int samples, int hold) {
+  std::vector<double> u;
+  double level = 0.0;
+  for (int k = 0; k < samples; ++k) {
+    if (k % hold == 0) level = random.uniform(0.0, 2.0);
+    u.push_back(level);
+  }
+  return u;
+}
+
+/// y = (0.3 q^-1 - 0.1 q^-2) / (1 - 1.4 q^-1 + 0.45 q^-2) u with noise in the equation (white or AR(1)) or at the
+/// output.
+struct ArxSystem {
+  double rho = 0.0;
+  bool at_output = false;
+  double sigma = 0.05;
+};
+
+ArxModel arxTruth() {
+  ArxModel m;
+  m.period_s = 10.0;
+  m.order = {2, {2}, {1}};
+  m.a = Eigen::Vector2d(-1.4, 0.45);
+  m.b = {Eigen::Vector2d(0.3, -0.1)};
+  return m;
+}
+
+void arx(const char* name, const ArxSystem& system, int runs) {
+  const ArxModel truth = arxTruth();
+  const std::array<std::size_t, 5> at = {1, 5, 12, 30, 80};
+  const std::vector<double> step = truth.stepResponse(0, 100);
+  std::vector<Count> counts(4);
+  counts[0].name = "coefficients";
+  counts[1].name = "static gain";
+  counts[2].name = "time constants";
+  counts[3].name = "step response";
+  double gain_sum = 0.0;
+  for (int run = 0; run < runs; ++run) {
+    Random random(7000 + static_cast<std::uint64_t>(run));
+    const auto u = steps(random, 800, 20);
+    std::vector<double> y(u.size(), 0.0);
+    double e = 0.0;
+    for (std::size_t k = 2; k < u.size(); ++k) {
+      e = system.rho * e + random.normal(0.0, system.sigma * std::sqrt(1.0 - system.rho * system.rho));
+      y[k] = 1.4 * y[k - 1] - 0.45 * y[k - 2] + 0.3 * u[k - 1] - 0.1 * u[k - 2] + (system.at_output ? 0.0 : e);
+    }
+    if (system.at_output)
+      for (double& v : y) v += random.normal(0.0, system.sigma);
+    const ArxModel m = fitArx(y, {u}, truth.order, truth.period_s);
+    for (int i = 0; i < 2; ++i) {
+      counts[0].add(m.a[i], truth.a[i], std::sqrt(m.covariance(i, i)));
+      counts[0].add(m.b[0][i], truth.b[0][i], std::sqrt(m.covariance(2 + i, 2 + i)));
+    }
+    const auto [gain, sigma] = m.staticGain(0);
+    gain_sum += gain;
+    counts[1].add(gain, 4.0, sigma);
+    const auto taus = m.timeConstants();
+    if (taus.size() == 2) {
+      counts[2].add(taus[0].value_s, -10.0 / std::log(0.9), taus[0].sigma_s);
+      counts[2].add(taus[1].value_s, -10.0 / std::log(0.5), taus[1].sigma_s);
+    }
+    const std::vector<double> estimated = m.stepResponse(0, 100);
+    const std::vector<double> sigmas = m.stepResponseSigma(0, 100);
+    for (const std::size_t k : at) counts[3].add(estimated[k], step[k], sigmas[k]);
+  }
+  print(name, counts);
+  std::printf("  mean static gain %.4f, truth 4\n", gain_sum / runs);
+}
+
+/// Gains -20 and 5 at 3600 s and 600 s (and a second input, 3 at 1500 s); noise AR(1) or AR(2).
+void outputError(const char* name, double a1, double a2, bool second_input, int runs) {
+  const std::array<double, 4> at_s = {300.0, 1200.0, 3600.0, 14400.0};
+  std::vector<Count> counts(4);
+  counts[0].name = "gains";
+  counts[1].name = "static gain";
+  counts[2].name = "time constants";
+  counts[3].name = "step response";
+  double gain_sum = 0.0;
+  int converged = 0;
+  for (int run = 0; run < runs; ++run) {
+    Random random(9000 + static_cast<std::uint64_t>(run));
+    const auto u = steps(random, 1200, 150);
+    const auto w = steps(random, 1200, 90);
+    std::vector<double> time;
+    for (int k = 0; k < 1200; ++k) time.push_back(30.0 * k);
+    const auto slow = lagFiltered(time, u, 3600.0, true);
+    const auto fast = lagFiltered(time, u, 600.0, true);
+    const auto other = lagFiltered(time, w, 1500.0, true);
+    std::vector<double> y;
+    double v1 = 0.0;
+    double v2 = 0.0;
+    // Driving noise for a stationary standard deviation of 0.2.
+    const double part = std::sqrt((1.0 + a2) * ((1.0 - a2) * (1.0 - a2) - a1 * a1) / (1.0 - a2));
+    for (std::size_t k = 0; k < time.size(); ++k) {
+      const double v = a1 * v1 + a2 * v2 + random.normal(0.0, 0.2 * part);
+      v2 = v1;
+      v1 = v;
+      y.push_back(4.0 - 20.0 * slow[k] + 5.0 * fast[k] + (second_input ? 3.0 * other[k] : 0.0) + v);
+    }
+    OutputErrorOptions options;
+    options.noise_order = a1 == 0.0 ? 0 : 2;
+    options.starts = 2;
+    std::vector<OutputErrorInput> inputs = {{u, 2, true}};
+    if (second_input) inputs.push_back({w, 1, true});
+    const OutputErrorResult r = fitOutputError(time, y, inputs, options);
+    if (r.status != FitStatus::Converged) continue;
+    ++converged;
+    counts[0].add(r.gains[0][0], -20.0, r.gainSigma(0, 0));
+    counts[0].add(r.gains[0][1], 5.0, r.gainSigma(0, 1));
+    counts[2].add(r.taus_s[0][0], 3600.0, r.tauSigma_s(0, 0));
+    counts[2].add(r.taus_s[0][1], 600.0, r.tauSigma_s(0, 1));
+    const auto [gain, sigma] = r.staticGain(0);
+    gain_sum += gain;
+    counts[1].add(gain, -15.0, sigma);
+    if (second_input) {
+      counts[0].add(r.gains[1][0], 3.0, r.gainSigma(1, 0));
+      counts[2].add(r.taus_s[1][0], 1500.0, r.tauSigma_s(1, 0));
+    }
+    ThermalModel model;
+    model.inputs = {{"u", SignalKind::Speed, 1.0, 1.0, 0.0, 0.0, 1.0}, {"w", SignalKind::Speed}};
+    ThermalOutput output;
+    for (std::size_t i = 0; i < r.gains.size(); ++i)
+      for (std::size_t k = 0; k < r.gains[i].size(); ++k)
+        output.terms.push_back({static_cast<int>(i), r.taus_s[i][k], r.gains[i][k]});
+    output.covariance = r.covariance;
+    model.outputs = {output};
+    const StepResponse step = model.stepResponse(0, "u", 120);
+    for (const double t : at_s) {
+      std::size_t k = 0;
+      while (k + 1 < step.time_s.size() && step.time_s[k] < t) ++k;
+      const double s = step.time_s[k];
+      const double truth = -20.0 * -std::expm1(-s / 3600.0) + 5.0 * -std::expm1(-s / 600.0);
+      counts[3].add(step.value[k], truth, step.sigma[k]);
+    }
+  }
+  print(name, counts);
+  std::printf("  mean static gain %.4f, truth -15; %d of %d converged\n", gain_sum / converged, converged, runs);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int runs = argc > 1 ? std::stoi(argv[1]) : 1000;
+  arx("ARX, white noise in the equation", {0.0, false, 0.05}, runs);
+  arx("ARX, coloured noise in the equation (AR(1), 0.6)", {0.6, false, 0.05}, runs);
+  arx("ARX, white noise at the output (biased: not its model)", {0.0, true, 0.2}, runs);
+  outputError("output error, white noise at the output", 0.0, 0.0, false, runs);
+  outputError("output error, AR(1) noise 0.9", 0.9, 0.0, false, runs);
+  outputError("output error, AR(2) noise 1.5, -0.6", 1.5, -0.6, false, runs);
+  outputError("output error, two inputs, AR(1) noise 0.8", 0.8, 0.0, true, runs);
+  return 0;
+}
