@@ -94,6 +94,12 @@ void StoryTest::SetUp() {
   window_->show();
 }
 
+void StoryTest::TearDown() {
+  if (window_->session().isOpen()) sessions_.push_back(window_->session().folder());
+  window_.reset();
+  for (const std::filesystem::path& session : sessions_) std::filesystem::remove_all(session);
+}
+
 void StoryTest::wait() {
   ASSERT_TRUE(waitForJobs(*window_, 60));
 }
@@ -102,6 +108,7 @@ void StoryTest::open(const std::filesystem::path& campaign, StepId step) {
   window_->open(QString::fromStdString(campaign.string()));
   wait();
   ASSERT_NE(window_->session().campaign(), nullptr) << window_->jobBar()->message().toStdString();
+  sessions_.push_back(window_->session().folder());
   window_->workflow().goTo(step);
 }
 

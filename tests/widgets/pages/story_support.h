@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tests/support/temp_folder.h"
 #include "widgets/shell/main_window.h"
@@ -24,6 +26,8 @@ enum class Hidden { Nothing, SpindleGrowth, Oscillation };
 class StoryTest : public ::testing::Test {
  protected:
   void SetUp() override;
+  /// Takes the sessions that were made for the test away again.
+  void TearDown() override;
   /// Opens the campaign and goes to the step.
   void open(const std::filesystem::path& campaign, StepId step);
   template <class PageType>
@@ -33,6 +37,7 @@ class StoryTest : public ::testing::Test {
   void wait();
 
   testing::TempFolder folder_;
+  std::vector<std::filesystem::path> sessions_;
   std::unique_ptr<MainWindow> window_;
 };
 
