@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -9,11 +10,13 @@
 #include "core/base/text.h"
 #include "core/machine/component.h"
 #include "core/scanning/artefact_design.h"
+#include "core/scanning/axis_errors.h"
 #include "core/scanning/calibration_report.h"
 #include "core/scanning/cloud_file.h"
 #include "core/scanning/profiler_calibration.h"
 #include "core/scanning/registration.h"
 #include "core/scanning/registration_report.h"
+#include "core/scanning/scan_evaluation.h"
 
 namespace spindrift::cli {
 namespace {
@@ -160,9 +163,98 @@ void addDesign(CLI::App& app, CommandLine& line) {
   command->add_option("--step", arguments->step_mm, "Size of the STL's facets, mm")->capture_default_str();
 }
 
+struct StudyArguments {
+  std::string campaign;
+  std::string scan_model;
+  CalibrationStudyOptions options;
+};
+
+CommandResult studyCommand(const StudyArguments& a, JobContext& job) {
+  const ScanEvaluation scans = evaluateScanCampaign(Campaign::read(a.campaign), a.scan_model, job);
+  CommandResult out;
+  out.json = {{"angle_sigma_rad", a.options.angle_sigma_rad},
+              {"length_sigma_mm", a.options.length_sigma_mm},
+              {"trials", a.options.trials},
+              {"scan_model", std::string(toString(scans.scan_model))},
+              {"scans", nlohmann::json::array()}};
+  out.summary = fmt::format(
+      "change of the six errors by calibration errors of {:g} rad and {:g} mm (standard deviation), {} trials a scan\n"
+      "  {:<12} {:<8}  {:>9} {:>9} {:>9} um  {:>9} {:>9} {:>9} urad\n",
+      a.options.angle_sigma_rad, a.options.length_sigma_mm, a.options.trials, "scan", "", "EX", "EY", "EZ", "EA", "EB",
+      "EC");
+  const auto row = [&out](const std::string& name, const char* what, const std::array<double, 6>& v) {
+    out.summary += fmt::format("  {:<12} {:<8}  {:>9.3g} {:>9.3g} {:>9.3g}     {:>9.3g} {:>9.3g} {:>9.3g}\n", name,
+                               what, v[0], v[1], v[2], v[3], v[4], v[5]);
+  };
+  const auto named = [](const std::array<double, 6>& v) {
+    nlohmann::json j = nlohmann::json::object();
+    for (const Component k : all_components) j[std::string(toString(k))] = v[static_cast<std::size_t>(k)];
+    return j;
+  };
+  std::array<double, 6> squares{};
+  std::array<double, 6> largest{};
+  std::size_t count = 0;
+  for (const ScanResult& s : scans.scans) {
+    if (s.reference || !s.registration.usable()) continue;
+    job.throwIfCancelled();
+    const CalibrationStudy study = studyCalibrationErrors(s.registration.target_from_source, s.registration.centroid_mm,
+                                                          scans.mounting, a.options);
+    const std::string name = s.capture.artefact + " " + s.capture.cycle;
+    row(name, "rms", study.rms);
+    row("", "largest", study.largest);
+    row("", "at part", study.rms_at_artefact);
+    out.json["scans"].push_back({{"artefact", s.capture.artefact},
+                                 {"cycle", s.capture.cycle},
+                                 {"rms", named(study.rms)},
+                                 {"largest", named(study.largest)},
+                                 {"rms_at_artefact", named(study.rms_at_artefact)}});
+    for (std::size_t i = 0; i < 6; ++i) {
+      squares[i] += study.rms[i] * study.rms[i];
+      largest[i] = std::max(largest[i], study.largest[i]);
+    }
+    ++count;
+  }
+  if (count == 0)
+    throw InputError({a.campaign, ""},
+                     "has no scan that could be registered onto a reference, so nothing can change; see evaluate for "
+                     "the reasons.");
+  for (double& v : squares) v = std::sqrt(v / static_cast<double>(count));
+  row("all scans", "rms", squares);
+  row("", "largest", largest);
+  out.json["rms"] = named(squares);
+  out.json["largest"] = named(largest);
+  for (const std::string& w : scans.warnings) out.summary += "warning: " + w + "\n";
+  return out;
+}
+
+void addStudy(CLI::App& app, CommandLine& line) {
+  auto a = std::make_shared<StudyArguments>();
+  CLI::App* command = addCommand(app, line, "study-calibration",
+                                 "How much errors of the profiler's calibration change the six errors of the axis: "
+                                 "Monte Carlo over every scan of a campaign, at the slide's origin and at the artefact",
+                                 [a](JobContext& job) {
+                                   a->options.validate();
+                                   return studyCommand(*a, job);
+                                 });
+  command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign")->required();
+  command->add_option("--angle", a->options.angle_sigma_rad, "Standard deviation of alpha, beta and gamma, rad")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--length", a->options.length_sigma_mm, "Standard deviation of dx, dy and dz, mm")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--trials", a->options.trials, "Trials a scan")
+      ->check(CLI::Range(10, 10000000))
+      ->capture_default_str();
+  command->add_option("--seed", a->options.seed, "Of the trials")->capture_default_str();
+  command->add_option("--scan-model", a->scan_model, "rigid or push_broom, in place of the machine file")
+      ->check(CLI::IsMember({"rigid", "push_broom"}));
+}
+
 }  // namespace
 
 void addScanningCommands(CLI::App& app, CommandLine& line) {
+  addStudy(app, line);
   addDesign(app, line);
   addRegister(app, line);
   addCalibrate(app, line);

@@ -190,7 +190,11 @@ RegistrationResult registerToSurface(const PointCloud& source, const Registratio
     result.elapsed_ms = millisecondsSince(begin);
     return result;
   };
-  if (!fits(o, target, options, grid.noise_mm)) {
+  const bool fitting = fits(o, target, options, grid.noise_mm);
+  // A surface that nearly equals its own mirror image can be matched by half; then a mirrored one fits far better.
+  const double agreement = o.overlap * o.inliers;
+  const bool doubtful = fitting && agreement < 0.75 && o.median_residual > 3.0 * target.grid().noise_mm;
+  if (!fitting || doubtful) {
     // Say what it is, if it is something known.
     constexpr const char* kinds[] = {"mirrored in x", "mirrored in y", "upside down (mirrored in z)",
                                      "turned by 180 degrees about Z"};
@@ -198,11 +202,15 @@ RegistrationResult registerToSurface(const PointCloud& source, const Registratio
       const CellGrid other = compressCloud(mirrored(source, kind));
       const RegistrationSolver try_solver(other, target, options);
       const RegistrationSolver::Outcome t = match(try_solver, target, other, options);
-      if (fits(t, target, options, other.noise_mm) && t.overlap > 0.6 && t.inliers > 0.8)
-        return reject(
-            FitStatus::Rejected,
-            fmt::format("The scan is {}: that way it fits the reference, as it stands it does not.", kinds[kind]));
+      if (!fits(t, target, options, other.noise_mm) || t.overlap <= 0.6 || t.inliers <= 0.8) continue;
+      if (doubtful && (t.overlap * t.inliers < agreement + 0.2 || t.median_residual > 0.5 * o.median_residual))
+        continue;
+      return reject(
+          FitStatus::Rejected,
+          fmt::format("The scan is {}: that way it fits the reference, as it stands it does not.", kinds[kind]));
     }
+  }
+  if (!fitting) {
     if (o.cells.size() < 12) return reject(FitStatus::Rejected, "The scan and the reference have no common region.");
     return reject(
         FitStatus::Rejected,

@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "core/base/job_context.h"
+#include "core/scanning/cloud_file.h"
 #include "core/simulation/virtual_profiler.h"
 #include "tests/app/cli/child_process.h"
 #include "tests/support/temp_folder.h"
@@ -95,6 +97,123 @@ TEST_F(Scans, EvaluateListsBadScansAndEvaluatesTheRest) {
     expectEstimates(cycle["parameters"], {"EXY_um", "EYY_um", "EZY_um", "EAY_urad", "EBY_urad", "ECY_urad"});
   }
   EXPECT_EQ(contentOf(copy), before);
+}
+
+TEST_F(Scans, CalibrationErrorsAreStudied) {
+  const nlohmann::json j =
+      jsonOf({"study-calibration", campaign().string(), "--angle", "0.01", "--length", "1", "--trials", "400"});
+  ASSERT_EQ(j["scans"].size(), 2U);
+  for (const char* component : {"EX", "EY", "EZ", "EA", "EB", "EC"}) {
+    const double rms = j["rms"][component];
+    EXPECT_GT(rms, 0.0) << component;
+    EXPECT_GE(j["largest"][component].get<double>(), rms) << component;
+  }
+  // A turn of the profiler by 10 mrad turns a deviation of 13 um by 0.13 um; twice the error, twice the change.
+  EXPECT_NEAR(j["scans"][1]["rms_at_artefact"]["EX"].get<double>(), 0.1, 0.1);
+  const nlohmann::json twice =
+      jsonOf({"study-calibration", campaign().string(), "--angle", "0.02", "--length", "2", "--trials", "400"});
+  EXPECT_NEAR(twice["rms"]["EX"].get<double>() / j["rms"]["EX"].get<double>(), 2.0, 0.1);
+  const nlohmann::json none =
+      jsonOf({"study-calibration", campaign().string(), "--angle", "0", "--length", "0", "--trials", "20"});
+  EXPECT_LT(none["largest"]["EZ"].get<double>(), 1e-6);
+}
+
+/// One scan spoilt in a copy of the campaign: what `evaluate` says of it; the others must be evaluated.
+class SpoiltScan : public Scans {
+ protected:
+  nlohmann::json evaluateWith(const std::function<void(PointCloud&)>& spoil, const std::string& name = "A1_C1.pcd") {
+    const auto copy = *folder() / "spoilt";
+    copyCampaign(campaign(), copy);
+    const auto file = copy / "captures/clouds" / name;
+    PointCloud c = readCloud(file);
+    spoil(c);
+    writeCloud(c, file);
+    const nlohmann::json j = jsonOf({"evaluate", copy.string(), "--out", in("spoilt.csv")});
+    std::filesystem::remove_all(copy);
+    return j;
+  }
+  static std::string said(const nlohmann::json& j) { return j["rejected"].dump() + j["warnings"].dump(); }
+  /// Deviation EZ of the artefact in the cycle "C1" (truth 6 um), from the observations.
+  static double lift_um(const std::string& cycle, const std::string& file) {
+    for (const std::string& row : linesOf(file))
+      if (row.find("," + cycle + ",") != std::string::npos && row.find(",EZ,") != std::string::npos)
+        return std::stod(row.substr(row.find(",EZ,") + 4));
+    return std::nan("");
+  }
+};
+
+TEST_F(SpoiltScan, AMirroredScanIsRejectedByName) {
+  const nlohmann::json j = evaluateWith([](PointCloud& c) {
+    for (auto& p : c.points_mm) p.x() = -p.x();
+  });
+  ASSERT_EQ(j["rejected"].size(), 1U) << said(j);
+  EXPECT_NE(said(j).find("mirrored"), std::string::npos) << said(j);
+  EXPECT_EQ(j["cycles"].size(), 2U);
+}
+
+TEST_F(SpoiltScan, AScanOfAnotherArtefactIsRejected) {
+  const nlohmann::json j = evaluateWith([](PointCloud& c) {
+    for (auto& p : c.points_mm) p.z() = 0.7 * std::sin(0.9 * p.x() + 0.3 * p.y()) + std::sin(0.45 * p.y());
+  });
+  ASSERT_EQ(j["rejected"].size(), 1U) << said(j);
+  EXPECT_NE(said(j).find("same surface"), std::string::npos) << said(j);
+  EXPECT_EQ(j["cycles"].size(), 2U);
+}
+
+TEST_F(SpoiltScan, TwoArtefactsInOneCloudAreSaidOrSeenThrough) {
+  const nlohmann::json j = evaluateWith([](PointCloud& c) {
+    // A second part of the same shape stands beside the first, 25 mm further along the profile.
+    PointCloud both;
+    for (std::size_t k = 0; k + 1 < c.profile_start.size(); ++k) {
+      both.profile_start.push_back(both.size());
+      for (const double shift : {0.0, 25.0})
+        for (std::size_t i = c.profile_start[k]; i < c.profile_start[k + 1]; ++i)
+          both.points_mm.push_back(c.points_mm[i] + Eigen::Vector3d(shift, 0.0, 0.0));
+    }
+    both.profile_start.push_back(both.size());
+    c = both;
+  });
+  if (j["rejected"].empty()) {
+    EXPECT_NE(said(j).find("A1_C1.pcd"), std::string::npos) << said(j);
+    EXPECT_NEAR(lift_um("C1", in("spoilt.csv")), 6.0, 0.5);
+  } else {
+    EXPECT_NE(said(j).find("A1_C1.pcd"), std::string::npos) << said(j);
+    EXPECT_EQ(j["cycles"].size(), 2U);
+  }
+}
+
+TEST_F(SpoiltScan, AHandInTheScanIsSaidAndTheRestIsUsed) {
+  const nlohmann::json j = evaluateWith([](PointCloud& c) {
+    double low = 1e9;
+    double high = -1e9;
+    for (const auto& p : c.points_mm) {
+      low = std::min(low, p.y());
+      high = std::max(high, p.y());
+    }
+    for (auto& p : c.points_mm)
+      if (p.y() > low + 0.6 * (high - low)) p.z() += 20.0 + 0.3 * std::sin(p.x());
+  });
+  ASSERT_TRUE(j["rejected"].empty()) << said(j);
+  EXPECT_NE(said(j).find("A1_C1.pcd"), std::string::npos) << said(j);
+  EXPECT_NEAR(lift_um("C1", in("spoilt.csv")), 6.0, 0.5);
+}
+
+TEST_F(SpoiltScan, AScanCutShortIsSaidAndUsed) {
+  const nlohmann::json j = evaluateWith([](PointCloud& c) {
+    const std::size_t keep = c.profileCount() / 2;
+    c.points_mm.resize(c.profile_start[keep]);
+    c.profile_start.resize(keep + 1);
+  });
+  ASSERT_TRUE(j["rejected"].empty()) << said(j);
+  EXPECT_NE(said(j).find("A1_C1.pcd"), std::string::npos) << said(j);
+  EXPECT_NEAR(lift_um("C1", in("spoilt.csv")), 6.0, 0.5);
+}
+
+TEST_F(SpoiltScan, ColdAndWarmSwappedGiveTheOppositeMotion) {
+  const nlohmann::json forward = jsonOf({"register", cloud("A1_C2.pcd"), cloud("A1_C0.pcd")});
+  const nlohmann::json swapped = jsonOf({"register", cloud("A1_C0.pcd"), cloud("A1_C2.pcd")});
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(forward["translation_um"][i].get<double>(), -swapped["translation_um"][i].get<double>(), 0.05) << i;
 }
 
 TEST_F(Scans, WrongListsAreRefusedInOneSentence) {

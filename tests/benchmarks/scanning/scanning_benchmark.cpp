@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
   double ours_ms = 0.0, gicp_ms = 0.0, ndt_ms = 0.0, inside_full = 0.0;
   int peers = 0;
   for (int run = 0; run < full; ++run) {
-    const Pair pair = makePair(1300, 0.01, 0.0775, random);
+    const Pair pair = makePair(1300, 0.01, 0.0704, random);
     double start = cpu_ms();
     const RegistrationResult r = registerClouds(pair.source, pair.target);
     ours_ms += cpu_ms() - start;
