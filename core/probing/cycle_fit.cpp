@@ -274,7 +274,9 @@ class Solver {
   }
 
   bool rejectWorst() {
-    // Candidate of each cycle.
+    // Candidate of each cycle, all judged by what was used before this pass: a touch that goes now has still spoiled
+    // the residuals of its key in the other cycles.
+    const auto before = used_;
     bool any = false;
     for (int k = 0; k < problem_.cycles; ++k) {
       int worst = -1;
@@ -294,7 +296,7 @@ class Solver {
       const int key = problem_.rows[static_cast<std::size_t>(worst)].key;
       bool largest = true;
       for (std::size_t r = 0; r < problem_.rows.size() && largest; ++r) {
-        if (!used_[r] || problem_.rows[r].key != key || problem_.rows[r].cycle == k) continue;
+        if (!before[r] || problem_.rows[r].key != key || problem_.rows[r].cycle == k) continue;
         const double other = std::abs(residual_[r]) / std::sqrt(std::max(freedom_[r], 1e-3));
         const double own = std::abs(residual_[static_cast<std::size_t>(worst)]) /
                            std::sqrt(std::max(freedom_[static_cast<std::size_t>(worst)], 1e-3));

@@ -78,6 +78,26 @@ TEST(TouchVerdicts, BadMissingAndExcludedTouchesAreToldApart) {
   }
 }
 
+// The constant of a touch is shared by all cycles: the innocent ones must not go with the bad one.
+TEST(TouchVerdicts, OneBadTouchTakesNoOtherWithIt) {
+  for (const std::uint64_t seed : {21U, 22U, 23U}) {
+    VirtualRun run = runCycles(machineFrom(holeMachineText()), 40, {}, seed);
+    std::string bad;
+    for (Touch& t : run.list.touches) {
+      if (t.cycle != "M2" || t.feature != "H4" || t.touch != 1 || t.c_deg != 0.0) continue;
+      t.position_mm += 0.035 * t.approach;
+      bad = t.id();
+    }
+    const Judged judged = judge(run.list, {});
+    ASSERT_EQ(judged.count(TouchState::LeftOut), 1) << seed;
+    for (const TouchVerdict& v : judged.verdicts) {
+      if (v.state == TouchState::LeftOut) {
+        EXPECT_EQ(v.touch.id(), bad);
+      }
+    }
+  }
+}
+
 TEST(TouchVerdicts, IdsAreUnique) {
   const VirtualRun run = runCycles(machineFrom(ballMachineText()), 2, {}, 7);
   std::set<std::string> ids;
