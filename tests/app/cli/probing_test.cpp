@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <map>
 
 #include "tests/app/cli/child_process.h"
 #include "tests/support/temp_folder.h"
@@ -158,6 +160,108 @@ TEST_F(Touches, CycleIsWrittenAndItsPrintedTextIsImported) {
   expectBadInput({"cycle", machine, "--artefact", "none", "--nc", (folder / "n.nc").string()},
                  {"machine.json", "none"});
   EXPECT_FALSE(std::filesystem::exists(folder / "n.nc"));
+}
+
+/// The control prints what the virtual probe measured; what is read back must evaluate to the same parameters.
+TEST_F(Touches, WhatAControlPrintsIsImportedAndEvaluatesToTheSame) {
+  make("hole_bar");
+  const std::string machine = campaign + "/machine.json";
+  const std::string pattern = (folder / "template.json").string();
+  ASSERT_EQ(runCli({"cycle", machine, "--nc", (folder / "cycle.nc").string(), "--template", pattern}).status, 0);
+  const nlohmann::json direct = jsonOf({"evaluate", campaign, "--out", out});
+  const std::vector<std::string> rows = linesOf(list);
+  std::vector<std::string> printed;
+  std::string last_cycle;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    std::vector<std::string> f;
+    for (std::size_t from = 0; from <= rows[k].size();) {
+      const std::size_t comma = std::min(rows[k].find(',', from), rows[k].size());
+      f.push_back(rows[k].substr(from, comma - from));
+      from = comma + 1;
+    }
+    ASSERT_EQ(f.size(), 13U) << rows[k];
+    if (f[1] != last_cycle) {
+      printed.push_back("CYCLE " + f[1].substr(1));
+      printed.push_back("PROBE BATTERY OK");
+    }
+    last_cycle = f[1];
+    // Spindle reference = stylus centre minus the offset of the stylus (0, 0, -50).
+    char z[32];
+    std::snprintf(z, sizeof z, "%.6f", std::stod(f[9]) + 50.0);
+    char milliseconds[32];
+    std::snprintf(milliseconds, sizeof milliseconds, "%.0f", 1000.0 * std::stod(f[0]));
+    printed.push_back("T A" + f[3].substr(1) + " B1 C" + f[5] + " D" + f[6] + " X" + f[7] + " Y" + f[8] + " Z" + z +
+                      " I" + f[10] + " J" + f[11] + " K" + f[12] + " S" + milliseconds);
+  }
+  const auto text = folder / "printed.txt";
+  writeLines(text, printed);
+  const std::string touches = (folder / "touches.csv").string();
+  const std::vector<std::string> import = {"import-touches", text.string(), "--machine", machine,
+                                           "--template",     pattern,       "--out",     touches};
+  const nlohmann::json imported = jsonOf(import);
+  EXPECT_EQ(imported["touches"], rows.size() - 1);
+  EXPECT_EQ(imported["cycles"].size(), direct["cycles"].size());
+  EXPECT_EQ(imported["ignored_lines"], direct["cycles"].size());
+  std::filesystem::copy_file(touches, list, std::filesystem::copy_options::overwrite_existing);
+  const nlohmann::json again = jsonOf({"evaluate", campaign, "--out", out});
+  for (std::size_t k = 0; k < direct["cycles"].size(); ++k) {
+    for (const auto& [name, value] : direct["cycles"][k]["parameters"].items())
+      EXPECT_NEAR(again["cycles"][k]["parameters"][name]["value"].get<double>(), value["value"].get<double>(), 1e-3)
+          << name;
+  }
+  // A line with a word where a number belongs, and a feature that the template does not know.
+  std::filesystem::remove(touches);
+  const std::string good = textOf(text);
+  edit(text, " X1", " Xq");
+  expectBadInput(import, {"printed.txt", "line"});
+  writeText(text, good);
+  edit(text, "T A1 ", "T A9 ");
+  expectBadInput(import, {"printed.txt", "9"});
+  EXPECT_FALSE(std::filesystem::exists(touches));
+}
+
+TEST_F(Touches, CyclesAreComparedWithAReferenceInstrument) {
+  make("hole_bar");
+  const nlohmann::json cycles = jsonOf({"evaluate", campaign, "--out", out})["cycles"];
+  // The reference sees the same course, 40 um/m higher (another zero), and 5 um/m more in the last cycle.
+  const auto reference = folder / "grid.csv";
+  std::map<std::string, double> time;
+  for (const std::string& row : linesOf(list)) {
+    if (row.starts_with("time_s")) continue;
+    const std::size_t comma = row.find(',');
+    const std::string cycle = row.substr(comma + 1, row.find(',', comma + 1) - comma - 1);
+    time.emplace(cycle, std::stod(row.substr(0, comma)));
+  }
+  const auto write = [&](double last) {
+    std::vector<std::string> lines = {"time_s,value,sigma"};
+    for (std::size_t k = 0; k < cycles.size(); ++k) {
+      const double value =
+          cycles[k]["parameters"]["EXX_um_per_m"]["value"].get<double>() + 40.0 + (k + 1 == cycles.size() ? last : 0.0);
+      const double start = time.at(cycles[k]["cycle"]);
+      lines.push_back(std::to_string(start) + ',' + std::to_string(value) + ",0.1");
+      lines.push_back(std::to_string(start + 200.0) + ',' + std::to_string(value) + ",0.1");
+    }
+    writeLines(reference, lines);
+  };
+  const std::vector<std::string> compare = {"compare-reference", campaign,      "--reference",
+                                            reference.string(),  "--parameter", "EXX_um_per_m"};
+  write(0.0);
+  const nlohmann::json same = jsonOf(compare);
+  EXPECT_EQ(same["points"].size(), cycles.size());
+  EXPECT_NEAR(same["offset"].get<double>(), -40.0, 1e-3);
+  EXPECT_LT(same["rms"].get<double>(), 1e-3);
+  EXPECT_EQ(same["within_two_sigma"], 1.0);
+  write(25.0);
+  const nlohmann::json other = jsonOf(compare);
+  EXPECT_LT(other["within_two_sigma"].get<double>(), 1.0);
+  EXPECT_GT(other["largest"].get<double>(), 15.0);
+  auto words = compare;
+  words.back() = "EYY";
+  expectBadInput(words, {"EYY", "EXX_um_per_m"});
+  setField(reference, 4, "time_s", "-5");
+  expectBadInput(compare, {"grid.csv", "line 4", "backwards"});
+  writeText(reference, "time_s,value\n1e7,1\n2e7,1\n");
+  EXPECT_EQ(jsonOf(compare, 1)["status"], "degenerate");
 }
 
 }  // namespace
