@@ -10,6 +10,8 @@
 #include <vtkImageData.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -582,6 +584,17 @@ bool Scene::refine(QImage& picture) {
   vtkActor* part = s.parts[s.drawn_parts]->actor;
   part->VisibilityOn();
   part->GetProperty()->SetPointSize(s.parts[0]->actor->GetProperty()->GetPointSize());
+  // Clearing a picture also sets what may be written; without it the masks of the last pass would stay.
+  if (auto* gl = vtkOpenGLRenderWindow::SafeDownCast(s.window); gl != nullptr) {
+    s.window->MakeCurrent();
+    gl->GetState()->ResetGLColorMaskState();
+    gl->GetState()->ResetGLDepthMaskState();
+    gl->GetState()->vtkglColorMask(true, true, true, true);
+    gl->GetState()->vtkglDepthMask(true);
+    constexpr unsigned int gl_depth_test = 0x0B71;
+    gl->GetState()->ResetEnumState(gl_depth_test);
+    gl->GetState()->vtkglEnable(gl_depth_test);
+  }
   s.window->SetErase(0);
   s.window->Render();
   s.window->SetErase(1);

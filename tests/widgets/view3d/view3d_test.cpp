@@ -312,5 +312,46 @@ TEST(View3D, ShapesAreDrawnInTheSceneAndCountAsContent) {
   EXPECT_TRUE(alone.empty());
 }
 
+// A cloud so large that it is drawn bit by bit: what is added later must hide and be hidden as if drawn at once.
+TEST(View3D, RefiningKeepsDepthsAndColours) {
+  const ColourScale scale = ColourScale::symmetric(1.0, {}, QStringLiteral("um"));
+  for (const int n : {200, 360}) {  // one part, several parts
+    auto positions = std::make_shared<std::vector<float>>();
+    auto values = std::make_shared<std::vector<float>>();
+    for (const float value : {-1.0F, 1.0F}) {
+      for (int i = 0; i < n * n; ++i) {
+        const float x = 10.0F * static_cast<float>(i / n) / static_cast<float>(n);
+        const float y = 10.0F * static_cast<float>(i % n) / static_cast<float>(n);
+        // The second sheet lies above the first where y < 5 and below it elsewhere.
+        positions->insert(positions->end(), {x, y, value > 0 ? 0.01F * (5.0F - y) : 0.0F});
+        values->push_back(value);
+      }
+    }
+    View3D view;
+    view.setColourScale(scale);
+    ViewCloud cloud;
+    cloud.xyz_mm = positions;
+    cloud.scalar = values;
+    view.setCloud(cloud);
+    view.resetCamera(StandardView::Top);
+    const QImage picture = view.picture({500, 400}, 1.0);
+    int low = 0, high = 0, mixed = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 100; x < 400; ++x) {  // beside the axes and the colour bar
+        const QRgb c = picture.pixel(x, y) | 0xFF000000U;
+        if (c == (scale.rgb(-1.0) | 0xFF000000U)) ++low;
+        if (c == (scale.rgb(1.0) | 0xFF000000U)) ++high;
+        if (std::max(qRed(c), qBlue(c)) - qGreen(c) > 90 && c != (scale.rgb(-1.0) | 0xFF000000U) &&
+            c != (scale.rgb(1.0) | 0xFF000000U)) {
+          ++mixed;
+        }
+      }
+    }
+    EXPECT_GT(low, 8000) << n;
+    EXPECT_NEAR(static_cast<double>(low) / high, 1.0, 0.15) << n;
+    EXPECT_LT(mixed, 50) << n;
+  }
+}
+
 }  // namespace
 }  // namespace spindrift::gui
