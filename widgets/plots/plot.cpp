@@ -339,7 +339,10 @@ void Plot::placeLegend() {
   } else {
     int widest = 1;
     for (int i = 0; i < legend->itemCount(); ++i) {
-      widest = std::max(widest, legend->item(i)->minimumOuterSizeHint().width() + legend->columnSpacing());
+      // Cells of a wrapped legend may be empty.
+      if (QCPAbstractLegendItem* item = legend->item(i)) {
+        widest = std::max(widest, item->minimumOuterSizeHint().width() + legend->columnSpacing());
+      }
     }
     inset->take(legend);
     outer->insertRow(0);

@@ -5,6 +5,7 @@
 
 #include <QFile>
 #include <QImage>
+#include <cmath>
 
 #include "tests/support/temp_folder.h"
 #include "widgets/image_view/image_view.h"
@@ -50,6 +51,35 @@ TEST(Plot, ShowsSomethingAndEmptyStateSaysHow) {
   plot.setContent({ramp()});
   const QImage full = plot.grab().toImage();
   EXPECT_NE(empty, full);
+}
+
+TEST(Plot, ManyCurvesInAnyWindowAreDrawn) {
+  // Curves through every corner: the legend has to leave the axes and to wrap, differently in every width.
+  std::vector<Series> curves;
+  for (int k = 0; k < 7; ++k) {
+    Series s;
+    s.name = QStringLiteral("sensor number %1").arg(k);
+    s.colour = k;
+    for (int i = 0; i <= 200; ++i) {
+      s.x.push_back(i);
+      s.y.push_back(std::sin(0.9 * i + k) * (1 + k));
+    }
+    curves.push_back(s);
+  }
+  Plot plot;
+  plot.show();
+  QImage before;
+  for (const int width : {900, 420, 300, 640, 120, 900}) {
+    plot.resize(width, 320);
+    plot.setContent(curves);
+    const QImage now = plot.grab().toImage();
+    EXPECT_EQ(now.width(), width);
+    if (width != 900) continue;
+    if (!before.isNull()) {
+      EXPECT_EQ(now, before) << "the way there does not matter";
+    }
+    before = now;
+  }
 }
 
 TEST(Plot, TimeIsShownInPeoplesUnits) {
