@@ -287,8 +287,8 @@ void Plot::placeLegend() {
     if (legend->layout() != inset) {
       outer->take(legend);
       outer->simplify();
+      legend->setWrap(0);  // before the order: that is what arranges the items again
       legend->setFillOrder(QCPLegend::foRowsFirst);
-      legend->setWrap(0);
       inset->addElement(legend, corner);
     }
     inset->setInsetAlignment(0, corner);
@@ -348,8 +348,8 @@ void Plot::placeLegend() {
     outer->insertRow(0);
     outer->addElement(0, 0, legend);
     outer->setRowStretchFactor(0, 0.001);
-    legend->setFillOrder(QCPLegend::foColumnsFirst);
     legend->setWrap(std::max(1, (plot_->width() - 24) / widest));
+    legend->setFillOrder(QCPLegend::foColumnsFirst);
   }
   plot_->replot(QCustomPlot::rpQueuedReplot);
 }
