@@ -205,8 +205,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.steps = outcome.steps;
   result.explained_fraction = outcome.explained_fraction;
   result.leftover_p_value = outcome.leftover_p_value;
-  result.leftover_fraction = outcome.unknown_course.advantage;
-  result.smallest_part = outcome.unknown_course.smallest_part;
+  if (!outcome.fit.terms.empty()) result.unknown_advantage = outcome.unknown_course.advantage;
 
   // Verdict.
   // A noise model a little off makes everything scatter more than it should: that alone takes no name away.

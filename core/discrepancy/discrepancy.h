@@ -147,9 +147,10 @@ struct DiscrepancyResult {
   double noise_correlated_part = 0.0;  ///< 0 ... 1
   double noise_correlation_time_s = 0.0;
   double explained_fraction = 0.0;  ///< of the structured part of the residual
-  double leftover_fraction = 0.0;
-  double smallest_part = 1e9;
-  double leftover_p_value = 1.0;
+  /// In BIC, of an unknown cause (a free course in time, or a free pattern times a course) over the effects found, in
+  /// the component where it is largest; below zero the names are the better explanation.
+  double unknown_advantage = 0.0;
+  double leftover_p_value = 1.0;  ///< of the most structured part of what is left
 
   /// The JSON of FORMATS.md.
   [[nodiscard]] nlohmann::json json() const;

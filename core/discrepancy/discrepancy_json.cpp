@@ -81,8 +81,7 @@ nlohmann::json DiscrepancyResult::json() const {
                   {"correlated_part", jsonNumber(noise_correlated_part)},
                   {"correlation_time_s", jsonNumber(noise_correlation_time_s)}};
   out["explained_fraction"] = jsonNumber(explained_fraction);
-  out["leftover_fraction"] = jsonNumber(leftover_fraction);
-  out["smallest_part"] = jsonNumber(smallest_part);
+  out["unknown_advantage"] = jsonNumber(unknown_advantage);
   out["leftover_p_value"] = jsonNumber(leftover_p_value);
   return out;
 }

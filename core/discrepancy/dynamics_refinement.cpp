@@ -64,7 +64,8 @@ SetGain gainOf(const std::vector<std::size_t>& set, const std::vector<LagOption>
 JointFit EffectSearch::refineDynamics(JointFit fit, std::size_t t, const std::vector<NuisanceColumn>& base) const {
   constexpr double largest_room_part = 0.35;
   const ModelTerm term = fit.terms[t];
-  if (term.variant.inputs[0].dynamics != Dynamics::Lag) return fit;
+  const Dynamics first = term.variant.inputs[0].dynamics;
+  if (first != Dynamics::Lag && first != Dynamics::AsymmetricLag) return fit;
   const Effect& effect = *term.effect;
   const Index k = shape(effect).cols();
   if (term.variant.shared_lag) return fit;

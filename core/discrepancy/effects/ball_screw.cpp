@@ -36,18 +36,15 @@ void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& o
                          const double p = (q.position_mm[axis] - origin) * 1e-3;
                          return uniform ? p : p * p;
                        }}};
-      // What is warmer in the middle is colder at the ends: beside the square a part that is linear.
-      if (!uniform) {
-        effect.shape.push_back({"um_per_m", [component, axis, origin](const DeviationQuery& q, Component c) {
-                                  return c == component ? (q.position_mm[axis] - origin) * 1e-3 : 0.0;
-                                }});
-      }
       if (!known) {
         effect.shape.push_back(constantShape(component));
-        if (uniform) {
-          effect.free_origin = true;
-          effect.origin_low_mm = linear->travel_mm[0] - 500.0;
-          effect.origin_high_mm = linear->travel_mm[1] + 500.0;
+        effect.free_origin = uniform;
+        effect.origin_low_mm = linear->travel_mm[0] - 500.0;
+        effect.origin_high_mm = linear->travel_mm[1] + 500.0;
+        if (!uniform) {
+          effect.shape.push_back({"um_per_m", [component, axis](const DeviationQuery& q, Component c) {
+                                    return c == component ? q.position_mm[axis] * 1e-3 : 0.0;
+                                  }});
         }
       }
       if (drivers.has(feed)) {
