@@ -39,7 +39,7 @@ VirtualScanCampaign campaignOf(int cycles) {
   c.mounting.alpha_rad = 0.0029;
   c.mounting.beta_rad = -0.0013;
   c.mounting.offset_mm = {2.771, -0.876, 4.219};
-  c.optics.profile_points = 1300;
+  c.optics.profile_points = 1800;  // the artefact stands beside the middle of the profile
   c.optics.profile_interval_mm = 0.01;
   c.optics.profile_spacing_mm = 0.0704;
   for (int k = 0; k < 8; ++k) {
