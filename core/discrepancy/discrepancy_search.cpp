@@ -299,7 +299,8 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
     terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(t));
     problem.setNuisances(base);
     JointFit joint = refineDynamics(search, search.refine(terms, 2), 0, base);
-    if (joint.score < fit.score - std::max(20.0, limits.container_margin * fit.delta_chi2)) continue;
+    // What the larger lacks without it is the model error of its dynamics rather than a cause of its own.
+    if (joint.score < fit.score - std::max(20.0, limits.contained_part * fit.delta_chi2)) continue;
     out.steps.push_back({id, false, fit.score - joint.score, fit.delta_chi2 - joint.delta_chi2,
                          "left again: contained in another effect of the model"});
     fit = std::move(joint);

@@ -15,6 +15,7 @@ struct SearchLimits {
   double model_error = 0.08;         ///< amplitude: how far an accepted effect may be from the machine's own behaviour
   double leftover_error = 0.10;      ///< the same, where it is decided whether what is left speaks for an unknown cause
   double container_margin = 0.01;    ///< part of an effect's power by which a container must be better to be named
+  double contained_part = 0.05;      ///< part of the power that an effect beside one that contains it must bring
   double rival_margin = 0.01;        ///< part of an effect's power within which another effect is a rival
   double smallest_part = 0.01;       ///< part of the power explained so far that a further effect must have
   double least_explained = 0.95;     ///< part of the structured power below which nothing is named
