@@ -67,7 +67,10 @@ Plot::Plot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
   }
   plot_->axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignRight);
   plot_->axisRect()->setupFullAxesBox(false);
-  connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] { rebuild(); });
+  connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] {
+    rebuild();
+    placeLegend();
+  });
   restyle();
 }
 
@@ -273,8 +276,8 @@ void Plot::showAll() {
   const double dy = std::max(y_high - y_low, 1e-9) * 0.08;
   plot_->xAxis->setRange(x_low - dx, x_high + dx);
   plot_->yAxis->setRange(y_low - dy, y_high + dy);
-  placeLegend();
   plot_->replot(QCustomPlot::rpQueuedReplot);
+  placeLegend();
 }
 
 /// Into the corner that no data meet; where there is none, into a line above the axes.
@@ -293,6 +296,7 @@ void Plot::placeLegend() {
     }
     inset->setInsetAlignment(0, corner);
   };
+  legend->setBorderPen(QPen(theme().border, 1));
   move_inside(Qt::AlignTop | Qt::AlignRight);
   plot_->setViewport(QRect(QPoint(0, 0), plot_->size()));  // a hidden widget has not been told its size yet
   plot_->replot(QCustomPlot::rpImmediateRefresh);
@@ -345,13 +349,14 @@ void Plot::placeLegend() {
       }
     }
     inset->take(legend);
+    legend->setBorderPen(Qt::NoPen);
     outer->insertRow(0);
     outer->addElement(0, 0, legend);
     outer->setRowStretchFactor(0, 0.001);
     legend->setWrap(std::max(1, (plot_->width() - 24) / widest));
     legend->setFillOrder(QCPLegend::foColumnsFirst);
   }
-  plot_->replot(QCustomPlot::rpQueuedReplot);
+  plot_->replot(QCustomPlot::rpImmediateRefresh);  // a picture may be taken before the event loop runs
 }
 
 void Plot::paintEvent(QPaintEvent*) {

@@ -64,24 +64,23 @@ bool waitForJobs(MainWindow& window, int seconds) {
 TourResult runTour(MainWindow& window, const QString& folder) {
   TourResult result;
   QDir().mkpath(folder);
-  int number = 0;
-  const auto shoot = [&](const QString& name) {
-    for (const ThemeKind kind : {ThemeKind::Light, ThemeKind::Dark}) {
-      window.setTheme(kind);
-      if (!waitForJobs(window, 30)) result.failure = QStringLiteral("%1 did not settle").arg(name);
-      const QString file = QDir(folder).filePath(
-          QStringLiteral("%1-%2-%3.png")
-              .arg(number, 2, 10, QLatin1Char('0'))
-              .arg(name, kind == ThemeKind::Light ? QStringLiteral("light") : QStringLiteral("dark")));
-      if (!window.grab().save(file)) result.failure = QStringLiteral("%1 could not be written").arg(file);
-      result.pictures << file;
-    }
-    window.setTheme(ThemeKind::Light);
-    ++number;
+  // A picture of what is shown; the number keeps light and dark of one page together.
+  const auto shoot = [&](int number, const QString& name, ThemeKind kind) {
+    if (!waitForJobs(window, 30)) result.failure = QStringLiteral("%1 did not settle").arg(name);
+    const QString file = QDir(folder).filePath(
+        QStringLiteral("%1-%2-%3.png")
+            .arg(number, 2, 10, QLatin1Char('0'))
+            .arg(name, kind == ThemeKind::Light ? QStringLiteral("light") : QStringLiteral("dark")));
+    if (!window.grab().save(file)) result.failure = QStringLiteral("%1 could not be written").arg(file);
+    result.pictures << file;
   };
   window.resize(1440, 900);
   window.show();
-  shoot(QStringLiteral("welcome"));
+  for (const ThemeKind kind : {ThemeKind::Dark, ThemeKind::Light}) {
+    window.setTheme(kind);
+    shoot(0, QStringLiteral("welcome"), kind);
+  }
+  int number = 1;
   for (const TourStop& stop : tourStops()) {
     window.startDemo(QString::fromLatin1(stop.demo), true);
     if (!waitForJobs(window, 120) || window.session().campaign() == nullptr) {
@@ -89,13 +88,24 @@ TourResult runTour(MainWindow& window, const QString& folder) {
                        window.jobBar()->message();
       return result;
     }
+    const auto name = [&](StepId step) {
+      return QString::fromLatin1(stop.demo) + QLatin1Char('-') + stepTitle(step).toLower();
+    };
     for (const StepId step : all_steps) {
-      const bool shown = std::find(stop.steps.begin(), stop.steps.end(), step) != stop.steps.end();
       window.workflow().goTo(step);
       if (window.currentPage() != nullptr) window.currentPage()->runAll();
       if (!waitForJobs(window, 120)) result.failure = QStringLiteral("%1 did not finish").arg(stepTitle(step));
-      if (shown) shoot(QString::fromLatin1(stop.demo) + QLatin1Char('-') + stepTitle(step).toLower());
+      const auto shown = std::find(stop.steps.begin(), stop.steps.end(), step);
+      if (shown == stop.steps.end()) continue;
+      shoot(number + static_cast<int>(shown - stop.steps.begin()), name(step), ThemeKind::Light);
     }
+    // All dark ones at once: a change of theme styles the whole window anew.
+    window.setTheme(ThemeKind::Dark);
+    for (const StepId step : stop.steps) {
+      window.workflow().goTo(step);
+      shoot(number++, name(step), ThemeKind::Dark);
+    }
+    window.setTheme(ThemeKind::Light);
   }
   return result;
 }

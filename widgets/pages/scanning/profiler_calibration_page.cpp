@@ -117,16 +117,16 @@ void ProfilerCalibrationPage::refresh() {
       if (w.rfind("Calibration of the profiler", 0) != 0) sentences << fromCore(w);
     }
     if (sentences.isEmpty()) {
-      callout()->show(Tone::Good, tr("%n deviation(s) found; see what the calibration cannot determine.", nullptr,
-                                     static_cast<int>(stored->observations.rows.size())));
+      callout()->show(Tone::Good, tr("Deviations found: %1; see what the calibration cannot determine.")
+                                      .arg(static_cast<int>(stored->observations.rows.size())));
     } else {
       callout()->show(Tone::Attention,
                       sentences.mid(0, 2).join(QLatin1Char(' ')) +
                           (sentences.size() > 2 ? tr(" And %1 more.").arg(sentences.size() - 2) : QString()));
     }
   } else {
-    callout()->show(Tone::Good, tr("%n deviation(s) found, no warnings.", nullptr,
-                                   static_cast<int>(stored->observations.rows.size())));
+    callout()->show(Tone::Good,
+                    tr("Deviations found: %1, no warnings.").arg(static_cast<int>(stored->observations.rows.size())));
   }
   const auto evaluation = results_.last(results_.modelOfMachine());
   if (evaluation == nullptr) {

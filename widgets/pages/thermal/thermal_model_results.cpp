@@ -141,8 +141,7 @@ void ThermalModelPage::showResult() {
     row.cells.front().tip = note;
     rows.push_back(std::move(row));
   };
-  add(tr("This model"), result_->train, result_->test,
-      tr("free run, %n input(s)", nullptr, static_cast<int>(result_->inputs.size())));
+  add(tr("This model"), result_->train, result_->test, tr("free run, inputs: %1").arg(result_->inputs.size()));
   for (const ModelComparison& m : result_->plain) {
     // The name without what it is made of: the whole stands in the tip.
     add(fromCore(m.name).section(QStringLiteral(" on "), 0, 0), m.train, m.test,
