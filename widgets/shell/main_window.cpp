@@ -66,6 +66,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   top_line->setSpacing(8);
   session_name_ = makeLabel({}, "secondaryText");
   campaign_ = new QComboBox;
+  campaign_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   campaign_->setAccessibleName(tr("Campaign"));
   campaign_->setToolTip(tr("The campaign at hand; a session may hold several"));
   campaign_->setMinimumWidth(240);
