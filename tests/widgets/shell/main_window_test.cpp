@@ -6,6 +6,7 @@
 
 #include <QPushButton>
 #include <QSettings>
+#include <QTabWidget>
 #include <QTableWidget>
 #include <QTest>
 
@@ -140,6 +141,27 @@ TEST_F(MainWindowTest, FitsTheModelAndUndoesAChangeOfPoints) {
   EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Current);
   window_->undoStack().redo();
   EXPECT_TRUE(window_->session().excluded().contains(QStringLiteral("M1/F3/EX")));
+}
+
+TEST_F(MainWindowTest, ComparesTwoSetsOfPointsInATableAndOnTheTable) {
+  openEightPoints();
+  window_->session().setSetting("nine-parameter", {{"points", {"F1", "F2", "F3", "F4"}}});
+  window_->workflow().goTo(StepId::Model);
+  window_->currentPage()->runAll();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  auto* page = qobject_cast<NineParameterPage*>(window_->currentPage());
+  ASSERT_NE(page, nullptr);
+  const QImage heat_map = page->view()->grab().toImage();
+  auto* tabs = page->findChild<QTabWidget*>();
+  ASSERT_NE(tabs, nullptr);
+  tabs->setCurrentIndex(2);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(tabs->tabText(2), QStringLiteral("Compare sets"));
+  EXPECT_NE(page->view()->grab().toImage(), heat_map) << "the map of the difference";
+  EXPECT_FALSE(page->view()->empty());
+  tabs->setCurrentIndex(0);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_LT(std::abs(page->view()->colourScale()->high + page->view()->colourScale()->low), 1e-9);
 }
 
 TEST_F(MainWindowTest, EditingTheMachineCanBeUndone) {

@@ -171,6 +171,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
     changeOptions(tr("choose points"), {{"points", chosen}});
   });
   connect(component_, &Segments::chosen, this, &NineParameterPage::showField);
+  connect(tabs_, &QTabWidget::currentChanged, this, &NineParameterPage::showField);
   connect(arrows_, &QCheckBox::toggled, this, &NineParameterPage::showField);
   connect(same_scale_, &QCheckBox::toggled, this, &NineParameterPage::showField);
   connect(relief_, &QCheckBox::toggled, this, [this](bool on) {
@@ -417,6 +418,7 @@ void NineParameterPage::showFit() {
 
 void NineParameterPage::showComparison() {
   comparison_->setRows({});
+  compared_.reset();
   const auto set = session().observations();
   if (!set || !result_) return;
   NineParameterOptions a = options();
@@ -455,6 +457,7 @@ void NineParameterPage::showComparison() {
       rows.push_back(std::move(row));
     }
     comparison_->setRows(std::move(rows));
+    compared_ = c;
     if (differing.isEmpty()) {
       comparison_verdict_->show(Tone::Good,
                                 tr("Both sets of points give the same model within their uncertainty (p = %1).")
@@ -494,8 +497,51 @@ void NineParameterPage::setComponent(int index) {
   showField();
 }
 
+/// Where the two sets of points disagree: other points minus checked ones, faded where that is within its uncertainty.
+void NineParameterPage::showDifference(const NineParameterComparison& comparison) {
+  const Component component = shown_components[static_cast<std::size_t>(component_->current())];
+  const NineParameterModel model = comparison.differenceModel();
+  DeviationQuery conditions;
+  conditions.state = comparison.a.state;
+  std::vector<Eigen::Vector2d> measured;
+  std::vector<ViewPoint> points;
+  for (const NineParameterResidual& r : comparison.a.residuals) {
+    if (r.component != component) continue;
+    measured.push_back(r.position_mm.head<2>());
+    DeviationQuery here = conditions;
+    here.position_mm = r.position_mm;
+    const PredictedComponent difference = model.predict(here, component);
+    ViewPoint point;
+    point.id = point.label = QString::fromStdString(r.point);
+    point.position_mm = r.position_mm;
+    point.used = r.used;
+    if (std::isfinite(difference.sigma)) {
+      point.value = difference.value;
+      point.value_text = QString::fromStdString(withUncertainty(difference.value, difference.sigma, "um"));
+    }
+    points.push_back(point);
+  }
+  auto field = std::make_shared<Field>(evaluateField(model, tableGrid(120), component, conditions, measured));
+  field_ = field;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < field->value.size(); ++i) {
+    if (std::isfinite(field->sigma[i])) largest = std::max(largest, std::abs(field->value[i]));
+  }
+  const QString name = QString::fromStdString(std::string(toString(component)));
+  view_->setMachine(session().campaign()->machine);
+  view_->setColourScale(ColourScale::symmetric(largest, name, QStringLiteral("um")));
+  view_->setField(field, FieldStyle{});
+  view_->setPoints(std::move(points));
+  view_->setArrows({}, 1.0);
+  view_->setCaption(tr("%1: other points minus checked points").arg(name));
+}
+
 void NineParameterPage::showField() {
   if (!result_ || session().campaign() == nullptr) return;
+  if (tabs_->currentWidget()->isAncestorOf(comparison_verdict_) && compared_) {
+    showDifference(*compared_);
+    return;
+  }
   const NineParameterFit& f = *result_;
   const NineParameterModel model = f.model();
   const Component component = shown_components[static_cast<std::size_t>(component_->current())];

@@ -39,6 +39,7 @@ class NineParameterPage : public Page {
   void fit();
   void showFit();
   void showField();
+  void showDifference(const NineParameterComparison& comparison);
   void showComparison();
   [[nodiscard]] NineParameterOptions options() const;
   [[nodiscard]] nlohmann::json optionsJson() const;
@@ -56,6 +57,7 @@ class NineParameterPage : public Page {
   NumberTile* rms_validation_;
   NumberTile* condition_;
   QTabWidget* tabs_;
+  std::optional<NineParameterComparison> compared_;  ///< the checked points against the others
   Callout* comparison_verdict_;
   Segments* component_;
   QCheckBox* arrows_;
