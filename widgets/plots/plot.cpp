@@ -246,8 +246,16 @@ void Plot::rebuild() {
   }
   plot_->legend->setVisible(legend_ && named > 1);
   plot_->setVisible(!series_.empty());
-  plot_->replot(QCustomPlot::rpQueuedReplot);
+  replotSoon();
   update();
+}
+
+void Plot::replotSoon() {
+  // A plot that was never shown has no size to draw in yet.
+  if (plot_->viewport().isEmpty()) {
+    plot_->setViewport(QRect(0, 0, std::max(1, plot_->width()), std::max(1, plot_->height())));
+  }
+  plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
 void Plot::showAll() {
@@ -276,7 +284,7 @@ void Plot::showAll() {
   const double dy = std::max(y_high - y_low, 1e-9) * 0.08;
   plot_->xAxis->setRange(x_low - dx, x_high + dx);
   plot_->yAxis->setRange(y_low - dy, y_high + dy);
-  plot_->replot(QCustomPlot::rpQueuedReplot);
+  replotSoon();
   placeLegend();
 }
 
@@ -379,7 +387,7 @@ void Plot::paintEvent(QPaintEvent*) {
 }
 
 void Plot::resizeEvent(QResizeEvent*) {
-  plot_->setGeometry(rect());
+  plot_->setGeometry(QRect(QPoint(0, 0), size().expandedTo({1, 1})));
   placeLegend();
 }
 

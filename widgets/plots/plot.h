@@ -88,6 +88,7 @@ class Plot : public QWidget {
   void rebuild();
   void restyle();
   void placeLegend();
+  void replotSoon();
 
   QCustomPlot* plot_;
   QString x_title_, y_title_;

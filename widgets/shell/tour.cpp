@@ -41,6 +41,21 @@ void settle(int ms) {
   loop.exec();
 }
 
+/// The report of the page that is shown, in each of its formats.
+void writeReports(const MainWindow& window, const QString& file, TourResult& result) {
+  for (const Exportable& item : window.currentPage()->exportables()) {
+    for (const QString& format : item.formats) {
+      const QString target = file + QLatin1Char('.') + format;
+      try {
+        item.write(target);
+        result.reports << target;
+      } catch (const std::exception& e) {
+        result.failure = QString::fromUtf8(e.what());
+      }
+    }
+  }
+}
+
 bool viewsBusy(const MainWindow& window) {
   for (const View3D* view : window.findChildren<View3D*>()) {
     if (view->isVisible() && view->refining()) return true;
@@ -98,6 +113,7 @@ TourResult runTour(MainWindow& window, const QString& folder) {
       const auto shown = std::find(stop.steps.begin(), stop.steps.end(), step);
       if (shown == stop.steps.end()) continue;
       shoot(number + static_cast<int>(shown - stop.steps.begin()), name(step), ThemeKind::Light);
+      if (step == StepId::Report) writeReports(window, QDir(folder).filePath(name(step)), result);
     }
     // All dark ones at once: a change of theme styles the whole window anew.
     window.setTheme(ThemeKind::Dark);

@@ -11,6 +11,7 @@ class MainWindow;
 
 struct TourResult {
   QStringList pictures;
+  QStringList reports;  ///< PDF and HTML
   QString failure;  ///< empty: everything went well
 };
 

@@ -19,6 +19,7 @@ TEST(Tour, MakesAllPictures) {
   const TourResult result = runTour(window, QString::fromStdString((folder / "tour").string()));
   EXPECT_TRUE(result.failure.isEmpty()) << result.failure.toStdString();
   ASSERT_GT(result.pictures.size(), 2 * static_cast<int>(all_steps.size()));
+  EXPECT_EQ(result.reports.size(), 4) << "two demos, PDF and HTML";
   for (const QString& file : result.pictures) {
     const QImage picture(file);
     ASSERT_FALSE(picture.isNull()) << file.toStdString();
