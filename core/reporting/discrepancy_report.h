@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The story of a discrepancy for people: verdict, effects with evidence, time courses before and after, points, places and
-// steps. Deviations um or urad, times h. One self-contained file, or the same parts inside a larger report.
+// The story of a discrepancy for people: verdict, effects with evidence, time courses before and after, points, places
+// and steps. Deviations um or urad, times h. One self-contained file, or the same parts inside a larger report.
 #pragma once
 
 #include <string>

@@ -47,7 +47,8 @@ struct ScanEvaluation {
 /// twice.
 [[nodiscard]] std::vector<ScanCapture> readScanList(const Campaign& campaign);
 
-/// Scans the user excluded (Campaign::excluded_captures names their clouds) are left out. scan_model "" takes that of machine.json. Throws InputError if the list or the machine's profiler cannot be used.
+/// Scans the user excluded (Campaign::excluded_captures names their clouds) are left out. scan_model "" takes that of
+/// machine.json. Throws InputError if the list or the machine's profiler cannot be used.
 [[nodiscard]] ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string& scan_model,
                                                   JobContext& job);
 

@@ -12,7 +12,7 @@ class MainWindow;
 struct TourResult {
   QStringList pictures;
   QStringList reports;  ///< PDF and HTML
-  QString failure;  ///< empty: everything went well
+  QString failure;      ///< empty: everything went well
 };
 
 [[nodiscard]] TourResult runTour(MainWindow& window, const QString& folder);
