@@ -5,6 +5,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/workflows/thermal_outputs.h"
 #include "core/workflows/thermal_tests.h"
 #include "core/workflows/thermal_tracking.h"
 #include "core/workflows/thermal_workflow.h"
@@ -15,6 +16,7 @@ namespace {
 struct IdentifyArguments {
   IdentifyRequest request;
   std::string log;
+  std::string outputs;
   std::string inputs = "auto";
   std::string train;
   std::string test;
@@ -42,22 +44,36 @@ std::optional<std::array<int, 3>> parseOrder(const std::string& text) {
 
 void addIdentify(CLI::App& parent, CommandLine& line) {
   auto a = std::make_shared<IdentifyArguments>();
-  CLI::App* command =
-      addCommand(parent, line, "identify",
-                 "Find a dynamic model of one measured output and judge it in free run on rows it has not seen",
-                 [a](JobContext& job) {
-                   a->request.log = a->log;
-                   if (a->inputs != "auto") a->request.inputs = splitList(a->inputs);
-                   a->request.train = TimeRange::parse(a->train, "--train");
-                   a->request.test = TimeRange::parse(a->test, "--test");
-                   a->request.order = parseOrder(a->order);
-                   const IdentifyResult result = identifyThermalModel(a->request, job);
-                   if (!a->prediction.empty()) result.writePrediction(a->prediction);
-                   if (!a->model.empty()) result.model.write(a->model);
-                   return CommandResult{result.json(), result.summary(), result.good_enough ? Done : NotGoodEnough};
-                 });
+  CLI::App* command = addCommand(
+      parent, line, "identify",
+      "Find a dynamic model of one measured output and judge it in free run on rows it has not seen",
+      [a](JobContext& job) {
+        a->request.log = a->log;
+        if (a->inputs != "auto") a->request.inputs = splitList(a->inputs);
+        a->request.train = TimeRange::parse(a->train, "--train");
+        a->request.test = TimeRange::parse(a->test, "--test");
+        a->request.order = parseOrder(a->order);
+        const std::vector<std::string> outputs = splitList(a->outputs);
+        if (outputs.size() > 1) {
+          const SeveralOutputs several = identifySeveralOutputs(a->request, outputs, job);
+          if (!a->prediction.empty()) several.writePrediction(a->prediction);
+          if (!a->model.empty()) several.model.write(a->model);
+          return CommandResult{several.json(), several.summary(), several.good_enough ? Done : NotGoodEnough};
+        }
+        a->request.output = a->outputs;
+        const IdentifyResult result = identifyThermalModel(a->request, job);
+        if (!a->prediction.empty()) result.writePrediction(a->prediction);
+        if (!a->model.empty()) result.model.write(a->model);
+        return CommandResult{result.json(), result.summary(), result.good_enough ? Done : NotGoodEnough};
+      });
   command->add_option("LOG", a->log, "CSV with time_s and signals in columns")->required();
-  command->add_option("--output", a->request.output, "Column to model, such as ch1_um")->required();
+  command
+      ->add_option(
+          "--output", a->outputs,
+          "Column to model, such as ch1_um; several, separated by commas, are identified one by one and go into "
+          "one model")
+      ->required()
+      ->type_name("NAME");
   command
       ->add_option(
           "--inputs", a->inputs,

@@ -69,6 +69,36 @@ TEST_F(Thermal, IdentifyAndTrackGiveTheKeysOfTheContract) {
   }
 }
 
+TEST_F(Thermal, SeveralOutputsGoIntoOneModelThatPredictsAsEachAlone) {
+  // The nose temperature is a second output here: it follows the speed with another lag.
+  const std::string model = (folder / "both.json").string();
+  const std::string prediction = (folder / "both.csv").string();
+  const std::vector<std::string> both = {
+      "thermal",     "identify",    log.string(), "--output",     "growth_um,T_nose_degC",
+      "--inputs",    "spindle_rpm", "--train",    "0:12000",      "--test",
+      "12000:18000", "--model-out", model,        "--prediction", prediction};
+  const nlohmann::json j = jsonOf(both);
+  ASSERT_EQ(j["outputs"].size(), 2U);
+  EXPECT_EQ(j["model"]["outputs"].size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string name = i == 0 ? "growth_um" : "T_nose_degC";
+    EXPECT_EQ(j["outputs"][i]["output"], name);
+    EXPECT_GT(j["outputs"][i]["test"]["fit_percent"].get<double>(), 80.0) << name;
+    const nlohmann::json alone = jsonOf({"thermal", "identify", log.string(), "--output", name, "--inputs",
+                                         "spindle_rpm", "--train", "0:12000", "--test", "12000:18000"});
+    EXPECT_NEAR(j["outputs"][i]["test"]["rmse"].get<double>(), alone["test"]["rmse"].get<double>(), 1e-12);
+    EXPECT_EQ(j["model"]["inputs"].size(), alone["model"]["inputs"].size()) << "inputs are shared";
+  }
+  EXPECT_EQ(linesOf(prediction).front(),
+            "time_s,measured_growth_um,predicted_growth_um,measured_T_nose_degC,predicted_T_nose_degC");
+  // The model file is what the compensator loads.
+  const nlohmann::json compensated = jsonOf({"thermal", "compensate", log.string(), "--model", model});
+  EXPECT_NE(compensated.dump().find("growth_um"), std::string::npos);
+  expectBadInput({"thermal", "identify", log.string(), "--output", "growth_um,growth_um", "--train", "0:12000",
+                  "--test", "12000:18000"},
+                 {"growth_um", "twice"});
+}
+
 TEST_F(Thermal, TrackDrawsAndTakesAContext) {
   auto words = identify();
   const std::string model = (folder / "model.json").string();

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Models of several measured outputs at once: each output is identified with inputs of its own, and all go into one
+// model, as the compensator of a controller loads it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/job_context.h"
+#include "core/workflows/thermal_workflow.h"
+
+namespace spindrift {
+
+struct SeveralOutputs {
+  std::vector<std::string> names;
+  std::vector<IdentifyResult> results;  ///< one each
+  ThermalModel model;                   ///< all of them
+  bool good_enough = true;              ///< all are
+
+  /// {"outputs":[{"output", ... keys of one output}], "model", "elapsed_ms"}.
+  [[nodiscard]] nlohmann::json json() const;
+  [[nodiscard]] std::string summary() const;
+  /// time_s, then measured_NAME and predicted_NAME of every output.
+  void writePrediction(const std::filesystem::path& file) const;
+};
+
+/// `request.output` is replaced by each name. Throws InputError as identifyThermalModel, and for a name given twice.
+[[nodiscard]] SeveralOutputs identifySeveralOutputs(const IdentifyRequest& request,
+                                                    const std::vector<std::string>& outputs, const JobContext& job);
+
+/// One model with the outputs of all: inputs that are the same column, power, scale and reference are shared; their
+/// range of training is the one they have in common. `models` must not be empty and must come from the same period.
+[[nodiscard]] ThermalModel joined(const std::vector<ThermalModel>& models);
+
+}  // namespace spindrift
