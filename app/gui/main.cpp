@@ -6,6 +6,7 @@
 #include <QElapsedTimer>
 #include <QSettings>
 #include <QStandardPaths>
+#include <QTemporaryDir>
 #include <QTimer>
 #include <algorithm>
 #include <clocale>
@@ -105,7 +106,13 @@ int run(int argc, char** argv) {
     std::printf("spindrift %s\n", SPINDRIFT_VERSION);
     return exit_done;
   }
-  if (parser.isSet(tour) || parser.isSet(self_test)) QStandardPaths::setTestModeEnabled(true);
+  // The user's sessions, recent folders and settings are none of the business of tour and self-test.
+  QTemporaryDir scratch;
+  if (parser.isSet(tour) || parser.isSet(self_test)) {
+    QStandardPaths::setTestModeEnabled(true);
+    QCoreApplication::setOrganizationName(QStringLiteral("spindrift-unattended"));
+    qputenv("SPINDRIFT_SESSIONS", scratch.path().toUtf8());
+  }
   const QString data = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
   if (!data.isEmpty()) spindrift::startLogFile((data + QStringLiteral("/spindrift.log")).toStdString());
 

@@ -269,6 +269,8 @@ nlohmann::json SessionModel::setting(const std::string& key, const nlohmann::jso
 }
 
 std::filesystem::path sessionsFolder() {
+  const QString asked = qEnvironmentVariable("SPINDRIFT_SESSIONS");
+  if (!asked.isEmpty()) return asked.toStdString();
   QString place = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
   if (place.isEmpty()) place = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
   return QDir(place).filePath(QStringLiteral("Spindrift")).toStdString();

@@ -126,6 +126,8 @@ class SessionModel : public QObject {
 };
 
 /// Folder in which new sessions are made: <documents>/Spindrift, or the application's data folder.
+/// The variable SPINDRIFT_SESSIONS of the environment names another one (tour, self-test and tests leave nothing
+/// behind).
 [[nodiscard]] std::filesystem::path sessionsFolder();
 /// A folder in it that does not exist yet, named after the campaign and the time.
 [[nodiscard]] std::filesystem::path newSessionFolder(const QString& name);

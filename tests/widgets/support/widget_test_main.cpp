@@ -3,6 +3,7 @@
 
 #include <QApplication>
 #include <QStandardPaths>
+#include <QTemporaryDir>
 #include <clocale>
 
 #include "widgets/theme/theme.h"
@@ -12,6 +13,9 @@ int main(int argc, char** argv) {
   QApplication application(argc, argv);
   QCoreApplication::setOrganizationName(QStringLiteral("spindrift-test"));
   QStandardPaths::setTestModeEnabled(true);
+  // Test mode leaves the documents folder as it is: sessions would stay there.
+  const QTemporaryDir sessions;
+  qputenv("SPINDRIFT_SESSIONS", sessions.path().toUtf8());
   std::setlocale(LC_ALL, "C");
   spindrift::gui::applyTheme(application, spindrift::gui::ThemeKind::Light);
   testing::InitGoogleTest(&argc, argv);
