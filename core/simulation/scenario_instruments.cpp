@@ -119,6 +119,10 @@ ProfilerOptions parseProfiler(const JsonNode& node, const MachineDescription& ma
     artefact.id = item.at("point").name();
     const MachinePoint* point = machine.findPoint(artefact.id);
     if (point == nullptr || point->kind != "surface") item.at("point").reject("the id of a surface of the machine");
+    if (!o.artefact_at_mm.empty() && (std::abs(point->position_mm.x() - o.artefact_at_mm.front().x()) > 1e-9 ||
+                                      std::abs(point->position_mm.z() - o.artefact_at_mm.front().z()) > 1e-9)) {
+      item.at("point").reject("a surface with the x_mm and z_mm of the first one: the artefacts stand along Y");
+    }
     artefact.y_mm = item.at("y_mm").number();
     artefact.yaw_rad = item.numberOr("turn_rad", 0.0);
     if (const auto bumps = item.find("bumps")) {

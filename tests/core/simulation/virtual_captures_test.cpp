@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Images and clouds of a scenario lead back to what the virtual machine hides, and wrong scenarios are refused.
+#include "core/simulation/virtual_captures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/imaging/evaluate_fiducials.h"
+#include "core/machine/campaign.h"
+#include "core/simulation/virtual_campaign.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+nlohmann::json scenarioJson(const std::string& name) {
+  return JsonNode::read(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios" / (name + ".json")).value();
+}
+
+Scenario parsed(const nlohmann::json& json) {
+  return Scenario::parse(JsonNode::parse(json.dump(), "scenario.json"), "scenario.json");
+}
+
+void expectRefused(const nlohmann::json& json, const std::string& part) {
+  try {
+    (void)parsed(json);
+    ADD_FAILURE() << "accepted although wrong: " << part;
+  } catch (const InputError& e) {
+    EXPECT_THAT(std::string(e.what()), ::testing::HasSubstr(part));
+  }
+}
+
+TEST(VirtualCaptures, ImagesLeadBackToTheHiddenDeviation) {
+  nlohmann::json json = scenarioJson("fiducials");
+  json["microscope"].update({{"fiducials", {"F1", "F3"}},
+                             {"width_px", 760},
+                             {"height_px", 540},
+                             {"pixel_length_um", 2.4},
+                             {"defocus_px_per_um", 0.010},
+                             {"steps_mm", {-0.1016, 0.0, 0.1016}}});
+  const VirtualCampaign made = simulateCampaign(parsed(json), std::nullopt, {});
+  ASSERT_NE(made.captures, nullptr);
+  EXPECT_EQ(made.captures->images(), 2U * 2U * 14U);
+  const testing::TempFolder folder;
+  writeCampaign(made, folder / "campaign");
+  JobContext job;
+  const InstrumentEvaluation evaluation = evaluateFiducials(Campaign::read(folder / "campaign"), job);
+  std::map<std::tuple<std::string, std::string, std::string>, double> truth;
+  const nlohmann::json hidden = truthJson(made).at("captures");
+  for (const auto& row : hidden) {
+    truth[{row["state"], row["point"], row["component"]}] = row["value"];
+  }
+  int compared = 0;
+  double largest = 0.0;
+  for (const Observation& o : evaluation.observations.rows) {
+    if (o.state != "M1") continue;
+    const double expected = truth.at({o.state, o.point, std::string(toString(o.component))});
+    EXPECT_NEAR(o.value, expected, 4.0 * std::sqrt(2.0) * o.sigma) << o.point << toString(o.component);
+    largest = std::max(largest, std::abs(expected));
+    ++compared;
+  }
+  EXPECT_EQ(compared, 6);
+  EXPECT_GT(largest, 5.0) << "the machine has to be bent for this to mean anything";
+}
+
+TEST(VirtualCaptures, WrongScenariosAreRefused) {
+  nlohmann::json json = scenarioJson("fiducials");
+  json["microscope"]["fiducials"] = {"F9"};
+  expectRefused(json, "F9");
+  json = scenarioJson("fiducials");
+  json["microscope"]["rotations_deg"] = {0.0, 8.0};
+  expectRefused(json, "at least 3");
+  json = scenarioJson("scans");
+  json["profiler"]["artefacts"][0]["point"] = "A9";
+  expectRefused(json, "A9");
+  json = scenarioJson("scans");
+  json["machine"]["points"][1]["x_mm"] = 1900.0;
+  expectRefused(json, "along Y");
+  json = scenarioJson("scans");
+  json["machine"].erase("profiler");
+  expectRefused(json, "profiler");
+}
+
+}  // namespace
+}  // namespace spindrift
