@@ -4,7 +4,8 @@
 # display the same guided work runs on the offscreen platform; pictures and report are in build/tour.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-. resources/setup.sh -DSPINDRIFT_TESTS=OFF
+targets=(spindrift spindrift-cli)
+. resources/setup.sh
 if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
   exec build/bin/spindrift --demo "$@"
 fi

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing from resources/debian-packages.txt, configures and builds into build/. Sourced by app/run.sh and
-# tests/run.sh after a cd to the top of the tree. Usage: . resources/setup.sh [extra cmake arguments]
+# tests/run.sh after a cd to the top of the tree. Usage: [targets=(spindrift ...)] . resources/setup.sh
+# Without targets everything is built, tests included. With targets only those are, and a build folder that is configured
+# already keeps its settings: whoever runs the tests next finds them as they were.
 set -euo pipefail
 
 missing=()
@@ -17,5 +19,10 @@ if [ "${#missing[@]}" -gt 0 ]; then
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 fi
 
-cmake --preset release -DSPINDRIFT_TESTS=ON "$@" >/dev/null
-cmake --build build
+if [ -z "${targets[*]:-}" ]; then
+  cmake --preset release -DSPINDRIFT_TESTS=ON >/dev/null
+  cmake --build build
+else
+  [ -f build/build.ninja ] || cmake --preset release >/dev/null
+  cmake --build build --target "${targets[@]}"
+fi

@@ -4,6 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 started=$SECONDS
+targets=()
 . resources/setup.sh
 built=$SECONDS
 export QT_QPA_PLATFORM=offscreen LC_ALL=C.UTF-8
