@@ -14,33 +14,13 @@
 #include "core/session/fingerprint.h"
 #include "core/session/session_database.h"
 #include "core/session/session_lock.h"
+#include "core/session/session_recovery.h"
 
 namespace spindrift {
 namespace {
 
 constexpr const char* version_file = "spindrift-session.json";
 constexpr const char* database_file = "session.sqlite";
-
-/// A folder name that is safe everywhere: letters, digits, - and _.
-std::string folderName(const std::string& name) {
-  std::string safe;
-  for (const char c : name) {
-    const bool plain =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-    if (plain) {
-      safe += c;
-    } else if (!safe.empty() && safe.back() != '_') {
-      safe += '_';
-    }
-  }
-  return safe.empty() ? "campaign" : safe.substr(0, 60);
-}
-
-std::filesystem::path freshFolder(const std::filesystem::path& parent, const std::string& name) {
-  std::filesystem::path folder = parent / folderName(name);
-  for (int i = 2; std::filesystem::exists(folder); ++i) folder = parent / fmt::format("{}_{}", folderName(name), i);
-  return folder;
-}
 
 void copyFolder(const std::filesystem::path& source, const std::filesystem::path& target, JobContext& job) {
   std::vector<std::filesystem::path> files;
@@ -75,6 +55,10 @@ Session::~Session() = default;
 
 bool Session::isSession(const std::filesystem::path& folder) {
   return std::filesystem::is_regular_file(folder / version_file);
+}
+
+bool Session::wasLeftOpen(const std::filesystem::path& folder) {
+  return isSession(folder) && SessionLock::abandoned(folder);
 }
 
 Session Session::create(const std::filesystem::path& wanted) {
@@ -118,20 +102,25 @@ Session Session::open(const std::filesystem::path& wanted) {
     writeFileAtomically(folder / version_file, fmt::format("{{\"format\":\"spindrift-session\",\"version\":{}}}\n",
                                                            SessionDatabase::newest_version));
   }
-  // A campaign that was being imported when the program died has no row: its half copy is of no use.
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "campaigns", ignored)) {
-    if (entry.path().filename().string().starts_with(".importing")) std::filesystem::remove_all(entry.path(), ignored);
-  }
+  const bool crashed = !lock->diedBefore().empty();
+  RecoveryReport found = putInOrder(folder, *database);
   Session session(folder, std::move(lock), std::move(database));
   session.migration_messages_ = std::move(messages);
+  if (crashed) session.recovery_messages_.push_back(found.sentence());
   log(LogLevel::Info, "opened session " + folder.string());
   return session;
 }
 
 std::int64_t Session::importCampaign(const std::filesystem::path& source, JobContext& job) {
+  database_->requireInPlace();
   const Campaign checked = Campaign::read(source);
-  const std::string fingerprint = fingerprintOfFolder(source);
+  const std::string fingerprint = [&] {
+    try {
+      return fingerprintOfFolder(source);
+    } catch (const std::filesystem::filesystem_error& failure) {
+      throw InputError({source, ""}, fmt::format("cannot be read: {}.", failure.code().message()));
+    }
+  }();
   for (const CampaignRecord& record : campaigns()) {
     if (record.fingerprint == fingerprint) return record.id;
   }
@@ -158,6 +147,7 @@ std::int64_t Session::importCampaign(const std::filesystem::path& source, JobCon
 
 std::int64_t Session::newCampaign(const std::string& name, const std::string& start_utc,
                                   const std::string& machine_json) {
+  database_->requireInPlace();
   const std::filesystem::path target = freshFolder(folder_ / "campaigns", name);
   const nlohmann::json head = {
       {"format", "spindrift-campaign"}, {"version", 1}, {"name", name}, {"start_utc", start_utc}};
@@ -190,23 +180,39 @@ CampaignRecord Session::campaign(std::int64_t id) const {
 
 void Session::removeCampaign(std::int64_t id) {
   const CampaignRecord record = campaign(id);
+  // The row goes first: a folder without a row is moved aside when the session is opened, a row without a folder would
+  // be in the way.
+  database_->removeCampaign(id);
   const std::filesystem::path target = freshFolder(folder_ / "removed", record.name);
   std::error_code error;
   std::filesystem::create_directories(target.parent_path(), error);
   std::filesystem::rename(record.folder, target, error);
   if (error) throw InputError({record.folder, ""}, fmt::format("cannot be moved away: {}.", error.message()));
-  database_->removeCampaign(id);
 }
 
 void Session::addCapture(std::int64_t id, const std::string& list, const std::string& header, const std::string& row,
                          const std::filesystem::path& source, const std::string& relative_name) {
+  database_->requireInPlace();
   const CampaignRecord record = campaign(id);
-  const std::filesystem::path list_file = record.folder / "captures" / list;
-  if (!source.empty()) writeFileAtomically(record.folder / "captures" / relative_name, readFile(source));
+  const std::filesystem::path captures = record.folder / "captures";
+  const std::filesystem::path list_file = captures / list;
   std::string text = std::filesystem::exists(list_file) ? readFile(list_file) : header + "\n";
   if (!text.ends_with('\n')) text += '\n';
-  writeFileAtomically(list_file, text + row + "\n");
-  database_->setCampaignFingerprint(id, Fingerprint().add(record.fingerprint).add(row).text());
+  const bool there = text.find("\n" + row + "\n") != std::string::npos;
+  if (!source.empty()) {
+    const std::string content = readFile(source);
+    if (!there) {
+      writeFileAtomically(captures / relative_name, content);
+    } else if (readFile(captures / relative_name) != content) {
+      throw InputError({captures / relative_name, ""},
+                       "is there already with another content; allowed: a new name for a new capture.");
+    }
+  }
+  if (!database_->setting(captureBaseKey(id))) {
+    database_->setSetting(captureBaseKey(id), nlohmann::json(record.fingerprint).dump());
+  }
+  if (!there) writeFileAtomically(list_file, text + row + "\n");
+  refreshCaptureFingerprint(*database_, record);
 }
 
 std::string Session::inputsFingerprint(std::int64_t id, const nlohmann::json& options) const {

@@ -74,6 +74,9 @@ class Session {
   [[nodiscard]] static Session open(const std::filesystem::path& folder);
   /// True if the folder holds a session of any version.
   [[nodiscard]] static bool isSession(const std::filesystem::path& folder);
+  /// True if the program that worked on the session last ended without closing it (crash, power cut) and nobody works
+  /// on it now. Changes nothing.
+  [[nodiscard]] static bool wasLeftOpen(const std::filesystem::path& folder);
 
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
@@ -82,6 +85,9 @@ class Session {
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
   /// Sentences about what a migration did; empty if there was none.
   [[nodiscard]] const std::vector<std::string>& migrationMessages() const noexcept { return migration_messages_; }
+
+  /// Sentences about what opening found after a crash and put in order; empty after an orderly end.
+  [[nodiscard]] const std::vector<std::string>& recoveryMessages() const noexcept { return recovery_messages_; }
 
   // Campaigns -----------------------------------------------------------------------------------------------------
   /// Checks a campaign folder by reading it and copies it into the session. Cancelling leaves no trace. A campaign with
@@ -94,8 +100,10 @@ class Session {
   [[nodiscard]] CampaignRecord campaign(std::int64_t id) const;
   /// Takes a campaign and its results out of the session. Its files are moved to `removed/` inside the session.
   void removeCampaign(std::int64_t id);
-  /// Adds one captured item: copies `source` to `captures/<relative_name>` (atomically) and appends `row` to
-  /// `captures/<list>` (with `header` if the list is new). Either both are there afterwards or the row is not.
+  /// Adds one captured item: copies `source` (may be empty: a row without a file) to `captures/<relative_name>`
+  /// (atomically) and appends `row` to `captures/<list>` (with `header` if the list is new). Either both are there
+  /// afterwards or the row is not. A row that is there already is not added again, so that a capture which was cut
+  /// short can be repeated. Throws InputError: disk full, folder gone, the row is there with another file.
   void addCapture(std::int64_t campaign, const std::string& list, const std::string& header, const std::string& row,
                   const std::filesystem::path& source, const std::string& relative_name);
 
@@ -127,6 +135,7 @@ class Session {
   std::unique_ptr<SessionLock> lock_;
   std::unique_ptr<SessionDatabase> database_;
   std::vector<std::string> migration_messages_;
+  std::vector<std::string> recovery_messages_;
 };
 
 /// Now, as "2026-01-31T08:00:00Z".

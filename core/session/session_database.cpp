@@ -2,6 +2,8 @@
 #include "core/session/session_database.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
@@ -11,6 +13,7 @@ namespace spindrift {
 
 struct SessionDatabase::Connection {
   mutable soci::session sql;
+  struct stat identity {};  ///< of the file when it was opened
 };
 
 namespace {
@@ -73,14 +76,30 @@ SessionDatabase::SessionDatabase(const std::filesystem::path& file, std::vector<
         messages.push_back(fmt::format("The session was brought from version {} to {}.", before, newest_version));
       }
     }
+    if (::stat(file_.c_str(), &connection_->identity) != 0) throw InputError({file_, ""}, "cannot be opened.");
   });
 }
 
 SessionDatabase::~SessionDatabase() = default;
 
+void SessionDatabase::requireInPlace() const {
+  struct stat now {};
+  const struct stat& then = connection_->identity;
+  if (::stat(file_.c_str(), &now) == 0 && now.st_ino == then.st_ino && now.st_dev == then.st_dev) return;
+  throw InputError({file_.parent_path(), ""},
+                   "is not there any more (removed, renamed, or the network folder is gone). Nothing was stored; bring "
+                   "the folder back and do the last step again.");
+}
+
+template <typename Body>
+auto SessionDatabase::writing(Body body) const -> decltype(body()) {
+  requireInPlace();
+  return guarded(file_, std::move(body));
+}
+
 std::int64_t SessionDatabase::addCampaign(const std::string& name, const std::string& folder,
                                           const std::string& fingerprint) {
-  return guarded(file_, [&] {
+  return writing([&] {
     const std::string now = utcNow();
     soci::session& sql = connection_->sql;
     sql << "insert into campaign (name, folder, fingerprint, imported_utc) values (:n, :f, :p, :t)", soci::use(name),
@@ -92,7 +111,7 @@ std::int64_t SessionDatabase::addCampaign(const std::string& name, const std::st
 }
 
 void SessionDatabase::setCampaignFingerprint(std::int64_t id, const std::string& fingerprint) {
-  guarded(file_, [&] {
+  writing([&] {
     const long long key = id;
     connection_->sql << "update campaign set fingerprint = :p where id = :i", soci::use(fingerprint), soci::use(key);
   });
@@ -113,14 +132,14 @@ std::vector<CampaignRecord> SessionDatabase::campaigns() const {
 }
 
 void SessionDatabase::removeCampaign(std::int64_t id) {
-  guarded(file_, [&] {
+  writing([&] {
     const long long key = id;
     connection_->sql << "delete from campaign where id = :i", soci::use(key);
   });
 }
 
 std::int64_t SessionDatabase::addResult(const StoredResult& result) {
-  return guarded(file_, [&] {
+  return writing([&] {
     const long long campaign = result.campaign;
     const std::string options = result.provenance.options.dump();
     const std::string payload = result.payload.dump();
@@ -161,15 +180,24 @@ std::vector<StoredResult> SessionDatabase::results(std::int64_t campaign, const 
   });
 }
 
+std::size_t SessionDatabase::countResults(std::int64_t campaign) const {
+  return guarded(file_, [&] {
+    const long long key = campaign;
+    long long count = 0;
+    connection_->sql << "select count(*) from result where campaign = :c", soci::use(key), soci::into(count);
+    return static_cast<std::size_t>(count);
+  });
+}
+
 void SessionDatabase::removeResult(std::int64_t id) {
-  guarded(file_, [&] {
+  writing([&] {
     const long long key = id;
     connection_->sql << "delete from result where id = :i", soci::use(key);
   });
 }
 
 void SessionDatabase::exclude(std::int64_t campaign, const Exclusion& exclusion) {
-  guarded(file_, [&] {
+  writing([&] {
     const long long key = campaign;
     connection_->sql
         << "insert into exclusion (campaign, item, reason, created_utc) values (:c, :i, :r, :t) on conflict "
@@ -179,7 +207,7 @@ void SessionDatabase::exclude(std::int64_t campaign, const Exclusion& exclusion)
 }
 
 void SessionDatabase::restore(std::int64_t campaign, const std::string& item) {
-  guarded(file_, [&] {
+  writing([&] {
     const long long key = campaign;
     connection_->sql << "delete from exclusion where campaign = :c and item = :i", soci::use(key), soci::use(item);
   });
@@ -202,7 +230,7 @@ std::vector<Exclusion> SessionDatabase::exclusions(std::int64_t campaign) const 
 }
 
 std::int64_t SessionDatabase::addNote(std::int64_t campaign, const Note& note) {
-  return guarded(file_, [&] {
+  return writing([&] {
     const long long key = campaign;
     soci::session& sql = connection_->sql;
     sql << "insert into note (campaign, step, text, created_utc) values (:c, :s, :x, :t)", soci::use(key),
@@ -214,7 +242,7 @@ std::int64_t SessionDatabase::addNote(std::int64_t campaign, const Note& note) {
 }
 
 void SessionDatabase::removeNote(std::int64_t id) {
-  guarded(file_, [&] {
+  writing([&] {
     const long long key = id;
     connection_->sql << "delete from note where id = :i", soci::use(key);
   });
@@ -237,7 +265,7 @@ std::vector<Note> SessionDatabase::notes(std::int64_t campaign) const {
 }
 
 void SessionDatabase::setSetting(const std::string& key, const std::string& json) {
-  guarded(file_, [&] {
+  writing([&] {
     connection_->sql << "insert into setting (name, value) values (:n, :v) on conflict (name) do update set value = "
                         "excluded.value",
         soci::use(key), soci::use(json);

@@ -23,6 +23,10 @@ class SessionDatabase {
   SessionDatabase(const SessionDatabase&) = delete;
   SessionDatabase& operator=(const SessionDatabase&) = delete;
 
+  /// Throws InputError if the file is not at its place any more (folder removed, network folder gone): SQLite would go
+  /// on writing into a file that nobody will find again.
+  void requireInPlace() const;
+
   /// `folder` is stored relative to the session.
   std::int64_t addCampaign(const std::string& name, const std::string& folder, const std::string& fingerprint);
   void setCampaignFingerprint(std::int64_t id, const std::string& fingerprint);
@@ -31,6 +35,7 @@ class SessionDatabase {
 
   std::int64_t addResult(const StoredResult& result);
   [[nodiscard]] std::vector<StoredResult> results(std::int64_t campaign, const std::string& kind) const;
+  [[nodiscard]] std::size_t countResults(std::int64_t campaign) const;
   void removeResult(std::int64_t id);
 
   void exclude(std::int64_t campaign, const Exclusion& exclusion);
@@ -46,6 +51,10 @@ class SessionDatabase {
 
  private:
   struct Connection;
+  /// For everything that changes the database.
+  template <typename Body>
+  auto writing(Body body) const -> decltype(body());
+
   std::filesystem::path file_;
   std::unique_ptr<Connection> connection_;
 };

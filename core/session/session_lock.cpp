@@ -13,6 +13,24 @@
 #include "core/base/text.h"
 
 namespace spindrift {
+namespace {
+
+std::string ownerIn(int handle) {
+  char text[256] = {};
+  const ssize_t count = ::pread(handle, text, sizeof text - 1, 0);
+  return std::string(trimmed(std::string_view(text, count > 0 ? static_cast<std::size_t>(count) : 0)));
+}
+
+}  // namespace
+
+bool SessionLock::abandoned(const std::filesystem::path& folder) {
+  const int handle = ::open((folder / "lock").c_str(), O_RDONLY | O_CLOEXEC);
+  if (handle < 0) return false;
+  const bool free = ::flock(handle, LOCK_SH | LOCK_NB) == 0;
+  const bool named = !ownerIn(handle).empty();
+  ::close(handle);
+  return free && named;
+}
 
 SessionLock::SessionLock(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "lock";
@@ -22,15 +40,14 @@ SessionLock::SessionLock(const std::filesystem::path& folder) {
                                                std::strerror(errno)));
   }
   if (::flock(handle_, LOCK_EX | LOCK_NB) != 0) {
-    char text[256] = {};
-    const ssize_t count = ::pread(handle_, text, sizeof text - 1, 0);
+    const std::string owner = ownerIn(handle_);
     ::close(handle_);
     handle_ = -1;
-    const std::string owner(trimmed(std::string_view(text, count > 0 ? static_cast<std::size_t>(count) : 0)));
     throw InputError({folder, ""}, fmt::format("is open in another window ({}). Close it there first; nothing was "
                                                "changed here.",
                                                owner.empty() ? "unknown process" : owner));
   }
+  died_before_ = ownerIn(handle_);
   char host[128] = {};
   ::gethostname(host, sizeof host - 1);
   const std::string owner = fmt::format("process {} on {}\n", ::getpid(), host);
@@ -39,7 +56,10 @@ SessionLock::SessionLock(const std::filesystem::path& folder) {
 }
 
 SessionLock::~SessionLock() {
-  if (handle_ >= 0) ::close(handle_);
+  if (handle_ < 0) return;
+  // If this fails, the next start wrongly speaks of a crash; nothing else depends on it.
+  [[maybe_unused]] const int emptied = ::ftruncate(handle_, 0);
+  ::close(handle_);
 }
 
 }  // namespace spindrift

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace spindrift {
 
@@ -11,11 +12,18 @@ class SessionLock {
  public:
   /// Throws InputError naming the process and computer that hold it.
   explicit SessionLock(const std::filesystem::path& folder);
+  /// Takes the owner's name out of the file: what remains there tells of a process that died.
   ~SessionLock();
   SessionLock(const SessionLock&) = delete;
   SessionLock& operator=(const SessionLock&) = delete;
 
+  /// "process 123 on host" if the last owner ended without letting go, else empty.
+  [[nodiscard]] const std::string& diedBefore() const noexcept { return died_before_; }
+  /// True if the last owner of the folder died and nobody works on it now. Changes nothing.
+  [[nodiscard]] static bool abandoned(const std::filesystem::path& folder);
+
  private:
+  std::string died_before_;
   int handle_ = -1;
 };
 

@@ -132,6 +132,45 @@ TEST(Session, KilledProcessLeavesASessionThatOpens) {
   EXPECT_EQ(readFile(session.campaigns()[0].folder / "captures/b.jpg"), "not really an image");
 }
 
+TEST(Session, OrderlyEndIsToldFromACrash) {
+  const TempFolder folder;
+  {
+    const Session session = Session::create(folder / "s");
+    EXPECT_FALSE(Session::wasLeftOpen(folder / "s")) << "somebody works on it";
+  }
+  EXPECT_FALSE(Session::wasLeftOpen(folder / "s"));
+  EXPECT_TRUE(Session::open(folder / "s").recoveryMessages().empty());
+  folder.write("s/lock", "process 1 on a machine without power");
+  EXPECT_TRUE(Session::wasLeftOpen(folder / "s"));
+  EXPECT_EQ(Session::open(folder / "s").recoveryMessages().size(), 1U);
+}
+
+TEST(Session, WhatACrashCutShortIsPutInOrder) {
+  const TempFolder folder;
+  { (void)Session::create(folder / "s").newCampaign("c", "2026-01-31T08:00:00Z", machine_json); }
+  folder.write("s/lock", "process 1 on a machine without power");
+  folder.write("s/campaigns/.importing-d/machine.json", "{");
+  folder.write("s/campaigns/c/captures/.a.jpg.1.2.part", "half");
+  folder.write("s/campaigns/without_row/machine.json", "{}");
+  const Session session = Session::open(folder / "s");
+  EXPECT_THAT(session.recoveryMessages(), ElementsAre(HasSubstr("2 unfinished files were removed")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s/campaigns/.importing-d"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s/campaigns/c/captures/.a.jpg.1.2.part"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "s/removed/without_row/machine.json"));
+}
+
+TEST(Session, CaptureThatIsRepeatedStandsThereOnce) {
+  const TempFolder folder;
+  const auto image = folder.write("a.jpg", "one");
+  Session session = Session::create(folder / "s");
+  const auto id = session.newCampaign("c", "2026-01-31T08:00:00Z", machine_json);
+  for (int i = 0; i < 2; ++i) session.addCapture(id, "fiducials.csv", "time_s,image", "0,a.jpg", image, "a.jpg");
+  EXPECT_EQ(readFile(session.campaign(id).folder / "captures/fiducials.csv"), "time_s,image\n0,a.jpg\n");
+  folder.write("a.jpg", "another");
+  EXPECT_THROW(session.addCapture(id, "fiducials.csv", "time_s,image", "0,a.jpg", image, "a.jpg"), InputError);
+  EXPECT_EQ(readFile(session.campaign(id).folder / "captures/a.jpg"), "one");
+}
+
 TEST(Session, CopiedFolderOpensElsewhere) {
   const TempFolder folder;
   JobContext job;

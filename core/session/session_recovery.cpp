@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/session/session_recovery.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/base/atomic_file.h"
+#include "core/session/fingerprint.h"
+#include "core/session/session_database.h"
+
+namespace spindrift {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder name that is safe everywhere: letters, digits, - and _.
+std::string folderName(const std::string& name) {
+  std::string safe;
+  for (const char c : name) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    if (plain) {
+      safe += c;
+    } else if (!safe.empty() && safe.back() != '_') {
+      safe += '_';
+    }
+  }
+  return safe.empty() ? "campaign" : safe.substr(0, 60);
+}
+
+std::vector<fs::path> captureLists(const fs::path& campaign) {
+  std::vector<fs::path> lists;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(campaign / "captures", ignored)) {
+    if (entry.path().extension() == ".csv" && entry.is_regular_file(ignored)) lists.push_back(entry.path());
+  }
+  std::sort(lists.begin(), lists.end());
+  return lists;
+}
+
+/// Rows of a list, without its header and comments.
+std::size_t rowsOf(const fs::path& list) {
+  const std::string text = readFile(list);
+  std::size_t rows = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    if (end > at && text[at] != '#') ++rows;
+    at = end + 1;
+  }
+  return rows > 0 ? rows - 1 : 0;
+}
+
+std::size_t removeLeftovers(const fs::path& folder) {
+  std::size_t count = 0;
+  std::error_code ignored;
+  std::vector<fs::path> found;
+  for (auto it = fs::recursive_directory_iterator(folder, ignored); it != fs::recursive_directory_iterator();
+       it.increment(ignored)) {
+    const std::string name = it->path().filename().string();
+    const bool half_import = name.starts_with(".importing") && it.depth() == 1;
+    const bool half_file = name.starts_with('.') && name.ends_with(".part");
+    if (half_import) it.disable_recursion_pending();
+    if (half_import || half_file) found.push_back(it->path());
+  }
+  for (const fs::path& path : found) {
+    if (fs::remove_all(path, ignored) > 0) ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+fs::path freshFolder(const fs::path& parent, const std::string& name) {
+  fs::path folder = parent / folderName(name);
+  for (int i = 2; fs::exists(folder); ++i) folder = parent / fmt::format("{}_{}", folderName(name), i);
+  return folder;
+}
+
+std::string RecoveryReport::sentence() const {
+  std::string text = fmt::format(
+      "The session was not closed the last time; it is as it was left: {} captures and {} results are there.", captures,
+      results);
+  if (leftovers > 0) text += fmt::format(" {} unfinished files were removed.", leftovers);
+  if (moved > 0) text += fmt::format(" {} unfinished campaigns are in the folder removed.", moved);
+  return text;
+}
+
+std::string captureBaseKey(std::int64_t campaign) {
+  return fmt::format("capture_base/{}", campaign);
+}
+
+void refreshCaptureFingerprint(SessionDatabase& database, const CampaignRecord& record) {
+  const auto base = database.setting(captureBaseKey(record.id));
+  if (!base) return;
+  Fingerprint fingerprint;
+  fingerprint.add(*base);
+  for (const fs::path& list : captureLists(record.folder)) {
+    fingerprint.add(list.filename().string()).addFile(list);
+  }
+  if (fingerprint.text() != record.fingerprint) database.setCampaignFingerprint(record.id, fingerprint.text());
+}
+
+RecoveryReport putInOrder(const fs::path& session_folder, SessionDatabase& database) {
+  RecoveryReport report;
+  report.leftovers = removeLeftovers(session_folder);
+  std::set<fs::path> known;
+  for (CampaignRecord& record : database.campaigns()) {
+    record.folder = session_folder / record.folder;
+    known.insert(record.folder.filename());
+    for (const fs::path& list : captureLists(record.folder)) report.captures += rowsOf(list);
+    report.results += database.countResults(record.id);
+    refreshCaptureFingerprint(database, record);
+  }
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(session_folder / "campaigns", ignored)) {
+    if (!entry.is_directory(ignored) || known.contains(entry.path().filename())) continue;
+    const fs::path target = freshFolder(session_folder / "removed", entry.path().filename().string());
+    fs::create_directories(target.parent_path(), ignored);
+    fs::rename(entry.path(), target, ignored);
+    if (!ignored) ++report.moved;
+  }
+  return report;
+}
+
+}  // namespace spindrift

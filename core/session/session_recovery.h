@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What opening a session does after a crash: whatever was cut short is taken back or finished, nothing that was stored
+// is lost.
+//
+//   cut short                                   found as                              done
+//   an import                                   campaigns/.importing-*                removed (no row, half a copy)
+//   writing a file                              .<name>.<process>.<number>.part       removed (the old file is whole)
+//   making or removing a campaign               a folder without a row                moved to removed/
+//   a capture, between list and database        fingerprint of the list differs       fingerprint brought up to date
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/session/session.h"
+
+namespace spindrift {
+
+class SessionDatabase;
+
+struct RecoveryReport {
+  std::size_t captures = 0;   ///< rows in the lists of all campaigns
+  std::size_t results = 0;    ///< stored results of all campaigns
+  std::size_t leftovers = 0;  ///< half files and half imports that were removed
+  std::size_t moved = 0;      ///< folders without a row, now in removed/
+
+  /// One sentence for the user.
+  [[nodiscard]] std::string sentence() const;
+};
+
+/// To be called with the lock held. Failures to tidy up (a read-only file) are ignored: they hinder nothing.
+RecoveryReport putInOrder(const std::filesystem::path& session_folder, SessionDatabase& database);
+
+/// Setting that keeps the fingerprint a campaign had before its first capture.
+[[nodiscard]] std::string captureBaseKey(std::int64_t campaign);
+/// Stores the fingerprint of a campaign that is captured into: that before the first capture and the lists as they are
+/// on the disk. Whenever the program ends, the next opening finds the same.
+void refreshCaptureFingerprint(SessionDatabase& database, const CampaignRecord& record);
+
+/// A folder in `parent` that does not exist yet, named after `name` with letters that are safe everywhere.
+[[nodiscard]] std::filesystem::path freshFolder(const std::filesystem::path& parent, const std::string& name);
+
+}  // namespace spindrift

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A campaign is captured and evaluated by a process that is killed again and again, at moments drawn from a seed.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/session/session.h"
+#include "core/simulation/scenario.h"
+#include "core/simulation/virtual_campaign.h"
+#include "core/workflows/evaluate_campaign.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+using ::spindrift::testing::TempFolder;
+
+constexpr int kills = 50;
+constexpr const char* image_header = "time_s,image";
+
+std::vector<std::string> linesOf(const std::filesystem::path& file) {
+  std::vector<std::string> lines;
+  if (!std::filesystem::exists(file)) return lines;
+  std::istringstream text(readFile(file));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+/// What is measured: the touches of a virtual machine, and pictures of 1 to 200 kB.
+struct Material {
+  std::string machine;
+  std::string header;
+  std::vector<std::string> touches;
+  std::filesystem::path picture_folder;
+
+  [[nodiscard]] std::filesystem::path picture(std::size_t i) const {
+    return picture_folder / ("picture" + std::to_string(i % 10) + ".jpg");
+  }
+};
+
+Material makeMaterial(const TempFolder& folder) {
+  Scenario scenario =
+      Scenario::read(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources" / "scenarios" / "hole_bar.json");
+  writeCampaign(simulateCampaign(scenario, std::nullopt, JobContext()), folder / "source");
+  Material material;
+  material.machine = readFile(folder / "source/machine.json");
+  material.touches = linesOf(folder / "source/captures/touches.csv");
+  material.header = material.touches.front();
+  material.touches.erase(material.touches.begin());
+  material.picture_folder = folder / "pictures";
+  for (std::size_t i = 0; i < 10; ++i) {
+    folder.write("pictures/picture" + std::to_string(i) + ".jpg",
+                 std::string(1000 + 22000 * i, static_cast<char>('a' + i)));
+  }
+  return material;
+}
+
+/// One letter through the pipe: 'o' open, 'c' touch, 'p' picture, 'r' result. Sent after the call has returned.
+void acknowledge(int pipe, char what) {
+  if (::write(pipe, &what, 1) != 1) ::_exit(4);
+}
+
+nlohmann::json evaluated(const Session& session, std::int64_t campaign) {
+  JobContext job;
+  const CampaignEvaluation evaluation = evaluateCampaign(Campaign::read(session.campaign(campaign).folder), {}, job);
+  return {{"observations", evaluation.observations.csv()},
+          {"captures", linesOf(session.campaign(campaign).folder / "captures/touches.csv").size() - 1}};
+}
+
+/// The program at the machine: goes on where the last one was killed and never ends by itself.
+void operate(const std::filesystem::path& place, const Material& material, int pipe) {
+  Session session = Session::open(place);
+  const std::int64_t touched = session.campaigns().at(0).id;
+  const std::int64_t seen = session.campaigns().at(1).id;
+  acknowledge(pipe, 'o');
+  const std::size_t rows = linesOf(session.campaign(touched).folder / "captures/touches.csv").size();
+  for (std::size_t i = rows > 0 ? rows - 1 : 0;; ++i) {
+    if (i >= material.touches.size()) ::_exit(5);
+    session.addCapture(touched, "touches.csv", material.header, material.touches[i], {}, "");
+    acknowledge(pipe, 'c');
+    if (i % 3 == 0) {
+      const std::string name = "images/" + std::to_string(i) + ".jpg";
+      session.addCapture(seen, "pictures.csv", image_header, std::to_string(i) + "," + name, material.picture(i), name);
+      acknowledge(pipe, 'p');
+    }
+    if (i > 60 && i % 4 == 0) {
+      session.addResult(touched, "evaluate", nlohmann::json::object(), evaluated(session, touched));
+      acknowledge(pipe, 'r');
+    }
+  }
+}
+
+struct Acknowledged {
+  std::size_t touches = 0;
+  std::size_t pictures = 0;
+  std::size_t results = 0;
+};
+
+class KilledCampaign : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    material_ = makeMaterial(folder_);
+    Session session = Session::create(place());
+    touched_ = session.newCampaign("touched", "2026-01-31T08:00:00Z", material_.machine);
+    seen_ = session.newCampaign("seen", "2026-01-31T08:00:00Z", material_.machine);
+  }
+  [[nodiscard]] std::filesystem::path place() const { return folder_ / "session"; }
+
+  /// Starts the program, kills it after `letters` acknowledgements and `delay`, and counts what it acknowledged.
+  void runAndKill(int letters, std::chrono::microseconds delay) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::close(ends[0]);
+      try {
+        operate(place(), material_, ends[1]);
+      } catch (const std::exception& e) {
+        std::fprintf(stderr, "%s\n", e.what());
+      }
+      ::_exit(3);
+    }
+    ::close(ends[1]);
+    char letter = 0;
+    for (int i = 0; i < letters && ::read(ends[0], &letter, 1) == 1; ++i) count(letter);
+    std::this_thread::sleep_for(delay);
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "the program ended by itself, exit " << WEXITSTATUS(status);
+    while (::read(ends[0], &letter, 1) == 1) count(letter);
+    ::close(ends[0]);
+  }
+
+  void count(char letter) {
+    acknowledged_.touches += letter == 'c' ? 1 : 0;
+    acknowledged_.pictures += letter == 'p' ? 1 : 0;
+    acknowledged_.results += letter == 'r' ? 1 : 0;
+  }
+
+  /// Everything acknowledged is there and whole; beyond it at most the one item that was in work.
+  void check() {
+    const Session session = Session::open(place());
+    ASSERT_EQ(session.recoveryMessages().size(), 1U) << "the user hears that the program did not end in order";
+    const CampaignRecord touched = session.campaign(touched_);
+    const CampaignRecord seen = session.campaign(seen_);
+    const std::size_t touches = checkTouches(touched.folder);
+    checkPictures(seen.folder);
+    const std::vector<StoredResult> results = session.results(touched_);
+    EXPECT_GE(results.size(), acknowledged_.results);
+    EXPECT_LE(results.size(), acknowledged_.results + 1);
+    acknowledged_.results = results.size();
+    if (!results.empty()) {
+      const nlohmann::json& payload = results.back().payload;
+      EXPECT_FALSE(ObservationSet::parse(payload.at("observations").get<std::string>(), "stored").rows.empty());
+      EXPECT_EQ(session.isCurrent(results.back()), payload.at("captures").get<std::size_t>() == touches)
+          << "a result is current as long as no capture came after it";
+    }
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(place())) {
+      EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+    }
+  }
+
+  std::size_t checkTouches(const std::filesystem::path& campaign) {
+    (void)Campaign::read(campaign);
+    const std::vector<std::string> lines = linesOf(campaign / "captures/touches.csv");
+    const std::size_t rows = lines.empty() ? 0 : lines.size() - 1;
+    EXPECT_GE(rows, acknowledged_.touches) << "an acknowledged touch was lost";
+    EXPECT_LE(rows, acknowledged_.touches + 1);
+    for (std::size_t i = 0; i < rows; ++i) EXPECT_EQ(lines[i + 1], material_.touches[i]);
+    acknowledged_.touches = rows;
+    return rows;
+  }
+
+  void checkPictures(const std::filesystem::path& campaign) {
+    const std::vector<std::string> lines = linesOf(campaign / "captures/pictures.csv");
+    const std::size_t rows = lines.empty() ? 0 : lines.size() - 1;
+    EXPECT_GE(rows, acknowledged_.pictures) << "an acknowledged picture was lost";
+    EXPECT_LE(rows, acknowledged_.pictures + 1);
+    for (std::size_t i = 0; i < rows; ++i) {
+      const std::string name = lines[i + 1].substr(lines[i + 1].find(',') + 1);
+      EXPECT_EQ(readFile(campaign / "captures" / name), readFile(material_.picture(std::stoul(lines[i + 1]))));
+    }
+    acknowledged_.pictures = rows;
+  }
+
+  TempFolder folder_;
+  Material material_;
+  std::int64_t touched_ = 0;
+  std::int64_t seen_ = 0;
+  Acknowledged acknowledged_;
+};
+
+TEST_F(KilledCampaign, LosesNothingThatWasAcknowledged) {
+  std::mt19937 random(20260131);
+  std::uniform_int_distribution<int> letters(1, 16);
+  std::uniform_int_distribution<int> delay_us(0, 6000);
+  for (int kill = 0; kill < kills; ++kill) {
+    SCOPED_TRACE("kill " + std::to_string(kill));
+    ASSERT_NO_FATAL_FAILURE(runAndKill(letters(random), std::chrono::microseconds(delay_us(random))));
+    ASSERT_NO_FATAL_FAILURE(check());
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(acknowledged_.touches, 130U);
+  EXPECT_GT(acknowledged_.pictures, 40U);
+  EXPECT_GT(acknowledged_.results, 15U);
+
+  // What survived 50 crashes evaluates as the same touches taken in one go.
+  Session session = Session::open(place());
+  std::string whole = material_.header + "\n";
+  for (std::size_t i = 0; i < acknowledged_.touches; ++i) whole += material_.touches[i] + "\n";
+  folder_.write("source/captures/touches.csv", whole);
+  JobContext job;
+  EXPECT_EQ(evaluated(session, touched_).at("observations"),
+            evaluateCampaign(Campaign::read(folder_ / "source"), {}, job).observations.csv());
+}
+
+}  // namespace
+}  // namespace spindrift
