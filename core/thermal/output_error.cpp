@@ -6,10 +6,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numeric>
 
+#include "core/math/distributions.h"
 #include "core/math/statistics.h"
+#include "core/thermal/noise_inference.h"
 
 namespace spindrift {
 namespace {
@@ -41,7 +42,7 @@ class Problem {
     longest_ = std::log(5.0 * (time.back() - time.front()));
   }
   [[nodiscard]] const Layout& layout() const { return layout_; }
-  void setNoise(const Eigen::VectorXd& ar) { ar_ = ar; }
+  void setNoise(const Autoregression& noise) { noise_ = noise; }
   [[nodiscard]] double clamped(double log_tau) const { return std::clamp(log_tau, shortest_, longest_); }
 
   void evaluate(State& s, bool with_jacobian) const {
@@ -57,24 +58,16 @@ class Problem {
       const double tau = std::exp(s.theta[1 + layout_.lags + k]);
       const double gain = s.theta[1 + k];
       std::vector<double> x = lagFiltered(time_, input.values, tau, input.hold);
-      std::vector<double> difference;
       if (with_jacobian) {
-        difference.resize(x.size());
-        for (std::size_t r = 0; r < x.size(); ++r) difference[r] = x[r] - input.values[r];
-        const std::vector<double> slope = lagFiltered(time_, difference, tau, false);
+        const std::vector<double> slope = lagSensitivity(time_, input.values, tau, input.hold);
         s.jacobian.col(1 + layout_.lags + k) = gain * Eigen::Map<const Eigen::VectorXd>(slope.data(), n);
       }
       const auto centred = Eigen::Map<const Eigen::VectorXd>(x.data(), n).array() - centre_[i];
       s.residual.array() -= gain * centred;
       if (with_jacobian) s.jacobian.col(1 + k) = centred.matrix();
     }
-    whiten(s.residual);
-    if (with_jacobian)
-      for (Index c = 0; c < s.jacobian.cols(); ++c) {
-        Eigen::VectorXd column = s.jacobian.col(c);
-        whiten(column);
-        s.jacobian.col(c) = column;
-      }
+    noise_.whiten(s.residual);
+    if (with_jacobian) noise_.whiten(s.jacobian);
     s.cost = s.residual.squaredNorm();
   }
 
@@ -90,24 +83,83 @@ class Problem {
     s.theta.head(p) = normal.ldlt().solve(J.transpose() * s.residual);
   }
 
- private:
-  void whiten(Eigen::VectorXd& v) const {
-    const Index order = ar_.size();
-    for (Index r = v.size() - 1; r >= order; --r)
-      for (Index j = 0; j < order; ++j) v[r] -= ar_[j] * v[r - 1 - j];
-    // The first samples have no past: they count with the size of an innovation.
-    for (Index r = 0; r < std::min(order, v.size()); ++r) v[r] *= first_weight();
-  }
-  [[nodiscard]] double first_weight() const {
-    return ar_.size() == 0 ? 1.0 : std::sqrt(std::max(1e-6, 1.0 - std::min(1.0, ar_.squaredNorm())));
+  /// Time constants from a grid (s): input after input those that leave least, in turn again until none changes. Offset
+  /// and gains are free throughout; white noise.
+  [[nodiscard]] Eigen::VectorXd fromGrid(const std::vector<double>& grid_s) const {
+    const auto n = static_cast<Index>(y_.size());
+    const auto m = static_cast<Index>(grid_s.size());
+    Eigen::MatrixXd columns(n, static_cast<Index>(inputs_.size()) * m + 2);
+    columns.col(0).setOnes();
+    columns.col(1) = Eigen::Map<const Eigen::VectorXd>(y_.data(), n);
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      for (Index g = 0; g < m; ++g) {
+        const std::vector<double> x =
+            lagFiltered(time_, inputs_[i].values, grid_s[static_cast<std::size_t>(g)], inputs_[i].hold);
+        columns.col(2 + static_cast<Index>(i) * m + g) =
+            (Eigen::Map<const Eigen::VectorXd>(x.data(), n).array() - centre_[i]).matrix();
+      }
+    }
+    const Eigen::MatrixXd products = columns.transpose() * columns;
+    std::vector<Index> chosen;  // grid place of each lag already placed
+    const auto left = [&] {
+      const auto p = static_cast<Index>(chosen.size()) + 1;
+      std::vector<Index> at{0};
+      for (std::size_t k = 0; k < chosen.size(); ++k) at.push_back(2 + layout_.input[k] * m + chosen[k]);
+      Eigen::MatrixXd normal(p, p);
+      Eigen::VectorXd right(p);
+      for (Index i = 0; i < p; ++i) {
+        right[i] = products(at[static_cast<std::size_t>(i)], 1);
+        for (Index j = 0; j < p; ++j)
+          normal(i, j) = products(at[static_cast<std::size_t>(i)], at[static_cast<std::size_t>(j)]);
+      }
+      normal.diagonal() *= 1.0 + 1e-9;
+      return products(1, 1) - right.dot(normal.ldlt().solve(right));
+    };
+    // All combinations of one input, the others as they are: two lags that only work as a pair are found.
+    const auto place = [&](std::size_t first, std::size_t count) {
+      std::vector<Index> trial(count);
+      std::iota(trial.begin(), trial.end(), Index{0});
+      std::vector<Index> best_places = trial;
+      double best = std::numeric_limits<double>::infinity();
+      while (true) {
+        std::copy(trial.begin(), trial.end(), chosen.begin() + static_cast<std::ptrdiff_t>(first));
+        const double value = left();
+        if (value < best) {
+          best = value;
+          best_places = trial;
+        }
+        std::size_t digit = count;
+        while (digit > 0 && trial[digit - 1] == m - static_cast<Index>(count - digit) - 1) --digit;
+        if (digit == 0) break;
+        ++trial[digit - 1];
+        for (std::size_t k = digit; k < count; ++k) trial[k] = trial[k - 1] + 1;
+      }
+      std::copy(best_places.begin(), best_places.end(), chosen.begin() + static_cast<std::ptrdiff_t>(first));
+    };
+    for (int round = 0; round < 4; ++round) {
+      const std::vector<Index> before = chosen;
+      std::size_t first = 0;
+      for (const OutputErrorInput& input : inputs_) {
+        const auto count = static_cast<std::size_t>(input.lags);
+        if (round == 0) chosen.resize(first + count);
+        place(first, count);
+        first += count;
+      }
+      if (chosen == before) break;
+    }
+    Eigen::VectorXd out(layout_.lags);
+    for (std::size_t k = 0; k < chosen.size(); ++k)
+      out[static_cast<Index>(k)] = std::log(grid_s[static_cast<std::size_t>(chosen[k])]);
+    return out;
   }
 
+ private:
   std::span<const double> time_;
   std::span<const double> y_;
   const std::vector<OutputErrorInput>& inputs_;
   std::vector<double> centre_;
   Layout layout_;
-  Eigen::VectorXd ar_;
+  Autoregression noise_;
   double shortest_ = 0.0;
   double longest_ = 0.0;
 };
@@ -145,65 +197,23 @@ bool minimise(const Problem& problem, State& s, int maximum_iterations, int& ite
   return false;
 }
 
-/// What a least-squares fit takes out of the autocovariance of the noise: residual = noise - J (estimate - truth), so
-/// E[r r'] = V - J C J' with C the covariance of the parameters. Without it slow noise looks faster and smaller than it
-/// is and the stated uncertainties are too small. `jacobian`: of the simulation, not whitened.
-Eigen::VectorXd absorbed(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& covariance, int order) {
-  const Index n = jacobian.rows();
-  const Eigen::MatrixXd half = jacobian * covariance;
-  Eigen::VectorXd out(order + 1);
-  for (int k = 0; k <= order; ++k)
-    out[k] = half.topRows(n - k).cwiseProduct(jacobian.bottomRows(n - k)).sum() / static_cast<double>(n - k);
-  return out;
-}
-
-/// Yule-Walker; `taken`: what the fit took out of the autocovariance (zeros: nothing).
-Eigen::VectorXd autoregression(const Eigen::VectorXd& v, int order, const Eigen::VectorXd& taken) {
-  const Index n = v.size();
-  Eigen::VectorXd r(order + 1);
-  for (int k = 0; k <= order; ++k) r[k] = v.tail(n - k).dot(v.head(n - k)) / static_cast<double>(n - k);
-  if (!(r[0] > 0.0)) return Eigen::VectorXd::Zero(order);
-  // Never more than the residual itself: a fit that absorbs most of the noise says little about it.
-  if (taken[0] < r[0]) r += taken;
-  Eigen::MatrixXd R(order, order);
-  for (int i = 0; i < order; ++i)
-    for (int j = 0; j < order; ++j) R(i, j) = r[std::abs(i - j)];
-  R.diagonal().array() += 1e-9 * r[0];
-  return R.ldlt().solve(r.tail(order));
-}
-
-/// Covariance of the parameters from a whitened Jacobian and residual.
-Eigen::MatrixXd whitenedCovariance(const State& s) {
-  const Eigen::VectorXd length = s.jacobian.colwise().norm().cwiseMax(1e-300);
-  const Eigen::MatrixXd scaled = s.jacobian * length.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd normal = scaled.transpose() * scaled;
-  const double dof = static_cast<double>(std::max<Index>(1, s.jacobian.rows() - s.jacobian.cols()));
-  const Eigen::MatrixXd inverse = (normal + 1e-10 * Eigen::MatrixXd::Identity(normal.rows(), normal.cols())).inverse();
-  return s.cost / dof * (length.cwiseInverse().asDiagonal() * inverse * length.cwiseInverse().asDiagonal());
-}
-
-double heldOutRms(std::span<const double> measured, std::span<const double> simulated, std::size_t from) {
-  double sum = 0.0;
-  for (std::size_t i = from; i < measured.size(); ++i)
-    sum += (measured[i] - simulated[i]) * (measured[i] - simulated[i]);
-  return std::sqrt(sum / static_cast<double>(measured.size() - from));
-}
-
-OrderChoice settle(std::vector<OrderCandidate> tried) {
-  OrderChoice choice;
-  choice.tried = std::move(tried);
-  if (choice.tried.empty())
-    throw InputError("no order could be fitted to these samples; allowed: a longer range or fewer inputs.");
-  double best = std::numeric_limits<double>::infinity();
-  for (const OrderCandidate& c : choice.tried) best = std::min(best, c.held_out_rms);
-  int smallest = std::numeric_limits<int>::max();
-  for (const OrderCandidate& c : choice.tried) {
-    const int size = 10 * (c.na + c.nb) + c.nk;
-    if (c.held_out_rms > 1.02 * best || size >= smallest) continue;
-    smallest = size;
-    choice.best = c;
+/// A sentence if two neighbouring time constants of one input may be the same.
+std::string mergedLags(const OutputErrorResult& r) {
+  Index at = 1;
+  for (const auto& g : r.gains) at += static_cast<Index>(g.size());
+  for (std::size_t i = 0; i < r.taus_s.size(); ++i) {
+    for (std::size_t k = 0; k < r.taus_s[i].size(); ++k, ++at) {
+      if (k == 0) continue;
+      const double variance = r.covariance(at, at) + r.covariance(at - 1, at - 1) - 2.0 * r.covariance(at, at - 1);
+      const double apart = std::log(r.taus_s[i][k - 1] / r.taus_s[i][k]);
+      if (apart > r.coverageFactor() * std::sqrt(std::max(0.0, variance))) continue;
+      return fmt::format(
+          "the time constants {:.4g} s and {:.4g} s of input {} may be one and the same: their gains say little, only "
+          "the whole response counts; use one lag fewer or a longer range.",
+          r.taus_s[i][k - 1], r.taus_s[i][k], i + 1);
+    }
   }
-  return choice;
+  return {};
 }
 
 }  // namespace
@@ -227,6 +237,10 @@ std::pair<double, double> OutputErrorResult::staticGain(std::size_t input) const
   const auto n = static_cast<Index>(gains[input].size());
   return {std::accumulate(gains[input].begin(), gains[input].end(), 0.0),
           std::sqrt(std::max(0.0, covariance.block(at, at, n, n).sum()))};
+}
+
+double OutputErrorResult::coverageFactor(double probability) const {
+  return studentQuantile(0.5 + 0.5 * probability, degrees_of_freedom);
 }
 
 OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const double> y,
@@ -254,22 +268,26 @@ OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const
   Problem problem(time_s, y, inputs);
   const double span = time_s.back() - time_s.front();
   const double period = span / static_cast<double>(time_s.size() - 1);
+  const double low = std::log(4.0 * period);
+  const double high = std::log(0.3 * span);
+  std::vector<double> grid;
+  constexpr int grid_size = 12;
+  for (int g = 0; g < grid_size; ++g) grid.push_back(std::exp(low + (high - low) * g / (grid_size - 1)));
   State best;
   bool converged = false;
   for (int start = 0; start < options.starts; ++start) {
     State s;
     s.theta = Eigen::VectorXd::Zero(problem.layout().parameters());
-    // Time constants spread evenly in the logarithm between a few samples and a part of the record; each start shifts
-    // them.
-    const double low = std::log(4.0 * period);
-    const double high = std::log(0.3 * span);
-    std::vector<int> seen(inputs.size(), 0);
-    for (Index k = 0; k < lags; ++k) {
-      const int i = problem.layout().input[static_cast<std::size_t>(k)];
-      const int count = inputs[static_cast<std::size_t>(i)].lags;
-      const double place =
-          (static_cast<double>(seen[static_cast<std::size_t>(i)]++) + (0.5 + start) / (options.starts + 0.5)) / count;
-      s.theta[1 + lags + k] = problem.clamped(high - std::min(1.0, place) * (high - low));
+    if (start == 0) {
+      s.theta.tail(lags) = problem.fromGrid(grid).unaryExpr([&](double v) { return problem.clamped(v); });
+    } else {
+      // Spread evenly in the logarithm; each start shifts them.
+      std::vector<int> seen(inputs.size(), 0);
+      for (Index k = 0; k < lags; ++k) {
+        const auto i = static_cast<std::size_t>(problem.layout().input[static_cast<std::size_t>(k)]);
+        const double place = (seen[i]++ + (start - 0.5) / (options.starts - 0.5)) / inputs[i].lags;
+        s.theta[1 + lags + k] = problem.clamped(high - std::min(1.0, place) * (high - low));
+      }
     }
     problem.solveLinearPart(s);
     const bool good = minimise(problem, s, options.maximum_iterations, result.iterations);
@@ -278,39 +296,33 @@ OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const
       converged = good;
     }
   }
-  // Simulation error before whitening, then the colour of the noise, then what the fit itself took out of it.
-  for (int round = 0; round < 3 && options.noise_order > 0; ++round) {
-    Eigen::VectorXd taken = Eigen::VectorXd::Zero(options.noise_order + 1);
-    Eigen::MatrixXd covariance;
-    if (round > 0) {
-      problem.evaluate(best, true);
-      covariance = whitenedCovariance(best);
-    }
-    problem.setNoise({});
-    State plain;
+  // The colour of the simulation error and the best parameters under it, in turn until they agree.
+  NoiseInference inference;
+  State plain;
+  for (int round = 0; round < 8; ++round) {
     plain.theta = best.theta;
-    problem.evaluate(plain, round > 0);
-    if (round > 0) taken = absorbed(plain.jacobian, covariance, options.noise_order);
-    result.noise_ar = autoregression(plain.residual, options.noise_order, taken);
-    problem.setNoise(result.noise_ar);
+    problem.setNoise({});
+    problem.evaluate(plain, true);
+    if (plain.jacobian.colwise().norm().minCoeff() <= 0.0) break;
+    const Eigen::VectorXd before = result.noise_ar;
+    inference = inferNoise(plain.jacobian, plain.residual, options.noise_order);
+    result.noise_ar = inference.noise.ar;
+    problem.setNoise(inference.noise);
+    if (options.noise_order == 0) break;
     problem.evaluate(best, false);
     converged = minimise(problem, best, options.maximum_iterations, result.iterations);
+    if (round > 0 && (result.noise_ar - before).norm() < 1e-3) break;
   }
+  result.rms = std::sqrt(plain.residual.squaredNorm() / static_cast<double>(y.size()));
+  result.noise_sigma = inference.innovation_sigma * inference.noise.amplification();
   problem.evaluate(best, true);
-  const Eigen::MatrixXd whitened = best.jacobian;
-  const double variance =
-      best.cost / static_cast<double>(std::max<Index>(1, static_cast<Index>(y.size()) - problem.layout().parameters()));
-  const Eigen::VectorXd length = whitened.colwise().norm();
-  problem.setNoise({});
-  problem.evaluate(best, false);
-  result.rms = std::sqrt(best.cost / static_cast<double>(y.size()));
-  result.noise_sigma = result.rms;
-  if (length.minCoeff() <= 0.0 || !best.theta.allFinite()) {
+  const Eigen::VectorXd length = best.jacobian.colwise().norm();
+  if (length.minCoeff() <= 0.0 || !best.theta.allFinite() || inference.covariance.size() == 0) {
     result.status = FitStatus::Degenerate;
     result.message = "a lag has no effect on the output; use fewer lags or inputs.";
     return result;
   }
-  const Eigen::MatrixXd scaled = whitened * length.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd scaled = best.jacobian * length.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled.transpose() * scaled);
   if (eigen.eigenvalues().minCoeff() < 1e-11 * eigen.eigenvalues().maxCoeff()) {
     result.status = FitStatus::Degenerate;
@@ -319,11 +331,15 @@ OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const
     result.status = converged ? FitStatus::Converged : FitStatus::NoConvergence;
     if (!converged) result.message = "the iteration did not settle; use fewer lags or a longer range.";
   }
-  const Eigen::VectorXd floor = eigen.eigenvalues().cwiseMax(1e-14 * eigen.eigenvalues().maxCoeff());
-  const Eigen::MatrixXd inverse =
-      eigen.eigenvectors() * floor.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
-  const Eigen::MatrixXd covariance =
-      variance * (length.cwiseInverse().asDiagonal() * inverse * length.cwiseInverse().asDiagonal());
+  Eigen::MatrixXd covariance = inference.covariance;
+  if (!covariance.allFinite()) {  // degenerate: what is determined keeps its uncertainty, the rest a large one
+    const Eigen::VectorXd floor = eigen.eigenvalues().cwiseMax(1e-14 * eigen.eigenvalues().maxCoeff());
+    const Eigen::MatrixXd inverse =
+        eigen.eigenvectors() * floor.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+    const double variance = best.jacobian.rows() > 0 ? best.cost / static_cast<double>(y.size()) : 0.0;
+    covariance = variance * (length.cwiseInverse().asDiagonal() * inverse * length.cwiseInverse().asDiagonal());
+  }
+  result.degrees_of_freedom = inference.degrees_of_freedom.minCoeff();
   // Order the lags of every input from slow to fast and refer the offset to u = 0.
   const Index p = problem.layout().parameters();
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(p, p);
@@ -349,133 +365,8 @@ OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const
     first += inputs[i].lags;
   }
   result.covariance = T * covariance * T.transpose();
+  if (result.message.empty()) result.message = mergedLags(result);
   return result;
-}
-
-OrderChoice chooseArxOrder(std::span<const double> y, const std::vector<std::span<const double>>& inputs,
-                           double period_s, double held_out_part) {
-  const auto cut = static_cast<std::size_t>(static_cast<double>(y.size()) * (1.0 - held_out_part));
-  std::vector<std::span<const double>> fit_inputs;
-  std::vector<std::vector<double>> all_inputs;
-  for (const auto& u : inputs) {
-    fit_inputs.push_back(u.first(cut));
-    all_inputs.emplace_back(u.begin(), u.end());
-  }
-  std::vector<OrderCandidate> tried;
-  for (int na = 1; na <= 4; ++na) {
-    for (int nb = 1; nb <= na; ++nb) {
-      for (int nk = 0; nk <= 3; ++nk) {
-        ArxOrder order{na, std::vector<int>(inputs.size(), nb), std::vector<int>(inputs.size(), nk)};
-        if (cut < static_cast<std::size_t>(10 * order.parameters(true))) continue;
-        ArxOptions options;
-        options.with_constant = true;
-        const ArxModel model = fitArx(y.first(cut), fit_inputs, order, period_s, options);
-        if (model.status != FitStatus::Converged || !model.stable()) continue;
-        const std::vector<double> simulated = model.simulate(all_inputs, y.first(1));
-        tried.push_back({na, nb, nk, heldOutRms(y, simulated, cut)});
-      }
-    }
-  }
-  return settle(std::move(tried));
-}
-
-OrderChoice chooseOutputErrorOrder(std::span<const double> time_s, std::span<const double> y,
-                                   std::vector<OutputErrorInput> inputs, double held_out_part) {
-  const auto cut = static_cast<std::size_t>(static_cast<double>(y.size()) * (1.0 - held_out_part));
-  std::vector<OrderCandidate> tried;
-  for (int lags = 1; lags <= 3; ++lags) {
-    std::vector<OutputErrorInput> part = inputs;
-    for (OutputErrorInput& input : part) {
-      input.values = input.values.first(cut);
-      input.lags = lags;
-    }
-    if (cut < 20 * (1 + 2 * lags * inputs.size())) continue;
-    OutputErrorOptions options;
-    options.noise_order = 0;
-    options.starts = 2;
-    options.maximum_iterations = 25;
-    const OutputErrorResult fit = fitOutputError(time_s.first(cut), y.first(cut), part, options);
-    std::vector<double> simulated(y.size(), fit.offset);
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-      for (std::size_t k = 0; k < fit.gains[i].size(); ++k) {
-        const std::vector<double> x = lagFiltered(time_s, inputs[i].values, fit.taus_s[i][k], inputs[i].hold);
-        for (std::size_t r = 0; r < x.size(); ++r) simulated[r] += fit.gains[i][k] * x[r];
-      }
-    }
-    tried.push_back({lags, lags, 0, heldOutRms(y, simulated, cut)});
-  }
-  return settle(std::move(tried));
-}
-
-std::vector<LagTerm> lagsOf(const ArxModel& model, std::string& message) {
-  std::vector<double> poles;
-  for (const auto& pole : model.poles()) {
-    if (std::abs(pole.imag()) > 1e-9 || pole.real() <= 0.0 || pole.real() >= 1.0) {
-      message =
-          "the model has a pole that is not real and between 0 and 1, so it has no equivalent in lags; use the "
-          "response or output-error method for "
-          "a compensator.";
-      return {};
-    }
-    poles.push_back(pole.real());
-  }
-  std::vector<LagTerm> terms;
-  for (std::size_t i = 0; i < model.b.size(); ++i) {
-    double rest = model.b[i].sum() / (1.0 + model.a.sum());
-    for (std::size_t k = 0; k < poles.size(); ++k) {
-      double residue = 0.0;
-      for (Index j = 0; j < model.b[i].size(); ++j)
-        residue += model.b[i][j] * std::pow(poles[k], -(model.order.nk[i] + static_cast<double>(j)));
-      for (std::size_t l = 0; l < poles.size(); ++l) {
-        if (l == k) continue;
-        if (std::abs(poles[l] - poles[k]) < 1e-12) {
-          message = "the model has a double pole, so it has no equivalent in separate lags.";
-          return {};
-        }
-        residue /= 1.0 - poles[l] / poles[k];
-      }
-      const double gain = residue / (1.0 - poles[k]);
-      rest -= gain;
-      terms.push_back({static_cast<int>(i), -model.period_s / std::log(poles[k]), gain});
-    }
-    terms.push_back({static_cast<int>(i), 0.0, rest});
-  }
-  return terms;
-}
-
-Eigen::MatrixXd lagCovariance(const ArxModel& model) {
-  const Index p = model.covariance.rows();
-  const auto coefficients = [&model](Index which, double change) {
-    ArxModel moved = model;
-    Index at = model.a.size();
-    if (which < at) moved.a[which] += change;
-    for (Eigen::VectorXd& b : moved.b) {
-      if (which >= at && which < at + b.size()) b[which - at] += change;
-      at += b.size();
-    }
-    if (which == at) moved.c += change;
-    std::string message;
-    const std::vector<LagTerm> terms = lagsOf(moved, message);
-    Eigen::VectorXd out(static_cast<Index>(terms.empty() ? 0 : 1 + 2 * terms.size()));
-    if (terms.empty()) return out;
-    out[0] = moved.c / (1.0 + moved.a.sum());
-    for (std::size_t k = 0; k < terms.size(); ++k) {
-      out[static_cast<Index>(1 + k)] = terms[k].gain;
-      out[static_cast<Index>(1 + terms.size() + k)] = terms[k].tau_s > 0.0 ? std::log(terms[k].tau_s) : 0.0;
-    }
-    return out;
-  };
-  const Index size = coefficients(0, 0.0).size();
-  if (p == 0 || size == 0) return {};
-  Eigen::MatrixXd jacobian(size, p);
-  for (Index j = 0; j < p; ++j) {
-    const double step = 0.01 * std::sqrt(std::max(1e-30, model.covariance(j, j)));
-    const Eigen::VectorXd up = coefficients(j, step);
-    const Eigen::VectorXd down = coefficients(j, -step);
-    if (up.size() != size || down.size() != size) return {};
-    jacobian.col(j) = (up - down) / (2.0 * step);
-  }
-  return jacobian * model.covariance * jacobian.transpose();
 }
 
 }  // namespace spindrift

@@ -6,10 +6,11 @@
 //
 // Parameters: offset, gains, ln(tau). ln(tau) keeps every model stable and conditions slow poles at fast sampling well.
 // Solved by Levenberg-Marquardt with exact simulation of the lags from several starts. v may be coloured: an
-// autoregression of order `noise_order` is fitted to the residual and whitens residual and Jacobian (three rounds; what
-// the fit itself takes out of the autocovariance is put back), so that the covariance holds for coloured noise too.
-// Units: y and u as given, time s. Failure: InputError for too few samples or unusable inputs; FitStatus NoConvergence
-// or Degenerate with the reason.
+// autoregression of order `noise_order` whitens residual and Jacobian, found by restricted likelihood in turn with the
+// parameters (core/thermal/noise_inference.h). The covariance carries that the colour is not known either; intervals
+// are Student's with the degrees of freedom that this leaves: value +- coverageFactor() * sigma, time constants by
+// factors tau * exp(+- coverageFactor() * sigma / tau). Units: y and u as given, time s. Failure: InputError for too
+// few samples or unusable inputs; FitStatus NoConvergence or Degenerate with the reason.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,7 +39,7 @@ struct OutputErrorOptions {
 
 struct OutputErrorResult {
   FitStatus status = FitStatus::NotRun;
-  std::string message;
+  std::string message;  ///< why not converged; or, converged, what of the result is weak
   double offset = 0.0;
   std::vector<std::vector<double>> gains;   ///< per input, slowest lag first
   std::vector<std::vector<double>> taus_s;  ///< same shape
@@ -47,7 +48,11 @@ struct OutputErrorResult {
   double noise_sigma = 0.0;                 ///< standard deviation of v
   double rms = 0.0;                         ///< simulation error over the samples of the fit
   int iterations = 0;
+  /// Of the stated variances; what long correlation leaves of the samples, the smallest over the parameters.
+  double degrees_of_freedom = 1e9;
 
+  /// Half width of the interval of this probability in standard uncertainties.
+  [[nodiscard]] double coverageFactor(double probability = 0.95) const;
   [[nodiscard]] double gainSigma(std::size_t input, std::size_t lag) const;
   [[nodiscard]] double tauSigma_s(std::size_t input, std::size_t lag) const;
   /// Steady-state gain of an input and its standard uncertainty.

@@ -11,6 +11,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/math/distributions.h"
 
 namespace spindrift {
 
@@ -45,6 +46,42 @@ std::vector<double> lagFiltered(std::span<const double> time_s, std::span<const 
   return x;
 }
 
+std::vector<double> lagSensitivity(std::span<const double> time_s, std::span<const double> u, double tau_s, bool hold) {
+  SPINDRIFT_ASSERT(time_s.size() == u.size(), "time and input differ in length");
+  std::vector<double> s(u.size(), 0.0);
+  if (tau_s <= 0.0 || u.empty()) return s;
+  double last_dt = -1.0;
+  LagStep step;
+  LagStep slope;  // of its coefficients by ln tau
+  double x = u.front();
+  for (std::size_t i = 1; i < u.size(); ++i) {
+    const double dt = time_s[i] - time_s[i - 1];
+    if (dt != last_dt) {
+      step = lagStep(dt, tau_s, hold);
+      const double h = dt / tau_s;
+      slope.a = h * step.a;
+      if (hold) {
+        slope.b0 = -slope.a;
+        slope.b1 = 0.0;
+      } else {
+        // Of the mean (1 - a) / h; the difference of nearly equal numbers only for h that matter.
+        const double of_mean = h < 1e-3 ? h / 2.0 - h * h / 3.0 : (-std::expm1(-h) - h * step.a) / h;
+        slope.b0 = of_mean - slope.a;
+        slope.b1 = -of_mean;
+      }
+    }
+    last_dt = dt;
+    s[i] = step.a * s[i - 1] + slope.a * x + slope.b0 * u[i - 1] + slope.b1 * u[i];
+    x = step.a * x + step.b0 * u[i - 1] + step.b1 * u[i];
+  }
+  return s;
+}
+
+double ThermalOutput::coverageFactor(double probability) const {
+  const double p = 0.5 + 0.5 * probability;
+  return degrees_of_freedom > 0.0 ? studentQuantile(p, degrees_of_freedom) : normalQuantile(p);
+}
+
 const ThermalOutput* ThermalModel::findOutput(std::string_view name) const noexcept {
   for (const ThermalOutput& output : outputs)
     if (output.name == name) return &output;
@@ -73,12 +110,9 @@ Eigen::MatrixXd ThermalModel::features(const TimeSeries& series, std::size_t whi
     out.col(static_cast<Eigen::Index>(k + 1)) =
         Eigen::Map<const Eigen::VectorXd>(x.data(), count).array() - input.reference;
     if (!with_tau || term.tau_s <= 0.0) continue;
-    // tau x' + x = f differentiated by ln tau: w = dx / d ln tau is the lag of x less x itself.
-    const std::vector<double> again = lagFiltered(series.time_s, x, term.tau_s, false);
-    for (Eigen::Index r = 0; r < count; ++r) {
-      const auto row = static_cast<std::size_t>(r);
-      out(r, 1 + terms + static_cast<Eigen::Index>(k)) = term.gain * (again[row] - x[row]);
-    }
+    const std::vector<double> slope = lagSensitivity(series.time_s, f, term.tau_s, hold);
+    out.col(1 + terms + static_cast<Eigen::Index>(k)) =
+        term.gain * Eigen::Map<const Eigen::VectorXd>(slope.data(), count);
   }
   return out;
 }
@@ -135,6 +169,7 @@ StepResponse ThermalModel::stepResponse(std::size_t which, const std::string& in
   StepResponse response;
   response.input = input;
   response.unit = output.unit;
+  response.coverage_factor = output.coverageFactor();
   double longest = 0.0;
   double shortest = 1e300;
   for (const LagTerm& term : output.terms) {
@@ -228,6 +263,7 @@ nlohmann::json ThermalModel::json() const {
                               {"unit", o.unit},
                               {"offset", o.offset},
                               {"terms", terms},
+                              {"degrees_of_freedom", o.degrees_of_freedom},
                               {"noise_sigma", o.noise_sigma},
                               {"noise_tau_s", o.noise_tau_s},
                               {"uncertainty_factor", o.uncertainty_factor},
@@ -295,6 +331,7 @@ ThermalModel ThermalModel::parse(const JsonNode& root) {
       term.gain = t.at("gain").number();
       output.terms.push_back(term);
     }
+    output.degrees_of_freedom = node.numberOr("degrees_of_freedom", 0.0);
     output.noise_sigma = node.numberOr("noise_sigma", 0.0);
     output.noise_tau_s = node.numberOr("noise_tau_s", 0.0);
     output.uncertainty_factor = node.numberOr("uncertainty_factor", 1.0);

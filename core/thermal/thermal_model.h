@@ -48,9 +48,12 @@ struct ThermalOutput {
   std::vector<LagTerm> terms;
   /// Of (offset, gains), size 1 + terms, or of (offset, gains, ln tau), size 1 + 2 terms; empty if not known.
   Eigen::MatrixXd covariance;
+  double degrees_of_freedom = 0.0;  ///< of that covariance; 0: many
   double noise_sigma = 0.0;         ///< stationary standard deviation of what the model leaves in training
   double noise_tau_s = 0.0;         ///< correlation time of that remainder
   double uncertainty_factor = 1.0;  ///< held-out error over predicted error in blocks left out, >= 1
+  /// Half width of an interval of this probability in standard uncertainties (Student's where the degrees are known).
+  [[nodiscard]] double coverageFactor(double probability = 0.95) const;
 };
 
 /// Response of one output to a unit step of one input (from the train range's middle), with standard uncertainty.
@@ -61,6 +64,7 @@ struct StepResponse {
   std::vector<double> time_s;
   std::vector<double> value;
   std::vector<double> sigma;
+  double coverage_factor = 1.96;  ///< half width of the 95 % interval in sigma
   double final_value = 0.0;
   double final_sigma = 0.0;
   double time_to_63_percent_s = 0.0;  ///< NaN if the response never stays beyond 63 % of its end
@@ -102,6 +106,10 @@ struct ThermalModel {
 /// x(t) of one lag over rows of any spacing. `hold`: u keeps its value until the next row, else it runs linearly.
 [[nodiscard]] std::vector<double> lagFiltered(std::span<const double> time_s, std::span<const double> u, double tau_s,
                                               bool hold);
+
+/// dx / d ln tau of that lag, exact for the same rows (0 for tau = 0).
+[[nodiscard]] std::vector<double> lagSensitivity(std::span<const double> time_s, std::span<const double> u,
+                                                 double tau_s, bool hold);
 
 /// Coefficients of one exact step of a lag: x1 = a x0 + b0 u0 + b1 u1.
 struct LagStep {

@@ -170,11 +170,12 @@ StructuredFit fitByArx(const TimeSeries& series, const IdentifyRequest& request,
   }
   const double white = equationWhiteness(model, y, u);
   out.structure["equation_whiteness_p_value"] = white;
+  out.structure["uncertainty_holds"] = white >= 1e-3;
   if (white < 1e-3) {
     out.notes.push_back(
         "the residual of the ARX equation is not white (noise at the output, or missing dynamics): its coefficients "
         "are "
-        "biased and their uncertainties too small; use --method oe or response.");
+        "biased and their intervals do not hold; use --method oe or response.");
   }
   std::vector<std::vector<double>> from_start;
   for (const auto& v : b.u) from_start.emplace_back(v.begin() + static_cast<std::ptrdiff_t>(b.first), v.end());
@@ -233,8 +234,11 @@ StructuredFit fitByOutputError(const TimeSeries& series, const IdentifyRequest& 
   }
   const OutputErrorResult fit = fitOutputError(part(b.all.time_s), part(b.y), u);
   if (fit.gains.empty()) throw InputError({series.file, ""}, fit.message);
-  if (fit.status != FitStatus::Converged)
+  if (fit.status != FitStatus::Converged) {
     out.notes.push_back(fmt::format("output error: {} ({})", toString(fit.status), fit.message));
+  } else if (!fit.message.empty()) {
+    out.notes.push_back(fit.message);
+  }
   out.model.kind = "output_error";
   describeInputs(b, series, inputs, out.model);
   ThermalOutput output;
@@ -255,6 +259,9 @@ StructuredFit fitByOutputError(const TimeSeries& series, const IdentifyRequest& 
     }
   }
   output.covariance = fit.covariance;
+  output.degrees_of_freedom = fit.degrees_of_freedom;
+  out.structure["degrees_of_freedom"] = fit.degrees_of_freedom;
+  out.structure["coverage_factor_95"] = fit.coverageFactor();
   output.noise_sigma = fit.noise_sigma;
   out.structure["noise_autoregression"] =
       std::vector<double>(fit.noise_ar.data(), fit.noise_ar.data() + fit.noise_ar.size());

@@ -265,6 +265,7 @@ nlohmann::json IdentifyResult::json() const {
                                     {"time_s", s.time_s},
                                     {"value", value},
                                     {"standard_uncertainty", uncertainty},
+                                    {"coverage_factor_95", s.coverage_factor},
                                     {"final_value", jsonNumber(s.final_value)},
                                     {"final_standard_uncertainty", jsonNumber(s.final_sigma)},
                                     {"time_to_63_percent_s", jsonNumber(s.time_to_63_percent_s)}});

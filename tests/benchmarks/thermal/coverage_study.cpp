@@ -21,8 +21,8 @@ struct Count {
   std::string name;
   std::size_t inside = 0;
   std::size_t total = 0;
-  void add(double estimate, double truth, double sigma) {
-    inside += std::abs(estimate - truth) <= 1.96 * sigma ? 1U : 0U;
+  void add(double estimate, double truth, double sigma, double factor = 1.96) {
+    inside += std::abs(estimate - truth) <= factor * sigma ? 1U : 0U;
     ++total;
   }
 };
@@ -110,8 +110,16 @@ void arx(const char* name, const ArxSystem& system, int runs) {
   std::printf("  mean static gain %.4f, truth 4\n", gain_sum / runs);
 }
 
-/// Gains -20 and 5 at 3600 s and 600 s (and a second input, 3 at 1500 s); noise AR(1) or AR(2).
-void outputError(const char* name, double a1, double a2, bool second_input, int runs) {
+struct OutputErrorSystem {
+  double a1 = 0.0;  ///< autoregression of the noise at the output
+  double a2 = 0.0;
+  bool second_input = false;
+  int samples = 1200;  ///< at 30 s
+};
+
+/// Gains -20 and 5 at 3600 s and 600 s (and a second input, 3 at 1500 s). The fit is told nothing of the noise.
+void outputError(const char* name, const OutputErrorSystem& system, int runs) {
+  const auto [a1, a2, second_input, samples] = system;
   const std::array<double, 4> at_s = {300.0, 1200.0, 3600.0, 14400.0};
   std::vector<Count> counts(4);
   counts[0].name = "gains";
@@ -119,13 +127,14 @@ void outputError(const char* name, double a1, double a2, bool second_input, int 
   counts[2].name = "time constants";
   counts[3].name = "step response";
   double gain_sum = 0.0;
+  double factor_sum = 0.0;
   int converged = 0;
   for (int run = 0; run < runs; ++run) {
     Random random(9000 + static_cast<std::uint64_t>(run));
-    const auto u = steps(random, 1200, 150);
-    const auto w = steps(random, 1200, 90);
+    const auto u = steps(random, samples, 150);
+    const auto w = steps(random, samples, 90);
     std::vector<double> time;
-    for (int k = 0; k < 1200; ++k) time.push_back(30.0 * k);
+    for (int k = 0; k < samples; ++k) time.push_back(30.0 * k);
     const auto slow = lagFiltered(time, u, 3600.0, true);
     const auto fast = lagFiltered(time, u, 600.0, true);
     const auto other = lagFiltered(time, w, 1500.0, true);
@@ -134,30 +143,37 @@ void outputError(const char* name, double a1, double a2, bool second_input, int 
     double v2 = 0.0;
     // Driving noise for a stationary standard deviation of 0.2.
     const double part = std::sqrt((1.0 + a2) * ((1.0 - a2) * (1.0 - a2) - a1 * a1) / (1.0 - a2));
-    for (std::size_t k = 0; k < time.size(); ++k) {
+    for (int k = -200; k < samples; ++k) {
       const double v = a1 * v1 + a2 * v2 + random.normal(0.0, 0.2 * part);
       v2 = v1;
       v1 = v;
-      y.push_back(4.0 - 20.0 * slow[k] + 5.0 * fast[k] + (second_input ? 3.0 * other[k] : 0.0) + v);
+      if (k < 0) continue;
+      const auto i = static_cast<std::size_t>(k);
+      y.push_back(4.0 - 20.0 * slow[i] + 5.0 * fast[i] + (second_input ? 3.0 * other[i] : 0.0) + v);
     }
     OutputErrorOptions options;
-    options.noise_order = a1 == 0.0 ? 0 : 2;
     options.starts = 2;
     std::vector<OutputErrorInput> inputs = {{u, 2, true}};
     if (second_input) inputs.push_back({w, 1, true});
     const OutputErrorResult r = fitOutputError(time, y, inputs, options);
     if (r.status != FitStatus::Converged) continue;
     ++converged;
-    counts[0].add(r.gains[0][0], -20.0, r.gainSigma(0, 0));
-    counts[0].add(r.gains[0][1], 5.0, r.gainSigma(0, 1));
-    counts[2].add(r.taus_s[0][0], 3600.0, r.tauSigma_s(0, 0));
-    counts[2].add(r.taus_s[0][1], 600.0, r.tauSigma_s(0, 1));
+    const double factor = r.coverageFactor();
+    factor_sum += factor;
+    const auto tau = [&](std::size_t input, std::size_t lag, double truth) {
+      const double value = r.taus_s[input][lag];
+      counts[2].add(std::log(value), std::log(truth), r.tauSigma_s(input, lag) / value, factor);
+    };
+    counts[0].add(r.gains[0][0], -20.0, r.gainSigma(0, 0), factor);
+    counts[0].add(r.gains[0][1], 5.0, r.gainSigma(0, 1), factor);
+    tau(0, 0, 3600.0);
+    tau(0, 1, 600.0);
     const auto [gain, sigma] = r.staticGain(0);
     gain_sum += gain;
-    counts[1].add(gain, -15.0, sigma);
+    counts[1].add(gain, -15.0, sigma, factor);
     if (second_input) {
-      counts[0].add(r.gains[1][0], 3.0, r.gainSigma(1, 0));
-      counts[2].add(r.taus_s[1][0], 1500.0, r.tauSigma_s(1, 0));
+      counts[0].add(r.gains[1][0], 3.0, r.gainSigma(1, 0), factor);
+      tau(1, 0, 1500.0);
     }
     ThermalModel model;
     model.inputs = {{"u", SignalKind::Speed, 1.0, 1.0, 0.0, 0.0, 1.0}, {"w", SignalKind::Speed}};
@@ -173,11 +189,12 @@ void outputError(const char* name, double a1, double a2, bool second_input, int 
       while (k + 1 < step.time_s.size() && step.time_s[k] < t) ++k;
       const double s = step.time_s[k];
       const double truth = -20.0 * -std::expm1(-s / 3600.0) + 5.0 * -std::expm1(-s / 600.0);
-      counts[3].add(step.value[k], truth, step.sigma[k]);
+      counts[3].add(step.value[k], truth, step.sigma[k], factor);
     }
   }
   print(name, counts);
-  std::printf("  mean static gain %.4f, truth -15; %d of %d converged\n", gain_sum / converged, converged, runs);
+  std::printf("  mean static gain %.4f, truth -15; %d of %d converged; mean coverage factor %.3f\n",
+              gain_sum / converged, converged, runs, factor_sum / converged);
 }
 
 }  // namespace
@@ -187,9 +204,11 @@ int main(int argc, char** argv) {
   arx("ARX, white noise in the equation", {0.0, false, 0.05}, runs);
   arx("ARX, coloured noise in the equation (AR(1), 0.6)", {0.6, false, 0.05}, runs);
   arx("ARX, white noise at the output (biased: not its model)", {0.0, true, 0.2}, runs);
-  outputError("output error, white noise at the output", 0.0, 0.0, false, runs);
-  outputError("output error, AR(1) noise 0.9", 0.9, 0.0, false, runs);
-  outputError("output error, AR(2) noise 1.5, -0.6", 1.5, -0.6, false, runs);
-  outputError("output error, two inputs, AR(1) noise 0.8", 0.8, 0.0, true, runs);
+  outputError("output error, white noise at the output", {}, runs);
+  outputError("output error, AR(1) noise 0.9", {0.9}, runs);
+  outputError("output error, AR(1) noise 0.9, 900 samples", {0.9, 0.0, false, 900}, runs);
+  outputError("output error, AR(1) noise 0.9, 4000 samples", {0.9, 0.0, false, 4000}, runs);
+  outputError("output error, AR(2) noise 1.5, -0.6", {1.5, -0.6}, runs);
+  outputError("output error, two inputs, AR(1) noise 0.8", {0.8, 0.0, true}, runs);
   return 0;
 }

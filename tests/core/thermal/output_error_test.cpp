@@ -46,16 +46,19 @@ void expectCoverage(double rho) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Plant p = plant(1000 + seed, rho, 0.2);
     OutputErrorOptions options;
-    options.noise_order = rho > 0.0 ? 2 : 0;
     options.starts = 2;
     const OutputErrorResult r = fitOutputError(p.time, p.y, {{p.u, 2, true}}, options);
     ASSERT_EQ(r.status, FitStatus::Converged) << r.message;
-    inside += std::abs(r.gains[0][0] + 20.0) < 1.96 * r.gainSigma(0, 0);
-    inside += std::abs(r.gains[0][1] - 5.0) < 1.96 * r.gainSigma(0, 1);
-    inside += std::abs(r.taus_s[0][0] - 3600.0) < 1.96 * r.tauSigma_s(0, 0);
-    inside += std::abs(r.taus_s[0][1] - 600.0) < 1.96 * r.tauSigma_s(0, 1);
+    const double factor = r.coverageFactor();
+    const auto logarithm = [&](std::size_t lag, double truth) {
+      return std::abs(std::log(r.taus_s[0][lag] / truth)) * r.taus_s[0][lag] / r.tauSigma_s(0, lag);
+    };
+    inside += std::abs(r.gains[0][0] + 20.0) < factor * r.gainSigma(0, 0);
+    inside += std::abs(r.gains[0][1] - 5.0) < factor * r.gainSigma(0, 1);
+    inside += logarithm(0, 3600.0) < factor;
+    inside += logarithm(1, 600.0) < factor;
     const auto [gain, sigma] = r.staticGain(0);
-    inside += std::abs(gain + 15.0) < 1.96 * sigma;
+    inside += std::abs(gain + 15.0) < factor * sigma;
     total += 5;
     // As the model that is written and plotted states it: gains and time constants move together.
     ThermalModel model;
@@ -68,15 +71,15 @@ void expectCoverage(double rho) {
     for (const std::size_t k : {15UL, 25UL, 39UL}) {
       const double t = step.time_s[k];
       const double truth = 20.0 * std::expm1(-t / 3600.0) - 5.0 * std::expm1(-t / 600.0);
-      step_inside += std::abs(step.value[k] - truth) < 1.96 * step.sigma[k];
+      step_inside += std::abs(step.value[k] - truth) < factor * step.sigma[k];
       ++step_total;
     }
   }
   const double rate = static_cast<double>(inside) / total;
-  EXPECT_GT(rate, 0.91);
+  EXPECT_GT(rate, 0.92);
   EXPECT_LT(rate, 0.985);
   const double step_rate = static_cast<double>(step_inside) / step_total;
-  EXPECT_GT(step_rate, 0.89);
+  EXPECT_GT(step_rate, 0.90);
   EXPECT_LT(step_rate, 0.99);
 }
 
@@ -112,11 +115,42 @@ TEST(OutputError, TheModelKeepsTheUncertaintyOfItsTimeConstants) {
   double largest = 0.0;
   for (Eigen::Index k = 0; k < x.rows(); ++k)
     largest = std::max(largest, std::abs((after.value[k] - before.value[k]) / 1e-4 - x(k, 3)));
-  EXPECT_LT(largest, 0.02 * x.col(3).cwiseAbs().maxCoeff());
+  EXPECT_LT(largest, 1e-4 * x.col(3).cwiseAbs().maxCoeff());
   // Through the file.
   const ThermalModel read = ThermalModel::parse(JsonNode::parse(model.json().dump(), "model.json"));
   ASSERT_EQ(read.outputs[0].covariance.rows(), 5);
   EXPECT_NEAR(read.predict(series, 0).sigma[900], before.sigma[900], 1e-3 * before.sigma[900]);
+}
+
+TEST(OutputError, SaysWhenTimeConstantsMayBeOne) {
+  Plant p = plant(9, 0.0, 0.2);
+  Random random(10);
+  const auto one = lagFiltered(p.time, p.u, 1800.0, true);
+  for (std::size_t k = 0; k < one.size(); ++k) p.y[k] = -10.0 * one[k] + random.normal(0.0, 0.5);
+  const OutputErrorResult r = fitOutputError(p.time, p.y, {{p.u, 2, true}});
+  EXPECT_NE(r.message, "") << r.taus_s[0][0] << " " << r.taus_s[0][1];
+  EXPECT_EQ(fitOutputError(p.time, plant(9, 0.0, 0.2).y, {{p.u, 2, true}}).message, "");
+}
+
+TEST(OutputError, FindsTwoTimeConstantsThatOnlyWorkAsAPair) {
+  // A long record whose slow part hides the fast one from a search lag by lag.
+  for (const std::uint64_t seed : {6U, 80U, 94U}) {
+    Random random(9000 + seed);
+    std::vector<double> time;
+    std::vector<double> u;
+    double level = 0.0;
+    for (int k = 0; k < 4000; ++k) {
+      if (k % 150 == 0) level = random.uniform(0.0, 2.0);
+      time.push_back(30.0 * k);
+      u.push_back(level);
+    }
+    const auto slow = lagFiltered(time, u, 3600.0, true);
+    const auto fast = lagFiltered(time, u, 600.0, true);
+    std::vector<double> y;
+    for (std::size_t k = 0; k < u.size(); ++k) y.push_back(4.0 - 20.0 * slow[k] + 5.0 * fast[k]);
+    for (double& v : y) v += random.normal(0.0, 0.2);
+    EXPECT_LT(fitOutputError(time, y, {{u, 2, true}}).rms, 0.22);
+  }
 }
 
 TEST(OutputError, SlowPolesSurviveFastSampling) {
