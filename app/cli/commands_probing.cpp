@@ -191,6 +191,8 @@ void addHealth(CLI::App& app, CommandLine& line) {
                                           {"message", h.message},
                                           {"healthy", h.healthy},
                                           {"loose", h.loose},
+                                          {"movement", toString(h.movement.kind)},
+                                          {"compared_with_other_styli", h.compared},
                                           {"effective_radius_mm", h.effective_radius_mm},
                                           {"effective_radius_standard_uncertainty_mm", h.effective_radius_sigma_mm},
                                           {"pre_travel_range_um", h.pre_travel_range_um},

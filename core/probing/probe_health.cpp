@@ -8,12 +8,21 @@
 #include <map>
 
 #include "core/base/units.h"
+#include "core/math/statistics.h"
 
 namespace spindrift {
 namespace {
 
+/// Centre of a sphere over the passes.
+struct Track {
+  std::vector<std::string> passes;
+  std::vector<double> time_s;
+  std::vector<Eigen::Vector3d> centre_um;
+  bool scatters = false;
+};
+
 StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indices, double ball_diameter_mm,
-                   double stylus_radius_mm, const ProbeHealthOptions& options) {
+                   double stylus_radius_mm, const ProbeHealthOptions& options, Track& track) {
   StylusHealth health;
   health.stylus = list.touches[indices.front()].stylus;
   health.feature = list.touches[indices.front()].feature;
@@ -102,40 +111,106 @@ StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indice
   health.pre_travel_range_um = high - low;
   health.effective_radius_mm = radius - 0.5 * ball_diameter_mm;
   health.effective_radius_sigma_mm = noise * mm_per_um / std::sqrt(static_cast<double>(indices.size()));
-  Eigen::Vector3d step_direction = Eigen::Vector3d::Zero();
-  for (std::size_t k = 1; k < passes.size(); ++k) {
-    const Eigen::Vector3d step = (centre[passes[k]] - centre[passes[k - 1]]) * um_per_mm;
-    if (step.norm() > health.largest_step_um) {
-      health.largest_step_um = step.norm();
-      step_direction = step.normalized();
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    double time = 0.0;
+    for (const std::size_t i : of_pass[passes[k]]) time += list.touches[i].time_s;
+    track.passes.push_back(passes[k]);
+    track.time_s.push_back(time / static_cast<double>(of_pass[passes[k]].size()));
+    track.centre_um.emplace_back(centre[passes[k]] * um_per_mm);
+    if (k == 0) continue;
+    health.largest_step_um =
+        std::max(health.largest_step_um, (centre[passes[k]] - centre[passes[k - 1]]).norm() * um_per_mm);
+  }
+  track.scatters = worst > options.loose_factor * options.healthy_sigma_um;
+  health.status = FitStatus::Converged;
+  if (std::abs(health.effective_radius_mm - stylus_radius_mm) > 0.1) {
+    health.message = fmt::format("; its effective radius {:.4f} mm is far from {:.4f} mm of the machine file",
+                                 health.effective_radius_mm, stylus_radius_mm);
+  } else {
+    health.message.clear();
+  }
+  return health;
+}
+
+/// What the track does beyond all styli on the same sphere (median over three or more, which one bad stylus cannot
+/// pull; the other one of two). Empty if there is nothing to compare with.
+std::vector<Eigen::Vector3d> ownMovement(const Track& track, const std::vector<const Track*>& others) {
+  if (others.empty()) return {};
+  std::vector<Eigen::Vector3d> own = track.centre_um;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    std::vector<Eigen::Vector3d> moves;
+    if (others.size() > 1) moves.emplace_back(track.centre_um[k] - track.centre_um.front());
+    for (const Track* other : others) {
+      const auto at = std::find(other->passes.begin(), other->passes.end(), track.passes[k]);
+      if (at == other->passes.end()) return {};
+      moves.emplace_back(other->centre_um[static_cast<std::size_t>(at - other->passes.begin())] -
+                         other->centre_um.front());
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> values;
+      for (const Eigen::Vector3d& m : moves) values.push_back(m(axis));
+      own[k](axis) -= median(values);
     }
   }
+  return own;
+}
+
+std::string alongText(const Eigen::Vector3d& d) {
+  return fmt::format("along ({:.2f}, {:.2f}, {:.2f})", d.x(), d.y(), d.z());
+}
+
+void judge(StylusHealth& health, const Track& track, const std::vector<const Track*>& others,
+           const ProbeHealthOptions& options) {
+  const std::string other_findings = health.message;
   const double limit = options.loose_factor * options.healthy_sigma_um;
-  const bool scatters = worst > limit;
-  const bool steps = health.largest_step_um > 2.0 * limit;
-  if (steps && !scatters) health.loose_direction = step_direction;
-  health.loose = scatters || steps;
-  health.healthy =
-      !health.loose && (health.repeatability_dof == 0 || health.repeatability_um <= options.healthy_sigma_um);
-  health.status = FitStatus::Converged;
-  if (health.loose) {
+  const double noise = health.repeatability_dof > 0 ? health.repeatability_um : options.healthy_sigma_um;
+  // A centre from six touches is known to about half the noise of one; the difference of two styli is a little worse.
+  health.movement = judgeMovement(track.time_s, track.centre_um, 0.7 * noise, 2.0 * limit);
+  if (const std::vector<Eigen::Vector3d> own = ownMovement(track, others); !own.empty()) {
+    const StylusMovement beside = judgeMovement(track.time_s, own, 0.7 * noise, 2.0 * limit);
+    // Two styli that disagree accuse each other; which one it is only its own course says.
+    if (others.size() > 1 || beside.kind == MovementKind::Still) {
+      health.compared = true;
+      health.movement = beside;
+    }
+  }
+  const MovementKind kind = health.movement.kind;
+  const bool moves = kind == MovementKind::Jump || kind == MovementKind::Scatter;
+  if (moves && !track.scatters) health.loose_direction = health.movement.direction;
+  health.loose = track.scatters || moves;
+  health.healthy = !health.loose && kind != MovementKind::Undecided && other_findings.empty() &&
+                   (health.repeatability_dof == 0 || health.repeatability_um <= options.healthy_sigma_um);
+  double worst = 0.0;
+  for (const PreTravel& p : health.directions) worst = std::max(worst, p.repeatability_um);
+  if (track.scatters) {
+    health.message = fmt::format("stylus {} is loose or bent: touches scatter by {:.1f} um {}", health.stylus, worst,
+                                 alongText(health.loose_direction));
+  } else if (kind == MovementKind::Jump) {
     health.message =
-        fmt::format("stylus {} is loose or bent: {} along ({:.2f}, {:.2f}, {:.2f})", health.stylus,
-                    scatters ? fmt::format("touches scatter by {:.1f} um", worst)
-                             : fmt::format("the sphere moved by {:.1f} um between passes", health.largest_step_um),
-                    health.loose_direction.x(), health.loose_direction.y(), health.loose_direction.z());
-  } else if (!health.healthy) {
+        fmt::format("stylus {} is loose or bent: it jumped by {:.1f} um {} after {}, which no smooth warming does",
+                    health.stylus, health.movement.jump_um, alongText(health.loose_direction),
+                    track.passes[static_cast<std::size_t>(health.movement.jump_after)]);
+  } else if (kind == MovementKind::Scatter) {
+    health.message = fmt::format(
+        "stylus {} is loose or bent: the sphere's centre scatters by {:.1f} um from pass to pass, not as warming does",
+        health.stylus, health.movement.scatter_um);
+  } else if (kind == MovementKind::Undecided) {
+    health.message = fmt::format(
+        "stylus {} sees the sphere move by {:.1f} um; {} passes cannot tell a loose stylus from warming: touch the "
+        "sphere in more passes (five or more), or several times in one",
+        health.stylus, health.movement.largest_um, track.passes.size());
+  } else if (health.repeatability_dof > 0 && health.repeatability_um > options.healthy_sigma_um) {
     health.message = fmt::format("stylus {} repeats to {:.2f} um only; a healthy probe keeps {:.2f} um", health.stylus,
                                  health.repeatability_um, options.healthy_sigma_um);
   } else {
     health.message = fmt::format("stylus {} is in order", health.stylus);
+    if (kind == MovementKind::Warming) {
+      health.message += "; the sphere moves smoothly from pass to pass, as warming does";
+    } else if (health.compared && health.largest_step_um > 2.0 * limit) {
+      health.message += "; all styli see the sphere move alike, as warming does";
+    }
   }
-  if (std::abs(health.effective_radius_mm - stylus_radius_mm) > 0.1) {
-    health.healthy = false;
-    health.message += fmt::format("; its effective radius {:.4f} mm is far from {:.4f} mm of the machine file",
-                                  health.effective_radius_mm, stylus_radius_mm);
-  }
-  return health;
+  health.message += other_findings;
 }
 
 }  // namespace
@@ -161,8 +236,20 @@ std::vector<StylusHealth> checkProbeHealth(const TouchList& list, const MachineD
     throw InputError({list.file, ""}, "holds no touches on a sphere; allowed: touches of an artefact of kind balls.");
   }
   std::vector<StylusHealth> result;
-  for (const auto& key : order) {
-    result.push_back(check(list, groups[key], diameter[key], machine.findStylus(key.first)->radius_mm, options));
+  std::vector<Track> tracks(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const double radius = machine.findStylus(order[i].first)->radius_mm;
+    result.push_back(check(list, groups[order[i]], diameter[order[i]], radius, options, tracks[i]));
+  }
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (result[i].status != FitStatus::Converged) continue;
+    // Styli that scatter themselves are no witnesses.
+    std::vector<const Track*> others;
+    for (std::size_t j = 0; j < order.size(); ++j) {
+      const bool same_sphere = j != i && order[j].second == order[i].second;
+      if (same_sphere && result[j].status == FitStatus::Converged && !tracks[j].scatters) others.push_back(&tracks[j]);
+    }
+    judge(result[i], tracks[i], others, options);
   }
   return result;
 }

@@ -5,8 +5,9 @@
 // from the sphere's centre when it triggered, minus the nominal stand-off, is minus the pre-travel in that direction:
 //   pre-travel(n) = R + r - |p - c|, given per direction relative to its mean (the mean belongs to the effective
 //   radius).
-// Repeatability: spread of repeated touches from one direction. A loose or bent stylus: the centre of the sphere moves
-// from pass to pass, or touches scatter far more than the probe usually does, most in one direction.
+// Repeatability: spread of repeated touches from one direction. A loose stylus: touches scatter far more than the probe
+// usually does, or the centre of the sphere jumps between passes. A warm machine moves the centre too, but smoothly and
+// for all styli alike: stylus_movement.h tells them apart as far as the passes allow, and says when they do not.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "core/probing/feature.h"
+#include "core/probing/stylus_movement.h"
 
 namespace spindrift {
 
@@ -46,6 +48,9 @@ struct StylusHealth {
   double repeatability_um = 0.0;  ///< pooled standard deviation of repeats
   int repeatability_dof = 0;
   double largest_step_um = 0.0;  ///< largest movement of the sphere's centre between passes (cycles)
+  /// Movement of the centre over the passes, minus what the other styli see on the same sphere where they are there.
+  StylusMovement movement;
+  bool compared = false;                                      ///< with other styli
   Eigen::Vector3d loose_direction = Eigen::Vector3d::Zero();  ///< of the largest scatter or step
   bool loose = false;
   bool healthy = false;
