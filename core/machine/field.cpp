@@ -31,8 +31,9 @@ std::string Field::csv() const {
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
       const std::size_t i = grid.index(ix, iy);
-      text += fmt::format("{},{},{},{},{},{},{}\n", grid.x_mm(ix), grid.y_mm(iy), grid.z_mm, toString(component),
-                          value[i], sigma[i], extrapolated[i] ? 1 : 0);
+      const Eigen::Vector3d p = grid.place_mm(grid.x_mm(ix), grid.y_mm(iy));
+      text += fmt::format("{},{},{},{},{},{},{}\n", p.x(), p.y(), p.z(), toString(component), value[i], sigma[i],
+                          extrapolated[i] ? 1 : 0);
     }
   }
   return text;
@@ -51,7 +52,7 @@ Field evaluateField(const ErrorModel& model, const FieldGrid& grid, Component co
   DeviationQuery query = conditions;
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
-      query.position_mm = {grid.x_mm(ix), grid.y_mm(iy), grid.z_mm};
+      query.position_mm = grid.place_mm(grid.x_mm(ix), grid.y_mm(iy));
       const PredictedComponent predicted = model.predict(query, component);
       const std::size_t i = grid.index(ix, iy);
       field.value[i] = predicted.value;

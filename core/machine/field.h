@@ -11,7 +11,8 @@
 
 namespace spindrift {
 
-/// A regular grid in a plane z = const of MCF, nodes on the edges. nx, ny >= 2.
+/// A regular grid in a plane of MCF, nodes on the edges. nx, ny >= 2. The plane is z = const; with `normal_axis` 0 or 1
+/// it is x or y = const, and "x" and "y" of the grid are the remaining axes in the order XYZ, "z" the level.
 struct FieldGrid {
   double x_from_mm = 0.0;
   double x_to_mm = 0.0;
@@ -20,7 +21,18 @@ struct FieldGrid {
   double z_mm = 0.0;
   int nx = 41;
   int ny = 41;
+  int normal_axis = 2;  ///< 0 X, 1 Y, 2 Z
 
+  /// A place of the plane in MCF; `out_mm` off the plane along its normal.
+  [[nodiscard]] Eigen::Vector3d place_mm(double x_mm, double y_mm, double out_mm = 0.0) const {
+    Eigen::Vector3d place;
+    place(normal_axis) = z_mm + out_mm;
+    place(firstAxis()) = x_mm;
+    place(secondAxis()) = y_mm;
+    return place;
+  }
+  [[nodiscard]] int firstAxis() const { return normal_axis == 0 ? 1 : 0; }
+  [[nodiscard]] int secondAxis() const { return normal_axis == 2 ? 1 : 2; }
   [[nodiscard]] double x_mm(int ix) const { return x_from_mm + (x_to_mm - x_from_mm) * ix / (nx - 1); }
   [[nodiscard]] double y_mm(int iy) const { return y_from_mm + (y_to_mm - y_from_mm) * iy / (ny - 1); }
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }

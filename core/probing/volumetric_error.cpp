@@ -60,22 +60,19 @@ std::array<double, 2> travelOf(const MachineDescription& machine, int axis) {
 Field volumetricField(const BallCycleModel& model, const MachineDescription& machine, Component component,
                       int normal_axis, double level_mm, const Eigen::Vector3d& tool_offset_mm, int n) {
   SPINDRIFT_ASSERT(normal_axis >= 0 && normal_axis < 3 && n >= 2, "a plane has a normal axis and two nodes a side");
-  const int first = normal_axis == 0 ? 1 : 0;
-  const int second = normal_axis == 2 ? 1 : 2;
   Field field;
   field.component = component;
-  const auto u = travelOf(machine, first);
-  const auto v = travelOf(machine, second);
-  field.grid = {u[0], u[1], v[0], v[1], level_mm, n, n};
+  field.grid.normal_axis = normal_axis;
+  const auto u = travelOf(machine, field.grid.firstAxis());
+  const auto v = travelOf(machine, field.grid.secondAxis());
+  field.grid = {u[0], u[1], v[0], v[1], level_mm, n, n, normal_axis};
   field.value.resize(field.grid.size());
   field.sigma.resize(field.grid.size());
   field.extrapolated.assign(field.grid.size(), false);
   for (int iy = 0; iy < n; ++iy) {
     for (int ix = 0; ix < n; ++ix) {
       DeviationQuery query;
-      query.position_mm(normal_axis) = level_mm;
-      query.position_mm(first) = field.grid.x_mm(ix);
-      query.position_mm(second) = field.grid.y_mm(iy);
+      query.position_mm = field.grid.place_mm(field.grid.x_mm(ix), field.grid.y_mm(iy));
       query.tool_offset_mm = tool_offset_mm;
       const PredictedComponent p = model.predict(query, component);
       field.value[field.grid.index(ix, iy)] = p.value;

@@ -32,7 +32,7 @@ class BallCycleModel : public ErrorModel {
 };
 
 /// A plane of the working space normal to `normal_axis` (0 X, 1 Y, 2 Z) at `level_mm`, n x n nodes over the travel.
-/// Values in um; for a plane other than z = const the grid's x and y are the remaining axes in the order XYZ.
+/// Values in um; the grid knows its plane (FieldGrid::normal_axis).
 [[nodiscard]] Field volumetricField(const BallCycleModel& model, const MachineDescription& machine, Component component,
                                     int normal_axis, double level_mm, const Eigen::Vector3d& tool_offset_mm,
                                     int n = 41);

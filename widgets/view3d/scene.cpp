@@ -372,8 +372,9 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
   const FieldGrid& grid = field->grid;
   const bool relief = style.relief_exaggeration > 0;
   const double lift = 1e-3 * std::max(grid.x_to_mm - grid.x_from_mm, grid.y_to_mm - grid.y_from_mm);
+  // Distance from the plane of the grid.
   const auto height = [&](double value) {
-    return grid.z_mm + lift + (relief && std::isfinite(value) ? value * style.relief_exaggeration * 1e-3 : 0.0);
+    return lift + (relief && std::isfinite(value) ? value * style.relief_exaggeration * 1e-3 : 0.0);
   };
 
   // Surface: a quad, or a mesh where it is lifted, with a texture.
@@ -395,9 +396,10 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
     for (int ix = 0; ix < nx; ++ix) {
       const float u = static_cast<float>(ix) / static_cast<float>(nx - 1);
       const float v = static_cast<float>(iy) / static_cast<float>(ny - 1);
-      points->InsertNextPoint(grid.x_from_mm + u * (grid.x_to_mm - grid.x_from_mm),
-                              grid.y_from_mm + v * (grid.y_to_mm - grid.y_from_mm),
-                              relief ? height(field->value[grid.index(ix, iy)]) : height(0));
+      const Eigen::Vector3d place = grid.place_mm(grid.x_from_mm + u * (grid.x_to_mm - grid.x_from_mm),
+                                                  grid.y_from_mm + v * (grid.y_to_mm - grid.y_from_mm),
+                                                  relief ? height(field->value[grid.index(ix, iy)]) : height(0));
+      points->InsertNextPoint(place.x(), place.y(), place.z());
       coordinates->InsertNextTuple2(u, v);
       if (ix + 1 < nx && iy + 1 < ny) {
         const vtkIdType i = static_cast<vtkIdType>(iy) * nx + ix;
@@ -421,8 +423,9 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
   using Segments = std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>;
   const auto lifted = [&](const std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>& flat, double value) {
     Segments lines;
-    const double z = height(value) + 0.2 * lift;
-    for (const auto& [a, b] : flat) lines.push_back({{a.x(), a.y(), z}, {b.x(), b.y(), z}});
+    const double out = height(value) + 0.2 * lift;
+    for (const auto& [a, b] : flat)
+      lines.emplace_back(grid.place_mm(a.x(), a.y(), out), grid.place_mm(b.x(), b.y(), out));
     return lines;
   };
   Segments contours, zero, border;
@@ -454,7 +457,7 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
   }
   const auto at = [&](int ix, int iy) {
     const double value = field->value[grid.index(ix, iy)];
-    return Eigen::Vector3d(grid.x_mm(ix), grid.y_mm(iy), height(relief ? value : 0.0));
+    return grid.place_mm(grid.x_mm(ix), grid.y_mm(iy), height(relief ? value : 0.0));
   };
   for (int ix = 0; ix + 1 < grid.nx; ++ix) {
     border.emplace_back(at(ix, 0), at(ix + 1, 0));
@@ -474,7 +477,8 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
       high = std::max(high, height(v));
     }
   }
-  s.field_bounds = {{grid.x_from_mm, grid.y_from_mm, low}, {grid.x_to_mm, grid.y_to_mm, high}};
+  s.field_bounds = {grid.place_mm(grid.x_from_mm, grid.y_from_mm, low),
+                    grid.place_mm(grid.x_to_mm, grid.y_to_mm, high)};
 }
 
 void Scene::setCloud(const ViewCloud& cloud, const std::optional<ColourScale>& scale) {

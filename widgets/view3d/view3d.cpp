@@ -442,10 +442,11 @@ QString View3D::pointAt(const QPointF& pixel) const {
 std::optional<View3D::Probe> View3D::probeAt(const QPointF& pixel) const {
   if (field_ == nullptr || field_->value.empty()) return std::nullopt;
   const FieldGrid& grid = field_->grid;
-  const auto p = camera_.meetPlane(pixel, viewSize(), Eigen::Vector3d::UnitZ(), grid.z_mm);
+  const auto p = camera_.meetPlane(pixel, viewSize(), Eigen::Vector3d::Unit(grid.normal_axis), grid.z_mm);
   if (!p) return std::nullopt;
-  const double u = (p->x() - grid.x_from_mm) / (grid.x_to_mm - grid.x_from_mm) * (grid.nx - 1);
-  const double v = (p->y() - grid.y_from_mm) / (grid.y_to_mm - grid.y_from_mm) * (grid.ny - 1);
+  const Eigen::Vector2d on_plane((*p)(grid.firstAxis()), (*p)(grid.secondAxis()));
+  const double u = (on_plane.x() - grid.x_from_mm) / (grid.x_to_mm - grid.x_from_mm) * (grid.nx - 1);
+  const double v = (on_plane.y() - grid.y_from_mm) / (grid.y_to_mm - grid.y_from_mm) * (grid.ny - 1);
   if (!(u >= 0 && v >= 0 && u <= grid.nx - 1 && v <= grid.ny - 1)) return std::nullopt;
   const int ix = std::min(static_cast<int>(u), grid.nx - 2);
   const int iy = std::min(static_cast<int>(v), grid.ny - 2);
@@ -456,7 +457,7 @@ std::optional<View3D::Probe> View3D::probeAt(const QPointF& pixel) const {
            fy * ((1 - fx) * a[grid.index(ix, iy + 1)] + fx * a[grid.index(ix + 1, iy + 1)]);
   };
   Probe probe;
-  probe.xy_mm = p->head<2>();
+  probe.xy_mm = on_plane;
   probe.value = between(field_->value);
   probe.sigma = field_->sigma.size() == field_->value.size() ? between(field_->sigma) : 0.0;
   probe.extrapolated =
@@ -510,8 +511,11 @@ void View3D::mouseMoveEvent(QMouseEvent* event) {
   if (event->buttons() == Qt::NoButton) {
     QString text;
     if (const auto probe = probeAt(position)) {
-      text = tr("x %1 mm, y %2 mm: %3")
+      const FieldGrid& grid = field_->grid;
+      text = tr("%1 %2 mm, %3 %4 mm: %5")
+                 .arg(QLatin1Char("xyz"[grid.firstAxis()]))
                  .arg(probe->xy_mm.x(), 0, 'f', 1)
+                 .arg(QLatin1Char("xyz"[grid.secondAxis()]))
                  .arg(probe->xy_mm.y(), 0, 'f', 1)
                  .arg(QString::fromStdString(withUncertainty(probe->value, probe->sigma, unitOf(field_->component))));
       if (probe->extrapolated) text += tr(" (extrapolated)");

@@ -119,7 +119,7 @@ class View3D : public QWidget {
   [[nodiscard]] QString pointAt(const QPointF& pixel) const;
   /// Value of the field (or nothing) under a pixel.
   struct Probe {
-    Eigen::Vector2d xy_mm;
+    Eigen::Vector2d xy_mm;  ///< on the plane of the field: FieldGrid::firstAxis, secondAxis
     double value;
     double sigma;
     bool extrapolated;

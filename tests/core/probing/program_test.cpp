@@ -186,6 +186,15 @@ TEST(VolumetricError, FieldFollowsTheParameters) {
   const BallCycleResult result = evaluateBallCycles(run.list, m, m.artefacts.front(), nullptr);
   const BallCycleModel model(result, 1);
   const TipDeviation deviation = ballDeviation(m, run.truth[1]);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Field plane = volumetricField(model, m, Component::EX, axis, 120.0, {0, 0, -50}, 4);
+    EXPECT_EQ(plane.grid.normal_axis, axis);
+    DeviationQuery there;
+    there.position_mm = plane.grid.place_mm(plane.grid.x_mm(2), plane.grid.y_mm(1));
+    there.tool_offset_mm = {0, 0, -50};
+    EXPECT_DOUBLE_EQ(there.position_mm(axis), 120.0);
+    EXPECT_DOUBLE_EQ(plane.value[plane.grid.index(2, 1)], model.predict(there, Component::EX).value) << axis;
+  }
   const Field field = volumetricField(model, m, Component::EZ, 1, 120.0, {0, 0, -50}, 5);
   for (int iz = 0; iz < 5; ++iz) {
     for (int ix = 0; ix < 5; ++ix) {

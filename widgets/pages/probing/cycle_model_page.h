@@ -37,6 +37,9 @@ class CycleModelPage : public Page {
   [[nodiscard]] RowsModel* parameters() const { return parameters_; }
   [[nodiscard]] View3D* view() const { return view_; }
   void setComponent(int index);
+  /// The plane of the heat map: 0 normal to X, 1 to Y, 2 to Z.
+  void setPlane(int normal_axis);
+  [[nodiscard]] const Field* field() const { return field_.get(); }
 
  private:
   [[nodiscard]] QWidget* makeVolumePart();
@@ -50,6 +53,7 @@ class CycleModelPage : public Page {
   void showTrends();
   void showCycle();
   void showVolume();
+  void resetLevel();
   void showBar();
 
   TouchResults& results_;
@@ -68,6 +72,7 @@ class CycleModelPage : public Page {
   // ball artefact
   Segments* component_;
   QCheckBox* arrows_;
+  Segments* normal_;  ///< axis the plane is normal to
   QSlider* level_;
   QLabel* level_text_;
   View3D* view_;

@@ -48,9 +48,13 @@ QWidget* CycleModelPage::makeVolumePart() {
   view_->setMachineVisible(false);
   card->body()->addWidget(view_, 1);
   auto* line = new QHBoxLayout;
-  line->addWidget(new QLabel(tr("Plane at Z")));
+  line->addWidget(new QLabel(tr("Plane at")));
+  normal_ =
+      new Segments({QStringLiteral("X"), QStringLiteral("Y"), QStringLiteral("Z")}, tr("Axis the plane is normal to"));
+  normal_->setCurrent(2);
+  line->addWidget(normal_);
   level_ = new QSlider(Qt::Horizontal);
-  level_->setAccessibleName(tr("Height of the plane"));
+  level_->setAccessibleName(tr("Place of the plane"));
   level_->setMinimumHeight(sizes::control_height);
   line->addWidget(level_, 1);
   level_text_ = new QLabel;
@@ -63,6 +67,10 @@ QWidget* CycleModelPage::makeVolumePart() {
   connect(component_, &Segments::chosen, this, &CycleModelPage::showVolume);
   connect(arrows_, &QCheckBox::toggled, this, &CycleModelPage::showVolume);
   connect(level_, &QSlider::valueChanged, this, &CycleModelPage::showVolume);
+  connect(normal_, &Segments::chosen, this, [this] {
+    resetLevel();
+    showVolume();
+  });
   return card;
 }
 
@@ -116,18 +124,34 @@ void CycleModelPage::setComponent(int index) {
   showVolume();
 }
 
+void CycleModelPage::setPlane(int normal_axis) {
+  normal_->setCurrent(normal_axis);
+  resetLevel();
+  showVolume();
+}
+
+void CycleModelPage::resetLevel() {
+  const auto campaign = session().campaign();
+  const LinearAxis* axis =
+      campaign == nullptr ? nullptr : campaign->machine.findAxis(std::string(1, "XYZ"[normal_->current()]));
+  if (axis == nullptr) return;
+  const QSignalBlocker quiet(level_);
+  level_->setRange(static_cast<int>(std::min(axis->travel_mm[0], axis->travel_mm[1])),
+                   static_cast<int>(std::max(axis->travel_mm[0], axis->travel_mm[1])));
+  level_->setValue((level_->minimum() + level_->maximum()) / 2);
+}
+
 void CycleModelPage::showVolume() {
   const auto campaign = session().campaign();
   if (campaign == nullptr || evaluation_ == nullptr || evaluation_->ball_cycles.empty()) return;
   const BallCycleResult& result = evaluation_->ball_cycles.front();
   const int k = cycle_->currentIndex();
-  const LinearAxis* z = campaign->machine.findAxis("Z");
-  if (k < 0 || z == nullptr || campaign->machine.styli.empty()) return;
+  for (const char* axis : {"X", "Y", "Z"}) {
+    if (campaign->machine.findAxis(axis) == nullptr) return;
+  }
+  if (k < 0 || campaign->machine.styli.empty()) return;
   if (view_->empty()) {
-    const QSignalBlocker quiet(level_);
-    level_->setRange(static_cast<int>(std::min(z->travel_mm[0], z->travel_mm[1])),
-                     static_cast<int>(std::max(z->travel_mm[0], z->travel_mm[1])));
-    level_->setValue((level_->minimum() + level_->maximum()) / 2);
+    resetLevel();
     view_->setMachine(campaign->machine);
     view_->setMachineVisible(false);
   }
@@ -144,8 +168,8 @@ void CycleModelPage::showVolume() {
     largest_arrow = std::max(largest_arrow, a.deviation_um.norm());
     arrows.push_back({a.position_mm, a.deviation_um, Tone::Neutral});
   }
-  auto field = std::make_shared<Field>(
-      volumetricField(model, campaign->machine, component, 2, static_cast<double>(level_->value()), offset, 41));
+  auto field = std::make_shared<Field>(volumetricField(model, campaign->machine, component, normal_->current(),
+                                                       static_cast<double>(level_->value()), offset, 41));
   field_ = field;
   const QString name = fromCore(std::string(toString(component)));
   const double extent =
@@ -156,9 +180,12 @@ void CycleModelPage::showVolume() {
   view_->setField(field, style);
   if (!arrows_->isChecked()) arrows.clear();
   view_->setArrows(std::move(arrows), roundExaggeration(extent, largest_arrow));
-  view_->setCaption(tr("%1 in cycle %2 against %3, stylus %4")
-                        .arg(name, cycle_->currentText(), fromCore(result.cycles.front()),
-                             fromCore(campaign->machine.styli.front().id)));
+  view_->setCaption(
+      tr("%1 at %2 = %3 mm in cycle %4 against %5, stylus %6")
+          .arg(name)
+          .arg(QLatin1Char("XYZ"[normal_->current()]))
+          .arg(level_->value())
+          .arg(cycle_->currentText(), fromCore(result.cycles.front()), fromCore(campaign->machine.styli.front().id)));
 }
 
 void CycleModelPage::showBar() {

@@ -15,6 +15,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/probing/reference_panel.h"
 #include "widgets/pages/probing/touch_results.h"
 #include "widgets/plots/plot.h"
 
@@ -84,6 +85,8 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
       withVerdict(health_verdict_, makeTable(health_, tr("Health of the probe"),
                                              tr("Touch a sphere from at least five directions to qualify the styli."))),
       tr("Probe"));
+  reference_ = new ReferencePanel(context());
+  tabs_->addTab(reference_, tr("Reference"));
   left->body()->addWidget(tabs_, 1);
 
   auto* right = new Card(tr("Deviation over time"));
@@ -158,6 +161,7 @@ void TouchEvaluationPage::clear() {
   point_->clear();
   repeatability_verdict_->set(Tone::Neutral, {});
   health_verdict_->set(Tone::Neutral, {});
+  reference_->setCycles(nullptr);
   for (NumberTile* tile : {used_, noise_, length_, probe_}) tile->set(QStringLiteral("–"));
 }
 
@@ -215,6 +219,7 @@ void TouchEvaluationPage::refresh() {
   showRepeatability();
   showHealth();
   showDeviations();
+  reference_->setCycles(details_.evaluation);
 }
 
 void TouchEvaluationPage::showTiles(const CycleEvaluation& cycles) {
@@ -368,10 +373,11 @@ void TouchEvaluationPage::showHealth() {
                  numberCell(good ? h.pre_travel_range_um : std::nan(""), 2),
                  numberCell(good && h.repeatability_dof > 0 ? h.repeatability_um : std::nan(""), 2),
                  numberCell(good ? h.largest_step_um : std::nan(""), 2),
-                 !good       ? toneCell(tr("not judged"), Tone::Attention)
-                 : h.loose   ? toneCell(tr("loose, or warming up"), Tone::Attention)
-                 : h.healthy ? toneCell(tr("healthy"), Tone::Good)
-                             : toneCell(tr("look at it"), Tone::Attention)};
+                 !good                                        ? toneCell(tr("not judged"), Tone::Attention)
+                 : h.loose                                    ? toneCell(tr("loose"), Tone::Bad)
+                 : h.movement.kind == MovementKind::Undecided ? toneCell(tr("loose, or warming"), Tone::Attention)
+                 : h.healthy                                  ? toneCell(tr("healthy"), Tone::Good)
+                                                              : toneCell(tr("look at it"), Tone::Attention)};
     row.cells.back().tip = fromCore(h.message);
     if (!h.healthy && worst.isEmpty()) {
       worst = tr("%1 on %2: %3").arg(fromCore(h.stylus), fromCore(h.feature), fromCore(h.message));
@@ -385,8 +391,7 @@ void TouchEvaluationPage::showHealth() {
   } else if (worst.isEmpty()) {
     health_verdict_->show(Tone::Good, tr("All styli repeat as a healthy probe does."));
   } else {
-    health_verdict_->show(Tone::Attention, worst + tr(". A machine that warms up between the passes moves the sphere "
-                                                      "too: qualify in a steady state."));
+    health_verdict_->show(Tone::Attention, worst + QLatin1Char('.'));
   }
 }
 
@@ -430,6 +435,7 @@ std::vector<Exportable> TouchEvaluationPage::exportables() {
                                 exportableOf(tr("Repeatability"), repeatability_),
                                 exportableOf(tr("Health of the probe"), health_)};
   if (!plot_->empty()) items.push_back(exportableOf(tr("Deviation over time"), plot_));
+  for (Exportable& item : reference_->exportables()) items.push_back(std::move(item));
   return items;
 }
 

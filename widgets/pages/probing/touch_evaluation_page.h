@@ -15,6 +15,7 @@ namespace spindrift::gui {
 
 class NumberTile;
 class Plot;
+class ReferencePanel;
 class RowsModel;
 class TouchResults;
 
@@ -29,6 +30,8 @@ class TouchEvaluationPage : public Page {
   [[nodiscard]] RowsModel* features() const { return features_; }
   [[nodiscard]] RowsModel* leftOut() const { return left_out_; }
   [[nodiscard]] Plot* deviations() const { return plot_; }
+  [[nodiscard]] ReferencePanel* reference() const { return reference_; }
+  [[nodiscard]] QTabWidget* tabs() const { return tabs_; }
 
  private:
   /// What a job finds beside the stored result.
@@ -67,6 +70,7 @@ class TouchEvaluationPage : public Page {
   RowsModel* health_;
   Callout* repeatability_verdict_;
   Callout* health_verdict_;
+  ReferencePanel* reference_;
   Plot* plot_;
 };
 

@@ -10,6 +10,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/probing/cycle_model_page.h"
+#include "widgets/pages/probing/reference_panel.h"
 #include "widgets/pages/probing/touch_capture_page.h"
 #include "widgets/pages/probing/touch_evaluation_page.h"
 #include "widgets/plots/plot.h"
@@ -162,7 +163,46 @@ TEST_F(ProbingPages, ModelShowsTheTruthWithinItsUncertainty) {
     }
   }
   page->setComponent(2);
+  for (int axis = 0; axis < 3; ++axis) {
+    page->setPlane(axis);
+    ASSERT_NE(page->field(), nullptr);
+    EXPECT_EQ(page->field()->grid.normal_axis, axis);
+    EXPECT_EQ(page->view()->arrows().size(), 64U);
+    exportAll();
+  }
+}
+
+TEST_F(ProbingPages, AReferenceInstrumentIsHeldBesideTheCycles) {
+  openCycles(true);
+  auto* page = go<TouchEvaluationPage>(StepId::Calibrate);
+  press();
+  // A grid encoder with another zero that sees the truth of EXX, every minute.
+  std::string text = "time_s,value,sigma\n";
+  for (int minute = 0; minute <= 50; ++minute) {
+    const auto k = static_cast<std::size_t>(std::min(3, minute / 10));
+    text += std::to_string(60 * minute) + "," + std::to_string(truth_[k][0] + 100.0) + ",0.05\n";
+  }
+  ReferencePanel* panel = page->reference();
+  panel->load(QString::fromStdString(folder_.write("encoder.csv", text).string()));
+  panel->setParameter(QStringLiteral("EXX_um_per_m"));
+  ASSERT_EQ(panel->comparison().status, FitStatus::Converged) << panel->verdict()->sentence().toStdString();
+  EXPECT_EQ(panel->comparison().points.size(), 4U);
+  EXPECT_LT(panel->comparison().rms, 3.0);
+  EXPECT_EQ(panel->curves()->series().size(), 2U);
+  EXPECT_EQ(panel->differences()->series().front().sigma.size(), 4U);
+  EXPECT_TRUE(panel->verdict()->sentence().contains(QStringLiteral("um/m")));
   exportAll();
+  // A record with a mistake changes nothing and says where it is.
+  panel->load(QString::fromStdString(folder_.write("bad.csv", "time_s,value\n0,1\n0,2\n5,nan\n").string()));
+  EXPECT_EQ(panel->verdict()->tone(), Tone::Bad);
+  EXPECT_TRUE(panel->verdict()->sentence().contains(QStringLiteral("bad.csv")));
+  // It is still there when the session is opened again, without the file it came from.
+  std::filesystem::remove(folder_ / "encoder.csv");
+  const QString session = QString::fromStdString(window_->session().folder().string());
+  window_->closeSession();
+  window_->open(session);
+  page = go<TouchEvaluationPage>(StepId::Calibrate);
+  EXPECT_EQ(page->reference()->comparison().points.size(), 4U);
 }
 
 TEST_F(ProbingPages, TheSecondAxisIsAnOptionThatCanBeUndone) {
