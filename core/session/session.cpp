@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <ctime>
+#include <set>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -33,6 +35,32 @@ void copyFolder(const std::filesystem::path& source, const std::filesystem::path
     std::filesystem::create_directories((target / files[i]).parent_path());
     std::filesystem::copy_file(source / files[i], target / files[i]);
   }
+}
+
+/// First number of a row: its time.
+double timeOf(const std::string& row) {
+  return std::strtod(row.c_str(), nullptr);
+}
+
+/// The text of a list with `rows` put where their time belongs; the first column is the time.
+std::string withRows(const std::string& text, const std::vector<std::string>& rows) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    lines.push_back(text.substr(begin, end - begin));
+    if (!lines.back().empty() && lines.back().back() == '\r') lines.back().pop_back();
+    begin = end + 1;
+  }
+  std::set<std::string> there(lines.begin(), lines.end());
+  for (const std::string& row : rows) {
+    if (!there.insert(row).second) continue;
+    auto at = lines.end();
+    while (at - lines.begin() > 1 && !std::prev(at)->starts_with('#') && timeOf(*std::prev(at)) > timeOf(row)) --at;
+    lines.insert(at, row);
+  }
+  std::string joined;
+  for (const std::string& line : lines) joined += line + "\n";
+  return joined;
 }
 
 }  // namespace
@@ -212,6 +240,25 @@ void Session::addCapture(std::int64_t id, const std::string& list, const std::st
     database_->setSetting(captureBaseKey(id), nlohmann::json(record.fingerprint).dump());
   }
   if (!there) writeFileAtomically(list_file, text + row + "\n");
+  refreshCaptureFingerprint(*database_, record);
+}
+
+void Session::addCaptureRows(std::int64_t id, const std::string& list, const std::string& header,
+                             const std::vector<std::string>& rows) {
+  database_->requireInPlace();
+  const CampaignRecord record = campaign(id);
+  const std::filesystem::path list_file = record.folder / "captures" / list;
+  const std::string before = std::filesystem::exists(list_file) ? readFile(list_file) : std::string();
+  const std::string columns = before.substr(0, before.find_first_of("\r\n"));
+  if (!before.empty() && columns != header) {
+    throw InputError({list_file, "line 1"},
+                     fmt::format("has the columns \"{}\"; allowed for capturing into it: \"{}\".", columns, header));
+  }
+  const std::string after = withRows(before.empty() ? header + "\n" : before, rows);
+  if (!database_->setting(captureBaseKey(id))) {
+    database_->setSetting(captureBaseKey(id), nlohmann::json(record.fingerprint).dump());
+  }
+  if (after != before) writeFileAtomically(list_file, after);
   refreshCaptureFingerprint(*database_, record);
 }
 

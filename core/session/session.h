@@ -106,6 +106,11 @@ class Session {
   /// short can be repeated. Throws InputError: disk full, folder gone, the row is there with another file.
   void addCapture(std::int64_t campaign, const std::string& list, const std::string& header, const std::string& row,
                   const std::filesystem::path& source, const std::string& relative_name);
+  /// Adds rows to `captures/<list>` for files that lie in the campaign folder already, or for lists without files
+  /// (touches). Rows go where their time belongs, so that captures may arrive out of order; rows that are there
+  /// already are not added again. All of them are there afterwards, or none. Throws InputError: disk full, folder gone.
+  void addCaptureRows(std::int64_t campaign, const std::string& list, const std::string& header,
+                      const std::vector<std::string>& rows);
 
   // Results -------------------------------------------------------------------------------------------------------
   /// What a result of this campaign with these options depends on: files, exclusions, options, program version.

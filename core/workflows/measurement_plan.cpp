@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/measurement_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/imaging/fiducial_captures.h"
+#include "core/probing/touch.h"
+#include "core/scanning/scan_evaluation.h"
+
+namespace spindrift {
+namespace {
+
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string clock(double seconds) {
+  const auto total = static_cast<long>(std::llround(std::abs(seconds)));
+  if (total >= 3600) return fmt::format("{}:{:02} h", total / 3600, total / 60 % 60);
+  return fmt::format("{}:{:02} min", total / 60, total % 60);
+}
+
+PlannedItem parseItem(const JsonNode& node) {
+  PlannedItem item;
+  item.id = node.at("id").name();
+  const std::string kind = node.at("kind").oneOf({"image", "cycle", "scan"});
+  item.kind = kind == "image" ? PlannedKind::Image : kind == "cycle" ? PlannedKind::Cycle : PlannedKind::Scan;
+  item.state = node.at("state").name();
+  item.due_s = node.at("due_s").number();
+  if (item.kind == PlannedKind::Image) {
+    item.fiducial = node.at("fiducial").name();
+    item.role = node.at("role").oneOf({"rotation", "x_axis", "y_axis", "focus"});
+    item.index = node.at("index").integer();
+    item.position_mm = {node.at("x_mm").number(), node.at("y_mm").number(), node.at("z_mm").number()};
+    item.spindle_deg = node.at("spindle_deg").number();
+  } else {
+    item.artefact = node.at("artefact").name();
+    if (item.kind == PlannedKind::Scan) item.y_mm = node.at("y_mm").number();
+  }
+  return item;
+}
+
+void addImages(MeasurementPlan& plan, const PlannedState& state, const MachinePoint& point,
+               const PlanOptions& options) {
+  const auto add = [&](const char* role, int index, const Eigen::Vector3d& offset, double spindle) {
+    PlannedItem item;
+    item.id = fmt::format("{}_{}_{}_{}", state.name, point.id, role, index);
+    item.state = state.name;
+    item.due_s = state.due_s;
+    item.fiducial = point.id;
+    item.role = role;
+    item.index = index;
+    item.position_mm = point.position_mm + offset;
+    item.spindle_deg = spindle;
+    plan.items.push_back(std::move(item));
+  };
+  int k = 0;
+  for (const double angle : options.rotations_deg) add("rotation", k++, Eigen::Vector3d::Zero(), angle);
+  k = 0;
+  for (const double step : options.steps_mm) add("x_axis", k++, {step, 0, 0}, 0.0);
+  k = 0;
+  for (const double step : options.steps_mm) add("y_axis", k++, {0, step, 0}, 0.0);
+  k = 0;
+  for (const double height : options.heights_mm) add("focus", k++, {0, 0, height}, 0.0);
+}
+
+}  // namespace
+
+std::string toString(PlannedKind kind) {
+  return kind == PlannedKind::Image ? "image" : kind == PlannedKind::Cycle ? "cycle" : "scan";
+}
+
+std::string PlannedItem::instruction() const {
+  if (kind == PlannedKind::Cycle) return fmt::format("run the measuring cycle of {} as {}", artefact, state);
+  if (kind == PlannedKind::Scan) return fmt::format("scan {} as {}, starting at {:g} mm", artefact, state, y_mm);
+  static const std::map<std::string, std::string> names{
+      {"rotation", "rotation"}, {"x_axis", "along X"}, {"y_axis", "along Y"}, {"focus", "focus"}};
+  return fmt::format("{}, {} {}: x {:g}, y {:g}, z {:g} mm, spindle {:g} deg", fiducial, names.at(role), index,
+                     position_mm.x(), position_mm.y(), position_mm.z(), spindle_deg);
+}
+
+nlohmann::json MeasurementPlan::json() const {
+  nlohmann::json root = {{"format", "spindrift-plan"}, {"version", 1}};
+  root["states"] = nlohmann::json::array();
+  for (const PlannedState& s : states) {
+    root["states"].push_back({{"name", s.name}, {"due_s", s.due_s}, {"what", s.what}});
+  }
+  root["items"] = nlohmann::json::array();
+  for (const PlannedItem& i : items) {
+    nlohmann::json item = {{"id", i.id}, {"kind", toString(i.kind)}, {"state", i.state}, {"due_s", i.due_s}};
+    if (i.kind == PlannedKind::Image) {
+      item.update({{"fiducial", i.fiducial},
+                   {"role", i.role},
+                   {"index", i.index},
+                   {"x_mm", i.position_mm.x()},
+                   {"y_mm", i.position_mm.y()},
+                   {"z_mm", i.position_mm.z()},
+                   {"spindle_deg", i.spindle_deg}});
+    } else {
+      item["artefact"] = i.artefact;
+      if (i.kind == PlannedKind::Scan) item["y_mm"] = i.y_mm;
+    }
+    root["items"].push_back(std::move(item));
+  }
+  return root;
+}
+
+MeasurementPlan MeasurementPlan::parse(const JsonNode& root) {
+  root.requireFormat("spindrift-plan", 1);
+  MeasurementPlan plan;
+  std::set<std::string> names;
+  for (const JsonNode& node : root.at("states").items()) {
+    PlannedState state{node.at("name").name(), node.at("due_s").number(), node.stringOr("what", "")};
+    if (!names.insert(state.name).second) node.at("name").reject("every state once");
+    plan.states.push_back(std::move(state));
+  }
+  std::set<std::string> ids;
+  for (const JsonNode& node : root.at("items").items()) {
+    PlannedItem item = parseItem(node);
+    if (!ids.insert(item.id).second) node.at("id").reject("every id once");
+    if (!names.contains(item.state)) node.at("state").reject("a state of \"states\"");
+    plan.items.push_back(std::move(item));
+  }
+  return plan;
+}
+
+const PlannedItem* MeasurementPlan::find(const std::string& id) const {
+  const auto found = std::find_if(items.begin(), items.end(), [&](const PlannedItem& i) { return i.id == id; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+const PlannedItem* MeasurementPlan::ofName(const std::string& file_name) const {
+  const std::string name = lowered(file_name);
+  const PlannedItem* best = nullptr;
+  for (const PlannedItem& item : items) {
+    const std::string id = lowered(item.id);
+    const std::size_t at = name.find(id);
+    if (at == std::string::npos) continue;
+    // "M1_F1_focus_1" must not be found in "M1_F1_focus_12".
+    const auto letter = [&](std::size_t i) { return std::isalnum(static_cast<unsigned char>(name[i])) != 0; };
+    if ((at > 0 && letter(at - 1)) || (at + id.size() < name.size() && letter(at + id.size()))) continue;
+    if (best == nullptr || item.id.size() > best->id.size()) best = &item;
+  }
+  return best;
+}
+
+void PlanOptions::validate() const {
+  if (states < 1 || states > 1000) throw InputError(fmt::format("{} thermal states; allowed: 1 to 1000.", states));
+  if (!(interval_s > 0.0)) throw InputError("the interval between thermal states must be positive (s).");
+  if (kind != PlannedKind::Image) return;
+  if (rotations_deg.size() < 3 || steps_mm.size() < 3 || heights_mm.size() < 5) {
+    throw InputError(fmt::format("{} rotations, {} steps and {} heights are too few; allowed: at least 3, 3 and 5.",
+                                 rotations_deg.size(), steps_mm.size(), heights_mm.size()));
+  }
+}
+
+MeasurementPlan makePlan(const MachineDescription& machine, const PlanOptions& options) {
+  options.validate();
+  MeasurementPlan plan;
+  for (int k = 0; k < options.states; ++k) {
+    PlannedState state{fmt::format("M{}", k), k * options.interval_s, k == 0 ? "reference" : ""};
+    if (k > 0) state.what = clock(state.due_s) + " after the start";
+    const auto addOf = [&](const std::string& artefact, double y_mm) {
+      PlannedItem item;
+      item.id = state.name + "_" + artefact;
+      item.kind = options.kind;
+      item.state = state.name;
+      item.due_s = state.due_s;
+      item.artefact = artefact;
+      item.y_mm = y_mm;
+      plan.items.push_back(std::move(item));
+    };
+    if (options.kind == PlannedKind::Cycle) {
+      for (const Artefact& artefact : machine.artefacts) addOf(artefact.id, 0.0);
+    }
+    for (const MachinePoint& point : machine.points) {
+      if (options.kind == PlannedKind::Image && point.kind == "fiducial") addImages(plan, state, point, options);
+      if (options.kind == PlannedKind::Scan && point.kind == "surface") addOf(point.id, point.position_mm.y());
+    }
+    plan.states.push_back(std::move(state));
+  }
+  if (plan.items.empty()) {
+    const char* what = options.kind == PlannedKind::Image   ? "points of kind \"fiducial\""
+                       : options.kind == PlannedKind::Cycle ? "artefacts"
+                                                            : "points of kind \"surface\"";
+    throw InputError({machine.file, options.kind == PlannedKind::Cycle ? "$.artefacts" : "$.points"},
+                     fmt::format("holds no {}; a plan needs at least one.", what));
+  }
+  return plan;
+}
+
+std::set<std::string> capturedItems(const MeasurementPlan& plan, const Campaign& campaign) {
+  std::set<std::string> keys;
+  try {
+    if (const auto file = campaign.captureList("fiducials.csv")) {
+      for (const FiducialCapture& c : readFiducialCaptures(*file).captures) {
+        keys.insert(fmt::format("{}|{}|{}|{}", c.state, c.fiducial, toString(c.role), c.index));
+      }
+    }
+    if (const auto file = campaign.captureList("touches.csv")) {
+      for (const Touch& t : TouchList::read(*file).touches)
+        keys.insert(fmt::format("cycle|{}|{}", t.cycle, t.artefact));
+    }
+    if (campaign.captureList("scans.csv")) {
+      for (const ScanCapture& c : readScanList(campaign)) keys.insert(fmt::format("scan|{}|{}", c.cycle, c.artefact));
+    }
+  } catch (const InputError&) {
+    // The page of the captures says what is wrong with the list.
+  }
+  std::set<std::string> done;
+  for (const PlannedItem& i : plan.items) {
+    const std::string key = i.kind == PlannedKind::Image
+                                ? fmt::format("{}|{}|{}|{}", i.state, i.fiducial, i.role, i.index)
+                                : fmt::format("{}|{}|{}", toString(i.kind), i.state, i.artefact);
+    if (keys.contains(key)) done.insert(i.id);
+  }
+  return done;
+}
+
+PlanProgress progressOf(const MeasurementPlan& plan, const std::set<std::string>& done, double now_s) {
+  PlanProgress progress;
+  for (std::size_t i = 0; i < plan.items.size(); ++i) {
+    if (done.contains(plan.items[i].id)) {
+      ++progress.done;
+    } else if (!progress.next) {
+      progress.next = i;
+    }
+  }
+  if (plan.empty()) {
+    progress.sentence = "There is no plan yet.";
+  } else if (!progress.next) {
+    progress.sentence = fmt::format("All {} captures of the plan are there.", plan.items.size());
+  } else {
+    const PlannedItem& item = plan.items[*progress.next];
+    progress.countdown_s = item.due_s - now_s;
+    if (progress.countdown_s > 0.0) {
+      progress.sentence =
+          fmt::format("{} begins in {}: {}.", item.state, clock(progress.countdown_s), item.instruction());
+    } else {
+      progress.sentence = fmt::format("Now {}: {}.", item.state, item.instruction());
+    }
+  }
+  return progress;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Touches judged as they come in, and read from files that are still being written.
+#include "core/probing/live_touches.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/probing/touch_stream.h"
+#include "tests/core/probing/probing_machines.h"
+
+namespace spindrift {
+namespace {
+
+using namespace probing_test;
+
+class LiveKind : public ::testing::TestWithParam<bool> {
+ protected:
+  MachineDescription machine() const { return machineFrom(GetParam() ? holeMachineText() : ballMachineText()); }
+  static LiveTouches fed(const MachineDescription& m, const TouchList& list) {
+    LiveTouches live(m);
+    for (const Touch& t : list.touches) EXPECT_TRUE(live.add(t));
+    return live;
+  }
+};
+
+TEST_P(LiveKind, GoodCyclesNeedNoRetakeAndProgressCountsUp) {
+  const MachineDescription m = machine();
+  const VirtualRun run = runCycles(m, 4, {}, 31);
+  LiveTouches live(m);
+  int in_cycle = 0;
+  for (const Touch& t : run.list.touches) {
+    if (!live.touches().empty() && live.touches().back().touch.cycle != t.cycle) in_cycle = 0;
+    live.add(t);
+    EXPECT_EQ(live.progress().done, ++in_cycle);
+    EXPECT_EQ(live.progress().cycle, t.cycle);
+  }
+  EXPECT_TRUE(live.retakes().empty()) << live.retakes().front();
+  const auto per_cycle = static_cast<int>(run.list.touches.size() / 4);
+  EXPECT_EQ(live.progress().expected, per_cycle);
+  EXPECT_TRUE(live.progress().next.empty());
+  EXPECT_EQ(live.takeFinished(true).size(), run.list.touches.size());
+  EXPECT_TRUE(live.takeFinished(true).empty());
+  // The same file read again brings nothing new.
+  for (const Touch& t : run.list.touches) EXPECT_FALSE(live.add(t));
+}
+
+TEST_P(LiveKind, ABadTouchIsAskedForAgainWhileItsFeatureIsStillThere) {
+  const MachineDescription m = machine();
+  VirtualRun run = runCycles(m, 3, {}, 32);
+  const std::string feature = GetParam() ? "H3" : "B3";
+  LiveTouches live(m);
+  Touch good;
+  for (Touch t : run.list.touches) {
+    if (t.cycle == "M1" && t.feature == feature && t.touch == 1 && t.stylus == "p0" && t.c_deg == 0.0) {
+      good = t;
+      t.position_mm += 0.06 * t.approach;
+    }
+    live.add(t);
+  }
+  const std::vector<std::string> asked = live.retakes();
+  ASSERT_FALSE(asked.empty());
+  EXPECT_LE(asked.size(), 2U) << "opposite touches cannot be told apart, others can";
+  EXPECT_NE(asked.front().find(feature), std::string::npos) << asked.front();
+  // Taken again: everything that was asked for.
+  std::vector<Touch> again;
+  for (const LiveTouch& l : live.touches()) {
+    if (l.plausible || l.replaced) continue;
+    Touch t = l.touch;
+    if (t.touch == good.touch) t.position_mm = good.position_mm;
+    again.push_back(t);
+  }
+  double time = run.list.touches.back().time_s;
+  for (Touch& t : again) {
+    t.time_s = time += 3.0;
+    live.add(t);
+  }
+  EXPECT_TRUE(live.retakes().empty()) << live.retakes().front();
+  EXPECT_EQ(live.takeFinished(true).size(), run.list.touches.size());
+}
+
+TEST_P(LiveKind, WrongFeatureInchesAndUnknownNamesAreToldAtOnce) {
+  const MachineDescription m = machine();
+  const VirtualRun run = runCycles(m, 2, {}, 33);
+  const std::string first = GetParam() ? "H1" : "B1";
+  const std::string second = GetParam() ? "H2" : "B2";
+  const auto reasonOf = [&](const std::function<void(Touch&)>& spoil) {
+    LiveTouches live(m);
+    for (Touch t : run.list.touches) {
+      const bool hit = t.cycle == "M1" && t.feature == second && t.touch == 0 && t.stylus == "p0";
+      if (hit) spoil(t);
+      live.add(t);
+      if (hit) return live.touches().back().reason;
+    }
+    return std::string();
+  };
+  EXPECT_NE(reasonOf([&](Touch& t) { t.feature = first; }).find("wrong feature"), std::string::npos);
+  EXPECT_NE(reasonOf([](Touch& t) { t.position_mm /= 25.4; }).find("inches"), std::string::npos);
+  EXPECT_NE(reasonOf([](Touch& t) { t.feature = "Q9"; }).find("Q9"), std::string::npos);
+  EXPECT_NE(reasonOf([](Touch& t) { t.stylus = "p7"; }).find("radius is unknown"), std::string::npos);
+  EXPECT_NE(reasonOf([](Touch& t) { t.artefact = "brick"; }).find("brick"), std::string::npos);
+  EXPECT_NE(reasonOf([](Touch& t) { t.time_s = 1.0; }).find("does not come after"), std::string::npos);
+  EXPECT_NE(reasonOf([](Touch& t) { t.position_mm += 0.9 * t.approach; }).find("since M0"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(Probing, LiveKind, ::testing::Values(true, false),
+                         [](const auto& p) { return p.param ? "Holes" : "Balls"; });
+
+TEST(LiveTouches, WithoutASecondTouchTheFirstOneIsKept) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 1, {}, 34);
+  LiveTouches live(m);
+  live.add(run.list.touches[0]);
+  Touch twice = run.list.touches[0];
+  twice.time_s += 1.0;
+  twice.position_mm.z() += 0.001;
+  EXPECT_TRUE(live.add(twice));
+  EXPECT_FALSE(live.touches().back().plausible);
+  EXPECT_TRUE(live.retakes().empty());
+  EXPECT_THROW(LiveTouches(m, {0.0, 1.0, 1.0}), InputError);
+}
+
+TEST(TouchStream, HalfALineIsWaitedForAndNotAnError) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 1, {}, 35);
+  const std::string text = run.list.csv();
+  TouchStream stream("touches.csv", m);
+  std::size_t seen = 0;
+  // Grown in odd steps, as a slow control writes.
+  for (std::size_t length = 0; length <= text.size(); length += 37) {
+    seen += stream.update(std::string_view(text).substr(0, length)).size();
+    EXPECT_TRUE(stream.problems().empty()) << stream.problems().front().sentence;
+  }
+  seen += stream.update(text).size();
+  EXPECT_EQ(seen, run.list.touches.size());
+  EXPECT_FALSE(stream.waiting());
+  EXPECT_TRUE(stream.update(text + "3000,M1,bar,H1").empty());
+  EXPECT_TRUE(stream.waiting());
+}
+
+TEST(TouchStream, ABadLineIsASentenceAndTheRestIsRead) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 1, {}, 36);
+  std::string text = run.list.csv();
+  // Line 3 gets an approach of length zero, line 5 a decimal comma.
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  for (int comma = 0; comma < 3; ++comma) lines[2].erase(lines[2].rfind(','));
+  lines[2] += ",0,0,0";
+  lines[4].replace(0, lines[4].find(','), "abc");
+  text.clear();
+  for (const std::string& line : lines) text += line + "\n";
+  TouchStream stream("touches.csv", m);
+  EXPECT_EQ(stream.update(text).size(), run.list.touches.size() - 2);
+  ASSERT_EQ(stream.problems().size(), 2U);
+  EXPECT_NE(stream.problems()[0].sentence.find("line 3"), std::string::npos) << stream.problems()[0].sentence;
+  EXPECT_NE(stream.problems()[1].sentence.find("line 5"), std::string::npos) << stream.problems()[1].sentence;
+  // A file that is written anew from its start is read anew.
+  EXPECT_EQ(stream.update(run.list.csv().substr(0, text.size() / 2)).size() > 0, true);
+}
+
+TEST(TouchStream, PrintedTextIsReadThroughItsTemplateAsItGrows) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  const JsonNode pattern = JsonNode::parse(
+      R"({"format":"spindrift-printed-text","version":1,"touch_line":"T {feature} C{c_deg} X{x} Y{y} Z{z} I{nx} J{ny} K{nz}",
+"cycle_line":"CYCLE {cycle}","cycle_prefix":"M","artefact":"bar"})",
+      "template.json");
+  const VirtualRun run = runCycles(m, 2, {}, 37);
+  std::string text;
+  std::string cycle;
+  for (const Touch& t : run.list.touches) {
+    if (t.cycle != cycle) text += "CYCLE " + t.cycle.substr(1) + "\nwarming up\n";
+    cycle = t.cycle;
+    text += "T " + t.feature + " C" + std::to_string(t.c_deg);
+    for (int k = 0; k < 3; ++k) text += std::string(" ") + "XYZ"[k] + std::to_string(t.position_mm(k));
+    for (int k = 0; k < 3; ++k) text += std::string(" ") + "IJK"[k] + std::to_string(t.approach(k));
+    text += "\n";
+  }
+  TouchStream stream("printed.txt", m, pattern);
+  LiveTouches live(m);
+  for (std::size_t length = 0; length < text.size(); length += 101) {
+    for (const Touch& t : stream.update(std::string_view(text).substr(0, length))) live.add(t);
+  }
+  for (const Touch& t : stream.update(text)) live.add(t);
+  EXPECT_EQ(live.touches().size(), run.list.touches.size());
+  EXPECT_TRUE(live.retakes().empty()) << live.retakes().front();
+  EXPECT_EQ(live.progress().cycle, "M1");
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Captures that arrive in a watched folder in every way they may: half-written, renamed, out of order, twice, bad.
+#include "core/workflows/incoming.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/imaging/fiducial_captures.h"
+#include "core/imaging/image.h"
+#include "core/scanning/scan_evaluation.h"
+#include "core/session/session.h"
+#include "core/simulation/virtual_microscope.h"
+#include "tests/core/probing/probing_machines.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+std::string imageBytes(std::uint64_t seed, double blur_px = 1.0, double mark_level = 200.0) {
+  MicroscopeScene scene;
+  scene.width_px = 640;
+  scene.height_px = 480;
+  scene.map = poseAt(640, 480, 2.0, 0.1, {0, 0}, {319.5, 239.5});
+  scene.blur_sigma_px = blur_px;
+  scene.mark_level = mark_level;
+  return encodePng(renderFiducial(standardPattern(), scene, seed));
+}
+
+constexpr const char* machine_text =
+    R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-(C)-t]",
+"axes":[{"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,200]},{"name":"Z","travel_mm":[0,150]}],
+"points":[{"id":"F1","kind":"fiducial","x_mm":20,"y_mm":30,"z_mm":0},{"id":"F2","kind":"fiducial","x_mm":250,"y_mm":30,
+"z_mm":0},{"id":"A1","kind":"surface","x_mm":0,"y_mm":50,"z_mm":0}]})";
+
+/// A watched folder, a session and a clock that the test turns.
+class Incoming : public ::testing::Test {
+ protected:
+  Incoming() : Incoming(machine_text) {}
+  explicit Incoming(const std::string& machine)
+      : session_(Session::create(folder_ / "session")),
+        id_(session_.newCampaign("cell", "2026-01-31T08:00:00Z", machine)),
+        incoming_(folder_ / "watched", {1.0, true}, 4.0) {
+    std::filesystem::create_directories(folder_ / "watched");
+  }
+  void plan(PlannedKind kind, int states = 2) {
+    PlanOptions options;
+    options.kind = kind;
+    options.states = states;
+    storePlan(session_, id_, makePlan(campaign().machine, options));
+  }
+  [[nodiscard]] Campaign campaign() const { return Campaign::read(session_.campaign(id_).folder); }
+  void put(const std::string& name, const std::string& bytes) {
+    std::filesystem::create_directories((folder_ / "watched" / name).parent_path());
+    folder_.write("watched/" + name, bytes);
+  }
+  /// Looks and examines until nothing is left to do, `seconds` on the clock.
+  void pass(double seconds) {
+    for (const double end = now_ + seconds; now_ < end; now_ += 0.5) {
+      (void)incoming_.look(now_);
+      while (const auto task = incoming_.next()) {
+        IncomingContext context =
+            incomingContext(campaign(), storedPlan(session_, id_), incomingJournal(session_, id_), false);
+        context.fullest = fullest_;
+        ExaminedFile examined = examineArrival(task->file.file, task->name, task->file.written_ns, context);
+        if (examined.item.state == IncomingState::Accepted && examined.points > 0) {
+          fullest_[examined.artefact] = std::max(fullest_[examined.artefact], examined.points);
+        }
+        const ExaminedFile kept = examined;
+        const IncomingItem& item = incoming_.finish(*task, std::move(examined), now_);
+        if (item.state != IncomingState::Waiting) recordArrival(session_, id_, kept);
+      }
+    }
+  }
+  [[nodiscard]] IncomingItem item(const std::string& name) const {
+    for (const IncomingItem& i : incoming_.items()) {
+      if (i.name == name) return i;
+    }
+    ADD_FAILURE() << name << " is not in the list";
+    return {};
+  }
+  [[nodiscard]] std::vector<FiducialCapture> images() const {
+    const auto file = campaign().captureList("fiducials.csv");
+    return file ? readFiducialCaptures(*file).captures : std::vector<FiducialCapture>();
+  }
+
+  testing::TempFolder folder_;
+  Session session_;
+  std::int64_t id_;
+  IncomingFolder incoming_;
+  std::map<std::string, std::size_t> fullest_;
+  double now_ = 0.0;
+};
+
+TEST_F(Incoming, AGoodImageIsAcceptedAndLiesInTheCampaign) {
+  plan(PlannedKind::Image);
+  put("IMG_0001.png", imageBytes(1));
+  pass(3.0);
+  const IncomingItem i = item("IMG_0001.png");
+  EXPECT_EQ(i.state, IncomingState::Accepted) << i.sentence;
+  EXPECT_EQ(i.plan_item, "M0_F1_rotation_0");
+  ASSERT_EQ(images().size(), 1U);
+  EXPECT_EQ(images()[0].fiducial, "F1");
+  EXPECT_EQ(readFile(campaign().path(images()[0].image)), imageBytes(1));
+}
+
+TEST_F(Incoming, HalfWrittenIsWaitedForAndTakenWhenItIsComplete) {
+  plan(PlannedKind::Image);
+  const std::string bytes = imageBytes(2);
+  put("a.png", bytes.substr(0, bytes.size() / 3));
+  pass(0.5);
+  EXPECT_EQ(item("a.png").state, IncomingState::Waiting);
+  pass(2.0);  // it stands still for a while, as over a slow network
+  EXPECT_EQ(item("a.png").state, IncomingState::Waiting) << item("a.png").sentence;
+  EXPECT_NE(item("a.png").sentence.find("waiting for the rest"), std::string::npos);
+  EXPECT_TRUE(images().empty());
+  put("a.png", bytes);
+  pass(3.0);
+  EXPECT_EQ(item("a.png").state, IncomingState::Accepted) << item("a.png").sentence;
+  EXPECT_EQ(images().size(), 1U);
+}
+
+TEST_F(Incoming, WhatStaysCutShortIsAskedForAgainAndKept) {
+  plan(PlannedKind::Image);
+  const std::string bytes = imageBytes(3);
+  put("a.png", bytes.substr(0, bytes.size() / 2));
+  pass(10.0);
+  EXPECT_EQ(item("a.png").state, IncomingState::Retake);
+  EXPECT_NE(item("a.png").sentence.find("a.png"), std::string::npos);
+  EXPECT_EQ(readFile(campaign().path(item("a.png").stored)).size(), bytes.size() / 2);
+}
+
+TEST_F(Incoming, WorkingNamesAreLeftAloneUntilTheyAreRenamed) {
+  plan(PlannedKind::Image);
+  put("a.png.part", imageBytes(4).substr(0, 100));
+  put(".a.png.swp", "x");
+  pass(3.0);
+  EXPECT_TRUE(incoming_.items().empty());
+  put("a.png.part", imageBytes(4));
+  std::filesystem::rename(folder_ / "watched/a.png.part", folder_ / "watched/a.png");
+  pass(3.0);
+  EXPECT_EQ(item("a.png").state, IncomingState::Accepted);
+  // Renamed afterwards, and copied beside: the same content.
+  std::filesystem::rename(folder_ / "watched/a.png", folder_ / "watched/b.png");
+  put("day2/c.png", imageBytes(4));
+  pass(3.0);
+  EXPECT_EQ(item("b.png").state, IncomingState::Twice);
+  EXPECT_NE(item("b.png").sentence.find("a.png"), std::string::npos);
+  EXPECT_EQ(item("day2/c.png").state, IncomingState::Twice);
+  EXPECT_EQ(images().size(), 1U);
+  // Renamed before it was complete.
+  put("d.png", imageBytes(5).substr(0, 50));
+  pass(0.5);
+  std::filesystem::rename(folder_ / "watched/d.png", folder_ / "watched/e.png");
+  pass(0.5);
+  EXPECT_EQ(item("d.png").state, IncomingState::Ignored);
+}
+
+TEST_F(Incoming, OutOfOrderFindsItsPlaceByNameAndByTime) {
+  plan(PlannedKind::Image);
+  const auto old = std::filesystem::file_time_type::clock::now() - std::chrono::minutes(20);
+  put("m0_f1_x_axis_2.png", imageBytes(6));
+  put("cam_M0_F1_rotation_1_.png", imageBytes(7));
+  pass(3.0);
+  put("M0_F1_rotation_0.png", imageBytes(8));
+  std::filesystem::last_write_time(folder_ / "watched/M0_F1_rotation_0.png", old);
+  pass(3.0);
+  const std::vector<FiducialCapture> list = images();  // the reader refuses a time that runs backwards
+  ASSERT_EQ(list.size(), 3U);
+  EXPECT_EQ(list[0].role, CaptureRole::Rotation);
+  EXPECT_EQ(list[0].index, 0);
+  EXPECT_LT(list[0].time_s, list[1].time_s);
+  // Again under the same name: what is there stays.
+  put("again/M0_F1_rotation_0.png", imageBytes(9));
+  pass(3.0);
+  EXPECT_EQ(item("again/M0_F1_rotation_0.png").state, IncomingState::Twice);
+  EXPECT_NE(item("again/M0_F1_rotation_0.png").sentence.find("there already"), std::string::npos);
+  EXPECT_EQ(images().size(), 3U);
+}
+
+TEST_F(Incoming, BadImagesAreAskedForAgainInOneSentence) {
+  plan(PlannedKind::Image);
+  put("M0_F1_rotation_0.png", imageBytes(10, 9.0));
+  put("M0_F1_rotation_1.png", encodePng(GrayImage(640, 480, 255)));
+  put("M0_F1_rotation_2.png", encodePng(GrayImage(640, 480, 12)));
+  put("notes.docx", "dear diary");
+  pass(3.0);
+  EXPECT_EQ(item("M0_F1_rotation_0.png").state, IncomingState::Retake) << item("M0_F1_rotation_0.png").sentence;
+  EXPECT_EQ(item("M0_F1_rotation_1.png").state, IncomingState::Retake);
+  EXPECT_NE(item("M0_F1_rotation_1.png").sentence.find("overexposed"), std::string::npos);
+  EXPECT_NE(item("M0_F1_rotation_2.png").sentence.find("contrast"), std::string::npos);
+  EXPECT_EQ(item("notes.docx").state, IncomingState::Ignored);
+  EXPECT_TRUE(images().empty());
+  // A blurred image belongs into a focus series, and a good one is taken the second time.
+  put("M0_F1_focus_0.png", imageBytes(11, 4.0));
+  put("second/M0_F1_rotation_0.png", imageBytes(12));
+  pass(3.0);
+  EXPECT_EQ(item("M0_F1_focus_0.png").state, IncomingState::Accepted) << item("M0_F1_focus_0.png").sentence;
+  EXPECT_EQ(item("second/M0_F1_rotation_0.png").state, IncomingState::Accepted);
+  EXPECT_EQ(images().size(), 2U);
+}
+
+TEST_F(Incoming, ReopenedSessionsKnowWhatArrived) {
+  plan(PlannedKind::Image);
+  put("a.png", imageBytes(13));
+  pass(3.0);
+  ASSERT_EQ(images().size(), 1U);
+  incoming_ = IncomingFolder(folder_ / "watched", {1.0, true}, 4.0);
+  pass(3.0);
+  EXPECT_EQ(item("a.png").state, IncomingState::Twice);
+  EXPECT_EQ(images().size(), 1U);
+  // A crash between the row and the journal: the row is not added twice.
+  session_.setSetting("incoming/" + std::to_string(id_), nlohmann::json::array());
+  incoming_ = IncomingFolder(folder_ / "watched", {1.0, true}, 4.0);
+  pass(3.0);
+  EXPECT_EQ(item("a.png").state, IncomingState::Twice);
+  EXPECT_EQ(images().size(), 1U);
+}
+
+TEST_F(Incoming, AVanishedFolderIsASentenceAndCapturingGoesOn) {
+  plan(PlannedKind::Image);
+  std::filesystem::rename(folder_ / "watched", folder_ / "away");
+  pass(1.0);
+  EXPECT_NE(incoming_.problem().find("watched"), std::string::npos);
+  std::filesystem::rename(folder_ / "away", folder_ / "watched");
+  put("a.png", imageBytes(14));
+  pass(3.0);
+  EXPECT_TRUE(incoming_.problem().empty());
+  EXPECT_EQ(item("a.png").state, IncomingState::Accepted);
+}
+
+TEST_F(Incoming, ScansAreCompleteOrTakenAgain) {
+  plan(PlannedKind::Scan, 3);
+  const auto cloud = [](int profiles, double lift) {
+    std::string text = "x_mm,y_mm,z_mm\n";
+    for (int j = 0; j < profiles; ++j) {
+      for (int i = 0; i < 40; ++i) {
+        text += std::to_string(0.1 * i) + "," + std::to_string(0.1 * j) + "," +
+                std::to_string(lift + 0.01 * i + 0.02 * std::sin(0.3 * j)) + "\n";
+      }
+    }
+    return text;
+  };
+  put("s0.csv", cloud(60, 0.0));
+  pass(3.0);
+  EXPECT_EQ(item("s0.csv").state, IncomingState::Accepted) << item("s0.csv").sentence;
+  put("s1.csv", cloud(30, 0.1));
+  pass(8.0);
+  EXPECT_EQ(item("s1.csv").state, IncomingState::Retake) << item("s1.csv").sentence;
+  EXPECT_NE(item("s1.csv").sentence.find("50 %"), std::string::npos) << item("s1.csv").sentence;
+  put("s1_again.csv", cloud(60, 0.1));
+  pass(3.0);
+  EXPECT_EQ(item("s1_again.csv").plan_item, "M1_A1");
+  EXPECT_EQ(readScanList(campaign()).size(), 2U);
+}
+
+TEST_F(Incoming, WithoutAPlanNothingIsLost) {
+  put("a.png", imageBytes(15));
+  pass(3.0);
+  EXPECT_EQ(item("a.png").state, IncomingState::Ignored);
+  EXPECT_NE(item("a.png").sentence.find("plan"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(campaign().path(item("a.png").stored)));
+}
+
+TEST(TouchFeedTest, TouchesOfAGrowingFileReachTheCampaignFeatureByFeature) {
+  using namespace probing_test;
+  testing::TempFolder folder;
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 2, {}, 41);
+  Session session = Session::create(folder / "session");
+  const std::int64_t id = session.newCampaign("holes", "2026-01-31T08:00:00Z", holeMachineText());
+  const std::string text = run.list.csv();
+  TouchFeed feed(m, nullptr);
+  std::size_t before_end = 0;
+  for (std::size_t length = 0; length < text.size(); length += 400) {
+    feed.update("touches.csv", std::string_view(text).substr(0, length), 0.0);
+    session.addCaptureRows(id, "touches.csv", TouchFeed::header(), feed.takeRows(false));
+    before_end = feed.live().touches().size();
+  }
+  feed.update("touches.csv", text, 0.0);
+  session.addCaptureRows(id, "touches.csv", TouchFeed::header(), feed.takeRows(true));
+  EXPECT_GT(before_end, run.list.touches.size() - 6);
+  const Campaign campaign = Campaign::read(session.campaign(id).folder);
+  const TouchList there = TouchList::read(*campaign.captureList("touches.csv"));
+  EXPECT_EQ(there.touches.size(), run.list.touches.size());
+  // A second start with the same file brings nothing twice.
+  TouchFeed second(m, &there);
+  EXPECT_EQ(second.update("touches.csv", text, 0.0), 0U);
+  EXPECT_TRUE(second.takeRows(true).empty());
+}
+
+TEST(MeasurementPlan, ComesBackFromJsonAndCountsDown) {
+  const MachineDescription m = probing_test::machineFrom(machine_text);
+  PlanOptions options;
+  options.states = 2;
+  const MeasurementPlan plan = makePlan(m, options);
+  EXPECT_EQ(plan.items.size(), 2U * 2U * (4U + 5U + 5U + 5U));
+  const MeasurementPlan back = MeasurementPlan::parse(JsonNode::parse(plan.json().dump(), "plan.json"));
+  EXPECT_EQ(back.json(), plan.json());
+  EXPECT_EQ(plan.ofName("x_M1_F2_FOCUS_3.png")->id, "M1_F2_focus_3");
+  EXPECT_EQ(plan.ofName("M1_F2_focus_33.png"), nullptr);
+  PlanProgress progress = progressOf(plan, {}, 10.0);
+  EXPECT_NE(progress.sentence.find("Now M0: F1, rotation 0"), std::string::npos) << progress.sentence;
+  std::set<std::string> done;
+  for (const PlannedItem& i : plan.items) {
+    if (i.state == "M0") done.insert(i.id);
+  }
+  progress = progressOf(plan, done, 1700.0);
+  EXPECT_DOUBLE_EQ(progress.countdown_s, 100.0);
+  EXPECT_NE(progress.sentence.find("M1 begins in 1:40 min"), std::string::npos) << progress.sentence;
+  for (const PlannedItem& i : plan.items) done.insert(i.id);
+  EXPECT_NE(progressOf(plan, done, 0.0).sentence.find("All 76"), std::string::npos);
+}
+
+TEST(MeasurementPlan, MistakesAreOneSentence) {
+  const MachineDescription m = probing_test::machineFrom(probing_test::holeMachineText());
+  EXPECT_THROW((void)makePlan(m, {}), InputError);  // no fiducials on it
+  const auto failure = [](const std::string& text) {
+    try {
+      (void)MeasurementPlan::parse(JsonNode::parse(text, "plan.json"));
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  const std::string head = R"({"format":"spindrift-plan","version":1,"states":[{"name":"M0","due_s":0}],"items":[)";
+  const std::string scan = R"({"id":"a","kind":"scan","state":"M0","due_s":0,"artefact":"A1","y_mm":5})";
+  EXPECT_EQ(failure(head + scan + "]}"), "");
+  EXPECT_NE(failure(head + scan + "," + scan + "]}").find("items[1].id"), std::string::npos);
+  EXPECT_NE(failure(head + R"({"id":"a","kind":"walk","state":"M0","due_s":0}]})").find("walk"), std::string::npos);
+  EXPECT_NE(failure(head + R"({"id":"a","kind":"cycle","state":"M7","due_s":0,"artefact":"A1"}]})").find("M7"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace spindrift
