@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -72,11 +73,70 @@ std::string axes(const Frame& f, const PlotOptions& options) {
   return out;
 }
 
+constexpr std::size_t most_points_drawn = 2000;
+
+/// Rows worth drawing: all of a short series; of a long one what makes a difference in a picture of this size, that is
+/// one of the points that share a pixel, or of a line the first, lowest, highest and last of every column of pixels.
+std::vector<std::size_t> rowsToDraw(const PlotSeries& s, const Frame& f) {
+  std::vector<std::size_t> rows;
+  const std::size_t n = s.x.size();
+  const auto drawn = [&](std::size_t i) { return std::isfinite(s.x[i]) && std::isfinite(s.y[i]); };
+  if (n <= most_points_drawn) {
+    for (std::size_t i = 0; i < n; ++i) rows.push_back(i);
+    return rows;
+  }
+  if (s.style == SeriesStyle::Points) {
+    std::set<std::pair<long, long>> pixels;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (drawn(i) && pixels.emplace(std::lround(f.px(s.x[i])), std::lround(f.py(s.y[i]))).second) rows.push_back(i);
+    }
+    return rows;
+  }
+  for (std::size_t from = 0; from < n;) {
+    if (!drawn(from)) {
+      rows.push_back(from++);
+      continue;
+    }
+    std::size_t to = from;
+    std::set<std::size_t> kept{from};
+    std::size_t low = from;
+    std::size_t high = from;
+    for (; to < n && drawn(to) && std::lround(f.px(s.x[to])) == std::lround(f.px(s.x[from])); ++to) {
+      if (s.y[to] < s.y[low]) low = to;
+      if (s.y[to] > s.y[high]) high = to;
+    }
+    kept.insert({low, high, to - 1});
+    rows.insert(rows.end(), kept.begin(), kept.end());
+    from = to;
+  }
+  return rows;
+}
+
+/// As one path each for bars and dots: readers of drawings take long over thousands of elements.
+std::string manyPoints(const PlotSeries& s, const Frame& f, const char* colour, const std::vector<std::size_t>& rows) {
+  std::string bars;
+  std::string dots;
+  for (const std::size_t i : rows) {
+    if (i < s.sigma.size() && std::isfinite(s.sigma[i])) {
+      bars += fmt::format("M{:.1f} {:.1f}V{:.1f}", f.px(s.x[i]), f.py(s.y[i] - s.sigma[i]), f.py(s.y[i] + s.sigma[i]));
+    }
+    dots += fmt::format("M{:.1f} {:.1f}h0.1", f.px(s.x[i]), f.py(s.y[i]));
+  }
+  std::string out;
+  if (!bars.empty()) {
+    out += fmt::format(R"(<path d="{}" fill="none" stroke="{}" stroke-width="1" opacity="0.3"/>)", bars, colour);
+  }
+  return out + fmt::format(R"(<path d="{}" fill="none" stroke="{}" stroke-width="2.4" stroke-linecap="round"/>)", dots,
+                           colour);
+}
+
 std::string drawSeries(const PlotSeries& s, const Frame& f, const char* colour) {
   std::string out;
   const bool with_sigma = s.sigma.size() == s.x.size() && !s.sigma.empty();
+  const std::vector<std::size_t> rows = rowsToDraw(s, f);
   if (s.style == SeriesStyle::Points) {
-    for (std::size_t i = 0; i < s.x.size(); ++i) {
+    if (s.x.size() > most_points_drawn) return manyPoints(s, f, colour, rows);
+    for (const std::size_t i : rows) {
       if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
       if (with_sigma) {
         out += fmt::format(R"(<line x1="{0:.1f}" x2="{0:.1f}" y1="{1:.1f}" y2="{2:.1f}" stroke="{3}" stroke-width="1" )"
@@ -90,17 +150,18 @@ std::string drawSeries(const PlotSeries& s, const Frame& f, const char* colour) 
   if (with_sigma) {
     std::string upper;
     std::string lower;
-    for (std::size_t i = 0; i < s.x.size(); ++i) {
-      if (!std::isfinite(s.y[i]) || !std::isfinite(s.sigma[i])) continue;
-      upper += fmt::format("{:.1f},{:.1f} ", f.px(s.x[i]), f.py(s.y[i] + 2.0 * s.sigma[i]));
-      lower.insert(0, fmt::format("{:.1f},{:.1f} ", f.px(s.x[i]), f.py(s.y[i] - 2.0 * s.sigma[i])));
-    }
+    const auto edge = [&](std::size_t i, double sign) {
+      if (!std::isfinite(s.y[i]) || !std::isfinite(s.sigma[i])) return std::string();
+      return fmt::format("{:.1f},{:.1f} ", f.px(s.x[i]), f.py(s.y[i] + sign * 2.0 * s.sigma[i]));
+    };
+    for (auto i = rows.begin(); i != rows.end(); ++i) upper += edge(*i, 1.0);
+    for (auto i = rows.rbegin(); i != rows.rend(); ++i) lower += edge(*i, -1.0);
     out += fmt::format(R"(<polygon points="{}{}" fill="{}" opacity="0.15"/>)", upper, lower, colour);
   }
   std::string path;
   bool pen_down = false;
   double last_y = 0.0;
-  for (std::size_t i = 0; i < s.x.size(); ++i) {
+  for (const std::size_t i : rows) {
     if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) {
       pen_down = false;
       continue;

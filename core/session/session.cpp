@@ -271,18 +271,34 @@ std::string Session::inputsFingerprint(std::int64_t id, const nlohmann::json& op
 
 std::int64_t Session::addResult(std::int64_t id, const std::string& kind, const nlohmann::json& options,
                                 const nlohmann::json& payload) {
+  return keepResult(id, kind, options, payload).id;
+}
+
+StoredResult Session::keepResult(std::int64_t id, const std::string& kind, const nlohmann::json& options,
+                                 nlohmann::json payload) {
   StoredResult result;
   result.campaign = id;
   result.kind = kind;
-  result.payload = payload;
+  result.payload = std::move(payload);
   result.provenance = {SPINDRIFT_VERSION, utcNow(), inputsFingerprint(id, options), options};
-  return database_->addResult(result);
+  result.id = database_->addResult(result);
+  return result;
 }
 
 std::optional<StoredResult> Session::latestResult(std::int64_t id, const std::string& kind) const {
-  std::vector<StoredResult> list = database_->results(id, kind);
-  if (list.empty()) return std::nullopt;
-  return std::move(list.back());
+  return database_->latestResult(id, kind);
+}
+
+std::vector<StoredResult> Session::resultHeads(std::int64_t id, const std::string& kind) const {
+  return database_->resultHeads(id, kind);
+}
+
+nlohmann::json Session::payload(std::int64_t result) const {
+  return database_->payload(result);
+}
+
+std::vector<std::string> Session::resultKinds(std::int64_t id) const {
+  return database_->resultKinds(id);
 }
 
 std::vector<StoredResult> Session::results(std::int64_t id) const {

@@ -117,8 +117,16 @@ class Session {
   [[nodiscard]] std::string inputsFingerprint(std::int64_t campaign, const nlohmann::json& options) const;
   std::int64_t addResult(std::int64_t campaign, const std::string& kind, const nlohmann::json& options,
                          const nlohmann::json& payload);
+  /// The same; returns the result as it was stored, without reading it again.
+  StoredResult keepResult(std::int64_t campaign, const std::string& kind, const nlohmann::json& options,
+                          nlohmann::json payload);
   [[nodiscard]] std::optional<StoredResult> latestResult(std::int64_t campaign, const std::string& kind) const;
   [[nodiscard]] std::vector<StoredResult> results(std::int64_t campaign) const;
+  /// All results of a kind without their payloads (those may be large), oldest first; `payload` fetches one.
+  [[nodiscard]] std::vector<StoredResult> resultHeads(std::int64_t campaign, const std::string& kind) const;
+  [[nodiscard]] nlohmann::json payload(std::int64_t result) const;
+  /// The kinds of which there is at least one result.
+  [[nodiscard]] std::vector<std::string> resultKinds(std::int64_t campaign) const;
   void removeResult(std::int64_t result);
   /// False: inputs, exclusions, options or program have changed since.
   [[nodiscard]] bool isCurrent(const StoredResult& result) const;

@@ -156,13 +156,50 @@ std::int64_t SessionDatabase::addResult(const StoredResult& result) {
 }
 
 std::vector<StoredResult> SessionDatabase::results(std::int64_t campaign, const std::string& kind) const {
+  return selectResults(campaign, kind, "order by id");
+}
+
+std::optional<StoredResult> SessionDatabase::latestResult(std::int64_t campaign, const std::string& kind) const {
+  std::vector<StoredResult> list = selectResults(campaign, kind, "order by id desc limit 1");
+  if (list.empty()) return std::nullopt;
+  return std::move(list.front());
+}
+
+std::vector<StoredResult> SessionDatabase::resultHeads(std::int64_t campaign, const std::string& kind) const {
+  return selectResults(campaign, kind, "order by id", false);
+}
+
+nlohmann::json SessionDatabase::payload(std::int64_t result) const {
+  return guarded(file_, [&] {
+    const long long key = result;
+    std::string text = "null";
+    connection_->sql << "select payload from result where id = :i", soci::use(key), soci::into(text);
+    return nlohmann::json::parse(text);
+  });
+}
+
+std::vector<std::string> SessionDatabase::resultKinds(std::int64_t campaign) const {
+  return guarded(file_, [&] {
+    const long long key = campaign;
+    std::vector<std::string> kinds;
+    const soci::rowset<std::string> rows =
+        (connection_->sql.prepare << "select distinct kind from result where campaign = :c", soci::use(key));
+    for (const std::string& kind : rows) kinds.push_back(kind);
+    return kinds;
+  });
+}
+
+std::vector<StoredResult> SessionDatabase::selectResults(std::int64_t campaign, const std::string& kind,
+                                                         const char* order, bool with_payload) const {
   return guarded(file_, [&] {
     const long long key = campaign;
     std::vector<StoredResult> list;
     const soci::rowset<soci::row> rows =
-        (connection_->sql.prepare << "select cast(id as text), kind, program_version, created_utc, inputs_fingerprint, "
-                                     "options, payload from result where campaign = :c and (:k1 = '' or kind = :k2) "
-                                     "order by id",
+        (connection_->sql.prepare << std::string("select cast(id as text), kind, program_version, created_utc, "
+                                                 "inputs_fingerprint, options") +
+                                         (with_payload ? ", payload" : ", 'null'") +
+                                         std::string(" from result where campaign = :c and (:k1 = '' or kind = :k2) ") +
+                                         order,
          soci::use(key), soci::use(kind), soci::use(kind));
     for (const soci::row& row : rows) {
       StoredResult result;

@@ -35,6 +35,11 @@ class SessionDatabase {
 
   std::int64_t addResult(const StoredResult& result);
   [[nodiscard]] std::vector<StoredResult> results(std::int64_t campaign, const std::string& kind) const;
+  [[nodiscard]] std::optional<StoredResult> latestResult(std::int64_t campaign, const std::string& kind) const;
+  /// All of a kind without their payloads, oldest first.
+  [[nodiscard]] std::vector<StoredResult> resultHeads(std::int64_t campaign, const std::string& kind) const;
+  [[nodiscard]] nlohmann::json payload(std::int64_t result) const;
+  [[nodiscard]] std::vector<std::string> resultKinds(std::int64_t campaign) const;
   [[nodiscard]] std::size_t countResults(std::int64_t campaign) const;
   void removeResult(std::int64_t id);
 
@@ -54,6 +59,9 @@ class SessionDatabase {
   /// For everything that changes the database.
   template <typename Body>
   auto writing(Body body) const -> decltype(body());
+
+  [[nodiscard]] std::vector<StoredResult> selectResults(std::int64_t campaign, const std::string& kind,
+                                                        const char* order, bool with_payload = true) const;
 
   std::filesystem::path file_;
   std::unique_ptr<Connection> connection_;

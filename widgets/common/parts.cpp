@@ -184,8 +184,10 @@ void NumberTile::set(const QString& value, const QString& note, Tone tone) {
   value_->setText(value);
   note_->setText(note);
   note_->setVisible(!note.isEmpty());
+  const QColor wanted = tone == Tone::Neutral ? theme().text : theme().tone(tone);
   QPalette colours = value_->palette();
-  colours.setColor(QPalette::WindowText, tone == Tone::Neutral ? theme().text : theme().tone(tone));
+  if (colours.color(QPalette::WindowText) == wanted) return;  // a new palette styles the label anew
+  colours.setColor(QPalette::WindowText, wanted);
   value_->setPalette(colours);
 }
 

@@ -4,6 +4,7 @@
 #include <QDateTime>
 #include <QDir>
 #include <QStandardPaths>
+#include <algorithm>
 
 #include "core/base/error.h"
 #include "core/workflows/log_campaign.h"
@@ -15,29 +16,50 @@ std::string machineKey(std::int64_t campaign) {
   return "machine/" + std::to_string(campaign);
 }
 
+/// All of a LoadedSession but the session itself.
+LoadedSession readForPages(const Session& session, std::int64_t wanted) {
+  LoadedSession loaded;
+  const std::vector<CampaignRecord> all = session.campaigns();
+  if (all.empty()) return loaded;
+  if (const auto last = session.setting("campaign"); wanted == 0 && last && last->is_number_integer()) {
+    wanted = last->get<std::int64_t>();
+  }
+  const auto found = std::find_if(all.begin(), all.end(), [&](const CampaignRecord& r) { return r.id == wanted; });
+  const CampaignRecord& record = found != all.end() ? *found : all.back();
+  loaded.campaign_id = record.id;
+  auto campaign = std::make_shared<Campaign>(Campaign::read(record.folder));
+  const auto edited = session.setting(machineKey(record.id));
+  if (edited && edited->is_object() && !edited->empty()) {
+    campaign->machine =
+        MachineDescription::parse(JsonNode::parse(edited->dump(), "machine as edited"), campaign->path("machine.json"));
+    loaded.machine_edited = true;
+  }
+  loaded.campaign = std::move(campaign);
+  for (const Exclusion& e : session.exclusions(record.id)) {
+    loaded.excluded[QString::fromStdString(e.item)] = QString::fromStdString(e.reason);
+  }
+  for (const std::string& kind : session.resultKinds(record.id)) {
+    loaded.latest[kind] = session.latestResult(record.id, kind);
+  }
+  if (const auto evaluation = loaded.latest.find("evaluate"); evaluation != loaded.latest.end()) {
+    loaded.evaluation = std::make_shared<StoredEvaluation>(evaluationFrom(*evaluation->second));
+  }
+  return loaded;
+}
+
 }  // namespace
 
 SessionModel::SessionModel(QObject* parent) : QObject(parent) {}
 SessionModel::~SessionModel() = default;
 
+LoadedSession loadSession(std::unique_ptr<Session> session, std::int64_t campaign) {
+  LoadedSession loaded = readForPages(*session, campaign);
+  loaded.session = std::move(session);
+  return loaded;
+}
+
 void SessionModel::openSession(const std::filesystem::path& folder) {
-  auto opened = std::make_unique<Session>(Session::open(folder));
-  session_ = std::move(opened);
-  const std::vector<CampaignRecord> all = session_->campaigns();
-  campaign_.reset();
-  campaign_id_ = 0;
-  if (!all.empty()) {
-    const auto last = session_->setting("campaign");
-    std::int64_t id = all.back().id;
-    if (last && last->is_number_integer()) {
-      for (const CampaignRecord& record : all) {
-        if (record.id == last->get<std::int64_t>()) id = record.id;
-      }
-    }
-    load(id);
-  }
-  Q_EMIT sessionChanged();
-  Q_EMIT campaignChanged();
+  adopt(loadSession(std::make_unique<Session>(Session::open(folder))));
 }
 
 void SessionModel::createSession(const std::filesystem::path& folder) {
@@ -70,11 +92,24 @@ QString SessionModel::name() const {
 }
 
 void SessionModel::adopt(std::unique_ptr<Session> session, std::int64_t campaign) {
-  session_ = std::move(session);
-  load(campaign);
-  session_->setSetting("campaign", campaign);
+  adopt(loadSession(std::move(session), campaign));
+}
+
+void SessionModel::adopt(LoadedSession loaded) {
+  take(std::move(loaded));
+  if (campaign_id_ != 0) setSetting("campaign", campaign_id_);
   Q_EMIT sessionChanged();
   Q_EMIT campaignChanged();
+}
+
+void SessionModel::take(LoadedSession loaded) {
+  session_ = std::move(loaded.session);
+  campaign_id_ = loaded.campaign_id;
+  campaign_ = std::move(loaded.campaign);
+  machine_edited_ = loaded.machine_edited;
+  excluded_ = std::move(loaded.excluded);
+  latest_ = std::move(loaded.latest);
+  evaluation_ = std::move(loaded.evaluation);
 }
 
 std::unique_ptr<Session> SessionModel::release() {
@@ -85,26 +120,14 @@ std::unique_ptr<Session> SessionModel::release() {
 
 void SessionModel::selectCampaign(std::int64_t id) {
   load(id);
-  session_->setSetting("campaign", id);
+  setSetting("campaign", id);
   Q_EMIT campaignChanged();
 }
 
 void SessionModel::load(std::int64_t id) {
-  evaluation_.reset();  // ids start again in every session
-  latest_.clear();
-  auto campaign = std::make_shared<Campaign>(Campaign::read(session_->campaign(id).folder));
-  machine_edited_ = false;
-  if (const auto edited = session_->setting(machineKey(id)); edited && edited->is_object() && !edited->empty()) {
-    campaign->machine =
-        MachineDescription::parse(JsonNode::parse(edited->dump(), "machine as edited"), campaign->path("machine.json"));
-    machine_edited_ = true;
-  }
-  campaign_ = std::move(campaign);
-  campaign_id_ = id;
-  excluded_.clear();
-  for (const Exclusion& e : session_->exclusions(id)) {
-    excluded_[QString::fromStdString(e.item)] = QString::fromStdString(e.reason);
-  }
+  LoadedSession loaded = readForPages(*session_, id);
+  loaded.session = std::move(session_);
+  take(std::move(loaded));
 }
 
 std::vector<CampaignRecord> SessionModel::campaigns() const {
@@ -174,8 +197,8 @@ StoredEvaluation evaluationFrom(const StoredResult& result) {
 }
 
 std::shared_ptr<const StoredEvaluation> SessionModel::evaluation() const {
-  const auto found = result("evaluate");
-  if (!found) return nullptr;
+  const StoredResult* found = latest("evaluate");
+  if (found == nullptr) return nullptr;
   if (evaluation_ == nullptr || evaluation_->id != found->id) {
     evaluation_ = std::make_shared<StoredEvaluation>(evaluationFrom(*found));
   }
@@ -188,7 +211,7 @@ std::optional<ObservationSet> SessionModel::observations() const {
   if (!set) {
     if (const auto stored = evaluation()) set = stored->observations;
   }
-  if (!set) return std::nullopt;
+  if (!set || excluded_.empty()) return set;
   for (Observation& o : set->rows) {
     const std::string item = o.state + "/" + o.point + "/" + std::string(toString(o.component));
     if (excluded_.contains(QString::fromStdString(item))) o.use = ObservationUse::Exclude;
@@ -218,8 +241,7 @@ void SessionModel::storeResult(const std::string& kind, const nlohmann::json& op
   if (session_ == nullptr || campaign_ == nullptr) return;
   nlohmann::json all = commonOptions();
   all.update(options);
-  session_->addResult(campaign_id_, kind, all, payload);
-  latest_.erase(kind);
+  latest_[kind] = session_->keepResult(campaign_id_, kind, all, payload);
   Q_EMIT resultChanged(QString::fromStdString(kind));
 }
 
@@ -249,18 +271,28 @@ ResultState SessionModel::state(const std::string& kind) const {
 
 void SessionModel::setExcluded(const QString& item, const QString& reason) {
   if (session_ == nullptr || campaign_ == nullptr) return;
-  if (reason.isEmpty()) {
-    session_->restore(campaign_id_, item.toStdString());
-    excluded_.erase(item);
-  } else {
-    session_->exclude(campaign_id_, item.toStdString(), reason.toStdString());
-    excluded_[item] = reason;
+  try {
+    if (reason.isEmpty()) {
+      session_->restore(campaign_id_, item.toStdString());
+      excluded_.erase(item);
+    } else {
+      session_->exclude(campaign_id_, item.toStdString(), reason.toStdString());
+      excluded_[item] = reason;
+    }
+  } catch (const InputError& e) {
+    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+    return;
   }
   Q_EMIT inputsChanged();
 }
 
 void SessionModel::setSetting(const std::string& key, const nlohmann::json& value) {
-  if (session_ != nullptr) session_->setSetting(key, value);
+  if (session_ == nullptr) return;
+  try {
+    session_->setSetting(key, value);
+  } catch (const InputError& e) {
+    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+  }
 }
 
 nlohmann::json SessionModel::setting(const std::string& key, const nlohmann::json& otherwise) const {

@@ -52,6 +52,21 @@ struct ResultState {
   std::string program_version;
 };
 
+/// A session with everything its pages ask for at once, read from the disk: large ones take a while, so that a job does
+/// it (`loadSession`) and the GUI thread only takes it over.
+struct LoadedSession {
+  std::unique_ptr<Session> session;
+  std::int64_t campaign_id = 0;  ///< 0: the session has none
+  std::shared_ptr<const Campaign> campaign;
+  bool machine_edited = false;
+  std::map<QString, QString> excluded;
+  std::map<std::string, std::optional<StoredResult>> latest;
+  std::shared_ptr<const StoredEvaluation> evaluation;
+};
+
+/// Any thread. `campaign` 0: the one that was at hand last, else the newest. Throws InputError.
+[[nodiscard]] LoadedSession loadSession(std::unique_ptr<Session> session, std::int64_t campaign = 0);
+
 class SessionModel : public QObject {
   Q_OBJECT
  public:
@@ -69,6 +84,7 @@ class SessionModel : public QObject {
 
   // The campaign at hand.
   /// Takes over a session that a job has made or added a campaign to.
+  void adopt(LoadedSession loaded);
   void adopt(std::unique_ptr<Session> session, std::int64_t campaign);
   /// Hands the session to a job; until it comes back through adopt() nothing is open.
   [[nodiscard]] std::unique_ptr<Session> release();
@@ -88,6 +104,8 @@ class SessionModel : public QObject {
   // Results. `kind` names what was computed ("evaluate", "fit", "check").
   void storeResult(const std::string& kind, const nlohmann::json& options, const nlohmann::json& payload);
   [[nodiscard]] std::optional<StoredResult> result(const std::string& kind) const;
+  /// The same without a copy, for large ones; null if there is none. Holds until the next change of results or campaign.
+  [[nodiscard]] const StoredResult* latest(const std::string& kind) const;
   [[nodiscard]] ResultState state(const std::string& kind) const;
   /// The last evaluation, whether it is current or not; null if there is none.
   [[nodiscard]] std::shared_ptr<const StoredEvaluation> evaluation() const;
@@ -110,17 +128,18 @@ class SessionModel : public QObject {
   void resultChanged(const QString& kind);
   /// Something results depend on changed: exclusions, machine, options.
   void inputsChanged();
+  /// Something could not be stored (disk full, folder gone): the sentence for the user. What is shown stays as it was.
+  void storingFailed(const QString& sentence);
 
  private:
   void load(std::int64_t id);
+  void take(LoadedSession loaded);
 
   std::unique_ptr<Session> session_;
   std::int64_t campaign_id_ = 0;
   std::shared_ptr<const Campaign> campaign_;
   std::map<QString, QString> excluded_;
   bool machine_edited_ = false;
-  /// The latest result of a kind; read from the disk once, large ones take a while. Null: there is none.
-  [[nodiscard]] const StoredResult* latest(const std::string& kind) const;
   mutable std::shared_ptr<const StoredEvaluation> evaluation_;
   mutable std::map<std::string, std::optional<StoredResult>> latest_;
 };

@@ -30,6 +30,9 @@
 namespace spindrift::gui {
 namespace {
 
+constexpr std::size_t most_smooth_points = 4000;
+constexpr std::size_t most_points_for_legend = 2000;  ///< of a series, when the corner is chosen
+
 QVector<double> toVector(const std::vector<double>& values) {
   return {values.begin(), values.end()};
 }
@@ -69,7 +72,7 @@ Plot::Plot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
   plot_->axisRect()->setupFullAxesBox(false);
   connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] {
     rebuild();
-    placeLegend();
+    replotSoon();
   });
   restyle();
 }
@@ -94,6 +97,7 @@ void Plot::setContent(std::vector<Series> series, std::vector<Span> spans) {
 void Plot::addMark(double x, const QString& name, Tone tone) {
   marks_.push_back({x, name, tone});
   rebuild();
+  replotSoon();
 }
 
 void Plot::setEmptyText(const QString& title, const QString& how) {
@@ -105,6 +109,7 @@ void Plot::setEmptyText(const QString& title, const QString& how) {
 void Plot::setLegendVisible(bool visible) {
   legend_ = visible;
   rebuild();
+  replotSoon();
 }
 
 void Plot::restyle() {
@@ -206,7 +211,10 @@ void Plot::rebuild() {
       default:
         graph->setLineStyle(QCPGraph::lsLine);
     }
-    graph->setPen(QPen(colour, 1.5, s.style == SeriesStyle::Dashed ? Qt::DashLine : Qt::SolidLine));
+    // Smooth lines of so many corners take ten times as long and look the same.
+    const bool dense = s.x.size() > most_smooth_points;
+    graph->setAntialiased(!dense);
+    graph->setPen(QPen(colour, dense ? 1.0 : 1.5, s.style == SeriesStyle::Dashed ? Qt::DashLine : Qt::SolidLine));
     if (s.style == SeriesStyle::Points || s.style == SeriesStyle::LinePoints) {
       graph->setScatterStyle(QCPScatterStyle(QCPScatterStyle::ssCircle, QPen(colour, 1.2),
                                              QBrush(mixed(colour, t.surface, 0.35)), s.x.size() > 400 ? 3 : 6));
@@ -246,16 +254,21 @@ void Plot::rebuild() {
   }
   plot_->legend->setVisible(legend_ && named > 1);
   plot_->setVisible(!series_.empty());
-  replotSoon();
   update();
 }
 
+/// Nothing is drawn before it is looked at: a page that is being filled changes its plots several times.
 void Plot::replotSoon() {
-  // A plot that was never shown has no size to draw in yet.
-  if (plot_->viewport().isEmpty()) {
-    plot_->setViewport(QRect(0, 0, std::max(1, plot_->width()), std::max(1, plot_->height())));
-  }
-  plot_->replot(QCustomPlot::rpQueuedReplot);
+  stale_ = true;
+  plot_->update();
+}
+
+void Plot::drawIfStale() {
+  if (!stale_) return;
+  stale_ = false;
+  plot_->setViewport(QRect(0, 0, std::max(1, plot_->width()), std::max(1, plot_->height())));
+  placeLegend();
+  plot_->replot(QCustomPlot::rpQueuedRefresh);
 }
 
 void Plot::showAll() {
@@ -285,7 +298,6 @@ void Plot::showAll() {
   plot_->xAxis->setRange(x_low - dx, x_high + dx);
   plot_->yAxis->setRange(y_low - dy, y_high + dy);
   replotSoon();
-  placeLegend();
 }
 
 /// Into the corner that no data meet; where there is none, into a line above the axes.
@@ -306,8 +318,9 @@ void Plot::placeLegend() {
   };
   legend->setBorderPen(QPen(theme().border, 1));
   move_inside(Qt::AlignTop | Qt::AlignRight);
-  plot_->setViewport(QRect(QPoint(0, 0), plot_->size()));  // a hidden widget has not been told its size yet
-  plot_->replot(QCustomPlot::rpImmediateRefresh);
+  for (const auto phase : {QCPLayoutElement::upPreparation, QCPLayoutElement::upMargins, QCPLayoutElement::upLayout}) {
+    outer->update(phase);
+  }
   const QRectF axes = plot_->axisRect()->rect();
   const QSizeF size = QSizeF(legend->outerRect().size()) + QSizeF(16, 16);
   struct Corner {
@@ -323,7 +336,8 @@ void Plot::placeLegend() {
        {Qt::AlignBottom | Qt::AlignLeft, {axes.left(), axes.bottom() - size.height(), size.width(), size.height()}}}};
   for (const Series& s : series_) {
     QPointF before;
-    for (std::size_t i = 0; i < s.x.size(); ++i) {
+    const std::size_t stride = 1 + s.x.size() / most_points_for_legend;
+    for (std::size_t i = 0; i < s.x.size(); i += stride) {
       if (!std::isfinite(s.y[i])) continue;
       const QPointF now(plot_->xAxis->coordToPixel(s.x[i]), plot_->yAxis->coordToPixel(s.y[i]));
       const int steps = i > 0 && s.style != SeriesStyle::Points
@@ -364,7 +378,6 @@ void Plot::placeLegend() {
     legend->setWrap(std::max(1, (plot_->width() - 24) / widest));
     legend->setFillOrder(QCPLegend::foColumnsFirst);
   }
-  plot_->replot(QCustomPlot::rpImmediateRefresh);  // a picture may be taken before the event loop runs
 }
 
 void Plot::paintEvent(QPaintEvent*) {
@@ -388,10 +401,11 @@ void Plot::paintEvent(QPaintEvent*) {
 
 void Plot::resizeEvent(QResizeEvent*) {
   plot_->setGeometry(QRect(QPoint(0, 0), size().expandedTo({1, 1})));
-  placeLegend();
+  replotSoon();
 }
 
 double Plot::pixelOfX(double x) const {
+  const_cast<Plot*>(this)->drawIfStale();
   return plot_->xAxis->coordToPixel(x);
 }
 
@@ -427,6 +441,7 @@ bool Plot::dragSpan(QEvent* event) {
       const double x = plot_->xAxis->pixelToCoord(place());
       (dragged_edge_->second ? span.from : span.to) = x;
       rebuild();
+      replotSoon();
       return true;
     }
     case QEvent::MouseButtonRelease: {
@@ -445,6 +460,8 @@ bool Plot::dragSpan(QEvent* event) {
 
 bool Plot::eventFilter(QObject* watched, QEvent* event) {
   if (watched == plot_) {
+    if (event->type() == QEvent::Resize) return true;  // it would draw at once
+    if (event->type() == QEvent::Paint) drawIfStale();
     if (dragSpan(event)) return true;
     if (event->type() == QEvent::MouseButtonDblClick) {
       showAll();
@@ -485,6 +502,7 @@ void Plot::exportTo(const QString& file) const {
   const int width = std::max(plot_->width(), 640);
   const int height = std::max(plot_->height(), 400);
   bool written = false;
+  const_cast<Plot*>(this)->drawIfStale();
   if (lower.endsWith(QLatin1String(".csv"))) {
     writeFileAtomically(file.toStdString(), csv().toStdString());
     return;

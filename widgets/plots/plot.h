@@ -89,6 +89,7 @@ class Plot : public QWidget {
   void restyle();
   void placeLegend();
   void replotSoon();
+  void drawIfStale();
 
   QCustomPlot* plot_;
   QString x_title_, y_title_;
@@ -110,6 +111,7 @@ class Plot : public QWidget {
   double least_range_ = 0;
   std::optional<std::pair<double, double>> fixed_range_;
   bool legend_ = true;
+  bool stale_ = true;  ///< what is shown is older than what was set
 };
 
 /// Seconds as people read them on an axis: factor and unit ("h", "min" or "s") for a span of time.

@@ -105,9 +105,15 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   connect(campaign_, &QComboBox::activated, this, [this](int) {
     const auto id = campaign_->currentData().toLongLong();
     if (id == session_.campaignId()) return;
-    undo_.clear();
-    session_.selectCampaign(id);
+    try {
+      session_.selectCampaign(id);
+      undo_.clear();
+    } catch (const InputError& e) {
+      refreshCampaigns();
+      tell(QString::fromUtf8(e.what()));
+    }
   });
+  connect(&session_, &SessionModel::storingFailed, this, &MainWindow::tell);
   connect(welcome_, &WelcomePage::demoChosen, this, [this](const QString& name) { startDemo(name); });
   connect(welcome_, &WelcomePage::recentChosen, this, &MainWindow::open);
   connect(welcome_, &WelcomePage::openSession, this, [this] {
@@ -280,17 +286,28 @@ void MainWindow::remember(const QString& folder) {
 }
 
 void MainWindow::openSession(const QString& folder) {
-  try {
-    session_.openSession(folder.toStdString());
-    remember(folder);
-    workflow_.goTo(StepId::Machine);
-    if (session_.session() != nullptr) {
-      for (const std::string& message : session_.session()->migrationMessages())
-        job_bar_->setMessage(QString::fromStdString(message));
-    }
-  } catch (const InputError& e) {
-    job_bar_->setMessage(QString::fromUtf8(e.what()));
-  }
+  Job job;
+  job.title = tr("Opening %1").arg(QDir(folder).dirName());
+  job.work = [this, folder](JobContext&) -> std::function<void()> {
+    auto loaded =
+        std::make_shared<LoadedSession>(loadSession(std::make_unique<Session>(Session::open(folder.toStdString()))));
+    return [this, folder, loaded] {
+      session_.adopt(std::move(*loaded));
+      remember(folder);
+      workflow_.goTo(StepId::Machine);
+      const Session& session = *session_.session();
+      for (const std::string& message : session.migrationMessages()) tell(QString::fromStdString(message));
+      for (const std::string& message : session.recoveryMessages()) tell(QString::fromStdString(message));
+    };
+  };
+  job.failed = [this](const QString& sentence) { tell(sentence); };
+  jobs_.run(std::move(job));
+}
+
+/// After the job bar has had its word about the job that ended.
+void MainWindow::tell(const QString& sentence) {
+  QMetaObject::invokeMethod(
+      this, [this, sentence] { job_bar_->setMessage(sentence); }, Qt::QueuedConnection);
 }
 
 void MainWindow::importInBackground(const QString& title, std::function<std::filesystem::path(JobContext&)> source,
@@ -306,8 +323,9 @@ void MainWindow::importInBackground(const QString& title, std::function<std::fil
       *session = std::make_unique<Session>(Session::create(folder));
       JobContext second = context.part(0.8, 1.0);
       const std::int64_t id = (*session)->importCampaign(campaign_folder, second);
-      return [this, session, id, folder] {
-        session_.adopt(std::move(*session), id);
+      auto loaded = std::make_shared<LoadedSession>(loadSession(std::move(*session), id));
+      return [this, loaded, folder] {
+        session_.adopt(std::move(*loaded));
         remember(QString::fromStdString(folder.string()));
         workflow_.goTo(StepId::Machine);
         showStep();

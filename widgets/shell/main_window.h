@@ -65,6 +65,7 @@ class MainWindow : public QMainWindow {
   void refreshCampaigns();
   void remember(const QString& folder);
   void newMeasurement();
+  void tell(const QString& sentence);
   void about();
   void importInBackground(const QString& title, std::function<std::filesystem::path(JobContext&)> source,
                           const QString& name);

@@ -169,7 +169,7 @@ StepStatus Workflow::evaluate(StepId step) const {
   };
   const auto withChoice = [&](StepStatus status, const char* kind) {
     if (status.state != StepState::Current) return status;
-    const auto result = session_.result(kind);
+    const StoredResult* result = session_.latest(kind);
     const nlohmann::json& options = result->provenance.options;
     const nlohmann::json& depends = options.contains("depends") ? options["depends"] : options;
     const nlohmann::json then = depends.value("discrepancy", nlohmann::json::object());

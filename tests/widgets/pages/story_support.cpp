@@ -16,6 +16,7 @@ namespace {
 
 constexpr double sigma_um = 0.4;
 constexpr double lag_s = 2400.0;
+constexpr double duration_s = 28800.0;
 
 double spindleRpm(double t) {
   return t < 1800.0 ? 0.0 : t < 14400.0 ? 6000.0 : 0.0;
@@ -30,7 +31,8 @@ double growth_um(double t) {
 
 }  // namespace
 
-std::filesystem::path writeStoryCampaign(const testing::TempFolder& folder, Hidden hidden, bool with_simulation) {
+std::filesystem::path writeStoryCampaign(const testing::TempFolder& folder, Hidden hidden, bool with_simulation,
+                                         StorySize size) {
   const std::filesystem::path campaign = folder / "campaign";
   std::filesystem::create_directories(campaign);
   folder.write("campaign/campaign.json",
@@ -41,7 +43,8 @@ std::filesystem::path writeStoryCampaign(const testing::TempFolder& folder, Hidd
   ObservationSet set;
   std::string table = "time_s,point,component,predicted\n";
   Random random(17);
-  for (int state = 0; state < 24; ++state) {
+  const double step_s = duration_s / size.states;
+  for (int state = 0; state < size.states; ++state) {
     for (int i = 0; i < 6; ++i) {
       const Eigen::Vector3d position(50.0 + 80.0 * i, i % 2 == 0 ? 60.0 : 340.0, 40.0 * (i % 3));
       if (state == 0) {
@@ -50,16 +53,16 @@ std::filesystem::path writeStoryCampaign(const testing::TempFolder& folder, Hidd
       }
       for (const Component c : {Component::EX, Component::EY, Component::EZ}) {
         Observation o;
-        o.time_s = state * 1200.0 + i * 10.0;
+        o.time_s = state * step_s + i * step_s / 120.0;
         o.state = fmt::format("M{}", state);
         o.point = fmt::format("P{}", i + 1);
         o.position_mm = position;
         o.component = c;
         o.sigma = sigma_um;
         o.instrument = "probe";
-        o.use = state >= 18 ? ObservationUse::Holdout : ObservationUse::Fit;
+        o.use = state >= size.states * 3 / 4 ? ObservationUse::Holdout : ObservationUse::Fit;
         // What the simulation knows: a slow drift along X.
-        const double known = c == Component::EX ? 4.0 * o.time_s / 28800.0 : 0.0;
+        const double known = c == Component::EX ? 4.0 * o.time_s / duration_s : 0.0;
         double more = 0.0;
         if (hidden == Hidden::SpindleGrowth && c == Component::EZ) more = growth_um(o.time_s);
         if (hidden == Hidden::Oscillation && c == Component::EX) more = 3.0 * std::sin(o.time_s * 2 * M_PI / 2777.0);
@@ -70,9 +73,9 @@ std::filesystem::path writeStoryCampaign(const testing::TempFolder& folder, Hidd
     }
   }
   std::string log = "time_s,spindle_rpm,feed_x_mm_min,T_spindle_degC,T_ambient_degC\n";
-  for (int row = 0; row <= 480; ++row) {
-    const double t = row * 60.0;
-    log += fmt::format("{},{},{},{},{}\n", t, spindleRpm(t), (row / 60) % 3 == 1 ? 4000 : 0,
+  for (int row = 0; row <= size.log_rows; ++row) {
+    const double t = row * duration_s / size.log_rows;
+    log += fmt::format("{},{},{},{},{}\n", t, spindleRpm(t), static_cast<int>(t / 3600.0) % 3 == 1 ? 4000 : 0,
                        22.0 + 0.9 * growth_um(t - 300.0) + random.normal(0, 0.02),
                        21.0 + 0.8 * std::sin(t / 9000.0) + random.normal(0, 0.02));
   }

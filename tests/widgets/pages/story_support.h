@@ -17,11 +17,17 @@ namespace spindrift::gui {
 /// What the simulation lacks.
 enum class Hidden { Nothing, SpindleGrowth, Oscillation };
 
-/// Six points in a volume, 24 states over eight hours, a spindle that runs in two steps; the last 6 states are held
+/// How much is measured over the eight hours.
+struct StorySize {
+  int states = 24;
+  int log_rows = 480;
+};
+
+/// Six points in a volume, 24 states over eight hours, a spindle that runs in two steps; the last quarter is held
 /// out. The growth is 9 um (1 - exp(-t / 40 min)) at full speed along Z; the oscillation has no driver (EX, 23 min).
 /// Noise 0.4 um, seeded.
 [[nodiscard]] std::filesystem::path writeStoryCampaign(const testing::TempFolder& folder, Hidden hidden,
-                                                       bool with_simulation = true);
+                                                       bool with_simulation = true, StorySize size = {});
 
 class StoryTest : public ::testing::Test {
  protected:

@@ -2,7 +2,9 @@
 find_package(Qt6 6.4 REQUIRED COMPONENTS Widgets Test)
 # A main() that makes a QApplication on the offscreen platform; stands in for that of spindrift_test_support.
 add_library(spindrift_widget_test_support STATIC ${CMAKE_SOURCE_DIR}/tests/widgets/support/widget_test_main.cpp
+                                                  ${CMAKE_SOURCE_DIR}/tests/widgets/support/event_loop_watch.cpp
                                                   ${CMAKE_SOURCE_DIR}/tests/support/temp_folder.cpp)
+set_target_properties(spindrift_widget_test_support PROPERTIES AUTOMOC ON)
 target_link_libraries(spindrift_widget_test_support PUBLIC spindrift_options Spindrift::theme Qt6::Widgets Qt6::Test
                                                            Spindrift::base GTest::gtest GTest::gmock)
 

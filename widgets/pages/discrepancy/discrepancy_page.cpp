@@ -226,7 +226,7 @@ void DiscrepancyPage::refresh() {
     updateButtons();
     return;
   }
-  const auto stored = session().result(result_kind);
+  const StoredResult* stored = session().latest(result_kind);
   if (!stored) {
     story_.reset();
     shown_result_ = 0;
@@ -308,12 +308,11 @@ void DiscrepancyPage::choiceChanged() {
   // Undo must not wait for a search that was made before.
   const nlohmann::json wanted = DiscrepancyChoice::of(session()).json();
   if (Session* store = session().session(); store != nullptr) {
-    const std::vector<StoredResult> all = store->results(session().campaignId());
+    const std::vector<StoredResult> all = store->resultHeads(session().campaignId(), result_kind);
     for (auto it = all.rbegin(); it != all.rend(); ++it) {
-      if (it->kind != result_kind || it->provenance.options.value(option_name, nlohmann::json()) != wanted) continue;
+      if (it->provenance.options.value(option_name, nlohmann::json()) != wanted) continue;
       if (!store->isCurrent(*it)) continue;
-      const nlohmann::json payload = it->payload;
-      session().storeResult(result_kind, {{option_name, wanted}}, payload);
+      session().storeResult(result_kind, {{option_name, wanted}}, store->payload(it->id));
       refresh();
       return;
     }

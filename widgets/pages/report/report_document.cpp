@@ -57,9 +57,20 @@ QFont pageFont(int px, QFont::Weight weight = QFont::Normal) {
   return font;
 }
 
+/// Width and height that a drawing states of itself.
+QSizeF drawnSize(const QString& svg) {
+  QXmlStreamReader xml(svg);
+  if (!xml.readNextStartElement()) return {};
+  const QXmlStreamAttributes attributes = xml.attributes();
+  return {attributes.value(QStringLiteral("width")).toDouble(), attributes.value(QStringLiteral("height")).toDouble()};
+}
+
+QByteArray forQtSvg(QString svg);
+
 /// A picture with its caption, kept on one page.
 struct Figure {
-  std::shared_ptr<QSvgRenderer> drawing;
+  QString svg;                                    ///< empty: an image
+  mutable std::shared_ptr<QSvgRenderer> drawing;  ///< read when it is first drawn: most pages are not in sight
   QImage image;
   QString caption;
   QSizeF picture_size;
@@ -67,7 +78,7 @@ struct Figure {
 
   /// Works out the sizes: as drawn, made smaller where it would not fit.
   void measure() {
-    picture_size = drawing != nullptr ? QSizeF(drawing->defaultSize()) : QSizeF(image.size()) / 2.0;
+    picture_size = svg.isEmpty() ? QSizeF(image.size()) / 2.0 : drawnSize(svg);
     if (picture_size.isEmpty()) {
       picture_size = {static_cast<double>(text_width), 40.0};
     } else {
@@ -122,7 +133,8 @@ class FigureObject : public QObject, public QTextObjectInterface {
   void drawObject(QPainter* painter, const QRectF& rect, QTextDocument*, int, const QTextFormat& format) override {
     const Figure& f = figures[static_cast<std::size_t>(format.intProperty(figure_property))];
     const QRectF area(rect.topLeft() + QPointF(0, 4), f.picture_size);
-    if (f.drawing != nullptr) {
+    if (!f.svg.isEmpty()) {
+      if (f.drawing == nullptr) f.drawing = std::make_shared<QSvgRenderer>(forQtSvg(f.svg));
       f.drawing->render(painter, area);
     } else {
       painter->drawImage(area, f.image);
@@ -357,8 +369,7 @@ class ReportDocument::Builder {
       if (xml_.atEnd()) return;
       if (xml_.tokenType() != QXmlStreamReader::StartElement) continue;
       if (xml_.name() == QLatin1String("drawing")) {
-        f.drawing =
-            std::make_shared<QSvgRenderer>(forQtSvg(drawings_[xml_.attributes().value(QStringLiteral("n")).toInt()]));
+        f.svg = drawings_[xml_.attributes().value(QStringLiteral("n")).toInt()];
       } else if (xml_.name() == QLatin1String("img")) {
         const QString source = xml_.attributes().value(QStringLiteral("src")).toString();
         f.image = QImage::fromData(QByteArray::fromBase64(source.section(QLatin1Char(','), 1).toLatin1()));

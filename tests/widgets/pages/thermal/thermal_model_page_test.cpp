@@ -68,6 +68,7 @@ TEST_F(ThermalPages, ALogIsOpenedAndItsModelIdentified) {
   const double rms = page->result()->test.rmse;
   window_->closeSession();
   window_->open(session);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
   page = go<ThermalModelPage>(StepId::Model);
   ASSERT_TRUE(waitForJobs(*window_, 30));
   ASSERT_NE(page->result(), nullptr);
