@@ -3,46 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "core/math/distributions.h"
+#include "core/discrepancy/forward_search.h"
 
 namespace spindrift {
 namespace {
 
 using Eigen::Index;
-
-bool contains(const Effect& container, const std::string& simple) {
-  return std::find(container.contains.begin(), container.contains.end(), simple) != container.contains.end();
-}
-
-std::vector<std::string> idsOf(const std::vector<ModelTerm>& terms) {
-  std::vector<std::string> ids;
-  for (const ModelTerm& term : terms) ids.push_back(term.effect->id);
-  return ids;
-}
-
-/// Nuisances of the simulation and of accepted terms.
-std::vector<NuisanceColumn> nuisancesOf(const EffectSearch& search, const std::vector<NuisanceColumn>& base,
-                                        const JointFit& fit, std::size_t without, double model_error) {
-  std::vector<NuisanceColumn> out = base;
-  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
-    if (t == without) continue;
-    for (NuisanceColumn& column : search.termNuisances(fit.terms[t], fit.gains[t], model_error)) {
-      out.push_back(std::move(column));
-    }
-  }
-  return out;
-}
-
-/// Refines the dynamics of the terms from `from` on.
-JointFit refineDynamics(const EffectSearch& search, JointFit fit, std::size_t from,
-                        const std::vector<NuisanceColumn>& base) {
-  for (std::size_t t = from; t < fit.terms.size(); ++t) fit = search.refineDynamics(std::move(fit), t, base);
-  return fit;
-}
 
 /// Both act through one and the same shape over the units.
 bool sameShape(const EffectSearch& search, const Effect& a, const Effect& b) {
@@ -51,6 +22,16 @@ bool sameShape(const EffectSearch& search, const Effect& a, const Effect& b) {
   if (first.cols() != 1 || second.cols() != 1) return false;
   const double dot = first.col(0).dot(second.col(0));
   return std::abs(dot) > 0.999 * first.col(0).norm() * second.col(0).norm() && dot != 0.0;
+}
+
+/// `container` holds `simple`: by the catalogue, or because the one pattern of the latter is made of its patterns.
+bool holds(const EffectSearch& search, const Effect& container, const Effect& simple) {
+  if (contains(container, simple.id)) return true;
+  const Eigen::MatrixXd& wide = search.shape(container);
+  const Eigen::MatrixXd& narrow = search.shape(simple);
+  if (narrow.cols() != 1 || wide.cols() < 2 || !(narrow.norm() > 0.0)) return false;
+  const Eigen::VectorXd left = narrow.col(0) - wide * wide.colPivHouseholderQr().solve(narrow.col(0));
+  return left.norm() < 1e-6 * narrow.norm();
 }
 
 /// An onset that no log shows, or a course that fits several drivers alike, may as well be an effect of the same shape
@@ -76,6 +57,50 @@ void addUndrivenRivals(const EffectSearch& search, SearchOutcome& out) {
       if (std::any_of(rivals.begin(), rivals.end(), [&](const RivalFit& r) { return r.id == effect.id; })) continue;
       rivals.push_back({effect.id, out.fit.score, false, {}, true});
     }
+  }
+}
+
+/// Rivals that the noise alone may have put behind stay, all of them. Of those that only the model error of their
+/// dynamics lets in, as many as make a set of three.
+void keepClosestRivals(TermEvidence& evidence, const SearchLimits& limits) {
+  std::sort(evidence.rivals.begin(), evidence.rivals.end(),
+            [](const RivalFit& a, const RivalFit& b) { return a.score > b.score; });
+  const double equal = std::max(12.0, limits.equal_margin * evidence.delta_chi2);
+  int kept = 0;
+  std::erase_if(evidence.rivals, [&](const RivalFit& r) {
+    if (r.container) return false;
+    const bool keep = -r.ahead < equal || kept < 2;
+    kept += keep ? 1 : 0;
+    return !keep;
+  });
+}
+
+/// An effect that no longer earns its place leaves, the smallest gain first.
+void dropSuperfluous(const EffectSearch& search, ResidualProblem& problem, const std::vector<NuisanceColumn>& base,
+                     const SearchLimits& limits, JointFit& fit, SearchOutcome& out) {
+  problem.setNuisances(base);
+  while (fit.terms.size() > 1) {
+    std::size_t weakest = fit.terms.size();
+    JointFit best_without;
+    for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+      if (out.forced[t]) continue;
+      std::vector<ModelTerm> terms = fit.terms;
+      terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(t));
+      JointFit without = search.refine(terms, 2);
+      const double lost = fit.delta_chi2 - without.delta_chi2;
+      const double least = smallestGain(search, problem, fit, fit.terms[t], t, limits);
+      if (fit.score - without.score > 8.0 && lost > least) continue;
+      if (weakest < fit.terms.size() && without.score < best_without.score) continue;
+      weakest = t;
+      best_without = std::move(without);
+    }
+    if (weakest == fit.terms.size()) return;
+    out.steps.push_back({fit.terms[weakest].effect->id, false, fit.score - best_without.score,
+                         fit.delta_chi2 - best_without.delta_chi2, "left again: the other effects explain it"});
+    fit = std::move(best_without);
+    const auto at = static_cast<std::ptrdiff_t>(weakest);
+    out.forced.erase(out.forced.begin() + at);
+    if (out.evidence.size() > weakest) out.evidence.erase(out.evidence.begin() + at);
   }
 }
 
@@ -137,15 +162,9 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
   problem.setNuisances(base);
   out.chi2_before = problem.projectedResidual().squaredNorm();
   out.dof_before = problem.degreesOfFreedom();
-  const double log_n = search.logN();
   std::vector<std::string> rejected = options.reject;
   JointFit fit;
   fit.chi2 = out.chi2_before;
-
-  const auto significant = [&](double delta, int k, double tried) {
-    return delta > 0.0 && chiSquaredTail(delta, std::max(1, k)) * tried < options.false_alarm_rate &&
-           delta > k * log_n + 8.0;
-  };
 
   for (const std::string& id : options.accept) {
     const Effect* effect = search.find(id);
@@ -161,79 +180,11 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
     out.steps.push_back({id, true, candidate.score, candidate.delta_chi2, "accepted by the user"});
   }
 
-  const auto extend = [&](JointFit current, int most, std::vector<DiscrepancyStep>& steps) {
-    while (static_cast<int>(current.terms.size()) < most) {
-      job.throwIfCancelled();
-      job.report(0.1 + 0.15 * static_cast<double>(current.terms.size()), "trying every effect");
-      problem.setNuisances(nuisancesOf(search, base, current, current.terms.size(), limits.model_error));
-      std::vector<std::string> without = idsOf(current.terms);
-      without.insert(without.end(), rejected.begin(), rejected.end());
-      std::vector<CandidateFit> candidates = search.sweep(without, job);
-      // A refinement of an accepted effect (or what it contains) is no name of its own.
-      std::erase_if(candidates, [&](const CandidateFit& c) {
-        return std::any_of(current.terms.begin(), current.terms.end(), [&](const ModelTerm& term) {
-          return (c.term.effect->refinement && contains(*c.term.effect, term.effect->id)) ||
-                 contains(*term.effect, c.term.effect->id);
-        });
-      });
-      if (candidates.empty()) break;
-      double tried = 0.0;
-      for (const CandidateFit& c : candidates) tried += c.tried;
-      // Among those that are nearly as good as the best, the simplest.
-      std::size_t chosen = 0;
-      for (std::size_t c = 1; c < candidates.size(); ++c) {
-        const double margin = std::max(12.0, limits.container_margin * candidates[0].delta_chi2);
-        if (candidates[c].score < candidates[0].score - margin) break;
-        if (contains(*candidates[chosen].term.effect, candidates[c].term.effect->id)) chosen = c;
-      }
-      const CandidateFit& candidate = candidates[chosen];
-      DiscrepancyStep step{candidate.term.effect->id, false, candidate.score, candidate.delta_chi2, ""};
-      const Dynamics dynamics = candidate.term.variant.inputs[0].dynamics;
-      const bool onset = dynamics == Dynamics::Step || dynamics == Dynamics::Pulse;
-      const double onset_effects =
-          static_cast<double>(std::count_if(candidates.begin(), candidates.end(), [](const CandidateFit& c) {
-            const Dynamics d = c.term.variant.inputs[0].dynamics;
-            return d == Dynamics::Step || d == Dynamics::Pulse;
-          }));
-      const bool by_chance = onset
-                                 ? !(candidate.score > 8.0) || onsetPValue(search, problem, candidate) * onset_effects >
-                                                                   options.false_alarm_rate
-                                 : !significant(candidate.delta_chi2, candidate.parameter_count, tried);
-      if (by_chance) {
-        step.reason = "no more than the largest of all effects tried gains by chance";
-        steps.push_back(step);
-        break;
-      }
-      if (!current.terms.empty() && candidate.delta_chi2 < limits.smallest_part * current.delta_chi2) {
-        step.reason = "too small beside what the accepted effects may miss";
-        steps.push_back(step);
-        break;
-      }
-      problem.setNuisances(base);
-      const JointFit before = current;
-      std::vector<ModelTerm> terms = current.terms;
-      terms.push_back(candidate.term);
-      JointFit joint = search.refine(terms, 2);
-      const auto cv = search.crossValidate(before.terms, joint.terms, base);
-      // What happens within one block (a warm-up at the start) cannot be learnt without it: then every fifth state
-      // decides.
-      const auto scattered = search.crossValidate(before.terms, joint.terms, base, true);
-      if (!(cv.after_chi2 < cv.before_chi2) && !(scattered.after_chi2 + 8.0 < scattered.before_chi2)) {
-        step.reason = "does not predict blocks of states that were left out";
-        steps.push_back(step);
-        break;
-      }
-      joint = refineDynamics(search, joint, 0, base);
-      step.accepted = true;
-      step.reason = "";
-      steps.push_back(step);
-      current = std::move(joint);
-    }
-    return current;
-  };
-  fit = extend(std::move(fit), options.max_effects, out.steps);
+  const ForwardSearch forward(search, problem, base, options, limits, job);
+  fit = forward.run(std::move(fit), out.steps);
 
   out.forced.resize(fit.terms.size(), false);
+  dropSuperfluous(search, problem, base, limits, fit, out);
 
   // Rivals and exchanges: every term against every other effect, the other terms kept.
   job.report(0.7, "comparing rivals");
@@ -253,24 +204,37 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
     problem.setNuisances(nuisancesOf(search, base, fit, t, 0.5 * limits.model_error));
     std::vector<std::string> without = idsOf(fit.terms);
     std::vector<CandidateFit> candidates = search.sweep(without, job);
+    // What the effect itself gains beside the others, measured in the same way.
+    const double own = std::min(evidence.delta_chi2, search.best(*fit.terms[t].effect).delta_chi2);
     problem.setNuisances(base);
     if (candidates.size() > 6) candidates.resize(6);
-    const std::string& id = fit.terms[t].effect->id;
     const double rival_margin = std::max(12.0, limits.rival_margin * evidence.delta_chi2);
     const double container_margin = std::max(20.0, limits.container_margin * evidence.delta_chi2);
     bool exchanged = false;
     for (const CandidateFit& candidate : candidates) {
       const Effect& other = *candidate.term.effect;
       const bool rejected_id = std::find(rejected.begin(), rejected.end(), other.id) != rejected.end();
-      if (candidate.delta_chi2 < 0.7 * evidence.delta_chi2 || rejected_id) continue;
+      if (candidate.delta_chi2 < 0.7 * own || rejected_id) continue;
       std::vector<ModelTerm> terms = fit.terms;
       terms[t] = candidate.term;
       JointFit joint = search.refine(terms, 2);
       joint = refineDynamics(search, joint, t, base);
-      const bool is_container = contains(other, id);
-      const bool is_simpler = contains(*fit.terms[t].effect, other.id);
+      const bool is_container = holds(search, other, *fit.terms[t].effect);
+      const bool is_simpler = !is_container && holds(search, *fit.terms[t].effect, other);
       const double ahead = joint.score - fit.score;
-      const bool swap = is_container ? ahead > container_margin : is_simpler ? ahead > -container_margin : ahead > 0.5;
+      double simpler_margin = container_margin;
+      const bool wider_shape = search.shape(*fit.terms[t].effect).cols() > search.shape(other).cols();
+      if (is_simpler && wider_shape && !(ahead > -container_margin)) {
+        // The simpler shape with the course in time of the wider: if that does nearly as well, what the wider gains it
+        // gains by drivers that happen to fit, and its shape is not what is seen.
+        std::vector<ModelTerm> narrowed = fit.terms;
+        narrowed[t].effect = &other;
+        const double lost = fit.delta_chi2 - search.solve(narrowed).delta_chi2;
+        if (lost < limits.shape_part * evidence.delta_chi2) {
+          simpler_margin = std::max(container_margin, limits.shape_part * evidence.delta_chi2);
+        }
+      }
+      const bool swap = is_container ? ahead > container_margin : is_simpler ? ahead > -simpler_margin : ahead > 0.5;
       if (swap && exchanges < 4 && !out.forced[t]) {
         ++exchanges;
         exchanged = true;
@@ -279,22 +243,21 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
       }
       if (is_simpler) continue;
       if (!is_container) evidence.margin = std::min(evidence.margin, -ahead);
-      if (ahead > -rival_margin) evidence.rivals.push_back({other.id, joint.score, is_container, joint});
+      if (ahead > -rival_margin) evidence.rivals.push_back({other.id, joint.score, is_container, joint, false, ahead});
     }
     if (exchanged) {
       --t;
       continue;
     }
+    keepClosestRivals(evidence, limits);
     out.evidence[t] = std::move(evidence);
   }
 
   // A simpler effect beside one that contains it leaves, where the larger can do without it.
   for (std::size_t t = fit.terms.size(); t-- > 0;) {
     const std::string id = fit.terms[t].effect->id;
-    if (out.forced[t] || std::none_of(fit.terms.begin(), fit.terms.end(),
-                                      [&](const ModelTerm& other) { return contains(*other.effect, id); })) {
-      continue;
-    }
+    const auto covers = [&](const ModelTerm& other) { return contains(*other.effect, id); };
+    if (out.forced[t] || std::none_of(fit.terms.begin(), fit.terms.end(), covers)) continue;
     std::vector<ModelTerm> terms = fit.terms;
     terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(t));
     problem.setNuisances(base);
@@ -302,24 +265,12 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
     // What the larger lacks without it is the model error of its dynamics rather than a cause of its own.
     if (joint.score < fit.score - std::max(20.0, limits.contained_part * fit.delta_chi2)) continue;
     out.steps.push_back({id, false, fit.score - joint.score, fit.delta_chi2 - joint.delta_chi2,
-                         "left again: contained in another effect of the model"});
+                         "left again: another effect of the model does nearly as well without it"});
     fit = std::move(joint);
     out.evidence.erase(out.evidence.begin() + static_cast<std::ptrdiff_t>(t));
     out.forced.erase(out.forced.begin() + static_cast<std::ptrdiff_t>(t));
   }
-  // An effect that no longer earns its place leaves.
-  for (std::size_t t = fit.terms.size(); t-- > 0;) {
-    if (out.forced[t] || fit.terms.size() < 2) continue;
-    if (out.evidence[t].delta_bic > 8.0 && out.evidence[t].delta_chi2 > limits.smallest_part * fit.delta_chi2) continue;
-    std::vector<ModelTerm> terms = fit.terms;
-    out.steps.push_back({terms[t].effect->id, false, out.evidence[t].delta_bic, out.evidence[t].delta_chi2,
-                         "left again: the other effects explain it"});
-    terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(t));
-    problem.setNuisances(base);
-    fit = search.refine(terms, 2);
-    out.evidence.erase(out.evidence.begin() + static_cast<std::ptrdiff_t>(t));
-    out.forced.erase(out.forced.begin() + static_cast<std::ptrdiff_t>(t));
-  }
+  dropSuperfluous(search, problem, base, limits, fit, out);
   problem.setNuisances(base);
   if (!fit.terms.empty()) fit = search.refine(fit.terms, 1);
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {

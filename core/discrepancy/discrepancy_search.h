@@ -12,16 +12,22 @@ namespace spindrift {
 
 /// Limits of the search. Parts are of power (chi-squared) unless they say "amplitude".
 struct SearchLimits {
-  double model_error = 0.08;         ///< amplitude: how far an accepted effect may be from the machine's own behaviour
-  double leftover_error = 0.10;      ///< the same, where it is decided whether what is left speaks for an unknown cause
-  double container_margin = 0.01;    ///< part of an effect's power by which a container must be better to be named
-  double contained_part = 0.05;      ///< part of the power that an effect beside one that contains it must bring
-  double rival_margin = 0.01;        ///< part of an effect's power within which another effect is a rival
-  double smallest_part = 0.01;       ///< part of the power explained so far that a further effect must have
-  double least_explained = 0.95;     ///< part of the structured power below which nothing is named
-  double unknown_advantage = 0.0;    ///< in BIC, by which an unknown course may be better than the effects named
-  double least_over_leftover = 0.8;  ///< an effect's power beside what is left in its component
-  int most_in_one_component = 2;     ///< effects; more of them imitate any course
+  double model_error = 0.08;       ///< amplitude: how far an accepted effect may be from the machine's own behaviour
+  double leftover_error = 0.10;    ///< the same, where it is decided whether what is left speaks for an unknown cause
+  double container_margin = 0.01;  ///< part of an effect's power by which a container must be better to be named
+  double contained_part = 0.05;    ///< part of the power that an effect beside one that contains it must bring
+  double equal_margin = 0.0015;    ///< the same, within which all rivals count, however many
+  double shape_part = 0.05;        ///< part of a wide effect's power that its wider shape must bring
+  double rival_margin = 0.01;      ///< part of an effect's power within which another effect is a rival
+  double smallest_part = 0.01;     ///< part of the power explained so far that a further effect must have
+  double smallest_in_component = 0.03;  ///< the same, of the power in the component in which it mainly acts
+  double least_explained = 0.95;        ///< part of the structured power below which nothing is named
+  double unknown_advantage = 0.0;       ///< in BIC, by which an unknown course may be better than the effects named
+  double least_over_leftover = 0.8;     ///< an effect's power beside what is left in its component
+  double start_part = 0.2;              ///< of the best effect's power that another start must have
+  double start_margin = 0.004;          ///< part of the power that each name more must add when starts are compared
+  std::size_t most_starts = 6;          ///< other starts that are followed
+  int most_in_one_component = 2;        ///< effects; more of them imitate any course
 };
 
 struct RivalFit {
@@ -30,6 +36,7 @@ struct RivalFit {
   bool container = false;
   JointFit joint;
   bool undriven = false;  ///< its driver is not logged: it cannot be fitted, nor told apart
+  double ahead = 0.0;     ///< in score, of the effect it would replace
 };
 
 struct TermEvidence {

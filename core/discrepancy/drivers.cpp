@@ -126,6 +126,14 @@ DriverTable::DriverTable(const MachineDescription& machine, const OperatingLog* 
     for (std::size_t i = 0; i < n; ++i) difference[i] = front[i] / fronts - rear[i] / rears;
     add({"column_difference", "K", true, SensorRole::Other, difference});
   }
+  if (const auto* on = log->signal("coolant")) {
+    for (const std::string& room : this->room()) {
+      std::vector<double> product = scaled(*on, 1.0, 1.0);
+      const std::vector<double>& rise = find(room)->values;
+      for (std::size_t i = 0; i < n; ++i) product[i] *= rise[i];
+      add({"coolant*" + room, "on_K", false, SensorRole::Other, std::move(product)});
+    }
+  }
   if (rpm != nullptr) {
     for (const char* axis : {"x", "y", "z"}) {
       const auto* position = log->signal(fmt::format("pos_{}_mm", axis));

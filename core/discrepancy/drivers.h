@@ -31,9 +31,9 @@ struct Driver {
 };
 
 /// Signals by name: "spindle_rpm^1", "^1.5", "^2" (krpm^p), "feed_x" (m/min), "speed_c", "coolant", "instrument_on",
-/// every temperature under its own name, "column_difference" (front minus rear), and heat times position
-/// "spindle_rpm^1*pos_y", and "instrument_on_assumed" (on from the first row) where the log does not say when the
-/// instrument was switched on. Signals that never change are left out and named in `dead`.
+/// "coolant*T_room" (on x K), every temperature under its own name, "column_difference" (front minus rear), and heat
+/// times position "spindle_rpm^1*pos_y", and "instrument_on_assumed" (on from the first row) where the log does not say
+/// when the instrument was switched on. Signals that never change are left out and named in `dead`.
 class DriverTable {
  public:
   DriverTable() = default;

@@ -14,8 +14,9 @@ namespace {
 
 using Eigen::Index;
 
+/// One or two drivers that go together (heat, and heat times a position) after one lag.
 struct LagOption {
-  std::string driver;
+  std::vector<std::string> drivers;
   double tau_s = 0.0;
   bool room_beside = false;  // the room, where the effect itself is not driven by it
 };
@@ -23,6 +24,7 @@ struct LagOption {
 struct SetGain {
   double delta = -1.0;
   double room_part = 0.0;
+  double cancellation = 1.0;  // sizes of the inputs added, over the size of what they make together
 };
 
 /// Gain in chi-squared of a set of options, and how large the room is beside the largest other input.
@@ -49,12 +51,16 @@ SetGain gainOf(const std::vector<std::size_t>& set, const std::vector<LagOption>
   out.delta = b.size() > 0 ? r.dot(beta) : 0.0;
   double own = 0.0;
   double room = 0.0;
+  double sizes = 0.0;
   for (std::size_t i = 0; i < set.size(); ++i) {
     const auto at = static_cast<Index>(i) * k;
     const double power = beta.segment(at, k).dot(g.block(at, at, k, k) * beta.segment(at, k));
+    sizes += std::sqrt(std::max(0.0, power));
     double& largest = options[set[i]].room_beside ? room : own;
     largest = std::max(largest, power);
   }
+  const double together = beta.dot(g * beta);
+  out.cancellation = together > 0.0 ? sizes / std::sqrt(together) : 1e9;
   out.room_part = own > 0.0 ? std::sqrt(room / own) : 1e9;
   return out;
 }
@@ -63,36 +69,49 @@ SetGain gainOf(const std::vector<std::size_t>& set, const std::vector<LagOption>
 
 JointFit EffectSearch::refineDynamics(JointFit fit, std::size_t t, const std::vector<NuisanceColumn>& base) const {
   constexpr double largest_room_part = 0.35;
+  // A body that warms through another one has two lags whose gains differ in sign, but they do not cancel; large gains
+  // that do, imitate the course of any driver.
+  constexpr double most_cancellation = 3.0;
   const ModelTerm term = fit.terms[t];
   const Dynamics first = term.variant.inputs[0].dynamics;
   if (first != Dynamics::Lag && first != Dynamics::AsymmetricLag) return fit;
   const Effect& effect = *term.effect;
-  const Index k = shape(effect).cols();
-  if (term.variant.shared_lag) return fit;
+  // Where inputs share their lag (heat, and heat times a position) they go together, two to an option.
+  const EffectVariant& usual = effect.variants.front();
+  const bool paired = usual.shared_lag && usual.inputs.size() == 2;
+  const Index k = shape(effect).cols() * (paired ? 2 : 1);
   constexpr std::size_t most_inputs = 3;
   const double longest = parameterBounds({&effect, {{{"", Dynamics::Lag}}, false}, {0.0}}, 0).second;
   std::vector<LagOption> options;
-  const auto addDriver = [&](const std::string& driver, bool room_beside) {
-    if (std::any_of(options.begin(), options.end(), [&](const LagOption& o) { return o.driver == driver; })) return;
-    if (drivers_->find(driver)->linear) options.push_back({driver, 0.0, room_beside});
+  const auto addDrivers = [&](const std::vector<std::string>& drivers, bool room_beside) {
+    if (std::any_of(options.begin(), options.end(), [&](const LagOption& o) { return o.drivers == drivers; })) return;
+    if (drivers.size() == 1 && drivers_->find(drivers[0])->linear) options.push_back({drivers, 0.0, room_beside});
     for (const double tau : lags_) {
-      if (tau <= longest) options.push_back({driver, tau, room_beside});
+      if (tau <= longest) options.push_back({drivers, tau, room_beside});
     }
   };
   for (const EffectVariant& variant : effect.variants) {
-    if (variant.shared_lag) continue;
+    if (variant.shared_lag != paired || (paired && variant.inputs.size() != 2)) continue;
+    if (paired) {
+      addDrivers({variant.inputs[0].driver, variant.inputs[1].driver}, false);
+      continue;
+    }
     for (const EffectInput& input : variant.inputs) {
-      if (input.dynamics == Dynamics::Lag) addDriver(input.driver, false);
+      if (input.dynamics == Dynamics::Lag) addDrivers({input.driver}, false);
     }
   }
-  if (effect.follows_room) {
-    for (const std::string& room : drivers_->room()) addDriver(room, true);
+  if (effect.follows_room && !paired) {
+    for (const std::string& room : drivers_->room()) addDrivers({room}, true);
   }
   // Columns of all options, orthogonal to the nuisances and to the other terms.
   Eigen::MatrixXd x(problem_->size(), static_cast<Index>(options.size()) * k);
   for (std::size_t o = 0; o < options.size(); ++o) {
-    const Eigen::VectorXd& q = unitResponse(options[o].driver, options[o].tau_s, -1.0);
-    x.middleCols(static_cast<Index>(o) * k, k).noalias() = q.asDiagonal() * shape(effect);
+    const Index each = shape(effect).cols();
+    for (std::size_t d = 0; d < options[o].drivers.size(); ++d) {
+      const Eigen::VectorXd& q = unitResponse(options[o].drivers[d], options[o].tau_s, -1.0);
+      const Index at = static_cast<Index>(o) * k + static_cast<Index>(d) * each;
+      x.middleCols(at, each).noalias() = q.asDiagonal() * shape(effect);
+    }
   }
   x = problem_->projected(x);
   Eigen::VectorXd y = problem_->projectedResidual();
@@ -133,7 +152,8 @@ JointFit EffectSearch::refineDynamics(JointFit fit, std::size_t t, const std::ve
         if (std::find(trial.begin(), trial.end(), o) != trial.end() && o != trial[place]) continue;
         moved[place] = o;
         const SetGain value = gainOf(moved, options, k, gram, b);
-        if (value.room_part > largest_room_part || !(value.delta > gain)) continue;
+        const bool allowed = value.room_part <= largest_room_part && value.cancellation <= most_cancellation;
+        if (!allowed || !(value.delta > gain)) continue;
         gain = value.delta;
         found = o;
       }
@@ -156,23 +176,66 @@ JointFit EffectSearch::refineDynamics(JointFit fit, std::size_t t, const std::ve
     changed.variant = {};
     changed.parameters.clear();
     for (const std::size_t o : trial) {
-      changed.variant.inputs.push_back({options[o].driver, Dynamics::Lag});
-      changed.parameters.push_back(options[o].tau_s);
+      for (const std::string& driver : options[o].drivers) {
+        changed.variant.inputs.push_back({driver, Dynamics::Lag});
+        changed.parameters.push_back(options[o].tau_s);
+      }
+    }
+    if (paired && trial.size() == 1) {
+      changed.variant.shared_lag = true;
+      changed.parameters.resize(1);
     }
     next = refine(next.terms, 1);
-    if (inputs > 1 || next.score > best.score + 4.0) {
-      if (!(next.score > best.score + 4.0)) break;
-      const CrossValidation blocks = crossValidate(best.terms, next.terms, base);
-      const CrossValidation scattered = crossValidate(best.terms, next.terms, base, true);
-      const bool better = blocks.after_chi2 < blocks.before_chi2;
-      const bool as_good = blocks.after_chi2 < 1.02 * blocks.before_chi2;
-      // What happens within one block cannot be predicted without it, whatever its dynamics.
-      const bool blind = blocks.before_chi2 > 2.0 * scattered.before_chi2;
-      if (!better && !((as_good || blind) && scattered.after_chi2 + 8.0 < scattered.before_chi2)) break;
-      best = std::move(next);
-    }
+    if (inputs == 1 && !(next.score > best.score + 4.0)) continue;
+    if (!predictsBetter(best, next, base)) break;
+    best = std::move(next);
   }
-  return best;
+  return withAsymmetricLag(std::move(best), t, base);
+}
+
+bool EffectSearch::predictsBetter(const JointFit& before, const JointFit& after,
+                                  const std::vector<NuisanceColumn>& base) const {
+  if (!(after.score > before.score + 4.0)) return false;
+  const CrossValidation blocks = crossValidate(before.terms, after.terms, base);
+  const CrossValidation scattered = crossValidate(before.terms, after.terms, base, true);
+  if (blocks.after_chi2 < blocks.before_chi2) return true;
+  const bool as_good = blocks.after_chi2 < 1.02 * blocks.before_chi2;
+  // What happens within one block cannot be predicted without it, whatever its dynamics.
+  const bool blind = blocks.before_chi2 > 2.0 * scattered.before_chi2;
+  return (as_good || blind) && scattered.after_chi2 + 8.0 < scattered.before_chi2;
+}
+
+JointFit EffectSearch::withAsymmetricLag(JointFit fit, std::size_t t, const std::vector<NuisanceColumn>& base) const {
+  const ModelTerm& term = fit.terms[t];
+  if (term.variant.shared_lag) return fit;
+  // The input that moves most among those that are switched: air that motion stirs lets a body cool faster than it
+  // cools at rest.
+  const Index k = shape(*term.effect).cols();
+  const Eigen::MatrixXd x = problem_->projected(columns(term));
+  std::size_t input = term.variant.inputs.size();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < term.variant.inputs.size(); ++i) {
+    const EffectInput& candidate = term.variant.inputs[i];
+    if (candidate.dynamics != Dynamics::Lag || drivers_->find(candidate.driver)->linear) continue;
+    const auto at = static_cast<Index>(i) * k;
+    const double size = (x.middleCols(at, k) * fit.gains[t].segment(at, k)).norm();
+    if (!(size > largest)) continue;
+    largest = size;
+    input = i;
+  }
+  if (input == term.variant.inputs.size() || !(term.parameters[input] > 0.0)) return fit;
+  JointFit best = fit;
+  for (const double ratio : {0.4, 2.5}) {
+    JointFit next = fit;
+    ModelTerm& changed = next.terms[t];
+    changed.variant.inputs[input].dynamics = Dynamics::AsymmetricLag;
+    const auto at = changed.parameters.begin() + static_cast<std::ptrdiff_t>(input);
+    changed.parameters.insert(at + 1, changed.parameters[input] * ratio);
+    next = refine(next.terms, 1);
+    if (next.score > best.score) best = std::move(next);
+  }
+  if (best.score > fit.score && predictsBetter(fit, best, base)) return best;
+  return fit;
 }
 
 }  // namespace spindrift

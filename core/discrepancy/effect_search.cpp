@@ -102,6 +102,10 @@ const Eigen::MatrixXd& EffectSearch::shape(const Effect& effect) const {
                                                           problem_->component[static_cast<std::size_t>(u)]);
     }
   }
+  // A periodic error at points a whole number of pitches apart is nothing but rounding.
+  for (Index k = 0; k < s.cols(); ++k) {
+    if (s.col(k).cwiseAbs().maxCoeff() < 1e-9) s.col(k).setZero();
+  }
   return shapes_.emplace(effect.id, std::move(s)).first->second;
 }
 

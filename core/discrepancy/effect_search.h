@@ -87,6 +87,11 @@ class EffectSearch {
 
  private:
   [[nodiscard]] const Eigen::VectorXd& unitResponse(const std::string& driver, double tau_on, double tau_off) const;
+  /// True if a refinement of the same effects has the better score and predicts states left out better, too.
+  [[nodiscard]] bool predictsBetter(const JointFit& before, const JointFit& after,
+                                    const std::vector<NuisanceColumn>& base) const;
+  /// Another time constant while the driver is off, where that predicts better.
+  [[nodiscard]] JointFit withAsymmetricLag(JointFit fit, std::size_t t, const std::vector<NuisanceColumn>& base) const;
   [[nodiscard]] CandidateFit bestOfVariant(const Effect& effect, const EffectVariant& variant) const;
 
   ResidualProblem* problem_;

@@ -11,6 +11,9 @@ namespace {
 
 using Eigen::Index;
 
+/// Variance of a prediction over that of the noise beyond which its error says nothing about the model.
+constexpr double most_leverage = 10.0;
+
 }  // namespace
 
 std::vector<NuisanceColumn> EffectSearch::termNuisances(const ModelTerm& term, const Eigen::VectorXd& gains,
@@ -181,11 +184,17 @@ EffectSearch::CrossValidation EffectSearch::crossValidate(const std::vector<Mode
         gram(c, c) = gram(c, c) * (1.0 + 1e-6) + 1e-12;
       }
       Eigen::VectorXd beta = Eigen::VectorXd::Zero(x.cols());
-      if (x.cols() > 0) beta = gram.ldlt().solve(b);
+      const Eigen::LDLT<Eigen::MatrixXd> ldlt(gram);
+      if (x.cols() > 0) beta = ldlt.solve(b);
       for (Index u = 0; u < n; ++u) {
         if (!left_out(u) || weight[u] == 0.0) continue;
         const double error = r[u] - a.row(u).dot(beta);
-        chi2 += error * error * weight[u] * weight[u];
+        // Minus twice the logarithm of the predictive density, the noise's own part left out: what the states that
+        // remained do not determine is predicted with little confidence, not wrongly.
+        const Eigen::VectorXd row = a.row(u).transpose() * weight[u];
+        const double leverage = x.cols() > 0 ? std::max(0.0, row.dot(ldlt.solve(row))) : 0.0;
+        chi2 += error * error * weight[u] * weight[u] / (1.0 + leverage) + std::log1p(leverage);
+        if (leverage > most_leverage) continue;
         if (!isRotation(problem_->component[static_cast<std::size_t>(u)])) {
           sum += error * error;
           count += 1.0;

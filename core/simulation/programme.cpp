@@ -57,10 +57,12 @@ Programme randomProgramme(const MachineDescription& machine, const RandomProgram
   };
   std::vector<Change> changes;
   ProgrammeSegment first;
-  const std::vector<double> parts{0.1, 0.5, 0.9};
   for (int axis = 0; axis < 3; ++axis) {
     const LinearAxis* a = machine.findAxis(std::string(1, "XYZ"[axis]));
-    if (a != nullptr) first.position_mm[static_cast<std::size_t>(axis)] = 0.5 * (a->travel_mm[0] + a->travel_mm[1]);
+    const double part = options.places.size() == 1 ? options.places[0] : 0.5;
+    if (a != nullptr) {
+      first.position_mm[static_cast<std::size_t>(axis)] = a->travel_mm[0] + part * (a->travel_mm[1] - a->travel_mm[0]);
+    }
   }
   first.stroke_part.fill(options.stroke_part);
   first.instrument_on = options.instrument_on_s <= 0.0;
@@ -78,7 +80,7 @@ Programme randomProgramme(const MachineDescription& machine, const RandomProgram
     draw(1 + axis, a != nullptr ? options.feeds_mm_min : std::vector<double>{0.0}, 0.0);
     std::vector<double> places;
     if (a != nullptr && options.move) {
-      for (const double part : parts) {
+      for (const double part : options.places) {
         places.push_back(a->travel_mm[0] + part * (a->travel_mm[1] - a->travel_mm[0]));
       }
     }

@@ -47,6 +47,7 @@ struct RandomProgrammeOptions {
   std::vector<double> c_speeds_rpm{0.0, 10.0, 30.0, 60.0};  ///< used only if the machine has a rotary axis
   bool coolant = true;                                      ///< switched on and off during the day
   bool move = true;                                         ///< the place of the work changes
+  std::vector<double> places{0.1, 0.5, 0.9};                ///< of the work, parts of the travel of each axis
   double stroke_part = 0.8;                                 ///< travel of the nuts as a part of the axis' travel
   double instrument_on_s = 0.0;                             ///< the instrument is off before
 };

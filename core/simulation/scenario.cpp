@@ -78,6 +78,7 @@ RandomProgrammeOptions parseRandom(const JsonNode& node) {
   o.c_speeds_rpm = numbersOr(node, "c_speeds_rpm", o.c_speeds_rpm);
   o.coolant = node.booleanOr("coolant", o.coolant);
   o.move = node.booleanOr("move", o.move);
+  o.places = numbersOr(node, "places", o.places);
   o.stroke_part = positive(node, "stroke_part", o.stroke_part);
   o.instrument_on_s = nonNegative(node, "instrument_on_s", o.instrument_on_s);
   return o;

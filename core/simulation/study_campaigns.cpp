@@ -278,7 +278,11 @@ StudyCase studyCase(const StudyOptions& options, std::uint64_t seed) {
   s.random_programme.duration_s = s.duration_s;
   s.random_programme.mean_hold_s = random.uniform(2000.0, 4000.0);
   for (const std::string& id : hidden) {
-    if (id.starts_with("ball_screw.nonuniform")) s.random_programme.stroke_part = 0.35;
+    if (!id.starts_with("ball_screw.nonuniform")) continue;
+    // The same part of the screw works all day, nearer to one end than to the other.
+    const double place = random.uniform(0.12, 0.28);
+    s.random_programme.places = {random.uniform() < 0.5 ? place : 1.0 - place};
+    s.random_programme.stroke_part = 0.35;
   }
   for (const std::string& id : base) {
     ScenarioEffect effect;

@@ -36,24 +36,28 @@ void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& o
                          const double p = (q.position_mm[axis] - origin) * 1e-3;
                          return uniform ? p : p * p;
                        }}};
+      // Of the heat that stays where the nut travels the rest of the screw lacks its share: a slope beside the square.
+      if (!uniform) {
+        effect.shape.push_back({"um_per_m", [component, axis, origin](const DeviationQuery& q, Component c) {
+                                  return c == component ? (q.position_mm[axis] - origin) * 1e-3 : 0.0;
+                                }});
+      }
       if (!known) {
         effect.shape.push_back(constantShape(component));
         effect.free_origin = uniform;
         effect.origin_low_mm = linear->travel_mm[0] - 500.0;
         effect.origin_high_mm = linear->travel_mm[1] + 500.0;
-        if (!uniform) {
-          effect.shape.push_back({"um_per_m", [component, axis](const DeviationQuery& q, Component c) {
-                                    return c == component ? q.position_mm[axis] * 1e-3 : 0.0;
-                                  }});
-        }
       }
       if (drivers.has(feed)) {
         effect.variants.push_back({{{feed, Dynamics::Lag}}, false});
-        for (const std::string& r : room)
-          effect.variants.push_back({{{feed, Dynamics::Lag}, {r, Dynamics::Lag}}, false});
+        // A linear scale follows the room by itself; a screw beside it has to show the heat of its own motion.
+        if (linear->scale != "linear_scale") {
+          for (const std::string& r : room)
+            effect.variants.push_back({{{feed, Dynamics::Lag}, {r, Dynamics::Lag}}, false});
+        }
       }
-      // A linear scale follows the room by itself; a screw beside it has to show the heat of its own motion.
       if (linear->scale != "linear_scale") addLagVariants(effect, room);
+      effect.follows_room = linear->scale == "linear_scale";
       addLagVariants(effect, screw);
       effect.driver_missing = !drivers.has(feed);
       effect.refinement = !uniform;

@@ -15,6 +15,12 @@ void addCoolantEffects(const CatalogueContext& context, std::vector<Effect>& out
     effect.shape = {constantShape(static_cast<Component>(axis))};
     if (logged) {
       addLagVariants(effect, {"coolant"});
+      // Coolant of a temperature of its own cools the more, the warmer the room is.
+      for (const std::string& room : context.drivers->room()) {
+        const std::string product = "coolant*" + room;
+        if (!context.drivers->has(product)) continue;
+        effect.variants.push_back({{{"coolant", Dynamics::Lag}, {product, Dynamics::Lag}}, false});
+      }
       effect.variants.push_back({{{"coolant", Dynamics::AsymmetricLag}}, false});
     } else {
       // Not logged: on for one unknown span of time.

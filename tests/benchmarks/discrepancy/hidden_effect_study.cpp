@@ -75,6 +75,7 @@ struct Outcomes {
   std::vector<double> search_ms;
   std::map<std::string, std::pair<int, int>> by_effect;  // right, count
   std::vector<std::string> misses;
+  std::vector<std::string> poorly_explained;
 };
 
 std::string rate(int k, int n) {
@@ -154,6 +155,11 @@ void runOne(const Assignment& which, bool plain, Outcomes& all, std::mutex& mute
   if (!made.hidden.empty() && cell.kind != StudyKind::Outside) {
     const double explained = explainedFraction(campaign, result.effect_part);
     if (std::isfinite(explained)) all.explained[which.cell].push_back(explained);
+    if (outcome == Outcome::Named && cell.strength >= 4.0 && explained < 0.95) {
+      all.poorly_explained.push_back(fmt::format("seed {:5} {:20} hidden {:42} explained {:5.1f} % by {}", which.seed,
+                                                 cell.name, joinedList(made.hidden), 100.0 * explained,
+                                                 result.effects.front().drivers));
+    }
   }
   if (cell.kind == StudyKind::One) {
     auto& [right, count] = all.by_effect[made.hidden.front()];
@@ -293,6 +299,9 @@ int run(int argc, char** argv) {
     fmt::print("\nnot named rightly\n");
     std::sort(all.misses.begin(), all.misses.end());
     for (const std::string& miss : all.misses) fmt::print("{}\n", miss);
+    fmt::print("\nnamed rightly at strength 4 and more, but less than 95 % explained on held-out states\n");
+    std::sort(all.poorly_explained.begin(), all.poorly_explained.end());
+    for (const std::string& line : all.poorly_explained) fmt::print("{}\n", line);
     fmt::print("\nby hidden effect (one effect): right / campaigns\n");
     for (const auto& [id, count] : all.by_effect) fmt::print("{:30} {} / {}\n", id, count.first, count.second);
   }

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/forward_search.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/math/distributions.h"
+
+namespace spindrift {
+
+bool contains(const Effect& container, const std::string& simple) {
+  return std::find(container.contains.begin(), container.contains.end(), simple) != container.contains.end();
+}
+
+std::vector<std::string> idsOf(const std::vector<ModelTerm>& terms) {
+  std::vector<std::string> ids;
+  for (const ModelTerm& term : terms) ids.push_back(term.effect->id);
+  return ids;
+}
+
+std::vector<NuisanceColumn> nuisancesOf(const EffectSearch& search, const std::vector<NuisanceColumn>& base,
+                                        const JointFit& fit, std::size_t without, double model_error) {
+  std::vector<NuisanceColumn> out = base;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    if (t == without) continue;
+    for (NuisanceColumn& column : search.termNuisances(fit.terms[t], fit.gains[t], model_error)) {
+      out.push_back(std::move(column));
+    }
+  }
+  return out;
+}
+
+JointFit refineDynamics(const EffectSearch& search, JointFit fit, std::size_t from,
+                        const std::vector<NuisanceColumn>& base) {
+  for (std::size_t t = from; t < fit.terms.size(); ++t) fit = search.refineDynamics(std::move(fit), t, base);
+  return fit;
+}
+
+double smallestGain(const EffectSearch& search, const ResidualProblem& problem, const JointFit& fit,
+                    const ModelTerm& further, std::size_t without, const SearchLimits& limits) {
+  Eigen::VectorXd explained = Eigen::VectorXd::Zero(problem.size());
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    if (t == without) continue;
+    explained += (problem.projected(search.columns(fit.terms[t])) * fit.gains[t]).head(problem.size());
+  }
+  const Eigen::MatrixXd columns = problem.projected(search.columns(further)).topRows(problem.size());
+  std::map<Component, double> seen;
+  std::map<Component, double> power;
+  for (Eigen::Index u = 0; u < problem.size(); ++u) {
+    const Component c = problem.component[static_cast<std::size_t>(u)];
+    seen[c] += columns.row(u).squaredNorm();
+    power[c] += explained[u] * explained[u];
+  }
+  const auto main =
+      std::max_element(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  double all = 0.0;
+  for (const auto& [component, part] : power) all += part;
+  return std::max(limits.smallest_part * all, limits.smallest_in_component * power[main->first]);
+}
+
+namespace {
+
+bool hasOnset(const CandidateFit& candidate) {
+  const Dynamics dynamics = candidate.term.variant.inputs[0].dynamics;
+  return dynamics == Dynamics::Step || dynamics == Dynamics::Pulse;
+}
+
+}  // namespace
+
+std::vector<CandidateFit> ForwardSearch::candidatesFor(const JointFit& current) const {
+  problem_->setNuisances(nuisancesOf(*search_, *base_, current, current.terms.size(), limits_->model_error));
+  std::vector<std::string> without = idsOf(current.terms);
+  without.insert(without.end(), options_->reject.begin(), options_->reject.end());
+  std::vector<CandidateFit> candidates = search_->sweep(without, *job_);
+  // A refinement of an accepted effect (or what it contains) is no name of its own.
+  std::erase_if(candidates, [&](const CandidateFit& c) {
+    return std::any_of(current.terms.begin(), current.terms.end(), [&](const ModelTerm& term) {
+      return (c.term.effect->refinement && contains(*c.term.effect, term.effect->id)) ||
+             contains(*term.effect, c.term.effect->id);
+    });
+  });
+  return candidates;
+}
+
+bool ForwardSearch::addBest(JointFit& current, std::vector<DiscrepancyStep>& steps) const {
+  std::vector<CandidateFit> candidates = candidatesFor(current);
+  if (candidates.empty()) return false;
+  double tried = 0.0;
+  for (const CandidateFit& c : candidates) tried += c.tried;
+  // Among those that are nearly as good as the best, the simplest.
+  std::size_t chosen = 0;
+  for (std::size_t c = 1; c < candidates.size(); ++c) {
+    const double margin = std::max(12.0, limits_->container_margin * candidates[0].delta_chi2);
+    if (candidates[c].score < candidates[0].score - margin) break;
+    if (contains(*candidates[chosen].term.effect, candidates[c].term.effect->id)) chosen = c;
+  }
+  const CandidateFit& candidate = candidates[chosen];
+  DiscrepancyStep step{candidate.term.effect->id, false, candidate.score, candidate.delta_chi2, ""};
+  const auto refuse = [&](const char* reason) {
+    step.reason = reason;
+    steps.push_back(step);
+    return false;
+  };
+  const auto onset_effects = static_cast<double>(std::count_if(candidates.begin(), candidates.end(), hasOnset));
+  const auto significant = [&] {
+    if (hasOnset(candidate)) {
+      return candidate.score > 8.0 &&
+             onsetPValue(*search_, *problem_, candidate) * onset_effects <= options_->false_alarm_rate;
+    }
+    const int k = candidate.parameter_count;
+    const double delta = candidate.delta_chi2;
+    return delta > k * search_->logN() + 8.0 &&
+           chiSquaredTail(delta, std::max(1, k)) * tried < options_->false_alarm_rate;
+  };
+  if (!significant()) return refuse("no more than the largest of all effects tried gains by chance");
+  const char* const too_small = "too small beside what the accepted effects may miss";
+  if (!current.terms.empty() && candidate.delta_chi2 < limits_->smallest_part * current.delta_chi2) {
+    return refuse(too_small);
+  }
+  problem_->setNuisances(*base_);
+  std::vector<ModelTerm> terms = current.terms;
+  terms.push_back(candidate.term);
+  JointFit joint = search_->refine(terms, 2);
+  if (!current.terms.empty() &&
+      joint.delta_chi2 - current.delta_chi2 <
+          smallestGain(*search_, *problem_, current, candidate.term, current.terms.size(), *limits_)) {
+    return refuse(too_small);
+  }
+  const auto cv = search_->crossValidate(current.terms, joint.terms, *base_);
+  // What happens within one block (a warm-up at the start) cannot be learnt without it: then every fifth state decides.
+  const auto scattered = search_->crossValidate(current.terms, joint.terms, *base_, true);
+  if (!(cv.after_chi2 < cv.before_chi2) && !(scattered.after_chi2 + 8.0 < scattered.before_chi2)) {
+    return refuse("does not predict blocks of states that were left out");
+  }
+  current = refineDynamics(*search_, joint, 0, *base_);
+  step.accepted = true;
+  step.reason = "gains more than chance and predicts the states that were left out";
+  steps.push_back(step);
+  return true;
+}
+
+JointFit ForwardSearch::extend(JointFit current, std::vector<DiscrepancyStep>& steps) const {
+  while (static_cast<int>(current.terms.size()) < options_->max_effects) {
+    job_->throwIfCancelled();
+    job_->report(0.1 + 0.1 * static_cast<double>(current.terms.size()), "trying every effect");
+    if (!addBest(current, steps)) break;
+  }
+  return current;
+}
+
+bool ForwardSearch::worthOtherStarts(const JointFit& fit) const {
+  if (fit.terms.empty()) return false;
+  const bool wide = std::any_of(fit.terms.begin(), fit.terms.end(),
+                                [](const ModelTerm& term) { return !term.effect->contains.empty(); });
+  if (wide) return true;
+  problem_->setNuisances(*base_);
+  Eigen::VectorXd residual = problem_->projectedResidual();
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    residual -= problem_->projected(search_->columns(fit.terms[t])) * fit.gains[t];
+  }
+  return testStructure(*problem_, residual.head(problem_->size())).p_value < 1e-3;
+}
+
+bool ForwardSearch::better(const JointFit& challenger, const JointFit& champion) const {
+  const auto more = static_cast<double>(challenger.terms.size()) - static_cast<double>(champion.terms.size());
+  const double price = std::max(20.0, limits_->start_margin * champion.delta_chi2);
+  return challenger.score > champion.score + (more == 0.0 ? 8.0 : more * price);
+}
+
+JointFit ForwardSearch::run(JointFit forced, std::vector<DiscrepancyStep>& steps) const {
+  const std::vector<DiscrepancyStep> before = steps;
+  JointFit best = extend(forced, steps);
+  if (best.terms.size() == forced.terms.size() || !worthOtherStarts(best)) return best;
+  std::vector<CandidateFit> starts = candidatesFor(forced);
+  const double enough = limits_->start_part * (starts.empty() ? 0.0 : starts.front().delta_chi2);
+  const std::string taken = best.terms[forced.terms.size()].effect->id;
+  std::erase_if(starts, [&](const CandidateFit& c) {
+    return c.delta_chi2 < enough || c.term.effect->id == taken || c.score < 8.0;
+  });
+  if (starts.size() > limits_->most_starts) starts.resize(limits_->most_starts);
+  for (const CandidateFit& start : starts) {
+    job_->throwIfCancelled();
+    problem_->setNuisances(*base_);
+    std::vector<ModelTerm> terms = forced.terms;
+    terms.push_back(start.term);
+    std::vector<DiscrepancyStep> path = before;
+    JointFit fit = search_->refine(terms, 1);
+    fit = refineDynamics(*search_, std::move(fit), forced.terms.size(), *base_);
+    path.push_back({start.term.effect->id, true, start.score, start.delta_chi2,
+                    "taken as a start in place of " + taken + ", which explains less in the end"});
+    fit = extend(std::move(fit), path);
+    if (!better(fit, best)) continue;
+    best = std::move(fit);
+    steps = std::move(path);
+  }
+  return best;
+}
+
+}  // namespace spindrift
