@@ -346,6 +346,17 @@ inline void weights(double t, double* w, double* d, double* dd) noexcept {
   dd[3] = t;
 }
 
+/// A cell on the rim with points on one side of its node only: its node's height would be an extrapolation.
+bool halfFilledOnRim(const CellGrid& grid, int column, int row, const Eigen::Vector2d& node) {
+  const Eigen::Vector2d off = (grid.at(column, row).mean.head<2>() - node).cwiseQuotient(grid.size);
+  const auto empty = [&](int c, int r) {
+    return c < 0 || r < 0 || c >= grid.columns || r >= grid.rows || grid.at(c, r).count <= 0.0;
+  };
+  constexpr double most = 0.2;
+  return (std::abs(off.x()) > most && empty(column + (off.x() < 0.0 ? 1 : -1), row)) ||
+         (std::abs(off.y()) > most && empty(column, row + (off.y() < 0.0 ? 1 : -1)));
+}
+
 }  // namespace
 
 HeightSpline::HeightSpline(const CellGrid& grid)
@@ -366,8 +377,9 @@ HeightSpline::HeightSpline(const CellGrid& grid)
       const SurfaceCell& cell = grid.at(c, r);
       if (cell.count < least || cell.count < 2.0) continue;
       const std::size_t k = index(c + margin_, r + margin_);
-      count_[k] = static_cast<float>(cell.count);
       const Eigen::Vector2d node = origin_ + Eigen::Vector2d((c + margin_) * step_.x(), (r + margin_) * step_.y());
+      if (halfFilledOnRim(grid, c, r, node)) continue;
+      count_[k] = static_cast<float>(cell.count);
       // A cell crossed by a single profile (or column) knows its slope across only from its neighbours.
       Eigen::Vector2d slope = cell.slope;
       const auto across = [&](const SurfaceCell& low, const SurfaceCell& high, int axis) {
@@ -420,7 +432,8 @@ HeightSpline::HeightSpline(const CellGrid& grid)
 }
 
 void HeightSpline::fillHoles(std::vector<double>& heights) const {
-  // Layer by layer: the next node on a straight line (first layer: a parabola) through measured or filled ones.
+  // Layer by layer: the next node on a straight line (first layer: a cubic) through measured or filled ones. With a
+  // parabola the third derivative of the surface would bend the outermost cells and tilt a scan by some urad.
   std::vector<std::uint8_t> known(heights.size(), 0);
   for (std::size_t k = 0; k < heights.size(); ++k) known[k] = count_[k] > 0.0F ? 1 : 0;
   std::vector<std::pair<std::size_t, double>> fresh;
@@ -443,11 +456,14 @@ void HeightSpline::fillHoles(std::vector<double>& heights) const {
           out = heights[index(cc, rr)];
           return true;
         };
-        double a = 0.0, b = 0.0, d = 0.0;
+        double a = 0.0, b = 0.0, d = 0.0, e = 0.0;
         if (!value(1, a)) continue;
         if (!value(2, b)) {
           sum += 0.01 * a;
           weight += 0.01;
+        } else if (layer < 3 && value(3, d) && value(4, e)) {
+          sum += 4.0 * a - 6.0 * b + 4.0 * d - e;
+          weight += 1.0;
         } else if (layer == 0 && value(3, d)) {
           sum += 3.0 * a - 3.0 * b + d;
           weight += 1.0;

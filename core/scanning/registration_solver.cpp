@@ -238,6 +238,26 @@ RegistrationSolver::Outcome RegistrationSolver::search() const {
 
 // --- noise -----------------------------------------------------------------------------------------------------------
 
+namespace {
+
+/// Rows differ in height by errors of their own (the same everywhere) and by errors of their position along y (in
+/// proportion to the slope there). Part of the second, 0 to 1, from a line through the squares over the squared slope.
+double steepShare(const std::vector<std::pair<double, double>>& squares) {
+  const auto n = static_cast<double>(squares.size());
+  double mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0;
+  for (const auto& [x, y] : squares) {
+    mx += x / n;
+    my += y / n;
+  }
+  for (const auto& [x, y] : squares) {
+    xx += (x - mx) * (x - mx);
+    xy += (x - mx) * (y - my);
+  }
+  return xx > 0.0 && my > 0.0 ? std::clamp(xy / xx * mx / my, 0.0, 1.0) : 0.0;
+}
+
+}  // namespace
+
 RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, const CellGrid& source,
                                     const CellGrid& target, const MatrixP& inverse_normal) {
   RegistrationNoise noise;
@@ -328,6 +348,7 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
     std::array<double, 3> xx{}, xr{};
     std::array<VectorP, 3> xj;
     double count = 0.0;
+    double steepness = 0.0;  ///< mean of (dz/dy)^2: what an error of the profile's position along y does to its height
   };
   std::vector<Row> rows(static_cast<std::size_t>(source.rows));
   for (Row& row : rows) row.xj.fill(VectorP::Zero(n));
@@ -337,6 +358,7 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
     const std::array<double, 3> basis{1.0, source.cells[c.cell].mean.x() - source.centroid_mm.x(), -c.jacobian[0]};
     const double w = c.weight * c.robust;
     row.count += 1.0;
+    row.steepness += c.jacobian[1] * c.jacobian[1];
     const VectorP jacobian = c.row(n);
     for (std::size_t i = 0; i < 3; ++i) {
       row.xx[i] += w * basis[i] * basis[i];
@@ -346,20 +368,31 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
   }
   for (std::size_t i = 0; i < 3; ++i) {
     double excess = 0.0, expected = 0.0, used = 0.0;
-    for (const Row& row : rows) {
+    std::vector<std::pair<double, double>> by_steepness;  // (dz/dy)^2 of the row, excess of its square
+    for (Row& row : rows) {
+      if (i == 0 && row.count > 0.0) row.steepness /= row.count;
       if (row.count < 8.0 || row.xx[i] <= 0.0) continue;
       const double estimate = row.xr[i] / row.xx[i];
       excess += estimate * estimate;
       // Across rows the spline smooths the target's part.
-      expected += long_run * (a + ky * b) / (a + b) / row.xx[i];
+      const double white_part = long_run * (a + ky * b) / (a + b) / row.xx[i];
+      expected += white_part;
       used += 1.0;
+      by_steepness.emplace_back(row.steepness, estimate * estimate - white_part);
     }
     if (used < 8.0) continue;
     const double error = expected / used * std::sqrt(2.0 / used);
-    const double row_variance = (excess - expected) / used;
+    double row_variance = (excess - expected) / used;
     if (row_variance < 2.0 * error) continue;
-    for (const Row& row : rows)
-      if (row.count >= 1.0) middle.noalias() += row_variance * row.xj[i] * row.xj[i].transpose();
+    row_variance *= (a + b) / (a + ky * b);  // in the long run every profile of the target counts once
+    const double share = i == 0 ? steepShare(by_steepness) : 0.0;
+    double mean_steepness = 0.0;
+    for (const auto& [steepness, square] : by_steepness) mean_steepness += steepness / used;
+    for (const Row& row : rows) {
+      if (row.count < 1.0) continue;
+      const double own = share > 0.0 ? 1.0 - share + share * row.steepness / mean_steepness : 1.0;
+      middle.noalias() += own * row_variance * row.xj[i] * row.xj[i].transpose();
+    }
   }
   noise.covariance = MatrixP(inverse_normal * middle * inverse_normal).topLeftCorner<6, 6>();
   noise.white = white * MatrixP(inverse_normal * scores * inverse_normal).topLeftCorner<6, 6>();
