@@ -69,9 +69,21 @@ std::array<double, 4> circleFromText(const std::string& text) {
   return circle;
 }
 
+/// "value,uncertainty" in rad; empty: not known.
+std::optional<std::array<double, 2>> angleFromText(const char* option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::vector<std::string> parts = splitList(text);
+  std::array<double, 2> angle{};
+  if (parts.size() != 2 || !parseNumber(parts[0], angle[0]) || !parseNumber(parts[1], angle[1]))
+    throw InputError(fmt::format("{}: found '{}'; allowed: angle,standard uncertainty in rad.", option, text));
+  return angle;
+}
+
 struct CalibrateArguments {
   std::string scan;
   std::string circle;
+  std::string alpha;
+  std::string gamma;
   std::string scan_model = "rigid";
 };
 
@@ -85,6 +97,9 @@ void addCalibrate(CLI::App& app, CommandLine& line) {
                  [arguments](JobContext&) {
                    CalibrationOptions options;
                    options.scan_model = scanModelFromString(arguments->scan_model);
+                   options.known_angles_rad[0] = angleFromText("--alpha", arguments->alpha);
+                   options.known_angles_rad[2] = angleFromText("--gamma", arguments->gamma);
+                   options.validate();
                    const ProfilerCalibration c =
                        calibrateProfiler(readCloud(arguments->scan), circleFromText(arguments->circle), options);
                    return CommandResult{calibrationJson(c), calibrationSummary(c), c.usable() ? Done : NotGoodEnough};
@@ -93,6 +108,10 @@ void addCalibrate(CLI::App& app, CommandLine& line) {
   command->add_option("--circle", arguments->circle, "x,y,z,r of the pocket's rim in the tool frame (mm)")
       ->type_name("X,Y,Z,R")
       ->required();
+  command->add_option("--alpha", arguments->alpha, "Known from elsewhere: angle,standard uncertainty (rad)")
+      ->type_name("V,S");
+  command->add_option("--gamma", arguments->gamma, "Known from elsewhere: angle,standard uncertainty (rad)")
+      ->type_name("V,S");
   command->add_option("--scan-model", arguments->scan_model, "rigid or push_broom, see register")
       ->check(CLI::IsMember({"rigid", "push_broom"}))
       ->capture_default_str();

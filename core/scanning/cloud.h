@@ -64,8 +64,12 @@ struct CloudFilterOptions {
   void validate() const;
 };
 
+/// What became of a point.
+enum class PointFate : std::uint8_t { Used, Edge, Outlier, Painted };
+
 struct CloudFilterResult {
   CloudMask keep;
+  std::vector<PointFate> fate;     ///< one a point: Used, Edge or Outlier
   std::size_t edge_points = 0;     ///< dropped near edges
   std::size_t outlier_points = 0;  ///< dropped as outliers
 };

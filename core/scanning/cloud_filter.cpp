@@ -178,8 +178,15 @@ CloudFilterResult filterCloud(const PointCloud& cloud, const CloudFilterOptions&
   options.validate();
   CloudFilterResult result;
   result.keep.assign(cloud.size(), 1);
+  result.fate.assign(cloud.size(), PointFate::Used);
+  const auto note = [&result](PointFate fate) {
+    for (std::size_t i = 0; i < result.keep.size(); ++i)
+      if (result.keep[i] == 0 && result.fate[i] == PointFate::Used) result.fate[i] = fate;
+  };
   if (cloud.profileCount() >= 3) result.edge_points = trimEdges(cloud, options, result.keep);
+  note(PointFate::Edge);
   result.outlier_points = dropOutliers(cloud, options, result.keep);
+  note(PointFate::Outlier);
   return result;
 }
 

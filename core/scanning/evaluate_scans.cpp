@@ -27,7 +27,7 @@ struct ScanCovariance {
   Eigen::Matrix<double, 6, 3> turn;
 };
 
-nlohmann::json scanJson(const ScanResult& s) {
+nlohmann::json scanJson(const ScanResult& s, const Eigen::Matrix<double, 6, 6>& calibration) {
   nlohmann::json parameters = nlohmann::json::object();
   nlohmann::json at_artefact = nlohmann::json::object();
   nlohmann::json not_observed = nlohmann::json::array();
@@ -42,8 +42,11 @@ nlohmann::json scanJson(const ScanResult& s) {
     const SmallError near{s.registration.translation_mm, s.registration.rotation_rad};
     at_artefact[fmt::format("{}_{}", toString(k), unitOf(k))] = {
         {"value", seen ? nlohmann::json(valueOf(near, k)) : nlohmann::json(nullptr)},
-        {"standard_uncertainty",
-         seen ? jsonNumber(f * s.registration.standardUncertainty(i)) : nlohmann::json(nullptr)}};
+        {"standard_uncertainty", seen ? jsonNumber(f * std::sqrt(s.registration.covariance(i, i) + calibration(i, i)))
+                                      : nlohmann::json(nullptr)},
+        {"of_registration", seen ? jsonNumber(f * s.registration.standardUncertainty(i)) : nlohmann::json(nullptr)},
+        {"white_noise_bound",
+         seen ? jsonNumber(f * std::sqrt(s.registration.white_covariance(i, i))) : nlohmann::json(nullptr)}};
   }
   for (const auto& [k, reason] : s.not_observed)
     not_observed.push_back({{"component", toString(k)}, {"reason", reason}});
@@ -57,6 +60,7 @@ nlohmann::json scanJson(const ScanResult& s) {
           {"not_observed", not_observed},
           {"rms_um", jsonNumber(um_per_mm * s.registration.rms_mm)},
           {"misfit_ratio", jsonNumber(s.registration.misfit_ratio)},
+          {"noise_correlation", jsonNumber(s.registration.noise_correlation)},
           {"overlap", jsonNumber(s.registration.overlap)},
           {"points_used", s.registration.points_used},
           {"elapsed_ms", s.registration.elapsed_ms}};
@@ -123,7 +127,7 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
       rows.push_back({n, i});
     }
     covariances.push_back(c);
-    cycles.push_back(scanJson(s));
+    cycles.push_back(scanJson(s, calibration));
   }
   // Beyond the diagonal: within a scan its registration, between scans of an artefact the reference and the
   // calibration.

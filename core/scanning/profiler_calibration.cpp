@@ -168,6 +168,11 @@ Eigen::Vector3d predictedPlane(const Parameters& q, ScanModel model, double plat
 
 void CalibrationOptions::validate() const {
   if (!(mounting_angle_rad > 0.0)) throw InputError("The uncertainty of the mounting must be positive (rad).");
+  for (const auto& known : known_angles_rad)
+    if (known && (!std::isfinite((*known)[0]) || std::abs((*known)[0]) > 0.5 || !((*known)[1] > 0.0)))
+      throw InputError(fmt::format(
+          "Known angle of the mounting: found {} ± {} rad; allowed: within 0.5 rad, with an uncertainty above 0.",
+          (*known)[0], (*known)[1]));
   if (!(radius_uncertainty_mm > 0.0) || !(rim_roughness_mm > 0.0))
     throw InputError("The uncertainties of the pocket must be positive (mm).");
 }
@@ -259,7 +264,10 @@ ProfilerCalibration calibrateProfiler(const PointCloud& scan, const std::array<d
     Eigen::Vector3d plane_residual = plane.coefficients - predictedPlane(at, options.scan_model, circle_mm[2]);
     if (options.scan_model == ScanModel::PushBroom) plane_residual[2] = 0.0;  // a plate that is not level
     r.segment<3>(rims) = plane_root.triangularView<Eigen::Lower>().solve(plane_residual);
-    r.segment<3>(rims + 3) = at.head<3>() / options.mounting_angle_rad;
+    for (int i = 0; i < 3; ++i) {
+      const auto& known = options.known_angles_rad[static_cast<std::size_t>(i)];
+      r[rims + 3 + i] = known ? (at[i] - (*known)[0]) / (*known)[1] : at[i] / options.mounting_angle_rad;
+    }
     r[rims + 6] = at[6] / options.radius_uncertainty_mm;
     return r;
   };
@@ -323,7 +331,8 @@ ProfilerCalibration calibrateProfiler(const PointCloud& scan, const std::array<d
   result.status = FitStatus::Converged;
   constexpr std::array<const char*, 3> names{"alpha_rad", "beta_rad", "gamma_rad"};
   for (int i = 0; i < 3; ++i)
-    if (result.standardUncertainty(i) > 0.3 * options.mounting_angle_rad) {
+    if (!options.known_angles_rad[static_cast<std::size_t>(i)] &&
+        result.standardUncertainty(i) > 0.3 * options.mounting_angle_rad) {
       result.undetermined.emplace_back(names[static_cast<std::size_t>(i)]);
       // Not measured: the mounting's own uncertainty, nothing less.
       result.message += fmt::format(

@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct CalibrationOptions {
   ScanModel scan_model = ScanModel::Rigid;
   /// Standard uncertainty of an angle of the mounting before anything is measured (rad).
   double mounting_angle_rad = 0.02;
+  /// alpha, beta, gamma where they are known from elsewhere (a dial indicator, a jog by a known distance): value and
+  /// standard uncertainty (rad).
+  std::array<std::optional<std::array<double, 2>>, 3> known_angles_rad;
   /// Standard uncertainty of the pocket's radius as seen by the laser, beyond the samples (mm).
   double radius_uncertainty_mm = 0.005;
   /// Unevenness of the rim and of the carriage between profiles (mm).

@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "core/base/error.h"
-#include "core/scanning/cloud_file.h"
+#include "core/scanning/scan_points.h"
 
 namespace spindrift {
 
@@ -25,14 +25,12 @@ std::vector<ScanCheck> checkScans(const Campaign& campaign, const JobContext& jo
   parallelFor(checks.size(), job, [&](std::size_t i) {
     ScanCheck& check = checks[i];
     try {
-      PointCloud cloud = readCloud(campaign.path(check.capture.cloud));
-      cloud.name = check.capture.cloud;
-      requireUsableCloud(cloud);
-      check.points = cloud.size();
-      check.profiles = cloud.profileCount();
-      const CloudFilterResult filtered = filterCloud(cloud);
-      check.edge_points = filtered.edge_points;
-      check.outlier_points = filtered.outlier_points;
+      const ScanPoints scan = readScanPoints(campaign, check.capture.cloud);
+      check.points = scan.cloud.size();
+      check.profiles = scan.cloud.profileCount();
+      check.edge_points = scan.count(PointFate::Edge);
+      check.outlier_points = scan.count(PointFate::Outlier);
+      check.painted_points = scan.count(PointFate::Painted);
       check.usable = true;
       if (check.profiles == 0) check.reason = "the points are in no order: profiles cannot be told apart";
     } catch (const InputError& error) {

@@ -21,6 +21,7 @@ struct ScanCheck {
   double completeness = 0.0;  ///< points over those of the fullest scan of the same artefact, 0 ... 1
   std::size_t edge_points = 0;
   std::size_t outlier_points = 0;
+  std::size_t painted_points = 0;  ///< left out by hand
 };
 
 /// A scan below this part of the fullest one of its artefact is called incomplete (still usable).

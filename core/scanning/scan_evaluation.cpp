@@ -12,8 +12,10 @@
 #include <set>
 
 #include "core/base/csv.h"
+#include "core/base/json_reader.h"
 #include "core/base/units.h"
 #include "core/scanning/cloud_file.h"
+#include "core/scanning/scan_points.h"
 
 namespace spindrift {
 namespace {
@@ -109,8 +111,7 @@ class ArtefactEvaluator {
       const std::size_t k = (first + i) % captures_.size();
       const ScanCapture& capture = captures_[k];
       try {
-        PointCloud cloud = readCloud(campaign_.path(capture.cloud));
-        cloud.name = capture.cloud;
+        const PointCloud cloud = readScanPoints(campaign_, capture.cloud).used();
         if (!target) {
           target = makeReference(cloud, capture);
           continue;
@@ -216,10 +217,28 @@ class ArtefactEvaluator {
   Extent reference_extent_;
 };
 
+/// Angles of the mounting known from elsewhere: profiler.mounting_angles_rad of machine.json.
+std::array<std::optional<std::array<double, 2>>, 3> knownAngles(const MachineDescription& machine) {
+  std::array<std::optional<std::array<double, 2>>, 3> out;
+  const auto profiler = JsonNode::parse(machine.source.dump(), machine.file.string()).find("profiler");
+  const auto angles = profiler ? profiler->find("mounting_angles_rad") : std::nullopt;
+  if (!angles) return out;
+  constexpr std::array<const char*, 3> names{"alpha", "beta", "gamma"};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const auto known = angles->find(names[i])) {
+      const std::vector<double> v = known->numbers();
+      if (v.size() != 2 || std::abs(v[0]) > 0.5 || !(v[1] > 0.0))
+        known->reject("two numbers: an angle within 0.5 rad and its standard uncertainty above 0");
+      out[i] = {v[0], v[1]};
+    }
+  return out;
+}
+
 ProfilerCalibration calibrationOf(const Campaign& campaign, const ProfilerDescription& profiler, ScanModel model,
                                   std::vector<std::string>& warnings) {
   CalibrationOptions options;
   options.scan_model = model;
+  options.known_angles_rad = knownAngles(campaign.machine);
   std::string reason;
   if (profiler.calibration_cloud.empty() || !profiler.calibration_circle_mm) {
     reason = "machine.json names no calibration_cloud with its calibration_circle";

@@ -7,7 +7,9 @@
 
 #include "core/base/atomic_file.h"
 #include "core/scanning/cloud_file.h"
+#include "core/scanning/painted_mask.h"
 #include "core/scanning/scan_picture.h"
+#include "core/scanning/scan_points.h"
 #include "core/simulation/virtual_profiler.h"
 #include "tests/support/temp_folder.h"
 
@@ -67,6 +69,41 @@ TEST(ScanCheck, ExcludedScansAreLeftOut) {
   for (const char* cloud : {"captures/clouds/A1_C0.pcd", "captures/clouds/A1_C2.pcd"})
     campaign.excluded_captures.insert(cloud);
   EXPECT_THROW(evaluateScanCampaign(campaign, "", job), InputError);
+}
+
+TEST(ScanPoints, WhatIsPaintedAwayIsNotEvaluated) {
+  const testing::TempFolder folder;
+  writeScans(folder / "c");
+  Campaign campaign = Campaign::read(folder / "c");
+  const std::string cloud = "captures/clouds/A1_C2.pcd";
+  const ScanPoints before = readScanPoints(campaign, cloud);
+  EXPECT_EQ(before.count(PointFate::Painted), 0U);
+  EXPECT_GT(before.count(PointFate::Edge), 0U);
+  const Eigen::Vector3d middle = before.cloud.centroid_mm();
+  campaign.excluded_captures.insert(maskItem(
+      cloud,
+      {{StrokeShape::Rectangle, true, 0.0, {middle.head<2>(), (middle + Eigen::Vector3d(30, 30, 0)).head<2>()}}}));
+  const ScanPoints after = readScanPoints(campaign, cloud);
+  EXPECT_GT(after.count(PointFate::Painted), before.cloud.size() / 6);
+  EXPECT_EQ(after.cloud.size(), before.cloud.size()) << "the scan itself is never altered";
+  EXPECT_EQ(after.used().size(), after.count(PointFate::Used));
+  EXPECT_EQ(checkScans(campaign, JobContext()).back().painted_points, after.count(PointFate::Painted));
+  JobContext job;
+  const ScanEvaluation evaluation = evaluateScanCampaign(campaign, "", job);
+  ASSERT_EQ(evaluation.scans.size(), 3U);
+  EXPECT_LE(evaluation.scans.back().registration.points_used, after.count(PointFate::Used));
+  const ScanPicture picture = pictureOfScan(campaign, cloud, "", ScanColouring::LeftOut, ScanModel::Rigid, job);
+  EXPECT_EQ(picture.counts[3], after.count(PointFate::Painted));
+  EXPECT_EQ(
+      pictureOfScan(campaign, cloud, "", ScanColouring::Height, ScanModel::Rigid, job, ScanPart::AsUsed).scalar->size(),
+      after.count(PointFate::Used));
+  // Everything painted away: the scan is rejected with what took its points, the others are evaluated.
+  campaign.excluded_captures.insert(
+      maskItem(cloud, {{StrokeShape::Rectangle, true, 0.0, {{-1000.0, -1000.0}, {1000.0, 1000.0}}}}));
+  const ScanEvaluation rest = evaluateScanCampaign(campaign, "", job);
+  EXPECT_EQ(rest.scans.size(), 2U);
+  ASSERT_EQ(rest.rejected.size(), 1U);
+  EXPECT_NE(rest.rejected.front().reason.find("painted away"), std::string::npos) << rest.rejected.front().reason;
 }
 
 TEST(ScanPicture, ShowsTheChangeAndWhatRegistrationLeaves) {
