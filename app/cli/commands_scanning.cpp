@@ -121,6 +121,7 @@ struct DesignArguments {
   ArtefactSurface surface;
   ArtefactDesignOptions options;
   std::string scan_model = "rigid";
+  std::vector<std::string> bumps;
   std::string stl;
   double base_mm = 10.0;
   double step_mm = 0.1;
@@ -130,7 +131,17 @@ nlohmann::json numberOrNull(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
 
+ArtefactSurface::Bump bumpFromText(const std::string& text) {
+  const std::vector<std::string> parts = splitList(text);
+  std::array<double, 4> v{};
+  bool good = parts.size() == 4;
+  for (std::size_t i = 0; good && i < 4; ++i) good = parseNumber(parts[i], v[i]);
+  if (!good) throw InputError(fmt::format("--bump: found '{}'; allowed: four numbers x,y,radius,height in mm.", text));
+  return {{v[0], v[1]}, v[2], v[3]};
+}
+
 CommandResult designCommand(DesignArguments arguments) {
+  for (const std::string& bump : arguments.bumps) arguments.surface.bumps.push_back(bumpFromText(bump));
   arguments.options.scan_model = scanModelFromString(arguments.scan_model);
   const ArtefactDesign d = designArtefact(arguments.surface, arguments.options);
   CommandResult out;
@@ -170,6 +181,8 @@ void addDesign(CLI::App& app, CommandLine& line) {
   command->add_option("--ay", s.amplitude_y_mm, "Amplitude, mm")->capture_default_str();
   command->add_option("--ky", s.wave_number_y_per_mm, "Wave number, rad/mm")->capture_default_str();
   command->add_option("--axy", s.amplitude_xy_mm, "Amplitude of the product term, mm")->capture_default_str();
+  command->add_option("--bump", arguments->bumps, "Round bump x,y,radius,height (mm); may be given several times")
+      ->type_name("X,Y,R,H");
   command->add_option("--noise", arguments->options.noise_um, "Of a point's height, um")->capture_default_str();
   command->add_option("--points", arguments->options.point_count, "Of one scan")->capture_default_str();
   command->add_option("--steepest-slope", arguments->options.steepest_slope, "That the profiler sees (dz/dx)")

@@ -31,6 +31,7 @@ PclCloud::Ptr toPcl(const PointCloud& cloud, const Eigen::Vector3d& origin) {
 }
 
 PclCloud::Ptr thinned(const PclCloud::Ptr& cloud, float leaf_mm) {
+  if (!(leaf_mm > 0.0F)) return cloud;
   pcl::VoxelGrid<pcl::PointXYZ> grid;
   grid.setLeafSize(leaf_mm, leaf_mm, leaf_mm);
   grid.setInputCloud(cloud);
@@ -42,7 +43,7 @@ PclCloud::Ptr thinned(const PclCloud::Ptr& cloud, float leaf_mm) {
 }  // namespace
 
 RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& target,
-                                   const RegistrationOptions& options) {
+                                   const RegistrationOptions& options, const PclSettings& settings) {
   if (options.scan_model != ScanModel::Rigid)
     throw InputError("NDT, ICP and generalised ICP know only rigid clouds; allowed scan model: rigid.");
   SPINDRIFT_ASSERT(options.method != RegistrationMethod::Surface, "PCL does not do this method");
@@ -72,19 +73,19 @@ RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& t
   double fitness = 0.0;
   if (ndt) {
     pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::PointXYZ> first;
-    first.setResolution(1.0F);
+    first.setResolution(settings.ndt_resolution_mm);
     first.setStepSize(0.1);
     first.setTransformationEpsilon(1e-6);
     first.setMaximumIterations(40);
-    first.setInputSource(thinned(from, 0.3F));
+    first.setInputSource(thinned(from, settings.ndt_leaf_mm));
     first.setInputTarget(onto);
     first.align(aligned, guess);
     pcl::IterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ> icp;
-    icp.setMaxCorrespondenceDistance(0.5);
+    icp.setMaxCorrespondenceDistance(settings.icp_distance_mm);
     icp.setTransformationEpsilon(1e-12);
     icp.setEuclideanFitnessEpsilon(1e-12);
-    icp.setMaximumIterations(50);
-    icp.setInputSource(from);
+    icp.setMaximumIterations(settings.icp_iterations);
+    icp.setInputSource(thinned(from, settings.icp_leaf_mm));
     icp.setInputTarget(onto);
     icp.align(aligned, first.getFinalTransformation());
     converged = icp.hasConverged();
@@ -92,12 +93,13 @@ RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& t
     fitness = icp.getFitnessScore(1.0);
   } else {
     pcl::GeneralizedIterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ> gicp;
-    gicp.setMaxCorrespondenceDistance(1.0);
+    gicp.setMaxCorrespondenceDistance(settings.gicp_distance_mm);
+    gicp.setCorrespondenceRandomness(settings.gicp_neighbours);
     gicp.setTransformationEpsilon(1e-9);
     gicp.setRotationEpsilon(1e-9);
-    gicp.setMaximumIterations(40);
-    const PclCloud::Ptr few_from = thinned(from, 0.1F);
-    const PclCloud::Ptr few_onto = thinned(onto, 0.1F);
+    gicp.setMaximumIterations(settings.gicp_iterations);
+    const PclCloud::Ptr few_from = thinned(from, settings.gicp_leaf_mm);
+    const PclCloud::Ptr few_onto = thinned(onto, settings.gicp_leaf_mm);
     gicp.setInputSource(few_from);
     gicp.setInputTarget(few_onto);
     gicp.align(aligned, guess);

@@ -32,6 +32,26 @@ void ExcludeCommand::undo() {
   for (const auto& [item, reason] : before_) session_.setExcluded(item, reason);
 }
 
+ReplaceExclusionCommand::ReplaceExclusionCommand(SessionModel& session, Entry before, Entry after, const QString& text)
+    : session_(session), campaign_(session.campaignId()), before_(std::move(before)), after_(std::move(after)) {
+  setText(text);
+}
+
+void ReplaceExclusionCommand::replace(const Entry& from, const Entry& to) {
+  if (session_.campaignId() != campaign_) return;
+  // The new one first: at no time is less left out than before or after.
+  if (!to.first.isEmpty()) session_.setExcluded(to.first, to.second);
+  if (!from.first.isEmpty() && from.first != to.first) session_.setExcluded(from.first, {});
+}
+
+void ReplaceExclusionCommand::redo() {
+  replace(before_, after_);
+}
+
+void ReplaceExclusionCommand::undo() {
+  replace(after_, before_);
+}
+
 OptionsCommand::OptionsCommand(SessionModel& session, const QString& text, const std::string& key, nlohmann::json after,
                                std::function<void()> changed)
     : session_(session),

@@ -25,6 +25,22 @@ class ExcludeCommand : public QUndoCommand {
   QString reason_;
 };
 
+/// Puts one item that is taken out in the place of another (the mask of a scan after a stroke); item and reason each,
+/// an empty item stands for none.
+class ReplaceExclusionCommand : public QUndoCommand {
+ public:
+  using Entry = std::pair<QString, QString>;
+  ReplaceExclusionCommand(SessionModel& session, Entry before, Entry after, const QString& text);
+  void redo() override;
+  void undo() override;
+
+ private:
+  void replace(const Entry& from, const Entry& to);
+  SessionModel& session_;
+  std::int64_t campaign_;
+  Entry before_, after_;
+};
+
 /// Changes the options of a step, kept in the session under `key`. `changed` tells the page.
 class OptionsCommand : public QUndoCommand {
  public:

@@ -12,6 +12,7 @@
 #include "widgets/pages/probing/touch_capture_page.h"
 #include "widgets/pages/probing/touch_evaluation_page.h"
 #include "widgets/pages/report/report_page.h"
+#include "widgets/pages/review/review_page.h"
 #include "widgets/pages/scanning/axis_errors_page.h"
 #include "widgets/pages/scanning/profiler_calibration_page.h"
 #include "widgets/pages/scanning/scan_capture_page.h"
@@ -62,6 +63,9 @@ void registerPages(PageRegistry& registry) {
       StepId::Discrepancy, always, [](PageContext c) { return new DiscrepancyPage(std::move(c)); }, "discrepancy");
   registry.add(
       StepId::Compensate, always, [](PageContext c) { return new CompensatePage(std::move(c)); }, "compensate");
+  registry.add(
+      StepId::Review, [](const SessionModel& s) { return !s.isLogOnly(); },
+      [](PageContext c) { return new ReviewPage(std::move(c)); }, "review");
   registry.add(
       StepId::Report, always, [](PageContext c) { return new ReportPage(std::move(c)); }, "report");
   for (const StepId step : all_steps) {

@@ -26,6 +26,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/pages/scanning/artefact_designer.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/welcome_page.h"
@@ -193,6 +194,12 @@ void MainWindow::buildMenu() {
   QMenu* view = menuBar()->addMenu(tr("&View"));
   add(view, tr("&Light or dark"), "moon", QKeySequence(tr("Ctrl+D")),
       [this] { setTheme(theme().kind == ThemeKind::Dark ? ThemeKind::Light : ThemeKind::Dark); });
+  QMenu* tools = menuBar()->addMenu(tr("&Tools"));
+  add(tools, tr("&Artefact designer …"), "scan", QKeySequence(tr("Ctrl+Shift+D")), [this] {
+    auto* designer = new ArtefactDesigner(this);
+    designer->setAttribute(Qt::WA_DeleteOnClose);
+    designer->show();
+  });
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   add(help, tr("&About Spindrift"), "info", {}, [this] { about(); });
 

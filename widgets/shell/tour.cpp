@@ -26,10 +26,10 @@ const std::vector<TourStop>& tourStops() {
   static const std::vector<TourStop> stops{
       {"fiducials",
        {StepId::Machine, StepId::WarmUp, StepId::Capture, StepId::Calibrate, StepId::Model, StepId::Compensate,
-        StepId::Report}},
+        StepId::Review, StepId::Report}},
       {"holes", {StepId::Machine, StepId::Capture, StepId::Calibrate, StepId::Model}},
       {"balls", {StepId::Capture, StepId::Model}},
-      {"scans", {StepId::Capture, StepId::Calibrate, StepId::Model}},
+      {"scans", {StepId::Capture, StepId::Calibrate, StepId::Model, StepId::Review}},
       {"discrepancy", {StepId::Model, StepId::Discrepancy, StepId::Compensate, StepId::Report}},
   };
   return stops;

@@ -142,6 +142,8 @@ class View3D : public QWidget {
  Q_SIGNALS:
   void pointPicked(const QString& id);
   void cameraChanged();
+  /// The cursor over the view, without a button (pixels of this widget).
+  void cursorMoved(const QPointF& pixel);
   /// The value under the cursor, ready to be read ("x 120.0 mm, y 40.0 mm: 3.2 ± 0.4 um"); empty outside.
   void hovered(const QString& text);
 
@@ -161,6 +163,8 @@ class View3D : public QWidget {
   void changed();      ///< redraw solid things
   void cameraMoved();  ///< redraw, thinned, and refine a moment later
   void ensureFrame(const QSize& size, double ratio);
+  void fitCamera(const QSize& size);
+  void shareCamera();  ///< with the linked views
   void paintOverlay(QPainter& painter, const QSize& size) const;
   [[nodiscard]] QSizeF viewSize() const { return {static_cast<double>(width()), static_cast<double>(height())}; }
   void refineStep();

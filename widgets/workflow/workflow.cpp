@@ -23,6 +23,8 @@ QString stepTitle(StepId step) {
       return Workflow::tr("Discrepancy");
     case StepId::Compensate:
       return Workflow::tr("Compensate");
+    case StepId::Review:
+      return Workflow::tr("Review");
     case StepId::Report:
       return Workflow::tr("Report");
   }
@@ -46,6 +48,8 @@ QString stepInstruction(StepId step) {
       return Workflow::tr("Find where simulation and measurement disagree, and which effect is missing.");
     case StepId::Compensate:
       return Workflow::tr("See what the model would command, and export it for the control.");
+    case StepId::Review:
+      return Workflow::tr("Compare thermal states, models, campaigns and scans side by side.");
     case StepId::Report:
       return Workflow::tr("Read the whole evaluation through and save it as a report.");
   }
@@ -68,6 +72,8 @@ const char* stepIcon(StepId step) {
       return "discrepancy";
     case StepId::Compensate:
       return "compensate";
+    case StepId::Review:
+      return "compare";
     case StepId::Report:
       return "report";
   }
@@ -142,7 +148,7 @@ void Workflow::back() {
 }
 
 void Workflow::refresh() {
-  std::array<StepStatus, 8> now{};
+  std::array<StepStatus, all_steps.size()> now{};
   for (const StepId step : all_steps) now[static_cast<std::size_t>(step)] = evaluate(step);
   if (now == status_) return;
   status_ = std::move(now);
@@ -239,6 +245,10 @@ StepStatus Workflow::evaluate(StepId step) const {
       return withChoice(fromResult("compensation", tr("Work out the corrections."), tr("Corrections are worked out.")),
                         "compensation");
     }
+    case StepId::Review:
+      if (log_only) return {StepState::Blocked, tr("A log over time is compared in the step Model.")};
+      if (!observations && !scans) return {StepState::Blocked, tr("There is nothing to compare yet.")};
+      return {StepState::Current, tr("Look at it whenever you like.")};
     case StepId::Report:
       if (!observations) return {StepState::Blocked, tr("There is nothing to report yet.")};
       return withChoice(fromResult("report", tr("Write the report."), tr("The report is written.")), "report");

@@ -12,10 +12,10 @@ namespace spindrift::gui {
 
 class SessionModel;
 
-enum class StepId { Machine, WarmUp, Capture, Calibrate, Model, Discrepancy, Compensate, Report };
-inline constexpr std::array<StepId, 8> all_steps{StepId::Machine,    StepId::WarmUp, StepId::Capture,
-                                                 StepId::Calibrate,  StepId::Model,  StepId::Discrepancy,
-                                                 StepId::Compensate, StepId::Report};
+enum class StepId { Machine, WarmUp, Capture, Calibrate, Model, Discrepancy, Compensate, Review, Report };
+inline constexpr std::array all_steps{StepId::Machine,    StepId::WarmUp, StepId::Capture,
+                                      StepId::Calibrate,  StepId::Model,  StepId::Discrepancy,
+                                      StepId::Compensate, StepId::Review, StepId::Report};
 
 enum class StepState {
   NotStarted,
@@ -62,7 +62,7 @@ class Workflow : public QObject {
 
   SessionModel& session_;
   StepId current_ = StepId::Machine;
-  std::array<StepStatus, 8> status_{};
+  std::array<StepStatus, all_steps.size()> status_{};
 };
 
 }  // namespace spindrift::gui

@@ -18,6 +18,8 @@
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/scanning/cloud_painter.h"
+#include "widgets/pages/scanning/scan_mask_bar.h"
 #include "widgets/pages/scanning/scan_results.h"
 #include "widgets/plots/plot.h"
 #include "widgets/view3d/view3d.h"
@@ -35,7 +37,8 @@ nlohmann::json payloadOf(const std::vector<ScanCheck>& checks) {
                      {"profiles", c.profiles},
                      {"completeness", c.completeness},
                      {"edge_points", c.edge_points},
-                     {"outlier_points", c.outlier_points}});
+                     {"outlier_points", c.outlier_points},
+                     {"painted_points", c.painted_points}});
   }
   return {{"scans", scans}};
 }
@@ -50,6 +53,7 @@ ScanCheck checkFrom(const nlohmann::json& json) {
   c.completeness = json.at("completeness").get<double>();
   c.edge_points = json.at("edge_points").get<std::size_t>();
   c.outlier_points = json.at("outlier_points").get<std::size_t>();
+  c.painted_points = json.value("painted_points", std::size_t{0});
   return c;
 }
 
@@ -102,16 +106,33 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   list->body()->addLayout(buttons);
 
   auto* right = new Card;
-  colouring_ = new Segments({tr("Height"), tr("Cold and warm"), tr("Change"), tr("Left over")}, tr("Colours"));
+  colouring_ = new Segments({tr("Height"), tr("Cold and warm"), tr("Change"), tr("Left over"), tr("What is used")},
+                            tr("Colours"));
   colouring_->button(2)->setToolTip(tr("Height over the cold scan as it was measured"));
   colouring_->button(3)->setToolTip(tr("Height over the cold scan after registration"));
-  right->body()->addWidget(colouring_);
+  colouring_->button(4)->setToolTip(tr("Which points are used, near an edge, outliers or painted away"));
+  part_ = new Segments({tr("Before"), tr("After"), tr("Side by side")}, tr("Before or after cleaning"));
+  part_->setToolTip(tr("Before or after trimming of edges, removal of outliers and what was painted away"));
+  part_->setCurrent(1);
+  auto* choices = new QHBoxLayout;
+  choices->addWidget(colouring_);
+  choices->addStretch();
+  choices->addWidget(part_);
+  right->body()->addLayout(choices);
+  before_view_ = new View3D;
+  before_view_->hide();
   view_ = new View3D;
+  view_->link(before_view_);
+  mask_ = new ScanMaskBar(view_, session(), context().undo);
+  right->body()->addWidget(mask_);
   view_->setEmptyText(tr("The cloud will appear here"), tr("Choose a scan in the list. It is read in the background."));
   profile_ = new Plot;
   profile_->setAxes(tr("Along the profile / mm"), tr("Height / mm"));
   profile_->setEmptyText(tr("A profile will appear here"), tr("Choose a scan in the list."));
-  right->body()->addWidget(view_, 5);
+  auto* views = new QHBoxLayout;
+  views->addWidget(before_view_, 1);
+  views->addWidget(view_, 1);
+  right->body()->addLayout(views, 5);
   auto* line = new QHBoxLayout;
   line->addWidget(makeLabel(tr("Profile"), "sectionTitle"));
   slider_ = new QSlider(Qt::Horizontal);
@@ -131,6 +152,16 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   connect(check_, &QPushButton::clicked, this, &ScanCapturePage::check);
   connect(exclude_, &QPushButton::clicked, this, &ScanCapturePage::toggleExcluded);
   connect(colouring_, &Segments::chosen, this, &ScanCapturePage::loadCloud);
+  connect(part_, &Segments::chosen, this, [this](int part) {
+    before_view_->setVisible(part == 2);
+    loadCloud();
+  });
+  connect(mask_, &ScanMaskBar::restoring, this, [this] {
+    // What was painted away has to be seen to be taken back.
+    colouring_->setCurrent(static_cast<int>(ScanColouring::LeftOut));
+    if (part_->current() == 1) part_->setCurrent(0);
+    loadCloud();
+  });
   connect(slider_, &QSlider::valueChanged, this, &ScanCapturePage::showProfile);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this](const QModelIndex& now) {
     if (filling_ || !now.isValid()) return;
@@ -172,8 +203,10 @@ void ScanCapturePage::refresh() {
   const bool other = shown_campaign_ != session().campaignId();
   shown_campaign_ = session().campaignId();
   if (other) {
-    picture_ = {};
+    picture_ = before_picture_ = {};
     shown_.clear();
+    mask_->setCloud({});
+    before_view_->clear();
     view_->clear();
     profile_->setContent({});
   }
@@ -207,7 +240,8 @@ void ScanCapturePage::refresh() {
   }
   if (selected().isEmpty() && rows_->rowCount() > 0) {
     table_->selectRow(0);
-  } else if (!selected().isEmpty() && shown_ != selected()) {
+  } else if (!selected().isEmpty() &&
+             (shown_ != selected() || shown_mask_ != ScanMaskBar::maskOf(session(), shown_).first)) {
     loadCloud();
   }
   showVerdict();
@@ -262,6 +296,12 @@ void ScanCapturePage::setColouring(ScanColouring colouring) {
   loadCloud();
 }
 
+void ScanCapturePage::setPart(int part) {
+  part_->setCurrent(part);
+  before_view_->setVisible(part == 2);
+  loadCloud();
+}
+
 void ScanCapturePage::showVerdict() {
   const QString id = selected();
   exclude_->setEnabled(!id.isEmpty());
@@ -276,10 +316,13 @@ void ScanCapturePage::showVerdict() {
   } else if (!state.tip.isEmpty()) {
     verdict_->show(state.tone, state.tip);
   } else if (check != checks_.end()) {
-    verdict_->show(Tone::Good, tr("%1 profiles; %2 points near edges and %3 outliers are not used.")
-                                   .arg(check->second.profiles)
-                                   .arg(check->second.edge_points)
-                                   .arg(check->second.outlier_points));
+    QString sentence = tr("%1 profiles; %2 points near edges and %3 outliers are not used.")
+                           .arg(check->second.profiles)
+                           .arg(check->second.edge_points)
+                           .arg(check->second.outlier_points);
+    if (const auto [item, reason] = ScanMaskBar::maskOf(session(), id); !item.isEmpty())
+      sentence += QLatin1Char(' ') + tr("A part is painted away: %1.").arg(reason);
+    verdict_->show(Tone::Good, sentence);
   } else {
     verdict_->set(Tone::Neutral, {});
   }
@@ -303,6 +346,10 @@ void ScanCapturePage::loadCloud() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (id.isEmpty() || snapshot.campaign == nullptr) return;
   shown_ = id;
+  mask_->setCloud(id);
+  shown_mask_ = mask_->mask().first;
+  const bool both = part_->current() == 2;
+  const ScanPart part = part_->current() == 0 ? ScanPart::AsScanned : ScanPart::AsUsed;
   const int request = ++request_;
   const auto colouring = static_cast<ScanColouring>(colouring_->current());
   const std::string cloud = id.toStdString();
@@ -311,21 +358,26 @@ void ScanCapturePage::loadCloud() {
   Job job;
   job.title = tr("Reading %1").arg(QFileInfo(id).fileName());
   latest_->store(request);
-  job.work = [this, snapshot, cloud, reference, colouring, model, request,
+  job.work = [this, snapshot, cloud, reference, colouring, model, request, part, both,
               latest = latest_](JobContext& job_context) -> std::function<void()> {
     // A scan chosen in the meantime makes this one pointless.
     if (latest->load() != request) return [] {};
     auto picture = std::make_shared<ScanPicture>(
-        pictureOfScan(*snapshot.campaign, cloud, reference, colouring, model, job_context));
-    return std::function<void()>([this, picture, request] {
+        pictureOfScan(*snapshot.campaign, cloud, reference, colouring, model, job_context, part));
+    auto before = std::make_shared<ScanPicture>();
+    if (both)
+      *before = pictureOfScan(*snapshot.campaign, cloud, reference, colouring, model, job_context, ScanPart::AsScanned);
+    return std::function<void()>([this, picture, before, request] {
       if (request != request_) return;
       picture_ = *picture;
+      before_picture_ = *before;
       showCloud();
     });
   };
   job.failed = [this, request](const QString& sentence) {
     if (request != request_) return;
-    picture_ = {};
+    picture_ = before_picture_ = {};
+    before_view_->clear();
     view_->clear();
     view_->setEmptyText(tr("This cloud cannot be shown"), sentence);
     profile_->setContent({});
@@ -334,20 +386,21 @@ void ScanCapturePage::loadCloud() {
   context().jobs.run(std::move(job));
 }
 
-void ScanCapturePage::showCloud() {
+void ScanCapturePage::showIn(View3D* view, const ScanPicture& picture, const QString& part) {
   ColourScale scale;
   QString caption =
       rows_->rowOf(shown_) < 0 ? shown_ : rows_->rows()[static_cast<std::size_t>(rows_->rowOf(shown_))].cells[0].text;
-  switch (picture_.colouring) {
+  caption += QStringLiteral(" (%1)").arg(part);
+  switch (picture.colouring) {
     case ScanColouring::Height:
       scale.map = ColourMap::Sequential;
-      scale.low = picture_.low;
+      scale.low = picture_.low;  // the same in both views
       scale.high = std::max(picture_.high, picture_.low + 1e-6);
       scale.title = tr("z");
       scale.unit = QStringLiteral("mm");
-      if (!picture_.message.empty()) {
-        caption += QStringLiteral(": ") + fromCore(picture_.message);
-      } else if (picture_.reference == nullptr && colouring_->current() != 0) {
+      if (!picture.message.empty()) {
+        caption += QStringLiteral(": ") + fromCore(picture.message);
+      } else if (picture.reference == nullptr && colouring_->current() != 0) {
         caption += tr(": the reference itself");
       }
       break;
@@ -355,21 +408,49 @@ void ScanCapturePage::showCloud() {
       scale = ColourScale::symmetric(1.0, QString(), tr("cold, warm"));
       caption += tr(": blue the cold scan, red this one");
       break;
+    case ScanColouring::LeftOut: {
+      scale.map = ColourMap::Sequential;
+      scale.low = 0.0;
+      scale.high = 3.0;
+      const auto& n = picture.counts;
+      caption += tr(": 0 used %1, 1 near an edge %2, 2 outliers %3, 3 painted away %4")
+                     .arg(n[0])
+                     .arg(n[1])
+                     .arg(n[2])
+                     .arg(n[3]);
+      break;
+    }
     default:
       scale = ColourScale::symmetric(std::max({std::abs(picture_.low), std::abs(picture_.high), 0.1}), tr("dz"),
                                      QStringLiteral("um"));
-      caption += picture_.colouring == ScanColouring::Measured
-                     ? tr(" over the cold scan, median |dz| %1 um").arg(picture_.median_magnitude, 0, 'f', 2)
-                     : tr(" after registration, median |dz| %1 um").arg(picture_.median_magnitude, 0, 'f', 2);
+      caption += picture.colouring == ScanColouring::Measured
+                     ? tr(" over the cold scan, median |dz| %1 um").arg(picture.median_magnitude, 0, 'f', 2)
+                     : tr(" after registration, median |dz| %1 um").arg(picture.median_magnitude, 0, 'f', 2);
   }
-  const bool first = view_->empty();
+  const Camera camera = view->camera();
+  const bool first = view->empty();
   ViewCloud cloud;
-  cloud.xyz_mm = picture_.xyz_mm;
-  cloud.scalar = picture_.scalar;
-  view_->setColourScale(scale);
-  view_->setCloud(cloud);
-  view_->setCaption(caption);
-  if (first) view_->resetCamera(StandardView::Isometric);
+  cloud.xyz_mm = picture.xyz_mm;
+  cloud.scalar = picture.scalar;
+  view->setColourScale(scale);
+  view->setCloud(cloud);
+  view->setCaption(caption);
+  if (first && view == before_view_) {
+    view_->setOrthographic(view_->camera().orthographic);  // tells the linked view where to look from
+  } else if (first) {
+    view->resetCamera(StandardView::Isometric);
+  } else {
+    view->setCamera(camera);  // the same place before and after a stroke
+  }
+}
+
+void ScanCapturePage::showCloud() {
+  const bool other = QString::fromStdString(picture_.scan == nullptr ? std::string() : picture_.scan->name) != drawn_;
+  drawn_ = QString::fromStdString(picture_.scan == nullptr ? std::string() : picture_.scan->name);
+  showIn(view_, picture_, part_->current() == 0 ? tr("before") : tr("after"));
+  if (before_picture_.scan != nullptr) showIn(before_view_, before_picture_, tr("before"));
+  if (other)
+    view_->resetCamera(mask_->painter()->tool() == PaintTool::Look ? StandardView::Isometric : StandardView::Top);
   const auto profiles = static_cast<int>(picture_.scan == nullptr ? 0 : picture_.scan->profileCount());
   {
     const QSignalBlocker quiet(slider_);
@@ -397,7 +478,23 @@ void ScanCapturePage::showProfile(int index) {
     series.push_back(profileSeries(*picture_.scan, k, picture_.reference == nullptr ? tr("Cold") : tr("This scan"), 1));
     slider_text_->setText(tr("%1 of %2, y %3 mm").arg(index + 1).arg(picture_.scan->profileCount()).arg(y, 0, 'f', 2));
   }
+  addLeftOut(series, index);
   profile_->setContent(std::move(series));
+}
+
+void ScanCapturePage::addLeftOut(std::vector<Series>& series, int index) const {
+  if (picture_.scan == nullptr || picture_.fate == nullptr || series.empty()) return;
+  const auto k = static_cast<std::size_t>(index);
+  Series left_out;
+  left_out.name = tr("Left out");
+  left_out.colour = 3;
+  left_out.style = SeriesStyle::Points;
+  for (std::size_t i = picture_.scan->profile_start[k]; i < picture_.scan->profile_start[k + 1]; ++i) {
+    if ((*picture_.fate)[i] == PointFate::Used) continue;
+    left_out.x.push_back(picture_.scan->points_mm[i].x());
+    left_out.y.push_back(picture_.scan->points_mm[i].z());
+  }
+  if (!left_out.x.empty()) series.push_back(std::move(left_out));
 }
 
 std::vector<Exportable> ScanCapturePage::exportables() {

@@ -16,7 +16,9 @@ class QTableView;
 namespace spindrift::gui {
 
 class Plot;
+struct Series;
 class RowsModel;
+class ScanMaskBar;
 class ScanResults;
 class Segments;
 class View3D;
@@ -36,6 +38,10 @@ class ScanCapturePage : public Page {
   /// Shows one scan (path of its cloud as in the list).
   void select(const QString& cloud);
   void setColouring(ScanColouring colouring);
+  /// 0 as scanned, 1 as used, 2 both side by side.
+  void setPart(int part);
+  [[nodiscard]] ScanMaskBar* maskBar() const { return mask_; }
+  [[nodiscard]] View3D* viewBefore() const { return before_view_; }
   void showProfile(int index);
 
  private:
@@ -43,6 +49,8 @@ class ScanCapturePage : public Page {
   void fillTable();
   void loadCloud();
   void showCloud();
+  void addLeftOut(std::vector<Series>& series, int index) const;
+  void showIn(View3D* view, const ScanPicture& picture, const QString& part);
   void showVerdict();
   void toggleExcluded();
   [[nodiscard]] QString selected() const;
@@ -62,7 +70,13 @@ class ScanCapturePage : public Page {
   Callout* verdict_;
   QPushButton* exclude_;
   Segments* colouring_;
+  Segments* part_;
+  ScanMaskBar* mask_;
+  QString shown_mask_;
+  QString drawn_;  ///< the scan whose cloud is in the view
   View3D* view_;
+  View3D* before_view_;
+  ScanPicture before_picture_;
   Plot* profile_;
   QSlider* slider_;
   QLabel* slider_text_;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The pages of the laser profiler in the real window, on scans made by the virtual profiler.
+#include <QApplication>
+#include <QComboBox>
+#include <QMouseEvent>
 #include <cmath>
 
 #include "core/base/atomic_file.h"
@@ -10,8 +13,10 @@
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/scanning/axis_errors_page.h"
+#include "widgets/pages/scanning/cloud_painter.h"
 #include "widgets/pages/scanning/profiler_calibration_page.h"
 #include "widgets/pages/scanning/scan_capture_page.h"
+#include "widgets/pages/scanning/scan_mask_bar.h"
 #include "widgets/plots/plot.h"
 #include "widgets/plots/surface_plot.h"
 #include "widgets/view3d/view3d.h"
@@ -95,9 +100,9 @@ TEST_F(ScanningPages, CaptureNamesTheIncompleteScanAndShowsClouds) {
   // Registration takes the motion of the profiler out; noise of about a micrometre is left.
   EXPECT_GT(before, 5.0 * page->picture().median_magnitude);
   EXPECT_LT(page->picture().median_magnitude, 1.5);
-  EXPECT_EQ(page->profile()->series().size(), 2U);
+  EXPECT_EQ(page->profile()->series().size(), 3U) << "cold, this scan, left out";
   page->showProfile(3);
-  EXPECT_GT(page->profile()->series().back().x.size(), 150U);
+  EXPECT_GT(page->profile()->series()[1].x.size(), 150U);
   exportAll();
 }
 
@@ -120,6 +125,74 @@ TEST_F(ScanningPages, ExcludingAScanIsUndoneByUndo) {
   EXPECT_EQ(window_->workflow().status(StepId::Calibrate).state, StepState::Outdated);
   press();
   EXPECT_EQ(calibrate->registrations()->rowCount(), 2 * 6);
+}
+
+TEST_F(ScanningPages, APartIsPaintedAwayAndTakenBack) {
+  openScans("rigid", false);
+  const QString scan = QStringLiteral("captures/clouds/A1_C2.pcd");
+  go<ProfilerCalibrationPage>(StepId::Calibrate);
+  press();
+  auto* page = go<ScanCapturePage>(StepId::Capture);
+  press();
+  page->select(scan);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  const auto before = page->picture().counts;
+  EXPECT_EQ(before[3], 0U);
+  EXPECT_EQ(page->picture().xyz_mm->size(), 3 * before[0]) << "after: what is used";
+  const auto drag = [&](QPointF from, QPointF to) {
+    QWidget* sheet = page->maskBar()->painter();
+    const QSizeF size(sheet->size());
+    const auto at = [&](QPointF p) { return QPoint(int(p.x() * size.width()), int(p.y() * size.height())); };
+    QTest::mousePress(sheet, Qt::LeftButton, {}, at(from));
+    for (int i = 1; i <= 8; ++i) {
+      const QPointF p = from + (to - from) * i / 8.0;
+      QMouseEvent move(QEvent::MouseMove, at(p), sheet->mapToGlobal(at(p)), Qt::NoButton, Qt::LeftButton, {});
+      QApplication::sendEvent(sheet, &move);
+    }
+    QTest::mouseRelease(sheet, Qt::LeftButton, {}, at(to));
+    ASSERT_TRUE(waitForJobs(*window_, 60));
+  };
+  QTest::mouseClick(page->maskBar()->tools()->button(static_cast<int>(PaintTool::Rectangle)), Qt::LeftButton);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  page->maskBar()->reason()->setEditText(QStringLiteral("a chip"));
+  drag({0.4, 0.3}, {0.6, 0.45});
+  const auto erased = page->picture().counts;
+  EXPECT_GT(erased[3], before[0] / 30) << "points of the rectangle";
+  EXPECT_LT(erased[0], before[0]);
+  ASSERT_EQ(window_->session().excluded().size(), 1U);
+  EXPECT_EQ(window_->session().excluded().begin()->second, QStringLiteral("a chip"));
+  EXPECT_EQ(window_->workflow().status(StepId::Calibrate).state, StepState::Outdated);
+  EXPECT_EQ(page->callout()->tone(), Tone::Outdated);
+
+  QTest::mouseClick(page->maskBar()->tools()->button(static_cast<int>(PaintTool::Brush)), Qt::LeftButton);
+  drag({0.45, 0.6}, {0.55, 0.62});
+  EXPECT_GT(page->picture().counts[3], erased[3]);
+  QTest::mouseClick(page->maskBar()->effect()->button(1), Qt::LeftButton);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(page->picture().colouring, ScanColouring::LeftOut) << "to be seen";
+  QTest::mouseClick(page->maskBar()->tools()->button(static_cast<int>(PaintTool::Lasso)), Qt::LeftButton);
+  drag({0.2, 0.2}, {0.8, 0.3});  // a lasso without area takes nothing back
+  EXPECT_EQ(window_->undoStack().count(), 3);
+  page->setPart(2);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_TRUE(page->viewBefore()->isVisible());
+  EXPECT_EQ(page->viewBefore()->camera(), page->view()->camera());
+  window_->grab().save(QString::fromStdString((folder_ / "masks.png").string()));
+
+  // The evaluation leaves the part out, and undo brings everything back as it was.
+  go<ProfilerCalibrationPage>(StepId::Calibrate);
+  press();
+  EXPECT_EQ(window_->workflow().status(StepId::Calibrate).state, StepState::Current);
+  for (int i = 0; i < 3; ++i) window_->undoStack().undo();
+  EXPECT_TRUE(window_->session().excluded().empty());
+  page = go<ScanCapturePage>(StepId::Capture);
+  EXPECT_EQ(page->picture().counts[3], 0U);
+  EXPECT_EQ(page->picture().counts[0], before[0]);
+  // One press takes everything back too.
+  window_->undoStack().redo();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  QTest::mouseClick(page->maskBar()->clearButton(), Qt::LeftButton);
+  EXPECT_TRUE(window_->session().excluded().empty());
 }
 
 TEST_F(ScanningPages, CalibrationShowsWhatItCannotDetermine) {

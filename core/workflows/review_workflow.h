@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Thermal states, models and campaigns side by side: what one pane of a review shows, the difference of two of them,
+// and a section through them.
+//
+// Values of a state are changes from the first state of the campaign (the reference), um or urad, MCF. The heat map of
+// a state is its nine-parameter model over the table; where the points of a state do not determine it there are only
+// points. A difference is `b` minus `a`; both are taken as independent, so that sigma^2 = sigma_a^2 + sigma_b^2.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/machine/field.h"
+#include "core/machine/machine_description.h"
+#include "core/machine/nine_parameter_model.h"
+#include "core/machine/observation.h"
+
+namespace spindrift {
+
+enum class ReviewQuantity {
+  Measured,  ///< the points as measured
+  Model,     ///< heat map of the model and its value at the points
+  Residual,  ///< measured minus model at the points
+};
+
+struct ReviewRequest {
+  std::string state;
+  ReviewQuantity quantity = ReviewQuantity::Measured;
+  Component component = Component::EX;
+  int nodes = 81;  ///< of the longer side of the heat map
+};
+
+/// A value at a point; sigma is one standard uncertainty.
+struct ReviewValue {
+  double value = 0.0;
+  double sigma = 0.0;
+};
+
+struct ReviewPoint {
+  std::string id;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  bool used = true;                             ///< false: holdout or excluded
+  std::map<Component, ReviewValue> components;  ///< everything known at the point
+};
+
+/// What one pane shows.
+struct ReviewPicture {
+  std::string title;  ///< "M3 measured"
+  Component component = Component::EX;
+  std::vector<ReviewPoint> points;
+  std::optional<Field> field;  ///< heat map of the component, where there is one
+  std::string message;         ///< why there is no heat map; empty if there is or none was asked for
+  double largest = 0.0;        ///< |value| of the component over points and determined nodes
+};
+
+/// Points and, with quantity Model, the heat map of one state. Throws InputError for a state that does not exist.
+[[nodiscard]] ReviewPicture reviewOf(const ObservationSet& observations, const MachineDescription& machine,
+                                     const ReviewRequest& request);
+
+/// b minus a: at the points both have, and over the grid if both have a heat map of the same component.
+[[nodiscard]] ReviewPicture reviewDifference(const ReviewPicture& a, const ReviewPicture& b);
+
+/// A line through a field along x (or y) at a fixed y (or x): places and values with their sigma. Nodes that the model
+/// does not determine are left out. Between rows of the grid values are interpolated.
+struct ReviewSection {
+  std::vector<double> place_mm;
+  std::vector<double> value;
+  std::vector<double> sigma;
+};
+[[nodiscard]] ReviewSection reviewSection(const Field& field, bool along_x, double at_mm);
+
+}  // namespace spindrift

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The step Review in the real window: four thermal states of a plain table, then scans.
+#include <fmt/format.h>
+
+#include <QMouseEvent>
+#include <QSlider>
+#include <QTableView>
+#include <cmath>
+
+#include "core/base/atomic_file.h"
+#include "core/simulation/virtual_profiler.h"
+#include "tests/widgets/pages/page_test.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/review/review_page.h"
+#include "widgets/pages/review/review_pane.h"
+#include "widgets/plots/plot.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+class Review : public PageTest {
+ protected:
+  /// Nine points on a table of 300 mm; state k has EX = 3 k (1 + x / 300) um, EY = -k um, EZ = 2 k um.
+  std::filesystem::path writeStates(const std::string& name, double gain) {
+    const std::filesystem::path folder = folder_ / name;
+    std::filesystem::create_directories(folder);
+    writeFileAtomically(
+        folder / "campaign.json",
+        fmt::format(R"({{"format":"spindrift-campaign","version":1,"name":"{}","start_utc":"2026-01-31T08:00:00Z"}})",
+                    name));
+    writeFileAtomically(folder / "machine.json",
+                        R"({"format":"spindrift-machine","version":1,"name":"m","chain":"V [w-X'-Y'-b-Z-(C)-t]","axes":[
+{"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,300]},{"name":"Z","travel_mm":[0,200]}]})");
+    std::string csv = "time_s,state,point,x_mm,y_mm,z_mm,c_deg,component,value,sigma,instrument,use\n";
+    for (int state = 0; state < 4; ++state)
+      for (int p = 0; p < 9; ++p) {
+        const double x = 30.0 + 120.0 * (p % 3), y = 30.0 + 120.0 * (p / 3);
+        for (const auto& [c, v] : {std::pair<const char*, double>{"EX", 3.0 * state * (1.0 + x / 300.0)},
+                                   {"EY", -1.0 * state},
+                                   {"EZ", 2.0 * state}})
+          csv += fmt::format("{},M{},P{},{},{},0,0,{},{:.4f},0.2,microscope,fit\n", 3600 * state, state, p + 1, x, y, c,
+                             gain * v);
+      }
+    writeFileAtomically(folder / "observations.csv", csv);
+    return folder;
+  }
+};
+
+TEST_F(Review, StatesStandSideBySideWithOneScaleAndOneCamera) {
+  open(writeStates("states", 1.0));
+  auto* page = go<ReviewPage>(StepId::Review);
+  ASSERT_NE(page, nullptr);
+  EXPECT_EQ(window_->workflow().status(StepId::Review).state, StepState::Current);
+  EXPECT_EQ(page->slider()->maximum(), 3);
+  page->setPanes(4);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  View3D* measured = page->pane(1)->view();
+  View3D* model = page->pane(2)->view();
+  ASSERT_TRUE(page->pane(2)->picture().field.has_value()) << page->pane(2)->picture().message;
+  EXPECT_EQ(measured->colourScale(), model->colourScale());
+  EXPECT_EQ(measured->points().size(), 9U);
+  // Pane 3: the residual of a model that holds; pane 4: this state minus M1, which is two thirds of M3.
+  for (const ReviewPoint& p : page->pane(3)->picture().points)
+    EXPECT_LT(std::abs(p.components.at(Component::EX).value), 0.05);
+  EXPECT_EQ(page->pane(4)->picture().title, "M1 measured minus M3 measured");
+  ASSERT_EQ(page->pane(4)->picture().points.size(), 9U) << page->pane(4)->picture().message;
+  EXPECT_NEAR(page->pane(4)->picture().points[0].components.at(Component::EX).value, -2.0 * 3.0 * 1.1, 1e-3);
+  EXPECT_NEAR(page->pane(4)->picture().points[0].components.at(Component::EX).sigma, 0.4, 1e-3);
+
+  // Turning one turns all.
+  QTest::keyClick(measured, Qt::Key_Right);
+  QTest::keyClick(measured, Qt::Key_Up);
+  for (int i = 2; i <= 4; ++i) EXPECT_EQ(page->pane(i)->view()->camera(), measured->camera());
+  QTest::keyClick(measured, Qt::Key_2);
+
+  // A row selects in all views, a point in a view selects the row.
+  page->tableView()->selectRow(page->table()->rowOf(QStringLiteral("P5")));
+  EXPECT_EQ(model->selected(), QStringLiteral("P5"));
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  const auto pixel = model->pixelOf({270.0, 30.0, 0.0});
+  ASSERT_TRUE(pixel.has_value());
+  QTest::mouseClick(model, Qt::LeftButton, {}, pixel->toPoint());
+  EXPECT_EQ(measured->selected(), QStringLiteral("P3"));
+  EXPECT_EQ(page->table()->idAt(page->tableView()->currentIndex().row()), QStringLiteral("P3"));
+
+  // The value under the cursor with its uncertainty, at the same place in every pane that has a field.
+  const QPointF middle(model->width() / 2.0, model->height() / 2.0);
+  QMouseEvent move(QEvent::MouseMove, middle, model->mapToGlobal(middle), Qt::NoButton, Qt::NoButton, {});
+  QApplication::sendEvent(model, &move);
+  EXPECT_TRUE(page->pane(2)->value().contains(QChar(0x00B1))) << page->pane(2)->value().toStdString();
+
+  // The section follows the plane EX = 9 (1 + x / 300).
+  ASSERT_EQ(page->section()->series().empty(), false);
+  const Series& line = page->section()->series()[1];
+  EXPECT_EQ(line.style, SeriesStyle::Line);
+  for (std::size_t i = 0; i < line.x.size(); ++i) EXPECT_NEAR(line.y[i], 9.0 * (1.0 + line.x[i] / 300.0), 0.05);
+  page->setArrows(true);
+  EXPECT_EQ(measured->arrows().size(), 9U);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  exportAll();
+}
+
+TEST_F(Review, PlaybackRunsThroughTheStates) {
+  open(writeStates("states", 1.0));
+  auto* page = go<ReviewPage>(StepId::Review);
+  page->slider()->setValue(1);
+  EXPECT_EQ(page->pane(1)->picture().title, "M1 measured");
+  page->pane(2)->choose(PaneContent::Measured, QStringLiteral("M3"));
+  QTest::mouseClick(page->primaryButton(), Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return page->slider()->value() == 2; }, 5000));
+  EXPECT_EQ(page->pane(1)->picture().title, "M2 measured");
+  EXPECT_EQ(page->pane(2)->picture().title, "M3 measured") << "a fixed state stays";
+  QTest::mouseClick(page->primaryButton(), Qt::LeftButton);
+}
+
+TEST_F(Review, ScansStandSideBySide) {
+  VirtualScanCampaign c;
+  c.optics.profile_points = 640;
+  c.optics.profile_interval_mm = 0.05;
+  c.optics.profile_spacing_mm = 0.3;
+  c.artefacts.emplace_back();
+  c.cycles = {{"C0", 0.0, 40.0}, {"C1", 1800.0, 40.0}, {"C2", 7200.0, 40.0}};
+  c.error = [](double time_s, double) { return SmallError{{0.0, 0.0, 1e-6 * time_s}, Eigen::Vector3d::Zero()}; };
+  JobContext job;
+  writeVirtualScanCampaign(c, folder_ / "scans", 5, job);
+  open(folder_ / "scans");
+  auto* page = go<ReviewPage>(StepId::Review);
+  page->pane(1)->choose(PaneContent::ScanChange, {});
+  page->pane(2)->choose(PaneContent::ScanLeftOver, {});
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  ASSERT_FALSE(page->pane(1)->scanView()->empty());
+  ASSERT_FALSE(page->pane(2)->scanView()->empty());
+  EXPECT_EQ(page->pane(1)->scanView()->colourScale(), page->pane(2)->scanView()->colourScale());
+  QTest::keyClick(page->pane(1)->scanView(), Qt::Key_Right);
+  EXPECT_EQ(page->pane(1)->scanView()->camera(), page->pane(2)->scanView()->camera());
+  exportAll();
+}
+
+}  // namespace
+}  // namespace spindrift::gui

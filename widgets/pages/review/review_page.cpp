@@ -1,0 +1,479 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/review/review_page.h"
+
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/pages/review/review_pane.h"
+#include "widgets/plots/plot.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr int playback_ms = 700;
+/// Points this near to a section (part of the table) are drawn in it.
+constexpr double section_reach = 0.1;
+
+/// 1, 2 or 5 times a power of ten, not above `value`.
+double roundedDown(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {5.0, 2.0})
+    if (value >= step * power) return step * power;
+  return power;
+}
+
+}  // namespace
+
+ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Review, parent), sources_(session()) {
+  play_ = makeButton(tr("Play the states"), "play", "primary");
+  play_->setCheckable(true);
+  addAction(play_);
+  auto* options = new QHBoxLayout;
+  count_ = new Segments({tr("Two panes"), tr("Three"), tr("Four")}, tr("Number of panes"));
+  component_ = new Segments({QStringLiteral("EX"), QStringLiteral("EY"), QStringLiteral("EZ"), QStringLiteral("EA"),
+                             QStringLiteral("EB"), QStringLiteral("EC")},
+                            tr("Component"));
+  arrows_ = new QCheckBox(tr("Arrows"));
+  machine_ = new QCheckBox(tr("Machine"));
+  options->addWidget(count_);
+  options->addWidget(component_);
+  options->addWidget(arrows_);
+  options->addWidget(machine_);
+  options->addStretch();
+  content()->addLayout(options);
+
+  auto* left = new QWidget;
+  auto* left_column = new QVBoxLayout(left);
+  left_column->setContentsMargins(0, 0, 0, 0);
+  grid_ = new QGridLayout;
+  grid_->setSpacing(8);
+  left_column->addLayout(grid_, 1);
+  for (int i = 0; i < 4; ++i) {
+    auto* pane = new ReviewPane(i + 1, sources_, left);
+    panes_[static_cast<std::size_t>(i)] = pane;
+    connect(pane, &ReviewPane::changed, this, &ReviewPage::showAll);
+    for (View3D* view : {pane->view(), pane->scanView()}) {
+      showHints(view);
+      connect(view, &View3D::pointPicked, this, &ReviewPage::select);
+      connect(view, &View3D::cursorMoved, this, [this, view](const QPointF& pixel) { probe(view, pixel); });
+    }
+    for (int other = 0; other < i; ++other) {
+      pane->view()->link(panes_[static_cast<std::size_t>(other)]->view());
+      pane->scanView()->link(panes_[static_cast<std::size_t>(other)]->scanView());
+    }
+  }
+  auto* time = new QHBoxLayout;
+  time->addWidget(makeLabel(tr("State"), "sectionTitle"));
+  slider_ = new QSlider(Qt::Horizontal);
+  slider_->setAccessibleName(tr("State shown by panes that follow the slider"));
+  slider_->setMinimumHeight(sizes::control_height);
+  time->addWidget(slider_, 1);
+  slider_text_ = new QLabel;
+  slider_text_->setMinimumWidth(170);
+  time->addWidget(slider_text_);
+  left_column->addLayout(time);
+
+  auto* tabs = makeTabs();
+  rows_ = new RowsModel({tr("Point")}, this);
+  table_ = makeTable(rows_, tr("Points"), tr("Points appear with the first evaluated state."));
+  tabs->addTab(table_, tr("Points"));
+  auto* section_tab = new QWidget;
+  auto* section_column = new QVBoxLayout(section_tab);
+  auto* section_line = new QHBoxLayout;
+  direction_ = new Segments({tr("Along X"), tr("Along Y")}, tr("Direction of the section"));
+  place_ = new QDoubleSpinBox;
+  place_->setDecimals(1);
+  place_->setSuffix(tr(" mm"));
+  place_->setAccessibleName(tr("Where the section runs"));
+  section_line->addWidget(direction_);
+  section_line->addWidget(place_, 1);
+  section_column->addLayout(section_line);
+  section_ = new Plot;
+  section_->setEmptyText(tr("A section will appear here"), tr("Let a pane show a model, or points near the line."));
+  section_column->addWidget(section_, 1);
+  tabs->addTab(section_tab, tr("Section"));
+  content()->addWidget(makeSplitter(left, tabs, 7, 3), 1);
+  layOutPanes();
+
+  connect(count_, &Segments::chosen, this, [this] {
+    layOutPanes();
+    showAll();
+  });
+  connect(component_, &Segments::chosen, this, &ReviewPage::showAll);
+  connect(arrows_, &QCheckBox::toggled, this, &ReviewPage::showAll);
+  connect(machine_, &QCheckBox::toggled, this, [this](bool on) {
+    showAll();
+    panes_[0]->view()->resetCamera(on ? StandardView::Isometric : StandardView::Top);
+  });
+  connect(slider_, &QSlider::valueChanged, this, &ReviewPage::showAll);
+  connect(play_, &QPushButton::toggled, this, &ReviewPage::play);
+  connect(&timer_, &QTimer::timeout, this, [this] {
+    if (!isVisible() || slider_->maximum() < 1) return play_->setChecked(false);
+    slider_->setValue(slider_->value() < slider_->maximum() ? slider_->value() + 1 : slider_->minimum());
+  });
+  connect(direction_, &Segments::chosen, this, &ReviewPage::showSection);
+  connect(place_, &QDoubleSpinBox::valueChanged, this, &ReviewPage::showSection);
+  connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this](const QModelIndex& now) {
+    if (!filling_ && now.isValid()) select(rows_->idAt(now.row()));
+  });
+}
+
+void ReviewPage::layOutPanes() {
+  const int shown = 2 + count_->current();
+  for (int i = 0; i < 4; ++i) {
+    ReviewPane* pane = panes_[static_cast<std::size_t>(i)];
+    grid_->removeWidget(pane);
+    pane->setVisible(i < shown);
+    if (i < shown) grid_->addWidget(pane, i / 2, i % 2, 1, shown == 3 && i == 2 ? 2 : 1);
+  }
+}
+
+void ReviewPage::setPanes(int count) {
+  count_->setCurrent(count - 2);
+  layOutPanes();
+  showAll();
+}
+
+void ReviewPage::setComponent(int index) {
+  component_->setCurrent(index);
+  showAll();
+}
+
+void ReviewPage::setArrows(bool on) {
+  arrows_->setChecked(on);
+}
+
+void ReviewPage::refresh() {
+  if (session().campaign() == nullptr) return;
+  sources_.refresh();
+  const bool other = shown_campaign_ != session().campaignId();
+  shown_campaign_ = session().campaignId();
+  for (ReviewPane* pane : panes_) pane->refresh(shown_campaign_);
+  fillSlider();
+  const auto own = sources_.source(shown_campaign_);
+  filling_ = true;
+  if (own != nullptr && other) {
+    const LinearAxis* y = own->campaign->machine.findAxis("Y");
+    place_->setRange(-1e5, 1e5);
+    place_->setValue(y == nullptr ? 0.0 : 0.5 * (y->travel_mm[0] + y->travel_mm[1]));
+    const bool scans = !own->scans.empty();
+    panes_[0]->choose(PaneContent::Measured);
+    panes_[1]->choose(scans ? PaneContent::ScanChange : PaneContent::Model);
+    panes_[2]->choose(scans ? PaneContent::ScanLeftOver : PaneContent::Residual);
+    panes_[3]->choose(PaneContent::Difference, own->states.size() > 1 ? fromCore(own->states[1]) : QString());
+  }
+  filling_ = false;
+  if (own == nullptr || (own->states.empty() && own->scans.empty())) {
+    callout()->show(Tone::Attention, tr("There is nothing to compare yet: evaluate the captures first."));
+    callout()->setAction(tr("Go to Calibrate"), [this] { context().workflow.goTo(StepId::Calibrate); });
+  } else {
+    callout()->setAction({}, {});
+    callout()->set(Tone::Neutral, {});
+  }
+  showAll();
+}
+
+void ReviewPage::fillSlider() {
+  // The states of the campaign at hand; panes of other campaigns that lack one say so.
+  const auto own = sources_.source(session().campaignId());
+  std::vector<std::string> states = own == nullptr ? std::vector<std::string>() : own->states;
+  if (states.empty() && own != nullptr) {
+    for (const ScanCapture& c : own->scans)
+      if (std::find(states.begin(), states.end(), c.cycle) == states.end()) states.push_back(c.cycle);
+  }
+  if (states == states_) return;
+  states_ = std::move(states);
+  const QSignalBlocker quiet(slider_);
+  slider_->setRange(0, std::max(0, static_cast<int>(states_.size()) - 1));
+  slider_->setValue(slider_->maximum());
+  slider_->setEnabled(states_.size() > 1);
+  play_->setEnabled(states_.size() > 1);
+}
+
+std::string ReviewPage::stateAtSlider() const {
+  return states_.empty() ? std::string() : states_[static_cast<std::size_t>(slider_->value())];
+}
+
+double ReviewPage::exaggeration() const {
+  double largest = 0.0;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+  for (const ReviewPane* pane : panes_) {
+    if (pane->isHidden()) continue;
+    for (const ReviewPoint& p : pane->picture().points) {
+      low = low.cwiseMin(p.position_mm);
+      high = high.cwiseMax(p.position_mm);
+      for (const auto& [component, v] : p.components)
+        if (!isRotation(component) && std::isfinite(v.value)) largest = std::max(largest, std::abs(v.value));
+    }
+  }
+  if (!(largest > 0.0)) return 1.0;
+  const double size = std::max(10.0, (high - low).norm());
+  return std::max(1.0, roundedDown(0.15 * size / (1e-3 * largest)));
+}
+
+void ReviewPage::showAll() {
+  if (filling_ || session().campaign() == nullptr) return;
+  const std::string at_slider = stateAtSlider();
+  slider_text_->setText(
+      states_.empty() ? QString()
+                      : tr("%1 (%2 of %3)").arg(fromCore(at_slider)).arg(slider_->value() + 1).arg(states_.size()));
+  const auto component = static_cast<Component>(component_->current());
+  std::array<std::optional<ReviewPicture>, 4> pictures;
+  std::array<QString, 4> problems;
+  double limit = 0.0;
+  for (std::size_t i = 0; i < panes_.size(); ++i) {
+    const ReviewPane& pane = *panes_[i];
+    const auto source = pane.source();
+    if (pane.isHidden() || pane.isScan()) continue;
+    if (source == nullptr || !source->observations) {
+      problems[i] = tr("This campaign has no observations yet: evaluate its captures first.");
+      continue;
+    }
+    try {
+      ReviewRequest request;
+      request.state = pane.state(at_slider);
+      request.component = component;
+      const bool difference = pane.content() == PaneContent::Difference;
+      const PaneContent of = difference ? panes_[0]->content() : pane.content();
+      if (of > PaneContent::Residual) throw InputError("Pane 1 shows a scan; let it show a state to subtract it.");
+      request.quantity = static_cast<ReviewQuantity>(of);
+      ReviewPicture picture = reviewOf(*source->observations, source->campaign->machine, request);
+      if (difference && pictures[0]) picture = reviewDifference(*pictures[0], picture);
+      limit = std::max(limit, picture.largest);
+      pictures[i] = std::move(picture);
+    } catch (const InputError& e) {
+      problems[i] = QString::fromUtf8(e.what());
+    }
+  }
+  for (int pass = 0; pass < 2; ++pass) {  // the exaggeration is that of all panes: known after the first pass
+    for (std::size_t i = 0; i < panes_.size(); ++i) {
+      if (!pictures[i]) continue;
+      panes_[i]->show(*pictures[i], std::max(limit, 0.01), arrows_->isChecked(), exaggeration(), machine_->isChecked());
+      panes_[i]->view()->setSelected(selected_);
+    }
+    if (!arrows_->isChecked()) break;
+  }
+  for (std::size_t i = 0; i < panes_.size(); ++i)
+    if (!problems[i].isEmpty()) panes_[i]->showMessage(tr("Nothing to show"), problems[i]);
+  showScans();
+  showTable();
+  showSection();
+}
+
+void ReviewPage::showScans() {
+  struct Wanted {
+    ReviewPane* pane;
+    std::shared_ptr<const ReviewSource> source;
+    std::string cloud, reference;
+    QString title;
+    ScanColouring colouring;
+  };
+  std::vector<Wanted> wanted;
+  for (ReviewPane* pane : panes_) {
+    if (pane->isHidden() || !pane->isScan()) continue;
+    const auto source = pane->source();
+    if (source == nullptr || source->scans.empty()) {
+      pane->showMessage(tr("Nothing to show"), tr("This campaign has no scans."));
+      continue;
+    }
+    // The artefact that is selected, else the first one of the list.
+    std::string artefact = source->scans.front().artefact;
+    for (const ScanCapture& c : source->scans)
+      if (fromCore(c.artefact) == selected_) artefact = c.artefact;
+    const std::string state = pane->state(stateAtSlider());
+    Wanted w{pane,
+             source,
+             {},
+             {},
+             fromCore(artefact + " " + state),
+             pane->content() == PaneContent::ScanChange ? ScanColouring::Measured : ScanColouring::Registered};
+    for (const ScanCapture& c : source->scans) {
+      if (c.artefact != artefact || source->campaign->excluded_captures.contains(c.cloud)) continue;
+      if (w.reference.empty()) w.reference = c.cloud;
+      if (c.cycle == state) w.cloud = c.cloud;
+    }
+    if (w.cloud.empty()) {
+      pane->showMessage(tr("Nothing to show"), tr("%1 was not scanned, or the scan is excluded.").arg(w.title));
+      continue;
+    }
+    wanted.push_back(std::move(w));
+  }
+  const int request = ++*request_;
+  if (wanted.empty()) return;
+  run(tr("Comparing scans"), [this, wanted, request, latest = request_](JobContext& job) -> std::function<void()> {
+    auto pictures = std::make_shared<std::vector<ScanPicture>>();
+    for (const Wanted& w : wanted) {
+      if (latest->load() != request) return [] {};
+      const auto& profiler = w.source->campaign->machine.profiler;
+      pictures->push_back(pictureOfScan(*w.source->campaign, w.cloud, w.reference, w.colouring,
+                                        scanModelFromString(profiler ? profiler->scan_model : "rigid"), job,
+                                        ScanPart::AsUsed));
+    }
+    return [this, wanted, pictures, request] {
+      if (request != request_->load()) return;
+      double limit = 0.1;
+      for (const ScanPicture& p : *pictures)
+        if (p.colouring != ScanColouring::Height) limit = std::max({limit, std::abs(p.low), std::abs(p.high)});
+      for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i].pane->showScan((*pictures)[i], wanted[i].title, limit);
+    };
+  });
+}
+
+void ReviewPage::showTable() {
+  QStringList headers{tr("Point")};
+  std::vector<QString> order;
+  const auto component = static_cast<Component>(component_->current());
+  const QString unit = fromCore(std::string(unitOf(component)));
+  std::vector<const ReviewPane*> shown;
+  for (std::size_t i = 0; i < panes_.size(); ++i) {
+    const ReviewPane* pane = panes_[i];
+    if (pane->isHidden() || pane->isScan()) continue;
+    shown.push_back(pane);
+    headers << tr("%1 / %2").arg(i + 1).arg(unit);
+    for (const ReviewPoint& p : pane->picture().points)
+      if (std::find(order.begin(), order.end(), fromCore(p.id)) == order.end()) order.push_back(fromCore(p.id));
+  }
+  std::vector<Row> rows;
+  for (const QString& id : order) {
+    Row row;
+    row.id = id;
+    row.cells.push_back(nameCell(id));
+    for (const ReviewPane* pane : shown) {
+      const auto& points = pane->picture().points;
+      const auto p =
+          std::find_if(points.begin(), points.end(), [&](const ReviewPoint& q) { return fromCore(q.id) == id; });
+      const auto v =
+          p == points.end() ? std::map<Component, ReviewValue>::const_iterator() : p->components.find(component);
+      row.cells.push_back(
+          p == points.end() || v == p->components.end() ? dashCell() : quantityCell(v->second.value, v->second.sigma));
+    }
+    rows.push_back(std::move(row));
+  }
+  filling_ = true;
+  rows_->setHeaders(headers);
+  rows_->setRows(std::move(rows));
+  if (const int at = rows_->rowOf(selected_); at >= 0) table_->selectRow(at);
+  filling_ = false;
+}
+
+void ReviewPage::select(const QString& point) {
+  if (point == selected_) return;
+  selected_ = point;
+  bool scans = false;
+  for (ReviewPane* pane : panes_) {
+    pane->view()->setSelected(point);
+    scans = scans || (!pane->isHidden() && pane->isScan());
+  }
+  filling_ = true;
+  if (const int at = rows_->rowOf(point); at >= 0) table_->selectRow(at);
+  filling_ = false;
+  if (scans) showScans();
+}
+
+void ReviewPage::showSection() {
+  if (filling_) return;
+  const bool along_x = direction_->current() == 0;
+  const auto component = static_cast<Component>(component_->current());
+  const double at = place_->value();
+  std::vector<Series> series;
+  for (std::size_t i = 0; i < panes_.size(); ++i) {
+    const ReviewPane* pane = panes_[i];
+    if (pane->isHidden() || pane->isScan()) continue;
+    const ReviewPicture& picture = pane->picture();
+    Series s;
+    s.name = tr("%1: %2").arg(i + 1).arg(fromCore(picture.title));
+    s.colour = static_cast<int>(i);
+    if (picture.field) {
+      const ReviewSection section = reviewSection(*picture.field, along_x, at);
+      s.x = section.place_mm;
+      s.y = section.value;
+      s.sigma = section.sigma;
+      s.style = SeriesStyle::Line;
+    } else {
+      s.style = SeriesStyle::Points;
+      double low = 1e300, high = -1e300;
+      for (const ReviewPoint& p : picture.points) {
+        low = std::min(low, along_x ? p.position_mm.y() : p.position_mm.x());
+        high = std::max(high, along_x ? p.position_mm.y() : p.position_mm.x());
+      }
+      for (const ReviewPoint& p : picture.points) {
+        const double across = along_x ? p.position_mm.y() : p.position_mm.x();
+        const auto v = p.components.find(component);
+        if (v == p.components.end() || !std::isfinite(v->second.value)) continue;
+        if (std::abs(across - at) > section_reach * (high - low) + 1e-6) continue;
+        s.x.push_back(along_x ? p.position_mm.x() : p.position_mm.y());
+        s.y.push_back(v->second.value);
+        s.sigma.push_back(v->second.sigma);
+      }
+    }
+    if (!s.x.empty()) series.push_back(std::move(s));
+  }
+  section_->setAxes(along_x ? tr("X / mm") : tr("Y / mm"),
+                    QStringLiteral("%1 / %2").arg(fromCore(std::string(toString(component))),
+                                                  fromCore(std::string(unitOf(component)))));
+  section_->setContent(std::move(series));
+}
+
+void ReviewPage::probe(View3D* view, const QPointF& pixel) {
+  const auto component = static_cast<Component>(component_->current());
+  for (ReviewPane* pane : panes_) {
+    if (pane->isHidden() || pane->isScan() || view->size() != pane->view()->size()) {
+      pane->setValue({});
+      continue;
+    }
+    // The same place in every pane: the cameras are linked.
+    if (const auto found = pane->view()->probeAt(pixel)) {
+      pane->setValue(tr("x %1 mm, y %2 mm: %3%4")
+                         .arg(found->xy_mm.x(), 0, 'f', 1)
+                         .arg(found->xy_mm.y(), 0, 'f', 1)
+                         .arg(fromCore(withUncertainty(found->value, found->sigma, unitOf(component))),
+                              found->extrapolated ? tr(" (extrapolated)") : QString()));
+      continue;
+    }
+    const QString id = pane->view()->pointAt(pixel);
+    const auto& points = pane->view()->points();
+    const auto at = std::find_if(points.begin(), points.end(), [&](const ViewPoint& p) { return p.id == id; });
+    pane->setValue(id.isEmpty() || at == points.end() ? QString() : QStringLiteral("%1: %2").arg(id, at->value_text));
+  }
+}
+
+void ReviewPage::play(bool on) {
+  play_->setText(on ? tr("Stop") : tr("Play the states"));
+  if (on) {
+    timer_.start(playback_ms);
+  } else {
+    timer_.stop();
+  }
+}
+
+std::vector<Exportable> ReviewPage::exportables() {
+  std::vector<Exportable> items;
+  if (rows_->rowCount() > 0) items.push_back(exportableOf(tr("Points compared"), rows_));
+  for (std::size_t i = 0; i < panes_.size(); ++i) {
+    if (panes_[i]->isHidden()) continue;
+    View3D* view = panes_[i]->isScan() ? panes_[i]->scanView() : panes_[i]->view();
+    if (!view->empty()) items.push_back(exportableOf(tr("Pane %1").arg(i + 1), view));
+  }
+  if (!section_->empty()) items.push_back(exportableOf(tr("Section"), section_));
+  return items;
+}
+
+}  // namespace spindrift::gui

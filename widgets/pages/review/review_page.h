@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Step Review: thermal states, models, campaigns and scans side by side, with linked cameras, one colour scale, a
+// slider over the states with playback, a table that selects in the views and a section through the heat maps.
+#pragma once
+
+#include <QTimer>
+#include <array>
+#include <atomic>
+#include <memory>
+
+#include "widgets/pages/page.h"
+#include "widgets/pages/review/review_sources.h"
+
+class QCheckBox;
+class QDoubleSpinBox;
+class QGridLayout;
+class QLabel;
+class QSlider;
+class QTableView;
+
+namespace spindrift::gui {
+
+class Plot;
+class ReviewPane;
+class RowsModel;
+class Segments;
+class View3D;
+
+class ReviewPage : public Page {
+  Q_OBJECT
+ public:
+  explicit ReviewPage(PageContext context, QWidget* parent = nullptr);
+  void refresh() override;
+  [[nodiscard]] std::vector<Exportable> exportables() override;
+  [[nodiscard]] QPushButton* primaryButton() const override { return play_; }
+  [[nodiscard]] ReviewPane* pane(int number) const { return panes_[static_cast<std::size_t>(number - 1)]; }
+  /// 2 to 4.
+  void setPanes(int count);
+  void setComponent(int index);
+  void setArrows(bool on);
+  [[nodiscard]] RowsModel* table() const { return rows_; }
+  [[nodiscard]] QTableView* tableView() const { return table_; }
+  [[nodiscard]] Plot* section() const { return section_; }
+  [[nodiscard]] QSlider* slider() const { return slider_; }
+
+ private:
+  void layOutPanes();
+  void fillSlider();
+  [[nodiscard]] std::string stateAtSlider() const;
+  void showAll();
+  void showScans();
+  void showTable();
+  void showSection();
+  void probe(View3D* view, const QPointF& pixel);
+  void select(const QString& point);
+  void play(bool on);
+  [[nodiscard]] double exaggeration() const;
+
+  ReviewSources sources_;
+  std::int64_t shown_campaign_ = 0;
+  std::array<ReviewPane*, 4> panes_{};
+  QGridLayout* grid_;
+  Segments* count_;
+  Segments* component_;
+  QCheckBox* arrows_;
+  QCheckBox* machine_;
+  QSlider* slider_;
+  QLabel* slider_text_;
+  QPushButton* play_;
+  QTimer timer_;
+  RowsModel* rows_;
+  QTableView* table_;
+  Segments* direction_;
+  QDoubleSpinBox* place_;
+  Plot* section_;
+  QString selected_;
+  std::vector<std::string> states_;
+  std::shared_ptr<std::atomic<int>> request_ = std::make_shared<std::atomic<int>>(0);
+  bool filling_ = false;
+};
+
+}  // namespace spindrift::gui

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One pane of a review: what it shows (campaign, state, quantity) and the picture of it. The page works the contents
+// out, so that all panes share one colour scale and one exaggeration.
+#pragma once
+
+#include <QFrame>
+#include <memory>
+
+#include "core/scanning/scan_picture.h"
+#include "core/workflows/review_workflow.h"
+
+class QComboBox;
+class QLabel;
+class QStackedWidget;
+
+namespace spindrift::gui {
+
+class ReviewSources;
+class View3D;
+struct ReviewSource;
+
+/// What a pane can show; the first three are ReviewQuantity.
+enum class PaneContent { Measured, Model, Residual, Difference, ScanChange, ScanLeftOver };
+
+class ReviewPane : public QFrame {
+  Q_OBJECT
+ public:
+  ReviewPane(int number, ReviewSources& sources, QWidget* parent = nullptr);
+  /// Fills the choices anew and keeps what was chosen where it is still there.
+  void refresh(std::int64_t campaign);
+  void choose(PaneContent content, const QString& state = {});  ///< state empty: follows the slider
+  [[nodiscard]] std::shared_ptr<const ReviewSource> source() const;
+  [[nodiscard]] PaneContent content() const;
+  [[nodiscard]] bool isScan() const { return content() >= PaneContent::ScanChange; }
+  /// The state chosen, or `at_slider` where the pane follows the slider.
+  [[nodiscard]] std::string state(const std::string& at_slider) const;
+
+  void show(const ReviewPicture& picture, const std::optional<double>& limit, bool arrows, double exaggeration,
+            bool machine);
+  void showScan(const ScanPicture& picture, const QString& title, double limit);
+  void showMessage(const QString& title, const QString& how);
+  void setValue(const QString& text);
+  [[nodiscard]] QString value() const;
+  [[nodiscard]] const ReviewPicture& picture() const { return picture_; }
+  [[nodiscard]] View3D* view() const { return view_; }
+  [[nodiscard]] View3D* scanView() const { return scan_view_; }
+  [[nodiscard]] QComboBox* stateChoice() const { return state_; }
+  [[nodiscard]] QComboBox* contentChoice() const { return content_; }
+
+ Q_SIGNALS:
+  void changed();
+
+ private:
+  void fillStates();
+
+  ReviewSources& sources_;
+  QComboBox* campaign_;
+  QComboBox* state_;
+  QComboBox* content_;
+  QStackedWidget* stack_;
+  View3D* view_;
+  View3D* scan_view_;
+  QLabel* value_;
+  ReviewPicture picture_;
+  std::int64_t machine_of_ = 0;  ///< campaign whose machine is in the view
+  bool filling_ = false;
+  bool first_;
+};
+
+}  // namespace spindrift::gui

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/review/review_sources.h"
+
+#include "core/base/error.h"
+
+namespace spindrift::gui {
+namespace {
+
+std::shared_ptr<ReviewSource> readOther(SessionModel& session, std::int64_t id) {
+  const CampaignRecord record = session.session()->campaign(id);
+  auto source = std::make_shared<ReviewSource>();
+  source->campaign = std::make_shared<const Campaign>(Campaign::read(record.folder));
+  source->observations = source->campaign->observations;
+  if (!source->observations) {
+    if (const auto stored = session.session()->latestResult(id, "evaluate"))
+      source->observations = evaluationFrom(*stored).observations;
+  }
+  if (!source->observations) return source;
+  std::set<std::string> excluded;
+  for (const Exclusion& e : session.session()->exclusions(id)) excluded.insert(e.item);
+  for (Observation& o : source->observations->rows)
+    if (excluded.contains(o.state + "/" + o.point + "/" + std::string(toString(o.component))))
+      o.use = ObservationUse::Exclude;
+  return source;
+}
+
+}  // namespace
+
+void ReviewSources::refresh() {
+  read_.clear();
+}
+
+std::vector<std::pair<std::int64_t, QString>> ReviewSources::campaigns() const {
+  std::vector<std::pair<std::int64_t, QString>> out;
+  for (const CampaignRecord& record : session_.campaigns())
+    out.emplace_back(record.id, QString::fromStdString(record.name));
+  return out;
+}
+
+std::shared_ptr<const ReviewSource> ReviewSources::source(std::int64_t id) {
+  const auto found = read_.find(id);
+  if (found != read_.end()) return found->second;
+  std::shared_ptr<ReviewSource> source;
+  try {
+    if (id == session_.campaignId()) {
+      source = std::make_shared<ReviewSource>();
+      source->campaign = session_.snapshot().campaign;
+      source->observations = session_.observations();
+    } else {
+      source = readOther(session_, id);
+    }
+    source->id = id;
+    source->name = QString::fromStdString(source->campaign->name);
+    if (source->observations) source->states = source->observations->states();
+    if (source->campaign->captureList("scans.csv")) source->scans = readScanList(*source->campaign);
+  } catch (const InputError&) {
+    source.reset();
+  }
+  read_[id] = source;
+  return source;
+}
+
+}  // namespace spindrift::gui

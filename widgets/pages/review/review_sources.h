@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The campaigns of a session as a review sees them: observations with what the user took out, machine, scans.
+#pragma once
+
+#include <QString>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/scanning/scan_evaluation.h"
+#include "widgets/models/session_model.h"
+
+namespace spindrift::gui {
+
+struct ReviewSource {
+  std::int64_t id = 0;
+  QString name;
+  std::shared_ptr<const Campaign> campaign;
+  std::optional<ObservationSet> observations;
+  std::vector<std::string> states;  ///< in order; the first is the reference
+  std::vector<ScanCapture> scans;   ///< empty without a profiler
+};
+
+class ReviewSources {
+ public:
+  explicit ReviewSources(SessionModel& session) : session_(session) {}
+  /// Forgets what was read; campaigns are read anew when they are asked for.
+  void refresh();
+  [[nodiscard]] std::vector<std::pair<std::int64_t, QString>> campaigns() const;
+  /// Null if the campaign cannot be read.
+  [[nodiscard]] std::shared_ptr<const ReviewSource> source(std::int64_t id);
+
+ private:
+  SessionModel& session_;
+  std::map<std::int64_t, std::shared_ptr<const ReviewSource>> read_;
+};
+
+}  // namespace spindrift::gui
