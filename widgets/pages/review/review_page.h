@@ -75,6 +75,8 @@ class ReviewPage : public Page {
   Plot* section_;
   QString selected_;
   std::vector<std::string> states_;
+  /// The latest request for states and for scans: older jobs have nothing to say.
+  std::shared_ptr<std::atomic<int>> states_request_ = std::make_shared<std::atomic<int>>(0);
   std::shared_ptr<std::atomic<int>> request_ = std::make_shared<std::atomic<int>>(0);
   bool filling_ = false;
 };

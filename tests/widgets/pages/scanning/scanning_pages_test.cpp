@@ -177,7 +177,8 @@ TEST_F(ScanningPages, APartIsPaintedAwayAndTakenBack) {
   ASSERT_TRUE(waitForJobs(*window_, 60));
   EXPECT_TRUE(page->viewBefore()->isVisible());
   EXPECT_EQ(page->viewBefore()->camera(), page->view()->camera());
-  window_->grab().save(QString::fromStdString((folder_ / "masks.png").string()));
+  if (const QString folder = qEnvironmentVariable("SPINDRIFT_PICTURES"); !folder.isEmpty())
+    window_->grab().save(folder + QStringLiteral("/masks.png"));
 
   // The evaluation leaves the part out, and undo brings everything back as it was.
   go<ProfilerCalibrationPage>(StepId::Calibrate);

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/workflows/review_workflow.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/error.h"
+
+namespace spindrift {
+namespace {
+
+MachineDescription table() {
+  return MachineDescription::parse(
+      JsonNode::parse(R"({"format":"spindrift-machine","version":1,"name":"m","chain":"V [w-X'-Y'-b-Z-(C)-t]","axes":[
+{"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,200]},{"name":"Z","travel_mm":[0,200]}]})",
+                      "machine.json"),
+      "machine.json");
+}
+
+/// Reference M0 reads 1 um everywhere; M1 and M2 rise along X and stand higher.
+ObservationSet states(int points) {
+  std::string csv = "time_s,state,point,x_mm,y_mm,z_mm,c_deg,component,value,sigma,instrument,use\n";
+  for (int s = 0; s < 3; ++s)
+    for (int p = 0; p < points; ++p) {
+      const double x = 30.0 + 120.0 * (p % 3), y = 20.0 + 80.0 * (p / 3);
+      for (const auto& [c, v] : {std::pair<const char*, double>{"EX", s * x / 100.0}, {"EY", 0.0}, {"EZ", 2.0 * s}})
+        csv += fmt::format("{},M{},P{},{},{},0,0,{},{},0.3,probe,fit\n", 60 * s, s, p, x, y, c, 1.0 + v);
+    }
+  return ObservationSet::parse(csv, "observations.csv");
+}
+
+TEST(Review, AStateIsTheChangeFromTheReference) {
+  const ReviewPicture m2 = reviewOf(states(9), table(), {"M2", ReviewQuantity::Measured, Component::EX});
+  ASSERT_EQ(m2.points.size(), 9U);
+  EXPECT_NEAR(m2.points[2].components.at(Component::EX).value, 5.4, 1e-12);
+  EXPECT_NEAR(m2.points[2].components.at(Component::EX).sigma, 0.3 * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(m2.largest, 5.4, 1e-12);
+  EXPECT_FALSE(m2.field.has_value());
+  EXPECT_THROW((void)reviewOf(states(9), table(), {"M7", ReviewQuantity::Measured, Component::EX}), InputError);
+}
+
+TEST(Review, ModelAndResidualFollowTheNineParameters) {
+  const ReviewPicture model = reviewOf(states(9), table(), {"M2", ReviewQuantity::Model, Component::EX});
+  ASSERT_TRUE(model.field.has_value()) << model.message;
+  EXPECT_NEAR(model.points[2].components.at(Component::EX).value, 5.4, 1e-6);
+  const ReviewPicture rest = reviewOf(states(9), table(), {"M2", ReviewQuantity::Residual, Component::EX});
+  EXPECT_LT(rest.largest, 1e-6);
+  const ReviewSection section = reviewSection(*model.field, true, 77.7);
+  ASSERT_EQ(section.place_mm.size(), static_cast<std::size_t>(model.field->grid.nx));
+  for (std::size_t i = 0; i < section.place_mm.size(); ++i)
+    EXPECT_NEAR(section.value[i], 2.0 * section.place_mm[i] / 100.0, 1e-6);
+  // One point determines no heat map: that is said, nothing is invented.
+  const ReviewPicture one = reviewOf(states(1), table(), {"M2", ReviewQuantity::Model, Component::EX});
+  EXPECT_FALSE(one.field.has_value());
+  EXPECT_FALSE(one.message.empty());
+}
+
+TEST(Review, DifferenceIsTheSecondMinusTheFirst) {
+  const ObservationSet all = states(9);
+  const ReviewPicture a = reviewOf(all, table(), {"M1", ReviewQuantity::Model, Component::EX});
+  const ReviewPicture b = reviewOf(all, table(), {"M2", ReviewQuantity::Model, Component::EX});
+  const ReviewPicture d = reviewDifference(a, b);
+  ASSERT_TRUE(d.field.has_value());
+  EXPECT_NEAR(d.points[2].components.at(Component::EX).value, 2.7, 1e-6);
+  for (std::size_t i = 0; i < d.field->value.size(); ++i) {
+    EXPECT_NEAR(d.field->value[i], b.field->value[i] - a.field->value[i], 1e-12);
+    EXPECT_NEAR(d.field->sigma[i], std::hypot(a.field->sigma[i], b.field->sigma[i]), 1e-12);
+  }
+  ReviewPicture nothing;
+  EXPECT_FALSE(reviewDifference(nothing, b).message.empty());
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the panes of a review show: worked out in the background, applied to all panes together.
+#include <QCheckBox>
+#include <QLabel>
+#include <QSlider>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "widgets/common/parts.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/pages/review/review_page.h"
+#include "widgets/pages/review/review_pane.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+/// What a pane asks for.
+struct PaneRequest {
+  std::shared_ptr<const ReviewSource> source;  ///< null: the pane shows no state
+  ReviewRequest request;
+  bool difference = false;
+  QString problem;
+};
+
+/// What it gets: a picture or a sentence.
+struct PaneAnswer {
+  std::optional<ReviewPicture> picture;
+  QString problem;
+};
+
+std::vector<PaneAnswer> answersTo(const std::vector<PaneRequest>& requests, const JobContext& job) {
+  std::vector<PaneAnswer> answers(requests.size());
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    const PaneRequest& r = requests[i];
+    answers[i].problem = r.problem;
+    if (r.source == nullptr || !r.problem.isEmpty()) continue;
+    job.throwIfCancelled();
+    try {
+      ReviewPicture picture = reviewOf(*r.source->observations, r.source->campaign->machine, r.request);
+      if (r.difference && answers[0].picture) picture = reviewDifference(*answers[0].picture, picture);
+      answers[i].picture = std::move(picture);
+    } catch (const InputError& e) {
+      answers[i].problem = QString::fromUtf8(e.what());
+    }
+  }
+  return answers;
+}
+
+}  // namespace
+
+void ReviewPage::showAll() {
+  if (filling_ || session().campaign() == nullptr) return;
+  const std::string at_slider = stateAtSlider();
+  slider_text_->setText(
+      states_.empty() ? QString()
+                      : tr("%1 (%2 of %3)").arg(fromCore(at_slider)).arg(slider_->value() + 1).arg(states_.size()));
+  std::vector<PaneRequest> requests;
+  for (const ReviewPane* pane : panes_) {
+    PaneRequest r;
+    if (!pane->isHidden() && !pane->isScan()) {
+      r.source = pane->source();
+      if (r.source == nullptr || !r.source->observations)
+        r.problem = tr("This campaign has no observations yet: evaluate its captures first.");
+      r.request.state = pane->state(at_slider);
+      r.request.component = static_cast<Component>(component_->current());
+      r.difference = pane->content() == PaneContent::Difference;
+      const PaneContent content = r.difference ? panes_[0]->content() : pane->content();
+      if (content > PaneContent::Residual)
+        r.problem = tr("Pane 1 shows a scan; let it show a state to subtract it.");
+      else
+        r.request.quantity = static_cast<ReviewQuantity>(content);
+    }
+    requests.push_back(std::move(r));
+  }
+  const int request = ++*states_request_;
+  run(tr("Comparing states"),
+      [this, requests, request, latest = states_request_](JobContext& job) -> std::function<void()> {
+        if (latest->load() != request) return [] {};
+        const auto answers = std::make_shared<std::vector<PaneAnswer>>(answersTo(requests, job));
+        return [this, answers, request] {
+          if (request != states_request_->load()) return;
+          double limit = 0.01;
+          for (const PaneAnswer& a : *answers)
+            if (a.picture) limit = std::max(limit, a.picture->largest);
+          for (int pass = 0; pass < (arrows_->isChecked() ? 2 : 1);
+               ++pass) {  // arrows: the factor is that of all panes
+            for (std::size_t i = 0; i < panes_.size(); ++i) {
+              if (!(*answers)[i].picture) continue;
+              panes_[i]->show(*(*answers)[i].picture, limit, arrows_->isChecked(), exaggeration(),
+                              machine_->isChecked());
+              panes_[i]->view()->setSelected(selected_);
+            }
+          }
+          for (std::size_t i = 0; i < panes_.size(); ++i)
+            if (!(*answers)[i].problem.isEmpty()) panes_[i]->showMessage(tr("Nothing to show"), (*answers)[i].problem);
+          showTable();
+          showSection();
+        };
+      });
+  showScans();
+}
+
+void ReviewPage::showScans() {
+  struct Wanted {
+    ReviewPane* pane;
+    std::shared_ptr<const ReviewSource> source;
+    std::string cloud, reference;
+    QString title;
+    ScanColouring colouring;
+  };
+  std::vector<Wanted> wanted;
+  for (ReviewPane* pane : panes_) {
+    if (pane->isHidden() || !pane->isScan()) continue;
+    const auto source = pane->source();
+    if (source == nullptr || source->scans.empty()) {
+      pane->showMessage(tr("Nothing to show"), tr("This campaign has no scans."));
+      continue;
+    }
+    // The artefact that is selected, else the first one of the list.
+    std::string artefact = source->scans.front().artefact;
+    for (const ScanCapture& c : source->scans)
+      if (fromCore(c.artefact) == selected_) artefact = c.artefact;
+    const std::string state = pane->state(stateAtSlider());
+    Wanted w{pane,
+             source,
+             {},
+             {},
+             fromCore(artefact + " " + state),
+             pane->content() == PaneContent::ScanChange ? ScanColouring::Measured : ScanColouring::Registered};
+    for (const ScanCapture& c : source->scans) {
+      if (c.artefact != artefact || source->campaign->excluded_captures.contains(c.cloud)) continue;
+      if (w.reference.empty()) w.reference = c.cloud;
+      if (c.cycle == state) w.cloud = c.cloud;
+    }
+    if (w.cloud.empty()) {
+      pane->showMessage(tr("Nothing to show"), tr("%1 was not scanned, or the scan is excluded.").arg(w.title));
+      continue;
+    }
+    wanted.push_back(std::move(w));
+  }
+  const int request = ++*request_;
+  if (wanted.empty()) return;
+  run(tr("Comparing scans"), [this, wanted, request, latest = request_](JobContext& job) -> std::function<void()> {
+    auto pictures = std::make_shared<std::vector<ScanPicture>>();
+    for (const Wanted& w : wanted) {
+      if (latest->load() != request) return [] {};
+      const auto& profiler = w.source->campaign->machine.profiler;
+      pictures->push_back(pictureOfScan(*w.source->campaign, w.cloud, w.reference, w.colouring,
+                                        scanModelFromString(profiler ? profiler->scan_model : "rigid"), job,
+                                        ScanPart::AsUsed));
+    }
+    return [this, wanted, pictures, request] {
+      if (request != request_->load()) return;
+      double limit = 0.1;
+      for (const ScanPicture& p : *pictures)
+        if (p.colouring != ScanColouring::Height) limit = std::max({limit, std::abs(p.low), std::abs(p.high)});
+      for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i].pane->showScan((*pictures)[i], wanted[i].title, limit);
+    };
+  });
+}
+
+}  // namespace spindrift::gui
