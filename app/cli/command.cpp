@@ -74,6 +74,15 @@ void refuseResultsInCampaign(const CLI::App& command) {
 
 }  // namespace
 
+CommandResult noted(CommandResult result, const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
+    if (!result.summary.empty() && result.summary.back() != '\n') result.summary += '\n';
+    result.summary += "note: " + note + "\n";
+    result.json["notes"].push_back(note);
+  }
+  return result;
+}
+
 CLI::App* addCommand(CLI::App& parent, CommandLine& line, const std::string& name, const std::string& description,
                      std::function<CommandResult(JobContext&)> run) {
   CLI::App* command = parent.add_subcommand(name, description);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "core/base/job_context.h"
 
@@ -22,6 +23,9 @@ struct CommandResult {
   std::string summary;
   int exit_status = Done;
 };
+
+/// The result with sentences about what was left out, under "notes" and as lines for people.
+[[nodiscard]] CommandResult noted(CommandResult result, const std::vector<std::string>& notes);
 
 /// Shared by all commands of one run of the program.
 struct CommandLine {

@@ -8,6 +8,7 @@
 #include "core/base/text.h"
 #include "core/workflows/compensation_workflow.h"
 #include "core/workflows/evaluate_campaign.h"
+#include "core/workflows/verify_compensation.h"
 
 namespace spindrift::cli {
 namespace {
@@ -40,7 +41,8 @@ CommandResult runCompensate(const CompensationArguments& a, JobContext& job) {
   request.validate();
   const Campaign campaign = Campaign::read(a.campaign);
   JobContext first = job.part(0.0, 0.5);
-  const ObservationSet observations = observationsOf(campaign, a.observations, {}, first);
+  std::vector<std::string> notes;
+  const ObservationSet observations = observationsOf(campaign, a.observations, {}, first, &notes);
   JobContext second = job.part(0.5, 1.0);
   const CompensationPlan plan = planCompensation(campaign, observations, request, second);
   if (!a.out.empty()) {
@@ -48,7 +50,45 @@ CommandResult runCompensate(const CompensationArguments& a, JobContext& job) {
       writeFileAtomically(std::filesystem::path(a.out) / f.name, f.content);
     }
   }
-  return {plan.json(), plan.summary(), Done};
+  return noted({plan.json(), plan.summary(), Done}, notes);
+}
+
+struct VerifyArguments {
+  std::string before;
+  std::string after;
+  VerifyRequest request;
+  std::string criterion = "largest";
+};
+
+CommandResult runVerify(VerifyArguments a, JobContext& job) {
+  a.request.criterion = a.criterion == "rms" ? VerifyCriterion::Rms : VerifyCriterion::Largest;
+  a.request.validate();
+  const Campaign before = Campaign::read(a.before);
+  const Campaign after = Campaign::read(a.after);
+  JobContext first = job.part(0.0, 0.5);
+  const ObservationSet one = allObservationsOf(before, {}, {}, first);
+  JobContext second = job.part(0.5, 1.0);
+  const ObservationSet two = allObservationsOf(after, {}, {}, second);
+  const VerifyResult result = verifyCampaigns(before, one, after, two, a.request);
+  return {result.json(), result.summary(), result.verdict == VerifyVerdict::Met ? Done : NotGoodEnough};
+}
+
+void addVerify(CLI::App& app, CommandLine& line) {
+  auto a = std::make_shared<VerifyArguments>();
+  CLI::App* command =
+      addCommand(app, line, "verify",
+                 "Compare the same plan measured before and after compensating, and judge what is left against a goal",
+                 [a](JobContext& job) { return runVerify(*a, job); });
+  command->add_option("BEFORE", a->before, "Folder of the campaign measured without compensation")->required();
+  command->add_option("AFTER", a->after, "Folder of the campaign measured with it; may be the same")->required();
+  command->add_option("--goal", a->request.goal_um, "Goal in um for EX, EY and EZ")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--goal-urad", a->request.goal_urad, "Goal in urad for rotations; 0: they are not judged")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--criterion", a->criterion, "What the goal bounds: largest or rms")
+      ->check(CLI::IsMember({"largest", "rms"}))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -79,6 +119,7 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
       ->add_option("--out", a->out,
                    "Folder for the files: corrections at points and on a grid, ISO 230-1 components, LinuxCNC")
       ->type_name("DIR");
+  addVerify(app, line);
 }
 
 }  // namespace spindrift::cli

@@ -81,9 +81,10 @@ void addFitOptions(CLI::App* command, const std::shared_ptr<FitArguments>& a) {
 
 CommandResult runFit(const FitArguments& a, JobContext& job) {
   const Campaign campaign = Campaign::read(a.campaign);
-  const ObservationSet observations = observationsOf(campaign, a.observations, {}, job);
+  std::vector<std::string> notes;
+  const ObservationSet observations = observationsOf(campaign, a.observations, {}, job, &notes);
   const NineParameterFit fit = fitNineParameters(observations, fitOptions(a));
-  return {toJson(fit), summaryOf(fit), fit.status == FitStatus::Converged ? Done : NotGoodEnough};
+  return noted({toJson(fit), summaryOf(fit), fit.status == FitStatus::Converged ? Done : NotGoodEnough}, notes);
 }
 
 CommandResult runHeatmap(const FitArguments& a, JobContext& job) {
@@ -95,9 +96,10 @@ CommandResult runHeatmap(const FitArguments& a, JobContext& job) {
   HeatmapPictureOptions picture;
   if (a.limit > 0.0) picture.limit = a.limit;
   const Campaign campaign = Campaign::read(a.campaign);
-  const ObservationSet observations = observationsOf(campaign, a.observations, {}, job);
+  std::vector<std::string> notes;
+  const ObservationSet observations = observationsOf(campaign, a.observations, {}, job, &notes);
   const HeatmapResult result = heatmapOf(campaign, observations, options);
-  if (!result.determined) return {result.json(), result.message, NotGoodEnough};
+  if (!result.determined) return noted({result.json(), result.message, NotGoodEnough}, notes);
   picture.title = result.title();
   picture.subtitle = result.subtitle();
   std::string summary =
@@ -111,7 +113,7 @@ CommandResult runHeatmap(const FitArguments& a, JobContext& job) {
   if (!a.png.empty()) write(a.png, heatmapPng(result.field, picture));
   if (!a.csv.empty()) write(a.csv, result.field.csv());
   for (const std::string& warning : result.fit.warnings) summary += fmt::format("note: {}\n", warning);
-  return {result.json(), summary, Done};
+  return noted({result.json(), summary, Done}, notes);
 }
 
 CommandResult runCompare(const FitArguments& a, JobContext& job) {

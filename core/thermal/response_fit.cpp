@@ -529,7 +529,7 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
   model.source = series.file.string();
   ThermalOutput out;
   out.name = output;
-  out.unit = output.ends_with("_urad") ? "urad" : "um";
+  out.unit = output.ends_with("_urad") ? "urad" : output.ends_with("_um_per_m") ? "um/m" : "um";
   std::vector<Index> columns;
   std::vector<int> place(d.inputs.size(), -1);
   for (Index k = 0; k < p; ++k) {

@@ -32,9 +32,11 @@ DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job
     }
   }
   JobContext first = job.part(0.0, 0.2);
-  ObservationSet observations = observationsOf(campaign, request.observations, {}, first);
+  std::vector<std::string> notes;
+  ObservationSet observations = observationsOf(campaign, request.observations, {}, first, &notes);
   JobContext second = job.part(0.2, 1.0);
   DiscrepancyRun run = searchDiscrepancy(campaign, std::move(observations), request.options, second);
+  run.notes = std::move(notes);
   if (!request.model_out.empty()) writeFileAtomically(request.model_out, run.result.model->json().dump(2) + "\n");
   if (!request.prediction.empty()) {
     std::string text = "time_s,point,component,predicted\n";

@@ -21,6 +21,7 @@ struct DiscrepancyRequest {
 struct DiscrepancyRun {
   DiscrepancyInput input;
   DiscrepancyResult result;
+  std::vector<std::string> notes;  ///< what was left out and why
 };
 
 /// The search on a campaign in memory, with the observations given in place of its own.

@@ -8,6 +8,7 @@
 #include "core/probing/evaluate_touches.h"
 #include "core/scanning/evaluate_scans.h"
 #include "core/scanning/scan_evaluation.h"
+#include "core/workflows/compensated_data.h"
 
 namespace spindrift {
 
@@ -77,11 +78,19 @@ CampaignEvaluation evaluateCampaign(const Campaign& campaign, const EvaluateOpti
   return evaluation;
 }
 
-ObservationSet observationsOf(const Campaign& campaign, const std::filesystem::path& file,
-                              const EvaluateOptions& options, JobContext& job) {
+ObservationSet allObservationsOf(const Campaign& campaign, const std::filesystem::path& file,
+                                 const EvaluateOptions& options, JobContext& job) {
   if (!file.empty()) return ObservationSet::read(file);
   if (campaign.observations) return *campaign.observations;
   return evaluateCampaign(campaign, options, job).observations;
+}
+
+ObservationSet observationsOf(const Campaign& campaign, const std::filesystem::path& file,
+                              const EvaluateOptions& options, JobContext& job, std::vector<std::string>* notes) {
+  ObservationSet set = allObservationsOf(campaign, file, options, job);
+  const std::string left_out = leaveOutCompensated(set, campaign.log);
+  if (notes != nullptr && !left_out.empty()) notes->push_back(left_out);
+  return set;
 }
 
 }  // namespace spindrift

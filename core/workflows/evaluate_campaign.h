@@ -36,7 +36,13 @@ struct CampaignEvaluation {
                                                   JobContext& job);
 
 /// Observations for a command: from `file` if given, else the campaign's own, else its captures evaluated in memory.
+/// What was taken while the control was compensating is marked `exclude`, so that no fit uses it; `notes` gets the
+/// sentence that says so.
 [[nodiscard]] ObservationSet observationsOf(const Campaign& campaign, const std::filesystem::path& file,
-                                            const EvaluateOptions& options, JobContext& job);
+                                            const EvaluateOptions& options, JobContext& job,
+                                            std::vector<std::string>* notes = nullptr);
+/// The same with what was taken while compensating as it is, for verification.
+[[nodiscard]] ObservationSet allObservationsOf(const Campaign& campaign, const std::filesystem::path& file,
+                                               const EvaluateOptions& options, JobContext& job);
 
 }  // namespace spindrift

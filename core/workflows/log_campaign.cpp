@@ -5,15 +5,9 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/workflows/campaign_series.h"
 
 namespace spindrift {
-namespace {
-
-bool isOutput(std::string_view name) {
-  return name.ends_with("_um") || name.ends_with("_urad");
-}
-
-}  // namespace
 
 void writeLogCampaign(const std::filesystem::path& csv, const std::filesystem::path& folder) {
   const std::string text = readFile(csv);
@@ -43,17 +37,9 @@ void writeLogCampaign(const std::filesystem::path& csv, const std::filesystem::p
   writeFileAtomically(folder / "log.csv", text);
 }
 
-std::vector<std::string> outputSignals(const TimeSeries& series) {
-  std::vector<std::string> names;
-  for (const Signal& s : series.signals) {
-    if (isOutput(s.name)) names.push_back(s.name);
-  }
-  return names;
-}
-
 bool hasOutputSignals(const OperatingLog& log) {
   for (const std::string& name : log.names()) {
-    if (isOutput(name)) return true;
+    if (!unitOfSignal(name).empty()) return true;
   }
   return false;
 }

@@ -8,6 +8,7 @@
 
 #include "core/machine/operating_log.h"
 #include "core/thermal/time_series.h"
+#include "core/workflows/campaign_series.h"
 
 namespace spindrift {
 
@@ -16,8 +17,6 @@ namespace spindrift {
 /// Throws InputError if the log cannot be read or the folder is there and not empty.
 void writeLogCampaign(const std::filesystem::path& csv, const std::filesystem::path& folder);
 
-/// Signals of a log that a model over time can have as its output: displacements and tilts (`_um`, `_urad`).
-[[nodiscard]] std::vector<std::string> outputSignals(const TimeSeries& series);
 [[nodiscard]] bool hasOutputSignals(const OperatingLog& log);
 
 }  // namespace spindrift

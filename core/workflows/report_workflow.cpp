@@ -11,6 +11,7 @@
 #include "core/reporting/discrepancy_report.h"
 #include "core/reporting/heatmap_picture.h"
 #include "core/session/session.h"
+#include "core/workflows/compensated_data.h"
 #include "core/workflows/fit_campaign.h"
 
 namespace spindrift {
@@ -77,6 +78,8 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
   } else if (campaign.observations) {
     input.observations = *campaign.observations;
   }
+  const std::string left_out = leaveOutCompensated(input.observations, campaign.log);
+  if (!left_out.empty()) input.notes.push_back(left_out);
   if (campaign.captureList("fiducials.csv") && spreadsOverTheTable(input.observations)) {
     input.sections.push_back({"Thermal error of the table", [&](HtmlDocument& document) {
                                 const std::vector<std::string> states = input.observations.states();

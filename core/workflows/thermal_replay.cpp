@@ -10,9 +10,10 @@
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/math/statistics.h"
-#include "core/probing/evaluate_touches.h"
 #include "core/reporting/svg_plot.h"
 #include "core/thermal/response_fit.h"
+#include "core/workflows/campaign_series.h"
+#include "core/workflows/compensated_data.h"
 
 namespace spindrift {
 namespace {
@@ -39,13 +40,6 @@ double deviationOf(const std::vector<double>& values) {
   return v.empty() ? 0.0 : rootMeanSquare(v);
 }
 
-std::string unitOf(const std::string& name) {
-  for (const auto& [ending, unit] :
-       {std::pair{"_um_per_m", "um/m"}, {"_um_m", "um/m"}, {"_um", "um"}, {"_urad", "urad"}, {"_nm", "nm"}})
-    if (name.ends_with(ending)) return unit;
-  return "";
-}
-
 /// The column that a name stands for: itself, or the only one that begins with "NAME_".
 std::string resolved(const TimeSeries& series, const std::string& name) {
   if (series.find(name) != nullptr) return name;
@@ -66,7 +60,11 @@ struct Prepared {
 };
 
 Prepared prepare(const ReplayRequest& request, JobContext& job) {
-  if (!std::filesystem::is_directory(request.source)) return {readTimeSeries(request.source), {}};
+  if (!std::filesystem::is_directory(request.source)) {
+    Prepared log{readTimeSeries(request.source), {}};
+    leaveOutCompensated(log.series);
+    return log;
+  }
   CampaignSeries campaign = campaignSeries(request.source, job);
   return {std::move(campaign.series), std::move(campaign.sigma)};
 }
@@ -138,50 +136,6 @@ ReplayPoint pointOf(double scale, const AdaptiveResult& run) {
 
 }  // namespace
 
-CampaignSeries campaignSeries(const std::filesystem::path& folder, JobContext& job) {
-  const Campaign campaign = Campaign::read(folder);
-  if (!campaign.log)
-    throw InputError({folder / "log.csv", ""},
-                     "is missing, so there are no temperatures to predict from; allowed: a campaign with a log.");
-  const auto touches = campaign.captureList("touches.csv");
-  if (!touches)
-    throw InputError({folder / "captures" / "touches.csv", ""},
-                     "is missing, so no cycle gives errors; allowed: a campaign with touches, or a log with errors in "
-                     "columns.");
-  const TouchEvaluation evaluation =
-      evaluateTouchList(campaign, TouchList::read(*touches), HoleCycleOptions{}, BallCycleOptions{}, job);
-  CampaignSeries out;
-  out.series = readTimeSeries(folder / "log.csv");
-  std::vector<const CycleEvaluation*> all;
-  for (const HoleCycleResult& r : evaluation.hole_cycles) all.push_back(&r);
-  for (const BallCycleResult& r : evaluation.ball_cycles) all.push_back(&r);
-  for (const CycleEvaluation* cycles : all) {
-    if (cycles->status != FitStatus::Converged) {
-      out.series.notes.push_back(fmt::format("{}: {}", cycles->artefact, cycles->message));
-      continue;
-    }
-    TimeSeries sparse;
-    sparse.file = *touches;
-    sparse.time_s = cycles->cycle_time_s;
-    for (std::size_t p = 0; p < cycles->names.size(); ++p) {
-      Signal signal{cycles->names[p], SignalKind::Displacement, {}};
-      std::vector<double> sigma;
-      for (const auto& cycle : cycles->parameters) {
-        signal.values.push_back(cycle[p].determined ? cycle[p].value : std::nan(""));
-        // The first cycle is zero by definition.
-        if (cycle[p].determined && cycle[p].standard_uncertainty > 0.0) sigma.push_back(cycle[p].standard_uncertainty);
-      }
-      if (sigma.empty()) continue;
-      out.sigma[signal.name] = median(sigma);
-      sparse.signals.push_back(std::move(signal));
-    }
-    out.series = merged(out.series, sparse, std::max(60.0, out.series.medianPeriod_s()));
-  }
-  if (out.sigma.empty())
-    throw InputError({*touches, ""}, "no parameter of any cycle is determined; see evaluate for the reasons.");
-  return out;
-}
-
 ReplayResult replayCompensation(const ReplayRequest& request, JobContext& job) {
   if (request.outputs.empty()) throw InputError("--outputs names no error; allowed: columns separated by commas.");
   const Prepared data = prepare(request, job);
@@ -189,7 +143,7 @@ ReplayResult replayCompensation(const ReplayRequest& request, JobContext& job) {
   result.notes = data.series.notes;
   for (const std::string& name : request.outputs) {
     result.errors.push_back(errorOf(data, request, name, result.notes));
-    result.units.push_back(unitOf(result.errors.back().name));
+    result.units.push_back(unitOfSignal(result.errors.back().name));
     result.recorded.push_back(data.series.at(result.errors.back().name).values);
   }
   for (const auto& [name, limit] : request.limits) {

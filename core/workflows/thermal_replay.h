@@ -65,13 +65,4 @@ struct ReplayResult {
 
 [[nodiscard]] ReplayResult replayCompensation(const ReplayRequest& request, JobContext& job);
 
-/// The log of a campaign with the parameters of its probing cycles merged in (NaN between cycles), each named as in the
-/// JSON of `evaluate` ("EXX_um_per_m"). `sigma`: median standard uncertainty per parameter. Cycles of several artefacts
-/// are joined if only one has the parameter; a parameter of two artefacts is an InputError.
-struct CampaignSeries {
-  TimeSeries series;
-  std::map<std::string, double> sigma;
-};
-[[nodiscard]] CampaignSeries campaignSeries(const std::filesystem::path& folder, JobContext& job);
-
 }  // namespace spindrift

@@ -113,7 +113,10 @@ Iso230Result evaluateIso230Test(const Iso230Request& request, const JobContext& 
     throw InputError(fmt::format("test \"{}\" is not known; allowed: etve, spindle, axis.", request.test));
   }
   if (request.log.empty()) throw InputError("the test needs a log with displacements over time.");
-  const TimeSeries series = readTimeSeries(request.log);
+  return evaluateIso230Test(readTimeSeries(request.log), request);
+}
+
+Iso230Result evaluateIso230Test(const TimeSeries& series, const Iso230Request& request) {
   Iso230Result result;
   result.test = request.test;
   result.notes = series.notes;
@@ -142,7 +145,7 @@ Iso230Result evaluateIso230Test(const Iso230Request& request, const JobContext& 
     for (const Signal& s : series.signals)
       if (speed == nullptr && s.kind == SignalKind::Speed) speed = &s;
     if (speed == nullptr)
-      throw InputError({request.log, "header"}, "there is no speed column (..._rpm); allowed: spindle_rpm.");
+      throw InputError({series.file, "header"}, "there is no speed column (..._rpm); allowed: spindle_rpm.");
     result.spindle = evaluateRotatingSpindle(series.time_s, bridged(series.time_s, speed->values, true), components,
                                              request.fraction);
     result.svg = drawCurves("Rotating spindle, um or urad", curves);

@@ -10,6 +10,7 @@
 
 #include "core/base/job_context.h"
 #include "core/thermal/iso230_3.h"
+#include "core/thermal/time_series.h"
 
 namespace spindrift {
 
@@ -34,5 +35,7 @@ struct Iso230Result {
   [[nodiscard]] std::string summary() const;
 };
 [[nodiscard]] Iso230Result evaluateIso230Test(const Iso230Request& request, const JobContext& job);
+/// "etve" and "spindle" on a series in memory.
+[[nodiscard]] Iso230Result evaluateIso230Test(const TimeSeries& series, const Iso230Request& request);
 
 }  // namespace spindrift

@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/math/statistics.h"
 #include "core/reporting/svg_plot.h"
+#include "core/workflows/compensated_data.h"
 
 namespace spindrift {
 namespace {
@@ -52,9 +53,14 @@ std::vector<std::vector<double>> contextOf(const TimeSeries& series, const Track
 }  // namespace
 
 TrackResult trackThermalModel(const TrackRequest& request, const JobContext& job) {
+  return trackThermalModel(readTimeSeries(request.log), ThermalModel::read(request.model), request, job);
+}
+
+TrackResult trackThermalModel(const TimeSeries& all, const ThermalModel& model, const TrackRequest& request,
+                              const JobContext& job) {
   if (!(request.interval_s > 0.0)) throw InputError("--interval must be positive, in s.");
-  const ThermalModel model = ThermalModel::read(request.model);
-  const TimeSeries series = readTimeSeries(request.log);
+  TimeSeries series = all;
+  leaveOutCompensated(series);
   TrackResult result;
   result.output = request.output.empty() ? model.outputs.front().name : request.output;
   const ThermalOutput* output = model.findOutput(result.output);
@@ -67,6 +73,7 @@ TrackResult trackThermalModel(const TrackRequest& request, const JobContext& job
   result.unit = output->unit;
   const ThermalPrediction prediction = model.predict(series, static_cast<std::size_t>(output - model.outputs.data()));
   result.notes = prediction.notes;
+  if (series.notes.size() > all.notes.size()) result.notes.push_back(series.notes.back());
   result.time_s = series.time_s;
   result.measured = series.at(result.output).values;
   result.simulated = prediction.value;
@@ -214,8 +221,11 @@ void TrackResult::writePrediction(const std::filesystem::path& file) const {
 }
 
 CompensateResult compensateLog(const CompensateRequest& request, const JobContext& job) {
-  const ThermalModel model = ThermalModel::read(request.model);
-  const TimeSeries series = readTimeSeries(request.log);
+  return compensateLog(readTimeSeries(request.log), ThermalModel::read(request.model), request, job);
+}
+
+CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& model, const CompensateRequest& request,
+                               const JobContext& job) {
   CompensateResult result;
   result.cycle_s = request.cycle_s > 0.0 ? request.cycle_s : series.medianPeriod_s();
   if (!(result.cycle_s > 0.0))

@@ -49,6 +49,9 @@ struct TrackResult {
   void writePrediction(const std::filesystem::path& file) const;
 };
 [[nodiscard]] TrackResult trackThermalModel(const TrackRequest& request, const JobContext& job);
+/// The same on a series and a model in memory.
+[[nodiscard]] TrackResult trackThermalModel(const TimeSeries& series, const ThermalModel& model,
+                                            const TrackRequest& request, const JobContext& job);
 
 struct CompensateRequest {
   std::filesystem::path log;
@@ -75,5 +78,8 @@ struct CompensateResult {
   void write(const std::filesystem::path& file) const;
 };
 [[nodiscard]] CompensateResult compensateLog(const CompensateRequest& request, const JobContext& job);
+/// The same on a series and a model in memory.
+[[nodiscard]] CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& model,
+                                             const CompensateRequest& request, const JobContext& job);
 
 }  // namespace spindrift

@@ -15,10 +15,14 @@
 #include "core/math/statistics.h"
 #include "core/thermal/baselines.h"
 #include "core/thermal/input_selection.h"
+#include "core/workflows/campaign_series.h"
+#include "core/workflows/compensated_data.h"
 #include "core/workflows/thermal_structures.h"
 
 namespace spindrift {
 namespace {
+
+constexpr std::size_t sparse_minimum = 12;  ///< cycles in training: fewer determine no response
 
 std::size_t rowsWithin(const TimeSeries& series, const Signal& signal, const TimeRange& range) {
   std::size_t count = 0;
@@ -136,9 +140,11 @@ IdentifyResult identifyThermalModel(const IdentifyRequest& request, const JobCon
   return identifyThermalModel(readTimeSeries(request.log, options), request, job);
 }
 
-IdentifyResult identifyThermalModel(const TimeSeries& series, const IdentifyRequest& request, const JobContext& job) {
+IdentifyResult identifyThermalModel(const TimeSeries& all, const IdentifyRequest& request, const JobContext& job) {
   const auto started = std::chrono::steady_clock::now();
   IdentifyResult result;
+  TimeSeries series = all;
+  leaveOutCompensated(series);
   result.notes = series.notes;
   const Signal& output = series.at(request.output);
   for (const auto& [range, name] : {std::pair{request.train, "--train"}, std::pair{request.test, "--test"}}) {
@@ -156,8 +162,15 @@ IdentifyResult identifyThermalModel(const TimeSeries& series, const IdentifyRequ
       request.inputs.empty() ? automaticInputs(series, request.output) : request.inputs;
   const bool structured =
       request.method == "arx" || request.method == "oe" || (request.method.empty() && request.order);
+  const bool sparse = isSparse(output);
+  if (sparse && structured) {
+    throw InputError({series.file, fmt::format("column {}", request.output)},
+                     "is measured at few rows only, and ARX and output error need a value at nearly every one; use the "
+                     "method response (all lags).");
+  }
   ResponseFitOptions options;
   options.period_s = request.period_s;
+  if (sparse) options.minimum_samples = sparse_minimum;
   std::vector<std::string> chosen = names;
   if (!structured || request.inputs.empty()) {
     ResponseFitResult fit = fitResponse(series, request.output, names, request.train.from_s, request.train.to_s,

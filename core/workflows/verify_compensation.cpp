@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/verify_compensation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "core/base/error.h"
+#include "core/base/json_reader.h"
+#include "core/base/text.h"
+#include "core/workflows/compensated_data.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double coverage = 2.0;
+
+using SeriesKey = std::pair<std::string, Component>;
+
+struct Value {
+  double value = 0.0;
+  double variance = 0.0;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+};
+
+/// Mean of the repeats of every state, states in order of time; the first one is what the others are relative to.
+struct Course {
+  std::vector<std::string> states;
+  std::map<std::string, Value> values;
+};
+
+std::map<SeriesKey, Course> coursesOf(const ObservationSet& set) {
+  std::vector<const Observation*> rows;
+  for (const Observation& o : set.rows)
+    if (o.use != ObservationUse::Exclude) rows.push_back(&o);
+  std::stable_sort(rows.begin(), rows.end(), [](auto* a, auto* b) { return a->time_s < b->time_s; });
+  std::map<SeriesKey, Course> out;
+  std::map<std::tuple<std::string, Component, std::string>, double> weight;
+  for (const Observation* o : rows) {
+    Course& course = out[{o->point, o->component}];
+    if (!course.values.contains(o->state)) course.states.push_back(o->state);
+    Value& v = course.values[o->state];
+    double& w = weight[{o->point, o->component, o->state}];
+    const double add = 1.0 / (o->sigma * o->sigma);
+    v.value = (v.value * w + o->value * add) / (w + add);
+    w += add;
+    v.variance = 1.0 / w;
+    v.position_mm = o->position_mm;
+  }
+  return out;
+}
+
+/// rms without noise and its uncertainty; all changes of a series share the noise of the first state.
+void addRms(const std::vector<const VerifyPoint*>& points, bool after, VerifyFigures& f) {
+  double squares = 0.0;
+  double noise = 0.0;
+  double spread = 0.0;
+  const auto n = static_cast<double>(points.size());
+  for (const VerifyPoint* p : points) {
+    const double d = after ? p->after : p->before;
+    const double s = after ? p->after_sigma : p->before_sigma;
+    squares += d * d / n;
+    noise += s * s / n;
+    // Neighbours share the first state: counted as if all did, half of the variance is common to a series.
+    spread += (2.0 * std::pow(s, 4) + 4.0 * d * d * s * s) / (n * n);
+    if (std::abs(d) <= f.largest) continue;
+    f.largest = std::abs(d);
+    f.largest_sigma = s;
+    f.largest_at = p->point + ", " + p->state;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (points[i]->point != points[j]->point) continue;
+      const double di = after ? points[i]->after : points[i]->before;
+      const double dj = after ? points[j]->after : points[j]->before;
+      const double si = after ? points[i]->after_sigma : points[i]->before_sigma;
+      const double sj = after ? points[j]->after_sigma : points[j]->before_sigma;
+      const double common = 0.5 * si * sj;
+      spread += 2.0 * (2.0 * common * common + 4.0 * di * dj * common) / (n * n);
+    }
+  }
+  const double left = std::max(0.0, squares - noise);
+  f.rms = std::sqrt(left);
+  const double u = std::sqrt(std::max(0.0, spread));
+  // u of the root; near zero by the distance to the root of the upper end.
+  f.rms_sigma = std::sqrt(left + u) - f.rms;
+}
+
+VerifyVerdict judge(double value, double sigma, double goal) {
+  if (!(goal > 0.0)) return VerifyVerdict::NotJudged;
+  if (value + coverage * sigma <= goal) return VerifyVerdict::Met;
+  if (value - coverage * sigma > goal) return VerifyVerdict::NotMet;
+  return VerifyVerdict::Undecided;
+}
+
+/// The largest value: every one decides, not only the one that happens to be largest.
+VerifyVerdict judgeLargest(const std::vector<const VerifyPoint*>& points, double goal) {
+  VerifyVerdict verdict = VerifyVerdict::Met;
+  for (const VerifyPoint* p : points) {
+    const VerifyVerdict v = judge(std::abs(p->after), p->after_sigma, goal);
+    if (v == VerifyVerdict::NotMet || v == VerifyVerdict::NotJudged) return v;
+    if (v == VerifyVerdict::Undecided) verdict = v;
+  }
+  return verdict;
+}
+
+nlohmann::json figuresJson(const VerifyFigures& f) {
+  return {{"rms", jsonNumber(f.rms)},
+          {"rms_standard_uncertainty", jsonNumber(f.rms_sigma)},
+          {"largest", jsonNumber(f.largest)},
+          {"largest_standard_uncertainty", jsonNumber(f.largest_sigma)},
+          {"largest_at", f.largest_at}};
+}
+
+void conclude(VerifyResult& r) {
+  const bool largest = r.request.criterion == VerifyCriterion::Largest;
+  const VerifyComponent* worst = nullptr;
+  r.verdict = VerifyVerdict::NotJudged;
+  for (const VerifyComponent& c : r.components) {
+    if (c.verdict == VerifyVerdict::NotJudged) continue;
+    const auto rank = [](VerifyVerdict v) {
+      return v == VerifyVerdict::NotMet ? 2 : v == VerifyVerdict::Undecided ? 1 : 0;
+    };
+    const auto size = [&](const VerifyComponent& x) {
+      const double goal = isRotation(x.component) ? r.request.goal_urad : r.request.goal_um;
+      return (largest ? x.after.largest : x.after.rms) / goal;
+    };
+    if (worst == nullptr || rank(c.verdict) > rank(worst->verdict) ||
+        (rank(c.verdict) == rank(worst->verdict) && size(c) > size(*worst)))
+      worst = &c;
+  }
+  if (worst == nullptr) {
+    r.reason = "No component has a goal: nothing was judged.";
+    return;
+  }
+  r.verdict = worst->verdict;
+  const VerifyFigures& f = worst->after;
+  const std::string unit(unitOf(worst->component));
+  const std::string value =
+      withUncertainty(largest ? f.largest : f.rms, largest ? f.largest_sigma : f.rms_sigma, unit) +
+      (largest ? " at " + f.largest_at : std::string());
+  const double goal = isRotation(worst->component) ? r.request.goal_urad : r.request.goal_um;
+  const char* what = largest ? "largest" : "rms";
+  switch (r.verdict) {
+    case VerifyVerdict::Met:
+      r.reason =
+          fmt::format("The goal of {:g} {} is met: {} {} is {}.", goal, unit, what, toString(worst->component), value);
+      break;
+    case VerifyVerdict::NotMet:
+      r.reason = fmt::format("The goal of {:g} {} is not met: {} {} is {}.", goal, unit, what,
+                             toString(worst->component), value);
+      break;
+    default:
+      r.reason = fmt::format(
+          "It cannot be decided whether the goal of {:g} {} is met: {} {} is {}, and two uncertainties reach across "
+          "the "
+          "goal; measure more often or more precisely.",
+          goal, unit, what, toString(worst->component), value);
+  }
+}
+
+}  // namespace
+
+std::string_view toString(VerifyVerdict verdict) noexcept {
+  switch (verdict) {
+    case VerifyVerdict::Met:
+      return "met";
+    case VerifyVerdict::NotMet:
+      return "not met";
+    case VerifyVerdict::Undecided:
+      return "cannot be decided";
+    case VerifyVerdict::NotJudged:
+      return "not judged";
+  }
+  return "";
+}
+
+void VerifyRequest::validate() const {
+  if (!(goal_um > 0.0) || !std::isfinite(goal_um))
+    throw InputError(fmt::format("a goal of {:g} um cannot be met; allowed: a positive number.", goal_um));
+  if (!(goal_urad >= 0.0) || !std::isfinite(goal_urad))
+    throw InputError(
+        fmt::format("a goal of {:g} urad cannot be met; allowed: a positive number, or 0 for none.", goal_urad));
+}
+
+VerifyResult verifyCompensation(const ObservationSet& before, const ObservationSet& after,
+                                const VerifyRequest& request) {
+  request.validate();
+  VerifyResult result;
+  result.request = request;
+  const auto first = coursesOf(before);
+  const auto second = coursesOf(after);
+  std::size_t missing = 0;
+  for (const auto& [key, course] : first) {
+    const auto other = second.find(key);
+    if (other == second.end() || course.states.size() < 2 || other->second.states.size() < 2) {
+      ++missing;
+      continue;
+    }
+    const Value& zero = course.values.at(course.states.front());
+    const Value& other_zero = other->second.values.at(other->second.states.front());
+    // The same plan has the same number of states; names may differ, their order may not.
+    const std::size_t states = std::min(course.states.size(), other->second.states.size());
+    if (course.states.size() != other->second.states.size()) ++missing;
+    for (std::size_t k = 1; k < states; ++k) {
+      const Value& a = course.values.at(course.states[k]);
+      const Value& b = other->second.values.at(other->second.states[k]);
+      result.points.push_back({key.first, other->second.states[k], b.position_mm, key.second, a.value - zero.value,
+                               std::sqrt(a.variance + zero.variance), b.value - other_zero.value,
+                               std::sqrt(b.variance + other_zero.variance)});
+    }
+  }
+  for (const auto& [key, course] : second) missing += first.contains(key) ? 0U : 1U;
+  if (result.points.empty()) {
+    throw InputError({after.file, ""},
+                     "nothing can be compared: no point and component was measured in at least two states both before "
+                     "and after; allowed: the same plan measured again with the compensation on.");
+  }
+  if (missing > 0) {
+    result.notes.push_back(fmt::format(
+        "{} series of points and components are not measured alike before and after; only what both have is compared.",
+        missing));
+  }
+  for (int c = 0; c < 6; ++c) {
+    const auto component = static_cast<Component>(c);
+    std::vector<const VerifyPoint*> points;
+    for (const VerifyPoint& p : result.points)
+      if (p.component == component) points.push_back(&p);
+    if (points.empty()) continue;
+    VerifyComponent row;
+    row.component = component;
+    row.values = points.size();
+    addRms(points, false, row.before);
+    addRms(points, true, row.after);
+    const double goal = isRotation(component) ? request.goal_urad : request.goal_um;
+    row.verdict = request.criterion == VerifyCriterion::Largest ? judgeLargest(points, goal)
+                                                                : judge(row.after.rms, row.after.rms_sigma, goal);
+    result.components.push_back(std::move(row));
+  }
+  conclude(result);
+  return result;
+}
+
+VerifyResult verifyCampaigns(const Campaign& before, const ObservationSet& before_observations, const Campaign& after,
+                             const ObservationSet& after_observations, const VerifyRequest& request) {
+  ObservationSet first = before_observations;
+  const std::string left_out = leaveOutCompensated(first, before.log);
+  ObservationSet second = after_observations;
+  std::vector<std::string> notes;
+  if (!left_out.empty()) notes.push_back("before: " + left_out);
+  if (after.log && after.log->has(compensation_signal)) {
+    std::size_t off = 0;
+    std::size_t on = 0;
+    for (Observation& o : second.rows) {
+      if (o.use == ObservationUse::Exclude) continue;
+      if (wasCompensating(*after.log, o.time_s)) {
+        ++on;
+      } else {
+        o.use = ObservationUse::Exclude;
+        ++off;
+      }
+    }
+    if (on == 0) {
+      throw InputError({after.path("log.csv"), std::string("column ") + compensation_signal},
+                       "is 0 whenever something was measured, so there is nothing to verify; allowed: a campaign that "
+                       "was measured with the compensation on.");
+    }
+    if (off > 0)
+      notes.push_back(
+          fmt::format("after: {} of {} observations were taken without compensation and are left out.", off, on + off));
+  } else {
+    notes.push_back(
+        "after: no column compensation_on in the log: nothing but the operator's word says that the control was "
+        "compensating.");
+  }
+  VerifyResult result = verifyCompensation(first, second, request);
+  result.notes.insert(result.notes.begin(), notes.begin(), notes.end());
+  return result;
+}
+
+nlohmann::json VerifyResult::json() const {
+  nlohmann::json out = {{"verdict", toString(verdict)},
+                        {"reason", reason},
+                        {"goal_um", request.goal_um},
+                        {"goal_urad", request.goal_urad > 0.0 ? nlohmann::json(request.goal_urad) : nlohmann::json()},
+                        {"criterion", request.criterion == VerifyCriterion::Largest ? "largest" : "rms"},
+                        {"notes", notes}};
+  out["components"] = nlohmann::json::array();
+  for (const VerifyComponent& c : components) {
+    out["components"].push_back({{"component", toString(c.component)},
+                                 {"unit", unitOf(c.component)},
+                                 {"values", c.values},
+                                 {"before", figuresJson(c.before)},
+                                 {"after", figuresJson(c.after)},
+                                 {"verdict", toString(c.verdict)}});
+  }
+  out["points"] = nlohmann::json::array();
+  for (const VerifyPoint& p : points) {
+    out["points"].push_back({{"point", p.point},
+                             {"state", p.state},
+                             {"component", toString(p.component)},
+                             {"before", p.before},
+                             {"before_standard_uncertainty", p.before_sigma},
+                             {"after", p.after},
+                             {"after_standard_uncertainty", p.after_sigma}});
+  }
+  return out;
+}
+
+std::string VerifyResult::summary() const {
+  std::string text = reason + "\n";
+  for (const VerifyComponent& c : components) {
+    const std::string unit(unitOf(c.component));
+    text += fmt::format("  {}: rms {} before, {} after; largest {} before, {} after ({} values): {}\n",
+                        toString(c.component), withUncertainty(c.before.rms, c.before.rms_sigma, unit),
+                        withUncertainty(c.after.rms, c.after.rms_sigma, unit),
+                        withUncertainty(c.before.largest, c.before.largest_sigma, unit),
+                        withUncertainty(c.after.largest, c.after.largest_sigma, unit), c.values, toString(c.verdict));
+  }
+  for (const std::string& n : notes) text += "note: " + n + "\n";
+  return text;
+}
+
+}  // namespace spindrift

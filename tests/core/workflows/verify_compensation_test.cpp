@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/workflows/verify_compensation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/base/random.h"
+#include "core/workflows/compensated_data.h"
+
+namespace spindrift {
+namespace {
+
+/// Points P0 ... P7 in states M0 ... M3, one every 1000 s; EX grows to `growth` um, noise `sigma` um.
+ObservationSet measured(double growth, double sigma, std::uint64_t seed, double from_s = 0.0) {
+  Random random(seed);
+  ObservationSet set;
+  for (int m = 0; m < 4; ++m) {
+    for (int p = 0; p < 8; ++p) {
+      Observation o;
+      o.time_s = from_s + 1000.0 * m + 10.0 * p;
+      o.state = "M" + std::to_string(m);
+      o.point = "P" + std::to_string(p);
+      o.position_mm = {50.0 * p, 0.0, 0.0};
+      o.component = Component::EX;
+      o.value = 3.0 + growth * m / 3.0 + random.normal(0.0, sigma);
+      o.sigma = sigma;
+      set.rows.push_back(o);
+    }
+  }
+  return set;
+}
+
+Campaign campaignWith(std::vector<double> on) {
+  Campaign c;
+  c.log = OperatingLog({0.0, 1500.0, 10000.0});
+  c.log->setSignal("compensation_on", std::move(on));
+  return c;
+}
+
+TEST(Verify, AGoalFarAboveWhatIsLeftIsMetAndFarBelowIsNot) {
+  const ObservationSet before = measured(30.0, 0.2, 1);
+  const ObservationSet after = measured(2.0, 0.2, 2);
+  VerifyRequest request;
+  request.goal_um = 5.0;
+  const VerifyResult met = verifyCompensation(before, after, request);
+  EXPECT_EQ(met.verdict, VerifyVerdict::Met);
+  ASSERT_EQ(met.components.size(), 1U);
+  EXPECT_EQ(met.components[0].values, 24U);
+  EXPECT_NEAR(met.components[0].before.largest, 30.0, 1.0);
+  EXPECT_NEAR(met.components[0].before.rms, 30.0 * std::sqrt(14.0 / 27.0), 0.4);
+  request.goal_um = 1.0;
+  EXPECT_EQ(verifyCompensation(before, after, request).verdict, VerifyVerdict::NotMet);
+  request.goal_um = 2.2;
+  const VerifyResult open = verifyCompensation(before, after, request);
+  EXPECT_EQ(open.verdict, VerifyVerdict::Undecided);
+  EXPECT_NE(open.reason.find("cannot be decided"), std::string::npos);
+}
+
+TEST(Verify, TheRmsIsFreeOfNoiseAndItsUncertaintyHolds) {
+  // Nothing is left: the rms must be compatible with zero although the readings scatter by 1 um.
+  int inside = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const VerifyResult r = verifyCompensation(measured(20.0, 1.0, seed), measured(3.0, 1.0, 1000 + seed), {});
+    const VerifyFigures& f = r.components[0].after;
+    const double truth = 3.0 * std::sqrt(14.0 / 27.0);
+    inside += std::abs(f.rms - truth) <= 2.0 * f.rms_sigma;
+  }
+  EXPECT_GE(inside, 180);
+  EXPECT_LE(inside, 200);
+}
+
+TEST(Verify, OnlyWhatBothHaveIsComparedAndTheRestIsCounted) {
+  ObservationSet after = measured(1.0, 0.2, 3);
+  std::erase_if(after.rows, [](const Observation& o) { return o.point == "P3"; });
+  const VerifyResult r = verifyCompensation(measured(10.0, 0.2, 4), after, {});
+  EXPECT_EQ(r.components[0].values, 21U);
+  ASSERT_EQ(r.notes.size(), 1U);
+  EXPECT_THROW(static_cast<void>(verifyCompensation(measured(10.0, 0.2, 4), {}, {})), InputError);
+  VerifyRequest bad;
+  bad.goal_um = 0.0;
+  EXPECT_THROW(static_cast<void>(verifyCompensation(measured(10.0, 0.2, 4), after, bad)), InputError);
+}
+
+TEST(Verify, TheLogDecidesWhatBelongsToBeforeAndAfter) {
+  const Campaign off = campaignWith({0.0, 0.0, 0.0});
+  const Campaign on = campaignWith({1.0, 1.0, 1.0});
+  const ObservationSet data = measured(10.0, 0.2, 5);
+  EXPECT_THROW(static_cast<void>(verifyCampaigns(off, data, off, data, {})), InputError);
+  EXPECT_THROW(static_cast<void>(verifyCampaigns(on, data, on, data, {})), InputError);
+  EXPECT_TRUE(verifyCampaigns(off, data, on, data, {}).notes.empty());
+  Campaign silent;
+  EXPECT_EQ(verifyCampaigns(silent, data, silent, data, {}).notes.size(), 1U);
+}
+
+TEST(CompensatedData, NeverEntersAFitUnnoticed) {
+  ObservationSet set = measured(10.0, 0.2, 6);
+  const Campaign half = campaignWith({0.0, 1.0, 1.0});
+  const std::string sentence = leaveOutCompensated(set, half.log);
+  EXPECT_NE(sentence.find("16 of 32 observations"), std::string::npos) << sentence;
+  for (const Observation& o : set.rows)
+    EXPECT_EQ(o.use, o.time_s < 1500.0 ? ObservationUse::Fit : ObservationUse::Exclude);
+  EXPECT_TRUE(leaveOutCompensated(set, half.log).empty());  // what is out already is not counted again
+  TimeSeries series = parseTimeSeries("time_s,ez_um,compensation_on\n0,1,0\n10,2,1\n20,3,1\n30,4,0\n", "log.csv");
+  leaveOutCompensated(series);
+  EXPECT_TRUE(std::isnan(series.at("ez_um").values[1]) && std::isnan(series.at("ez_um").values[2]));
+  EXPECT_EQ(series.at("ez_um").values[3], 4.0);
+  EXPECT_NE(series.notes.back().find("2 of 4 measured values"), std::string::npos) << series.notes.back();
+}
+
+}  // namespace
+}  // namespace spindrift
