@@ -89,7 +89,7 @@ void ReviewPage::showAll() {
             for (std::size_t i = 0; i < panes_.size(); ++i) {
               if (!(*answers)[i].picture) continue;
               panes_[i]->show(*(*answers)[i].picture, limit, arrows_->isChecked(), exaggeration(),
-                              machine_->isChecked());
+                              machine_->isChecked(), count_->current() == 0);
               panes_[i]->view()->setSelected(selected_);
             }
           }

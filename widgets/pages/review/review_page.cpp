@@ -110,7 +110,7 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   section_->setEmptyText(tr("A section will appear here"), tr("Let a pane show a model, or points near the line."));
   section_column->addWidget(section_, 1);
   tabs->addTab(section_tab, tr("Section"));
-  content()->addWidget(makeSplitter(left, tabs, 7, 3), 1);
+  content()->addWidget(makeSplitter(left, tabs, 13, 7), 1);
   layOutPanes();
 
   connect(count_, &Segments::chosen, this, [this] {
@@ -341,9 +341,15 @@ void ReviewPage::probe(View3D* view, const QPointF& pixel) {
       continue;
     }
     const QString id = pane->view()->pointAt(pixel);
-    const auto& points = pane->view()->points();
-    const auto at = std::find_if(points.begin(), points.end(), [&](const ViewPoint& p) { return p.id == id; });
-    pane->setValue(id.isEmpty() || at == points.end() ? QString() : QStringLiteral("%1: %2").arg(id, at->value_text));
+    const auto& points = pane->picture().points;
+    const auto at =
+        std::find_if(points.begin(), points.end(), [&](const ReviewPoint& p) { return fromCore(p.id) == id; });
+    if (id.isEmpty() || at == points.end() || !at->components.contains(component)) {
+      pane->setValue({});
+      continue;
+    }
+    const ReviewValue& v = at->components.at(component);
+    pane->setValue(QStringLiteral("%1: %2").arg(id, fromCore(withUncertainty(v.value, v.sigma, unitOf(component)))));
   }
 }
 

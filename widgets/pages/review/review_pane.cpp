@@ -130,7 +130,7 @@ std::string ReviewPane::state(const std::string& at_slider) const {
 }
 
 void ReviewPane::show(const ReviewPicture& picture, const std::optional<double>& limit, bool arrows,
-                      double exaggeration, bool machine) {
+                      double exaggeration, bool machine, bool values) {
   picture_ = picture;
   stack_->setCurrentWidget(view_);
   const auto from = source();
@@ -155,7 +155,8 @@ void ReviewPane::show(const ReviewPicture& picture, const std::optional<double>&
     const auto value = p.components.find(picture.component);
     if (value != p.components.end() && std::isfinite(value->second.value)) {
       v.value = value->second.value;
-      v.value_text = fromCore(withUncertainty(value->second.value, value->second.sigma, unitOf(picture.component)));
+      if (values)
+        v.value_text = fromCore(withUncertainty(value->second.value, value->second.sigma, unitOf(picture.component)));
     } else {
       v.tone = Tone::Neutral;
     }

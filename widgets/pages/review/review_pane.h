@@ -36,7 +36,7 @@ class ReviewPane : public QFrame {
   [[nodiscard]] std::string state(const std::string& at_slider) const;
 
   void show(const ReviewPicture& picture, const std::optional<double>& limit, bool arrows, double exaggeration,
-            bool machine);
+            bool machine, bool values);
   void showScan(const ScanPicture& picture, const QString& title, double limit);
   void showMessage(const QString& title, const QString& how);
   void setValue(const QString& text);

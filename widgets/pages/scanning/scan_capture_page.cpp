@@ -110,7 +110,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
                             tr("Colours"));
   colouring_->button(2)->setToolTip(tr("Height over the cold scan as it was measured"));
   colouring_->button(3)->setToolTip(tr("Height over the cold scan after registration"));
-  colouring_->button(4)->setToolTip(tr("Which points are used, near an edge, outliers or painted away"));
+  colouring_->button(4)->setToolTip(tr("0 used, 1 near an edge, 2 outlier, 3 painted away"));
   part_ = new Segments({tr("Before"), tr("After"), tr("Side by side")}, tr("Before or after cleaning"));
   part_->setToolTip(tr("Before or after trimming of edges, removal of outliers and what was painted away"));
   part_->setCurrent(1);
@@ -413,11 +413,8 @@ void ScanCapturePage::showIn(View3D* view, const ScanPicture& picture, const QSt
       scale.low = 0.0;
       scale.high = 3.0;
       const auto& n = picture.counts;
-      caption += tr(": 0 used %1, 1 near an edge %2, 2 outliers %3, 3 painted away %4")
-                     .arg(n[0])
-                     .arg(n[1])
-                     .arg(n[2])
-                     .arg(n[3]);
+      scale.title = tr("kind");
+      caption += tr(": edge %1, outlier %2, painted %3").arg(n[1]).arg(n[2]).arg(n[3]);
       break;
     }
     default:

@@ -31,6 +31,8 @@ ScanMaskBar::ScanMaskBar(View3D* view, SessionModel& session, QUndoStack& undo, 
   line->addWidget(effect_);
   reason_ = new QComboBox;
   reason_->setEditable(true);
+  reason_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  reason_->setMinimumContentsLength(10);
   reason_->addItems(
       {tr("dirt or chips on the surface"), tr("reflection"), tr("something lay in the way"), tr("damaged surface")});
   reason_->setAccessibleName(tr("Why it is painted away"));
