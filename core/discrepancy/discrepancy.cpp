@@ -23,32 +23,34 @@ using Eigen::Index;
 
 constexpr std::size_t unit_limit = 3000;
 
+/// Another effect of the fit moves the same readings as effect `t`.
+bool overlaps(const JointFit& fit, std::size_t t) {
+  for (std::size_t other = 0; other < fit.terms.size(); ++other) {
+    const Eigen::VectorXd& a = fit.contribution[t];
+    const Eigen::VectorXd& b = fit.contribution[other];
+    if (other != t && a.cwiseAbs().dot(b.cwiseAbs()) > 0.1 * a.norm() * b.norm()) return true;
+  }
+  return false;
+}
+
 /// Probability that the name is right. Factors as they were found in studies on virtual campaigns: rivals share, an
 /// onset that no log shows and a second effect in the same component are mistaken more often, and so is what leaves
 /// something over or does not predict states that were left out.
 double confidenceOf(const SearchOutcome& outcome, const TermEvidence& evidence, const JointFit& named, std::size_t t) {
-  double confidence = 0.985;
+  double confidence = 0.99;
   for (const RivalFit& r : evidence.rivals) {
-    if (!r.container) confidence *= r.undriven ? 0.75 : 0.85;
+    if (!r.container) confidence *= r.undriven ? 0.82 : 0.92;
   }
   const double relative = std::min(evidence.margin, 1e6) / std::max(1.0, evidence.delta_chi2);
-  confidence *= 0.9 + 0.1 * (1.0 - std::exp(-std::max(0.0, relative) / 0.02));
-  if (outcome.leftover_p_value < 1e-3) confidence *= 0.93;
-  if (outcome.explained_fraction < 0.95) confidence *= 0.9;
+  confidence *= 0.95 + 0.05 * (1.0 - std::exp(-std::max(0.0, relative) / 0.02));
+  if (outcome.leftover_p_value < 1e-3) confidence *= 0.96;
+  if (outcome.explained_fraction < 0.95) confidence *= 0.93;
   const Dynamics dynamics = named.terms[t].variant.inputs[0].dynamics;
-  if (dynamics == Dynamics::Pulse) confidence *= 0.93;
-  bool shared = false;
-  for (std::size_t other = 0; other < named.terms.size(); ++other) {
-    if (other == t) continue;
-    const Eigen::VectorXd& a = named.contribution[t];
-    const Eigen::VectorXd& b = named.contribution[other];
-    const double overlap = a.cwiseAbs().dot(b.cwiseAbs());
-    shared = shared || overlap > 0.1 * a.norm() * b.norm();
-  }
-  if (shared) confidence *= 0.88;
+  if (dynamics == Dynamics::Pulse) confidence *= 0.96;
+  if (overlaps(named, t)) confidence *= 0.97;
   const auto& cv = evidence.crossvalidation;
-  if (!(cv.after_chi2 < 0.7 * cv.before_chi2)) confidence *= 0.95;
-  return std::clamp(confidence, 0.02, 0.99);
+  if (!(cv.after_chi2 < 0.7 * cv.before_chi2)) confidence *= 0.97;
+  return std::clamp(confidence, 0.02, 0.995);
 }
 
 }  // namespace
@@ -211,7 +213,12 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   // A noise model a little off makes everything scatter more than it should: that alone takes no name away.
   const bool left = outcome.leftover_p_value < 1e-3;
   const bool clearly_left = outcome.leftover_p_value < 1e-5;
-  const bool unexplained = (clearly_left && outcome.explained_fraction < limits.least_explained) ||
+  // Two effects on top of each other follow many courses nearly: then what they leave counts sooner.
+  bool stacked = false;
+  for (std::size_t t = 0; t < outcome.fit.terms.size(); ++t) stacked = stacked || overlaps(outcome.fit, t);
+  const bool stacked_left =
+      stacked && outcome.leftover_p_value < 0.01 && outcome.explained_fraction < limits.least_explained_by_stacked;
+  const bool unexplained = stacked_left || (clearly_left && outcome.explained_fraction < limits.least_explained) ||
                            (left && (outcome.unknown_course.advantage > limits.unknown_advantage ||
                                      outcome.unknown_course.smallest_part < limits.least_over_leftover)) ||
                            outcome.crowded || !outcome.composite.empty();

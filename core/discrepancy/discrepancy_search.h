@@ -20,14 +20,15 @@ struct SearchLimits {
   double shape_part = 0.05;        ///< part of a wide effect's power that its wider shape must bring
   double rival_margin = 0.01;      ///< part of an effect's power within which another effect is a rival
   double smallest_part = 0.01;     ///< part of the power explained so far that a further effect must have
-  double smallest_in_component = 0.03;  ///< the same, of the power in the component in which it mainly acts
-  double least_explained = 0.95;        ///< part of the structured power below which nothing is named
-  double unknown_advantage = 0.0;       ///< in BIC, by which an unknown course may be better than the effects named
-  double least_over_leftover = 0.8;     ///< an effect's power beside what is left in its component
-  double start_part = 0.2;              ///< of the best effect's power that another start must have
-  double start_margin = 0.004;          ///< part of the power that each name more must add when starts are compared
-  std::size_t most_starts = 6;          ///< other starts that are followed
-  int most_in_one_component = 2;        ///< effects; more of them imitate any course
+  double smallest_in_component = 0.03;        ///< the same, of the power in the component in which it mainly acts
+  double least_explained = 0.95;              ///< part of the structured power below which nothing is named
+  double least_explained_by_stacked = 0.985;  ///< the same, where two effects move the same readings
+  double unknown_advantage = 0.0;    ///< in BIC, by which an unknown course may be better than the effects named
+  double least_over_leftover = 0.8;  ///< an effect's power beside what is left in its component
+  double start_part = 0.2;           ///< of the best effect's power that another start must have
+  double start_margin = 0.004;       ///< part of the power that each name more must add when starts are compared
+  std::size_t most_starts = 6;       ///< other starts that are followed
+  int most_in_one_component = 2;     ///< effects; more of them imitate any course
 };
 
 struct RivalFit {

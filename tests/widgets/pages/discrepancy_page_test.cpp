@@ -6,6 +6,7 @@
 #include <QFileInfo>
 #include <QLabel>
 #include <QPushButton>
+#include <QSlider>
 #include <QTabWidget>
 #include <QTableView>
 #include <QTest>
@@ -68,6 +69,18 @@ TEST_F(DiscrepancyPageTest, NamesTheHiddenEffectAddsItAndUndoes) {
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_EQ(page_->gap()->view(false)->colourScale(), page_->gap()->view(true)->colourScale());
   EXPECT_EQ(page_->gap()->view(true)->points().size(), 6U);
+  // The map starts where the gap is largest; on the same scale there is hardly anything left of it afterwards.
+  const auto largest = [&](bool after) {
+    double value = 0.0;
+    for (const ViewPoint& p : page_->gap()->view(after)->points())
+      value = std::max(value, std::abs(p.value.value_or(0)));
+    return value;
+  };
+  EXPECT_GT(largest(false), 4.0);
+  EXPECT_LT(largest(true), 1.5);
+  const double worst = largest(false);
+  page_->gap()->moment()->setValue(page_->gap()->moment()->value() == 0 ? 1 : 0);
+  EXPECT_LT(largest(false), worst);
   EXPECT_FALSE(page_->addButton()->isVisible()) << "nothing more is proposed";
 
   EXPECT_EQ(window_->undoStack().undoText(), QStringLiteral("add growth of the spindle along Z"));

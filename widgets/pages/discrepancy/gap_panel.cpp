@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
+#include <QSlider>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/discrepancy/gap_bars.h"
+#include "widgets/pages/discrepancy/residual_map.h"
 #include "widgets/plots/plot.h"
 #include "widgets/view3d/view3d.h"
 
@@ -47,6 +49,12 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   story_text_ = makeLabel({}, "secondaryText");
   story_text_->setWordWrap(true);
   left->body()->addWidget(story_text_);
+  moment_text_ = makeLabel({}, "secondaryText");
+  left->body()->addWidget(moment_text_);
+  moment_ = new QSlider(Qt::Horizontal);
+  moment_->setAccessibleName(tr("Moment shown on the machine"));
+  moment_->setToolTip(tr("Moment shown on the machine; the arrow keys go from one state to the next"));
+  left->body()->addWidget(moment_);
   left->body()->addStretch(1);
   line->addWidget(left);
 
@@ -78,12 +86,14 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   plots_[0]->setEmptyText(tr("Measured and simulated"), tr("Search to compare them over time."));
   plots_[1]->setEmptyText(tr("Nothing has been added yet"),
                           tr("Press Add to the model: the fit with the effect appears here."));
-  views_[0]->setEmptyText(tr("rms of each point"), tr("Search to see it on the machine."));
+  views_[0]->setEmptyText(tr("Measured minus simulated"), tr("Search to see it on the machine."));
   views_[1]->setEmptyText(tr("Nothing has been added yet"),
                           tr("Press Add to the model: what remains at each point appears here."));
   views_[0]->link(views_[1]);
   line->addLayout(grid, 1);
+  connect(moment_, &QSlider::valueChanged, this, &GapPanel::showMoment);
   connect(component_, &QComboBox::activated, this, [this](int) {
+    fillMoments();
     showPlots();
     showViews();
   });
@@ -125,6 +135,26 @@ void GapPanel::fillChoices() {
   }
   component_->setCurrentIndex(std::max(0, component_->findText(component)));
   point_->setCurrentIndex(std::max(0, point_->findText(point)));
+  fillMoments();
+}
+
+void GapPanel::fillMoments() {
+  const auto component = static_cast<Component>(component_->currentData().toInt());
+  moments_s_ = momentsOf(*discrepancy_, component);
+  const QSignalBlocker quiet(moment_);
+  moment_->setVisible(moments_s_.size() > 1);
+  moment_->setRange(0, static_cast<int>(moments_s_.empty() ? 0 : moments_s_.size() - 1));
+  const auto worst = static_cast<int>(worstMoment(*discrepancy_, component));
+  moment_->setValue(worst);
+  largest_ = 0.0;
+  if (moments_s_.empty() || !machine_) return;
+  const ResidualMap map =
+      residualMap(*discrepancy_, *machine_, component, moments_s_[static_cast<std::size_t>(worst)], false);
+  for (const Field::Marker& point : map.points) largest_ = std::max(largest_, std::abs(point.value));
+}
+
+void GapPanel::showMoment(int) {
+  showViews();
 }
 
 const DiscrepancySeries* GapPanel::series() const {
@@ -135,6 +165,7 @@ const DiscrepancySeries* GapPanel::series() const {
 
 void GapPanel::show(const std::shared_ptr<const DiscrepancyStory>& story, const MachineDescription* machine) {
   discrepancy_ = story;
+  machine_ = machine != nullptr ? std::optional<MachineDescription>(*machine) : std::nullopt;
   if (discrepancy_ == nullptr || machine == nullptr) {
     bars_->clear();
     model_->clear();
@@ -143,6 +174,8 @@ void GapPanel::show(const std::shared_ptr<const DiscrepancyStory>& story, const 
     point_->clear();
     for (Plot* plot : plots_) plot->setContent({});
     for (View3D* view : views_) view->clear();
+    moment_->hide();
+    moment_text_->clear();
     return;
   }
   bars_->set(discrepancy_->gap, discrepancy_->has_holdout);
@@ -186,8 +219,10 @@ void GapPanel::choose(const std::string& point, Component component) {
   const int p = point_->findText(QString::fromStdString(point));
   const int c = component_->findText(componentName(component));
   if (p < 0 || c < 0) return;
+  const bool other = component_->currentIndex() != c;
   point_->setCurrentIndex(p);
   component_->setCurrentIndex(c);
+  if (other) fillMoments();
   showPlots();
   showViews();
 }
@@ -251,28 +286,34 @@ void GapPanel::showPlots() {
 }
 
 void GapPanel::showViews() {
-  if (discrepancy_ == nullptr || component_->count() == 0) return;
+  if (discrepancy_ == nullptr || component_->count() == 0 || moments_s_.empty() || !machine_) return;
   const auto component = static_cast<Component>(component_->currentData().toInt());
   const QString unit = componentUnit(component);
-  // One scale for both, and for all components of the same unit.
-  const ColourScale scale =
-      ColourScale::magnitude(discrepancy_->largestRms(isRotation(component)), componentName(component), unit);
+  const double time_s = moments_s_[static_cast<std::size_t>(moment_->value())];
+  const TimeUnit time = timeUnit(moments_s_.back());
+  const QString when = tr("%1 %2").arg(time_s / time.seconds, 0, 'f', 2).arg(time.name);
+  moment_text_->setText(tr("On the machine at %1").arg(when));
+  // One scale for both sides and all moments: that of the worst moment before.
+  const ColourScale scale = ColourScale::symmetric(largest_, componentName(component), unit);
   for (std::size_t side = 0; side < 2; ++side) {
     if (side == 1 && discrepancy_->added.empty()) continue;
+    const ResidualMap map = residualMap(*discrepancy_, *machine_, component, time_s, side == 1);
     std::vector<ViewPoint> points;
-    for (const DiscrepancySeries& s : discrepancy_->series) {
-      if (s.component != component) continue;
+    for (const Field::Marker& marker : map.points) {
       ViewPoint p;
-      p.id = p.label = QString::fromStdString(s.point);
-      p.position_mm = s.position_mm;
-      p.value = side == 0 ? s.rms_before : s.rms_after;
-      if (p.id == point_->currentText()) p.value_text = sizeText(*p.value, unit);
+      p.id = p.label = QString::fromStdString(marker.point);
+      p.position_mm = marker.position_mm;
+      p.value = marker.value;
+      if (p.id == point_->currentText()) {
+        p.value_text = tr("%1 ± %2 %3").arg(marker.value, 0, 'f', 1).arg(marker.sigma, 0, 'f', 1).arg(unit);
+      }
       points.push_back(std::move(p));
     }
     views_[side]->setColourScale(scale);
+    views_[side]->setField(map.field, FieldStyle{});
     views_[side]->setPoints(std::move(points));
     views_[side]->setSelected(point_->currentText());
-    views_[side]->setCaption(tr("rms of %1, measured − model").arg(componentName(component)));
+    views_[side]->setCaption(tr("%1, measured − model at %2").arg(componentName(component), when));
   }
 }
 

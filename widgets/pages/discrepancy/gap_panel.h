@@ -4,6 +4,7 @@
 
 #include <QWidget>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/machine/machine_description.h"
@@ -13,6 +14,7 @@
 class QComboBox;
 class QGridLayout;
 class QLabel;
+class QSlider;
 
 namespace spindrift::gui {
 
@@ -31,6 +33,7 @@ class GapPanel : public QWidget {
   void choose(const std::string& point, Component component);
   [[nodiscard]] std::vector<Exportable> exportables();
   [[nodiscard]] View3D* view(bool after) const { return views_[after ? 1 : 0]; }
+  [[nodiscard]] QSlider* moment() const { return moment_; }
   [[nodiscard]] Plot* plot(bool after) const { return plots_[after ? 1 : 0]; }
 
  Q_SIGNALS:
@@ -41,9 +44,11 @@ class GapPanel : public QWidget {
 
  private:
   void fillChoices();
+  void fillMoments();
   void showPlots();
   void showViews();
   void arrange();
+  void showMoment(int index);
   [[nodiscard]] const DiscrepancySeries* series() const;
 
   GapBars* bars_;
@@ -52,12 +57,17 @@ class GapPanel : public QWidget {
   QComboBox* component_;
   QComboBox* point_;
   Segments* what_;
+  QLabel* moment_text_;
+  QSlider* moment_;
   QGridLayout* grid_;
   std::array<Card*, 2> plot_cards_{};
   std::array<Card*, 2> view_cards_{};
   std::array<Plot*, 2> plots_{};
   std::array<View3D*, 2> views_{};
   std::shared_ptr<const DiscrepancyStory> discrepancy_;
+  std::optional<MachineDescription> machine_;
+  std::vector<double> moments_s_;
+  double largest_ = 0.0;  ///< of the maps of this component, before
 };
 
 }  // namespace spindrift::gui

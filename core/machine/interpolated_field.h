@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A field through scattered values: what is known of a component between the points at which it was measured.
+//
+//   v_i = v(p_i) + e_i,   v ~ Gaussian process: unknown mean, variance s^2, correlation exp(-|d|^2 / (2 l^2)),
+//   e_i ~ N(0, sigma_i^2)
+//
+// d is the difference of two places (MCF, mm). A few points do not tell s and l, so predictions are averaged over a
+// grid of both (l from a fifth of the extent of the points to three times it), weighted by their restricted likelihood;
+// the sigma holds the scatter among them and that of the mean. Values um or urad, places mm. Sources: Cressie,
+// Statistics for Spatial Data, 3.4 (kriging); Patterson and Thompson 1971 (restricted likelihood).
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/machine/error_model.h"
+
+namespace spindrift {
+
+/// One value at a place.
+struct ScatteredValue {
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  double value = 0.0;  ///< um or urad
+  double sigma = 0.0;  ///< > 0
+};
+
+class InterpolatedField : public ErrorModel {
+ public:
+  /// At least one value, all finite with sigma > 0; several at one place are allowed.
+  InterpolatedField(Component component, std::vector<ScatteredValue> values);
+
+  [[nodiscard]] std::string description() const override;
+  /// Zero with infinite sigma for any other component.
+  [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override;
+
+ private:
+  /// One pair of s and l.
+  struct Process {
+    double log_likelihood = 0.0;
+    double weight = 1.0;
+    double length_mm = 1.0;
+    double variance = 0.0;
+    double mean = 0.0;
+    double mean_variance = 0.0;
+    Eigen::LLT<Eigen::MatrixXd> covariance;
+    Eigen::VectorXd residual;  ///< inverse covariance times (value - mean)
+    Eigen::VectorXd ones;      ///< inverse covariance times one
+  };
+  [[nodiscard]] Eigen::VectorXd correlations(const Eigen::Vector3d& place, double length_mm) const;
+
+  Component component_;
+  std::vector<ScatteredValue> values_;
+  std::vector<Process> processes_;  ///< weights sum to 1
+};
+
+}  // namespace spindrift

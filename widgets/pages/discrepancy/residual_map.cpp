@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/discrepancy/residual_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/machine/interpolated_field.h"
+
+namespace spindrift::gui {
+namespace {
+
+/// More points say no more about a smooth field, and cost their number cubed.
+constexpr std::size_t most_points = 60;
+constexpr int nodes_along = 64;
+
+/// Index of the reading of a series nearest in time; the size of the series if none is near.
+std::size_t nearestReading(const DiscrepancySeries& series, double time_s, double within_s) {
+  std::size_t found = series.time_s.size();
+  double closest = within_s;
+  for (std::size_t i = 0; i < series.time_s.size(); ++i) {
+    const double distance = std::abs(series.time_s[i] - time_s);
+    if (distance > closest) continue;
+    closest = distance;
+    found = i;
+  }
+  return found;
+}
+
+FieldGrid planeOver(const MachineDescription& machine, double z_mm) {
+  FieldGrid grid;
+  const LinearAxis* x = machine.findAxis("X");
+  const LinearAxis* y = machine.findAxis("Y");
+  grid.x_to_mm = 100.0;
+  grid.y_to_mm = 100.0;
+  if (x != nullptr) {
+    grid.x_from_mm = x->travel_mm[0];
+    grid.x_to_mm = x->travel_mm[1];
+  }
+  if (y != nullptr) {
+    grid.y_from_mm = y->travel_mm[0];
+    grid.y_to_mm = y->travel_mm[1];
+  }
+  grid.z_mm = z_mm;
+  const double longer = std::max(grid.x_to_mm - grid.x_from_mm, grid.y_to_mm - grid.y_from_mm);
+  grid.nx = std::max(2, static_cast<int>(std::lround(nodes_along * (grid.x_to_mm - grid.x_from_mm) / longer)));
+  grid.ny = std::max(2, static_cast<int>(std::lround(nodes_along * (grid.y_to_mm - grid.y_from_mm) / longer)));
+  return grid;
+}
+
+/// Half of the shortest time between two moments.
+double halfStep(const std::vector<double>& moments) {
+  double step = 1e300;
+  for (std::size_t i = 1; i < moments.size(); ++i) step = std::min(step, moments[i] - moments[i - 1]);
+  return moments.size() > 1 ? 0.6 * step : 1e300;
+}
+
+}  // namespace
+
+std::vector<double> momentsOf(const DiscrepancyStory& story, Component component) {
+  // The longest series has a reading in every state; the others lie within half a step of it.
+  std::vector<double> moments;
+  for (const DiscrepancySeries& s : story.series) {
+    if (s.component == component && s.time_s.size() > moments.size()) moments = s.time_s;
+  }
+  std::sort(moments.begin(), moments.end());
+  moments.erase(std::unique(moments.begin(), moments.end()), moments.end());
+  return moments;
+}
+
+std::size_t worstMoment(const DiscrepancyStory& story, Component component) {
+  const std::vector<double> moments = momentsOf(story, component);
+  const double within = halfStep(moments);
+  std::size_t worst = 0;
+  double largest = -1.0;
+  for (std::size_t m = 0; m < moments.size(); ++m) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const DiscrepancySeries& s : story.series) {
+      if (s.component != component) continue;
+      const std::size_t i = nearestReading(s, moments[m], within);
+      if (i == s.time_s.size()) continue;
+      const double left = s.value[i] - s.constant_before - s.simulated[i];
+      sum += left * left;
+      count += 1.0;
+    }
+    if (count == 0.0 || sum / count <= largest) continue;
+    largest = sum / count;
+    worst = m;
+  }
+  return worst;
+}
+
+ResidualMap residualMap(const DiscrepancyStory& story, const MachineDescription& machine, Component component,
+                        double time_s, bool after) {
+  ResidualMap map;
+  const double within = halfStep(momentsOf(story, component));
+  std::vector<Eigen::Vector2d> around;
+  double z_mm = 0.0;
+  for (const DiscrepancySeries& s : story.series) {
+    if (s.component != component) continue;
+    const std::vector<double>& model = after ? s.completed : s.simulated;
+    const std::size_t i = nearestReading(s, time_s, within);
+    if (model.empty() || i == s.time_s.size() || !std::isfinite(model[i])) continue;
+    const double constant = after ? s.constant_after : s.constant_before;
+    map.points.push_back({s.point, s.position_mm, s.value[i] - constant - model[i], s.noise, !s.held_out[i]});
+    around.emplace_back(s.position_mm.head<2>());
+    z_mm += s.position_mm.z();
+  }
+  if (map.points.size() < 3) return map;
+  std::vector<ScatteredValue> values;
+  const std::size_t every = (map.points.size() + most_points - 1) / most_points;
+  for (std::size_t i = 0; i < map.points.size(); i += every) {
+    const Field::Marker& p = map.points[i];
+    if (p.sigma > 0.0) values.push_back({p.position_mm, p.value, p.sigma});
+  }
+  if (values.size() < 3) return map;
+  const InterpolatedField between(component, std::move(values));
+  auto field = std::make_shared<Field>(
+      evaluateField(between, planeOver(machine, z_mm / static_cast<double>(map.points.size())), component, {}, around));
+  field->markers = map.points;
+  map.field = std::move(field);
+  return map;
+}
+
+}  // namespace spindrift::gui
