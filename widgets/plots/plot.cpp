@@ -16,6 +16,7 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QSvgGenerator>
+#include <QTimer>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -257,10 +258,12 @@ void Plot::rebuild() {
   update();
 }
 
-/// Nothing is drawn before it is looked at: a page that is being filled changes its plots several times.
+/// Once, when the event loop is reached: a page that is being filled changes its plots several times.
 void Plot::replotSoon() {
   stale_ = true;
-  plot_->update();
+  QTimer::singleShot(0, this, [this] {
+    if (isVisible()) drawIfStale();
+  });
 }
 
 void Plot::drawIfStale() {
@@ -269,6 +272,10 @@ void Plot::drawIfStale() {
   plot_->setViewport(QRect(0, 0, std::max(1, plot_->width()), std::max(1, plot_->height())));
   placeLegend();
   plot_->replot(QCustomPlot::rpQueuedRefresh);
+}
+
+void Plot::showEvent(QShowEvent*) {
+  if (stale_) replotSoon();
 }
 
 void Plot::showAll() {
@@ -318,9 +325,7 @@ void Plot::placeLegend() {
   };
   legend->setBorderPen(QPen(theme().border, 1));
   move_inside(Qt::AlignTop | Qt::AlignRight);
-  for (const auto phase : {QCPLayoutElement::upPreparation, QCPLayoutElement::upMargins, QCPLayoutElement::upLayout}) {
-    outer->update(phase);
-  }
+  plot_->replot(QCustomPlot::rpQueuedRefresh);  // lays out axes and legend
   const QRectF axes = plot_->axisRect()->rect();
   const QSizeF size = QSizeF(legend->outerRect().size()) + QSizeF(16, 16);
   struct Corner {
@@ -460,8 +465,6 @@ bool Plot::dragSpan(QEvent* event) {
 
 bool Plot::eventFilter(QObject* watched, QEvent* event) {
   if (watched == plot_) {
-    if (event->type() == QEvent::Resize) return true;  // it would draw at once
-    if (event->type() == QEvent::Paint) drawIfStale();
     if (dragSpan(event)) return true;
     if (event->type() == QEvent::MouseButtonDblClick) {
       showAll();
