@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The desktop program: parse the command line, build the window, run.
+#include <unistd.h>
+
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QDir>
 #include <QElapsedTimer>
+#include <QFile>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTemporaryDir>
@@ -11,9 +14,14 @@
 #include <algorithm>
 #include <clocale>
 #include <cstdio>
+#include <ctime>
+#include <functional>
 
 #include "core/base/atomic_file.h"
+#include "core/base/error.h"
 #include "core/base/log.h"
+#include "widgets/jobs/job_bar.h"
+#include "widgets/shell/diagnostics.h"
 #include "widgets/shell/main_window.h"
 #include "widgets/shell/self_test.h"
 #include "widgets/shell/tour.h"
@@ -31,6 +39,54 @@ void applyScale(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; ++i) {
     if (qstrcmp(argv[i], "--scale") == 0) qputenv("QT_SCALE_FACTOR", argv[i + 1]);
   }
+}
+
+/// What a slot throws must not end the program and take unsaved thoughts along: it is told and written to the log.
+class Application : public QApplication {
+ public:
+  using QApplication::QApplication;
+  std::function<void(const QString&)> tell;
+
+  bool notify(QObject* receiver, QEvent* event) override {
+    try {
+      return QApplication::notify(receiver, event);
+    } catch (const spindrift::InputError& e) {
+      report(QString::fromUtf8(e.what()));
+    } catch (const std::exception& e) {
+      spindrift::log(spindrift::LogLevel::Error, std::string("internal error: ") + e.what());
+      report(tr("Internal error, please report it: %1").arg(QString::fromUtf8(e.what())));
+    }
+    return false;
+  }
+
+ private:
+  void report(const QString& sentence) const {
+    if (tell) tell(sentence);
+  }
+};
+
+/// Milliseconds since the system started this process.
+double processAge_ms() {
+  QFile file(QStringLiteral("/proc/self/stat"));
+  timespec now{};
+  if (!file.open(QIODevice::ReadOnly) || ::clock_gettime(CLOCK_BOOTTIME, &now) != 0) return 0.0;
+  const QByteArray text = file.readAll();
+  const double ticks = text.mid(text.lastIndexOf(')') + 2).split(' ').value(19).toDouble();
+  return 1e3 * (static_cast<double>(now.tv_sec) - ticks / static_cast<double>(::sysconf(_SC_CLK_TCK))) +
+         1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+/// Until the first screen is drawn and answers: from the start of the process, loading of libraries included.
+int startUpTime(spindrift::gui::MainWindow& window) {
+  window.show();
+  (void)window.grab();
+  QCoreApplication::processEvents();
+  timespec used{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  std::printf("first usable window after %.0f ms, %.0f ms of them on the processor; memory %.0f MB\n", processAge_ms(),
+              1e3 * static_cast<double>(used.tv_sec) + 1e-6 * static_cast<double>(used.tv_nsec),
+              spindrift::gui::residentMegabytes());
+  return exit_done;
 }
 
 int selfTest(spindrift::gui::MainWindow& window, const QString& json_file) {
@@ -52,13 +108,14 @@ int run(int argc, char** argv) {
   using namespace spindrift::gui;
   applyScale(argc, argv);
   const bool unattended = std::any_of(argv + 1, argv + argc, [](const char* argument) {
-    return qstrcmp(argument, "--tour") == 0 || qstrcmp(argument, "--self-test") == 0;
+    return qstrcmp(argument, "--tour") == 0 || qstrcmp(argument, "--self-test") == 0 ||
+           qstrcmp(argument, "--startup-time") == 0;
   });
   if (qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM") &&
       (unattended || (qEnvironmentVariableIsEmpty("DISPLAY") && qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY")))) {
     qputenv("QT_QPA_PLATFORM", "offscreen");
   }
-  QApplication application(argc, argv);
+  Application application(argc, argv);
   std::setlocale(LC_NUMERIC, "C");
   QLocale::setDefault(QLocale::c());
   QCoreApplication::setApplicationName(QStringLiteral("spindrift"));
@@ -93,7 +150,10 @@ int run(int argc, char** argv) {
       QStringLiteral("json"),
       QCoreApplication::translate("main", "With --self-test: write the result to FILE, or to standard output with -."),
       QStringLiteral("FILE"));
-  parser.addOptions({demo, tour, theme_option, scale, self_test, json});
+  const QCommandLineOption start_time(
+      QStringLiteral("startup-time"),
+      QCoreApplication::translate("main", "Print how long it takes to the first usable window, and end."));
+  parser.addOptions({demo, tour, theme_option, scale, self_test, json, start_time});
   if (!parser.parse(application.arguments())) {
     std::fprintf(stderr, "%s\n", qPrintable(parser.errorText()));
     return exit_bad_input;
@@ -108,7 +168,7 @@ int run(int argc, char** argv) {
   }
   // The user's sessions, recent folders and settings are none of the business of tour and self-test.
   QTemporaryDir scratch;
-  if (parser.isSet(tour) || parser.isSet(self_test)) {
+  if (parser.isSet(tour) || parser.isSet(self_test) || parser.isSet(start_time)) {
     QStandardPaths::setTestModeEnabled(true);
     QCoreApplication::setOrganizationName(QStringLiteral("spindrift-unattended"));
     qputenv("SPINDRIFT_SESSIONS", scratch.path().toUtf8());
@@ -125,6 +185,8 @@ int run(int argc, char** argv) {
   applyTheme(application, kind == QLatin1String("dark") ? ThemeKind::Dark : ThemeKind::Light);
 
   MainWindow window;
+  application.tell = [&window](const QString& sentence) { window.jobBar()->setMessage(sentence); };
+  if (parser.isSet(start_time)) return startUpTime(window);
   if (parser.isSet(tour)) {
     QElapsedTimer timer;
     timer.start();

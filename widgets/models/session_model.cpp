@@ -286,6 +286,30 @@ void SessionModel::setExcluded(const QString& item, const QString& reason) {
   Q_EMIT inputsChanged();
 }
 
+std::vector<Note> SessionModel::notes() const {
+  return session_ != nullptr ? session_->notes(campaign_id_) : std::vector<Note>();
+}
+
+bool SessionModel::addNote(const QString& about, const QString& text) {
+  if (session_ == nullptr || campaign_ == nullptr || text.isEmpty()) return false;
+  try {
+    session_->addNote(campaign_id_, about.toStdString(), text.toStdString());
+    return true;
+  } catch (const InputError& e) {
+    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+    return false;
+  }
+}
+
+void SessionModel::removeNote(std::int64_t note) {
+  if (session_ == nullptr) return;
+  try {
+    session_->removeNote(note);
+  } catch (const InputError& e) {
+    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+  }
+}
+
 void SessionModel::setSetting(const std::string& key, const nlohmann::json& value) {
   if (session_ == nullptr) return;
   try {

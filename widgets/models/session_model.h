@@ -118,6 +118,11 @@ class SessionModel : public QObject {
   void setExcluded(const QString& item, const QString& reason);
   [[nodiscard]] const std::map<QString, QString>& excluded() const { return excluded_; }
 
+  // Notes on the campaign at hand. A note that cannot be stored is told by storingFailed().
+  [[nodiscard]] std::vector<Note> notes() const;
+  bool addNote(const QString& about, const QString& text);
+  void removeNote(std::int64_t note);
+
   // Settings that belong to the session.
   void setSetting(const std::string& key, const nlohmann::json& value);
   [[nodiscard]] nlohmann::json setting(const std::string& key, const nlohmann::json& otherwise) const;

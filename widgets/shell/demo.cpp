@@ -35,6 +35,25 @@ void spoil(const std::filesystem::path& folder) {
   writeFileAtomically(cut, std::string_view(bytes).substr(0, bytes.size() / 2));
 }
 
+/// What is measured before the campaign begins: one fiducial every five minutes while the camera, which was switched on
+/// a moment ago, warms up and the machine stands still.
+void writeWarmUp(Scenario scenario, const std::filesystem::path& file, JobContext& job) {
+  constexpr double duration_s = 14400.0;
+  constexpr double every_s = 300.0;
+  scenario.microscope.reset();
+  scenario.simulation.reset();
+  scenario.duration_s = duration_s + every_s;
+  scenario.programme = Programme({ProgrammeSegment{.instrument_on = true}});
+  scenario.effects["instrument.warm_up.x"].setting.on = true;
+  scenario.effects["instrument.warm_up.z"].setting.on = true;
+  MeasurementOptions measurement;
+  for (double t = 0.0; t <= duration_s; t += every_s) measurement.times_s.push_back(t);
+  measurement.points = {scenario.machine.points.front().id};
+  scenario.measurement = measurement;
+  const VirtualCampaign warm_up = simulateCampaign(scenario, std::nullopt, job);
+  writeFileAtomically(file, warm_up.campaign.observations.value().csv());
+}
+
 Scenario demoScenario(const std::string& name) {
   loadScenarios();
   const std::string resource = ":/scenarios/" + name + ".json";
@@ -100,7 +119,10 @@ void makeDemoCampaign(const std::string& name, const std::filesystem::path& fold
   const VirtualCampaign campaign = simulateCampaign(scenario, std::nullopt, simulating);
   JobContext writing = job.part(0.2, 1.0);
   writeCampaign(campaign, folder, writing);
-  if (scenario.microscope) spoil(folder);
+  if (scenario.microscope) {
+    spoil(folder);
+    writeWarmUp(scenario, folder / "warm_up.csv", writing);
+  }
 }
 
 nlohmann::json demoTruth(const std::string& name, bool small, JobContext& job) {

@@ -15,6 +15,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSettings>
+#include <QSplitter>
 #include <QStackedWidget>
 #include <QStandardPaths>
 #include <QTemporaryDir>
@@ -26,8 +27,8 @@
 #include "widgets/common/parts.h"
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/job_bar.h"
-#include "widgets/pages/scanning/artefact_designer.h"
 #include "widgets/shell/demo.h"
+#include "widgets/shell/help_panel.h"
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/welcome_page.h"
 #include "widgets/theme/icons.h"
@@ -82,15 +83,20 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   page_stack_ = new QStackedWidget;
   right->addWidget(page_stack_, 1);
   work_line->addLayout(right, 1);
+  help_ = new HelpPanel;
+  connect(help_, &HelpPanel::closed, this, [this] { help_action_->trigger(); });
+  work_line->addWidget(help_);
   stack_->addWidget(work_);
 
   buildMenu();
+  showHelp();
 
   connect(back_, &QPushButton::clicked, &workflow_, &Workflow::back);
   connect(next_, &QPushButton::clicked, &workflow_, &Workflow::next);
   connect(&workflow_, &Workflow::currentChanged, this, &MainWindow::showStep);
   connect(&session_, &SessionModel::sessionChanged, this, [this] {
     undo_.clear();
+    welcome_->offerRecovery({});
     refreshTitle();
     refreshCampaigns();
     stack_->setCurrentWidget(session_.isOpen() && session_.campaign() != nullptr ? work_
@@ -131,7 +137,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
           [this] { theme_button_->setIcon(icon(theme().kind == ThemeKind::Dark ? "sun" : "moon")); });
 
   QSettings settings;
-  welcome_->setRecent(settings.value(QStringLiteral("recent")).toStringList());
+  const QStringList recent = settings.value(QStringLiteral("recent")).toStringList();
+  welcome_->setRecent(recent);
+  if (!recent.isEmpty() && Session::wasLeftOpen(recent.front().toStdString())) welcome_->offerRecovery(recent.front());
   if (!restoreGeometry(settings.value(QStringLiteral("window")).toByteArray())) resize(1440, 900);
   refreshTitle();
 }
@@ -140,96 +148,6 @@ MainWindow::~MainWindow() {
   jobs_.cancelAll();
   // Pages hold references to what stands below them in this class.
   for (const auto& [entry, page] : pages_) delete page;
-}
-
-void MainWindow::buildMenu() {
-  const auto add = [this](QMenu* menu, const QString& text, const char* icon_name, const QKeySequence& keys,
-                          auto&& what) {
-    QAction* action = menu->addAction(icon(icon_name), text);
-    action->setShortcut(keys);
-    connect(action, &QAction::triggered, this, what);
-    return action;
-  };
-  QMenu* session_menu = menuBar()->addMenu(tr("&Session"));
-  add(session_menu, tr("&New measurement …"), "plus", QKeySequence::New, [this] { newMeasurement(); });
-  add(session_menu, tr("&Open session …"), "folder-open", QKeySequence::Open,
-      [this] { Q_EMIT welcome_->openSession(); });
-  add(session_menu, tr("Open &campaign folder …"), "folder-open", QKeySequence(tr("Ctrl+Shift+O")),
-      [this] { Q_EMIT welcome_->openCampaign(); });
-  add(session_menu, tr("Open &log …"), "folder-open", QKeySequence(tr("Ctrl+L")), [this] {
-    const QString file = QFileDialog::getOpenFileName(this, tr("Open a log over time"), {}, tr("Log (*.csv)"));
-    if (!file.isEmpty()) openLog(file);
-  });
-  session_menu->addSeparator();
-  add(session_menu, tr("&Export …"), "export", QKeySequence(tr("Ctrl+E")),
-      [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); });
-  session_menu->addSeparator();
-  add(session_menu, tr("First &screen"), "home", QKeySequence(tr("Ctrl+H")), [this] { closeSession(); });
-  add(session_menu, tr("&Quit"), "x", QKeySequence::Quit, [this] { close(); });
-
-  QMenu* edit = menuBar()->addMenu(tr("&Edit"));
-  QAction* undo = undo_.createUndoAction(this, tr("&Undo"));
-  undo->setShortcut(QKeySequence::Undo);
-  undo->setIcon(icon("undo"));
-  edit->addAction(undo);
-  QAction* redo = undo_.createRedoAction(this, tr("&Redo"));
-  redo->setShortcut(QKeySequence::Redo);
-  redo->setIcon(icon("redo"));
-  edit->addAction(redo);
-
-  QMenu* go = menuBar()->addMenu(tr("&Go"));
-  add(go, tr("&Back"), "chevron-left", QKeySequence(tr("Alt+Left")), [this] { workflow_.back(); });
-  add(go, tr("&Next"), "chevron-right", QKeySequence(tr("Alt+Right")), [this] { workflow_.next(); });
-  go->addSeparator();
-  int number = 1;
-  for (const StepId step : all_steps) {
-    add(go, stepTitle(step), stepIcon(step), QKeySequence(QStringLiteral("Ctrl+%1").arg(number++)),
-        [this, step] { workflow_.goTo(step); });
-  }
-  go->addSeparator();
-  add(go, tr("&Run the step"), "play", QKeySequence(tr("Ctrl+Return")), [this] {
-    if (page_ != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
-  });
-
-  QMenu* view = menuBar()->addMenu(tr("&View"));
-  add(view, tr("&Light or dark"), "moon", QKeySequence(tr("Ctrl+D")),
-      [this] { setTheme(theme().kind == ThemeKind::Dark ? ThemeKind::Light : ThemeKind::Dark); });
-  QMenu* tools = menuBar()->addMenu(tr("&Tools"));
-  add(tools, tr("&Artefact designer …"), "scan", QKeySequence(tr("Ctrl+Shift+D")), [this] {
-    auto* designer = new ArtefactDesigner(this);
-    designer->setAttribute(Qt::WA_DeleteOnClose);
-    designer->show();
-  });
-  QMenu* help = menuBar()->addMenu(tr("&Help"));
-  add(help, tr("&About Spindrift"), "info", {}, [this] { about(); });
-
-  auto* corner = new QWidget;
-  auto* line = new QHBoxLayout(corner);
-  line->setContentsMargins(0, 0, 8, 0);
-  line->setSpacing(4);
-  const auto tool = [&](const char* icon_name, const QString& name, auto&& what) {
-    auto* button = new QToolButton;
-    button->setIcon(icon(icon_name));
-    button->setIconSize({sizes::icon, sizes::icon});
-    button->setToolTip(name);
-    button->setAccessibleName(name);
-    connect(button, &QToolButton::clicked, this, what);
-    line->addWidget(button);
-    return button;
-  };
-  auto* undo_button = tool("undo", tr("Undo"), [this] { undo_.undo(); });
-  auto* redo_button = tool("redo", tr("Redo"), [this] { undo_.redo(); });
-  undo_button->setEnabled(false);
-  redo_button->setEnabled(false);
-  connect(&undo_, &QUndoStack::canUndoChanged, undo_button, &QToolButton::setEnabled);
-  connect(&undo_, &QUndoStack::canRedoChanged, redo_button, &QToolButton::setEnabled);
-  connect(&undo_, &QUndoStack::undoTextChanged, undo_button,
-          [undo_button](const QString& text) { undo_button->setToolTip(tr("Undo: %1").arg(text)); });
-  tool("export", tr("Export pictures and tables of this page"),
-       [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); });
-  theme_button_ = tool(theme().kind == ThemeKind::Dark ? "sun" : "moon", tr("Light or dark"),
-                       [this] { setTheme(theme().kind == ThemeKind::Dark ? ThemeKind::Light : ThemeKind::Dark); });
-  menuBar()->setCornerWidget(corner);
 }
 
 bool MainWindow::welcomeShown() const {
@@ -247,12 +165,14 @@ void MainWindow::showStep() {
     PageContext context{session_, jobs_, undo_, workflow_, [this](const QString& text) { job_bar_->setHint(text); }};
     page = entry->factory(std::move(context));
     page_stack_->addWidget(page);
+    restoreSplitters(*page);
   }
   page_ = page;
   page_stack_->setCurrentWidget(page);
   back_->setEnabled(workflow_.canGoBack());
   next_->setEnabled(workflow_.canGoNext());
   job_bar_->setHint({});
+  if (help_action_->isChecked()) help_->showStep(workflow_.current());
   page->refresh();
 }
 
@@ -435,14 +355,34 @@ void MainWindow::newMeasurement() {
   }
 }
 
-void MainWindow::about() {
-  QMessageBox::about(this, tr("About Spindrift"),
-                     tr("<h3>Spindrift %1</h3><p>Thermal errors of machine tools: measure, understand, compensate.</p>"
-                        "<p>GPL-3.0-or-later; the core library Apache-2.0.</p>")
-                         .arg(QStringLiteral(SPINDRIFT_VERSION)));
+namespace {
+
+/// The borders of a page, in the order in which it made them.
+QString splitterKey(const Page& page, qsizetype index) {
+  return QStringLiteral("splitter/%1/%2")
+      .arg(QString::fromLatin1(page.metaObject()->className()).section(QLatin1Char(':'), -1))
+      .arg(index);
+}
+
+}  // namespace
+
+void MainWindow::restoreSplitters(Page& page) {
+  const QSettings settings;
+  const auto splitters = page.findChildren<QSplitter*>();
+  for (qsizetype i = 0; i < splitters.size(); ++i) {
+    const QByteArray state = settings.value(splitterKey(page, i)).toByteArray();
+    if (!state.isEmpty()) splitters[i]->restoreState(state);
+  }
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  for (const auto& [entry, page] : pages_) {
+    if (page == nullptr) continue;
+    const auto splitters = page->findChildren<QSplitter*>();
+    for (qsizetype i = 0; i < splitters.size(); ++i) {
+      QSettings().setValue(splitterKey(*page, i), splitters[i]->saveState());
+    }
+  }
   QSettings().setValue(QStringLiteral("window"), saveGeometry());
   jobs_.cancelAll();
   event->accept();

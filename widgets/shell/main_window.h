@@ -11,6 +11,7 @@
 #include "widgets/pages/page.h"
 #include "widgets/workflow/workflow.h"
 
+class QAction;
 class QComboBox;
 class QLabel;
 class QPushButton;
@@ -19,7 +20,9 @@ class QToolButton;
 
 namespace spindrift::gui {
 
+class HelpPanel;
 class JobBar;
+class NotesDialog;
 class StepList;
 class WelcomePage;
 class Badge;
@@ -53,6 +56,10 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] QPushButton* nextButton() const { return next_; }
   [[nodiscard]] QPushButton* backButton() const { return back_; }
   [[nodiscard]] bool welcomeShown() const;
+  [[nodiscard]] HelpPanel* help() const { return help_; }
+  [[nodiscard]] QAction* helpAction() const { return help_action_; }
+  void saveLog(const QString& file);  ///< what `diagnosticsText` says, by a file
+  NotesDialog* openNotes();           ///< null if nothing is open
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -65,6 +72,8 @@ class MainWindow : public QMainWindow {
   void refreshCampaigns();
   void remember(const QString& folder);
   void newMeasurement();
+  void showHelp();
+  void restoreSplitters(Page& page);
   void tell(const QString& sentence);
   void about();
   void importInBackground(const QString& title, std::function<std::filesystem::path(JobContext&)> source,
@@ -88,6 +97,8 @@ class MainWindow : public QMainWindow {
   QLabel* session_name_;
   QComboBox* campaign_;
   QToolButton* theme_button_;
+  HelpPanel* help_;
+  QAction* help_action_ = nullptr;
   QPushButton* next_;
   QPushButton* back_;
 };

@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/shell/demo.h"
+#include "widgets/shell/diagnostics.h"
 #include "widgets/shell/main_window.h"
 #include "widgets/shell/tour.h"
 
@@ -17,6 +18,7 @@ namespace spindrift::gui {
 namespace {
 
 constexpr int seconds_per_step = 180;
+constexpr double most_memory_MB = 1024.0;
 constexpr double part_within_three_sigma = 0.95;
 
 QString translated(const char* text) {
@@ -148,6 +150,16 @@ SelfTestResult runSelfTest(MainWindow& window) {
       result.parts.push_back(failed(QString::fromStdString(demo.name), QString::fromUtf8(e.what())));
     }
   }
+  result.memory_MB = residentMegabytes();
+  result.peak_memory_MB = peakMegabytes();
+  SelfTestPart memory;
+  memory.name = QStringLiteral("memory");
+  memory.passed = result.memory_MB <= most_memory_MB;
+  memory.figures = {{"resident_MB", result.memory_MB}, {"peak_MB", result.peak_memory_MB}};
+  memory.sentence = translated("%1 MB in use after all demos, at most %2 MB")
+                        .arg(result.memory_MB, 0, 'f', 0)
+                        .arg(result.peak_memory_MB, 0, 'f', 0);
+  result.parts.push_back(std::move(memory));
   return result;
 }
 

@@ -19,7 +19,9 @@ struct SelfTestPart {
 };
 
 struct SelfTestResult {
-  std::vector<SelfTestPart> parts;
+  std::vector<SelfTestPart> parts;  ///< the demos, and "memory": at most 1 GB in use after all of them
+  double memory_MB = 0.0;           ///< after all demos; 0 where the system does not tell
+  double peak_memory_MB = 0.0;
   [[nodiscard]] bool passed() const;
   [[nodiscard]] nlohmann::json json() const;
 };

@@ -195,6 +195,9 @@ WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
       makeLabel(tr("Measure, understand and compensate the thermal errors of machine tools."), "instruction"));
   head->addLayout(titles, 1);
   column->addLayout(head);
+  recovery_ = new Callout;
+  recovery_->hide();
+  column->addWidget(recovery_);
 
   auto* start = new QHBoxLayout;
   start->setSpacing(8);
@@ -230,6 +233,18 @@ WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
   connect(open_session, &QPushButton::clicked, this, &WelcomePage::openSession);
   connect(open_campaign, &QPushButton::clicked, this, &WelcomePage::openCampaign);
   setRecent({});
+}
+
+void WelcomePage::offerRecovery(const QString& folder) {
+  if (folder.isEmpty()) {
+    recovery_->set(Tone::Neutral, {});
+    return;
+  }
+  recovery_->show(Tone::Attention,
+                  tr("Spindrift did not end in order the last time. Everything that was captured in %1 is "
+                     "there; a computation that was running has to be started again.")
+                      .arg(QFileInfo(folder).fileName()));
+  recovery_->setAction(tr("Open it again"), [this, folder] { Q_EMIT recentChosen(folder); });
 }
 
 void WelcomePage::setRecent(const QStringList& folders) {

@@ -12,6 +12,8 @@ class QVBoxLayout;
 namespace spindrift::gui {
 
 /// A demo as a card that can be pressed.
+class Callout;
+
 class DemoCard : public QAbstractButton {
   Q_OBJECT
  public:
@@ -31,6 +33,9 @@ class WelcomePage : public QWidget {
  public:
   explicit WelcomePage(QWidget* parent = nullptr);
   void setRecent(const QStringList& folders);
+  /// Says that the session was not closed the last time and offers to open it; empty: nothing to say.
+  void offerRecovery(const QString& folder);
+  [[nodiscard]] Callout* recovery() const { return recovery_; }
   [[nodiscard]] DemoCard* demoCard(std::size_t index) const { return cards_[index]; }
 
  Q_SIGNALS:
@@ -43,6 +48,7 @@ class WelcomePage : public QWidget {
  private:
   std::vector<DemoCard*> cards_;
   QVBoxLayout* recent_;
+  Callout* recovery_;
 };
 
 }  // namespace spindrift::gui

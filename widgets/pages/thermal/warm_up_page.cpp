@@ -55,7 +55,7 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   temperature_->setEmptyText(tr("Temperatures will appear here"),
                              tr("They come from log.csv of the campaign; this one has none."));
   temperature->body()->addWidget(temperature_, 1);
-  content()->addWidget(makeSplitter(instrument, temperature, 1, 1, Qt::Vertical), 1);
+  content()->addWidget(makeSplitter(instrument, temperature, 5, 3, Qt::Vertical), 1);
   showHints(drift_);
   showHints(temperature_);
   connect(confirm_, &QPushButton::clicked, this, &WarmUpPage::confirm);
@@ -96,12 +96,15 @@ void WarmUpPage::refresh() {
   std::vector<Series> drift;
   std::vector<Row> rows;
   std::optional<WarmUpResult> judged;
-  if (const auto set = session().observations()) {
-    try {
-      judged = judgeWarmUp(*set, {});
-    } catch (const InputError&) {
-      judged.reset();
-    }
+  QString unreadable;
+  try {
+    // A measurement made for this very purpose stands in a file of its own.
+    const std::filesystem::path own = campaign->path("warm_up.csv");
+    const auto set = std::filesystem::exists(own) ? std::optional(ObservationSet::read(own)) : session().observations();
+    if (set) judged = judgeWarmUp(*set, {});
+  } catch (const InputError& e) {
+    judged.reset();
+    unreadable = QString::fromUtf8(e.what());
   }
   if (judged && judged->status == FitStatus::Converged) {
     double last = 0;
@@ -146,6 +149,8 @@ void WarmUpPage::refresh() {
     callout()->show(Tone::Good, tr("You stated that the instrument was warm. The report says so."));
   } else if (measured) {
     callout()->show(judged->settled ? Tone::Good : Tone::Attention, QString::fromStdString(judged->reason));
+  } else if (!unreadable.isEmpty()) {
+    callout()->show(Tone::Attention, unreadable);
   } else {
     callout()->show(Tone::Attention, tr("This campaign has no warm-up measurement. Either measure one point every 5 "
                                         "minutes until it settles, or state that the instrument was warm."));

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Menu and switches of the window, and the small dialogs behind them.
+#include <QAction>
+#include <QClipboard>
+#include <QFileDialog>
+#include <QGuiApplication>
+#include <QHBoxLayout>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSettings>
+#include <QStandardPaths>
+#include <QToolButton>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "widgets/common/parts.h"
+#include "widgets/jobs/job_bar.h"
+#include "widgets/pages/scanning/artefact_designer.h"
+#include "widgets/shell/diagnostics.h"
+#include "widgets/shell/help_panel.h"
+#include "widgets/shell/main_window.h"
+#include "widgets/shell/notes_dialog.h"
+#include "widgets/shell/step_list.h"
+#include "widgets/shell/welcome_page.h"
+#include "widgets/theme/icons.h"
+
+namespace spindrift::gui {
+
+void MainWindow::buildMenu() {
+  const auto add = [this](QMenu* menu, const QString& text, const char* icon_name, const QKeySequence& keys,
+                          auto&& what) {
+    QAction* action = menu->addAction(icon(icon_name), text);
+    action->setShortcut(keys);
+    connect(action, &QAction::triggered, this, what);
+    return action;
+  };
+  QMenu* session_menu = menuBar()->addMenu(tr("&Session"));
+  add(session_menu, tr("&New measurement …"), "plus", QKeySequence::New, [this] { newMeasurement(); });
+  add(session_menu, tr("&Open session …"), "folder-open", QKeySequence::Open,
+      [this] { Q_EMIT welcome_->openSession(); });
+  add(session_menu, tr("Open &campaign folder …"), "folder-open", QKeySequence(tr("Ctrl+Shift+O")),
+      [this] { Q_EMIT welcome_->openCampaign(); });
+  add(session_menu, tr("Open &log …"), "folder-open", QKeySequence(tr("Ctrl+L")), [this] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Open a log over time"), {}, tr("Log (*.csv)"));
+    if (!file.isEmpty()) openLog(file);
+  });
+  session_menu->addSeparator();
+  add(session_menu, tr("&Export …"), "export", QKeySequence(tr("Ctrl+E")),
+      [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); });
+  session_menu->addSeparator();
+  add(session_menu, tr("First &screen"), "home", QKeySequence(tr("Ctrl+H")), [this] { closeSession(); });
+  add(session_menu, tr("&Quit"), "x", QKeySequence::Quit, [this] { close(); });
+
+  QMenu* edit = menuBar()->addMenu(tr("&Edit"));
+  QAction* undo = undo_.createUndoAction(this, tr("&Undo"));
+  undo->setShortcut(QKeySequence::Undo);
+  undo->setIcon(icon("undo"));
+  edit->addAction(undo);
+  QAction* redo = undo_.createRedoAction(this, tr("&Redo"));
+  redo->setShortcut(QKeySequence::Redo);
+  redo->setIcon(icon("redo"));
+  edit->addAction(redo);
+  edit->addSeparator();
+  add(edit, tr("&Notes …"), "note", QKeySequence(tr("Ctrl+M")), [this] { openNotes(); });
+
+  QMenu* go = menuBar()->addMenu(tr("&Go"));
+  add(go, tr("&Back"), "chevron-left", QKeySequence(tr("Alt+Left")), [this] { workflow_.back(); });
+  add(go, tr("&Next"), "chevron-right", QKeySequence(tr("Alt+Right")), [this] { workflow_.next(); });
+  go->addSeparator();
+  int number = 1;
+  for (const StepId step : all_steps) {
+    add(go, stepTitle(step), stepIcon(step), QKeySequence(QStringLiteral("Ctrl+%1").arg(number++)),
+        [this, step] { workflow_.goTo(step); });
+  }
+  go->addSeparator();
+  add(go, tr("&Run the step"), "play", QKeySequence(tr("Ctrl+Return")), [this] {
+    if (page_ != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
+  });
+
+  QMenu* view = menuBar()->addMenu(tr("&View"));
+  add(view, tr("&Light or dark"), "moon", QKeySequence(tr("Ctrl+D")),
+      [this] { setTheme(theme().kind == ThemeKind::Dark ? ThemeKind::Light : ThemeKind::Dark); });
+  QMenu* tools = menuBar()->addMenu(tr("&Tools"));
+  add(tools, tr("&Artefact designer …"), "scan", QKeySequence(tr("Ctrl+Shift+D")), [this] {
+    auto* designer = new ArtefactDesigner(this);
+    designer->setAttribute(Qt::WA_DeleteOnClose);
+    designer->show();
+  });
+  QMenu* help = menuBar()->addMenu(tr("&Help"));
+  help_action_ = add(help, tr("Help &beside the step"), "help", QKeySequence(Qt::Key_F1), [this] {
+    QSettings().setValue(QStringLiteral("help"), help_action_->isChecked());
+    showHelp();
+  });
+  help_action_->setCheckable(true);
+  help_action_->setChecked(QSettings().value(QStringLiteral("help"), false).toBool());
+  help->addSeparator();
+  add(help, tr("&Copy diagnostics"), "table", {}, [this] {
+    QGuiApplication::clipboard()->setText(diagnosticsText());
+    tell(tr("Version, platform and the last messages are in the clipboard; folders and names are left out."));
+  });
+  add(help, tr("&Save the log …"), "export", {}, [this] {
+    const QString file =
+        QFileDialog::getSaveFileName(this, tr("Save the log"), QStringLiteral("spindrift-log.txt"), tr("Text (*.txt)"));
+    if (!file.isEmpty()) saveLog(file);
+  });
+  help->addSeparator();
+  add(help, tr("&About Spindrift"), "info", {}, [this] { about(); });
+
+  auto* corner = new QWidget;
+  auto* line = new QHBoxLayout(corner);
+  line->setContentsMargins(0, 0, 8, 0);
+  line->setSpacing(4);
+  const auto tool = [&](const char* icon_name, const QString& name, auto&& what) {
+    auto* button = new QToolButton;
+    button->setIcon(icon(icon_name));
+    button->setIconSize({sizes::icon, sizes::icon});
+    button->setToolTip(name);
+    button->setAccessibleName(name);
+    connect(button, &QToolButton::clicked, this, what);
+    line->addWidget(button);
+    return button;
+  };
+  auto* undo_button = tool("undo", tr("Undo"), [this] { undo_.undo(); });
+  auto* redo_button = tool("redo", tr("Redo"), [this] { undo_.redo(); });
+  undo_button->setEnabled(false);
+  redo_button->setEnabled(false);
+  connect(&undo_, &QUndoStack::canUndoChanged, undo_button, &QToolButton::setEnabled);
+  connect(&undo_, &QUndoStack::canRedoChanged, redo_button, &QToolButton::setEnabled);
+  connect(&undo_, &QUndoStack::undoTextChanged, undo_button,
+          [undo_button](const QString& text) { undo_button->setToolTip(tr("Undo: %1").arg(text)); });
+  tool("export", tr("Export pictures and tables of this page"),
+       [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); });
+  theme_button_ = tool(theme().kind == ThemeKind::Dark ? "sun" : "moon", tr("Light or dark"),
+                       [this] { setTheme(theme().kind == ThemeKind::Dark ? ThemeKind::Light : ThemeKind::Dark); });
+  menuBar()->setCornerWidget(corner);
+}
+
+void MainWindow::about() {
+  QMessageBox::about(this, tr("About Spindrift"),
+                     tr("<h3>Spindrift %1</h3><p>Thermal errors of machine tools: measure, understand, compensate.</p>"
+                        "<p>GPL-3.0-or-later; the core library Apache-2.0.</p>")
+                         .arg(QStringLiteral(SPINDRIFT_VERSION)));
+}
+
+void MainWindow::showHelp() {
+  help_->setVisible(help_action_->isChecked());
+  if (help_action_->isChecked()) help_->showStep(workflow_.current());
+}
+
+void MainWindow::saveLog(const QString& file) {
+  try {
+    writeFileAtomically(file.toStdString(), diagnosticsText().toStdString());
+    tell(tr("The log was saved as %1. Folders and names are left out of it.").arg(file));
+  } catch (const InputError& e) {
+    tell(QString::fromUtf8(e.what()));
+  }
+}
+
+NotesDialog* MainWindow::openNotes() {
+  if (session_.campaign() == nullptr) {
+    tell(tr("Open a session first; notes belong to it."));
+    return nullptr;
+  }
+  auto* dialog = new NotesDialog(session_, stepTitle(workflow_.current()), this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->open();
+  return dialog;
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/shell/notes_dialog.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QTableView>
+#include <QVBoxLayout>
+
+#include "core/base/error.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/models/session_model.h"
+#include "widgets/workflow/workflow.h"
+
+namespace spindrift::gui {
+
+NotesDialog::NotesDialog(SessionModel& session, const QString& about, QWidget* parent)
+    : QDialog(parent), session_(session) {
+  setWindowTitle(tr("Notes"));
+  resize(720, 520);
+  auto* column = new QVBoxLayout(this);
+  column->setSpacing(8);
+  rows_ = new RowsModel({tr("When (UTC)"), tr("About"), tr("Note")}, this);
+  table_ = makeTable(rows_, tr("Notes"), tr("Notes that you add appear here and in the report."));
+  column->addWidget(table_, 2);
+  about_ = new QComboBox;
+  about_->setEditable(true);
+  about_->setAccessibleName(tr("What the note is about"));
+  about_->setToolTip(tr("A step, or what you type: a capture, a result, the session"));
+  about_->addItem(tr("Session"));
+  for (const StepId step : all_steps) about_->addItem(stepTitle(step));
+  for (const auto& [item, reason] : session_.excluded()) about_->addItem(item);
+  about_->setCurrentText(about);
+  column->addWidget(about_);
+  text_ = new QPlainTextEdit;
+  text_->setAccessibleName(tr("Text of the note"));
+  text_->setPlaceholderText(tr("What somebody who reads the report should know"));
+  text_->setTabChangesFocus(true);
+  column->addWidget(text_, 1);
+  auto* line = new QHBoxLayout;
+  remove_ = makeButton(tr("Remove"), "trash");
+  add_ = makeButton(tr("Add the note"), "plus", "primary");
+  auto* close = makeButton(tr("Close"), nullptr);
+  line->addWidget(remove_);
+  line->addStretch(1);
+  line->addWidget(close);
+  line->addWidget(add_);
+  column->addLayout(line);
+  const auto buttons = [this] {
+    add_->setEnabled(!text_->toPlainText().trimmed().isEmpty());
+    remove_->setEnabled(table_->currentIndex().isValid());
+  };
+  connect(text_, &QPlainTextEdit::textChanged, this, buttons);
+  connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this, buttons);
+  connect(add_, &QPushButton::clicked, this, &NotesDialog::add);
+  connect(remove_, &QPushButton::clicked, this, &NotesDialog::removeSelected);
+  connect(close, &QPushButton::clicked, this, &QDialog::accept);
+  connect(&session_, &SessionModel::sessionChanged, this, &QDialog::reject);
+  refresh();
+  buttons();
+  text_->setFocus();
+}
+
+void NotesDialog::refresh() {
+  std::vector<Row> rows;
+  for (const Note& note : session_.notes()) {
+    Row row;
+    row.id = QString::number(note.id);
+    row.cells = {{QString::fromStdString(note.created_utc).replace(QLatin1Char('T'), QLatin1Char(' ')).chopped(1)},
+                 {QString::fromStdString(note.step)},
+                 {QString::fromStdString(note.text)}};
+    row.cells[2].tip = row.cells[2].text;
+    rows.push_back(std::move(row));
+  }
+  rows_->setRows(std::move(rows));
+}
+
+void NotesDialog::add() {
+  if (!session_.addNote(about_->currentText().trimmed(), text_->toPlainText().trimmed())) return;
+  text_->clear();
+  refresh();
+}
+
+void NotesDialog::removeSelected() {
+  const QModelIndex index = table_->currentIndex();
+  if (!index.isValid()) return;
+  session_.removeNote(rows_->idAt(index.row()).toLongLong());
+  refresh();
+}
+
+}  // namespace spindrift::gui

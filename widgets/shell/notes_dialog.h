@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Notes of people on the session: on a step, a capture or a result. They go into the report.
+#pragma once
+
+#include <QDialog>
+
+class QComboBox;
+class QPlainTextEdit;
+class QPushButton;
+class QTableView;
+
+namespace spindrift::gui {
+
+class RowsModel;
+class SessionModel;
+
+class NotesDialog : public QDialog {
+  Q_OBJECT
+ public:
+  /// `about` is what a new note is about unless the user says otherwise: the step that is shown.
+  NotesDialog(SessionModel& session, const QString& about, QWidget* parent = nullptr);
+
+  [[nodiscard]] RowsModel* rows() const { return rows_; }
+  [[nodiscard]] QComboBox* about() const { return about_; }
+  [[nodiscard]] QPlainTextEdit* text() const { return text_; }
+  [[nodiscard]] QPushButton* addButton() const { return add_; }
+  [[nodiscard]] QPushButton* removeButton() const { return remove_; }
+
+ private:
+  void refresh();
+  void add();
+  void removeSelected();
+
+  SessionModel& session_;
+  RowsModel* rows_;
+  QTableView* table_;
+  QComboBox* about_;
+  QPlainTextEdit* text_;
+  QPushButton* add_;
+  QPushButton* remove_;
+};
+
+}  // namespace spindrift::gui
