@@ -121,6 +121,23 @@ class Assembler {
     return t.position_mm + side * radiusOf(setting) * t.approach;
   }
 
+  /// How far beside the holes most surface touches are made, mm; with one or two cycles there is no habit to go by.
+  [[nodiscard]] double usualReach(const Eigen::Vector3d& offset) const {
+    std::vector<double> distances;
+    for (const Group& g : groups_) {
+      const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(g.setting)];
+      const auto nominal = assembly_.nominal ? assembly_.nominal(feature, c_deg) : std::nullopt;
+      if (!nominal || assembly_.kind != FeatureKind::Hole) continue;
+      for (const std::size_t i : g.touches) {
+        if (!isSurfaceTouch(list_.touches[i], assembly_.axis)) continue;
+        Eigen::Vector3d d = list_.touches[i].position_mm - *nominal - offset;
+        d -= assembly_.axis * assembly_.axis.dot(d);
+        distances.push_back(d.norm());
+      }
+    }
+    return distances.empty() ? 0.0 : std::min(median(distances), 30.0);
+  }
+
   void rejectMisplaced() {
     const double inch = 25.4;
     // Median place of every touch over the cycles: what thermal errors cannot reach is another feature.
@@ -172,6 +189,7 @@ class Assembler {
         }
       }
     }
+    reach = std::max(reach, usualReach(offset));
     const double tolerance = std::max(assembly_.misplaced_mm, 0.05);
     for (const Group& g : groups_) {
       const auto& [feature, stylus, c_deg] = settings_[static_cast<std::size_t>(g.setting)];

@@ -222,8 +222,9 @@ void LiveTouches::judgeFeature(std::size_t last) {
   for (const std::size_t s : d.suspects) {
     LiveTouch& live = touches_[group[s]];
     live.plausible = false;
-    live.reason = fmt::format("touches {} of {} disagree by {:.0f} um", joinedList(numbers), t.feature,
-                              first ? d.spread_um : 2.0 * d.spread_um);
+    live.reason = numbers.size() > 1
+                      ? fmt::format("they disagree by {:.0f} um", first ? d.spread_um : 2.0 * d.spread_um)
+                      : fmt::format("it disagrees with the others by {:.0f} um", d.spread_um);
     if (first) first_.erase(keyOf(live.touch));
   }
 }
@@ -299,14 +300,25 @@ LiveProgress LiveTouches::progress() const {
 }
 
 std::vector<std::string> LiveTouches::retakes() const {
-  std::vector<std::string> sentences;
+  // Touches of one feature with one reason are one sentence.
+  std::vector<std::pair<const LiveTouch*, std::vector<std::string>>> groups;
   for (const LiveTouch& live : touches_) {
     if (live.plausible || live.replaced) continue;
-    const Touch& t = live.touch;
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& g) {
+      return g.first->reason == live.reason && featureKeyOf(g.first->touch) == featureKeyOf(live.touch);
+    });
+    const bool fresh = same == groups.end();
+    if (fresh) groups.push_back({&live, {}});
+    (fresh ? groups.back() : *same).second.push_back(std::to_string(live.touch.touch));
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [live, numbers] : groups) {
+    const Touch& t = live->touch;
     std::string where = fmt::format("{}, {}", t.cycle, t.feature);
     if (machine_.styli.size() > 1) where += " with " + t.stylus;
     if (t.c_deg != 0.0) where += fmt::format(" at {:g} deg", t.c_deg);
-    sentences.push_back(fmt::format("Touch {} again, touch {}: {}.", where, t.touch, live.reason));
+    sentences.push_back(fmt::format("Touch {} again, touch{} {}: {}.", where, numbers.size() > 1 ? "es" : "",
+                                    joinedList(numbers), live->reason));
   }
   return sentences;
 }

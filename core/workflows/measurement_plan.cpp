@@ -207,8 +207,13 @@ std::set<std::string> capturedItems(const MeasurementPlan& plan, const Campaign&
       }
     }
     if (const auto file = campaign.captureList("touches.csv")) {
-      for (const Touch& t : TouchList::read(*file).touches)
-        keys.insert(fmt::format("cycle|{}|{}", t.cycle, t.artefact));
+      const TouchList list = TouchList::read(*file);
+      std::map<std::string, std::size_t> touches;
+      for (const Touch& t : list.touches) ++touches[fmt::format("cycle|{}|{}", t.cycle, t.artefact)];
+      for (const auto& [key, count] : touches) {
+        const std::string artefact = key.substr(key.rfind('|') + 1);
+        if (count >= touches[fmt::format("cycle|{}|{}", list.cycles().front(), artefact)]) keys.insert(key);
+      }
     }
     if (campaign.captureList("scans.csv")) {
       for (const ScanCapture& c : readScanList(campaign)) keys.insert(fmt::format("scan|{}|{}", c.cycle, c.artefact));

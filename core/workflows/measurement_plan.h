@@ -71,7 +71,8 @@ struct PlanOptions {
 /// InputError if the machine has none.
 [[nodiscard]] MeasurementPlan makePlan(const MachineDescription& machine, const PlanOptions& options);
 
-/// Which items of the plan the capture lists of a campaign folder hold; a cycle counts when it is in touches.csv.
+/// Which items of the plan the capture lists of a campaign folder hold; a cycle counts when
+/// it has as many touches in touches.csv as the first one.
 /// Lists that cannot be read count as empty.
 [[nodiscard]] std::set<std::string> capturedItems(const MeasurementPlan& plan, const Campaign& campaign);
 

@@ -42,6 +42,15 @@ TEST(TouchVerdicts, EveryTouchOfGoodCyclesIsUsed) {
   for (const TouchVerdict& v : judged.verdicts) EXPECT_TRUE(std::isfinite(v.residual_um));
 }
 
+TEST(TouchVerdicts, TheFirstTwoCyclesAreJudgedAsWellAsMany) {
+  const MachineDescription m = machineFrom(holeMachineText());
+  for (const int cycles : {1, 2}) {
+    const VirtualRun run = runCycles(m, cycles, {}, 61);
+    const HoleCycleResult result = evaluateHoleCycles(run.list, m, m.artefacts.front());
+    EXPECT_TRUE(result.rejected.empty()) << result.rejected.front().reason;
+  }
+}
+
 TEST(TouchVerdicts, BadMissingAndExcludedTouchesAreToldApart) {
   VirtualRun run = runCycles(machineFrom(holeMachineText()), 5, {}, 6);
   std::string bad, excluded;
