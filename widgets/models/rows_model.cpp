@@ -65,6 +65,7 @@ QVariant RowsModel::data(const QModelIndex& index, int role) const {
       if (row.faded) return theme().text_disabled;
       return cell.tone == Tone::Neutral ? QVariant() : QVariant(theme().tone(cell.tone));
     case Qt::DecorationRole:
+      if (!cell.picture.isNull()) return cell.picture;
       if (cell.icon == nullptr) return {};
       return icon(cell.icon, row.faded                    ? theme().text_disabled
                              : cell.tone == Tone::Neutral ? theme().text_secondary

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QAbstractTableModel>
+#include <QPixmap>
 #include <QString>
 #include <QStringList>
 #include <functional>
@@ -21,6 +22,7 @@ struct Cell {
   bool bold = false;
   std::optional<bool> checked;  ///< a box to check in this cell
   QString tip;
+  QPixmap picture;  ///< in place of the icon
 };
 
 struct Row {

@@ -269,6 +269,28 @@ ResultState SessionModel::state(const std::string& kind) const {
   return state;
 }
 
+void SessionModel::capturesChanged(bool first) {
+  ++capture_generation_;
+  // The first capture of an instrument changes which pages there are.
+  if (first) Q_EMIT campaignChanged();
+  Q_EMIT inputsChanged();
+}
+
+void SessionModel::recordArrival(const ExaminedFile& examined) {
+  if (session_ == nullptr || campaign_ == nullptr) return;
+  const bool first = !examined.row.empty() && !campaign_->captureList(examined.list);
+  spindrift::recordArrival(*session_, campaign_id_, examined);
+  if (!examined.row.empty()) capturesChanged(first);
+}
+
+void SessionModel::addCaptureRows(const std::string& list, const std::string& header,
+                                  const std::vector<std::string>& rows) {
+  if (session_ == nullptr || campaign_ == nullptr || rows.empty()) return;
+  const bool first = !campaign_->captureList(list);
+  session_->addCaptureRows(campaign_id_, list, header, rows);
+  capturesChanged(first);
+}
+
 void SessionModel::setExcluded(const QString& item, const QString& reason) {
   if (session_ == nullptr || campaign_ == nullptr) return;
   try {

@@ -17,6 +17,7 @@
 #include "core/machine/instrument_evaluation.h"
 #include "core/session/session.h"
 #include "core/workflows/evaluate_campaign.h"
+#include "core/workflows/incoming.h"
 
 namespace spindrift::gui {
 
@@ -114,6 +115,14 @@ class SessionModel : public QObject {
   /// Options every result depends on (the edited machine), to be merged into its own.
   [[nodiscard]] nlohmann::json commonOptions() const;
 
+  // Captures that arrive. Both throw InputError (disk full, folder gone).
+  /// Takes over what was examined: its row into the list, its answer into the journal.
+  void recordArrival(const ExaminedFile& examined);
+  /// Rows of a list without files (touches).
+  void addCaptureRows(const std::string& list, const std::string& header, const std::vector<std::string>& rows);
+  /// Counts up whenever a capture was added: lists read before are to be read again.
+  [[nodiscard]] int captureGeneration() const { return capture_generation_; }
+
   // Exclusions; `reason` empty takes an item back in. Undo commands call these.
   void setExcluded(const QString& item, const QString& reason);
   [[nodiscard]] const std::map<QString, QString>& excluded() const { return excluded_; }
@@ -139,12 +148,14 @@ class SessionModel : public QObject {
  private:
   void load(std::int64_t id);
   void take(LoadedSession loaded);
+  void capturesChanged(bool first);
 
   std::unique_ptr<Session> session_;
   std::int64_t campaign_id_ = 0;
   std::shared_ptr<const Campaign> campaign_;
   std::map<QString, QString> excluded_;
   bool machine_edited_ = false;
+  int capture_generation_ = 0;
   mutable std::shared_ptr<const StoredEvaluation> evaluation_;
   mutable std::map<std::string, std::optional<StoredResult>> latest_;
 };

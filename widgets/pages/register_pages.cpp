@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which page a step shows for which campaign. The first line of a step that applies is taken.
+#include "widgets/pages/capture/new_capture_page.h"
 #include "widgets/pages/common/message_page.h"
 #include "widgets/pages/compensate/compensate_page.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
@@ -54,6 +55,12 @@ void registerPages(PageRegistry& registry) {
       "calibrate-profiler");
   registry.add(
       StepId::Model, scans, [](PageContext c) { return new AxisErrorsPage(std::move(c)); }, "model-axis-errors");
+  // A new measurement: nothing is there yet, and it is about to arrive.
+  const auto nothing = [](const SessionModel& s) {
+    return s.campaign() != nullptr && !s.campaign()->observations && !s.campaign()->log;
+  };
+  registry.add(
+      StepId::Capture, nothing, [](PageContext c) { return new NewCapturePage(std::move(c)); }, "capture-new");
   registry.add(
       StepId::Model, [](const SessionModel& s) { return s.isLogOnly(); },
       [](PageContext c) { return new ThermalModelPage(std::move(c)); }, "model-over-time");

@@ -9,6 +9,7 @@
 #include <QLineEdit>
 #include <QSpinBox>
 #include <QSplitter>
+#include <QTabWidget>
 #include <QTableWidget>
 #include <QVBoxLayout>
 
@@ -18,50 +19,11 @@
 #include "core/workflows/fit_campaign.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/pages/common/editor_table.h"
+#include "widgets/pages/machine/artefact_editor.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
-namespace {
-
-QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_name) {
-  auto* table = new QTableWidget(0, static_cast<int>(headers.size()));
-  table->setHorizontalHeaderLabels(headers);
-  table->setAccessibleName(accessible_name);
-  table->setShowGrid(false);
-  table->verticalHeader()->hide();
-  table->verticalHeader()->setDefaultSectionSize(40);
-  table->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table->horizontalHeader()->setStretchLastSection(true);
-  table->horizontalHeader()->setHighlightSections(false);
-  table->setSelectionMode(QAbstractItemView::SingleSelection);
-  table->setTabKeyNavigation(false);
-  table->setMinimumHeight(150);
-  return table;
-}
-
-QString numberText(const std::optional<double>& value) {
-  return value ? QString::fromStdString(exactNumber(*value)) : QString();
-}
-
-QString textAt(const QTableWidget* table, int row, int column) {
-  const QTableWidgetItem* item = table->item(row, column);
-  return item == nullptr ? QString() : item->text().trimmed();
-}
-
-void set(QTableWidget* table, int row, int column, const QString& text) {
-  table->setItem(row, column, new QTableWidgetItem(text));
-}
-
-/// A number, or the text itself so that the reader can say what is wrong with it.
-nlohmann::json numberOrText(const QString& text) {
-  double value = 0;
-  if (parseNumber(text.toStdString(), value)) return value;
-  return text.toStdString();
-}
-
-}  // namespace
-
 QStringList machineFindings(const MachineDescription& machine) {
   QStringList findings;
   for (const LinearAxis& axis : machine.axes) {
@@ -150,7 +112,17 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   view_ = new View3D;
   view_->setEmptyText(tr("The machine will appear here"), tr("Give its chain and the travel of its axes."));
   picture->body()->addWidget(view_, 1);
-  content()->addWidget(makeSplitter(card, picture, 7, 5), 1);
+  auto* tabs = makeTabs();
+  tabs->setObjectName(QStringLiteral("machineTabs"));
+  tabs->addTab(makeSplitter(card, picture, 7, 5), tr("Axes and points"));
+  artefacts_ = new ArtefactEditor(context());
+  tabs->addTab(artefacts_, tr("Artefacts and styli"));
+  content()->addWidget(tabs, 1);
+  // Each tab has its own changes to apply.
+  connect(tabs, &QTabWidget::currentChanged, this, [this](int index) {
+    apply_->setVisible(index == 0);
+    discard_->setVisible(index == 0);
+  });
 
   connect(name_, &QLineEdit::textEdited, this, &MachinePage::markEdited);
   connect(chain_, &QLineEdit::textEdited, this, &MachinePage::markEdited);
@@ -166,9 +138,9 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   connect(add, &QPushButton::clicked, this, [this] {
     const int row = points_->rowCount();
     points_->insertRow(row);
-    set(points_, row, 0, QStringLiteral("F%1").arg(row + 1));
-    set(points_, row, 1, QStringLiteral("fiducial"));
-    for (int c = 2; c < 5; ++c) set(points_, row, c, QStringLiteral("0"));
+    setText(points_, row, 0, QStringLiteral("F%1").arg(row + 1));
+    setText(points_, row, 1, QStringLiteral("fiducial"));
+    for (int c = 2; c < 5; ++c) setText(points_, row, c, QStringLiteral("0"));
     points_->setCurrentCell(row, 2);
     markEdited();
   });
@@ -194,22 +166,22 @@ void MachinePage::refresh() {
   axes_->setRowCount(static_cast<int>(machine.axes.size()));
   for (int row = 0; row < axes_->rowCount(); ++row) {
     const LinearAxis& axis = machine.axes[static_cast<std::size_t>(row)];
-    set(axes_, row, 0, QString::fromStdString(axis.name));
-    set(axes_, row, 1, QString::fromStdString(exactNumber(axis.travel_mm[0])));
-    set(axes_, row, 2, QString::fromStdString(exactNumber(axis.travel_mm[1])));
-    set(axes_, row, 3, numberText(axis.resolution_um));
-    set(axes_, row, 4, QString::fromStdString(axis.drive_type));
-    set(axes_, row, 5, numberText(axis.pitch_mm));
-    set(axes_, row, 6, numberText(axis.fixed_bearing_mm));
-    set(axes_, row, 7, QString::fromStdString(axis.scale));
+    setText(axes_, row, 0, QString::fromStdString(axis.name));
+    setText(axes_, row, 1, QString::fromStdString(exactNumber(axis.travel_mm[0])));
+    setText(axes_, row, 2, QString::fromStdString(exactNumber(axis.travel_mm[1])));
+    setText(axes_, row, 3, numberText(axis.resolution_um));
+    setText(axes_, row, 4, QString::fromStdString(axis.drive_type));
+    setText(axes_, row, 5, numberText(axis.pitch_mm));
+    setText(axes_, row, 6, numberText(axis.fixed_bearing_mm));
+    setText(axes_, row, 7, QString::fromStdString(axis.scale));
   }
   points_->setRowCount(static_cast<int>(machine.points.size()));
   std::vector<ViewPoint> shown;
   for (int row = 0; row < points_->rowCount(); ++row) {
     const MachinePoint& point = machine.points[static_cast<std::size_t>(row)];
-    set(points_, row, 0, QString::fromStdString(point.id));
-    set(points_, row, 1, QString::fromStdString(point.kind));
-    for (int i = 0; i < 3; ++i) set(points_, row, 2 + i, QString::fromStdString(exactNumber(point.position_mm[i])));
+    setText(points_, row, 0, QString::fromStdString(point.id));
+    setText(points_, row, 1, QString::fromStdString(point.kind));
+    for (int i = 0; i < 3; ++i) setText(points_, row, 2 + i, QString::fromStdString(exactNumber(point.position_mm[i])));
     ViewPoint v;
     v.id = v.label = QString::fromStdString(point.id);
     v.position_mm = point.position_mm;
@@ -222,6 +194,7 @@ void MachinePage::refresh() {
   apply_->setEnabled(false);
   discard_->setEnabled(false);
   original_->setVisible(session().machineEdited());
+  artefacts_->refresh();
   showFindings();
 }
 
@@ -318,9 +291,9 @@ void MachinePage::showSuggestion(const PlacementAnswer& answer) {
     while (taken(QStringLiteral("P%1").arg(number))) ++number;
     const int row = points_->rowCount();
     points_->insertRow(row);
-    set(points_, row, 0, QStringLiteral("P%1").arg(number));
-    set(points_, row, 1, QStringLiteral("fiducial"));
-    for (int i = 0; i < 3; ++i) set(points_, row, 2 + i, QString::number(at[i], 'f', 1));
+    setText(points_, row, 0, QStringLiteral("P%1").arg(number));
+    setText(points_, row, 1, QStringLiteral("fiducial"));
+    for (int i = 0; i < 3; ++i) setText(points_, row, 2 + i, QString::number(at[i], 'f', 1));
   }
   points_->scrollToBottom();
   markEdited();

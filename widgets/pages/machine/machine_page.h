@@ -15,6 +15,7 @@ struct PlacementAnswer;
 
 namespace spindrift::gui {
 
+class ArtefactEditor;
 class Badge;
 class View3D;
 
@@ -24,6 +25,7 @@ class MachinePage : public Page {
   explicit MachinePage(PageContext context, QWidget* parent = nullptr);
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
+  [[nodiscard]] ArtefactEditor* artefacts() const { return artefacts_; }
 
  private:
   void markEdited();
@@ -37,6 +39,7 @@ class MachinePage : public Page {
   QLineEdit* chain_;
   QTableWidget* axes_;
   QTableWidget* points_;
+  ArtefactEditor* artefacts_;
   View3D* view_;
   QSpinBox* suggest_count_;
   QComboBox* suggest_goal_;

@@ -16,6 +16,7 @@
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/capture/capture_tabs.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/probing/probing_scene.h"
 #include "widgets/pages/probing/touch_results.h"
@@ -110,7 +111,7 @@ TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
   right->body()->addLayout(shown);
   program_verdict_ = new Callout;
   right->body()->addWidget(program_verdict_);
-  content()->addWidget(makeSplitter(list, right, 6, 6), 1);
+  content()->addWidget(captureTabs(makeSplitter(list, right, 6, 6), context(), Instrument::TouchProbe), 1);
   showHints(view_);
   view_->setMachineVisible(false);
 

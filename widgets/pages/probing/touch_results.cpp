@@ -14,11 +14,14 @@ TouchResults& TouchResults::of(SessionModel& session) {
 
 void TouchResults::follow() {
   const std::string folder = session_.campaign() == nullptr ? std::string() : session_.campaign()->folder.string();
-  if (campaign_ == session_.campaignId() && folder_ == folder) return;
+  const bool same = campaign_ == session_.campaignId() && folder_ == folder;
+  if (same && generation_ == session_.captureGeneration()) return;
   campaign_ = session_.campaignId();
   folder_ = folder;
+  generation_ = session_.captureGeneration();
   touches_.reset();
   failure_.clear();
+  if (same) return;  // more touches: the last evaluation stays to be looked at
   evaluation_.reset();
   evaluated_key_.clear();
 }
@@ -38,7 +41,7 @@ std::shared_ptr<const TouchList> TouchResults::touches() {
 }
 
 std::string TouchResults::key() const {
-  std::string text = std::to_string(session_.campaignId());
+  std::string text = std::to_string(session_.campaignId()) + "/" + std::to_string(session_.captureGeneration());
   for (const auto& [item, reason] : session_.excluded()) text += "|" + item.toStdString();
   return text + "|" + session_.commonOptions().dump();
 }

@@ -38,6 +38,7 @@ class TouchResults : public QObject {
   SessionModel& session_;
   std::int64_t campaign_ = -1;
   std::string folder_;
+  int generation_ = 0;
   std::shared_ptr<const TouchList> touches_;
   QString failure_;
   std::string evaluated_key_;

@@ -17,6 +17,7 @@
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/capture/capture_tabs.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/scanning/cloud_painter.h"
 #include "widgets/pages/scanning/scan_mask_bar.h"
@@ -145,7 +146,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   line->addWidget(slider_text_);
   right->body()->addLayout(line);
   right->body()->addWidget(profile_, 3);
-  content()->addWidget(makeSplitter(list, right, 5, 7), 1);
+  content()->addWidget(captureTabs(makeSplitter(list, right, 5, 7), context(), Instrument::Profiler), 1);
   showHints(profile_);
   showHints(view_);
 

@@ -14,11 +14,14 @@ ScanResults& ScanResults::of(SessionModel& session) {
 
 void ScanResults::follow() {
   const std::string folder = session_.campaign() == nullptr ? std::string() : session_.campaign()->folder.string();
-  if (folder_ == folder) return;
+  const bool same = folder_ == folder;
+  if (same && generation_ == session_.captureGeneration()) return;
   folder_ = folder;
+  generation_ = session_.captureGeneration();
   read_ = false;
   captures_.clear();
   failure_.clear();
+  if (same) return;  // more scans: the last evaluation stays to be looked at
   evaluations_.clear();
 }
 
@@ -47,7 +50,7 @@ void ScanResults::set(const std::string& scan_model, std::shared_ptr<const ScanE
 }
 
 std::string ScanResults::key() const {
-  std::string text = std::to_string(session_.campaignId());
+  std::string text = std::to_string(session_.campaignId()) + "/" + std::to_string(session_.captureGeneration());
   for (const auto& [item, reason] : session_.excluded()) text += "|" + item.toStdString();
   return text + "|" + session_.commonOptions().dump();
 }

@@ -35,6 +35,7 @@ class ScanResults : public QObject {
 
   SessionModel& session_;
   std::string folder_;
+  int generation_ = 0;
   bool read_ = false;
   std::vector<ScanCapture> captures_;
   QString failure_;

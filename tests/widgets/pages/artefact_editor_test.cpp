@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The editor of artefacts and styli in the real window.
+#include <QLineEdit>
+#include <QTabWidget>
+#include <QTableWidget>
+
+#include "tests/core/probing/probing_machines.h"
+#include "tests/widgets/pages/page_test.h"
+#include "widgets/common/parts.h"
+#include "widgets/pages/machine/artefact_editor.h"
+#include "widgets/pages/machine/artefact_fields.h"
+#include "widgets/pages/machine/machine_page.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+class ArtefactEditorTest : public PageTest {
+ protected:
+  ArtefactEditor* editor(const std::string& machine) {
+    auto session = std::make_unique<Session>(Session::create(folder_ / "session"));
+    const std::int64_t id = session->newCampaign("new", "2026-01-31T08:00:00Z", machine);
+    window_->session().adopt(std::move(session), id);
+    auto* page = go<MachinePage>(StepId::Machine);
+    page->findChild<QTabWidget*>(QStringLiteral("machineTabs"))->setCurrentIndex(1);
+    return page->artefacts();
+  }
+  static void type(QLineEdit* edit, const char* text) {
+    edit->setFocus();
+    edit->selectAll();
+    QTest::keyClicks(edit, QString::fromLatin1(text));
+    QTest::keyClick(edit, Qt::Key_Return);
+  }
+};
+
+TEST_F(ArtefactEditorTest, ABarIsChangedSeenAppliedAndUndone) {
+  ArtefactEditor* editor = this->editor(probing_test::holeMachineText());
+  ASSERT_TRUE(editor->findings().empty()) << editor->findings().front().sentence;
+  EXPECT_EQ(editor->fields()->features()->rowCount(), 7);
+  EXPECT_EQ(editor->view()->points().size(), 7U);
+  EXPECT_FALSE(editor->applyButton()->isEnabled());
+  const Eigen::Vector3d before = editor->view()->points()[2].position_mm;
+  editor->fields()->features()->item(2, 1)->setText(QStringLiteral("110.5"));
+  EXPECT_NEAR((editor->view()->points()[2].position_mm - before).norm(), 9.5, 1e-9) << "the picture follows at once";
+  type(editor->fields()->field("expansion_um_per_m_K"), "1.2");
+  type(editor->fields()->field("material"), "Invar");
+  type(editor->fields()->field("certificate_uncertainty_um"), "0.3");
+  EXPECT_TRUE(editor->applyButton()->isEnabled()) << editor->verdict()->sentence().toStdString();
+  QTest::mouseClick(editor->applyButton(), Qt::LeftButton);
+  const Artefact& bar = window_->session().campaign()->machine.artefacts.front();
+  EXPECT_DOUBLE_EQ(bar.nominal_positions_mm[2], 110.5);
+  EXPECT_DOUBLE_EQ(*bar.expansion_um_per_m_K, 1.2);
+  EXPECT_DOUBLE_EQ(*bar.certificate_uncertainty_um, 0.3);
+  EXPECT_EQ(window_->session().campaign()->machine.source["artefacts"][0]["material"], "Invar");
+  EXPECT_FALSE(editor->applyButton()->isEnabled());
+  window_->undoStack().undo();
+  EXPECT_DOUBLE_EQ(window_->session().campaign()->machine.artefacts.front().nominal_positions_mm[2], 101.0);
+  // What is given away is a machine description that can be read.
+  exportAll();
+}
+
+TEST_F(ArtefactEditorTest, AWrongCellIsMarkedWithOneSentenceAndNothingIsApplied) {
+  ArtefactEditor* editor = this->editor(probing_test::ballMachineText());
+  ASSERT_TRUE(editor->findings().empty());
+  EXPECT_EQ(editor->fields()->features()->item(1, 5)->text(), QStringLiteral("251.7936"));
+  editor->fields()->features()->item(1, 3)->setText(QStringLiteral("thirty"));
+  ASSERT_EQ(editor->findings().size(), 1U);
+  EXPECT_EQ(editor->verdict()->tone(), Tone::Bad);
+  EXPECT_TRUE(editor->verdict()->sentence().contains(QStringLiteral("\"thirty\"")));
+  EXPECT_FALSE(editor->fields()->features()->item(1, 3)->toolTip().isEmpty());
+  EXPECT_FALSE(editor->applyButton()->isEnabled());
+  editor->fields()->features()->item(1, 3)->setText(QStringLiteral("30"));
+  EXPECT_TRUE(editor->findings().empty());
+  editor->styli()->item(2, 1)->setText(QStringLiteral("-2"));
+  EXPECT_TRUE(editor->verdict()->sentence().contains(QStringLiteral("Stylus 3")));
+  editor->styli()->item(2, 1)->setText(QStringLiteral("1.5"));
+  QTest::mouseClick(editor->applyButton(), Qt::LeftButton);
+  EXPECT_DOUBLE_EQ(window_->session().campaign()->machine.styli[2].radius_mm, 1.5);
+}
+
+TEST_F(ArtefactEditorTest, ANewArtefactIsMadeFromNothing) {
+  ArtefactEditor* editor = this->editor(
+      R"({"format":"spindrift-machine","version":1,"name":"bare","chain":"V [w-C2'-A'-X'-b-Y-Z-C1-t]",
+"axes":[{"name":"X","travel_mm":[0,520]},{"name":"Y","travel_mm":[0,450]},{"name":"Z","travel_mm":[-60,400]}],
+"rotary":[{"name":"C2","centre_mm":[251,203,-4]}]})");
+  EXPECT_TRUE(editor->verdict()->sentence().contains(QStringLiteral("no artefact yet")));
+  editor->addArtefact("balls");
+  editor->addArtefact("hole_bar");
+  EXPECT_TRUE(editor->findings().empty()) << editor->findings().front().sentence;
+  QTest::mouseClick(editor->applyButton(), Qt::LeftButton);
+  EXPECT_EQ(window_->session().campaign()->machine.artefacts.size(), 2U);
+  EXPECT_EQ(window_->session().campaign()->machine.artefacts[1].nominal_positions_mm.size(), 3U);
+}
+
+}  // namespace
+}  // namespace spindrift::gui

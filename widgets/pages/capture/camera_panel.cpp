@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/capture/camera_panel.h"
+
+#include <QHBoxLayout>
+#include <QLineEdit>
+#include <QSplitter>
+#include <QVBoxLayout>
+#include <chrono>
+
+#include "core/base/error.h"
+#include "core/imaging/camera.h"
+#include "widgets/common/parts.h"
+#include "widgets/image_view/image_view.h"
+#include "widgets/pages/capture/incoming_service.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/pages/imaging/decode_marks.h"
+#include "widgets/plots/plot.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr std::size_t history_length = 300;
+
+}  // namespace
+
+CameraPanel::CameraPanel(PageContext page_context, QWidget* parent)
+    : QWidget(parent), context_(std::move(page_context)), service_(IncomingService::of(context_.session)) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 8, 0, 0);
+  column->setSpacing(8);
+  auto* line = new QHBoxLayout;
+  source_ = new QLineEdit;
+  source_->setAccessibleName(tr("Camera"));
+  source_->setPlaceholderText(tr("Device number (0), video file, or address (rtsp://…)"));
+  source_->setMinimumHeight(sizes::control_height);
+  open_ = makeButton(tr("Open camera"), "play");
+  take_ = makeButton(tr("Take picture"), nullptr, "primary");
+  take_->setShortcut(QKeySequence(Qt::Key_Space));
+  take_->setEnabled(false);
+  line->addWidget(source_, 1);
+  line->addWidget(open_);
+  line->addWidget(take_);
+  column->addLayout(line);
+  state_ = new Callout;
+  column->addWidget(state_);
+  state_->show(Tone::Neutral, tr("Open the camera of the microscope: focus while the sharpness rises, then take the "
+                                 "picture. The plan says which one it is."));
+  auto* left = new Card(tr("Live"));
+  view_ = new ImageView;
+  view_->setEmptyText(tr("The picture of the camera will appear here"), tr("What is decoded is drawn on top."));
+  left->body()->addWidget(view_, 1);
+  auto* right = new Card(tr("Focus"));
+  auto* tiles = new QHBoxLayout;
+  sharp_ = new NumberTile(tr("Sharpness"));
+  best_ = new NumberTile(tr("Best so far"));
+  decoded_ = new NumberTile(tr("Ellipses"));
+  for (NumberTile* tile : {sharp_, best_, decoded_}) tiles->addWidget(tile, 1);
+  right->body()->addLayout(tiles);
+  plot_ = new Plot;
+  plot_->setAxes(tr("Picture"), tr("Sharpness (ratio of contrasts)"));
+  plot_->setEmptyText(tr("Sharpness over time will appear here"), tr("It is largest in focus."));
+  right->body()->addWidget(plot_, 1);
+  column->addWidget(makeSplitter(left, right, 8, 4), 1);
+  poll_.setInterval(40);
+  connect(&poll_, &QTimer::timeout, this, &CameraPanel::showLatest);
+  connect(open_, &QPushButton::clicked, this, [this] {
+    if (reader_.joinable()) {
+      close();
+    } else {
+      open(source_->text().trimmed());
+    }
+  });
+  connect(source_, &QLineEdit::returnPressed, open_, &QPushButton::click);
+  connect(take_, &QPushButton::clicked, this, &CameraPanel::take);
+}
+
+CameraPanel::~CameraPanel() {
+  close();
+}
+
+void CameraPanel::open(const QString& source) {
+  close();
+  source_->setText(source);
+  history_.clear();
+  peak_ = 0.0;
+  shown_frames_ = 0;
+  ended_ = false;
+  state_->show(Tone::Neutral, tr("Opening %1 …").arg(source));
+  open_->setText(QChar(0x2009) + tr("Close camera"));
+  reader_ = std::jthread([this, name = source.toStdString()](std::stop_token stop) { readFrames(stop, name); });
+  poll_.start();
+}
+
+void CameraPanel::close() {
+  poll_.stop();
+  if (reader_.joinable()) {
+    reader_.request_stop();
+    reader_.join();
+  }
+  const std::lock_guard lock(mutex_);
+  latest_.reset();
+  failure_.clear();
+  open_->setText(QChar(0x2009) + tr("Open camera"));
+  take_->setEnabled(false);
+}
+
+/// On the reader's thread: the newest picture is decoded, those that come meanwhile are passed over.
+void CameraPanel::readFrames(std::stop_token stop, const std::string& source) {
+  try {
+    CameraSource camera = CameraSource::open(source);
+    const double rate = camera.framesPerSecond();
+    while (!stop.stop_requested()) {
+      const auto began = std::chrono::steady_clock::now();
+      auto image = camera.read();
+      if (!image) break;
+      Frame frame;
+      frame.image = std::make_shared<GrayImage>(std::move(*image));
+      frame.verdict = judgeCapture(*frame.image, false);
+      {
+        const std::lock_guard lock(mutex_);
+        latest_ = std::move(frame);
+      }
+      if (camera.isFile() && rate > 0.0) {
+        std::this_thread::sleep_until(began + std::chrono::duration<double>(1.0 / rate));
+      }
+    }
+  } catch (const InputError& e) {
+    const std::lock_guard lock(mutex_);
+    failure_ = QString::fromUtf8(e.what());
+  }
+  ended_ = true;
+}
+
+void CameraPanel::showLatest() {
+  std::optional<Frame> frame;
+  QString failure;
+  {
+    const std::lock_guard lock(mutex_);
+    frame.swap(latest_);
+    failure = failure_;
+  }
+  if (!failure.isEmpty()) {
+    close();
+    state_->show(Tone::Bad, failure);
+    return;
+  }
+  if (!frame) {
+    if (ended_) {
+      const bool had_picture = image_ != nullptr;
+      close();
+      take_->setEnabled(had_picture);
+      state_->show(Tone::Attention, tr("The camera gives no more pictures; the last one is shown."));
+    }
+    return;
+  }
+  ++shown_frames_;
+  image_ = frame->image;
+  verdict_ = std::move(frame->verdict);
+  const double sharpness = verdict_.focus.normalised;
+  peak_ = std::max(peak_, sharpness);
+  history_.push_back(sharpness);
+  if (history_.size() > history_length) history_.pop_front();
+  view_->setImage(toImage(*image_));
+  view_->setMarks(marksOf(verdict_.decoded));
+  sharp_->set(QString::number(sharpness, 'f', 3), tr("contrast over coarse contrast"),
+              sharpness > 0.97 * peak_ ? Tone::Good : Tone::Neutral);
+  best_->set(QString::number(peak_, 'f', 3),
+             tr("%1 % of it now").arg(100 * sharpness / std::max(peak_, 1e-9), 0, 'f', 0));
+  decoded_->set(QString::number(verdict_.decoded.subpatterns.size()),
+                tr("blur %1 px").arg(verdict_.decoded.exposure.blur_sigma_px, 0, 'f', 1),
+                verdict_.good ? Tone::Good : Tone::Attention);
+  Series series;
+  series.name = tr("Sharpness");
+  series.style = SeriesStyle::Line;
+  for (std::size_t i = 0; i < history_.size(); ++i) {
+    series.x.push_back(static_cast<double>(shown_frames_) - static_cast<double>(history_.size() - i));
+    series.y.push_back(history_[i]);
+  }
+  plot_->setContent({series});
+  take_->setEnabled(true);
+  state_->show(verdict_.good ? Tone::Good : Tone::Attention, fromCore(verdict_.sentence));
+  Q_EMIT frameShown();
+}
+
+void CameraPanel::take() {
+  if (image_ != nullptr) service_.take(tr("camera"), image_);
+}
+
+void CameraPanel::hideEvent(QHideEvent* event) {
+  close();  // a camera is not kept from other programs while nobody looks
+  QWidget::hideEvent(event);
+}
+
+}  // namespace spindrift::gui

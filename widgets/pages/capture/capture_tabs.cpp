@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/capture/capture_tabs.h"
+
+#include <QCoreApplication>
+#include <QTabWidget>
+
+#include "widgets/common/parts.h"
+#include "widgets/pages/capture/arriving_panel.h"
+#include "widgets/pages/capture/camera_panel.h"
+#include "widgets/pages/capture/incoming_service.h"
+
+namespace spindrift::gui {
+
+QTabWidget* captureTabs(QWidget* captured, const PageContext& context, Instrument instrument) {
+  const auto tr = [](const char* text) { return QCoreApplication::translate("CaptureTabs", text); };
+  QTabWidget* tabs = makeTabs();
+  tabs->setObjectName(QStringLiteral("captureTabs"));
+  tabs->addTab(captured, tr("Captures"));
+  auto* arriving = new ArrivingPanel(context, instrument);
+  tabs->addTab(arriving, tr("Arriving"));
+  if (instrument == Instrument::Microscope) tabs->addTab(new CameraPanel(context), tr("Camera"));
+  // While a capture runs, what arrives is what one wants to see.
+  if (IncomingService::of(context.session).running()) tabs->setCurrentWidget(arriving);
+  return tabs;
+}
+
+}  // namespace spindrift::gui

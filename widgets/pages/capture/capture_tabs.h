@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What all Capture pages share: beside what is captured, what arrives now, and the camera.
+#pragma once
+
+#include "widgets/pages/page.h"
+
+class QTabWidget;
+
+namespace spindrift::gui {
+
+/// Tabs "Captures" with `captured`, "Arriving" (watched folder, plan) and, for a microscope, "Camera".
+[[nodiscard]] QTabWidget* captureTabs(QWidget* captured, const PageContext& context, Instrument instrument);
+
+}  // namespace spindrift::gui

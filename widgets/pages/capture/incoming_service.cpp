@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/capture/incoming_service.h"
+
+#include <QDateTime>
+#include <QDir>
+#include <QFileInfo>
+#include <algorithm>
+
+#include "core/base/error.h"
+#include "core/imaging/image.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/pages/imaging/decode_marks.h"
+
+namespace spindrift::gui {
+namespace {
+
+/// A small picture for the list; empty for what is no image.
+QImage smallPicture(const std::filesystem::path& file, IncomingKind kind) {
+  if (kind != IncomingKind::Image) return {};
+  try {
+    return toImage(readImage(file)).scaled(128, 72, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+IncomingService::IncomingService(SessionModel& session) : QObject(&session), session_(session) {
+  clock_.start();
+  timer_.setInterval(500);
+  connect(&timer_, &QTimer::timeout, this, &IncomingService::look);
+  connect(&session_, &SessionModel::campaignChanged, this, &IncomingService::follow);
+}
+
+IncomingService& IncomingService::of(SessionModel& session) {
+  auto* found = session.findChild<IncomingService*>(QString(), Qt::FindDirectChildrenOnly);
+  return found != nullptr ? *found : *new IncomingService(session);
+}
+
+void IncomingService::setPace(int look_ms, double settle_s, double patience_s) {
+  timer_.setInterval(look_ms);
+  watch_.settle_s = settle_s;
+  patience_s_ = patience_s;
+}
+
+std::string IncomingService::key(const char* what) const {
+  return std::string(what) + "/" + std::to_string(session_.campaignId());
+}
+
+/// Forgets what belongs to another campaign. What had arrived of it lies in its folder.
+void IncomingService::follow() {
+  const std::string folder = session_.campaign() == nullptr ? std::string() : session_.campaign()->folder.string();
+  if (folder == campaign_folder_) return;
+  campaign_folder_ = folder;
+  campaign_ = session_.campaignId();
+  timer_.stop();
+  jobs_.cancelAll();
+  examining_ = false;
+  folder_.reset();
+  feed_.reset();
+  pattern_.reset();
+  thumbnails_.clear();
+  fullest_.clear();
+  first_seen_s_.clear();
+  failure_.clear();
+  plan_.reset();
+  done_.reset();
+  items_.clear();
+  if (session_.session() != nullptr && session_.campaign() != nullptr) {
+    items_ = incomingJournal(*session_.session(), campaign_);
+  }
+  Q_EMIT changed();
+  Q_EMIT planProgressed();
+}
+
+QString IncomingService::folder() const {
+  if (folder_ != nullptr) return QString::fromStdString(folder_->folder().string());
+  const nlohmann::json last = session_.setting(key("watched"), nlohmann::json::object());
+  return fromCore(last.is_object() ? last.value("folder", "") : "");
+}
+
+QString IncomingService::templateFile() const {
+  const nlohmann::json last = session_.setting(key("watched"), nlohmann::json::object());
+  return fromCore(last.is_object() ? last.value("template", "") : "");
+}
+
+QString IncomingService::start(const QString& folder, const QString& template_file) {
+  follow();
+  if (session_.campaign() == nullptr) return tr("Open a session or a new measurement first.");
+  const QFileInfo info(folder);
+  if (folder.isEmpty() || !info.isDir()) {
+    return tr("\"%1\" is no folder; allowed: the folder into which the instrument writes.").arg(folder);
+  }
+  const std::string inside = session_.folder().string();
+  if (QDir(folder).absolutePath().toStdString().starts_with(inside)) {
+    return tr("This folder belongs to the session itself; allowed: the folder into which the instrument writes.");
+  }
+  try {
+    pattern_.reset();
+    if (!template_file.isEmpty()) {
+      pattern_ = JsonNode::read(template_file.toStdString());
+      pattern_->requireFormat("spindrift-printed-text", 1);
+    }
+    const auto list = session_.campaign()->captureList("touches.csv");
+    std::optional<TouchList> there;
+    if (list) there = TouchList::read(*list);
+    feed_ = std::make_unique<TouchFeed>(session_.campaign()->machine, there ? &*there : nullptr, pattern_);
+  } catch (const InputError& e) {
+    return QString::fromUtf8(e.what());
+  }
+  failure_.clear();
+  folder_ = std::make_unique<IncomingFolder>(QDir(folder).absolutePath().toStdString(), watch_, patience_s_);
+  session_.setSetting(key("watched"), {{"folder", folder.toStdString()}, {"template", template_file.toStdString()}});
+  timer_.start();
+  look();
+  Q_EMIT changed();
+  return {};
+}
+
+void IncomingService::stop() {
+  timer_.stop();
+  flushTouches(true);
+  folder_.reset();
+  Q_EMIT changed();
+}
+
+QString IncomingService::problem() const {
+  if (!failure_.isEmpty()) return failure_;
+  if (folder_ != nullptr && !folder_->problem().empty()) return fromCore(folder_->problem());
+  if (feed_ != nullptr) {
+    const std::vector<std::string> problems = feed_->problems();
+    if (!problems.empty()) return fromCore(problems.back());
+  }
+  return {};
+}
+
+bool IncomingService::idle() const {
+  return !examining_ && !jobs_.busy() && (folder_ == nullptr || folder_->idle());
+}
+
+QImage IncomingService::thumbnail(const std::string& name) const {
+  const auto found = thumbnails_.find(name);
+  return found == thumbnails_.end() ? QImage() : found->second;
+}
+
+QStringList IncomingService::retakes() const {
+  QStringList sentences;
+  auto* self = const_cast<IncomingService*>(this);
+  for (const IncomingItem& item : items_) {
+    if (item.state != IncomingState::Retake) continue;
+    if (!item.plan_item.empty() && self->done().contains(item.plan_item)) continue;
+    sentences << tr("Take %1 again: %2")
+                     .arg(fromCore(item.plan_item.empty() ? item.name : item.plan_item), fromCore(item.sentence));
+  }
+  if (feed_ != nullptr) {
+    for (const std::string& s : feed_->live().retakes()) sentences << fromCore(s);
+  }
+  return sentences;
+}
+
+IncomingContext IncomingService::contextNow() {
+  IncomingContext context = incomingContext(*session_.campaign(), plan(), items_, pattern_.has_value());
+  context.fullest = fullest_;
+  return context;
+}
+
+void IncomingService::look() {
+  if (folder_ == nullptr || session_.session() == nullptr) return;
+  const QString before = problem();
+  const bool news = folder_->look(now());
+  for (const IncomingItem& item : folder_->items()) {
+    if (item.state == IncomingState::Waiting) show(item);
+  }
+  if (news || before != problem()) Q_EMIT changed();
+  examineNext();
+}
+
+void IncomingService::examineNext() {
+  if (examining_ || folder_ == nullptr || session_.campaign() == nullptr) return;
+  const auto task = folder_->next();
+  if (!task) return;
+  examining_ = true;
+  Job job;
+  job.title = tr("Checking %1").arg(fromCore(task->name));
+  job.quiet = true;
+  job.work = [this, task = *task, context = contextNow(), folder = campaign_folder_](JobContext&) {
+    auto examined =
+        std::make_shared<ExaminedFile>(examineArrival(task.file.file, task.name, task.file.written_ns, context));
+    const QImage picture = smallPicture(task.file.file, examined->item.kind);
+    return std::function<void()>([this, task, examined, picture, folder] {
+      if (folder == campaign_folder_) finished(task, std::move(*examined), picture);
+    });
+  };
+  job.failed = [this](const QString& sentence) {
+    examining_ = false;
+    failure_ = sentence;
+    Q_EMIT changed();
+  };
+  job.cancelled = [this] { examining_ = false; };
+  jobs_.run(std::move(job));
+}
+
+void IncomingService::finished(const IncomingFolder::Task& task, ExaminedFile examined, const QImage& picture) {
+  examining_ = false;
+  if (folder_ == nullptr) return;
+  if (!picture.isNull()) thumbnails_[task.name] = picture;
+  const ExaminedFile kept = examined;
+  if (kept.item.kind == IncomingKind::Touches) {
+    feed(kept);
+    examined.item.sentence = tr("%1 touches so far.").arg(feed_->live().touches().size()).toStdString();
+  }
+  const IncomingItem& item = folder_->finish(task, std::move(examined), now());
+  show(item);
+  if (item.state != IncomingState::Waiting) {
+    ExaminedFile answer = kept;
+    answer.item = item;
+    record(answer);
+  }
+  Q_EMIT changed();
+  examineNext();
+}
+
+void IncomingService::record(const ExaminedFile& found) {
+  ExaminedFile examined = found;
+  if (!examined.row.empty() && done().contains(examined.item.plan_item)) {
+    // Another one was faster: two pictures taken at once.
+    examined.row.clear();
+    examined.item.state = IncomingState::Twice;
+    examined.item.sentence =
+        tr("%1 is there already; this one is kept aside.").arg(fromCore(examined.item.plan_item)).toStdString();
+    show(examined.item);
+  }
+  try {
+    session_.recordArrival(examined);
+    failure_.clear();
+  } catch (const InputError& e) {
+    failure_ = QString::fromUtf8(e.what());
+    return;
+  }
+  if (examined.points > 0 && examined.item.state == IncomingState::Accepted) {
+    fullest_[examined.artefact] = std::max(fullest_[examined.artefact], examined.points);
+  }
+  if (!examined.row.empty()) {
+    done_.reset();
+    Q_EMIT planProgressed();
+  }
+}
+
+void IncomingService::feed(const ExaminedFile& examined) {
+  try {
+    const auto [first, fresh] = first_seen_s_.try_emplace(examined.item.name, examined.item.time_s);
+    if (feed_->update(examined.item.name, examined.text, first->second) > 0) {
+      flushTouches(false);
+      Q_EMIT touchesChanged();
+    }
+  } catch (const InputError& e) {
+    failure_ = QString::fromUtf8(e.what());
+  }
+}
+
+void IncomingService::flushTouches(bool all) {
+  if (feed_ == nullptr) return;
+  try {
+    const std::vector<std::string> rows = feed_->takeRows(all);
+    if (rows.empty()) return;
+    session_.addCaptureRows("touches.csv", TouchFeed::header(), rows);
+    done_.reset();
+    Q_EMIT planProgressed();
+  } catch (const InputError& e) {
+    failure_ = QString::fromUtf8(e.what());
+  }
+}
+
+void IncomingService::show(const IncomingItem& item) {
+  for (IncomingItem& known : items_) {
+    if (known.name != item.name) continue;
+    known = item;
+    return;
+  }
+  items_.push_back(item);
+}
+
+void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage> image) {
+  follow();
+  if (session_.campaign() == nullptr || image == nullptr) return;
+  const std::string id = QStringLiteral("%1 %2").arg(name).arg(++pictures_).toStdString();
+  const std::int64_t written_ns = QDateTime::currentMSecsSinceEpoch() * 1'000'000;
+  Job job;
+  job.title = tr("Checking the picture");
+  job.quiet = true;
+  job.work = [this, id, image, written_ns, context = contextNow(), folder = campaign_folder_](JobContext&) {
+    auto examined = std::make_shared<ExaminedFile>(examineImage(encodePng(*image), id, written_ns, context));
+    const QImage picture = toImage(*image).scaled(128, 72, Qt::KeepAspectRatio, Qt::SmoothTransformation);
+    return std::function<void()>([this, id, examined, picture, folder] {
+      if (folder != campaign_folder_) return;
+      thumbnails_[id] = picture;
+      show(examined->item);
+      record(*examined);
+      Q_EMIT changed();
+    });
+  };
+  job.failed = [this](const QString& sentence) {
+    failure_ = sentence;
+    Q_EMIT changed();
+  };
+  jobs_.run(std::move(job));
+}
+
+const MeasurementPlan& IncomingService::plan() {
+  if (!plan_) {
+    plan_.emplace();
+    try {
+      if (session_.session() != nullptr) plan_ = storedPlan(*session_.session(), session_.campaignId());
+    } catch (const InputError& e) {
+      failure_ = QString::fromUtf8(e.what());
+    }
+  }
+  return *plan_;
+}
+
+const std::set<std::string>& IncomingService::done() {
+  if (!done_ || generation_ != session_.captureGeneration()) {
+    generation_ = session_.captureGeneration();
+    done_ = session_.campaign() == nullptr ? std::set<std::string>() : capturedItems(plan(), *session_.campaign());
+  }
+  return *done_;
+}
+
+double IncomingService::campaignTime() const {
+  if (session_.campaign() == nullptr) return 0.0;
+  const QDateTime start = QDateTime::fromString(fromCore(session_.campaign()->start_utc), Qt::ISODate);
+  return 1e-3 * static_cast<double>(start.msecsTo(QDateTime::currentDateTimeUtc()));
+}
+
+PlanProgress IncomingService::progress() {
+  return progressOf(plan(), done(), campaignTime());
+}
+
+void IncomingService::planChanged() {
+  plan_.reset();
+  done_.reset();
+  Q_EMIT planProgressed();
+}
+
+}  // namespace spindrift::gui

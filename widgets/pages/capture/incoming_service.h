@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Capturing while the user looks at something else: watches the folder, has every file checked on a thread of its own,
+// and takes the answers into the session. Belongs to the session, not to a page: leaving the page changes nothing.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QImage>
+#include <QObject>
+#include <QTimer>
+#include <map>
+#include <memory>
+
+#include "core/imaging/image.h"
+#include "core/workflows/incoming.h"
+#include "widgets/jobs/job_runner.h"
+#include "widgets/models/session_model.h"
+
+namespace spindrift::gui {
+
+class IncomingService : public QObject {
+  Q_OBJECT
+ public:
+  /// The one that belongs to the session.
+  [[nodiscard]] static IncomingService& of(SessionModel& session);
+
+  /// Begins to watch; `template_file` (may be empty) reads what a control prints. Returns one sentence if it cannot.
+  QString start(const QString& folder, const QString& template_file = {});
+  /// Stops watching; touches that are plausible are taken over.
+  void stop();
+  [[nodiscard]] bool running() const { return folder_ != nullptr; }
+  /// Watched now, or the last time.
+  [[nodiscard]] QString folder() const;
+  [[nodiscard]] QString templateFile() const;
+  /// What is wrong with the folder or with taking over, one sentence; empty: nothing.
+  [[nodiscard]] QString problem() const;
+  [[nodiscard]] const std::vector<IncomingItem>& items() const { return items_; }
+  [[nodiscard]] QImage thumbnail(const std::string& name) const;
+  /// Sentences of what is to be taken again now; what has been taken again since is not among them.
+  [[nodiscard]] QStringList retakes() const;
+  /// Touches as they come in; null while none came.
+  [[nodiscard]] const TouchFeed* touches() const { return feed_.get(); }
+  /// A picture of a camera, checked and taken over like a file.
+  void take(const QString& name, std::shared_ptr<const GrayImage> image);
+  /// True while nothing is waiting to be read or checked.
+  [[nodiscard]] bool idle() const;
+
+  [[nodiscard]] const MeasurementPlan& plan();
+  /// Items of the plan that are captured.
+  [[nodiscard]] const std::set<std::string>& done();
+  [[nodiscard]] PlanProgress progress();
+  /// The plan was changed (undo, redo, new).
+  void planChanged();
+  /// Seconds since the campaign start.
+  [[nodiscard]] double campaignTime() const;
+  /// How often the folder is looked at, and how long a file must stand still.
+  void setPace(int look_ms, double settle_s, double patience_s);
+
+ Q_SIGNALS:
+  void changed();         ///< list, retakes, problem
+  void touchesChanged();  ///< a touch came in
+  void planProgressed();  ///< plan or what is done of it
+
+ private:
+  explicit IncomingService(SessionModel& session);
+  void follow();
+  void look();
+  void examineNext();
+  void finished(const IncomingFolder::Task& task, ExaminedFile examined, const QImage& picture);
+  void record(const ExaminedFile& found);
+  void feed(const ExaminedFile& examined);
+  void flushTouches(bool all);
+  [[nodiscard]] IncomingContext contextNow();
+  [[nodiscard]] std::string key(const char* what) const;
+  [[nodiscard]] double now() const { return 1e-3 * static_cast<double>(clock_.elapsed()); }
+  void show(const IncomingItem& item);
+
+  SessionModel& session_;
+  JobRunner jobs_;
+  QTimer timer_;
+  QElapsedTimer clock_;
+  FolderWatchOptions watch_;
+  double patience_s_ = 5.0;
+  std::int64_t campaign_ = 0;
+  std::string campaign_folder_;
+  int generation_ = -1;
+  int pictures_ = 0;
+  bool examining_ = false;
+  std::unique_ptr<IncomingFolder> folder_;
+  std::unique_ptr<TouchFeed> feed_;
+  std::optional<JsonNode> pattern_;
+  std::vector<IncomingItem> items_;
+  std::map<std::string, QImage> thumbnails_;
+  std::map<std::string, std::size_t> fullest_;
+  std::map<std::string, double> first_seen_s_;
+  QString failure_;
+  std::optional<MeasurementPlan> plan_;
+  std::optional<std::set<std::string>> done_;
+};
+
+}  // namespace spindrift::gui

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/capture/new_capture_page.h"
+
+#include <QTabWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "widgets/common/parts.h"
+#include "widgets/pages/capture/arriving_panel.h"
+#include "widgets/pages/capture/camera_panel.h"
+
+namespace spindrift::gui {
+
+NewCapturePage::NewCapturePage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Capture, parent) {
+  setInstruction(tr("Say what measures, make a plan, and let every capture be checked as it arrives."));
+  instrument_ = new Segments({tr("Microscope"), tr("Touch probe"), tr("Laser profiler")}, tr("Instrument"));
+  addAction(instrument_);
+  tabs_ = makeTabs();
+  arriving_ = new ArrivingPanel(context(), Instrument::Microscope);
+  camera_ = new CameraPanel(context());
+  tabs_->addTab(arriving_, tr("Arriving"));
+  tabs_->addTab(camera_, tr("Camera"));
+  content()->addWidget(tabs_, 1);
+  connect(instrument_, &Segments::chosen, this, [this](int index) { setInstrument(static_cast<Instrument>(index)); });
+}
+
+void NewCapturePage::setInstrument(Instrument instrument) {
+  instrument_->setCurrent(static_cast<int>(instrument));
+  arriving_->setInstrument(instrument);
+  tabs_->setTabVisible(1, instrument == Instrument::Microscope);
+}
+
+void NewCapturePage::refresh() {
+  const auto campaign = session().campaign();
+  if (campaign == nullptr) return;
+  if (shown_campaign_ != session().campaignId()) {
+    shown_campaign_ = session().campaignId();
+    const MachineDescription& machine = campaign->machine;
+    const bool surfaces = std::any_of(machine.points.begin(), machine.points.end(),
+                                      [](const MachinePoint& p) { return p.kind == "surface"; });
+    setInstrument(machine.profiler && surfaces ? Instrument::Profiler
+                  : !machine.artefacts.empty() ? Instrument::TouchProbe
+                                               : Instrument::Microscope);
+  }
+  callout()->show(Tone::Accent, tr("Nothing is captured yet. Make a plan, then watch the folder into which the "
+                                   "instrument writes."));
+  arriving_->refresh();
+}
+
+}  // namespace spindrift::gui
