@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/workflows/compensated_data.h"
 #include "core/workflows/log_campaign.h"
 
 namespace spindrift::gui {
@@ -14,6 +15,14 @@ namespace {
 
 std::string machineKey(std::int64_t campaign) {
   return "machine/" + std::to_string(campaign);
+}
+
+std::string clocksKey(std::int64_t campaign) {
+  return "time-offsets/" + std::to_string(campaign);
+}
+
+std::string overTimeKey(std::int64_t campaign) {
+  return "model-over-time/" + std::to_string(campaign);
 }
 
 /// All of a LoadedSession but the session itself.
@@ -34,6 +43,8 @@ LoadedSession readForPages(const Session& session, std::int64_t wanted) {
         MachineDescription::parse(JsonNode::parse(edited->dump(), "machine as edited"), campaign->path("machine.json"));
     loaded.machine_edited = true;
   }
+  if (const auto offsets = session.setting(clocksKey(record.id)))
+    applyClockOffsets(*campaign, clockOffsetsFrom(*offsets));
   loaded.campaign = std::move(campaign);
   for (const Exclusion& e : session.exclusions(record.id)) {
     loaded.excluded[QString::fromStdString(e.item)] = QString::fromStdString(e.reason);
@@ -152,6 +163,29 @@ bool SessionModel::isLogOnly() const {
          !has(Instrument::Microscope) && !has(Instrument::TouchProbe) && !has(Instrument::Profiler);
 }
 
+bool SessionModel::modelOverTime() const {
+  if (campaign_ == nullptr || !campaign_->log) return false;
+  return isLogOnly() || setting(overTimeKey(campaign_id_), false) == true;
+}
+
+void SessionModel::setModelOverTime(bool over_time) {
+  if (modelOverTime() == over_time) return;
+  setSetting(overTimeKey(campaign_id_), over_time);
+  Q_EMIT campaignChanged();
+}
+
+ClockOffsets SessionModel::clockOffsets() const {
+  return clockOffsetsFrom(setting(clocksKey(campaign_id_), nlohmann::json::object()));
+}
+
+void SessionModel::setClockOffsets(const ClockOffsets& offsets) {
+  if (session_ == nullptr || campaign_ == nullptr) return;
+  session_->setSetting(clocksKey(campaign_id_), toJson(offsets));
+  load(campaign_id_);
+  Q_EMIT campaignChanged();
+  Q_EMIT inputsChanged();
+}
+
 CampaignSnapshot SessionModel::snapshot() const {
   CampaignSnapshot copy;
   if (campaign_ == nullptr) return copy;
@@ -211,11 +245,13 @@ std::optional<ObservationSet> SessionModel::observations() const {
   if (!set) {
     if (const auto stored = evaluation()) set = stored->observations;
   }
-  if (!set || excluded_.empty()) return set;
+  if (!set) return set;
   for (Observation& o : set->rows) {
     const std::string item = o.state + "/" + o.point + "/" + std::string(toString(o.component));
     if (excluded_.contains(QString::fromStdString(item))) o.use = ObservationUse::Exclude;
   }
+  if (!campaign_->observations) applyClockOffsets(*set, clockOffsets());  // its own were moved when it was read
+  leaveOutCompensated(*set, campaign_->log);
   return set;
 }
 
@@ -234,6 +270,7 @@ void SessionModel::setMachine(const nlohmann::json& machine_json) {
 nlohmann::json SessionModel::commonOptions() const {
   nlohmann::json options = nlohmann::json::object();
   if (machine_edited_) options["machine"] = campaign_->machine.source;
+  if (const ClockOffsets offsets = clockOffsets(); !offsets.empty()) options["time_offsets"] = toJson(offsets);
   return options;
 }
 
@@ -261,8 +298,12 @@ ResultState SessionModel::state(const std::string& kind) const {
   ResultState state;
   if (const StoredResult* found = latest(kind)) {
     state.there = true;
-    state.current = session_->isCurrent(*found) && found->provenance.options.value("machine", nlohmann::json()) ==
-                                                       commonOptions().value("machine", nlohmann::json());
+    const nlohmann::json now = commonOptions();
+    state.current = session_->isCurrent(*found);
+    for (const char* key : {"machine", "time_offsets"}) {
+      state.current =
+          state.current && found->provenance.options.value(key, nlohmann::json()) == now.value(key, nlohmann::json());
+    }
     state.created_utc = found->provenance.created_utc;
     state.program_version = found->provenance.program_version;
   }

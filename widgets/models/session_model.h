@@ -16,6 +16,7 @@
 #include "core/machine/campaign.h"
 #include "core/machine/instrument_evaluation.h"
 #include "core/session/session.h"
+#include "core/workflows/clock_offsets.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "core/workflows/incoming.h"
 
@@ -96,6 +97,13 @@ class SessionModel : public QObject {
   [[nodiscard]] bool has(Instrument instrument) const;
   /// True for a campaign that is a log with a measured output over time, without captures or observations.
   [[nodiscard]] bool isLogOnly() const;
+  /// Whether the step Model shows a model over time in place of that of the instrument (always for a log alone).
+  [[nodiscard]] bool modelOverTime() const;
+  void setModelOverTime(bool over_time);
+  /// Offsets between the clocks of logger and instruments; log and observations are given out on the campaign's clock,
+  /// and every result depends on them.
+  [[nodiscard]] ClockOffsets clockOffsets() const;
+  void setClockOffsets(const ClockOffsets& offsets);
   [[nodiscard]] CampaignSnapshot snapshot() const;
   /// The machine as edited by the user, in place of machine.json (which is never altered); empty JSON: back to the
   /// file.

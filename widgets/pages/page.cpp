@@ -42,6 +42,21 @@ void Page::addAction(QWidget* widget) {
   actions_->addWidget(widget, 0, Qt::AlignVCenter);
 }
 
+void Page::addModelSwitch(bool over_time) {
+  auto* button = makeButton(over_time ? tr("Model over time") : tr("Model of a state"), nullptr);
+  button->setToolTip(over_time
+                         ? tr("Identify how these errors follow temperatures and speeds of the log")
+                         : tr("Back to the model of the instrument: one thermal state, or every cycle by itself"));
+  const auto update = [this, button] {
+    button->setVisible(session().campaign() != nullptr && session().campaign()->log.has_value() &&
+                       !session().isLogOnly());
+  };
+  connect(&session(), &SessionModel::campaignChanged, button, update);
+  update();
+  connect(button, &QPushButton::clicked, this, [this, over_time] { session().setModelOverTime(over_time); });
+  addAction(button);
+}
+
 void Page::run(const QString& title, std::function<std::function<void()>(JobContext&)> work) {
   Job job;
   job.title = title;

@@ -55,6 +55,8 @@ class Page : public QWidget {
   void setInstruction(const QString& sentence);
   /// Places a button at the right of the title.
   void addAction(QWidget* widget);
+  /// A button that switches the step Model between the model of the instrument and the one over time.
+  void addModelSwitch(bool over_time);
   /// Runs a job whose failure is shown in the page's callout.
   void run(const QString& title, std::function<std::function<void()>(JobContext&)> work);
   /// Wires a hover signal to the hint line.

@@ -19,6 +19,7 @@
 #include "widgets/pages/scanning/scan_capture_page.h"
 #include "widgets/pages/thermal/thermal_model_page.h"
 #include "widgets/pages/thermal/warm_up_page.h"
+#include "widgets/pages/verify/verify_page.h"
 
 namespace spindrift::gui {
 
@@ -29,6 +30,9 @@ void registerPages(PageRegistry& registry) {
   const auto points = [](const SessionModel& s) {
     return s.has(Instrument::Microscope) || (s.campaign() != nullptr && s.campaign()->observations.has_value());
   };
+  registry.add(
+      StepId::Model, [](const SessionModel& s) { return s.modelOverTime(); },
+      [](PageContext c) { return new ThermalModelPage(std::move(c)); }, "model-over-time");
   registry.add(
       StepId::Machine, always, [](PageContext c) { return new MachinePage(std::move(c)); }, "machine");
   registry.add(
@@ -62,14 +66,13 @@ void registerPages(PageRegistry& registry) {
   registry.add(
       StepId::Capture, nothing, [](PageContext c) { return new NewCapturePage(std::move(c)); }, "capture-new");
   registry.add(
-      StepId::Model, [](const SessionModel& s) { return s.isLogOnly(); },
-      [](PageContext c) { return new ThermalModelPage(std::move(c)); }, "model-over-time");
-  registry.add(
       StepId::Model, points, [](PageContext c) { return new NineParameterPage(std::move(c)); }, "model-nine-parameter");
   registry.add(
       StepId::Discrepancy, always, [](PageContext c) { return new DiscrepancyPage(std::move(c)); }, "discrepancy");
   registry.add(
       StepId::Compensate, always, [](PageContext c) { return new CompensatePage(std::move(c)); }, "compensate");
+  registry.add(
+      StepId::Verify, always, [](PageContext c) { return new VerifyPage(std::move(c)); }, "verify");
   registry.add(
       StepId::Review, [](const SessionModel& s) { return !s.isLogOnly(); },
       [](PageContext c) { return new ReviewPage(std::move(c)); }, "review");

@@ -23,6 +23,8 @@ QString stepTitle(StepId step) {
       return Workflow::tr("Discrepancy");
     case StepId::Compensate:
       return Workflow::tr("Compensate");
+    case StepId::Verify:
+      return Workflow::tr("Verify");
     case StepId::Review:
       return Workflow::tr("Review");
     case StepId::Report:
@@ -48,6 +50,8 @@ QString stepInstruction(StepId step) {
       return Workflow::tr("Find where simulation and measurement disagree, and which effect is missing.");
     case StepId::Compensate:
       return Workflow::tr("See what the model would command, and export it for the control.");
+    case StepId::Verify:
+      return Workflow::tr("Measure the same plan again with the compensation on, and see whether the goal is met.");
     case StepId::Review:
       return Workflow::tr("Compare thermal states, models, campaigns and scans side by side.");
     case StepId::Report:
@@ -72,6 +76,8 @@ const char* stepIcon(StepId step) {
       return "discrepancy";
     case StepId::Compensate:
       return "compensate";
+    case StepId::Verify:
+      return "check-circle";
     case StepId::Review:
       return "compare";
     case StepId::Report:
@@ -187,6 +193,7 @@ StepStatus Workflow::evaluate(StepId step) const {
   };
   const ResultState evaluated = session_.state("evaluate");
   const bool log_only = session_.isLogOnly();
+  const bool over_time = session_.modelOverTime();
   const bool touches = session_.has(Instrument::TouchProbe);
   const bool scans = session_.has(Instrument::Profiler);
   const bool observations = own_observations || evaluated.there;
@@ -215,7 +222,7 @@ StepStatus Workflow::evaluate(StepId step) const {
                                 : tr("Evaluate the captures."),
                         tr("Captures are evaluated."));
     case StepId::Model:
-      if (log_only) return fromResult("thermal", tr("Identify a model over time."), tr("The model is identified."));
+      if (over_time) return fromResult("thermal", tr("Identify a model over time."), tr("The model is identified."));
       if (!observations) return {StepState::Blocked, tr("Evaluate the captures first (Calibrate).")};
       {
         StepStatus status = fromResult("fit",
@@ -245,11 +252,22 @@ StepStatus Workflow::evaluate(StepId step) const {
       return withChoice(fromResult("compensation", tr("Work out the corrections."), tr("Corrections are worked out.")),
                         "compensation");
     }
+    case StepId::Verify:
+      if (log_only)
+        return {StepState::Blocked,
+                tr("A log alone has no plan to measure again: run the model's compensator over a new "
+                   "log in the step Model instead.")};
+      if (!observations) return {StepState::Blocked, tr("Evaluate the captures first (Calibrate).")};
+      return fromResult("verify", tr("Measure again with the compensation on."), tr("Before and after are compared."));
     case StepId::Review:
       if (log_only) return {StepState::Blocked, tr("A log over time is compared in the step Model.")};
       if (!observations && !scans) return {StepState::Blocked, tr("There is nothing to compare yet.")};
       return {StepState::Current, tr("Look at it whenever you like.")};
     case StepId::Report:
+      if (log_only)
+        return {StepState::Blocked,
+                tr("A log alone has no captures to report; export tables and pictures from the step "
+                   "Model.")};
       if (!observations) return {StepState::Blocked, tr("There is nothing to report yet.")};
       return withChoice(fromResult("report", tr("Write the report."), tr("The report is written.")), "report");
   }

@@ -77,6 +77,7 @@ double niceExaggeration(double table_mm, double largest_um) {
 NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent) {
   fit_button_ = makeButton(tr("Fit the model"), nullptr, "primary");
+  addModelSwitch(true);
   addAction(fit_button_);
 
   auto* left = new Card;

@@ -60,6 +60,7 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent), results_(TouchResults::of(session())) {
   setInstruction(tr("Separate the errors of axes, table and artefact in every cycle, and see how well each is known."));
   fit_ = makeButton(tr("Fit all cycles"), nullptr, "primary");
+  addModelSwitch(true);
   addAction(fit_);
 
   auto* left = new Card(tr("Errors over time"));

@@ -67,6 +67,7 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent), results_(ScanResults::of(session())) {
   setInstruction(tr("See the six errors of the axis over positions and time, and which of them the scans can show."));
   fit_ = makeButton(tr("Find the six errors"), nullptr, "primary");
+  addModelSwitch(true);
   addAction(fit_);
   auto* choices = new QHBoxLayout;
   component_ = new Segments({QStringLiteral("EXY"), QStringLiteral("EYY"), QStringLiteral("EZY"), QStringLiteral("EAY"),

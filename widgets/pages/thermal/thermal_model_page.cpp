@@ -16,11 +16,13 @@
 
 #include "core/base/error.h"
 #include "core/thermal/response_fit.h"
-#include "core/workflows/log_campaign.h"
+#include "core/workflows/campaign_series.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/thermal/iso_panel.h"
+#include "widgets/pages/thermal/update_panel.h"
 #include "widgets/plots/plot.h"
 
 namespace spindrift::gui {
@@ -36,6 +38,7 @@ ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Model, parent) {
   setInstruction(tr("Train a model over time on one part of the log and judge it in free run on another."));
   identify_ = makeButton(tr("Identify the model"), nullptr, "primary");
+  addModelSwitch(false);
   addAction(identify_);
   content()->addWidget(makeChoices());
   auto* top = new Card;
@@ -52,8 +55,8 @@ ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
   series_plot_->setEmptyText(tr("The log will appear here"),
                              tr("It needs a log with at least one displacement (a column ending in _um or _urad)."));
   top->body()->addWidget(series_plot_, 1);
-  content()->addWidget(makeSplitter(top, makeDetails(), 6, 6), 1);
-  for (Plot* plot : {series_plot_, step_plot_, residual_plot_}) showHints(plot);
+  content()->addWidget(makeSplitter(top, makeDetails(), 6, 8), 1);
+  for (Plot* plot : {series_plot_, step_plot_, residual_plot_, updates_->plot(), iso_->plot()}) showHints(plot);
 
   connect(identify_, &QPushButton::clicked, this, [this] { identify(true); });
   connect(what_, &Segments::chosen, this, &ThermalModelPage::showSeries);
@@ -69,7 +72,7 @@ QWidget* ThermalModelPage::makeChoices() {
   line->addWidget(new QLabel(tr("Output")));
   output_ = new QComboBox;
   output_->setAccessibleName(tr("Measured output"));
-  output_->setMinimumWidth(120);
+  output_->setMinimumWidth(160);
   line->addWidget(output_);
   line->addWidget(new QLabel(tr("Method")));
   method_ = new QComboBox;
@@ -130,7 +133,7 @@ QWidget* ThermalModelPage::makeDetails() {
                            tr("Identify the model: the answer to a step of each input with its uncertainty."));
   step_column->addWidget(step_plot_, 1);
   tabs_->addTab(step, tr("Step"));
-  lags_ = new RowsModel({tr("Input"), tr("Time constant"), tr("Gain"), tr("Unit")}, this);
+  lags_ = new RowsModel({tr("Input"), tr("Time constant"), tr("Pole / 1/h"), tr("Gain"), tr("Unit")}, this);
   tabs_->addTab(makeTable(lags_, tr("Time constants"),
                           tr("Poles as time constants with their gains appear after the identification.")),
                 tr("Lags"));
@@ -150,6 +153,10 @@ QWidget* ThermalModelPage::makeDetails() {
                                  6, 5, Qt::Vertical),
                     1);
   tabs_->addTab(residuals, tr("Residuals"));
+  updates_ = new UpdatePanel([this](const QString& title, UpdatePanel::Work work) { run(title, std::move(work)); });
+  tabs_->addTab(updates_, tr("Updates"));
+  iso_ = new IsoPanel;
+  tabs_->addTab(iso_, QStringLiteral("ISO 230-3"));
   card->body()->addWidget(tabs_, 1);
   connect(step_input_, &QComboBox::activated, this, &ThermalModelPage::showStep);
   connect(inputs_, &RowsModel::checkedChanged, this, [this](const QString&, int, bool) {
@@ -209,6 +216,8 @@ IdentifyRequest ThermalModelPage::request() const {
   r.train = range("train", first, middle);
   r.test = range("test", middle, last);
   r.method = json.value("method", std::string("response"));
+  // Cycles are too rare for the methods that need a value at every row.
+  if (const Signal* signal = series_->find(r.output); signal != nullptr && isSparse(*signal)) r.method = "response";
   for (const auto& name : json.value("inputs", nlohmann::json::array())) {
     const auto text = name.get<std::string>();
     if (series_->find(text) != nullptr && text != r.output) r.inputs.push_back(text);
@@ -216,36 +225,42 @@ IdentifyRequest ThermalModelPage::request() const {
   return r;
 }
 
+std::string ThermalModelPage::inputsKey() {
+  std::string key = session().campaign()->folder.string() + session().commonOptions().dump();
+  for (const auto& [item, reason] : session().excluded()) key += "|" + item.toStdString();
+  const auto evaluated = session().evaluation();
+  return key + "|" + std::to_string(evaluated == nullptr ? 0 : evaluated->id);
+}
+
 void ThermalModelPage::load() {
-  const auto campaign = session().campaign();
-  loaded_ = campaign->folder.string();
+  loaded_ = inputsKey();
   series_.reset();
   result_.reset();
   failure_.clear();
   clear();
-  const std::filesystem::path file = campaign->path("log.csv");
-  if (!std::filesystem::exists(file)) {
-    failure_ = tr("This campaign has no log.csv.");
-    return;
-  }
-  run(tr("Reading the log"), [this, file, folder = loaded_](JobContext&) -> std::function<void()> {
-    auto series = std::make_shared<TimeSeries>();
-    std::string failure;
-    try {
-      *series = readTimeSeries(file);
-      if (series->time_s.size() < 2 || outputSignals(*series).empty())
-        failure = "the log holds no displacement over time.";
-    } catch (const InputError& e) {
-      failure = e.what();
-    }
-    return [this, series, failure, folder] {
-      if (folder != loaded_) return;
-      failure_ = QString::fromStdString(failure);
-      if (failure.empty()) series_ = series;
-      refresh();
-      if (std::exchange(wanted_, false)) identify(true);
-    };
-  });
+  run(tr("Reading the log"),
+      [this, snapshot = session().snapshot(), observations = session().observations(),
+       key = loaded_](JobContext& job) -> std::function<void()> {
+        auto series = std::make_shared<TimeSeries>();
+        std::map<std::string, double> sigma;
+        std::string failure;
+        try {
+          CampaignSeries all = campaignSeries(*snapshot.campaign, observations ? &*observations : nullptr, job);
+          *series = std::move(all.series);
+          sigma = std::move(all.sigma);
+          if (series->time_s.size() < 2) failure = "the log has a single row.";
+        } catch (const InputError& e) {
+          failure = e.what();
+        }
+        return [this, series, sigma, failure, key] {
+          if (key != loaded_) return;
+          failure_ = QString::fromStdString(failure);
+          sigma_ = sigma;
+          if (failure.empty()) series_ = series;
+          refresh();
+          if (std::exchange(wanted_, false)) identify(true);
+        };
+      });
 }
 
 void ThermalModelPage::runAll() {
@@ -281,13 +296,16 @@ void ThermalModelPage::clear() {
 void ThermalModelPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  if (loaded_ != campaign->folder.string()) load();
+  if (loaded_ != inputsKey()) load();
   identify_->setEnabled(series_ != nullptr);
   if (series_ == nullptr) {
     callout()->set(Tone::Bad, failure_);
     return;
   }
   fillChoices();
+  iso_->set(series_);
+  const auto sigma = sigma_.find(request().output);
+  updates_->set(series_, result_, sigma == sigma_.end() ? 0.5 : sigma->second);
   const ResultState state = session().state("thermal");
   if (result_ == nullptr && state.there) {
     const nlohmann::json options = session().result("thermal")->provenance.options.value("options", nlohmann::json());
@@ -319,7 +337,7 @@ void ThermalModelPage::refresh() {
 }
 
 QString ThermalModelPage::outputUnit() const {
-  return request().output.ends_with("_urad") ? QStringLiteral("urad") : QStringLiteral("um");
+  return fromCore(unitOfSignal(request().output));
 }
 
 void ThermalModelPage::fillChoices() {
@@ -329,6 +347,11 @@ void ThermalModelPage::fillChoices() {
   for (const std::string& name : outputSignals(*series_)) output_->addItem(fromCore(name));
   output_->setCurrentText(fromCore(now.output));
   const auto method = std::find(methods.begin(), methods.end(), now.method);
+  const Signal* measured = series_->find(now.output);
+  const bool sparse = measured != nullptr && isSparse(*measured);
+  method_->setEnabled(!sparse);
+  method_->setToolTip(sparse ? tr("Measured at few rows only: ARX and output error need a value at nearly every one")
+                             : QString());
   method_->setCurrentIndex(method == methods.end() ? 0 : static_cast<int>(method - methods.begin()));
   const std::array<double, 4> edges{now.train.from_s, now.train.to_s, now.test.from_s, now.test.to_s};
   for (std::size_t i = 0; i < 4; ++i) {

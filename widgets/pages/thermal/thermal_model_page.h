@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Step Model for a log over time: a dynamic model of one output, trained on one range and judged in free run on
-// another, beside the plain models; step responses, time constants, residuals.
+// Step Model over time, for a log alone or a log with sparse cycles and observations: a dynamic model of one output,
+// trained on one range and judged in free run on another, beside the plain models; step responses, time constants,
+// residuals.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -15,10 +17,12 @@ class QTabWidget;
 
 namespace spindrift::gui {
 
+class IsoPanel;
 class NumberTile;
 class Plot;
 class RowsModel;
 class Segments;
+class UpdatePanel;
 
 class ThermalModelPage : public Page {
   Q_OBJECT
@@ -32,6 +36,8 @@ class ThermalModelPage : public Page {
   [[nodiscard]] Plot* stepPlot() const { return step_plot_; }
   [[nodiscard]] RowsModel* comparison() const { return comparison_; }
   [[nodiscard]] RowsModel* lags() const { return lags_; }
+  [[nodiscard]] UpdatePanel* updates() const { return updates_; }
+  [[nodiscard]] IsoPanel* iso() const { return iso_; }
   [[nodiscard]] RowsModel* inputs() const { return inputs_; }
   [[nodiscard]] const std::shared_ptr<const IdentifyResult>& result() const { return result_; }
   /// What the next identification would be asked for.
@@ -44,6 +50,8 @@ class ThermalModelPage : public Page {
   void changeOptions(const QString& what, const nlohmann::json& change);
   void changeRange(bool train, double from_s, double to_s);
   void load();
+  /// Names what the series is made of: it is read again when this changes.
+  [[nodiscard]] std::string inputsKey();
   void identify(bool store);
   void clear();
   void fillChoices();
@@ -57,8 +65,9 @@ class ThermalModelPage : public Page {
 
   std::shared_ptr<const TimeSeries> series_;
   std::shared_ptr<const IdentifyResult> result_;
-  nlohmann::json result_options_;  ///< of result_
-  std::string loaded_;             ///< folder of the campaign whose log is in series_
+  nlohmann::json result_options_;        ///< of result_
+  std::string loaded_;                   ///< folder of the campaign whose log is in series_
+  std::map<std::string, double> sigma_;  ///< of one value of a sparse output
   QString failure_;
   bool filling_ = false;
   bool wanted_ = false;  ///< identify as soon as the log is read
@@ -81,6 +90,8 @@ class ThermalModelPage : public Page {
   Plot* step_plot_;
   Plot* residual_plot_;
   Callout* whiteness_;
+  UpdatePanel* updates_;
+  IsoPanel* iso_;
 };
 
 }  // namespace spindrift::gui

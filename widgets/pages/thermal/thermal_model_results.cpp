@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/thermal/response_fit.h"
+#include "core/workflows/campaign_series.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
@@ -29,6 +30,14 @@ QString durationText(double seconds, double sigma_s) {
   const TimeUnit unit = timeUnit(seconds);
   if (!(sigma_s > 0)) return QStringLiteral("%1 %2").arg(seconds / unit.seconds, 0, 'g', 3).arg(unit.name);
   return quantityText(seconds / unit.seconds, sigma_s / unit.seconds, unit.name);
+}
+
+/// "F1_EZ_um" -> "F1 EZ".
+QString outputTitle(const std::string& name) {
+  QString text = fromCore(name);
+  for (const char* ending : {"_um_per_m", "_um", "_urad", "_nm"})
+    if (text.endsWith(QLatin1String(ending))) text.chop(static_cast<int>(qstrlen(ending)));
+  return text.replace(QLatin1Char('_'), QLatin1Char(' '));
 }
 
 double numberAt(const nlohmann::json& json, const char* key) {
@@ -80,15 +89,31 @@ void ThermalModelPage::showSeries() {
     return s;
   };
   const bool fits = result_ != nullptr && result_->time_s.size() == time_h.size();
+  // Rare measurements are points: only where there is a value.
+  const bool sparse = isSparse(series_->at(now.output));
+  const auto measured = [&](const QString& name, const std::vector<double>& values) {
+    Series s = line(name, values, 0);
+    if (!sparse) return s;
+    s.style = SeriesStyle::Points;
+    s.x.clear();
+    s.y.clear();
+    const auto sigma = sigma_.find(now.output);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!std::isfinite(values[i])) continue;
+      s.x.push_back(time_h[i]);
+      s.y.push_back(values[i]);
+      if (sigma != sigma_.end()) s.sigma.push_back(sigma->second);
+    }
+    return s;
+  };
   if (what_->current() == 0) {
-    series.push_back(line(tr("Measured"), series_->at(now.output).values, 0));
+    series.push_back(measured(tr("Measured"), series_->at(now.output).values));
     if (fits) {
       Series predicted = line(tr("Predicted, ± 2 uncertainties"), result_->predicted, 1);
       predicted.sigma = result_->sigma;
       series.push_back(std::move(predicted));
     }
-    series_plot_->setAxes(tr("Time / h"),
-                          tr("%1 / %2").arg(fromCore(now.output).section(QLatin1Char('_'), 0, 0), outputUnit()));
+    series_plot_->setAxes(tr("Time / h"), tr("%1 / %2").arg(outputTitle(now.output), outputUnit()));
   } else if (what_->current() == 1) {
     // Signals of different units in one picture: each over its own range.
     const std::vector<std::string> names = now.inputs.empty() ? automaticInputs(*series_, now.output) : now.inputs;
@@ -109,7 +134,7 @@ void ThermalModelPage::showSeries() {
     if (fits) {
       std::vector<double> residual(result_->measured.size());
       for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = result_->measured[i] - result_->predicted[i];
-      series.push_back(line(tr("Measured minus predicted"), residual, 0));
+      series.push_back(measured(tr("Measured minus predicted"), residual));
     }
     series_plot_->setAxes(tr("Time / h"), tr("Left over / %1").arg(outputUnit()));
   }
@@ -163,10 +188,11 @@ void ThermalModelPage::showStep() {
     if (fromCore(s.input) != step_input_->currentText()) continue;
     Series line;
     line.style = SeriesStyle::Line;
-    line.name = tr("Step of %1 by %2").arg(fromCore(s.input)).arg(s.step, 0, 'g', 4);
+    line.name = tr("Step of %1 by %2, 95 % interval").arg(fromCore(s.input)).arg(s.step, 0, 'g', 4);
     line.x = hours(s.time_s);
     line.y = s.value;
     line.sigma = s.sigma;
+    line.sigma_factor = s.coverage_factor;
     step_plot_->setAxes(tr("Time after a step of %1 by %2 / h").arg(fromCore(s.input)).arg(s.step, 0, 'g', 4),
                         tr("Response / %1").arg(outputUnit()));
     step_plot_->setContent({line});
@@ -181,18 +207,32 @@ void ThermalModelPage::showStep() {
 
 void ThermalModelPage::showLags() {
   std::vector<Row> rows;
-  const auto add = [&](const QString& input, const QString& tau, const Cell& gain, const QString& unit) {
+  const nlohmann::json& structure = result_->structure;
+  // Where the residual of the ARX equation is not white its uncertainties are no intervals: marked.
+  const bool holds = structure.value("uncertainty_holds", true);
+  const auto add = [&](const QString& input, double tau_s, double sigma_s, const Cell& gain, const QString& unit) {
     Row row;
     row.id = QString::number(rows.size());
-    row.cells = {nameCell(input), Cell{tau}, gain, Cell{unit}};
+    Cell tau{tau_s > 0 ? durationText(tau_s, sigma_s) : tau_s == 0.0 ? tr("at once") : tr("static gain")};
+    if (!holds) {
+      tau = toneCell(tau.text, Tone::Attention);
+      tau.tip =
+          tr("The residual of the ARX equation is not white: this value is biased and its interval does not hold.");
+    }
+    const Cell pole =
+        tau_s > 0 ? quantityCell(-seconds_per_hour / tau_s, sigma_s * seconds_per_hour / (tau_s * tau_s)) : dashCell();
+    row.cells = {nameCell(input), tau, pole, gain, Cell{unit}};
     rows.push_back(std::move(row));
   };
-  const nlohmann::json& structure = result_->structure;
   const nlohmann::json none = nlohmann::json::array();
   for (const auto& t : structure.value("time_constants", none))
-    add(tr("pole"), durationText(numberAt(t, "value_s"), numberAt(t, "standard_uncertainty_s")), dashCell(), {});
+    add(tr("pole"), numberAt(t, "value_s"), numberAt(t, "standard_uncertainty_s"), dashCell(), {});
+  for (const auto& l : structure.value("lags", none))
+    add(fromCore(l.value("input", std::string())), numberAt(l, "tau_s"), numberAt(l, "tau_standard_uncertainty_s"),
+        quantityCell(numberAt(l, "gain"), numberAt(l, "gain_standard_uncertainty")),
+        tr("%1 per unit").arg(outputUnit()));
   for (const auto& g : structure.value("static_gain", none))
-    add(fromCore(g.value("input", std::string())), tr("static gain"),
+    add(fromCore(g.value("input", std::string())), -1.0, std::nan(""),
         quantityCell(numberAt(g, "value"), numberAt(g, "standard_uncertainty")), tr("%1 per unit").arg(outputUnit()));
   if (rows.empty() && !result_->model.outputs.empty()) {
     const ThermalOutput& output = result_->model.outputs.front();
@@ -208,7 +248,7 @@ void ThermalModelPage::showLags() {
       const double sigma = output.covariance.rows() > at ? std::sqrt(output.covariance(at, at)) : std::nan("");
       QString name = fromCore(input.name);
       if (input.power != 1.0) name += QStringLiteral(" ^ %1").arg(input.power);
-      add(name, term.tau_s > 0 ? durationText(term.tau_s, 0) : tr("at once"), quantityCell(term.gain, sigma),
+      add(name, term.tau_s, 0.0, quantityCell(term.gain, sigma),
           input.scale == 1.0 ? tr("%1 per unit").arg(outputUnit()) : tr("%1 at %2").arg(outputUnit()).arg(input.scale));
     }
   }

@@ -12,6 +12,7 @@
 #include "core/imaging/warm_up.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/thermal/clock_panel.h"
 #include "widgets/pages/thermal/resolution_check_panel.h"
 #include "widgets/plots/plot.h"
 
@@ -50,6 +51,8 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
          "back within half a resolution of the axis."),
       tr("Check the repeatability"), 0.5, "check-repeatability");
   tabs_->addTab(repeatability_, tr("Cold repeatability"));
+  clocks_ = new ClockPanel(session(), context().undo);
+  tabs_->addTab(clocks_, tr("Clocks"));
   auto* temperature = new Card(tr("Temperatures"));
   temperature_ = new Plot;
   temperature_->setEmptyText(tr("Temperatures will appear here"),
@@ -158,6 +161,7 @@ void WarmUpPage::refresh() {
   confirm_->setVisible(!state.there);
   jogs_->refresh();
   repeatability_->refresh();
+  clocks_->refresh();
 }
 
 std::vector<Exportable> WarmUpPage::exportables() {

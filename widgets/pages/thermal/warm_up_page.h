@@ -8,6 +8,7 @@ class QTabWidget;
 
 namespace spindrift::gui {
 
+class ClockPanel;
 class Plot;
 class ResolutionCheckPanel;
 class RowsModel;
@@ -19,6 +20,7 @@ class WarmUpPage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] ResolutionCheckPanel* jogs() const { return jogs_; }
+  [[nodiscard]] ClockPanel* clocks() const { return clocks_; }
   [[nodiscard]] ResolutionCheckPanel* repeatability() const { return repeatability_; }
 
  private:
@@ -28,6 +30,7 @@ class WarmUpPage : public Page {
   QTabWidget* tabs_;
   ResolutionCheckPanel* jogs_;
   ResolutionCheckPanel* repeatability_;
+  ClockPanel* clocks_;
   RowsModel* verdicts_;
   Plot* drift_;
   Plot* temperature_;

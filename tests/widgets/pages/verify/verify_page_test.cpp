@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page Verify and the model over time of a campaign with observations, in the real window.
+#include "widgets/pages/verify/verify_page.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QTabWidget>
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/base/text.h"
+#include "tests/widgets/pages/page_test.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/thermal/clock_panel.h"
+#include "widgets/pages/thermal/iso_panel.h"
+#include "widgets/pages/thermal/thermal_model_page.h"
+#include "widgets/pages/thermal/update_panel.h"
+#include "widgets/pages/thermal/warm_up_page.h"
+#include "widgets/plots/plot.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr double tau_s = 3000.0;
+constexpr double gain = 12.0;  // um at 3000 rpm
+
+class VerifyPages : public PageTest {
+ protected:
+  /// 40 h of a spindle in steps; EZ of F1 and F2 every 30 min with 0.2 um. With compensation a tenth is left.
+  std::filesystem::path write(const std::string& name, bool compensating) {
+    Random random(compensating ? 12 : 11);
+    Random speeds(5);
+    std::string log = "time_s,spindle_rpm,compensation_on,T_room_degC\n";
+    std::string rows = "time_s,state,point,x_mm,y_mm,z_mm,c_deg,component,value,sigma,instrument,use\n";
+    double state = 0;
+    double rpm = 0;
+    for (int i = 0; i < 4800; ++i) {
+      if (i % 240 == 0) rpm = 1000.0 * std::floor(speeds.uniform(0.0, 4.0));
+      log += std::to_string(30 * i) + "," + exactNumber(rpm) + (compensating ? ",1," : ",0,") +
+             exactNumber(20 + 0.5 * std::sin(i / 500.0)) + "\n";
+      for (int p = 1; i % 60 == 0 && p <= 2; ++p) {
+        rows += std::to_string(30 * i) + ",M" + std::to_string(i / 60) + ",F" + std::to_string(p) + "," +
+                std::to_string(50 * p) + ",0,0,0,EZ," +
+                exactNumber(gain * state * (compensating ? 0.1 : 1.0) + random.normal(0, 0.2)) + ",0.2,probe,fit\n";
+      }
+      state += (1 - std::exp(-30.0 / tau_s)) * (rpm / 3000.0 - state);
+    }
+    const std::string folder = name + "/";
+    folder_.write(folder + "campaign.json", R"({"format":"spindrift-campaign","version":1,"name":")" + name +
+                                                R"(","start_utc":"2026-01-31T08:00:00Z"})");
+    folder_.write(
+        folder + "machine.json",
+        R"({"format":"spindrift-machine","version":1,"name":"m","chain":"V [w-X'-Y'-b-Z-t]","axes":[)"
+        R"({"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,200]},{"name":"Z","travel_mm":[0,200]}]})");
+    folder_.write(folder + "log.csv", log);
+    folder_.write(folder + "observations.csv", rows);
+    return folder_ / name;
+  }
+};
+
+TEST_F(VerifyPages, BeforeAndAfterAreJudgedAgainstTheGoal) {
+  const auto after = write("after", true);
+  open(write("before", false));
+  auto* page = go<VerifyPage>(StepId::Verify);
+  ASSERT_NE(page, nullptr);
+  EXPECT_FALSE(page->primaryButton()->isEnabled());
+  page->setAfter(QString::fromStdString(after.string()));
+  ASSERT_TRUE(page->primaryButton()->isEnabled());
+  press();
+  ASSERT_NE(page->result(), nullptr) << page->callout()->sentence().toStdString();
+  EXPECT_EQ(page->result()->verdict, VerifyVerdict::Met);
+  EXPECT_EQ(page->callout()->tone(), Tone::Good);
+  EXPECT_EQ(window_->workflow().status(StepId::Verify).state, StepState::Current);
+  EXPECT_EQ(page->components()->rowCount(), 1);
+  EXPECT_EQ(page->plot()->series().size(), 4U);
+  // A goal below what is left: outdated, and then not met.
+  page->goal()->setValue(0.5);
+  EXPECT_EQ(page->callout()->tone(), Tone::Outdated);
+  press();
+  EXPECT_EQ(page->result()->verdict, VerifyVerdict::NotMet);
+  EXPECT_EQ(page->callout()->tone(), Tone::Bad);
+  exportAll();
+  window_->grab().save(QString::fromStdString((folder_ / "verify.png").string()));
+  if (qEnvironmentVariableIsSet("SPINDRIFT_PICTURES"))
+    window_->grab().save(qEnvironmentVariable("SPINDRIFT_PICTURES") + QStringLiteral("/verify.png"));
+  // What was measured while compensating is no campaign to fit: every observation is left out.
+  window_->closeSession();
+  open(after);
+  ASSERT_EQ(window_->session().campaign()->name, "after");
+  const auto set = window_->session().observations();
+  ASSERT_TRUE(set.has_value());
+  for (const Observation& o : set->rows) EXPECT_EQ(o.use, ObservationUse::Exclude);
+}
+
+TEST_F(VerifyPages, ACampaignWithObservationsHasAModelOverTime) {
+  open(write("before", false));
+  window_->workflow().goTo(StepId::Model);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(qobject_cast<ThermalModelPage*>(window_->currentPage()), nullptr);
+  for (auto* button : window_->currentPage()->findChildren<QPushButton*>())
+    if (button->text() == QLatin1String("Model over time")) button->click();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  auto* page = qobject_cast<ThermalModelPage*>(window_->currentPage());
+  ASSERT_NE(page, nullptr);
+  EXPECT_EQ(page->request().output, "F1_EZ_um");
+  press();
+  ASSERT_NE(page->result(), nullptr) << page->callout()->sentence().toStdString();
+  EXPECT_LT(page->result()->test.rmse, 0.3 * page->result()->plain.front().test.rmse);
+  EXPECT_EQ(page->seriesPlot()->series().front().style, SeriesStyle::Points);
+  // Kept true by measurements, and what the interval buys.
+  QTest::mouseClick(page->updates()->button(), Qt::LeftButton);
+  page->updates()->button()->click();
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  ASSERT_NE(page->updates()->result(), nullptr);
+  EXPECT_EQ(page->updates()->result()->sweep.size(), 7U);
+  page->updates()->what()->button(1)->click();
+  EXPECT_EQ(page->updates()->plot()->series().size(), 2U);
+  // ISO 230-3 of the same series.
+  EXPECT_EQ(page->iso()->rows()->rowCount(), 2);
+  page->iso()->test()->button(1)->click();
+  EXPECT_EQ(page->iso()->rows()->rowCount(), 2);
+  EXPECT_FALSE(page->iso()->plot()->empty());
+  if (qEnvironmentVariableIsSet("SPINDRIFT_PICTURES")) {
+    auto* tabs = page->findChild<QTabWidget*>();
+    for (int i = 0; i < tabs->count(); ++i) {
+      tabs->setCurrentIndex(i);
+      window_->grab().save(qEnvironmentVariable("SPINDRIFT_PICTURES") + QStringLiteral("/over-time-%1.png").arg(i));
+    }
+  }
+  // Offsets between clocks make results outdated, and are kept.
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Current);
+  window_->session().setClockOffsets({{"probe", {120.0, 1.0, "entered"}}});
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Outdated);
+  EXPECT_EQ(window_->session().observations()->rows[2].time_s, 1800.0 + 120.0);
+  auto* warm_up = go<WarmUpPage>(StepId::WarmUp);
+  ASSERT_EQ(warm_up->clocks()->rows()->rowCount(), 1);
+  if (qEnvironmentVariableIsSet("SPINDRIFT_PICTURES")) {
+    warm_up->findChild<QTabWidget*>()->setCurrentIndex(3);
+    window_->grab().save(qEnvironmentVariable("SPINDRIFT_PICTURES") + QStringLiteral("/clocks.png"));
+  }
+  // The log knows no positions, so nothing can be estimated: said, and nothing changed.
+  warm_up->clocks()->source()->setCurrentText(QStringLiteral("probe"));
+  warm_up->clocks()->estimate();
+  EXPECT_EQ(warm_up->clocks()->message()->tone(), Tone::Attention);
+  window_->session().setClockOffsets({});
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Current);
+  warm_up->clocks()->offset()->setValue(60.0);
+  EXPECT_EQ(window_->session().clockOffsets().at("probe").offset_s, 60.0);
+  EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Outdated);
+  window_->undoStack().undo();
+  EXPECT_TRUE(window_->session().clockOffsets().empty());
+}
+
+}  // namespace
+}  // namespace spindrift::gui

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Offsets between the clocks of logger and instruments: entered, or estimated from a motion that both saw; every result
+// depends on them.
+#pragma once
+
+#include <QUndoStack>
+#include <QWidget>
+
+class QComboBox;
+class QDoubleSpinBox;
+class QPushButton;
+
+namespace spindrift::gui {
+
+class Callout;
+class RowsModel;
+class SessionModel;
+
+class ClockPanel : public QWidget {
+  Q_OBJECT
+ public:
+  ClockPanel(SessionModel& session, QUndoStack& undo, QWidget* parent = nullptr);
+  void refresh();
+  void estimate();
+  [[nodiscard]] RowsModel* rows() const { return rows_; }
+  [[nodiscard]] QDoubleSpinBox* offset() const { return offset_; }
+  [[nodiscard]] QComboBox* source() const { return source_; }
+  [[nodiscard]] Callout* message() const { return message_; }
+
+ private:
+  void change(double offset_s, double sigma_s, const QString& how);
+
+  SessionModel& session_;
+  QUndoStack& undo_;
+  bool filling_ = false;
+  QComboBox* source_;
+  QDoubleSpinBox* offset_;
+  QPushButton* estimate_;
+  Callout* message_;
+  RowsModel* rows_;
+};
+
+}  // namespace spindrift::gui

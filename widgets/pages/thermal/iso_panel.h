@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The thermal tests of ISO 230-3 on the log at hand: environmental variation and rotating spindle, parameters with
+// uncertainty.
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "core/workflows/thermal_tests.h"
+
+class QComboBox;
+
+namespace spindrift::gui {
+
+class Callout;
+class Plot;
+class RowsModel;
+class Segments;
+
+class IsoPanel : public QWidget {
+  Q_OBJECT
+ public:
+  explicit IsoPanel(QWidget* parent = nullptr);
+  void set(std::shared_ptr<const TimeSeries> series);
+  [[nodiscard]] Segments* test() const { return test_; }
+  [[nodiscard]] RowsModel* rows() const { return rows_; }
+  [[nodiscard]] Plot* plot() const { return plot_; }
+
+ private:
+  void evaluate();
+  void showEtve(const EtveResult& result);
+  void showSpindle(const SpindleResult& result);
+
+  std::shared_ptr<const TimeSeries> series_;
+  Segments* test_;
+  QComboBox* ambient_;
+  Callout* note_;
+  RowsModel* rows_;
+  Plot* plot_;
+};
+
+}  // namespace spindrift::gui

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/verify/verify_page.h"
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSplitter>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/workflows/evaluate_campaign.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/plots/plot.h"
+
+namespace spindrift::gui {
+namespace {
+
+Tone toneOf(VerifyVerdict verdict) {
+  switch (verdict) {
+    case VerifyVerdict::Met:
+      return Tone::Good;
+    case VerifyVerdict::NotMet:
+      return Tone::Bad;
+    case VerifyVerdict::Undecided:
+      return Tone::Attention;
+    case VerifyVerdict::NotJudged:
+      break;
+  }
+  return Tone::Neutral;
+}
+
+QString wordOf(VerifyVerdict verdict) {
+  switch (verdict) {
+    case VerifyVerdict::Met:
+      return VerifyPage::tr("met");
+    case VerifyVerdict::NotMet:
+      return VerifyPage::tr("not met");
+    case VerifyVerdict::Undecided:
+      return VerifyPage::tr("open");
+    case VerifyVerdict::NotJudged:
+      break;
+  }
+  return VerifyPage::tr("not judged");
+}
+
+}  // namespace
+
+VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Verify, parent) {
+  compare_ = makeButton(tr("Compare before and after"), nullptr, "primary");
+  addAction(compare_);
+  content()->addWidget(makeChoices());
+  auto* left = new Card;
+  auto* tiles = new QHBoxLayout;
+  before_ = new NumberTile(tr("Before"));
+  left_ = new NumberTile(tr("After"));
+  verdict_ = new NumberTile(tr("Goal"));
+  for (NumberTile* tile : {before_, left_, verdict_}) tiles->addWidget(tile, 1);
+  left->body()->addLayout(tiles);
+  components_ = new RowsModel(
+      {tr("Component"), tr("rms before"), tr("rms after"), tr("Largest before"), tr("Largest after"), tr("Goal")},
+      this);
+  left->body()->addWidget(makeTable(components_, tr("Before and after of each component"),
+                                    tr("Every component before and after appears here after the comparison.")),
+                          1);
+  auto* right = new Card(tr("Every value before and after"));
+  component_ = new QComboBox;
+  component_->setAccessibleName(tr("Component that is drawn"));
+  component_->setMinimumWidth(90);
+  right->addToTitle(component_);
+  plot_ = new Plot;
+  plot_->setEmptyText(tr("Before and after will appear here"),
+                      tr("Choose the campaign that was measured with the compensation on, then compare."));
+  right->body()->addWidget(plot_, 1);
+  content()->addWidget(makeSplitter(left, right, 7, 6), 1);
+  showHints(plot_);
+  connect(compare_, &QPushButton::clicked, this, [this] { compare(true); });
+  connect(component_, &QComboBox::activated, this, [this](int) { showPlot(); });
+}
+
+QWidget* VerifyPage::makeChoices() {
+  auto* box = new QWidget;
+  auto* line = new QHBoxLayout(box);
+  line->setContentsMargins(0, 0, 0, 0);
+  line->addWidget(new QLabel(tr("Measured again in")));
+  after_ = new QComboBox;
+  after_->setAccessibleName(tr("Campaign measured with the compensation on"));
+  after_->setMinimumWidth(220);
+  line->addWidget(after_);
+  auto* choose = makeButton(tr("Folder …"), nullptr);
+  choose->setAccessibleName(tr("Choose the folder of a campaign"));
+  line->addWidget(choose);
+  line->addStretch();
+  const auto goal = [&](const QString& text, const QString& name, const QString& unit, double most) {
+    line->addWidget(new QLabel(text));
+    auto* spin = new QDoubleSpinBox;
+    spin->setAccessibleName(name);
+    spin->setDecimals(1);
+    spin->setRange(0, most);
+    spin->setSuffix(unit);
+    spin->setMinimumHeight(sizes::control_height);
+    spin->setKeyboardTracking(false);
+    line->addWidget(spin);
+    return spin;
+  };
+  goal_um_ = goal(tr("Goal"), tr("Goal of displacements"), tr(" um"), 1000);
+  goal_um_->setMinimum(0.1);
+  goal_urad_ = goal(tr("and"), tr("Goal of rotations"), tr(" urad"), 10000);
+  goal_urad_->setSpecialValueText(tr("none"));
+  line->addWidget(new QLabel(tr("for the")));
+  criterion_ = new QComboBox;
+  criterion_->setAccessibleName(tr("What the goal bounds"));
+  criterion_->addItems({tr("largest value"), tr("rms")});
+  line->addWidget(criterion_);
+  connect(after_, &QComboBox::activated, this, [this](int) {
+    changeOptions(tr("choose the second campaign"), {{"after", after_->currentData().toString().toStdString()}});
+  });
+  connect(choose, &QPushButton::clicked, this, [this] {
+    const QString folder = QFileDialog::getExistingDirectory(this, tr("Campaign measured with the compensation on"));
+    if (!folder.isEmpty()) setAfter(folder);
+  });
+  connect(goal_um_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+    changeOptions(tr("set the goal"), {{"goal_um", value}});
+  });
+  connect(goal_urad_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+    changeOptions(tr("set the goal"), {{"goal_urad", value}});
+  });
+  connect(criterion_, &QComboBox::activated, this, [this](int index) {
+    changeOptions(tr("choose what the goal bounds"), {{"criterion", index == 1 ? "rms" : "largest"}});
+  });
+  return box;
+}
+
+std::string VerifyPage::optionsKey() const {
+  return "verify/" + std::to_string(const_cast<VerifyPage*>(this)->session().campaignId());
+}
+
+nlohmann::json VerifyPage::optionsJson() const {
+  nlohmann::json all{{"goal_um", 5.0}, {"goal_urad", 0.0}, {"criterion", "largest"}, {"after", ""}};
+  const nlohmann::json stored =
+      const_cast<VerifyPage*>(this)->session().setting(optionsKey(), nlohmann::json::object());
+  if (stored.is_object()) all.update(stored);
+  return all;
+}
+
+void VerifyPage::changeOptions(const QString& what, const nlohmann::json& change) {
+  if (filling_) return;
+  nlohmann::json after = optionsJson();
+  after.update(change);
+  if (after == optionsJson()) return;
+  context().undo.push(new OptionsCommand(session(), what, optionsKey(), after, [this] { refresh(); }));
+}
+
+void VerifyPage::setAfter(const QString& folder) {
+  changeOptions(tr("choose the second campaign"), {{"after", folder.toStdString()}});
+}
+
+void VerifyPage::fillChoices() {
+  filling_ = true;
+  const nlohmann::json now = optionsJson();
+  const QString chosen = fromCore(now["after"].get<std::string>());
+  after_->clear();
+  after_->addItem(tr("this campaign, while compensating"), fromCore(session().campaign()->folder.string()));
+  for (const CampaignRecord& record : session().campaigns()) {
+    if (record.id != session().campaignId()) after_->addItem(fromCore(record.name), fromCore(record.folder.string()));
+  }
+  if (!chosen.isEmpty() && after_->findData(chosen) < 0) after_->addItem(QFileInfo(chosen).fileName(), chosen);
+  after_->setCurrentIndex(chosen.isEmpty() ? -1 : after_->findData(chosen));
+  after_->setPlaceholderText(tr("choose a campaign"));
+  goal_um_->setValue(now["goal_um"].get<double>());
+  goal_urad_->setValue(now["goal_urad"].get<double>());
+  criterion_->setCurrentIndex(now["criterion"] == "rms" ? 1 : 0);
+  filling_ = false;
+}
+
+void VerifyPage::runAll() {
+  compare(true);
+}
+
+void VerifyPage::compare(bool store) {
+  const nlohmann::json json = optionsJson();
+  const std::filesystem::path folder = json["after"].get<std::string>();
+  const auto before = session().observations();
+  if (folder.empty() || !before) return;
+  VerifyRequest request;
+  request.goal_um = json["goal_um"].get<double>();
+  request.goal_urad = json["goal_urad"].get<double>();
+  request.criterion = json["criterion"] == "rms" ? VerifyCriterion::Rms : VerifyCriterion::Largest;
+  // One campaign may hold both: then what was taken while compensating must not be left out of the second set.
+  const bool same = folder == session().campaign()->folder;
+  run(tr("Comparing before and after"),
+      [this, json, folder, request, store, same, first = *before, snapshot = session().snapshot(),
+       campaign = session().campaign()->folder.string()](JobContext& job) -> std::function<void()> {
+        const Campaign second = same ? *snapshot.campaign : Campaign::read(folder);
+        const ObservationSet after = allObservationsOf(second, {}, {}, job);
+        auto result =
+            std::make_shared<VerifyResult>(verifyCampaigns(*snapshot.campaign, first, second, after, request));
+        return [this, result, json, store, campaign] {
+          if (session().campaign() == nullptr || campaign != session().campaign()->folder.string()) return;
+          result_ = result;
+          result_options_ = json;
+          if (store) session().storeResult("verify", {{"options", json}}, result->json());
+          refresh();
+        };
+      });
+}
+
+void VerifyPage::refresh() {
+  const auto campaign = session().campaign();
+  if (campaign == nullptr) return;
+  if (loaded_ != campaign->folder.string()) {
+    loaded_ = campaign->folder.string();
+    result_.reset();
+  }
+  fillChoices();
+  const nlohmann::json now = optionsJson();
+  const bool chosen = !now["after"].get<std::string>().empty();
+  const bool measured = session().observations().has_value();
+  compare_->setEnabled(chosen && measured);
+  const ResultState state = session().state("verify");
+  if (!measured) {
+    callout()->set(Tone::Neutral, context().workflow.status(StepId::Verify).sentence);
+  } else if (result_ == nullptr && state.there && state.current && chosen &&
+             session().result("verify")->provenance.options.value("options", nlohmann::json()) == now) {
+    compare(false);
+    return;
+  } else if (!chosen) {
+    callout()->show(Tone::Accent,
+                    tr("Load the corrections into the control, switch the compensation on and measure the same plan "
+                       "again. Then choose that campaign here; its log says compensation_on = 1."));
+  } else if (result_ == nullptr) {
+    callout()->show(state.there ? Tone::Outdated : Tone::Accent, tr("Press Compare before and after."));
+  } else if (result_options_ != now || !state.current) {
+    callout()->show(Tone::Outdated, tr("Goal, campaign or data have changed since. Compare again."));
+  } else {
+    QString text = fromCore(result_->reason);
+    for (const std::string& note : result_->notes) text += QLatin1Char(' ') + fromCore(note);
+    callout()->show(toneOf(result_->verdict), text);
+  }
+  showResult();
+}
+
+void VerifyPage::showResult() {
+  std::vector<Row> rows;
+  const QString chosen = component_->currentText();
+  component_->clear();
+  if (result_ == nullptr) {
+    components_->setRows({});
+    for (NumberTile* tile : {before_, left_, verdict_}) tile->set(QStringLiteral("–"));
+    showPlot();
+    return;
+  }
+  const bool largest = result_->request.criterion == VerifyCriterion::Largest;
+  const VerifyComponent* worst = nullptr;
+  for (const VerifyComponent& c : result_->components) {
+    const QString name = fromCore(std::string(toString(c.component)));
+    const QString unit = fromCore(std::string(unitOf(c.component)));
+    component_->addItem(name);
+    Row row;
+    row.id = name;
+    const auto cell = [&](double value, double sigma, const QString& tip = {}) {
+      Cell out{quantityText(value, sigma, unit)};
+      out.right = true;
+      out.tip = tip;
+      return out;
+    };
+    Cell named = nameCell(name);
+    named.tip = tr("%1 values compared").arg(c.values);
+    row.cells = {named,
+                 cell(c.before.rms, c.before.rms_sigma),
+                 cell(c.after.rms, c.after.rms_sigma),
+                 cell(c.before.largest, c.before.largest_sigma, fromCore(c.before.largest_at)),
+                 cell(c.after.largest, c.after.largest_sigma, fromCore(c.after.largest_at)),
+                 toneCell(wordOf(c.verdict), toneOf(c.verdict))};
+    rows.push_back(std::move(row));
+    const auto size = [&](const VerifyComponent& x) { return largest ? x.after.largest : x.after.rms; };
+    if (!isRotation(c.component) && (worst == nullptr || size(c) > size(*worst))) worst = &c;
+  }
+  components_->setRows(std::move(rows));
+  if (worst != nullptr) {
+    const QString name = fromCore(std::string(toString(worst->component)));
+    const auto text = [&](const VerifyFigures& f) {
+      return largest ? quantityText(f.largest, f.largest_sigma, tr("um")) : quantityText(f.rms, f.rms_sigma, tr("um"));
+    };
+    before_->set(text(worst->before), largest ? tr("largest %1").arg(name) : tr("rms %1").arg(name));
+    left_->set(text(worst->after), largest ? tr("largest %1").arg(name) : tr("rms %1").arg(name));
+    if (chosen.isEmpty()) component_->setCurrentText(name);
+  }
+  verdict_->set(wordOf(result_->verdict), tr("goal %1 um").arg(result_->request.goal_um, 0, 'g', 3),
+                toneOf(result_->verdict));
+  if (component_->findText(chosen) >= 0) component_->setCurrentText(chosen);
+  showPlot();
+}
+
+void VerifyPage::showPlot() {
+  if (result_ == nullptr) {
+    plot_->setContent({});
+    return;
+  }
+  Series before;
+  before.name = tr("Before, ± 2 uncertainties");
+  before.style = SeriesStyle::Points;
+  before.colour = 1;
+  Series after = before;
+  after.name = tr("After, ± 2 uncertainties");
+  after.colour = 0;
+  bool rotation = false;
+  for (const VerifyPoint& p : result_->points) {
+    if (fromCore(std::string(toString(p.component))) != component_->currentText()) continue;
+    rotation = isRotation(p.component);
+    const double x = static_cast<double>(before.x.size()) + 1.0;
+    before.x.push_back(x - 0.12);
+    before.y.push_back(p.before);
+    before.sigma.push_back(p.before_sigma);
+    after.x.push_back(x + 0.12);
+    after.y.push_back(p.after);
+    after.sigma.push_back(p.after_sigma);
+  }
+  if (before.x.empty()) {
+    plot_->setContent({});
+    return;
+  }
+  std::vector<Series> all{before, after};
+  const double goal = rotation ? result_->request.goal_urad : result_->request.goal_um;
+  for (const double sign : {1.0, -1.0}) {
+    if (!(goal > 0.0)) continue;
+    Series limit;
+    limit.name = tr("Goal");
+    limit.style = SeriesStyle::Dashed;
+    limit.colour = 2;
+    limit.legend = sign > 0;
+    limit.x = {0.5, static_cast<double>(before.x.size()) + 0.5};
+    limit.y = {sign * goal, sign * goal};
+    all.push_back(std::move(limit));
+  }
+  plot_->setAxes(tr("Measured value, points in order of the plan"),
+                 tr("Change of %1 / %2").arg(component_->currentText(), rotation ? tr("urad") : tr("um")));
+  plot_->setContent(std::move(all));
+}
+
+std::vector<Exportable> VerifyPage::exportables() {
+  if (result_ == nullptr) return {};
+  return {exportableOf(tr("Before and after"), components_), exportableOf(tr("Values before and after"), plot_)};
+}
+
+}  // namespace spindrift::gui

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Step Verify: the same plan measured again with the compensation on, beside the measurement from before; the verdict
+// against the goal that the user set, with the uncertainty taken into account.
+#pragma once
+
+#include <memory>
+
+#include "core/workflows/verify_compensation.h"
+#include "widgets/pages/page.h"
+
+class QComboBox;
+class QDoubleSpinBox;
+
+namespace spindrift::gui {
+
+class NumberTile;
+class Plot;
+class RowsModel;
+
+class VerifyPage : public Page {
+  Q_OBJECT
+ public:
+  explicit VerifyPage(PageContext context, QWidget* parent = nullptr);
+  void refresh() override;
+  [[nodiscard]] std::vector<Exportable> exportables() override;
+  [[nodiscard]] QPushButton* primaryButton() const override { return compare_; }
+  void runAll() override;
+  /// The campaign measured with the compensation on; the folder is remembered in the session.
+  void setAfter(const QString& folder);
+  [[nodiscard]] QDoubleSpinBox* goal() const { return goal_um_; }
+  [[nodiscard]] RowsModel* components() const { return components_; }
+  [[nodiscard]] Plot* plot() const { return plot_; }
+  [[nodiscard]] const std::shared_ptr<const VerifyResult>& result() const { return result_; }
+
+ private:
+  [[nodiscard]] QWidget* makeChoices();
+  [[nodiscard]] nlohmann::json optionsJson() const;
+  [[nodiscard]] std::string optionsKey() const;
+  void changeOptions(const QString& what, const nlohmann::json& change);
+  void fillChoices();
+  void compare(bool store);
+  void showResult();
+  void showPlot();
+
+  std::shared_ptr<const VerifyResult> result_;
+  nlohmann::json result_options_;
+  std::string loaded_;
+  bool filling_ = false;
+
+  QPushButton* compare_;
+  QComboBox* after_;
+  QDoubleSpinBox* goal_um_;
+  QDoubleSpinBox* goal_urad_;
+  QComboBox* criterion_;
+  NumberTile* before_;
+  NumberTile* left_;
+  NumberTile* verdict_;
+  QComboBox* component_;
+  RowsModel* components_;
+  Plot* plot_;
+};
+
+}  // namespace spindrift::gui
