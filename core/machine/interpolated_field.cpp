@@ -66,7 +66,7 @@ InterpolatedField::InterpolatedField(Component component, std::vector<ScatteredV
     }
   }
   SPINDRIFT_ASSERT(!processes_.empty(), "a covariance that is not positive");
-  std::erase_if(processes_, [&](const Process& p) { return p.log_likelihood < best - 4.0; });
+  std::erase_if(processes_, [&](const Process& p) { return p.log_likelihood < best - 3.0; });
   double sum = 0.0;
   for (Process& p : processes_) sum += p.weight = std::exp(p.log_likelihood - best);
   for (Process& p : processes_) p.weight /= sum;

@@ -246,7 +246,9 @@ std::optional<ObservationSet> SessionModel::observations() const {
     if (const auto stored = evaluation()) set = stored->observations;
   }
   if (!set) return set;
-  for (Observation& o : set->rows) {
+  // 30,000 names are not made for nothing.
+  for (std::size_t i = 0; !excluded_.empty() && i < set->rows.size(); ++i) {
+    Observation& o = set->rows[i];
     const std::string item = o.state + "/" + o.point + "/" + std::string(toString(o.component));
     if (excluded_.contains(QString::fromStdString(item))) o.use = ObservationUse::Exclude;
   }

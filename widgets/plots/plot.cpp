@@ -325,7 +325,10 @@ void Plot::placeLegend() {
   };
   legend->setBorderPen(QPen(theme().border, 1));
   move_inside(Qt::AlignTop | Qt::AlignRight);
-  plot_->replot(QCustomPlot::rpQueuedRefresh);  // lays out axes and legend
+  // Lays out axes and legend without drawing the curves.
+  for (const auto phase : {QCPLayoutElement::upPreparation, QCPLayoutElement::upMargins, QCPLayoutElement::upLayout}) {
+    outer->update(phase);
+  }
   const QRectF axes = plot_->axisRect()->rect();
   const QSizeF size = QSizeF(legend->outerRect().size()) + QSizeF(16, 16);
   struct Corner {
@@ -465,6 +468,12 @@ bool Plot::dragSpan(QEvent* event) {
 
 bool Plot::eventFilter(QObject* watched, QEvent* event) {
   if (watched == plot_) {
+    if (event->type() == QEvent::Resize) {  // it would draw at once, at each step of a layout
+      stale_ = true;
+      plot_->update();
+      return true;
+    }
+    if (event->type() == QEvent::Paint) drawIfStale();
     if (dragSpan(event)) return true;
     if (event->type() == QEvent::MouseButtonDblClick) {
       showAll();

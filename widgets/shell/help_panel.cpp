@@ -34,6 +34,10 @@ const char* helpName(StepId step) {
       return "discrepancy";
     case StepId::Compensate:
       return "compensate";
+    case StepId::Verify:
+      return "verify";
+    case StepId::Review:
+      return "review";
     default:
       return "report";
   }

@@ -5,6 +5,7 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QSlider>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -105,6 +106,11 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   arrange();
 }
 
+void GapPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  if (views_stale_) showViews();
+}
+
 void GapPanel::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   arrange();
@@ -147,10 +153,11 @@ void GapPanel::fillMoments() {
   const auto worst = static_cast<int>(worstMoment(*discrepancy_, component));
   moment_->setValue(worst);
   largest_ = 0.0;
-  if (moments_s_.empty() || !machine_) return;
-  const ResidualMap map =
-      residualMap(*discrepancy_, *machine_, component, moments_s_[static_cast<std::size_t>(worst)], false);
-  for (const Field::Marker& point : map.points) largest_ = std::max(largest_, std::abs(point.value));
+  if (moments_s_.empty()) return;
+  const double time_s = moments_s_[static_cast<std::size_t>(worst)];
+  for (const Field::Marker& point : residualsAt(*discrepancy_, component, time_s, false)) {
+    largest_ = std::max(largest_, std::abs(point.value));
+  }
 }
 
 void GapPanel::showMoment(int) {
@@ -286,7 +293,9 @@ void GapPanel::showPlots() {
 }
 
 void GapPanel::showViews() {
-  if (discrepancy_ == nullptr || component_->count() == 0 || moments_s_.empty() || !machine_) return;
+  views_stale_ = true;
+  if (!isVisible() || discrepancy_ == nullptr || component_->count() == 0 || moments_s_.empty() || !machine_) return;
+  views_stale_ = false;
   const auto component = static_cast<Component>(component_->currentData().toInt());
   const QString unit = componentUnit(component);
   const double time_s = moments_s_[static_cast<std::size_t>(moment_->value())];
@@ -295,25 +304,40 @@ void GapPanel::showViews() {
   moment_text_->setText(tr("On the machine at %1").arg(when));
   // One scale for both sides and all moments: that of the worst moment before.
   const ColourScale scale = ColourScale::symmetric(largest_, componentName(component), unit);
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (side == 1 && discrepancy_->added.empty()) continue;
-    const ResidualMap map = residualMap(*discrepancy_, *machine_, component, time_s, side == 1);
-    std::vector<ViewPoint> points;
-    for (const Field::Marker& marker : map.points) {
-      ViewPoint p;
-      p.id = p.label = QString::fromStdString(marker.point);
-      p.position_mm = marker.position_mm;
-      p.value = marker.value;
-      if (p.id == point_->currentText()) {
-        p.value_text = tr("%1 ± %2 %3").arg(marker.value, 0, 'f', 1).arg(marker.sigma, 0, 'f', 1).arg(unit);
-      }
-      points.push_back(std::move(p));
+  for (View3D* view : views_) {
+    view->setColourScale(scale);
+    view->setCaption(tr("%1, measured − model at %2").arg(componentName(component), when));
+  }
+  // One thing at each turn of the event loop: points before, points after, then the fields between them.
+  ++views_asked_;
+  showSide(0, component, time_s, false);
+  const auto later = [this, component, time_s, asked = views_asked_](std::size_t side, bool field) {
+    if (asked == views_asked_ && discrepancy_ != nullptr && machine_) showSide(side, component, time_s, field);
+  };
+  QTimer::singleShot(0, this, [this, later] {
+    later(0, true);
+    QTimer::singleShot(0, this, [later] { later(1, true); });
+  });
+}
+
+void GapPanel::showSide(std::size_t side, Component component, double time_s, bool field) {
+  if (side == 1 && discrepancy_->added.empty()) return;
+  std::vector<ViewPoint> points;
+  for (const Field::Marker& marker : residualsAt(*discrepancy_, component, time_s, side == 1)) {
+    ViewPoint p;
+    p.id = p.label = QString::fromStdString(marker.point);
+    p.position_mm = marker.position_mm;
+    p.value = marker.value;
+    if (p.id == point_->currentText()) {
+      p.value_text =
+          tr("%1 ± %2 %3").arg(marker.value, 0, 'f', 1).arg(marker.sigma, 0, 'f', 1).arg(componentUnit(component));
     }
-    views_[side]->setColourScale(scale);
-    views_[side]->setField(map.field, FieldStyle{});
-    views_[side]->setPoints(std::move(points));
-    views_[side]->setSelected(point_->currentText());
-    views_[side]->setCaption(tr("%1, measured − model at %2").arg(componentName(component), when));
+    points.push_back(std::move(p));
+  }
+  views_[side]->setPoints(std::move(points));
+  views_[side]->setSelected(point_->currentText());
+  if (field) {
+    views_[side]->setField(residualMap(*discrepancy_, *machine_, component, time_s, side == 1).field, FieldStyle{});
   }
 }
 

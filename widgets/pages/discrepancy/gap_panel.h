@@ -41,6 +41,7 @@ class GapPanel : public QWidget {
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
  private:
   void fillChoices();
@@ -49,6 +50,7 @@ class GapPanel : public QWidget {
   void showViews();
   void arrange();
   void showMoment(int index);
+  void showSide(std::size_t side, Component component, double time_s, bool field);
   [[nodiscard]] const DiscrepancySeries* series() const;
 
   GapBars* bars_;
@@ -67,7 +69,9 @@ class GapPanel : public QWidget {
   std::shared_ptr<const DiscrepancyStory> discrepancy_;
   std::optional<MachineDescription> machine_;
   std::vector<double> moments_s_;
-  double largest_ = 0.0;  ///< of the maps of this component, before
+  bool views_stale_ = false;  ///< something changed while the panel was not in sight
+  int views_asked_ = 0;       ///< which request a field that comes later belongs to
+  double largest_ = 0.0;      ///< of the maps of this component, before
 };
 
 }  // namespace spindrift::gui

@@ -11,8 +11,8 @@ namespace spindrift::gui {
 namespace {
 
 /// More points say no more about a smooth field, and cost their number cubed.
-constexpr std::size_t most_points = 60;
-constexpr int nodes_along = 64;
+constexpr std::size_t most_points = 40;
+constexpr int nodes_along = 40;
 
 /// Index of the reading of a series nearest in time; the size of the series if none is near.
 std::size_t nearestReading(const DiscrepancySeries& series, double time_s, double within_s) {
@@ -91,25 +91,32 @@ std::size_t worstMoment(const DiscrepancyStory& story, Component component) {
   return worst;
 }
 
-ResidualMap residualMap(const DiscrepancyStory& story, const MachineDescription& machine, Component component,
-                        double time_s, bool after) {
-  ResidualMap map;
+std::vector<Field::Marker> residualsAt(const DiscrepancyStory& story, Component component, double time_s, bool after) {
+  std::vector<Field::Marker> points;
   const double within = halfStep(momentsOf(story, component));
-  std::vector<Eigen::Vector2d> around;
-  double z_mm = 0.0;
   for (const DiscrepancySeries& s : story.series) {
     if (s.component != component) continue;
     const std::vector<double>& model = after ? s.completed : s.simulated;
     const std::size_t i = nearestReading(s, time_s, within);
     if (model.empty() || i == s.time_s.size() || !std::isfinite(model[i])) continue;
     const double constant = after ? s.constant_after : s.constant_before;
-    map.points.push_back({s.point, s.position_mm, s.value[i] - constant - model[i], s.noise, !s.held_out[i]});
-    around.emplace_back(s.position_mm.head<2>());
-    z_mm += s.position_mm.z();
+    points.push_back({s.point, s.position_mm, s.value[i] - constant - model[i], s.noise, !s.held_out[i]});
   }
-  if (map.points.size() < 3) return map;
+  return points;
+}
+
+ResidualMap residualMap(const DiscrepancyStory& story, const MachineDescription& machine, Component component,
+                        double time_s, bool after) {
+  ResidualMap map;
+  map.points = residualsAt(story, component, time_s, after);
+  std::vector<Eigen::Vector2d> around;
+  double z_mm = 0.0;
+  for (const Field::Marker& p : map.points) {
+    around.emplace_back(p.position_mm.head<2>());
+    z_mm += p.position_mm.z();
+  }
   std::vector<ScatteredValue> values;
-  const std::size_t every = (map.points.size() + most_points - 1) / most_points;
+  const std::size_t every = std::max<std::size_t>(1, (map.points.size() + most_points - 1) / most_points);
   for (std::size_t i = 0; i < map.points.size(); i += every) {
     const Field::Marker& p = map.points[i];
     if (p.sigma > 0.0) values.push_back({p.position_mm, p.value, p.sigma});

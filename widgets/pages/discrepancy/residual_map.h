@@ -21,7 +21,10 @@ struct ResidualMap {
 [[nodiscard]] std::vector<double> momentsOf(const DiscrepancyStory& story, Component component);
 /// The moment at which measured and simulated are furthest apart; an index of `momentsOf`.
 [[nodiscard]] std::size_t worstMoment(const DiscrepancyStory& story, Component component);
-/// `after`: with what was added. Plane: the mean height of the points, over the travel of X and Y.
+/// Measured minus model at the points alone. `after`: with what was added.
+[[nodiscard]] std::vector<Field::Marker> residualsAt(const DiscrepancyStory& story, Component component, double time_s,
+                                                     bool after);
+/// The same with the field between the points. Plane: the mean height of the points, over the travel of X and Y.
 [[nodiscard]] ResidualMap residualMap(const DiscrepancyStory& story, const MachineDescription& machine,
                                       Component component, double time_s, bool after);
 

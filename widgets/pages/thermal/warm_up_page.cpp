@@ -33,11 +33,13 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   drift_->setEmptyText(
       tr("Drift curves will appear here"),
       tr("Measure one point every 5 minutes while the instrument warms up: its drift shows when it has settled."));
-  drift->addWidget(drift_, 3);
+  drift_->setMinimumHeight(170);  // the title of the axis is as long
+  drift->addWidget(drift_, 1);
   verdicts_ =
       new RowsModel({tr("Axis"), tr("Drift now"), tr("Time constant"), tr("Settles after"), tr("Verdict")}, this);
-  drift->addWidget(
-      makeTable(verdicts_, tr("Drift of each axis"), tr("Drift and time constant of each axis appear here.")), 2);
+  auto* table = makeTable(verdicts_, tr("Drift of each axis"), tr("Drift and time constant of each axis appear here."));
+  table->setFixedHeight(150);  // three axes
+  drift->addWidget(table);
   tabs_->addTab(drift_tab, tr("Drift"));
   jogs_ = new ResolutionCheckPanel(
       session(),
@@ -58,7 +60,7 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   temperature_->setEmptyText(tr("Temperatures will appear here"),
                              tr("They come from log.csv of the campaign; this one has none."));
   temperature->body()->addWidget(temperature_, 1);
-  content()->addWidget(makeSplitter(instrument, temperature, 5, 3, Qt::Vertical), 1);
+  content()->addWidget(makeSplitter(instrument, temperature, 5, 2, Qt::Vertical), 1);
   showHints(drift_);
   showHints(temperature_);
   connect(confirm_, &QPushButton::clicked, this, &WarmUpPage::confirm);
