@@ -468,11 +468,6 @@ bool Plot::dragSpan(QEvent* event) {
 
 bool Plot::eventFilter(QObject* watched, QEvent* event) {
   if (watched == plot_) {
-    if (event->type() == QEvent::Resize) {  // it would draw at once, at each step of a layout
-      stale_ = true;
-      plot_->update();
-      return true;
-    }
     if (event->type() == QEvent::Paint) drawIfStale();
     if (dragSpan(event)) return true;
     if (event->type() == QEvent::MouseButtonDblClick) {

@@ -17,6 +17,11 @@
 #include "widgets/plots/plot.h"
 
 namespace spindrift::gui {
+namespace {
+
+constexpr std::size_t most_plotted_rows = 4000;
+
+}  // namespace
 
 WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::WarmUp, parent) {
@@ -86,8 +91,20 @@ void WarmUpPage::refresh() {
       if (label.startsWith(QLatin1String("T_"))) label.remove(0, 2);
       if (label.endsWith(QLatin1String("_degC"))) label.chop(5);
       s.name = label.replace(QLatin1Char('_'), QLatin1Char(' '));
-      for (const double t : time) s.x.push_back(t / unit.seconds);
-      s.y = *log.signal(name);
+      // Temperatures are slow and the plot is a thousand pixels wide: means of rows, a few thousand points a curve.
+      const std::vector<double>& values = *log.signal(name);
+      const std::size_t stride = 1 + time.size() / most_plotted_rows;
+      for (std::size_t i = 0; i < time.size(); i += stride) {
+        const std::size_t end = std::min(time.size(), i + stride);
+        double at = 0.0;
+        double value = 0.0;
+        for (std::size_t k = i; k < end; ++k) {
+          at += time[k] / static_cast<double>(end - i);
+          value += values[k] / static_cast<double>(end - i);
+        }
+        s.x.push_back(at / unit.seconds);
+        s.y.push_back(value);
+      }
       s.style = SeriesStyle::Line;
       s.colour = colour++;
       temperatures.push_back(std::move(s));
