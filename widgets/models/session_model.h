@@ -113,7 +113,8 @@ class SessionModel : public QObject {
   // Results. `kind` names what was computed ("evaluate", "fit", "check").
   void storeResult(const std::string& kind, const nlohmann::json& options, const nlohmann::json& payload);
   [[nodiscard]] std::optional<StoredResult> result(const std::string& kind) const;
-  /// The same without a copy, for large ones; null if there is none. Holds until the next change of results or campaign.
+  /// The same without a copy, for large ones; null if there is none. Holds until the next change of results or
+  /// campaign.
   [[nodiscard]] const StoredResult* latest(const std::string& kind) const;
   [[nodiscard]] ResultState state(const std::string& kind) const;
   /// The last evaluation, whether it is current or not; null if there is none.

@@ -13,10 +13,9 @@ namespace spindrift::gui {
 class SessionModel;
 
 enum class StepId { Machine, WarmUp, Capture, Calibrate, Model, Discrepancy, Compensate, Verify, Review, Report };
-inline constexpr std::array all_steps{StepId::Machine,    StepId::WarmUp, StepId::Capture,
-                                      StepId::Calibrate,  StepId::Model,  StepId::Discrepancy,
-                                      StepId::Compensate, StepId::Verify, StepId::Review,
-                                      StepId::Report};
+inline constexpr std::array all_steps{StepId::Machine, StepId::WarmUp,      StepId::Capture,    StepId::Calibrate,
+                                      StepId::Model,   StepId::Discrepancy, StepId::Compensate, StepId::Verify,
+                                      StepId::Review,  StepId::Report};
 
 enum class StepState {
   NotStarted,

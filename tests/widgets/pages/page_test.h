@@ -30,8 +30,8 @@ class PageTest : public ::testing::Test {
     ASSERT_TRUE(waitForJobs(*window_, 60));
     ASSERT_NE(window_->session().campaign(), nullptr) << window_->jobBar()->message().toStdString();
   }
-  /// Goes to a step once nothing runs any more (a session that is being opened), and waits for what its page does on its
-  /// own.
+  /// Goes to a step once nothing runs any more (a session that is being opened), and waits for what its page does on
+  /// its own.
   template <class PageType>
   PageType* go(StepId step) {
     EXPECT_TRUE(waitForJobs(*window_, 60));
