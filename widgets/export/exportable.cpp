@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QDir>
+#include <QEventLoop>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -130,20 +131,56 @@ ExportDialog::ExportDialog(std::vector<Exportable> items, const QString& folder,
   auto* buttons = new QHBoxLayout;
   buttons->addStretch();
   auto* close = new QPushButton(tr("Close"));
-  auto* write = makeButton(tr("Export"), nullptr, "primary");
-  write->setDefault(true);
+  export_ = makeButton(tr("Export"), nullptr, "primary");
+  export_->setDefault(true);
   buttons->addWidget(close);
-  buttons->addWidget(write);
+  buttons->addWidget(export_);
   column->addLayout(buttons);
   connect(close, &QPushButton::clicked, this, &QDialog::accept);
-  connect(write, &QPushButton::clicked, this, [this] { exportNow(); });
+  connect(export_, &QPushButton::clicked, this, [this] { exportNow(); });
 }
 
 QString ExportDialog::folder() const {
   return folder_->text();
 }
 
+void ExportDialog::done(int result) {
+  if (writing_) {
+    closing_ = true;
+    writer_.request_stop();
+    return;
+  }
+  QDialog::done(result);
+}
+
+void ExportDialog::write(const Exportable& item, const QString& file) {
+  if (!item.write_in_background) {
+    item.write(file);
+    return;
+  }
+  message_->show(Tone::Neutral, tr("Writing %1 … Close cancels.").arg(file));
+  QEventLoop loop;
+  std::exception_ptr failure;
+  writing_ = true;
+  export_->setEnabled(false);
+  writer_ = std::jthread([&](const std::stop_token& stop) {
+    try {
+      JobContext job(stop, nullptr);
+      item.write_in_background(file, job);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    QMetaObject::invokeMethod(&loop, &QEventLoop::quit, Qt::QueuedConnection);
+  });
+  loop.exec();
+  writer_.join();
+  writing_ = false;
+  export_->setEnabled(true);
+  if (failure != nullptr) std::rethrow_exception(failure);
+}
+
 bool ExportDialog::exportNow() {
+  if (writing_) return false;
   int count = 0;
   for (std::size_t i = 0; i < items_.size(); ++i) {
     if (list_->item(static_cast<int>(i))->checkState() != Qt::Checked) continue;
@@ -152,13 +189,18 @@ bool ExportDialog::exportNow() {
             .filePath(fileNameOf(items_[i].name) + QLatin1Char('.') + formats_[i]->currentData().toString());
     try {
       QDir().mkpath(folder_->text());
-      items_[i].write(file);
+      write(items_[i], file);
       ++count;
+    } catch (const Cancelled&) {
+      message_->show(Tone::Neutral, tr("Cancelled; files written before: %1").arg(count));
+      if (closing_) QDialog::done(QDialog::Rejected);
+      return false;
     } catch (const std::exception& e) {
       message_->show(Tone::Bad, QString::fromUtf8(e.what()));
       return false;
     }
   }
+  if (closing_) QDialog::done(QDialog::Accepted);
   message_->show(Tone::Good, tr("Files written to %1: %2").arg(folder_->text()).arg(count));
   return true;
 }

@@ -6,7 +6,10 @@
 #include <QString>
 #include <QStringList>
 #include <functional>
+#include <thread>
 #include <vector>
+
+#include "core/base/job_context.h"
 
 class QAbstractItemModel;
 class QComboBox;
@@ -25,6 +28,8 @@ struct Exportable {
   QString name;                                    ///< "Heat map EX"; also the proposed file name
   QStringList formats;                             ///< "png", "svg", "pdf", "csv", "json"; the first is proposed
   std::function<void(const QString& file)> write;  ///< throws InputError
+  /// The same for what takes long: on a worker thread, can be cancelled. May be empty.
+  std::function<void(const QString& file, JobContext& job)> write_in_background = {};
 };
 
 [[nodiscard]] Exportable exportableOf(const QString& name, const Plot* plot);
@@ -41,13 +46,20 @@ class ExportDialog : public QDialog {
   [[nodiscard]] QString folder() const;
   /// Writes the checked items; true if all were written.
   bool exportNow();
+  /// While something is being written, closing cancels that first.
+  void done(int result) override;
 
  private:
+  void write(const Exportable& item, const QString& file);
   std::vector<Exportable> items_;
   QListWidget* list_;
   std::vector<QComboBox*> formats_;
   QLineEdit* folder_;
   class Callout* message_;
+  class QPushButton* export_;
+  std::jthread writer_;
+  bool writing_ = false;
+  bool closing_ = false;
 };
 
 /// "Heat map EX" -> "heat-map-ex".

@@ -1,17 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/plots/plot.h"
 
-// QCustomPlot's header is written with Qt's lower-case keywords, which are off in this project.
-#define signals Q_SIGNALS
-#define slots Q_SLOTS
-#define emit
-#define foreach Q_FOREACH
-#include <qcustomplot.h>
-#undef signals
-#undef slots
-#undef emit
-#undef foreach
-
 #include <QEvent>
 #include <QMouseEvent>
 #include <QPainter>
@@ -26,6 +15,8 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "widgets/plots/marked_graph.h"
+#include "widgets/plots/qcustomplot_header.h"
 #include "widgets/theme/fonts.h"
 
 namespace spindrift::gui {
@@ -198,7 +189,7 @@ void Plot::rebuild() {
       top->setBrush(fill);
       top->setChannelFillGraph(bottom);
     }
-    QCPGraph* graph = plot_->addGraph();
+    auto* graph = new MarkedGraph(plot_->xAxis, plot_->yAxis);
     graph->setData(x, y);
     graph->setName(s.name);
     graph->setAdaptiveSampling(true);
@@ -254,7 +245,7 @@ void Plot::rebuild() {
     text->setPadding(QMargins(6, 2, 6, 2));
   }
   plot_->legend->setVisible(legend_ && named > 1);
-  plot_->setVisible(!series_.empty());
+  if (series_.empty()) plot_->hide();
   update();
 }
 
@@ -266,12 +257,19 @@ void Plot::replotSoon() {
   });
 }
 
+/// Lays out first and draws once. QCustomPlot draws whenever it gets a size, and a layout tries several: it gets its
+/// size here, and is shown only then.
 void Plot::drawIfStale() {
-  if (!stale_) return;
+  if (!stale_ || series_.empty()) return;
   stale_ = false;
-  plot_->setViewport(QRect(0, 0, std::max(1, plot_->width()), std::max(1, plot_->height())));
+  const QRect area(QPoint(0, 0), size().expandedTo({1, 1}));
+  plot_->setViewport(area);
   placeLegend();
-  plot_->replot(QCustomPlot::rpQueuedRefresh);
+  const bool resized = plot_->geometry() != area;
+  plot_->setGeometry(area);
+  plot_->show();
+  const bool drawn = resized && plot_->isVisible();
+  if (!drawn) plot_->replot(QCustomPlot::rpQueuedRefresh);
 }
 
 void Plot::showEvent(QShowEvent*) {
@@ -310,7 +308,7 @@ void Plot::showAll() {
 /// Into the corner that no data meet; where there is none, into a line above the axes.
 void Plot::placeLegend() {
   QCPLegend* legend = plot_->legend;
-  if (!legend->visible() || plot_->width() < 60 || plot_->height() < 60) return;
+  if (!legend->visible() || plot_->viewport().width() < 60 || plot_->viewport().height() < 60) return;
   QCPLayoutGrid* outer = plot_->plotLayout();
   QCPLayoutInset* inset = plot_->axisRect()->insetLayout();
   const auto move_inside = [&](Qt::Alignment corner) {
@@ -383,12 +381,13 @@ void Plot::placeLegend() {
     outer->insertRow(0);
     outer->addElement(0, 0, legend);
     outer->setRowStretchFactor(0, 0.001);
-    legend->setWrap(std::max(1, (plot_->width() - 24) / widest));
+    legend->setWrap(std::max(1, (plot_->viewport().width() - 24) / widest));
     legend->setFillOrder(QCPLegend::foColumnsFirst);
   }
 }
 
 void Plot::paintEvent(QPaintEvent*) {
+  drawIfStale();
   QPainter painter(this);
   painter.fillRect(rect(), theme().surface);
   if (!series_.empty()) return;
@@ -408,7 +407,6 @@ void Plot::paintEvent(QPaintEvent*) {
 }
 
 void Plot::resizeEvent(QResizeEvent*) {
-  plot_->setGeometry(QRect(QPoint(0, 0), size().expandedTo({1, 1})));
   replotSoon();
 }
 
@@ -506,8 +504,8 @@ QString Plot::csv() const {
 
 void Plot::exportTo(const QString& file) const {
   const QString lower = file.toLower();
-  const int width = std::max(plot_->width(), 640);
-  const int height = std::max(plot_->height(), 400);
+  const int width = std::max(this->width(), 640);
+  const int height = std::max(this->height(), 400);
   bool written = false;
   const_cast<Plot*>(this)->drawIfStale();
   if (lower.endsWith(QLatin1String(".csv"))) {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "widgets/jobs/job_bar.h"
+#include "widgets/pages/report/page_view.h"
+#include "widgets/pages/report/report_page.h"
 #include "widgets/shell/main_window.h"
 #include "widgets/theme/theme.h"
 #include "widgets/view3d/view3d.h"
@@ -59,6 +61,9 @@ void writeReports(const MainWindow& window, const QString& file, TourResult& res
 bool viewsBusy(const MainWindow& window) {
   for (const View3D* view : window.findChildren<View3D*>()) {
     if (view->isVisible() && view->refining()) return true;
+  }
+  for (const ReportPage* page : window.findChildren<ReportPage*>()) {
+    if (page->opening() || (page->isVisible() && page->pages()->drawing())) return true;
   }
   return false;
 }

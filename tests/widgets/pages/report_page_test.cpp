@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The report page in the real window: write, look at the pages, save as PDF and HTML, turn outdated.
 #include "widgets/pages/report/report_page.h"
+#include "widgets/pages/report/report_pages.h"
 
 #include <QImage>
 #include <QLineEdit>
@@ -99,6 +100,7 @@ TEST_F(ReportPageTest, WritesShowsAndSaves) {
 
   const QString pdf = QString::fromStdString((folder_ / "report.pdf").string());
   page_->saveTo(pdf);
+  wait();
   EXPECT_EQ(page_->callout()->tone(), Tone::Good) << page_->callout()->sentence().toStdString();
   const std::string bytes = readFile(folder_ / "report.pdf");
   EXPECT_TRUE(bytes.starts_with("%PDF-"));
@@ -110,8 +112,10 @@ TEST_F(ReportPageTest, WritesShowsAndSaves) {
   }
   EXPECT_EQ(pages, page_->document()->pageCount());
   page_->saveTo(QString::fromStdString((folder_ / "report.html").string()));
+  wait();
   EXPECT_EQ(readFile(folder_ / "report.html"), html);
   page_->saveTo(QStringLiteral("/proc/nowhere/report.pdf"));
+  wait();
   EXPECT_EQ(page_->callout()->tone(), Tone::Bad);
 }
 
@@ -144,6 +148,30 @@ TEST_F(ReportPageTest, CancelKeepsTheReportOfBefore) {
   window_->jobs().cancel();
   wait();
   EXPECT_EQ(readFile(page_->file()), before);
+}
+
+TEST_F(ReportPageTest, CancelledPdfLeavesNoFile) {
+  writeReport();
+  const QString pdf = QString::fromStdString((folder_ / "report.pdf").string());
+  page_->saveTo(pdf);
+  window_->jobs().cancel();
+  wait();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "report.pdf"));
+  EXPECT_NE(page_->callout()->tone(), Tone::Good);
+}
+
+TEST_F(ReportPageTest, IsThereAgainWhenTheSessionIsOpened) {
+  writeReport();
+  const int pages = page_->document()->pageCount();
+  const QString session = QString::fromStdString(window_->session().folder().string());
+  window_->closeSession();
+  EXPECT_EQ(page_->document(), nullptr);
+  window_->open(session);
+  wait();
+  window_->workflow().goTo(StepId::Report);
+  wait();
+  ASSERT_NE(page_->document(), nullptr);
+  EXPECT_EQ(page_->document()->pageCount(), pages);
 }
 
 }  // namespace

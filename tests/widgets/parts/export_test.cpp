@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <QFile>
+#include <QTimer>
+#include <chrono>
+#include <thread>
 
 #include "tests/support/temp_folder.h"
 #include "widgets/models/rows_model.h"
@@ -26,6 +29,30 @@ TEST(Export, TableAsCsvAndDialogWritesEveryCheckedItem) {
   QFile file(QString::fromStdString((folder / "out" / "heat-map-ex-values.csv").string()));
   ASSERT_TRUE(file.open(QIODevice::ReadOnly));
   EXPECT_EQ(file.readAll(), "Point,\"EX, um\"\nF1,12.4\n");
+}
+
+TEST(Export, WhatTakesLongIsWrittenInTheBackgroundAndClosingCancelsIt) {
+  const testing::TempFolder folder;
+  Exportable slow{QStringLiteral("slow"), {QStringLiteral("pdf")}, {}};
+  std::thread::id wrote_on;
+  slow.write_in_background = [&](const QString&, JobContext&) { wrote_on = std::this_thread::get_id(); };
+  ExportDialog dialog({slow}, QString::fromStdString(folder.path().string()));
+  EXPECT_TRUE(dialog.exportNow());
+  EXPECT_NE(wrote_on, std::thread::id());
+  EXPECT_NE(wrote_on, std::this_thread::get_id());
+
+  bool cancelled = false;
+  slow.write_in_background = [&](const QString&, JobContext& job) {
+    while (!job.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    cancelled = true;
+    job.throwIfCancelled();
+  };
+  ExportDialog stopped({slow}, QString::fromStdString(folder.path().string()));
+  stopped.show();
+  QTimer::singleShot(20, &stopped, &QDialog::reject);
+  EXPECT_FALSE(stopped.exportNow());
+  EXPECT_TRUE(cancelled);
+  EXPECT_FALSE(stopped.isVisible());
 }
 
 TEST(Export, AFolderThatCannotBeWrittenIsSaid) {

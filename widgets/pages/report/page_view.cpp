@@ -3,9 +3,12 @@
 
 #include <QPaintEvent>
 #include <QPainter>
+#include <QPixmap>
 #include <QScrollBar>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "widgets/theme/theme.h"
 
@@ -18,33 +21,52 @@ constexpr std::size_t pages_kept = 6;
 
 }  // namespace
 
-/// All pages; only those in sight are drawn, a few are kept as pictures.
+/// All pages; only those in sight are drawn, a few are kept as pictures. A page whose picture is not there yet is
+/// white, or what was there at another size.
 class PageView::Sheet : public QWidget {
  public:
-  std::shared_ptr<const ReportDocument> document;
+  std::shared_ptr<ReportPages> pages;
   double scale = 1.0;
 
+  void setPages(std::shared_ptr<ReportPages> now, int width) {
+    if (pages != nullptr) pages->disconnect(this);
+    pages = std::move(now);
+    pictures_.clear();
+    if (pages != nullptr) {
+      connect(pages.get(), &ReportPages::pageDrawn, this, [this](int page, const QImage& picture) {
+        asked_.erase(page);
+        if (!picture.isNull()) keep(page, QPixmap::fromImage(picture));
+        update();
+      });
+    }
+    arrange(width);
+  }
   void arrange(int width) {
     const double wanted = static_cast<double>(width - 2 * gap) / ReportDocument::page_width;
     scale = std::clamp(wanted, 0.3, largest_scale);
-    pictures_.clear();
-    const int pages = document != nullptr ? document->pageCount() : 0;
-    setFixedHeight(std::max(1, top(pages)));
+    if (pages != nullptr) pages->forgetRequests();
+    asked_.clear();
+    setFixedHeight(std::max(1, top(count())));
     update();
   }
+  [[nodiscard]] int count() const { return pages != nullptr ? pages->pageCount() : 0; }
+  [[nodiscard]] bool drawing() const { return !asked_.empty(); }
   [[nodiscard]] int pageHeight() const { return static_cast<int>(std::lround(ReportDocument::page_height * scale)); }
   [[nodiscard]] int top(int page) const { return gap + page * (pageHeight() + gap); }
 
  protected:
   void paintEvent(QPaintEvent* event) override {
-    if (document == nullptr) return;
     QPainter painter(this);
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
     const int page_width = static_cast<int>(std::lround(ReportDocument::page_width * scale));
     const int left = (width() - page_width) / 2;
-    for (int page = 0; page < document->pageCount(); ++page) {
+    for (int page = 0; page < count(); ++page) {
       const QRect area(left, top(page), page_width, pageHeight());
       if (!area.intersects(event->rect())) continue;
-      painter.drawPixmap(area.topLeft(), picture(page, area.size()));
+      painter.fillRect(area, Qt::white);
+      const auto found = pictures_.find(page);
+      if (found == pictures_.end() || found->second.size() != area.size() * devicePixelRatioF()) ask(page, area.size());
+      if (found != pictures_.end()) painter.drawPixmap(area, found->second);
       painter.setPen(QPen(theme().border_strong, 1));
       painter.setBrush(Qt::NoBrush);
       painter.drawRect(area.adjusted(-1, -1, 0, 0));
@@ -52,9 +74,10 @@ class PageView::Sheet : public QWidget {
   }
 
  private:
-  const QPixmap& picture(int page, const QSize& size) {
-    const auto found = pictures_.find(page);
-    if (found != pictures_.end()) return found->second;
+  void ask(int page, const QSize& size) {
+    if (asked_.insert(page).second) pages->draw(page, size, devicePixelRatioF());
+  }
+  void keep(int page, QPixmap picture) {
     if (pictures_.size() >= pages_kept) {
       // The one furthest away goes.
       const auto far = std::abs(pictures_.begin()->first - page) > std::abs(pictures_.rbegin()->first - page)
@@ -62,17 +85,10 @@ class PageView::Sheet : public QWidget {
                            : std::prev(pictures_.end());
       pictures_.erase(far);
     }
-    const double ratio = devicePixelRatioF();
-    QPixmap made(size * ratio);
-    made.setDevicePixelRatio(ratio);
-    made.fill(Qt::white);
-    QPainter painter(&made);
-    painter.scale(scale, scale);
-    document->drawPage(painter, page);
-    painter.end();
-    return pictures_.emplace(page, std::move(made)).first->second;
+    pictures_.insert_or_assign(page, std::move(picture));
   }
   std::map<int, QPixmap> pictures_;
+  std::set<int> asked_;
 };
 
 PageView::PageView(QWidget* parent) : QScrollArea(parent), sheet_(new Sheet) {
@@ -85,10 +101,13 @@ PageView::PageView(QWidget* parent) : QScrollArea(parent), sheet_(new Sheet) {
   connect(verticalScrollBar(), &QScrollBar::valueChanged, this, [this] { Q_EMIT pageChanged(currentPage()); });
 }
 
-void PageView::setDocument(std::shared_ptr<const ReportDocument> document) {
-  sheet_->document = std::move(document);
-  sheet_->arrange(viewport()->width());
+void PageView::setPages(std::shared_ptr<ReportPages> pages) {
+  sheet_->setPages(std::move(pages), viewport()->width());
   verticalScrollBar()->setValue(0);
+}
+
+bool PageView::drawing() const {
+  return sheet_->drawing();
 }
 
 void PageView::goToPage(int page) {

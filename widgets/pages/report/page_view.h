@@ -2,12 +2,10 @@
 // Pages of a report below one another, as wide as the window allows.
 #pragma once
 
-#include <QPixmap>
 #include <QScrollArea>
-#include <map>
 #include <memory>
 
-#include "widgets/pages/report/report_document.h"
+#include "widgets/pages/report/report_pages.h"
 
 namespace spindrift::gui {
 
@@ -15,8 +13,10 @@ class PageView : public QScrollArea {
   Q_OBJECT
  public:
   explicit PageView(QWidget* parent = nullptr);
-  /// Null: shows nothing.
-  void setDocument(std::shared_ptr<const ReportDocument> document);
+  /// Null: shows nothing. The pages have to be laid out.
+  void setPages(std::shared_ptr<ReportPages> pages);
+  /// True until the pages in sight are drawn.
+  [[nodiscard]] bool drawing() const;
   void goToPage(int page);
   [[nodiscard]] int currentPage() const;
 

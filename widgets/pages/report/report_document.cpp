@@ -499,7 +499,7 @@ void ReportDocument::drawPage(QPainter& painter, int page) const {
   painter.restore();
 }
 
-void ReportDocument::writePdf(const QString& file) const {
+void ReportDocument::writePdf(const QString& file, const JobContext& job) const {
   QSaveFile target(file);
   if (!target.open(QIODevice::WriteOnly)) {
     throw InputError({file.toStdString(), ""},
@@ -515,6 +515,8 @@ void ReportDocument::writePdf(const QString& file) const {
     QPainter painter(&writer);
     painter.scale(pdf_dpi / screen_dpi, pdf_dpi / screen_dpi);
     for (int page = 0; page < pageCount(); ++page) {
+      job.report(static_cast<double>(page) / pageCount(), "pages");
+      job.throwIfCancelled();
       if (page > 0) writer.newPage();
       drawPage(painter, page);
     }

@@ -10,13 +10,15 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/job_context.h"
+
 class QPainter;
 
 namespace spindrift::gui {
 
 class ReportDocument {
  public:
-  /// Throws InputError if the text is no report.
+  /// Throws InputError if the text is no report. On any thread of Qt; the document stays on it, as its fonts do.
   explicit ReportDocument(const QString& html);
   ~ReportDocument();
 
@@ -27,8 +29,8 @@ class ReportDocument {
   [[nodiscard]] int pageCount() const;
   /// One page with header and footer, always black on white.
   void drawPage(QPainter& painter, int page) const;
-  /// Throws InputError if the file cannot be written.
-  void writePdf(const QString& file) const;
+  /// Throws InputError if the file cannot be written, and Cancelled between two pages; no file is left then.
+  void writePdf(const QString& file, const JobContext& job = {}) const;
 
   struct Heading {
     QString text;

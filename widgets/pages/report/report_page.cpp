@@ -12,8 +12,10 @@
 #include <QStackedWidget>
 #include <QStandardPaths>
 #include <QTableView>
+#include <QTimer>
 #include <QUrl>
 #include <QVBoxLayout>
+#include <utility>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -22,7 +24,7 @@
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/report/page_view.h"
-#include "widgets/pages/report/report_document.h"
+#include "widgets/pages/report/report_pages.h"
 
 namespace spindrift::gui {
 namespace {
@@ -78,8 +80,9 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   // Ids of results start again in every session.
   connect(&session(), &SessionModel::campaignChanged, this, [this] {
     shown_result_ = 0;
+    opening_.reset();
     document_.reset();
-    pages_->setDocument(nullptr);
+    pages_->setPages(nullptr);
   });
   connect(write_, &QPushButton::clicked, this, &ReportPage::write);
   connect(browser_, &QPushButton::clicked, this, &ReportPage::openInBrowser);
@@ -162,14 +165,7 @@ void ReportPage::refresh() {
     const nlohmann::json then = stored->provenance.options.value("depends", nlohmann::json::object());
     operator_->setText(QString::fromStdString(then.value("operator", std::string())));
     discrepancy_->setChecked(then.value("tells_discrepancy", true));
-    try {
-      const QString html = QString::fromStdString(readFile(file()));
-      showDocument(std::make_shared<const ReportDocument>(html));
-    } catch (const InputError& e) {
-      showDocument(nullptr);
-      empty_->setTexts(tr("The report cannot be shown"), tr("Write it again. %1").arg(QString::fromUtf8(e.what())));
-      for (QPushButton* button : {browser_, save_pdf_, save_html_}) button->setEnabled(false);
-    }
+    openDocument();
   }
   nlohmann::json then = stored->provenance.options.value("depends", nlohmann::json::object());
   if (!session().state(result_kind).current || then != dependencies()) {
@@ -178,22 +174,44 @@ void ReportPage::refresh() {
   } else {
     callout()->set(Tone::Neutral, {});
   }
-  if (document_ != nullptr) {
-    facts_->setText(
-        tr("Written %1 by Spindrift %2: %3 pages, %4 figures, %5 tables.")
-            .arg(QString::fromStdString(stored->provenance.created_utc).replace(QLatin1Char('T'), QLatin1Char(' ')),
-                 QString::fromStdString(stored->provenance.program_version))
-            .arg(document_->pageCount())
-            .arg(document_->figureCount())
-            .arg(document_->tableCount()));
-  }
 }
 
-void ReportPage::showDocument(std::shared_ptr<const ReportDocument> document) {
+void ReportPage::openDocument() {
+  showDocument(nullptr);
+  empty_->setTexts(tr("Opening the report …"), {});
+  opening_ = std::make_shared<ReportPages>(file());
+  connect(opening_.get(), &ReportPages::laidOut, this, [this] {
+    const auto made = std::exchange(opening_, nullptr);
+    if (made->failure().isEmpty()) {
+      showDocument(made);
+      return;
+    }
+    QTimer::singleShot(0, this, [made] {});  // it is still telling us
+    empty_->setTexts(tr("The report cannot be shown"), tr("Write it again. %1").arg(made->failure()));
+    for (QPushButton* button : {browser_, save_pdf_, save_html_}) button->setEnabled(false);
+  });
+}
+
+void ReportPage::showFacts() {
+  const auto stored = session().result(result_kind);
+  if (document_ == nullptr || !stored) {
+    facts_->clear();
+    return;
+  }
+  facts_->setText(
+      tr("Written %1 by Spindrift %2: %3 pages, %4 figures, %5 tables.")
+          .arg(QString::fromStdString(stored->provenance.created_utc).replace(QLatin1Char('T'), QLatin1Char(' ')),
+               QString::fromStdString(stored->provenance.program_version))
+          .arg(document_->pageCount())
+          .arg(document_->figureCount())
+          .arg(document_->tableCount()));
+}
+
+void ReportPage::showDocument(std::shared_ptr<ReportPages> document) {
   document_ = std::move(document);
-  pages_->setDocument(document_);
+  pages_->setPages(document_);
   stack_->setCurrentIndex(document_ != nullptr ? 1 : 0);
-  facts_->clear();
+  showFacts();
   std::vector<Row> rows;
   if (document_ != nullptr) {
     int index = 0;
@@ -262,30 +280,23 @@ void ReportPage::askAndSave(const QString& ending, const QString& filter) {
 
 void ReportPage::saveTo(const QString& target) {
   callout()->setAction({}, {});
-  try {
-    if (document_ == nullptr) throw InputError("the report has not been written yet; write it first.");
-    if (target.endsWith(QLatin1String(".pdf"), Qt::CaseInsensitive)) {
-      document_->writePdf(target);
-    } else {
-      writeFileAtomically(target.toStdString(), readFile(file()));
-    }
-    callout()->show(Tone::Good, tr("The report was saved as %1.").arg(target));
-  } catch (const std::exception& e) {
-    callout()->show(Tone::Bad, QString::fromUtf8(e.what()));
+  if (document_ == nullptr) {
+    callout()->show(Tone::Bad, tr("The report has not been written yet; write it first."));
+    return;
   }
+  run(tr("Saving the report"), [this, source = file(), target](JobContext& progress) -> std::function<void()> {
+    saveReport(source, target, progress);
+    return [this, target] { callout()->show(Tone::Good, tr("The report was saved as %1.").arg(target)); };
+  });
 }
 
 std::vector<Exportable> ReportPage::exportables() {
   if (document_ == nullptr) return {};
-  const auto document = document_;
   const auto source = file();
-  return {{tr("Report"), {QStringLiteral("pdf"), QStringLiteral("html")}, [document, source](const QString& target) {
-             if (target.endsWith(QLatin1String(".pdf"), Qt::CaseInsensitive)) {
-               document->writePdf(target);
-             } else {
-               writeFileAtomically(target.toStdString(), readFile(source));
-             }
-           }}};
+  return {{tr("Report"),
+           {QStringLiteral("pdf"), QStringLiteral("html")},
+           [source](const QString& target) { saveReport(source, target, {}); },
+           [source](const QString& target, JobContext& job) { saveReport(source, target, job); }}};
 }
 
 }  // namespace spindrift::gui

@@ -19,7 +19,7 @@ namespace spindrift::gui {
 
 class EmptyState;
 class PageView;
-class ReportDocument;
+class ReportPages;
 class RowsModel;
 
 class ReportPage : public Page {
@@ -31,19 +31,25 @@ class ReportPage : public Page {
   [[nodiscard]] QPushButton* primaryButton() const override { return write_; }
   void runAll() override { write(); }
 
-  [[nodiscard]] const ReportDocument* document() const { return document_.get(); }
+  /// Null until the report is laid out.
+  [[nodiscard]] const ReportPages* document() const { return document_.get(); }
+  /// True while a report is being laid out.
+  [[nodiscard]] bool opening() const { return opening_ != nullptr; }
   [[nodiscard]] QLineEdit* operatorName() const { return operator_; }
   [[nodiscard]] PageView* pages() const { return pages_; }
   /// The HTML file inside the session; empty if none was written.
   [[nodiscard]] std::filesystem::path file() const;
-  /// Saves a copy by the ending, .pdf or .html, and says so.
+  /// Saves a copy by the ending, .pdf or .html, in the background, and says so when it is there.
   void saveTo(const QString& file);
 
  private:
   void write();
   void openInBrowser();
   void askAndSave(const QString& ending, const QString& filter);
-  void showDocument(std::shared_ptr<const ReportDocument> document);
+  void showDocument(std::shared_ptr<ReportPages> document);
+  /// Reads and lays out the report of the session in the background.
+  void openDocument();
+  void showFacts();
   [[nodiscard]] ReportOptions options() const;
   [[nodiscard]] nlohmann::json dependencies() const;
 
@@ -59,7 +65,8 @@ class ReportPage : public Page {
   RowsModel* sections_;
   QTableView* section_table_;
   PageView* pages_;
-  std::shared_ptr<const ReportDocument> document_;
+  std::shared_ptr<ReportPages> document_;
+  std::shared_ptr<ReportPages> opening_;
   std::int64_t shown_result_ = 0;
   bool following_ = false;
 };

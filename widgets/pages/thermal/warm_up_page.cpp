@@ -19,7 +19,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr std::size_t most_plotted_rows = 4000;
+constexpr std::size_t most_plotted_rows = 1500;
 
 }  // namespace
 
@@ -64,6 +64,7 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   temperature_ = new Plot;
   temperature_->setEmptyText(tr("Temperatures will appear here"),
                              tr("They come from log.csv of the campaign; this one has none."));
+  temperature_->setMinimumHeight(120);  // the drift above needs the room more
   temperature->body()->addWidget(temperature_, 1);
   content()->addWidget(makeSplitter(instrument, temperature, 5, 2, Qt::Vertical), 1);
   showHints(drift_);
@@ -91,7 +92,7 @@ void WarmUpPage::refresh() {
       if (label.startsWith(QLatin1String("T_"))) label.remove(0, 2);
       if (label.endsWith(QLatin1String("_degC"))) label.chop(5);
       s.name = label.replace(QLatin1Char('_'), QLatin1Char(' '));
-      // Temperatures are slow and the plot is a thousand pixels wide: means of rows, a few thousand points a curve.
+      // Temperatures are slow and the plot is a thousand pixels wide: means of rows, one point a pixel or more.
       const std::vector<double>& values = *log.signal(name);
       const std::size_t stride = 1 + time.size() / most_plotted_rows;
       for (std::size_t i = 0; i < time.size(); i += stride) {
