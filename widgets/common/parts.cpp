@@ -342,8 +342,19 @@ QSplitter* makeSplitter(QWidget* first, QWidget* second, int first_part, int sec
   return splitter;
 }
 
+namespace {
+
+/// Tabs as high as their place, whatever the texts of all their pages would need at this width: Qt lays out every page
+/// to find that out, hidden ones too, several times for each change.
+class Tabs : public QTabWidget {
+ public:
+  [[nodiscard]] bool hasHeightForWidth() const override { return false; }
+};
+
+}  // namespace
+
 QTabWidget* makeTabs() {
-  auto* tabs = new QTabWidget;
+  auto* tabs = new Tabs;
   tabs->setDocumentMode(true);
   tabs->tabBar()->setDrawBase(false);
   tabs->tabBar()->setExpanding(false);

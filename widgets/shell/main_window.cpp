@@ -32,8 +32,23 @@
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/welcome_page.h"
 #include "widgets/theme/icons.h"
+#include "widgets/view3d/prepare.h"
 
 namespace spindrift::gui {
+namespace {
+
+/// Pages fill the window, however much they hold: Qt would ask all of them that were ever shown for their smallest size
+/// and their height at every width whenever one sentence of one page changes.
+class PageStack : public QStackedWidget {
+ public:
+  [[nodiscard]] bool hasHeightForWidth() const override { return false; }
+  [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
+  [[nodiscard]] QSize minimumSizeHint() const override {
+    return currentWidget() != nullptr ? currentWidget()->minimumSizeHint() : QSize(640, 480);
+  }
+};
+
+}  // namespace
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session_) {
   setWindowIcon(applicationIcon());
@@ -80,7 +95,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   top_line->addWidget(back_);
   top_line->addWidget(next_);
   right->addWidget(top);
-  page_stack_ = new QStackedWidget;
+  page_stack_ = new PageStack;
   right->addWidget(page_stack_, 1);
   work_line->addLayout(right, 1);
   help_ = new HelpPanel;
@@ -216,6 +231,7 @@ void MainWindow::openSession(const QString& folder) {
   Job job;
   job.title = tr("Opening %1").arg(QDir(folder).dirName());
   job.work = [this, folder](JobContext&) -> std::function<void()> {
+    prepareOpenGl();
     auto loaded =
         std::make_shared<LoadedSession>(loadSession(std::make_unique<Session>(Session::open(folder.toStdString()))));
     return [this, folder, loaded] {
@@ -243,6 +259,7 @@ void MainWindow::importInBackground(const QString& title, std::function<std::fil
   Job job;
   job.title = title;
   job.work = [this, source = std::move(source), folder](JobContext& context) -> std::function<void()> {
+    prepareOpenGl();
     JobContext first = context.part(0.0, 0.8);
     const std::filesystem::path campaign_folder = source(first);
     auto session = std::make_shared<std::unique_ptr<Session>>();

@@ -13,8 +13,13 @@
 #include <vtkOpenGLState.h>
 #endif
 
+#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <utility>
+
+#include "widgets/view3d/prepare.h"
 
 namespace spindrift::gui {
 
@@ -23,6 +28,30 @@ namespace {
 
 constexpr GLenum glew_no_glx_display = 4;
 
+/// A new context on the display that all share. Any thread.
+std::pair<EGLDisplay, EGLContext> makeContext() {
+  EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
+    display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
+    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
+      throw std::runtime_error("no OpenGL: EGL has no display. Install Mesa (Debian package libgl1-mesa-dri).");
+    }
+  }
+  eglBindAPI(EGL_OPENGL_API);
+  const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint count = 0;
+  if (eglChooseConfig(display, wanted, &config, 1, &count) == EGL_FALSE || count < 1) {
+    throw std::runtime_error("no OpenGL: EGL offers no configuration for OpenGL 3.2.");
+  }
+  const EGLint attributes[] = {
+      EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+  if (context == EGL_NO_CONTEXT) throw std::runtime_error("no OpenGL: a context of version 3.2 was refused.");
+  return {display, context};
+}
+
 class OffscreenWindow : public vtkGenericOpenGLRenderWindow {
  public:
   static OffscreenWindow* New();
@@ -30,25 +59,7 @@ class OffscreenWindow : public vtkGenericOpenGLRenderWindow {
   OffscreenWindow& operator=(const OffscreenWindow&) = delete;
 
   void createContext() {
-    display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) {
-      display_ = eglGetDisplay(EGL_DEFAULT_DISPLAY);
-      if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) == EGL_FALSE) {
-        throw std::runtime_error("no OpenGL: EGL has no display. Install Mesa (Debian package libgl1-mesa-dri).");
-      }
-    }
-    eglBindAPI(EGL_OPENGL_API);
-    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
-    EGLConfig config = nullptr;
-    EGLint count = 0;
-    if (eglChooseConfig(display_, wanted, &config, 1, &count) == EGL_FALSE || count < 1) {
-      throw std::runtime_error("no OpenGL: EGL offers no configuration for OpenGL 3.2.");
-    }
-    const EGLint attributes[] = {
-        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-    context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, attributes);
-    if (context_ == EGL_NO_CONTEXT) throw std::runtime_error("no OpenGL: a context of version 3.2 was refused.");
+    std::tie(display_, context_) = makeContext();
     this->SetOwnContext(1);
     this->SetReadyForRendering(true);
     this->SetFrameBlitModeToNoBlit();
@@ -102,6 +113,18 @@ vtkSmartPointer<vtkRenderWindow> makeOffscreenWindow() {
   return window;
 }
 
+void prepareOpenGl() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    try {
+      const auto [display, context] = makeContext();
+      eglDestroyContext(display, context);
+    } catch (const std::runtime_error&) {
+      // The first view says what is missing.
+    }
+  });
+}
+
 #else
 
 vtkSmartPointer<vtkRenderWindow> makeOffscreenWindow() {
@@ -109,6 +132,8 @@ vtkSmartPointer<vtkRenderWindow> makeOffscreenWindow() {
   window->SetOffScreenRendering(1);
   return window;
 }
+
+void prepareOpenGl() {}
 
 #endif
 

@@ -1,25 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The window answers at once, within a tenth of a second or little more, while anything is opened, computed and shown:
-// 28,800 observations with a log of 30,000 rows, and the demos of all instruments.
+// The window answers within a tenth of a second while anything is opened, computed and shown: 28,800 observations with
+// a log of 30,000 rows, and the demos of all instruments.
+//
+// Judged is the processor time of the GUI thread between two looks at the event queue, the best of up to three walks:
+// caches and other programs make a walk slower, nothing makes it faster than it is.
 #include <gtest/gtest.h>
 
 #include <QLabel>
 #include <QPushButton>
 #include <QTabWidget>
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "tests/widgets/pages/story_support.h"
 #include "tests/widgets/support/event_loop_watch.h"
+#include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
+#include "widgets/pages/report/report_page.h"
 #include "widgets/shell/tour.h"
 
 namespace spindrift::gui {
 namespace {
 
-/// The aim is 100 ms; a page that is shown for the first time exceeds it somewhat.
-constexpr double aim_ms = 100.0;
-constexpr double allowed_ms = 250.0;
+constexpr double allowed_ms = 100.0;
+constexpr int most_walks = 3;
 
 class ResponsivenessTest : public StoryTest {
  protected:
@@ -32,18 +42,44 @@ class ResponsivenessTest : public StoryTest {
       watch(stepTitle(step) + QStringLiteral(", run"), [&] { window_->currentPage()->runAll(); });
     }
   }
-  void judge() {
+  /// Walks until every action was fast enough once, and says which never was.
+  void judge(const std::function<void()>& walk) {
+    std::map<std::string, double> best;
+    std::vector<std::string> order;
+    for (int i = 0; i < most_walks; ++i) {
+      if (i > 0) {
+        TearDown();
+        SetUp();
+      }
+      const std::size_t before = watch_.longest().size();
+      walk();
+      if (HasFatalFailure()) return;
+      double worst = 0.0;
+      for (std::size_t k = before; k < watch_.longest().size(); ++k) {
+        const EventLoopWatch::Turn& turn = watch_.longest()[k];
+        const auto [at, first] = best.try_emplace(turn.during.toStdString(), turn.processor_ms);
+        if (first) order.push_back(at->first);
+        at->second = std::min(at->second, turn.processor_ms);
+      }
+      for (const auto& [name, ms] : best) worst = std::max(worst, ms);
+      if (worst < allowed_ms * watch_.slowdown()) break;
+    }
     const double allowed = allowed_ms * watch_.slowdown();
-    std::printf("aim: %.0f ms, allowed: %.0f ms\n", aim_ms * watch_.slowdown(), allowed);
-    for (const EventLoopWatch::Turn& turn : watch_.longest()) {
-      std::printf("%-32s %6.0f ms (%.0f ms on the clock)\n", qPrintable(turn.during), turn.processor_ms, turn.clock_ms);
-      EXPECT_LT(turn.processor_ms, allowed) << turn.during.toStdString();
+    std::printf("allowed: %.0f ms\n", allowed);
+    for (const std::string& name : order) {
+      std::printf("%-32s %6.0f ms\n", name.c_str(), best[name]);
+      EXPECT_LT(best[name], allowed) << name;
     }
   }
   EventLoopWatch watch_;
 };
 
-TEST_F(ResponsivenessTest, StoryOfManyObservations) {
+class StoryResponsivenessTest : public ResponsivenessTest {
+ protected:
+  void walk();
+};
+
+void StoryResponsivenessTest::walk() {
   const auto campaign = writeStoryCampaign(folder_, Hidden::SpindleGrowth, true, {1600, 30'000});
   watch(QStringLiteral("import"), [&] { window_->open(QString::fromStdString(campaign.string())); });
   ASSERT_NE(window_->session().campaign(), nullptr) << window_->jobBar()->message().toStdString();
@@ -59,6 +95,11 @@ TEST_F(ResponsivenessTest, StoryOfManyObservations) {
   }
   watch(QStringLiteral("undo"), [&] { window_->undoStack().undo(); });
   watch(QStringLiteral("report again"), [&] { window_->workflow().goTo(StepId::Report); });
+  auto* report = page<ReportPage>();
+  ASSERT_NE(report, nullptr);
+  watch(QStringLiteral("save as PDF"),
+        [&] { report->saveTo(QString::fromStdString((folder_ / "report.pdf").string())); });
+  ASSERT_TRUE(std::filesystem::exists(folder_ / "report.pdf")) << report->callout()->sentence().toStdString();
   const QString session = QString::fromStdString(window_->session().folder().string());
   watch(QStringLiteral("close"), [&] { window_->closeSession(); });
   watch(QStringLiteral("open the session"), [&] { window_->open(session); });
@@ -66,16 +107,20 @@ TEST_F(ResponsivenessTest, StoryOfManyObservations) {
   for (const StepId step : all_steps) {
     watch(stepTitle(step) + QStringLiteral(", again"), [&] { window_->workflow().goTo(step); });
   }
-  judge();
+}
+
+TEST_F(StoryResponsivenessTest, ManyObservations) {
+  judge([this] { walk(); });
 }
 
 class DemoResponsivenessTest : public ResponsivenessTest, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(DemoResponsivenessTest, EveryStep) {
-  watch(QStringLiteral("open"), [&] { window_->startDemo(QString::fromLatin1(GetParam()), true); });
-  ASSERT_NE(window_->session().campaign(), nullptr) << window_->jobBar()->message().toStdString();
-  walkThroughTheSteps();
-  judge();
+  judge([this] {
+    watch(QStringLiteral("open"), [&] { window_->startDemo(QString::fromLatin1(GetParam()), true); });
+    ASSERT_NE(window_->session().campaign(), nullptr) << window_->jobBar()->message().toStdString();
+    walkThroughTheSteps();
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Demos, DemoResponsivenessTest, ::testing::Values("fiducials", "holes", "balls", "scans"),
