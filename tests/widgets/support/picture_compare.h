@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pictures of pages against kept ones: alike for the eye, not equal bit by bit.
+//
+// Both are brought to the same small size and blurred, so that another version of a font or of the renderer, which
+// moves edges by a fraction of a pixel, counts little; an empty view, another theme or a cut layout counts much.
+#pragma once
+
+#include <QImage>
+#include <QString>
+
+namespace spindrift::gui {
+
+constexpr int baseline_width = 640;
+
+/// Differences of the colour channels, 0 to 255.
+struct PictureDifference {
+  double mean = 0.0;        ///< over the whole picture
+  double worst_tile = 0.0;  ///< mean over the tile of 40 x 40 pixels that differs most
+  bool same_size = true;
+  [[nodiscard]] bool alike() const;
+  [[nodiscard]] QString text() const;
+};
+
+/// As a baseline is kept: 640 pixels wide, the most frequent colours only.
+[[nodiscard]] QImage asBaseline(const QImage& picture);
+[[nodiscard]] PictureDifference comparePictures(const QImage& baseline, const QImage& picture);
+
+}  // namespace spindrift::gui
