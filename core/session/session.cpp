@@ -139,37 +139,67 @@ Session Session::open(const std::filesystem::path& wanted) {
   return session;
 }
 
+namespace {
+
+std::string fingerprintOfSource(const std::filesystem::path& source) {
+  try {
+    return fingerprintOfFolder(source);
+  } catch (const std::filesystem::filesystem_error& failure) {
+    throw InputError({source, ""}, fmt::format("cannot be read: {}.", failure.code().message()));
+  }
+}
+
+}  // namespace
+
+StagedCampaign::StagedCampaign(const std::filesystem::path& session_folder, const std::filesystem::path& source,
+                               JobContext& job)
+    : source_(source), name_(Campaign::read(source).name), fingerprint_(fingerprintOfSource(source)) {
+  const std::filesystem::path parent = session_folder / "campaigns";
+  copy_ = parent / (".importing-" + freshFolder(parent, name_).filename().string());
+  std::error_code error;
+  std::filesystem::remove_all(copy_, error);
+  try {
+    copyFolder(source, copy_, job);
+  } catch (const std::filesystem::filesystem_error& failure) {
+    std::filesystem::remove_all(copy_, error);
+    throw InputError({source, ""}, fmt::format("cannot be copied into the session: {}.", failure.code().message()));
+  } catch (...) {
+    std::filesystem::remove_all(copy_, error);
+    throw;
+  }
+}
+
+StagedCampaign::~StagedCampaign() {
+  std::error_code ignored;
+  if (!copy_.empty()) std::filesystem::remove_all(copy_, ignored);
+}
+
 std::int64_t Session::importCampaign(const std::filesystem::path& source, JobContext& job) {
   database_->requireInPlace();
-  const Campaign checked = Campaign::read(source);
-  const std::string fingerprint = [&] {
-    try {
-      return fingerprintOfFolder(source);
-    } catch (const std::filesystem::filesystem_error& failure) {
-      throw InputError({source, ""}, fmt::format("cannot be read: {}.", failure.code().message()));
-    }
-  }();
+  const std::string fingerprint = fingerprintOfSource(source);
   for (const CampaignRecord& record : campaigns()) {
     if (record.fingerprint == fingerprint) return record.id;
   }
-  const std::filesystem::path parent = folder_ / "campaigns";
-  const std::filesystem::path target = freshFolder(parent, checked.name);
-  const std::filesystem::path working = parent / (".importing-" + target.filename().string());
-  std::error_code error;
-  std::filesystem::remove_all(working, error);
-  try {
-    copyFolder(source, working, job);
-    std::filesystem::rename(working, target);
-  } catch (const std::filesystem::filesystem_error& failure) {
-    std::filesystem::remove_all(working, error);
-    throw InputError({source, ""}, fmt::format("cannot be copied into the session: {}.", failure.code().message()));
-  } catch (...) {
-    std::filesystem::remove_all(working, error);
-    throw;
+  StagedCampaign staged(folder_, source, job);
+  return adoptCampaign(staged);
+}
+
+std::int64_t Session::adoptCampaign(StagedCampaign& staged) {
+  database_->requireInPlace();
+  for (const CampaignRecord& record : campaigns()) {
+    if (record.fingerprint == staged.fingerprint_) return record.id;
   }
-  const std::int64_t id =
-      database_->addCampaign(checked.name, std::filesystem::relative(target, folder_).generic_string(), fingerprint);
-  log(LogLevel::Info, fmt::format("imported campaign \"{}\" from {}", checked.name, source.string()));
+  const std::filesystem::path target = freshFolder(folder_ / "campaigns", staged.name_);
+  try {
+    std::filesystem::rename(staged.copy_, target);
+  } catch (const std::filesystem::filesystem_error& failure) {
+    throw InputError({staged.source_, ""},
+                     fmt::format("cannot be copied into the session: {}.", failure.code().message()));
+  }
+  staged.copy_.clear();
+  const std::int64_t id = database_->addCampaign(
+      staged.name_, std::filesystem::relative(target, folder_).generic_string(), staged.fingerprint_);
+  log(LogLevel::Info, fmt::format("imported campaign \"{}\" from {}", staged.name_, staged.source_.string()));
   return id;
 }
 

@@ -61,6 +61,24 @@ struct Note {
   std::string created_utc;
 };
 
+/// A campaign that has been checked and copied into a session's folder, and is not part of it yet. Takes its copy away
+/// again if it never becomes one.
+class StagedCampaign {
+ public:
+  /// Any thread. Throws InputError, Cancelled; leaves no trace then.
+  StagedCampaign(const std::filesystem::path& session_folder, const std::filesystem::path& source, JobContext& job);
+  StagedCampaign(const StagedCampaign&) = delete;
+  StagedCampaign& operator=(const StagedCampaign&) = delete;
+  ~StagedCampaign();
+
+ private:
+  friend class Session;
+  std::filesystem::path source_;
+  std::filesystem::path copy_;
+  std::string name_;
+  std::string fingerprint_;
+};
+
 class SessionDatabase;
 class SessionLock;
 
@@ -93,6 +111,8 @@ class Session {
   /// Checks a campaign folder by reading it and copies it into the session. Cancelling leaves no trace. A campaign with
   /// the same content is not imported twice: its existing id is returned.
   std::int64_t importCampaign(const std::filesystem::path& source, JobContext& job);
+  /// Makes a staged campaign one of this session, quickly: the second half of an import.
+  std::int64_t adoptCampaign(StagedCampaign& staged);
   /// A new, empty campaign inside the session for capturing into; `machine_json` is the text of machine.json.
   std::int64_t newCampaign(const std::string& name, const std::string& start_utc, const std::string& machine_json);
   [[nodiscard]] std::vector<CampaignRecord> campaigns() const;

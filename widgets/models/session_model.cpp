@@ -123,12 +123,6 @@ void SessionModel::take(LoadedSession loaded) {
   evaluation_ = std::move(loaded.evaluation);
 }
 
-std::unique_ptr<Session> SessionModel::release() {
-  std::unique_ptr<Session> out = std::move(session_);
-  close();
-  return out;
-}
-
 void SessionModel::selectCampaign(std::int64_t id) {
   load(id);
   setSetting("campaign", id);

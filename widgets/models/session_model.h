@@ -88,8 +88,6 @@ class SessionModel : public QObject {
   /// Takes over a session that a job has made or added a campaign to.
   void adopt(LoadedSession loaded);
   void adopt(std::unique_ptr<Session> session, std::int64_t campaign);
-  /// Hands the session to a job; until it comes back through adopt() nothing is open.
-  [[nodiscard]] std::unique_ptr<Session> release();
   void selectCampaign(std::int64_t id);
   [[nodiscard]] std::vector<CampaignRecord> campaigns() const;
   [[nodiscard]] std::int64_t campaignId() const { return campaign_id_; }

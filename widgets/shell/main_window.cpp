@@ -291,6 +291,30 @@ void MainWindow::openCampaign(const QString& folder) {
       tr("Importing %1").arg(QDir(folder).dirName()), [path](JobContext&) { return path; }, QDir(folder).dirName());
 }
 
+void MainWindow::addCampaign(const QString& folder) {
+  if (!session_.isOpen()) {
+    tell(tr("Open a session first; a campaign is added to it."));
+    return;
+  }
+  const std::filesystem::path session_folder = session_.folder();
+  Job job;
+  job.title = tr("Adding %1").arg(QDir(folder).dirName());
+  job.work = [this, session_folder,
+              source = std::filesystem::path(folder.toStdString())](JobContext& context) -> std::function<void()> {
+    auto staged = std::make_shared<StagedCampaign>(session_folder, source, context);
+    return [this, session_folder, staged] {
+      if (session_.folder() != session_folder) return;  // another one was opened meanwhile
+      try {
+        session_.selectCampaign(session_.session()->adoptCampaign(*staged));
+      } catch (const InputError& e) {
+        tell(QString::fromUtf8(e.what()));
+      }
+    };
+  };
+  job.failed = [this](const QString& sentence) { tell(sentence); };
+  jobs_.run(std::move(job));
+}
+
 void MainWindow::openLog(const QString& file) {
   const std::filesystem::path csv = file.toStdString();
   auto place = std::make_shared<QTemporaryDir>();

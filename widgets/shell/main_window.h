@@ -37,6 +37,8 @@ class MainWindow : public QMainWindow {
   void openSession(const QString& folder);
   /// Makes a new session in the user's folder and imports the campaign (in the background).
   void openCampaign(const QString& folder);
+  /// Copies a campaign into the session that is open (in the background) and shows it; the others stay.
+  void addCampaign(const QString& folder);
   void openLog(const QString& file);  ///< a CSV with columns over time becomes a campaign of its own
   /// Opens a folder of either kind.
   void open(const QString& folder);

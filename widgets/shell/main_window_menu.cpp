@@ -42,6 +42,10 @@ void MainWindow::buildMenu() {
       [this] { Q_EMIT welcome_->openSession(); });
   add(session_menu, tr("Open &campaign folder …"), "folder-open", QKeySequence(tr("Ctrl+Shift+O")),
       [this] { Q_EMIT welcome_->openCampaign(); });
+  add(session_menu, tr("&Add a campaign to this session …"), "plus", QKeySequence(tr("Ctrl+Shift+A")), [this] {
+    const QString folder = QFileDialog::getExistingDirectory(this, tr("Choose the campaign folder to be added"));
+    if (!folder.isEmpty()) addCampaign(folder);
+  });
   add(session_menu, tr("Open &log …"), "folder-open", QKeySequence(tr("Ctrl+L")), [this] {
     const QString file = QFileDialog::getOpenFileName(this, tr("Open a log over time"), {}, tr("Log (*.csv)"));
     if (!file.isEmpty()) openLog(file);
