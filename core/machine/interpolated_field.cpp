@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -98,6 +99,30 @@ PredictedComponent InterpolatedField::predict(const DeviationQuery& query, Compo
     square += p.weight * (std::max(0.0, variance) + value * value);
   }
   return {mean, std::sqrt(std::max(0.0, square - mean * mean))};
+}
+
+bool spreadsOverPlane(const std::vector<ScatteredValue>& values) {
+  if (values.size() < 3) return false;
+  Eigen::MatrixX2d places(static_cast<Index>(values.size()), 2);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    places.row(static_cast<Index>(i)) = values[i].position_mm.head<2>().transpose();
+  }
+  places.rowwise() -= places.colwise().mean().eval();
+  const Eigen::Vector2d extent = Eigen::JacobiSVD<Eigen::MatrixX2d>(places).singularValues();
+  return extent[1] > 0.02 * extent[0];
+}
+
+Field fieldBetween(Component component, const std::vector<ScatteredValue>& values, const FieldGrid& grid,
+                   std::size_t most_points) {
+  SPINDRIFT_ASSERT(spreadsOverPlane(values), "places that do not spread over a plane");
+  const std::size_t every = std::max<std::size_t>(1, (values.size() + most_points - 1) / most_points);
+  std::vector<ScatteredValue> thinned;
+  std::vector<Eigen::Vector2d> around;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    around.emplace_back(values[i].position_mm.head<2>());
+    if (i % every == 0) thinned.push_back(values[i]);
+  }
+  return evaluateField(InterpolatedField(component, std::move(thinned)), grid, component, {}, around);
 }
 
 }  // namespace spindrift

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/machine/error_model.h"
+#include "core/machine/field.h"
 
 namespace spindrift {
 
@@ -53,5 +54,14 @@ class InterpolatedField : public ErrorModel {
   std::vector<ScatteredValue> values_;
   std::vector<Process> processes_;  ///< weights sum to 1
 };
+
+/// Whether places spread over the plane of X and Y: at least three, and not along one line.
+[[nodiscard]] bool spreadsOverPlane(const std::vector<ScatteredValue>& values);
+
+/// The field between measured values over a grid, with these as its markers; nodes outside their convex hull are marked
+/// as extrapolated. Of more than `most_points` values every n-th is used: more say no more about a smooth field, and
+/// cost their number cubed. The places spread over the plane.
+[[nodiscard]] Field fieldBetween(Component component, const std::vector<ScatteredValue>& values, const FieldGrid& grid,
+                                 std::size_t most_points = 40);
 
 }  // namespace spindrift

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "core/discrepancy/effect_model.h"
 #include "core/math/distributions.h"
 
 namespace spindrift {
@@ -106,6 +107,8 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
     sigmas[at->second].push_back(o.sigma);
     if (model != nullptr) {
       s.completed.push_back(model->completed[i]);
+      s.completed_sigma.push_back(std::hypot(model->model->predict(DeviationQuery::of(o), o.component).sigma,
+                                             input.simulation_gain_uncertainty * search.simulated[i]));
       s.constant_after = model->constant[i];
     }
   }
@@ -206,6 +209,7 @@ nlohmann::json seriesJson(const DiscrepancySeries& s) {
           {"value", s.value},
           {"simulated", s.simulated},
           {"completed", numbers(s.completed)},
+          {"completed_sigma", numbers(s.completed_sigma)},
           {"explained", numbers(s.explained)},
           {"held_out", s.held_out},
           {"constants", {jsonNumber(s.constant_before), jsonNumber(s.constant_after)}},
@@ -224,6 +228,9 @@ DiscrepancySeries seriesOf(const nlohmann::json& json) {
   s.value = numbersOf(json.at("value"));
   s.simulated = numbersOf(json.at("simulated"));
   s.completed = numbersOf(json.at("completed"));
+  // Stories of earlier versions do not hold it.
+  s.completed_sigma = json.contains("completed_sigma") ? numbersOf(json.at("completed_sigma"))
+                                                       : std::vector<double>(s.completed.size(), nan);
   s.explained = numbersOf(json.at("explained"));
   s.held_out = json.at("held_out").get<std::vector<bool>>();
   const std::vector<double> constants = numbersOf(json.at("constants"));

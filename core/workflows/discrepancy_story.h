@@ -27,9 +27,10 @@ struct DiscrepancySeries {
   Component component = Component::EX;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< mean
   std::vector<double> time_s;
-  std::vector<double> value;      ///< as observed
-  std::vector<double> simulated;  ///< as given
-  std::vector<double> completed;  ///< empty while nothing has been added
+  std::vector<double> value;            ///< as observed
+  std::vector<double> simulated;        ///< as given
+  std::vector<double> completed;        ///< empty while nothing has been added
+  std::vector<double> completed_sigma;  ///< standard uncertainty of it, gain of the simulation included
   /// What all effects found, added or not, explain of value - simulated - constant_before; empty if there are none.
   std::vector<double> explained;
   std::vector<bool> held_out;

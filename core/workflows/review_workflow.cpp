@@ -6,12 +6,42 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 
 #include "core/base/error.h"
+#include "core/machine/interpolated_field.h"
 #include "core/workflows/fit_campaign.h"
 
 namespace spindrift {
 namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+using PlacedValues = std::map<std::pair<std::string, Component>, ReviewValue>;
+
+/// Mean per point and component over the rows of a state, of the observations or of a prediction. The sigma of repeated
+/// measurements falls with their number; a model errs alike in all.
+PlacedValues meansOf(const ObservationSet& observations, const std::string& state, const ReviewPrediction* prediction) {
+  std::map<std::pair<std::string, Component>, double> counts;
+  PlacedValues means;
+  for (std::size_t r = 0; r < observations.rows.size(); ++r) {
+    const Observation& o = observations.rows[r];
+    if (o.state != state) continue;
+    const double value = prediction == nullptr ? o.value : prediction->value[r];
+    const double sigma = prediction == nullptr ? o.sigma : prediction->sigma[r];
+    if (!std::isfinite(value)) continue;
+    ReviewValue& mean = means[{o.point, o.component}];
+    mean.value += value;
+    mean.sigma = prediction == nullptr ? std::hypot(mean.sigma, sigma) : mean.sigma + sigma;
+    counts[{o.point, o.component}] += 1.0;
+  }
+  for (auto& [place, mean] : means) {
+    mean.value /= counts[place];
+    mean.sigma /= counts[place];
+  }
+  return means;
+}
 
 /// Changes of a state from the reference, by point.
 std::vector<ReviewPoint> measuredPoints(const ObservationSet& observations, const std::string& state) {
@@ -19,29 +49,22 @@ std::vector<ReviewPoint> measuredPoints(const ObservationSet& observations, cons
   if (std::find(states.begin(), states.end(), state) == states.end())
     throw InputError(
         fmt::format("State '{}' is not among the observations; allowed: one of {}.", state, states.size()));
-  const std::string& reference = states.front();
+  const PlacedValues now = meansOf(observations, state, nullptr);
+  const PlacedValues cold = state == states.front() ? PlacedValues() : meansOf(observations, states.front(), nullptr);
   std::vector<ReviewPoint> points;
-  const auto place = [&](const std::string& id) -> ReviewPoint* {
-    const auto at = std::find_if(points.begin(), points.end(), [&](const ReviewPoint& p) { return p.id == id; });
-    return at == points.end() ? nullptr : &*at;
-  };
+  std::map<std::string, std::size_t> index;
   for (const Observation& o : observations.rows) {
     if (o.state != state) continue;
-    ReviewPoint* p = place(o.point);
-    if (p == nullptr) {
-      points.push_back({o.point, o.position_mm, true, {}});
-      p = &points.back();
-    }
-    p->used = p->used && o.use == ObservationUse::Fit;
-    p->components[o.component] = {o.value, o.sigma};
-  }
-  if (state == reference) return points;
-  for (const Observation& o : observations.rows) {
-    if (o.state != reference) continue;
-    ReviewPoint* p = place(o.point);
-    if (p == nullptr || !p->components.contains(o.component)) continue;
-    ReviewValue& v = p->components[o.component];
-    v = {v.value - o.value, std::hypot(v.sigma, o.sigma)};
+    const auto [at, fresh] = index.try_emplace(o.point, points.size());
+    if (fresh) points.push_back({o.point, o.position_mm, true, {}});
+    ReviewPoint& p = points[at->second];
+    p.used = p.used && o.use == ObservationUse::Fit;
+    const auto here = now.find({o.point, o.component});
+    if (here == now.end()) continue;
+    ReviewValue v = here->second;
+    if (const auto before = cold.find(here->first); before != cold.end())
+      v = {v.value - before->second.value, std::hypot(v.sigma, before->second.sigma)};
+    p.components[o.component] = v;
   }
   return points;
 }
@@ -59,11 +82,8 @@ void findLargest(ReviewPicture& picture) {
       picture.largest = std::max(picture.largest, std::abs(picture.field->value[i]));
 }
 
-FieldGrid gridOf(const MachineDescription& machine, const NineParameterFit& fit, int nodes) {
-  double z = 0.0;
-  for (const NineParameterResidual& r : fit.residuals)
-    z += r.position_mm.z() / static_cast<double>(fit.residuals.size());
-  FieldGrid grid = tableGrid(machine, nodes, nodes, z);
+FieldGrid gridOf(const MachineDescription& machine, double z_mm, int nodes) {
+  FieldGrid grid = tableGrid(machine, nodes, nodes, z_mm);
   const double x = grid.x_to_mm - grid.x_from_mm, y = grid.y_to_mm - grid.y_from_mm;
   grid.nx = std::max(2, static_cast<int>(std::lround(nodes * x / std::max(x, y))));
   grid.ny = std::max(2, static_cast<int>(std::lround(nodes * y / std::max(x, y))));
@@ -80,7 +100,7 @@ void applyModel(ReviewPicture& picture, const NineParameterFit& fit, bool residu
     for (auto& [component, v] : p.components) {
       const PredictedComponent predicted = model.predict(here, component);
       if (!std::isfinite(predicted.sigma)) {
-        v = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+        v = {nan, nan};
       } else if (residual) {
         v.value -= predicted.value;  // sigma stays that of the measurement
       } else {
@@ -90,40 +110,149 @@ void applyModel(ReviewPicture& picture, const NineParameterFit& fit, bool residu
   }
 }
 
-const char* nameOf(ReviewQuantity quantity) {
-  return quantity == ReviewQuantity::Measured ? "measured" : quantity == ReviewQuantity::Model ? "model" : "residual";
+/// The nine parameters in place of the measured values, or what they leave; with their heat map.
+void showNineParameters(ReviewPicture& picture, const ObservationSet& observations, const MachineDescription& machine,
+                        const ReviewRequest& request) {
+  try {
+    NineParameterOptions options;
+    options.state = request.state;
+    const NineParameterFit fit = fitNineParameters(observations, options);
+    if (fit.status == FitStatus::Rejected) throw InputError(fit.message);
+    applyModel(picture, fit, request.quantity == ReviewQuantity::NineParametersLeft);
+    if (request.quantity != ReviewQuantity::NineParameters) return;
+    double z = 0.0;
+    for (const NineParameterResidual& r : fit.residuals)
+      z += r.position_mm.z() / static_cast<double>(fit.residuals.size());
+    picture.field = tableField(fit, fit.model(), gridOf(machine, z, std::max(2, request.nodes)), request.component);
+    picture.field->markers.clear();
+    const auto& s = picture.field->sigma;
+    if (std::none_of(s.begin(), s.end(), [](double v) { return std::isfinite(v); })) {
+      picture.field.reset();
+      picture.message = fmt::format("{} has no heat map: {}", toString(request.component), fit.message);
+    }
+  } catch (const InputError& error) {
+    picture.points.clear();
+    picture.message = fmt::format("No model of {}: {}", request.state, error.what());
+  }
+}
+
+/// A prediction in place of the measured values, or what it leaves of them. Values of the reference are as they are.
+void showPrediction(ReviewPicture& picture, const ObservationSet& observations, const ReviewRequest& request,
+                    const ReviewPrediction* prediction) {
+  if (prediction == nullptr || prediction->value.empty()) {
+    picture.points.clear();
+    picture.message = prediction == nullptr ? std::string("There is no such model.") : prediction->why;
+    return;
+  }
+  const bool left =
+      request.quantity == ReviewQuantity::SimulationLeft || request.quantity == ReviewQuantity::CompletedLeft;
+  const std::string reference = observations.states().front();
+  const PlacedValues now = meansOf(observations, request.state, prediction);
+  const PlacedValues cold = request.state == reference ? PlacedValues() : meansOf(observations, reference, prediction);
+  for (ReviewPoint& p : picture.points) {
+    for (auto& [component, v] : p.components) {
+      const auto here = now.find({p.id, component});
+      ReviewValue model = here == now.end() ? ReviewValue{nan, nan} : here->second;
+      if (const auto before = cold.find({p.id, component}); before != cold.end()) {
+        // What a gain of the model is uncertain by moves both alike: the change is as uncertain as the larger part.
+        model = {model.value - before->second.value, std::max(model.sigma, before->second.sigma)};
+      }
+      if (left)
+        v.value -= model.value;  // sigma stays that of the measurement
+      else
+        v = model;
+    }
+  }
+}
+
+/// A field between the points that took part.
+void addFieldBetween(ReviewPicture& picture, const MachineDescription& machine, int nodes) {
+  std::vector<ScatteredValue> values;
+  double largest = 0.0, z = 0.0;
+  for (const ReviewPoint& p : picture.points) {
+    const auto v = p.components.find(picture.component);
+    if (v == p.components.end() || !p.used || !std::isfinite(v->second.value)) continue;
+    values.push_back({p.position_mm, v->second.value, v->second.sigma});
+    largest = std::max(largest, std::abs(v->second.value));
+    z += p.position_mm.z();
+  }
+  if (!spreadsOverPlane(values)) return;
+  // A prediction may state no uncertainty; a field needs some.
+  const double least = std::max(1e-4, 1e-3 * largest);
+  for (ScatteredValue& v : values) v.sigma = std::isfinite(v.sigma) ? std::max(v.sigma, least) : least;
+  picture.field = fieldBetween(picture.component, values,
+                               gridOf(machine, z / static_cast<double>(values.size()), std::max(2, nodes / 2)));
 }
 
 }  // namespace
 
+std::string_view toString(ReviewQuantity quantity) noexcept {
+  switch (quantity) {
+    case ReviewQuantity::Measured:
+      return "measured";
+    case ReviewQuantity::NineParameters:
+      return "nine parameters";
+    case ReviewQuantity::NineParametersLeft:
+      return "measured minus nine parameters";
+    case ReviewQuantity::Simulation:
+      return "simulation";
+    case ReviewQuantity::SimulationLeft:
+      return "measured minus simulation";
+    case ReviewQuantity::Completed:
+      return "simulation with effects";
+    case ReviewQuantity::CompletedLeft:
+      return "measured minus simulation with effects";
+  }
+  return "";
+}
+
+ReviewPrediction reviewSimulation(const Campaign& campaign, const ObservationSet& observations) {
+  ReviewPrediction out;
+  try {
+    out.value = discrepancyInput(campaign, observations).predicted;
+    for (const double v : out.value) out.sigma.push_back(campaign.simulation_gain_uncertainty * std::abs(v));
+  } catch (const InputError& error) {
+    out.why = error.what();
+  }
+  return out;
+}
+
+ReviewPrediction reviewCompleted(const DiscrepancyStory& story, const ObservationSet& observations) {
+  ReviewPrediction out;
+  if (story.added.empty()) {
+    out.why = "No effect has been added to the simulation yet.";
+    return out;
+  }
+  std::map<std::tuple<std::string, Component, double>, ReviewValue> known;
+  for (const DiscrepancySeries& s : story.series)
+    for (std::size_t i = 0; i < s.completed.size(); ++i)
+      known[{s.point, s.component, s.time_s[i]}] = {s.completed[i], s.completed_sigma[i]};
+  for (const Observation& o : observations.rows) {
+    const auto at = known.find({o.point, o.component, o.time_s});
+    out.value.push_back(at == known.end() ? nan : at->second.value);
+    out.sigma.push_back(at == known.end() ? nan : at->second.sigma);
+  }
+  return out;
+}
+
 ReviewPicture reviewOf(const ObservationSet& observations, const MachineDescription& machine,
-                       const ReviewRequest& request) {
+                       const ReviewRequest& request, const ReviewPrediction* prediction) {
   ReviewPicture picture;
   picture.component = request.component;
-  picture.title = fmt::format("{} {}", request.state, nameOf(request.quantity));
+  picture.title = fmt::format("{} {}", request.state, toString(request.quantity));
   picture.points = measuredPoints(observations, request.state);
-  if (request.quantity != ReviewQuantity::Measured) {
-    try {
-      NineParameterOptions options;
-      options.state = request.state;
-      const NineParameterFit fit = fitNineParameters(observations, options);
-      if (fit.status == FitStatus::Rejected) throw InputError(fit.message);
-      applyModel(picture, fit, request.quantity == ReviewQuantity::Residual);
-      if (request.quantity == ReviewQuantity::Model) {
-        picture.field =
-            tableField(fit, fit.model(), gridOf(machine, fit, std::max(2, request.nodes)), request.component);
-        picture.field->markers.clear();
-        const auto& s = picture.field->sigma;
-        if (std::none_of(s.begin(), s.end(), [](double v) { return std::isfinite(v); })) {
-          picture.field.reset();
-          picture.message = fmt::format("{} has no heat map: {}", toString(request.component), fit.message);
-        }
-      }
-    } catch (const InputError& error) {
-      picture.points.clear();
-      picture.message = fmt::format("No model of {}: {}", request.state, error.what());
-    }
+  switch (request.quantity) {
+    case ReviewQuantity::Measured:
+      break;
+    case ReviewQuantity::NineParameters:
+    case ReviewQuantity::NineParametersLeft:
+      showNineParameters(picture, observations, machine, request);
+      break;
+    default:
+      showPrediction(picture, observations, request, prediction);
   }
+  if (request.heat_map && request.quantity != ReviewQuantity::NineParameters)
+    addFieldBetween(picture, machine, request.nodes);
   findLargest(picture);
   return picture;
 }

@@ -2,9 +2,11 @@
 // Thermal states, models and campaigns side by side: what one pane of a review shows, the difference of two of them,
 // and a section through them.
 //
-// Values of a state are changes from the first state of the campaign (the reference), um or urad, MCF. The heat map of
-// a state is its nine-parameter model over the table; where the points of a state do not determine it there are only
-// points. A difference is `b` minus `a`; both are taken as independent, so that sigma^2 = sigma_a^2 + sigma_b^2.
+// Values of a state are changes from the first state of the campaign (the reference), um or urad, MCF; so are those of
+// models. Three kinds of models are shown: the nine parameters of the state, the simulation that the campaign names,
+// and this simulation with the effects that were added to it. The heat map of the nine parameters is the model over the
+// table; every other heat map is a field between the points (kriging, core/machine/interpolated_field.h), where these
+// spread over the plane. A difference is `b` minus `a`; both are taken as independent: sigma^2 = sigma_a^2 + sigma_b^2.
 #pragma once
 
 #include <map>
@@ -16,21 +18,41 @@
 #include "core/machine/machine_description.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/machine/observation.h"
+#include "core/workflows/discrepancy_story.h"
 
 namespace spindrift {
 
 enum class ReviewQuantity {
-  Measured,  ///< the points as measured
-  Model,     ///< heat map of the model and its value at the points
-  Residual,  ///< measured minus model at the points
+  Measured,
+  NineParameters,
+  NineParametersLeft,  ///< measured minus nine parameters
+  Simulation,
+  SimulationLeft,
+  Completed,  ///< simulation with the effects added
+  CompletedLeft,
 };
+/// "measured", "nine parameters", "measured minus simulation".
+[[nodiscard]] std::string_view toString(ReviewQuantity quantity) noexcept;
 
 struct ReviewRequest {
   std::string state;
   ReviewQuantity quantity = ReviewQuantity::Measured;
   Component component = Component::EX;
-  int nodes = 81;  ///< of the longer side of the heat map
+  int nodes = 81;         ///< of the longer side of a model's heat map; between points half of it
+  bool heat_map = false;  ///< also between points; that of the nine parameters is always there
 };
+
+/// What a model says for every row of the observations, um or urad; NaN where it says nothing. Empty `value`: there is
+/// no such model, and `why` is the reason.
+struct ReviewPrediction {
+  std::vector<double> value;
+  std::vector<double> sigma;
+  std::string why;
+};
+/// The simulation that the campaign names.
+[[nodiscard]] ReviewPrediction reviewSimulation(const Campaign& campaign, const ObservationSet& observations);
+/// The completed model of a discrepancy, matched by point, component and time.
+[[nodiscard]] ReviewPrediction reviewCompleted(const DiscrepancyStory& story, const ObservationSet& observations);
 
 /// A value at a point; sigma is one standard uncertainty.
 struct ReviewValue {
@@ -55,9 +77,10 @@ struct ReviewPicture {
   double largest = 0.0;        ///< |value| of the component over points and determined nodes
 };
 
-/// Points and, with quantity Model, the heat map of one state. Throws InputError for a state that does not exist.
+/// Points and heat map of one state. `prediction` is of the model asked for; not used for measured values and the nine
+/// parameters. Throws InputError for a state that does not exist.
 [[nodiscard]] ReviewPicture reviewOf(const ObservationSet& observations, const MachineDescription& machine,
-                                     const ReviewRequest& request);
+                                     const ReviewRequest& request, const ReviewPrediction* prediction = nullptr);
 
 /// b minus a: at the points both have, and over the grid if both have a heat map of the same component.
 [[nodiscard]] ReviewPicture reviewDifference(const ReviewPicture& a, const ReviewPicture& b);

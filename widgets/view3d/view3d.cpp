@@ -18,6 +18,9 @@ namespace {
 
 constexpr int rest_before_refining_ms = 120;
 constexpr double edge_label_px = 20;
+/// Views lower than this give the notes at the top a place of their own, two lines.
+constexpr int low_view_px = 360;
+constexpr double notes_px = 36;
 /// Shifts of the pictures that are averaged, pixels (a rotated grid).
 const std::array<QPointF, 4> smooth_shifts{QPointF(-0.125, -0.375), QPointF(0.375, -0.125), QPointF(0.125, 0.375),
                                            QPointF(-0.375, 0.125)};
@@ -215,6 +218,13 @@ void View3D::shareCamera() {
 }
 
 void View3D::fitCamera(const QSize& size) {
+  // A view that joins others looks as these do.
+  for (const QPointer<View3D>& other : linked_) {
+    if (other == nullptr || !other->fitted_ || !other->isVisible() || other->empty()) continue;
+    camera_ = other->camera_;
+    fitted_ = true;
+    return;
+  }
   auto box = scene_->bounds();
   for (const ViewPoint& point : points_) {
     if (!box) box = {point.position_mm, point.position_mm};
@@ -225,11 +235,13 @@ void View3D::fitCamera(const QSize& size) {
   // The colour bar gets a place of its own.
   const double bar = reservedRight(size);
   // And so do the numbers along the table's edges.
+  // In a low view the notes would cover what is drawn.
+  const double top = size.height() < low_view_px ? notes_px : 0.0;
   const QSizeF free(std::max(40.0, size.width() - bar - 2 * edge_label_px),
-                    std::max(40.0, size.height() - 2.0 * edge_label_px));
+                    std::max(40.0, size.height() - top - 2.0 * edge_label_px));
   camera_.fit(box->first, box->second, free);
   camera_.half_height_mm *= size.height() / free.height();
-  camera_.pan(QPointF(-bar / 2, 0), QSizeF(size));
+  camera_.pan(QPointF(-bar / 2, top / 2), QSizeF(size));
   fitted_ = true;
   // Linked views that nobody has turned yet look at the same.
   for (const QPointer<View3D>& other : linked_) {
@@ -367,12 +379,15 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size) const {
   if (field_ != nullptr && field_style_.relief_exaggeration > 0) {
     notes << tr("Height %1 times larger").arg(QString::number(field_style_.relief_exaggeration, 'f', 0));
   }
-  if (field_ != nullptr && field_style_.significance > 0 && !field_->sigma.empty()) {
-    notes << tr("Faded: within %1 standard uncertainties of zero").arg(QString::number(field_style_.significance));
-  }
-  if (field_ != nullptr &&
-      std::find(field_->extrapolated.begin(), field_->extrapolated.end(), true) != field_->extrapolated.end()) {
-    notes << tr("Striped: outside the measured points");
+  const bool faded = field_ != nullptr && field_style_.significance > 0 && !field_->sigma.empty();
+  const bool striped = field_ != nullptr && std::find(field_->extrapolated.begin(), field_->extrapolated.end(), true) !=
+                                                field_->extrapolated.end();
+  const QString significance = QString::number(field_style_.significance);
+  if (size.height() < low_view_px && faded && striped) {
+    notes << tr("Faded: within %1 σ of zero; striped: outside the points").arg(significance);
+  } else {
+    if (faded) notes << tr("Faded: within %1 standard uncertainties of zero").arg(significance);
+    if (striped) notes << tr("Striped: outside the measured points");
   }
   if (!notes.isEmpty()) {
     painter.setFont(textFont(sizes::font_secondary));

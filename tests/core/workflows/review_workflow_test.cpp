@@ -42,25 +42,25 @@ TEST(Review, AStateIsTheChangeFromTheReference) {
 }
 
 TEST(Review, ModelAndResidualFollowTheNineParameters) {
-  const ReviewPicture model = reviewOf(states(9), table(), {"M2", ReviewQuantity::Model, Component::EX});
+  const ReviewPicture model = reviewOf(states(9), table(), {"M2", ReviewQuantity::NineParameters, Component::EX});
   ASSERT_TRUE(model.field.has_value()) << model.message;
   EXPECT_NEAR(model.points[2].components.at(Component::EX).value, 5.4, 1e-6);
-  const ReviewPicture rest = reviewOf(states(9), table(), {"M2", ReviewQuantity::Residual, Component::EX});
+  const ReviewPicture rest = reviewOf(states(9), table(), {"M2", ReviewQuantity::NineParametersLeft, Component::EX});
   EXPECT_LT(rest.largest, 1e-6);
   const ReviewSection section = reviewSection(*model.field, true, 77.7);
   ASSERT_EQ(section.place_mm.size(), static_cast<std::size_t>(model.field->grid.nx));
   for (std::size_t i = 0; i < section.place_mm.size(); ++i)
     EXPECT_NEAR(section.value[i], 2.0 * section.place_mm[i] / 100.0, 1e-6);
   // One point determines no heat map: that is said, nothing is invented.
-  const ReviewPicture one = reviewOf(states(1), table(), {"M2", ReviewQuantity::Model, Component::EX});
+  const ReviewPicture one = reviewOf(states(1), table(), {"M2", ReviewQuantity::NineParameters, Component::EX});
   EXPECT_FALSE(one.field.has_value());
   EXPECT_FALSE(one.message.empty());
 }
 
 TEST(Review, DifferenceIsTheSecondMinusTheFirst) {
   const ObservationSet all = states(9);
-  const ReviewPicture a = reviewOf(all, table(), {"M1", ReviewQuantity::Model, Component::EX});
-  const ReviewPicture b = reviewOf(all, table(), {"M2", ReviewQuantity::Model, Component::EX});
+  const ReviewPicture a = reviewOf(all, table(), {"M1", ReviewQuantity::NineParameters, Component::EX});
+  const ReviewPicture b = reviewOf(all, table(), {"M2", ReviewQuantity::NineParameters, Component::EX});
   const ReviewPicture d = reviewDifference(a, b);
   ASSERT_TRUE(d.field.has_value());
   EXPECT_NEAR(d.points[2].components.at(Component::EX).value, 2.7, 1e-6);
@@ -70,6 +70,74 @@ TEST(Review, DifferenceIsTheSecondMinusTheFirst) {
   }
   ReviewPicture nothing;
   EXPECT_FALSE(reviewDifference(nothing, b).message.empty());
+}
+
+TEST(Review, RepeatedReadingsOfAStateAreAveraged) {
+  std::string csv = "time_s,state,point,x_mm,y_mm,z_mm,c_deg,component,value,sigma,instrument,use\n";
+  const double readings[4] = {1.0, 3.0, 10.0, 14.0};
+  for (int i = 0; i < 4; ++i) csv += fmt::format("{},M{},P,0,0,0,0,EX,{},0.2,probe,fit\n", 60 * i, i / 2, readings[i]);
+  const ReviewPicture m1 =
+      reviewOf(ObservationSet::parse(csv, "o.csv"), table(), {"M1", ReviewQuantity::Measured, Component::EX});
+  EXPECT_NEAR(m1.points[0].components.at(Component::EX).value, 10.0, 1e-12);
+  EXPECT_NEAR(m1.points[0].components.at(Component::EX).sigma, 0.2, 1e-12);
+}
+
+TEST(Review, HeatMapsBetweenPointsFollowTheTruthWithinTheirUncertainty) {
+  const ObservationSet all = states(9);
+  ReviewRequest request{"M2", ReviewQuantity::Measured, Component::EX};
+  request.heat_map = true;
+  const ReviewPicture m2 = reviewOf(all, table(), request);
+  ASSERT_TRUE(m2.field.has_value());
+  int inside = 0, checked = 0;
+  for (int iy = 0; iy < m2.field->grid.ny; ++iy)
+    for (int ix = 0; ix < m2.field->grid.nx; ++ix) {
+      const std::size_t n = m2.field->grid.index(ix, iy);
+      if (m2.field->extrapolated[n]) continue;
+      ++checked;
+      if (std::abs(m2.field->value[n] - 2.0 * m2.field->grid.x_mm(ix) / 100.0) < 2.0 * m2.field->sigma[n]) ++inside;
+    }
+  ASSERT_GT(checked, 200);
+  EXPECT_EQ(inside, checked) << "values without noise lie well within";
+  // Three points in a row span no plane.
+  EXPECT_FALSE(reviewOf(states(3), table(), request).field.has_value());
+}
+
+TEST(Review, SimulationAndItsCompletionAreShownAsChanges) {
+  const ObservationSet all = states(9);
+  ReviewPrediction half;  // half of EX, and an offset that a change does not show
+  for (const Observation& o : all.rows) {
+    half.value.push_back(o.component == Component::EX ? 0.5 * o.value + 7.0 : 0.0);
+    half.sigma.push_back(0.1);
+  }
+  ReviewRequest request{"M2", ReviewQuantity::Simulation, Component::EX};
+  const ReviewPicture simulated = reviewOf(all, table(), request, &half);
+  EXPECT_NEAR(simulated.points[2].components.at(Component::EX).value, 2.7, 1e-12);
+  EXPECT_NEAR(simulated.points[2].components.at(Component::EX).sigma, 0.1, 1e-12);
+  request.quantity = ReviewQuantity::SimulationLeft;
+  const ReviewPicture left = reviewOf(all, table(), request, &half);
+  EXPECT_NEAR(left.points[2].components.at(Component::EX).value, 5.4 - 2.7, 1e-12);
+  EXPECT_NEAR(left.points[2].components.at(Component::EX).sigma, 0.3 * std::sqrt(2.0), 1e-12);
+
+  DiscrepancyStory story;
+  EXPECT_FALSE(reviewCompleted(story, all).why.empty());
+  request.quantity = ReviewQuantity::CompletedLeft;
+  const ReviewPrediction none = reviewCompleted(story, all);
+  EXPECT_EQ(reviewOf(all, table(), request, &none).message, none.why);
+  story.added = {"spindle.growth.z"};
+  DiscrepancySeries s;
+  s.point = "P2";
+  s.component = Component::EX;
+  for (const Observation& o : all.rows) {
+    if (o.point != s.point || o.component != s.component) continue;
+    s.time_s.push_back(o.time_s);
+    s.completed.push_back(o.value + 0.25);
+    s.completed_sigma.push_back(0.05);
+  }
+  story.series = {s};
+  const ReviewPrediction completed = reviewCompleted(story, all);
+  const ReviewPicture after = reviewOf(all, table(), request, &completed);
+  EXPECT_NEAR(after.points[2].components.at(Component::EX).value, 0.0, 1e-12);
+  EXPECT_TRUE(std::isnan(after.points[0].components.at(Component::EX).value)) << "no prediction, no number";
 }
 
 }  // namespace

@@ -30,6 +30,19 @@ struct PaneAnswer {
   QString problem;
 };
 
+const ReviewPrediction* predictionFor(const PaneRequest& r) {
+  switch (r.request.quantity) {
+    case ReviewQuantity::Simulation:
+    case ReviewQuantity::SimulationLeft:
+      return &r.source->simulation();
+    case ReviewQuantity::Completed:
+    case ReviewQuantity::CompletedLeft:
+      return &r.source->completed();
+    default:
+      return nullptr;
+  }
+}
+
 std::vector<PaneAnswer> answersTo(const std::vector<PaneRequest>& requests, const JobContext& job) {
   std::vector<PaneAnswer> answers(requests.size());
   for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -38,7 +51,8 @@ std::vector<PaneAnswer> answersTo(const std::vector<PaneRequest>& requests, cons
     if (r.source == nullptr || !r.problem.isEmpty()) continue;
     job.throwIfCancelled();
     try {
-      ReviewPicture picture = reviewOf(*r.source->observations, r.source->campaign->machine, r.request);
+      ReviewPicture picture =
+          reviewOf(*r.source->observations, r.source->campaign->machine, r.request, predictionFor(r));
       if (r.difference && answers[0].picture) picture = reviewDifference(*answers[0].picture, picture);
       answers[i].picture = std::move(picture);
     } catch (const InputError& e) {
@@ -66,11 +80,11 @@ void ReviewPage::showAll() {
       r.request.state = pane->state(at_slider);
       r.request.component = static_cast<Component>(component_->current());
       r.difference = pane->content() == PaneContent::Difference;
-      const PaneContent content = r.difference ? panes_[0]->content() : pane->content();
-      if (content > PaneContent::Residual)
-        r.problem = tr("Pane 1 shows a scan; let it show a state to subtract it.");
+      r.request.heat_map = heat_maps_->isChecked();
+      if (const auto quantity = quantityOf(r.difference ? panes_[0]->content() : pane->content()))
+        r.request.quantity = *quantity;
       else
-        r.request.quantity = static_cast<ReviewQuantity>(content);
+        r.problem = tr("Pane 1 shows a scan; let it show a state to subtract it.");
     }
     requests.push_back(std::move(r));
   }

@@ -51,10 +51,16 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   component_ = new Segments({QStringLiteral("EX"), QStringLiteral("EY"), QStringLiteral("EZ"), QStringLiteral("EA"),
                              QStringLiteral("EB"), QStringLiteral("EC")},
                             tr("Component"));
+  heat_maps_ = new QCheckBox(tr("Between points"));
+  heat_maps_->setToolTip(
+      tr("A heat map between the points (interpolated with its uncertainty). That of the nine parameters is the model "
+         "and always shown."));
+  heat_maps_->setChecked(true);
   arrows_ = new QCheckBox(tr("Arrows"));
   machine_ = new QCheckBox(tr("Machine"));
   options->addWidget(count_);
   options->addWidget(component_);
+  options->addWidget(heat_maps_);
   options->addWidget(arrows_);
   options->addWidget(machine_);
   options->addStretch();
@@ -118,6 +124,7 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
     showAll();
   });
   connect(component_, &Segments::chosen, this, &ReviewPage::showAll);
+  connect(heat_maps_, &QCheckBox::toggled, this, &ReviewPage::showAll);
   connect(arrows_, &QCheckBox::toggled, this, &ReviewPage::showAll);
   connect(machine_, &QCheckBox::toggled, this, [this](bool on) {
     showAll();
@@ -144,6 +151,8 @@ void ReviewPage::layOutPanes() {
     pane->setVisible(i < shown);
     if (i < shown) grid_->addWidget(pane, i / 2, i % 2, 1, shown == 3 && i == 2 ? 2 : 1);
   }
+  // Other sizes: all views are fitted anew, together.
+  panes_[0]->view()->resetCamera(machine_->isChecked() ? StandardView::Isometric : StandardView::Top);
 }
 
 void ReviewPage::setPanes(int count) {
@@ -161,6 +170,10 @@ void ReviewPage::setArrows(bool on) {
   arrows_->setChecked(on);
 }
 
+void ReviewPage::setHeatMaps(bool on) {
+  heat_maps_->setChecked(on);
+}
+
 void ReviewPage::refresh() {
   if (session().campaign() == nullptr) return;
   sources_.refresh();
@@ -175,9 +188,14 @@ void ReviewPage::refresh() {
     place_->setRange(-1e5, 1e5);
     place_->setValue(y == nullptr ? 0.0 : 0.5 * (y->travel_mm[0] + y->travel_mm[1]));
     const bool scans = !own->scans.empty();
+    const bool simulated = !own->campaign->simulation.empty();
     panes_[0]->choose(PaneContent::Measured);
-    panes_[1]->choose(scans ? PaneContent::ScanChange : PaneContent::Model);
-    panes_[2]->choose(scans ? PaneContent::ScanLeftOver : PaneContent::Residual);
+    panes_[1]->choose(scans       ? PaneContent::ScanChange
+                      : simulated ? PaneContent::Simulation
+                                  : PaneContent::NineParameters);
+    panes_[2]->choose(scans       ? PaneContent::ScanLeftOver
+                      : simulated ? PaneContent::SimulationLeft
+                                  : PaneContent::NineParametersLeft);
     panes_[3]->choose(PaneContent::Difference, own->states.size() > 1 ? fromCore(own->states[1]) : QString());
   }
   filling_ = false;

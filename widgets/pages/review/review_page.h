@@ -38,6 +38,7 @@ class ReviewPage : public Page {
   void setPanes(int count);
   void setComponent(int index);
   void setArrows(bool on);
+  void setHeatMaps(bool on);
   [[nodiscard]] RowsModel* table() const { return rows_; }
   [[nodiscard]] QTableView* tableView() const { return table_; }
   [[nodiscard]] Plot* section() const { return section_; }
@@ -63,6 +64,7 @@ class ReviewPage : public Page {
   Segments* count_;
   Segments* component_;
   QCheckBox* arrows_;
+  QCheckBox* heat_maps_;
   QCheckBox* machine_;
   QSlider* slider_;
   QLabel* slider_text_;

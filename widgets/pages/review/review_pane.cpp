@@ -30,6 +30,11 @@ Eigen::Vector3d deviationOf(const ReviewPoint& p) {
 
 }  // namespace
 
+std::optional<ReviewQuantity> quantityOf(PaneContent content) {
+  if (content >= PaneContent::Difference) return std::nullopt;
+  return static_cast<ReviewQuantity>(content);  // in the same order
+}
+
 ReviewPane::ReviewPane(int number, ReviewSources& sources, QWidget* parent)
     : QFrame(parent), sources_(sources), first_(number == 1) {
   setProperty("role", QStringLiteral("card"));
@@ -90,35 +95,44 @@ void ReviewPane::fillStates() {
   const bool was_filling = filling_;
   filling_ = true;
   const QString state = state_->count() > 0 && state_->currentIndex() > 0 ? state_->currentText() : QString();
-  const int content = std::max(content_->currentIndex(), 0);
+  const QVariant content = content_->currentData();
   state_->clear();
   content_->clear();
   state_->addItem(tr("At the slider"));
-  content_->addItems({tr("Measured"), tr("Model"), tr("Residual")});
-  if (!first_) content_->addItem(tr("Minus pane 1"));  // pane 1 has nothing to be compared with
-  if (const auto from = source()) {
+  const auto offer = [this](const QString& text, PaneContent what) { content_->addItem(text, static_cast<int>(what)); };
+  const auto from = source();
+  offer(tr("Measured"), PaneContent::Measured);
+  offer(tr("Nine parameters"), PaneContent::NineParameters);
+  offer(tr("Measured − nine parameters"), PaneContent::NineParametersLeft);
+  if (from != nullptr && !from->campaign->simulation.empty()) {
+    offer(tr("Simulation"), PaneContent::Simulation);
+    offer(tr("Measured − simulation"), PaneContent::SimulationLeft);
+    offer(tr("Simulation with effects"), PaneContent::Completed);
+    offer(tr("Measured − simulation with effects"), PaneContent::CompletedLeft);
+  }
+  if (!first_) offer(tr("Minus pane 1"), PaneContent::Difference);  // pane 1 has nothing to be compared with
+  if (from != nullptr) {
     for (const std::string& s : from->states) state_->addItem(fromCore(s));
-    if (!from->scans.empty()) content_->addItems({tr("Scan, change"), tr("Scan, left over")});
+    if (!from->scans.empty()) {
+      offer(tr("Scan, change"), PaneContent::ScanChange);
+      offer(tr("Scan, left over"), PaneContent::ScanLeftOver);
+    }
   }
   state_->setCurrentIndex(std::max(0, state_->findText(state)));
-  content_->setCurrentIndex(std::min(content, content_->count() - 1));
+  content_->setCurrentIndex(std::max(0, content_->findData(content)));
   filling_ = was_filling;
 }
 
 void ReviewPane::choose(PaneContent content, const QString& state) {
   filling_ = true;
-  int index = static_cast<int>(content);
-  if (first_ && content > PaneContent::Difference) --index;
-  content_->setCurrentIndex(std::min(index, content_->count() - 1));
+  content_->setCurrentIndex(std::max(0, content_->findData(static_cast<int>(content))));
   state_->setCurrentIndex(state.isEmpty() ? 0 : std::max(0, state_->findText(state)));
   filling_ = false;
   Q_EMIT changed();
 }
 
 PaneContent ReviewPane::content() const {
-  int index = std::max(content_->currentIndex(), 0);
-  if (first_ && index >= static_cast<int>(PaneContent::Difference)) ++index;
-  return static_cast<PaneContent>(index);
+  return static_cast<PaneContent>(content_->currentData().toInt());
 }
 
 std::shared_ptr<const ReviewSource> ReviewPane::source() const {

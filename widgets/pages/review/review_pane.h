@@ -19,8 +19,21 @@ class ReviewSources;
 class View3D;
 struct ReviewSource;
 
-/// What a pane can show; the first three are ReviewQuantity.
-enum class PaneContent { Measured, Model, Residual, Difference, ScanChange, ScanLeftOver };
+/// What a pane can show.
+enum class PaneContent {
+  Measured,
+  NineParameters,
+  NineParametersLeft,
+  Simulation,
+  SimulationLeft,
+  Completed,
+  CompletedLeft,
+  Difference,
+  ScanChange,
+  ScanLeftOver
+};
+/// Null for a difference and for scans.
+[[nodiscard]] std::optional<ReviewQuantity> quantityOf(PaneContent content);
 
 class ReviewPane : public QFrame {
   Q_OBJECT
@@ -44,6 +57,7 @@ class ReviewPane : public QFrame {
   [[nodiscard]] const ReviewPicture& picture() const { return picture_; }
   [[nodiscard]] View3D* view() const { return view_; }
   [[nodiscard]] View3D* scanView() const { return scan_view_; }
+  [[nodiscard]] QComboBox* campaignChoice() const { return campaign_; }
   [[nodiscard]] QComboBox* stateChoice() const { return state_; }
   [[nodiscard]] QComboBox* contentChoice() const { return content_; }
 

@@ -26,6 +26,26 @@ std::shared_ptr<ReviewSource> readOther(SessionModel& session, std::int64_t id) 
 
 }  // namespace
 
+const ReviewPrediction& ReviewSource::simulation() const {
+  std::call_once(simulated_, [this] { simulation_ = reviewSimulation(*campaign, *observations); });
+  return simulation_;
+}
+
+const ReviewPrediction& ReviewSource::completed() const {
+  std::call_once(finished_, [this] {
+    if (discrepancy == nullptr) {
+      completed_.why = "The search for what the simulation lacks has not been run.";
+      return;
+    }
+    try {
+      completed_ = reviewCompleted(DiscrepancyStory::parse(*discrepancy), *observations);
+    } catch (const InputError& error) {
+      completed_.why = error.what();
+    }
+  });
+  return completed_;
+}
+
 void ReviewSources::refresh() {
   read_.clear();
 }
@@ -49,6 +69,8 @@ std::shared_ptr<const ReviewSource> ReviewSources::source(std::int64_t id) {
     } else {
       source = readOther(session_, id);
     }
+    if (const auto story = session_.session()->latestResult(id, "discrepancy"))
+      source->discrepancy = std::make_shared<const nlohmann::json>(story->payload);
     source->id = id;
     source->name = QString::fromStdString(source->campaign->name);
     if (source->observations) source->states = source->observations->states();

@@ -5,10 +5,13 @@
 #include <QString>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "core/scanning/scan_evaluation.h"
+#include "core/workflows/review_workflow.h"
 #include "widgets/models/session_model.h"
 
 namespace spindrift::gui {
@@ -20,6 +23,16 @@ struct ReviewSource {
   std::optional<ObservationSet> observations;
   std::vector<std::string> states;  ///< in order; the first is the reference
   std::vector<ScanCapture> scans;   ///< empty without a profiler
+  /// The stored search for what the simulation lacks; null if there was none.
+  std::shared_ptr<const nlohmann::json> discrepancy;
+
+  /// Predictions are made once, by the job that first asks for them.
+  [[nodiscard]] const ReviewPrediction& simulation() const;
+  [[nodiscard]] const ReviewPrediction& completed() const;
+
+ private:
+  mutable std::once_flag simulated_, finished_;
+  mutable ReviewPrediction simulation_, completed_;
 };
 
 class ReviewSources {

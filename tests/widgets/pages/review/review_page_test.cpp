@@ -2,6 +2,7 @@
 // The step Review in the real window: four thermal states of a plain table, then scans.
 #include <fmt/format.h>
 
+#include <QComboBox>
 #include <QMouseEvent>
 #include <QSlider>
 #include <QTableView>
@@ -121,6 +122,58 @@ TEST_F(Review, PlaybackRunsThroughTheStates) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return page->pane(1)->picture().title == "M2 measured"; }, 8000));
   EXPECT_EQ(page->pane(2)->picture().title, "M3 measured") << "a fixed state stays";
   QTest::mouseClick(page->primaryButton(), Qt::LeftButton);
+}
+
+TEST_F(Review, TwoCampaignsOfOneSessionAreCompared) {
+  open(writeStates("first", 1.0));
+  window_->addCampaign(QString::fromStdString(writeStates("second", 1.5).string()));
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  ASSERT_EQ(window_->session().campaigns().size(), 2U);
+  auto* page = go<ReviewPage>(StepId::Review);
+  page->pane(1)->choose(PaneContent::Measured);
+  QComboBox* campaigns = page->pane(2)->campaignChoice();
+  ASSERT_EQ(campaigns->count(), 2);
+  campaigns->setCurrentIndex(campaigns->findText(QStringLiteral("first")));
+  page->pane(2)->choose(PaneContent::Difference);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  // M3 of the first minus M3 of the second: minus half of 9 (1 + x / 300).
+  const ReviewPicture& d = page->pane(2)->picture();
+  ASSERT_EQ(d.points.size(), 9U) << d.message;
+  EXPECT_NEAR(d.points[0].components.at(Component::EX).value, -4.5 * 1.1, 1e-3);
+  ASSERT_TRUE(d.field.has_value());
+  // An interpolated map, so it is compared in the middle of the points.
+  const std::size_t middle = d.field->grid.index(d.field->grid.nx / 2, d.field->grid.ny / 2);
+  EXPECT_NEAR(d.field->value[middle], -4.5 * 1.5, 2.0 * d.field->sigma[middle]);
+  page->setHeatMaps(false);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  EXPECT_FALSE(page->pane(2)->picture().field.has_value());
+}
+
+TEST_F(Review, TheSimulationStandsBesideTheMeasurement) {
+  const std::filesystem::path folder = writeStates("simulated", 1.0);
+  writeFileAtomically(
+      folder / "campaign.json",
+      R"({"format":"spindrift-campaign","version":1,"name":"simulated","start_utc":"2026-01-31T08:00:00Z","simulation":"simulation.csv"})");
+  std::string table = "time_s,point,component,predicted\n";
+  for (int state = 0; state < 4; ++state)
+    for (int p = 0; p < 9; ++p)
+      for (const auto& [c, v] : {std::pair<const char*, double>{"EX", 3.0 * state}, {"EY", 0.0}, {"EZ", 0.0}})
+        table += fmt::format("{},P{},{},{}\n", 3600 * state, p + 1, c, v);
+  writeFileAtomically(folder / "simulation.csv", table);
+  open(folder);
+  auto* page = go<ReviewPage>(StepId::Review);
+  page->setPanes(4);
+  EXPECT_EQ(page->pane(2)->content(), PaneContent::Simulation);
+  page->pane(4)->choose(PaneContent::CompletedLeft);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  EXPECT_NEAR(page->pane(2)->picture().points[0].components.at(Component::EX).value, 9.0, 1e-9);
+  EXPECT_EQ(page->pane(2)->picture().title, "M3 simulation");
+  EXPECT_NEAR(page->pane(3)->picture().points[0].components.at(Component::EX).value, 0.9, 1e-3);
+  EXPECT_FALSE(page->pane(4)->picture().message.empty()) << "nothing was searched yet, and the pane says so";
+  page->pane(4)->choose(PaneContent::SimulationLeft, QStringLiteral("M1"));
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  if (const QString pictures = qEnvironmentVariable("SPINDRIFT_PICTURES"); !pictures.isEmpty())
+    window_->grab().save(pictures + QStringLiteral("/review_simulation.png"));
 }
 
 TEST_F(Review, ScansStandSideBySide) {
