@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -122,59 +124,100 @@ void observationSection(HtmlDocument& document, const ObservationSet& observatio
   }
 }
 
-/// `cycles:[{cycle, parameters:{NAME:{value,standard_uncertainty}}}]` as a table and a trend for each parameter.
-void cyclesSection(HtmlDocument& document, const nlohmann::json& cycles) {
-  std::map<std::string, std::vector<std::vector<std::string>>> rows_by_name;
-  std::map<std::string, PlotSeries> trends;
-  std::vector<std::string> names;
-  double index = 0.0;
-  std::vector<std::vector<std::string>> rows;
-  for (const nlohmann::json& cycle : cycles) {
-    if (!cycle.contains("parameters") || !cycle["parameters"].is_object()) continue;
-    std::vector<std::string> row{cycle.value("cycle", "") +
-                                 (cycle.contains("artefact") ? " " + cycle.value("artefact", "") : std::string())};
-    for (const auto& [name, parameter] : cycle["parameters"].items()) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-      if (!parameter.is_object() || !parameter.contains("value") || !parameter["value"].is_number()) continue;
-      PlotSeries& trend = trends[name];
-      trend.style = SeriesStyle::Points;
-      trend.x.push_back(index);
-      trend.y.push_back(parameter["value"].get<double>());
-      trend.sigma.push_back(parameter.value("standard_uncertainty", nlohmann::json(0.0)).is_number()
-                                ? parameter["standard_uncertainty"].get<double>()
-                                : 0.0);
+/// A number of a parameter's JSON; NaN where it is not determined.
+double figureOf(const nlohmann::json& parameters, const std::string& name, const char* key) {
+  const auto found = parameters.find(name);
+  if (found == parameters.end() || !found->is_object()) return std::nan("");
+  const auto value = found->find(key);
+  return value != found->end() && value->is_number() ? value->get<double>() : std::nan("");
+}
+
+/// "EX_um" -> {"EX", "um"}; the unit is what follows the first underscore that a known unit follows.
+std::pair<std::string, std::string> nameAndUnit(const std::string& name) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> units{
+      {{"_um_per_m", "um/m"}, {"_urad", "urad"}, {"_um", "um"}, {"_mm", "mm"}}};
+  for (const auto& [ending, unit] : units)
+    if (name.ends_with(ending)) return {name.substr(0, name.size() - ending.size()), std::string(unit)};
+  return {name, {}};
+}
+
+/// One cycle of one artefact.
+struct CycleRow {
+  std::string cycle;
+  std::string artefact;
+  double at = 0.0;  ///< hours, or its number where the cycles state no time
+  nlohmann::json parameters;
+};
+
+void cycleTables(HtmlDocument& document, const std::vector<CycleRow>& rows, const std::vector<std::string>& names,
+                 bool several) {
+  constexpr std::size_t columns = 5;  // fit on A4
+  for (std::size_t first = 0; first < names.size(); first += columns) {
+    const std::size_t last = std::min(names.size(), first + columns);
+    std::vector<std::string> header{"Cycle"};
+    for (std::size_t i = first; i < last; ++i) {
+      const auto [name, unit] = nameAndUnit(names[i]);
+      header.push_back(unit.empty() ? name : name + " / " + unit);
     }
-    for (const std::string& name : names) {
-      const auto found = cycle["parameters"].find(name);
-      if (found == cycle["parameters"].end() || !(*found).contains("value") || !(*found)["value"].is_number()) {
-        row.push_back("not determined");
-      } else {
-        const auto u = (*found).value("standard_uncertainty", nlohmann::json(nullptr));
-        row.push_back(withUncertainty((*found)["value"].get<double>(), u.is_number() ? u.get<double>() : 0.0, ""));
+    std::vector<std::vector<std::string>> cells;
+    for (const CycleRow& r : rows) {
+      cells.push_back({several ? r.cycle + " " + r.artefact : r.cycle});
+      for (std::size_t i = first; i < last; ++i) {
+        const double value = figureOf(r.parameters, names[i], "value");
+        cells.back().push_back(
+            std::isfinite(value) ? withUncertainty(value, figureOf(r.parameters, names[i], "standard_uncertainty"), "")
+                                 : std::string("not determined"));
       }
     }
+    document.table(header, cells, "Error parameters per cycle, value ± one standard uncertainty");
+  }
+}
+
+/// `cycles:[{cycle, artefact, time_s, parameters:{NAME:{value,standard_uncertainty}}}]` as tables and a trend for each
+/// parameter.
+void cyclesSection(HtmlDocument& document, const nlohmann::json& cycles) {
+  std::vector<CycleRow> rows;
+  std::vector<std::string> names;
+  std::vector<std::string> artefacts;
+  const auto add = [](std::vector<std::string>& list, const std::string& item) {
+    if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
+  };
+  const bool timed = std::all_of(cycles.begin(), cycles.end(), [](const nlohmann::json& c) {
+    return c.contains("time_s") && c["time_s"].is_number();
+  });
+  for (const nlohmann::json& cycle : cycles) {
+    if (!cycle.contains("parameters") || !cycle["parameters"].is_object()) continue;
+    CycleRow row{cycle.value("cycle", ""), cycle.value("artefact", ""), static_cast<double>(rows.size()),
+                 cycle["parameters"]};
+    if (timed) row.at = cycle["time_s"].get<double>() / seconds_per_hour;
+    for (const auto& [name, parameter] : row.parameters.items()) add(names, name);
+    add(artefacts, row.artefact);
     rows.push_back(std::move(row));
-    index += 1.0;
   }
   if (rows.empty()) return;
-  for (std::size_t first = 0; first < names.size(); first += 5) {  // five columns fit on A4
-    const std::size_t last = std::min(names.size(), first + 5);
-    std::vector<std::string> header{"Cycle"};
-    header.insert(header.end(), names.begin() + static_cast<std::ptrdiff_t>(first),
-                  names.begin() + static_cast<std::ptrdiff_t>(last));
-    std::vector<std::vector<std::string>> part;
-    for (const auto& row : rows) {
-      std::vector<std::string> cells{row[0]};
-      for (std::size_t i = first; i < last; ++i) cells.push_back(i + 1 < row.size() ? row[i + 1] : "not determined");
-      part.push_back(std::move(cells));
-    }
-    document.table(header, part, "Error parameters per cycle, value ± one standard uncertainty");
-  }
+  cycleTables(document, rows, names, artefacts.size() > 1);
   for (const std::string& name : names) {
-    const auto trend = trends.find(name);
-    if (trend == trends.end() || trend->second.x.size() < 3) continue;
-    document.figure(svgPlot({trend->second}, {.x_label = "cycle", .y_label = name, .width_px = 860, .height_px = 180}),
-                    fmt::format("{} over the cycles", name));
+    std::vector<PlotSeries> trends;
+    for (const std::string& artefact : artefacts) {
+      PlotSeries trend{artefact, {}, {}, {}, SeriesStyle::Points};
+      for (const CycleRow& r : rows) {
+        const double value = figureOf(r.parameters, name, "value");
+        if (r.artefact != artefact || !std::isfinite(value)) continue;
+        const double sigma = figureOf(r.parameters, name, "standard_uncertainty");
+        trend.x.push_back(r.at);
+        trend.y.push_back(value);
+        trend.sigma.push_back(std::isfinite(sigma) ? sigma : 0.0);
+      }
+      if (trend.x.size() >= 3) trends.push_back(std::move(trend));
+    }
+    if (trends.empty()) continue;
+    const auto [quantity, unit] = nameAndUnit(name);
+    PlotOptions options;
+    options.x_label = timed ? "time / h" : "cycle";
+    options.y_label = unit.empty() ? quantity : quantity + " / " + unit;
+    options.width_px = 860;
+    options.height_px = 180;
+    document.figure(svgPlot(trends, options), fmt::format("{} over the cycles", quantity));
   }
 }
 
@@ -201,12 +244,14 @@ HtmlDocument campaignReport(const CampaignReportInput& input) {
                                     input.created_utc));
   machineSection(document, campaign.machine);
   if (campaign.log) logSection(document, *campaign.log);
+  for (const auto& fill : input.preparation) fill(document);
   instrumentSections(document, input.instruments);
   observationSection(document, input.observations);
   for (const ReportSection& section : input.sections) {
     document.section(section.heading);
     section.fill(document);
   }
+  for (const auto& fill : input.conclusions) fill(document);
   if (!input.exclusions.empty()) {
     document.section("Taken out by the user");
     std::vector<std::vector<std::string>> rows;

@@ -27,7 +27,11 @@ struct CampaignReportInput {
   /// Evaluations of the captures, if there are any.
   std::vector<InstrumentEvaluation> instruments;
   ObservationSet observations;
+  /// Plan, captures, state of the instrument: after the operating conditions. Each writes its own heading, or nothing.
+  std::vector<std::function<void(HtmlDocument&)>> preparation;
   std::vector<ReportSection> sections;
+  /// Models over time, standard tests, compensation: after the sections. Each writes its own heading, or nothing.
+  std::vector<std::function<void(HtmlDocument&)>> conclusions;
   /// Excluded items with reasons, notes: shown as they are.
   std::vector<std::pair<std::string, std::string>> exclusions;
   std::vector<std::string> notes;
@@ -35,8 +39,8 @@ struct CampaignReportInput {
   std::string operator_name;  ///< may be empty: a line to sign on is left
 };
 
-/// The report without sections of others first: title, machine, plan and captures, operating log, observations over
-/// time, results of each instrument; then `sections`; then exclusions, notes and provenance.
+/// The whole report: title, machine, operating log; `preparation`; results of each instrument, observations over time;
+/// `sections`, `conclusions`; exclusions, notes and provenance.
 [[nodiscard]] HtmlDocument campaignReport(const CampaignReportInput& input);
 
 }  // namespace spindrift

@@ -22,6 +22,14 @@ bool spreadsOverTheTable(const ObservationSet& observations) {
   return observations.points().size() >= 3 && observations.states().size() >= 2;
 }
 
+/// "alpha_X_um_per_m" -> "alpha_X / um/m".
+std::string parameterTitle(const std::string& name) {
+  for (const auto& [ending, unit] : {std::pair{"_um_per_m", "um/m"}, {"_urad", "urad"}, {"_um", "um"}}) {
+    if (name.ends_with(ending)) return fmt::format("{} / {}", name.substr(0, name.rfind(ending)), unit);
+  }
+  return name;
+}
+
 /// The nine-parameter model of one state with its heat maps, or the reason why there is none.
 void addState(HtmlDocument& document, const Campaign& campaign, const ObservationSet& observations,
               const NineParameterOptions& fit_options, const std::string& state) {
@@ -35,9 +43,10 @@ void addState(HtmlDocument& document, const Campaign& campaign, const Observatio
     const nlohmann::json json = toJson(fit);
     for (const auto& [name, parameter] : json.at("parameters").items()) {
       const bool known = parameter.is_object() && parameter.at("value").is_number();
-      rows.push_back({name, known ? withUncertainty(parameter.at("value").get<double>(),
-                                                    parameter.at("standard_uncertainty").get<double>(), "")
-                                  : std::string("not determined")});
+      rows.push_back(
+          {parameterTitle(name), known ? withUncertainty(parameter.at("value").get<double>(),
+                                                         parameter.at("standard_uncertainty").get<double>(), "")
+                                       : std::string("not determined")});
     }
     document.table({"Parameter", "Value ± standard uncertainty"}, rows,
                    fmt::format("Nine-parameter model of {}", state));
@@ -80,6 +89,10 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
   }
   const std::string left_out = leaveOutCompensated(input.observations, campaign.log);
   if (!left_out.empty()) input.notes.push_back(left_out);
+  const StoredResults& stored = options.stored;
+  input.preparation = {[&](HtmlDocument& document) { addPlan(document, stored.plan, campaign); },
+                       [&](HtmlDocument& document) { addCaptures(document, campaign, job); },
+                       [&](HtmlDocument& document) { addInstrumentState(document, stored); }};
   if (campaign.captureList("fiducials.csv") && spreadsOverTheTable(input.observations)) {
     input.sections.push_back({"Thermal error of the table", [&](HtmlDocument& document) {
                                 const std::vector<std::string> states = input.observations.states();
@@ -96,6 +109,11 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
                                 addDiscrepancyStory(document, *data, *result);
                               }});
   }
+  JobContext testing = job.part(0.95, 1.0);
+  input.conclusions = {[&](HtmlDocument& document) { addThermalModel(document, stored.thermal); },
+                       [&](HtmlDocument& document) { addIso230(document, campaign, input.observations, testing); },
+                       [&](HtmlDocument& document) { addCompensation(document, stored.compensation); },
+                       [&](HtmlDocument& document) { addVerification(document, stored.verification); }};
   job.report(1.0, "writing the report");
   return campaignReport(input).html();
 }

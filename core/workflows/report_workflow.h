@@ -12,6 +12,7 @@
 #include "core/machine/campaign.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/workflows/evaluate_campaign.h"
+#include "core/workflows/report_sections.h"
 
 namespace spindrift {
 
@@ -24,6 +25,7 @@ struct ReportOptions {
   std::string operator_name;
   std::vector<std::pair<std::string, std::string>> exclusions;
   std::vector<std::string> notes;
+  StoredResults stored;  ///< of a session; shown as they are
 };
 
 /// Evaluates the captures (if any), fits where there is something to fit, and returns one self-contained HTML text. A

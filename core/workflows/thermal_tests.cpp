@@ -10,69 +10,32 @@
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/machine/observation.h"
+#include "core/reporting/svg_plot.h"
 #include "core/thermal/time_series.h"
 
 namespace spindrift {
 namespace {
 
-struct Curve {
-  std::string name;
-  std::vector<double> time_s;
-  std::vector<double> values;
-};
-
-/// Curves over hours with axes, units and a legend. Colours that stay apart for the colour-blind (Okabe and Ito).
-std::string drawCurves(const std::string& title, const std::vector<Curve>& curves) {
-  static constexpr std::array<const char*, 7> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                         "#e69f00", "#56b4e9", "#000000"};
-  double t0 = 1e300, t1 = -1e300, v0 = 1e300, v1 = -1e300;
-  for (const Curve& c : curves) {
-    for (std::size_t i = 0; i < c.values.size(); ++i) {
-      if (!std::isfinite(c.values[i])) continue;
-      t0 = std::min(t0, c.time_s[i] / 3600.0);
-      t1 = std::max(t1, c.time_s[i] / 3600.0);
-      v0 = std::min(v0, c.values[i]);
-      v1 = std::max(v1, c.values[i]);
+/// Curves over hours; of long records every n-th row, so that some 2000 are drawn.
+std::string drawCurves(const std::string& title, const std::vector<PlotSeries>& curves) {
+  std::vector<PlotSeries> drawn = curves;
+  for (PlotSeries& c : drawn) {
+    const std::size_t stride = std::max<std::size_t>(1, c.x.size() / 2000);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < c.x.size(); i += stride, ++kept) {
+      c.x[kept] = c.x[i] / 3600.0;
+      c.y[kept] = c.y[i];
     }
+    c.x.resize(kept);
+    c.y.resize(kept);
   }
-  if (!(t1 > t0)) t1 = t0 + 1.0;
-  if (!(v1 > v0)) v1 = v0 + 1.0;
-  const double width = 860.0, height = 440.0, left = 70.0, right = 150.0, top = 40.0, bottom = 50.0;
-  const auto x = [&](double t) { return left + (t - t0) / (t1 - t0) * (width - left - right); };
-  const auto y = [&](double v) { return height - bottom - (v - v0) / (v1 - v0) * (height - top - bottom); };
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" font-family=\"sans-serif\" "
-      "font-size=\"12\">\n<rect width=\"{0}\" height=\"{1}\" "
-      "fill=\"white\"/>\n<text x=\"{2}\" y=\"24\" font-size=\"15\">{3}</text>\n",
-      width, height, left, escapedXml(title));
-  for (int k = 0; k <= 5; ++k) {
-    const double t = t0 + (t1 - t0) * k / 5.0;
-    const double v = v0 + (v1 - v0) * k / 5.0;
-    svg += fmt::format(
-        "<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\" stroke=\"#ddd\"/><text x=\"{0:.1f}\" "
-        "y=\"{3:.1f}\" text-anchor=\"middle\">{4:.1f}</text>\n",
-        x(t), top, height - bottom, height - bottom + 18.0, t);
-    svg += fmt::format(
-        "<line x1=\"{0:.1f}\" x2=\"{1:.1f}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\" stroke=\"#ddd\"/><text x=\"{3:.1f}\" "
-        "y=\"{4:.1f}\" text-anchor=\"end\">{5:.2f}</text>\n",
-        left, width - right, y(v), left - 8.0, y(v) + 4.0, v);
-  }
-  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">time in h</text>\n",
-                     (left + width - right) / 2.0, height - 12.0);
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    std::string path;
-    const std::size_t stride = std::max<std::size_t>(1, curves[c].values.size() / 2000);
-    for (std::size_t i = 0; i < curves[c].values.size(); i += stride) {
-      if (std::isfinite(curves[c].values[i]))
-        path += fmt::format("{:.1f},{:.1f} ", x(curves[c].time_s[i] / 3600.0), y(curves[c].values[i]));
-    }
-    const char* colour = colours[c % colours.size()];
-    svg += fmt::format(
-        "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\" points=\"{}\"/>\n<text x=\"{:.1f}\" y=\"{:.1f}\" "
-        "fill=\"{}\">{}</text>\n",
-        colour, path, width - right + 8.0, top + 16.0 * static_cast<double>(c + 1), colour, escapedXml(curves[c].name));
-  }
-  return svg + "</svg>\n";
+  PlotOptions options;
+  options.title = title;
+  options.x_label = "time / h";
+  options.y_label = "change / um, urad";
+  options.width_px = 860;
+  options.height_px = 400;
+  return svgPlot(drawn, options);
 }
 
 Iso230Result evaluateAxis(const Iso230Request& request) {
@@ -95,8 +58,9 @@ Iso230Result evaluateAxis(const Iso230Request& request) {
   Iso230Result result;
   result.test = "axis";
   result.axis = evaluateMovingAxis(std::move(readings));
-  result.svg = drawCurves("Expansion between both ends, axis " + request.axis + ", um",
-                          {{"expansion um", result.axis->time_s, result.axis->expansion_over_time_um}});
+  result.svg =
+      drawCurves("Expansion between both ends, axis " + request.axis + ", um",
+                 {{"expansion", result.axis->time_s, result.axis->expansion_over_time_um, {}, SeriesStyle::Line}});
   return result;
 }
 
@@ -121,14 +85,15 @@ Iso230Result evaluateIso230Test(const TimeSeries& series, const Iso230Request& r
   result.test = request.test;
   result.notes = series.notes;
   std::vector<ComponentSeries> components;
-  std::vector<Curve> curves;
+  std::vector<PlotSeries> curves;
   for (const Signal& s : series.signals) {
     if (!request.columns.empty() || s.kind != SignalKind::Displacement) continue;
     components.push_back({s.name, s.name.ends_with("_urad") ? "urad" : "um", s.values, 0.0});
   }
   for (const std::string& name : request.columns)
     components.push_back({name, name.ends_with("_urad") ? "urad" : "um", series.at(name).values, 0.0});
-  for (const ComponentSeries& c : components) curves.push_back({c.name, series.time_s, c.values});
+  for (const ComponentSeries& c : components)
+    curves.push_back({c.name, series.time_s, c.values, {}, SeriesStyle::Line});
   if (request.test == "etve") {
     std::string ambient = request.ambient;
     for (const char* candidate : {"T_room_degC", "T_ambient_degC"})

@@ -107,6 +107,7 @@ ReportOptions ReportPage::options() const {
   ReportOptions o;
   o.operator_name = operator_->text().trimmed().toStdString();
   o.discrepancy = discrepancy_->isChecked();
+  o.stored = stored();
   const DiscrepancyChoice choice = DiscrepancyChoice::of(model);
   o.search.accept = choice.added;
   o.search.reject = choice.rejected;
@@ -125,9 +126,32 @@ ReportOptions ReportPage::options() const {
   return o;
 }
 
+StoredResults ReportPage::stored() const {
+  auto& model = const_cast<ReportPage*>(this)->session();
+  const auto payload = [&](const char* kind) {
+    const StoredResult* result = model.latest(kind);
+    return result == nullptr ? nlohmann::json() : result->payload;
+  };
+  StoredResults out;
+  out.plan = model.setting("plan/" + std::to_string(model.campaignId()), nlohmann::json());
+  out.warm_up = payload("warm-up");
+  out.jogs = payload("check-jogs");
+  out.repeatability = payload("check-repeatability");
+  out.thermal = payload("thermal");
+  out.compensation = payload("compensation");
+  out.verification = payload("verify");
+  return out;
+}
+
 nlohmann::json ReportPage::dependencies() const {
   auto& model = const_cast<ReportPage*>(this)->session();
+  nlohmann::json results = nlohmann::json::array();
+  for (const char* kind : {"warm-up", "check-jogs", "check-repeatability", "thermal", "compensation", "verify"}) {
+    const StoredResult* result = model.latest(kind);
+    results.push_back(result == nullptr ? 0 : result->id);
+  }
   return {{"fit", model.setting(fit_options_key, nlohmann::json::object())},
+          {"results", results},
           {"discrepancy", DiscrepancyChoice::of(model).json()},
           {"tells_discrepancy", discrepancy_->isChecked()},
           {"operator", operator_->text().trimmed().toStdString()}};

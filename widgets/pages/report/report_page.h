@@ -51,6 +51,7 @@ class ReportPage : public Page {
   void openDocument();
   void showFacts();
   [[nodiscard]] ReportOptions options() const;
+  [[nodiscard]] StoredResults stored() const;
   [[nodiscard]] nlohmann::json dependencies() const;
 
   QPushButton* write_;

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/report_sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "core/base/json_reader.h"
+#include "core/base/text.h"
+#include "core/imaging/fiducial_captures.h"
+#include "core/probing/touch.h"
+#include "core/reporting/contact_sheet.h"
+#include "core/reporting/svg_plot.h"
+#include "core/scanning/scan_picture.h"
+#include "core/workflows/campaign_series.h"
+#include "core/workflows/thermal_tests.h"
+
+namespace spindrift {
+namespace {
+
+constexpr std::size_t most_thumbnails = 24;
+constexpr double seconds_per_hour = 3600.0;
+
+double numberOf(const nlohmann::json& json, const char* key) {
+  const auto at = json.find(key);
+  return at != json.end() && at->is_number() ? at->get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string textOf(const nlohmann::json& json, const char* key) {
+  const auto at = json.find(key);
+  return at != json.end() && at->is_string() ? at->get<std::string>() : std::string();
+}
+
+std::string numberText(double value, std::string_view unit, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f} {}", value, decimals, unit) : std::string("not determined");
+}
+
+/// Every n-th of the items, so that at most `most` are left, the first among them.
+template <class T>
+std::vector<T> spread(const std::vector<T>& items, std::size_t most) {
+  if (items.size() <= most) return items;
+  std::vector<T> out;
+  for (std::size_t i = 0; i < most; ++i) out.push_back(items[i * items.size() / most]);
+  return out;
+}
+
+void addImages(HtmlDocument& document, const Campaign& campaign, const std::filesystem::path& list,
+               const JobContext& job) {
+  const FiducialCaptureList captures = readFiducialCaptures(list);
+  std::vector<std::vector<std::string>> rows;
+  std::vector<FiducialCapture> first;
+  for (const std::string& state : captures.states()) {
+    std::map<std::string, std::size_t> by_role;
+    std::set<std::string> fiducials;
+    std::size_t excluded = 0;
+    double from = 1e300, to = -1e300;
+    for (const FiducialCapture& c : captures.captures) {
+      if (c.state != state) continue;
+      if (fiducials.insert(c.fiducial).second) first.push_back(c);
+      ++by_role[std::string(toString(c.role))];
+      if (campaign.excluded_captures.contains(c.image)) ++excluded;
+      from = std::min(from, c.time_s);
+      to = std::max(to, c.time_s);
+    }
+    std::string roles;
+    for (const auto& [role, count] : by_role) roles += fmt::format("{}{} {}", roles.empty() ? "" : ", ", count, role);
+    rows.push_back({state, std::to_string(fiducials.size()), roles, std::to_string(excluded),
+                    fmt::format("{:.2f} to {:.2f}", from / seconds_per_hour, to / seconds_per_hour)});
+  }
+  document.table({"State", "Fiducials", "Images", "Taken out", "Time / h"}, rows, "Images of fiducials");
+  std::vector<Thumbnail> thumbnails;
+  for (const FiducialCapture& c : spread(first, most_thumbnails)) {
+    job.throwIfCancelled();
+    thumbnails.push_back({imageThumbnail(campaign.path(c.image)), fmt::format("{} {}", c.state, c.fiducial),
+                          std::filesystem::path(c.image).filename().string()});
+  }
+  document.figure(contactSheetSvg(thumbnails),
+                  first.size() > thumbnails.size()
+                      ? fmt::format("The first image of {} of {} fiducials and states", thumbnails.size(), first.size())
+                      : std::string("The first image of every fiducial and state"));
+}
+
+/// Range of a count: "60" or "58 to 60".
+std::string countText(std::size_t from, std::size_t to) {
+  return from == to ? std::to_string(from) : fmt::format("{} to {}", from, to);
+}
+
+void addTouches(HtmlDocument& document, const std::filesystem::path& list) {
+  const TouchList touches = TouchList::read(list);
+  struct Artefact {
+    std::map<std::string, std::size_t> cycles;
+    std::set<std::string> features;
+    PlotSeries first{{}, {}, {}, {}, SeriesStyle::Points};
+    std::string first_cycle;
+    double from = 1e300, to = -1e300;
+  };
+  std::map<std::string, Artefact> artefacts;
+  for (const Touch& t : touches.touches) {
+    Artefact& a = artefacts[t.artefact];
+    if (a.cycles.empty()) a.first_cycle = t.cycle;
+    ++a.cycles[t.cycle];
+    a.features.insert(t.feature);
+    a.from = std::min(a.from, t.time_s);
+    a.to = std::max(a.to, t.time_s);
+    if (t.cycle != a.first_cycle) continue;
+    a.first.x.push_back(t.position_mm.x());
+    a.first.y.push_back(t.position_mm.y());
+  }
+  std::vector<std::vector<std::string>> rows;
+  std::vector<PlotSeries> seen;
+  for (auto& [name, a] : artefacts) {
+    std::size_t least = touches.touches.size(), most = 0;
+    for (const auto& [cycle, count] : a.cycles) {
+      least = std::min(least, count);
+      most = std::max(most, count);
+    }
+    rows.push_back({name, std::to_string(a.cycles.size()), countText(least, most), std::to_string(a.features.size()),
+                    fmt::format("{:.2f} to {:.2f}", a.from / seconds_per_hour, a.to / seconds_per_hour)});
+    a.first.name = fmt::format("{} {}", name, a.first_cycle);
+    seen.push_back(std::move(a.first));
+  }
+  document.table({"Artefact", "Cycles", "Touches a cycle", "Features", "Time / h"}, rows, "Measuring cycles");
+  PlotOptions options;
+  options.x_label = "X / mm";
+  options.y_label = "Y / mm";
+  options.width_px = 860;
+  options.height_px = 300;
+  document.figure(svgPlot(seen, options), "Where the touches of the first cycle are, machine coordinates");
+}
+
+void addScans(HtmlDocument& document, const Campaign& campaign, const JobContext& job) {
+  const std::vector<ScanCapture> scans = readScanList(campaign);
+  std::map<std::string, std::size_t> counts;
+  std::vector<ScanCapture> first;
+  for (const ScanCapture& s : scans)
+    if (counts[s.artefact]++ == 0) first.push_back(s);
+  std::vector<std::vector<std::string>> rows;
+  std::vector<Thumbnail> thumbnails;
+  for (const ScanCapture& s : first)
+    rows.push_back({s.artefact, fmt::format("{:g}", s.y_mm), std::to_string(counts[s.artefact])});
+  document.table({"Artefact", "Position / mm", "Scans"}, rows, "Scans");
+  const std::string model = campaign.machine.profiler ? campaign.machine.profiler->scan_model : "rigid";
+  for (const ScanCapture& s : spread(first, 12)) {
+    job.throwIfCancelled();
+    Thumbnail t{{}, s.artefact + " " + s.cycle, {}};
+    try {
+      const ScanPicture picture = pictureOfScan(campaign, s.cloud, {}, ScanColouring::Height,
+                                                scanModelFromString(model), job, ScanPart::AsUsed);
+      t.jpeg = cloudThumbnail(*picture.xyz_mm, *picture.scalar, picture.low, picture.high);
+      t.comment = fmt::format("z {:.2f} to {:.2f} mm", picture.low, picture.high);
+    } catch (const InputError& error) {
+      t.comment = error.what();
+    }
+    thumbnails.push_back(std::move(t));
+  }
+  document.figure(contactSheetSvg(thumbnails), "The first scan of every artefact from above, coloured by height");
+}
+
+void addCheck(std::vector<std::vector<std::string>>& rows, const char* name, const nlohmann::json& check) {
+  if (!check.is_object()) return;
+  const bool passed = check.value("passed", check.value("settled", false));
+  std::string reason = textOf(check, "reason");
+  if (reason.empty() && textOf(check, "by") == "operator") reason = "stated by the operator, not measured";
+  rows.push_back({name, passed ? "passed" : "not passed", reason});
+}
+
+void addStepResponses(HtmlDocument& document, const nlohmann::json& responses) {
+  std::vector<std::vector<std::string>> rows;
+  for (const nlohmann::json& r : responses) {
+    rows.push_back(
+        {textOf(r, "input"),
+         withUncertainty(numberOf(r, "final_value"), numberOf(r, "final_standard_uncertainty"), textOf(r, "unit")),
+         numberText(numberOf(r, "time_to_63_percent_s") / 60.0, "min", 1)});
+  }
+  if (!rows.empty()) {
+    document.table({"Input", "End value of the step response", "63 % after"}, rows, "Step responses of the model");
+  }
+}
+
+bool spindleRan(const TimeSeries& series) {
+  for (const Signal& s : series.signals)
+    if (s.kind == SignalKind::Speed && std::any_of(s.values.begin(), s.values.end(), [](double v) { return v > 0.0; }))
+      return true;
+  return false;
+}
+
+}  // namespace
+
+void addPlan(HtmlDocument& document, const nlohmann::json& plan_json, const Campaign& campaign) {
+  if (!plan_json.is_object()) return;
+  const MeasurementPlan plan = MeasurementPlan::parse(JsonNode::parse(plan_json.dump(), "the plan of the session"));
+  if (plan.empty()) return;
+  const std::set<std::string> done = capturedItems(plan, campaign);
+  document.section("Measurement plan");
+  std::vector<std::vector<std::string>> rows;
+  std::size_t missing = 0;
+  for (const PlannedState& state : plan.states) {
+    std::size_t planned = 0, captured = 0;
+    for (const PlannedItem& item : plan.items) {
+      if (item.state != state.name) continue;
+      ++planned;
+      if (done.contains(item.id)) ++captured;
+    }
+    missing += planned - captured;
+    rows.push_back({state.name + (state.what.empty() ? "" : ", " + state.what),
+                    fmt::format("{:.2f}", state.due_s / seconds_per_hour), std::to_string(planned),
+                    std::to_string(captured)});
+  }
+  document.table({"State", "Due / h", "Planned", "Captured"}, rows, "Planned and captured items per thermal state");
+  if (missing > 0)
+    document.verdict("attention", fmt::format("{} of {} planned items were not captured.", missing, plan.items.size()));
+}
+
+void addCaptures(HtmlDocument& document, const Campaign& campaign, const JobContext& job) {
+  const auto images = campaign.captureList("fiducials.csv");
+  const auto touches = campaign.captureList("touches.csv");
+  const auto scans = campaign.captureList("scans.csv");
+  if (!images && !touches && !scans) return;
+  document.section("Captures");
+  if (images) addImages(document, campaign, *images, job);
+  if (touches) addTouches(document, *touches);
+  if (scans) addScans(document, campaign, job);
+}
+
+void addInstrumentState(HtmlDocument& document, const StoredResults& stored) {
+  std::vector<std::vector<std::string>> rows;
+  addCheck(rows, "Warm-up", stored.warm_up);
+  addCheck(rows, "Jogs", stored.jogs);
+  addCheck(rows, "Cold repeatability", stored.repeatability);
+  if (rows.empty()) return;
+  document.section("State of the instrument");
+  document.table({"Check", "Verdict", "Reason"}, rows);
+}
+
+void addThermalModel(HtmlDocument& document, const nlohmann::json& thermal) {
+  if (!thermal.is_object() || !thermal.contains("train")) return;
+  document.section("Model over time");
+  std::vector<std::string> inputs;
+  for (const nlohmann::json& in : thermal.value("inputs", nlohmann::json::array()))
+    inputs.push_back(in.get<std::string>());
+  document.paragraph(
+      fmt::format("Inputs: {}. Quality in free run, without looking at the measured output.", joinedList(inputs)));
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const std::string& name, const nlohmann::json& train, const nlohmann::json& test) {
+    rows.push_back({name, numberText(numberOf(train, "rmse"), "", 2), numberText(numberOf(test, "rmse"), "", 2),
+                    numberText(numberOf(test, "fit_percent"), "%", 1), numberText(numberOf(test, "p2p"), "", 2)});
+  };
+  add("this model", thermal["train"], thermal["test"]);
+  for (const nlohmann::json& p : thermal.value("plain_models", nlohmann::json::array()))
+    add(textOf(p, "name"), p.at("train"), p.at("test"));
+  document.table({"Model", "rms in training", "rms in the test", "Fit in the test", "Peak to peak in the test"}, rows,
+                 "Quality of the model and of plain ones, in the unit of the output");
+  addStepResponses(document, thermal.value("step_response", nlohmann::json::array()));
+  if (!thermal.value("good_enough", true))
+    document.verdict("attention",
+                     "In the test range the model is no better than a plain one: do not compensate with it.");
+}
+
+void addIso230(HtmlDocument& document, const Campaign& campaign, const ObservationSet& observations, JobContext& job) {
+  Iso230Result result;
+  try {
+    const CampaignSeries series = campaignSeries(campaign, observations.rows.empty() ? nullptr : &observations, job);
+    Iso230Request request;
+    request.test = spindleRan(series.series) ? "spindle" : "etve";
+    result = evaluateIso230Test(series.series, request);
+  } catch (const InputError&) {
+    return;  // the campaign holds none of the tests
+  }
+  std::vector<std::vector<std::string>> rows;
+  if (result.spindle) {
+    for (const SpindleComponent& c : result.spindle->components) {
+      rows.push_back({c.name, withUncertainty(c.first_hour, c.change_sigma, c.unit),
+                      withUncertainty(c.at_end, c.change_sigma, c.unit), numberText(c.range, c.unit, 2),
+                      numberText(c.time_to_fraction_s / 60.0, "min", 0)});
+    }
+    if (rows.empty()) return;
+    document.section("ISO 230-3: thermal distortion caused by the rotating spindle");
+    document.paragraph(fmt::format("The spindle ran from {:.2f} h to {:.2f} h; changes are relative to its start.",
+                                   result.spindle->start_s / seconds_per_hour,
+                                   result.spindle->stop_s / seconds_per_hour));
+    document.table({"Component", "After 60 min", "At the end", "Range",
+                    fmt::format("{:.0f} % of the end after", 100.0 * result.spindle->fraction)},
+                   rows, "Parameters of the rotating spindle test");
+  } else if (result.etve) {
+    for (const EtveComponent& c : result.etve->components) {
+      rows.push_back({c.name, withUncertainty(c.range, c.range_sigma, c.unit),
+                      numberText(c.range_per_K, c.unit + "/K", 2),
+                      std::isfinite(c.slope_per_K) ? withUncertainty(c.slope_per_K, c.slope_sigma, c.unit + "/K")
+                                                   : std::string("not determined")});
+    }
+    if (rows.empty()) return;
+    document.section("ISO 230-3: environmental temperature variation error");
+    document.paragraph(fmt::format("Over {:.1f} h, ambient temperature range {:.2f} K.",
+                                   result.etve->duration_s / seconds_per_hour, result.etve->temperature_range_K));
+    document.table({"Component", "Range", "Range per K", "Slope on the ambient temperature"}, rows,
+                   "Parameters of the environmental variation test");
+  }
+  document.figure(result.svg, "Readings of the test over time");
+  for (const std::string& note : result.notes) document.paragraph(note);
+}
+
+void addCompensation(HtmlDocument& document, const nlohmann::json& plan) {
+  if (!plan.is_object() || !plan.contains("points")) return;
+  document.section("Compensation");
+  document.paragraph(fmt::format("{}, relative to {}. Compensation = −deviation: what is added to the command.",
+                                 textOf(plan, "model"), textOf(plan, "reference")));
+  document.facts({{"State", textOf(plan, "state")},
+                  {"rms of the measured deviations before", numberText(numberOf(plan, "rms_before_um"), "um", 2)},
+                  {"rms expected with the correction", numberText(numberOf(plan, "rms_after_um"), "um", 2)},
+                  {"Standard uncertainty of the model", numberText(numberOf(plan, "standard_uncertainty_um"), "um", 2)},
+                  {"Largest correction", numberText(numberOf(plan, "largest_correction_um"), "um", 2)}});
+  std::vector<std::vector<std::string>> rows;
+  for (const nlohmann::json& p : plan["points"]) {
+    std::vector<std::string> row{textOf(p, "point")};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto value = [&](const char* key) {
+        const nlohmann::json& v = p.at(key).at(i);
+        return v.is_number() ? v.get<double>() : std::numeric_limits<double>::quiet_NaN();
+      };
+      row.push_back(withUncertainty(value("correction_um"), value("standard_uncertainty_um"), ""));
+      row.push_back(std::isfinite(value("remains_um")) ? tickText(value("remains_um"), 0.01) : std::string("–"));
+    }
+    rows.push_back(std::move(row));
+  }
+  document.table({"Point", "X / um", "remains", "Y / um", "remains", "Z / um", "remains"}, spread(rows, 40),
+                 rows.size() > 40 ? fmt::format("Corrections at 40 of {} points", rows.size())
+                                  : std::string("Correction at each measured point and what would remain of the "
+                                                "measured deviation"));
+  if (const std::string limit = textOf(plan, "limitation"); !limit.empty()) document.verdict("note", limit);
+  for (const nlohmann::json& w : plan.value("warnings", nlohmann::json::array()))
+    document.verdict("attention", w.get<std::string>());
+  std::vector<std::vector<std::string>> files;
+  for (const nlohmann::json& f : plan.value("files", nlohmann::json::array()))
+    files.push_back({textOf(f, "name"), textOf(f, "convention")});
+  if (!files.empty()) document.table({"File", "Sign and reference"}, files, "Tables for the control");
+}
+
+void addVerification(HtmlDocument& document, const nlohmann::json& result) {
+  if (!result.is_object() || !result.contains("components")) return;
+  document.section("Verification");
+  const std::string verdict = textOf(result, "verdict");
+  document.verdict(verdict == "met" ? "good" : verdict == "not met" ? "bad" : "attention", textOf(result, "reason"));
+  document.paragraph(
+      fmt::format("Goal {:g} um, judged by the {} of the changes from the first state; decision rule of ISO 14253-1.",
+                  numberOf(result, "goal_um"), textOf(result, "criterion") == "rms" ? "rms" : "largest"));
+  std::vector<std::vector<std::string>> rows;
+  for (const nlohmann::json& c : result["components"]) {
+    const auto cell = [&](const char* side, const char* figure, const char* sigma) {
+      return withUncertainty(numberOf(c.at(side), figure), numberOf(c.at(side), sigma), textOf(c, "unit"));
+    };
+    rows.push_back({textOf(c, "component"), cell("before", "rms", "rms_standard_uncertainty"),
+                    cell("after", "rms", "rms_standard_uncertainty"),
+                    cell("before", "largest", "largest_standard_uncertainty"),
+                    cell("after", "largest", "largest_standard_uncertainty"), textOf(c, "verdict")});
+  }
+  document.table({"Component", "rms before", "rms after", "Largest before", "Largest after", "Goal"}, rows,
+                 "The same plan before and after compensating");
+  for (const nlohmann::json& note : result.value("notes", nlohmann::json::array()))
+    document.paragraph(note.get<std::string>());
+}
+
+}  // namespace spindrift

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of a campaign report beside what core/reporting writes: plan, captures with thumbnails, state of the
+// instrument, models over time, ISO 230-3 parameters, compensation and its verification. Each takes what a page or a
+// command worked out and computes nothing that is not said here. Units as in FORMATS.md.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/job_context.h"
+#include "core/machine/campaign.h"
+#include "core/reporting/html_document.h"
+#include "core/workflows/measurement_plan.h"
+
+namespace spindrift {
+
+/// Results that a session keeps of a campaign, as their workflows wrote them; null where there is none. A command
+/// without a session leaves them null.
+struct StoredResults {
+  nlohmann::json plan;           ///< MeasurementPlan::json
+  nlohmann::json warm_up;        ///< CheckResult::json, or {"settled":true,"by":"operator"}
+  nlohmann::json jogs;           ///< {"passed","reason"}
+  nlohmann::json repeatability;  ///< {"passed","reason"}
+  nlohmann::json thermal;        ///< IdentifyResult::json
+  nlohmann::json compensation;   ///< CompensationPlan::json
+  nlohmann::json verification;   ///< VerifyResult::json
+};
+
+/// States with what was to be captured and what was. Nothing without a plan.
+void addPlan(HtmlDocument& document, const nlohmann::json& plan, const Campaign& campaign);
+
+/// Numbers of captures per state, and a sheet of thumbnails: the first image of every fiducial and state, and every
+/// artefact's first scan seen from above; 24 pictures at most, spread over the states. Nothing without captures.
+void addCaptures(HtmlDocument& document, const Campaign& campaign, const JobContext& job);
+
+/// Warm-up, jogs, cold repeatability. Nothing if none was judged.
+void addInstrumentState(HtmlDocument& document, const StoredResults& stored);
+
+/// The model over time: inputs, quality in free run, time constants. Nothing without a model.
+void addThermalModel(HtmlDocument& document, const nlohmann::json& thermal);
+
+/// The test of ISO 230-3 that the log holds: rotating spindle if it ran, else environmental variation; on displacements
+/// of the log or of the cycles. Nothing if there is none.
+void addIso230(HtmlDocument& document, const Campaign& campaign, const ObservationSet& observations, JobContext& job);
+
+/// What a control would be commanded, and what is expected to remain.
+void addCompensation(HtmlDocument& document, const nlohmann::json& compensation);
+
+/// Before and after, judged against the goal.
+void addVerification(HtmlDocument& document, const nlohmann::json& verification);
+
+}  // namespace spindrift

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The report of a whole campaign: what it tells of plan, captures, checks, standard tests and compensation.
+#include "core/workflows/report_sections.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <regex>
+
+#include "core/base/atomic_file.h"
+#include "core/reporting/contact_sheet.h"
+#include "core/workflows/report_workflow.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* machine_json =
+    R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-(C)-t]","axes":[
+{"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,200]},{"name":"Z","travel_mm":[0,200]}]})";
+
+class Report : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    writeFileAtomically(folder_ / "campaign.json",
+                        R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z"})");
+    writeFileAtomically(folder_ / "machine.json", machine_json);
+  }
+  /// The spindle runs from 0.5 h to 2.5 h of 3 h; Z grows by 30 um with a time constant of half an hour.
+  void writeLog(double rpm) {
+    std::string csv = "time_s,spindle_rpm,T_room_degC,Z_um\n";
+    for (int i = 0; i <= 180; ++i) {
+      const double t = 60.0 * i, on = std::clamp(t - 1800.0, 0.0, 7200.0);
+      csv += fmt::format("{},{},{:.3f},{:.4f}\n", t, t >= 1800 && t <= 9000 ? rpm : 0.0, 20.0 + std::sin(t / 4000.0),
+                         30.0 * (1.0 - std::exp(-on / 1800.0)));
+    }
+    writeFileAtomically(folder_ / "log.csv", csv);
+  }
+  std::string html(const ReportOptions& options = {}) {
+    JobContext job;
+    return campaignReportHtml(Campaign::read(folder_.path()), options, job);
+  }
+  testing::TempFolder folder_;
+};
+
+TEST_F(Report, HasNoHeadingForWhatIsNotThere) {
+  const std::string text = html();
+  for (const char* heading : {"Captures", "Measurement plan", "State of the instrument", "Model over time", "ISO 230-3",
+                              "Compensation", "Verification"})
+    EXPECT_THAT(text, Not(HasSubstr(heading)));
+}
+
+TEST_F(Report, GivesTheParametersOfTheStandardTestThatTheLogHolds) {
+  writeLog(6000);
+  const std::string spindle = html();
+  EXPECT_THAT(spindle, HasSubstr("thermal distortion caused by the rotating spindle"));
+  EXPECT_THAT(spindle, Not(HasSubstr("environmental temperature variation error")));
+  // 30 um (1 - e^-2) after 60 min of running.
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(spindle, found, std::regex("Z_um</td><td[^>]*>([0-9.]+)")));
+  EXPECT_NEAR(std::stod(found[1]), 30.0 * (1.0 - std::exp(-2.0)), 0.3);
+  writeLog(0);
+  EXPECT_THAT(html(), HasSubstr("environmental temperature variation error"));
+}
+
+TEST_F(Report, ShowsImagesAndSaysWhichCannotBeRead) {
+  std::filesystem::create_directories(folder_ / "captures/images");
+  cv::Mat image(200, 300, CV_8U);
+  for (int r = 0; r < image.rows; ++r)
+    for (int c = 0; c < image.cols; ++c) image.at<unsigned char>(r, c) = static_cast<unsigned char>((r + c) % 200);
+  cv::imwrite((folder_ / "captures/images/a.png").string(), image);
+  const std::string thumbnail = imageThumbnail(folder_ / "captures/images/a.png", 120);
+  const cv::Mat read =
+      cv::imdecode(std::vector<unsigned char>(thumbnail.begin(), thumbnail.end()), cv::IMREAD_GRAYSCALE);
+  EXPECT_EQ(read.cols, 120);
+  EXPECT_EQ(read.rows, 80);
+  EXPECT_EQ(imageThumbnail(folder_ / "none.png"), "");
+  const std::string sheet = contactSheetSvg({{thumbnail, "M0 <F1>", "a.png"}, {{}, "M0 F2", "b.png"}});
+  EXPECT_THAT(sheet, HasSubstr("data:image/jpeg;base64,"));
+  EXPECT_THAT(sheet, HasSubstr("M0 &lt;F1&gt;"));
+  EXPECT_THAT(sheet, HasSubstr("cannot be read"));
+}
+
+TEST_F(Report, CloudsAreSeenFromAboveWithHolesLeftWhite) {
+  std::vector<float> xyz, height;
+  for (int x = 0; x < 200; ++x)
+    for (int y = 0; y < 100; ++y) {
+      if (x > 80 && x < 120) continue;  // a hand in the scan
+      xyz.insert(xyz.end(), {static_cast<float>(x), static_cast<float>(y), 0.0F});
+      height.push_back(static_cast<float>(x));
+    }
+  const std::string jpeg = cloudThumbnail(xyz, height, 0.0, 199.0, 200);
+  const cv::Mat picture = cv::imdecode(std::vector<unsigned char>(jpeg.begin(), jpeg.end()), cv::IMREAD_COLOR);
+  ASSERT_EQ(picture.cols, 200);
+  ASSERT_EQ(picture.rows, 100);
+  const auto at = [&](int x) { return picture.at<cv::Vec3b>(50, x); };
+  EXPECT_GT(at(100)[0], 240) << "the gap is white";
+  EXPECT_GT(at(100)[2], 240);
+  EXPECT_LT(at(10)[1], 90) << "low: the dark end of the map";
+  EXPECT_GT(at(190)[1], 200) << "high: the bright end";
+  EXPECT_EQ(cloudThumbnail({}, {}, 0, 1), "");
+}
+
+TEST_F(Report, TellsPlanChecksCompensationAndVerification) {
+  ReportOptions options;
+  options.stored.warm_up = {{"settled", true}, {"by", "operator"}};
+  options.stored.repeatability = {{"passed", false}, {"reason", "EX returns within 4 um only."}};
+  options.stored.plan = nlohmann::json::parse(
+      R"({"format":"spindrift-plan","version":1,"states":[{"name":"M0","due_s":0,"what":"cold"}],
+          "items":[{"id":"M0_bar","kind":"cycle","state":"M0","due_s":0,"artefact":"bar"}]})");
+  options.stored.compensation = nlohmann::json::parse(
+      R"({"model":"Nine-parameter model of state M1 against state M0","reference":"state M0","state":"M1","time_s":3600,
+          "rms_before_um":12.3,"rms_after_um":0.4,"standard_uncertainty_um":0.3,"largest_correction_um":20.5,
+          "limitation":null,"warnings":[],"points":[{"point":"F1","position_mm":[0,0,0],"measured_um":[-10.0,null,2.0],
+          "correction_um":[10.5,0.2,-2.0],"standard_uncertainty_um":[0.3,0.3,0.3],"remains_um":[0.5,null,0.0],
+          "used":true}],"files":[{"name":"compensation_grid.csv","title":"t","convention":"added to the command"}]})");
+  options.stored.verification = nlohmann::json::parse(
+      R"({"verdict":"not met","reason":"EX is left with 7.0 um; the goal is 5 um.","goal_um":5,"goal_urad":null,
+          "criterion":"largest","notes":["nothing proves it"],"points":[],"components":[{"component":"EX","unit":"um",
+          "values":8,"before":{"rms":10,"rms_standard_uncertainty":0.2,"largest":20,"largest_standard_uncertainty":0.4},
+          "after":{"rms":3,"rms_standard_uncertainty":0.2,"largest":7,"largest_standard_uncertainty":0.4},
+          "verdict":"not met"}]})");
+  const std::string text = html(options);
+  EXPECT_THAT(text, HasSubstr("stated by the operator, not measured"));
+  EXPECT_THAT(text, HasSubstr("EX returns within 4 um only."));
+  EXPECT_THAT(text, HasSubstr("1 of 1 planned items were not captured."));
+  EXPECT_THAT(text, HasSubstr("12.30 um"));
+  EXPECT_THAT(text, HasSubstr("10.5 ± 0.3"));
+  EXPECT_THAT(text, HasSubstr("added to the command"));
+  EXPECT_THAT(text, HasSubstr("EX is left with 7.0 um; the goal is 5 um."));
+  EXPECT_THAT(text, HasSubstr("class=\"verdict bad\""));
+}
+
+}  // namespace
+}  // namespace spindrift
