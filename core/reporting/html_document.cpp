@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "core/base/text.h"
 
 namespace spindrift {
@@ -19,13 +22,24 @@ header p,figcaption,caption{color:var(--soft);margin:0}p{margin:8px 0}
 table{border-collapse:collapse;width:100%;margin:12px 0}caption{text-align:left;padding-bottom:6px}
 th,td{padding:5px 10px;border-bottom:1px solid var(--line);text-align:right;vertical-align:top}
 th{font-weight:600;border-bottom:1px solid var(--soft)}th:first-child,td:first-child{text-align:left}
-table.facts td{text-align:left}table.facts td:first-child{width:32%;color:var(--soft)}
+th.text,td.text{text-align:left}table.facts td{text-align:left}table.facts td:first-child{width:32%;color:var(--soft)}
 figure{margin:16px 0}figure svg,figure img{max-width:100%;height:auto;display:block}
 .verdict{padding:10px 16px;border-left:4px solid var(--soft);background:#f8f9fa;margin:12px 0;font-weight:600}
 .good{border-color:var(--good)}.attention{border-color:var(--attention)}.bad{border-color:var(--bad)}
 @page{size:A4;margin:18mm}
 @media print{body{background:#fff}main{border:0;margin:0;padding:0;max-width:none}h2,h3{break-after:avoid}figure,table{break-inside:avoid}}
 )";
+
+/// A column of sentences or names: some cell has more than a word and does not begin as a number does.
+bool isText(const std::vector<std::vector<std::string>>& rows, std::size_t column) {
+  return std::any_of(rows.begin(), rows.end(), [&](const std::vector<std::string>& row) {
+    if (column >= row.size() || row[column].empty()) return false;
+    const std::string& cell = row[column];
+    const bool number = std::isdigit(static_cast<unsigned char>(cell[0])) != 0 || cell[0] == '+' || cell[0] == '<' ||
+                        cell.starts_with("\u2212") || cell.starts_with("\u2013") || cell.starts_with("not determined");
+    return !number;
+  });
+}
 
 }  // namespace
 
@@ -71,11 +85,17 @@ HtmlDocument& HtmlDocument::table(const std::vector<std::string>& header,
   body_ += "<table>";
   if (!caption.empty()) body_ += fmt::format("<caption>Table {}: {}</caption>", ++tables_, escapedXml(caption));
   body_ += "<thead><tr>";
-  for (const std::string& cell : header) body_ += fmt::format("<th>{}</th>", escapedXml(cell));
+  const auto cells = [&](const char* tag, const std::vector<std::string>& row) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      body_ +=
+          fmt::format("<{}{}>{}</{}>", tag, i > 0 && isText(rows, i) ? " class=\"text\"" : "", escapedXml(row[i]), tag);
+    }
+  };
+  cells("th", header);
   body_ += "</tr></thead><tbody>";
   for (const auto& row : rows) {
     body_ += "<tr>";
-    for (const std::string& cell : row) body_ += fmt::format("<td>{}</td>", escapedXml(cell));
+    cells("td", row);
     body_ += "</tr>";
   }
   body_ += "</tbody></table>\n";

@@ -10,7 +10,7 @@
 namespace spindrift {
 
 /// Builds a document from top to bottom. Texts are escaped; `figure` takes ready SVG. Numbers come formatted
-/// (withUncertainty), a table's first column is left-aligned, the others right-aligned.
+/// (withUncertainty); a table's first column and columns of text are left-aligned, numbers right-aligned.
 class HtmlDocument {
  public:
   HtmlDocument(std::string title, std::string subtitle);

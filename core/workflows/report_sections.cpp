@@ -16,7 +16,7 @@
 #include "core/reporting/contact_sheet.h"
 #include "core/reporting/svg_plot.h"
 #include "core/scanning/scan_picture.h"
-#include "core/workflows/campaign_series.h"
+#include "core/workflows/log_campaign.h"
 #include "core/workflows/thermal_tests.h"
 
 namespace spindrift {
@@ -181,11 +181,27 @@ void addStepResponses(HtmlDocument& document, const nlohmann::json& responses) {
   }
 }
 
-bool spindleRan(const TimeSeries& series) {
-  for (const Signal& s : series.signals)
-    if (s.kind == SignalKind::Speed && std::any_of(s.values.begin(), s.values.end(), [](double v) { return v > 0.0; }))
-      return true;
-  return false;
+/// Which test of ISO 230-3 a log is a record of: "spindle" if the spindle runs once, for half an hour or longer; "etve"
+/// if nothing moves; empty otherwise (a mixed programme is no standard test).
+std::string standardTestIn(const TimeSeries& series) {
+  bool moves = false;
+  for (const Signal& s : series.signals) {
+    if (s.kind == SignalKind::Feed)
+      moves = moves || std::any_of(s.values.begin(), s.values.end(), [](double v) { return v > 0.0; });
+    if (s.kind != SignalKind::Speed) continue;
+    std::size_t starts = 0, running = 0;
+    double first = 0.0, last = 0.0;
+    for (std::size_t i = 0; i < s.values.size(); ++i) {
+      const bool on = s.values[i] > 0.0;
+      if (on && (i == 0 || !(s.values[i - 1] > 0.0))) ++starts;
+      if (!on) continue;
+      if (running++ == 0) first = series.time_s[i];
+      last = series.time_s[i];
+    }
+    if (starts == 1 && last - first >= 1800.0) return "spindle";
+    moves = moves || running > 0;
+  }
+  return moves ? std::string() : std::string("etve");
 }
 
 }  // namespace
@@ -260,15 +276,17 @@ void addThermalModel(HtmlDocument& document, const nlohmann::json& thermal) {
                      "In the test range the model is no better than a plain one: do not compensate with it.");
 }
 
-void addIso230(HtmlDocument& document, const Campaign& campaign, const ObservationSet& observations, JobContext& job) {
+void addIso230(HtmlDocument& document, const Campaign& campaign) {
+  if (!campaign.log || !hasOutputSignals(*campaign.log)) return;
   Iso230Result result;
   try {
-    const CampaignSeries series = campaignSeries(campaign, observations.rows.empty() ? nullptr : &observations, job);
+    const TimeSeries series = readTimeSeries(campaign.path("log.csv"));
     Iso230Request request;
-    request.test = spindleRan(series.series) ? "spindle" : "etve";
-    result = evaluateIso230Test(series.series, request);
+    request.test = standardTestIn(series);
+    if (request.test.empty()) return;
+    result = evaluateIso230Test(series, request);
   } catch (const InputError&) {
-    return;  // the campaign holds none of the tests
+    return;  // the log holds none of the tests
   }
   std::vector<std::vector<std::string>> rows;
   if (result.spindle) {

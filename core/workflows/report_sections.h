@@ -38,9 +38,9 @@ void addInstrumentState(HtmlDocument& document, const StoredResults& stored);
 /// The model over time: inputs, quality in free run, time constants. Nothing without a model.
 void addThermalModel(HtmlDocument& document, const nlohmann::json& thermal);
 
-/// The test of ISO 230-3 that the log holds: rotating spindle if it ran, else environmental variation; on displacements
-/// of the log or of the cycles. Nothing if there is none.
-void addIso230(HtmlDocument& document, const Campaign& campaign, const ObservationSet& observations, JobContext& job);
+/// The test of ISO 230-3 that the log is a record of: rotating spindle if it runs once and long enough, environmental
+/// variation if nothing moves; on the displacements of the log. Nothing for a mixed programme.
+void addIso230(HtmlDocument& document, const Campaign& campaign);
 
 /// What a control would be commanded, and what is expected to remain.
 void addCompensation(HtmlDocument& document, const nlohmann::json& compensation);

@@ -109,9 +109,8 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
                                 addDiscrepancyStory(document, *data, *result);
                               }});
   }
-  JobContext testing = job.part(0.95, 1.0);
   input.conclusions = {[&](HtmlDocument& document) { addThermalModel(document, stored.thermal); },
-                       [&](HtmlDocument& document) { addIso230(document, campaign, input.observations, testing); },
+                       [&](HtmlDocument& document) { addIso230(document, campaign); },
                        [&](HtmlDocument& document) { addCompensation(document, stored.compensation); },
                        [&](HtmlDocument& document) { addVerification(document, stored.verification); }};
   job.report(1.0, "writing the report");

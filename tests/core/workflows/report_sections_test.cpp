@@ -67,6 +67,11 @@ TEST_F(Report, GivesTheParametersOfTheStandardTestThatTheLogHolds) {
   EXPECT_NEAR(std::stod(found[1]), 30.0 * (1.0 - std::exp(-2.0)), 0.3);
   writeLog(0);
   EXPECT_THAT(html(), HasSubstr("environmental temperature variation error"));
+  // A programme with many starts is no standard test.
+  std::string csv = "time_s,spindle_rpm,T_room_degC,Z_um\n";
+  for (int i = 0; i <= 180; ++i) csv += fmt::format("{},{},20,{}\n", 60 * i, i % 20 < 10 ? 6000 : 0, 0.1 * i);
+  writeFileAtomically(folder_ / "log.csv", csv);
+  EXPECT_THAT(html(), Not(HasSubstr("ISO 230-3")));
 }
 
 TEST_F(Report, ShowsImagesAndSaysWhichCannotBeRead) {

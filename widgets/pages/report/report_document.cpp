@@ -16,6 +16,7 @@
 #include <QTextTable>
 #include <QXmlStreamReader>
 #include <array>
+#include <set>
 #include <utility>
 
 #include "core/base/error.h"
@@ -299,6 +300,7 @@ class ReportDocument::Builder {
     QString caption;
     std::vector<QStringList> rows;
     int header_rows = 0;
+    std::set<qsizetype> text_columns;
     while (!(xml_.readNext() == QXmlStreamReader::EndElement && xml_.name() == QLatin1String("table"))) {
       if (xml_.atEnd()) return;
       if (xml_.tokenType() != QXmlStreamReader::StartElement) continue;
@@ -308,6 +310,8 @@ class ReportDocument::Builder {
         rows.emplace_back();
       } else if (xml_.name() == QLatin1String("th") || xml_.name() == QLatin1String("td")) {
         if (xml_.name() == QLatin1String("th")) header_rows = 1;
+        if (xml_.attributes().value(QStringLiteral("class")) == QLatin1String("text"))
+          text_columns.insert(rows.back().size());
         rows.back() << text();
       }
     }
@@ -316,10 +320,11 @@ class ReportDocument::Builder {
     if (!caption.isEmpty()) {
       report_.headings_.push_back(block(caption, pageFont(small_px), soft, 8, 2));
     }
-    insertRows(rows, header_rows, facts);
+    insertRows(rows, header_rows, facts, text_columns);
   }
 
-  void insertRows(const std::vector<QStringList>& rows, int header_rows, bool facts) {
+  void insertRows(const std::vector<QStringList>& rows, int header_rows, bool facts,
+                  const std::set<qsizetype>& text_columns = {}) {
     const int columns = static_cast<int>(rows.front().size());
     QTextTableFormat format;
     format.setBorder(0);
@@ -352,7 +357,7 @@ class ReportDocument::Builder {
         cell.setFormat(look);
         QTextCursor at = cell.firstCursorPosition();
         QTextBlockFormat align;
-        align.setAlignment(c == 0 || facts ? Qt::AlignLeft : Qt::AlignRight);
+        align.setAlignment(c == 0 || facts || text_columns.contains(c) ? Qt::AlignLeft : Qt::AlignRight);
         at.setBlockFormat(align);
         QTextCharFormat letters;
         letters.setFont(pageFont(px, head ? QFont::DemiBold : QFont::Normal));
@@ -432,12 +437,21 @@ void ReportDocument::keepHeadingsWithText() {
   constexpr double least_room = 110.0;
   const QAbstractTextDocumentLayout* layout = document_->documentLayout();
   (void)layout->documentSize();
-  for (const int number : headings_) {
-    QTextBlock block = document_->findBlockByNumber(number);
+  for (std::size_t i = 0; i < headings_.size(); ++i) {
+    QTextBlock block = document_->findBlockByNumber(headings_[i]);
     const QRectF box = layout->blockBoundingRect(block);
     const int page = static_cast<int>(box.top() / text_height);
-    bool alone = box.bottom() + least_room > (page + 1.0) * text_height;
-    for (QTextBlock next = block.next(); next.isValid() && !alone; next = next.next()) {
+    // Headings that follow one another (a section and the caption of its table) stay together: the last one counts.
+    QTextBlock last = block;
+    while (i + 1 < headings_.size()) {
+      QTextBlock next = last.next();
+      while (next.isValid() && next.text().trimmed().isEmpty()) next = next.next();
+      if (!next.isValid() || next.blockNumber() != headings_[i + 1]) break;
+      last = next;
+      ++i;
+    }
+    bool alone = layout->blockBoundingRect(last).bottom() + least_room > (page + 1.0) * text_height;
+    for (QTextBlock next = last.next(); next.isValid() && !alone; next = next.next()) {
       if (next.text().trimmed().isEmpty()) continue;
       // A figure that did not fit leaves its heading behind.
       alone = static_cast<int>(layout->blockBoundingRect(next).top() / text_height) > page;

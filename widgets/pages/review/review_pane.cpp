@@ -52,8 +52,8 @@ ReviewPane::ReviewPane(int number, ReviewSources& sources, QWidget* parent)
   content_ = new QComboBox;
   content_->setAccessibleName(tr("What pane %1 shows").arg(number));
   line->addWidget(campaign_, 1);
-  line->addWidget(state_, 1);
-  line->addWidget(content_, 1);
+  line->addWidget(state_, 2);
+  line->addWidget(content_, 3);
   column->addLayout(line);
   stack_ = new QStackedWidget;
   view_ = new View3D;
