@@ -56,6 +56,8 @@ std::string fitted(const std::string& text, double width, double size) {
 
 std::string imageThumbnail(const std::filesystem::path& file, int width_px) {
   cv::Mat image;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return {};
   try {
     image = cv::imread(file.string(), cv::IMREAD_REDUCED_GRAYSCALE_2);
   } catch (const cv::Exception&) {

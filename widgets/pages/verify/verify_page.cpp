@@ -8,6 +8,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSplitter>
+#include <QStackedWidget>
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -19,7 +20,9 @@
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/verify/verify_maps.h"
 #include "widgets/plots/plot.h"
+#include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
 namespace {
@@ -72,7 +75,9 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
   left->body()->addWidget(makeTable(components_, tr("Before and after of each component"),
                                     tr("Every component before and after appears here after the comparison.")),
                           1);
-  auto* right = new Card(tr("Every value before and after"));
+  auto* right = new Card(tr("Before and after"));
+  shown_ = new Segments({tr("Every value"), tr("On the table")}, tr("How before and after are shown"));
+  right->addToTitle(shown_);
   component_ = new QComboBox;
   component_->setAccessibleName(tr("Component that is drawn"));
   component_->setMinimumWidth(90);
@@ -80,11 +85,26 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
   plot_ = new Plot;
   plot_->setEmptyText(tr("Before and after will appear here"),
                       tr("Choose the campaign that was measured with the compensation on, then compare."));
-  right->body()->addWidget(plot_, 1);
+  maps_ = new VerifyMaps;
+  stack_ = new QStackedWidget;
+  stack_->addWidget(plot_);
+  stack_->addWidget(maps_);
+  right->body()->addWidget(stack_, 1);
   content()->addWidget(makeSplitter(left, right, 7, 6), 1);
   showHints(plot_);
   connect(compare_, &QPushButton::clicked, this, [this] { compare(true); });
-  connect(component_, &QComboBox::activated, this, [this](int) { showPlot(); });
+  connect(component_, &QComboBox::activated, this, [this](int) {
+    showPlot();
+    showMaps();
+  });
+  connect(shown_, &Segments::chosen, this, [this] { setShown(shown_->current()); });
+  connect(maps_, &VerifyMaps::stateChosen, this, &VerifyPage::showMaps);
+}
+
+void VerifyPage::setShown(int index) {
+  shown_->setCurrent(index);
+  stack_->setCurrentIndex(index);
+  showMaps();
 }
 
 QWidget* VerifyPage::makeChoices() {
@@ -257,6 +277,7 @@ void VerifyPage::showResult() {
     components_->setRows({});
     for (NumberTile* tile : {before_, left_, verdict_}) tile->set(QStringLiteral("–"));
     showPlot();
+    showMaps();
     return;
   }
   const bool largest = result_->request.criterion == VerifyCriterion::Largest;
@@ -298,7 +319,28 @@ void VerifyPage::showResult() {
   verdict_->set(wordOf(result_->verdict), tr("goal %1 um").arg(result_->request.goal_um, 0, 'g', 3),
                 toneOf(result_->verdict));
   if (component_->findText(chosen) >= 0) component_->setCurrentText(chosen);
+  QStringList states;
+  for (const VerifyPoint& p : result_->points)
+    if (!states.contains(fromCore(p.state))) states << fromCore(p.state);
+  maps_->setStates(states);
   showPlot();
+  showMaps();
+}
+
+void VerifyPage::showMaps() {
+  if (result_ == nullptr) return maps_->clear();
+  if (stack_->currentIndex() != 1) return;
+  const auto component = componentFromString(component_->currentText().toStdString());
+  if (!component) return;
+  const double goal = isRotation(*component) ? result_->request.goal_urad : result_->request.goal_um;
+  run(tr("Drawing before and after"),
+      [this, result = result_, campaign = session().campaign(), component = *component, state = maps_->state(),
+       goal](JobContext&) -> std::function<void()> {
+        auto map = std::make_shared<VerifyMap>(verifyMap(*result, campaign->machine, component, state));
+        return [this, result, campaign, map, goal] {
+          if (result == result_) maps_->show(*map, campaign->machine, goal);
+        };
+      });
 }
 
 void VerifyPage::showPlot() {
@@ -349,7 +391,13 @@ void VerifyPage::showPlot() {
 
 std::vector<Exportable> VerifyPage::exportables() {
   if (result_ == nullptr) return {};
-  return {exportableOf(tr("Before and after"), components_), exportableOf(tr("Values before and after"), plot_)};
+  std::vector<Exportable> items{exportableOf(tr("Before and after"), components_),
+                                exportableOf(tr("Values before and after"), plot_)};
+  if (!maps_->view(0)->empty()) {
+    items.push_back(exportableOf(tr("Before on the table"), maps_->view(0)));
+    items.push_back(exportableOf(tr("After on the table"), maps_->view(1)));
+  }
+  return items;
 }
 
 }  // namespace spindrift::gui

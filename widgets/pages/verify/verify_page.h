@@ -10,12 +10,15 @@
 
 class QComboBox;
 class QDoubleSpinBox;
+class QStackedWidget;
 
 namespace spindrift::gui {
 
 class NumberTile;
 class Plot;
 class RowsModel;
+class Segments;
+class VerifyMaps;
 
 class VerifyPage : public Page {
   Q_OBJECT
@@ -30,6 +33,9 @@ class VerifyPage : public Page {
   [[nodiscard]] QDoubleSpinBox* goal() const { return goal_um_; }
   [[nodiscard]] RowsModel* components() const { return components_; }
   [[nodiscard]] Plot* plot() const { return plot_; }
+  [[nodiscard]] VerifyMaps* maps() const { return maps_; }
+  /// 0: every value, 1: on the table.
+  void setShown(int index);
   [[nodiscard]] const std::shared_ptr<const VerifyResult>& result() const { return result_; }
 
  private:
@@ -41,6 +47,7 @@ class VerifyPage : public Page {
   void compare(bool store);
   void showResult();
   void showPlot();
+  void showMaps();
 
   std::shared_ptr<const VerifyResult> result_;
   nlohmann::json result_options_;
@@ -57,7 +64,10 @@ class VerifyPage : public Page {
   NumberTile* verdict_;
   QComboBox* component_;
   RowsModel* components_;
+  Segments* shown_;
+  QStackedWidget* stack_;
   Plot* plot_;
+  VerifyMaps* maps_;
 };
 
 }  // namespace spindrift::gui

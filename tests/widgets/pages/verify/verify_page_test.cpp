@@ -17,7 +17,9 @@
 #include "widgets/pages/thermal/thermal_model_page.h"
 #include "widgets/pages/thermal/update_panel.h"
 #include "widgets/pages/thermal/warm_up_page.h"
+#include "widgets/pages/verify/verify_maps.h"
 #include "widgets/plots/plot.h"
+#include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
 namespace {
@@ -28,7 +30,7 @@ constexpr double gain = 12.0;  // um at 3000 rpm
 class VerifyPages : public PageTest {
  protected:
   /// 40 h of a spindle in steps; EZ of F1 and F2 every 30 min with 0.2 um. With compensation a tenth is left.
-  std::filesystem::path write(const std::string& name, bool compensating) {
+  std::filesystem::path write(const std::string& name, bool compensating, int points = 2) {
     Random random(compensating ? 12 : 11);
     Random speeds(5);
     std::string log = "time_s,spindle_rpm,compensation_on,T_room_degC\n";
@@ -39,9 +41,9 @@ class VerifyPages : public PageTest {
       if (i % 240 == 0) rpm = 1000.0 * std::floor(speeds.uniform(0.0, 4.0));
       log += std::to_string(30 * i) + "," + exactNumber(rpm) + (compensating ? ",1," : ",0,") +
              exactNumber(20 + 0.5 * std::sin(i / 500.0)) + "\n";
-      for (int p = 1; i % 60 == 0 && p <= 2; ++p) {
+      for (int p = 1; i % 60 == 0 && p <= points; ++p) {
         rows += std::to_string(30 * i) + ",M" + std::to_string(i / 60) + ",F" + std::to_string(p) + "," +
-                std::to_string(50 * p) + ",0,0,0,EZ," +
+                std::to_string(50 * p) + (p < 3 ? ",0" : ",150") + ",0,0,EZ," +
                 exactNumber(gain * state * (compensating ? 0.1 : 1.0) + random.normal(0, 0.2)) + ",0.2,probe,fit\n";
       }
       state += (1 - std::exp(-30.0 / tau_s)) * (rpm / 3000.0 - state);
@@ -91,6 +93,38 @@ TEST_F(VerifyPages, BeforeAndAfterAreJudgedAgainstTheGoal) {
   const auto set = window_->session().observations();
   ASSERT_TRUE(set.has_value());
   for (const Observation& o : set->rows) EXPECT_EQ(o.use, ObservationUse::Exclude);
+}
+
+TEST_F(VerifyPages, BeforeAndAfterStandOnTheTableWithOneScale) {
+  const auto after = write("after", true, 4);
+  open(write("before", false, 4));
+  auto* page = go<VerifyPage>(StepId::Verify);
+  page->setAfter(QString::fromStdString(after.string()));
+  press();
+  page->setShown(1);
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  VerifyMaps* maps = page->maps();
+  ASSERT_EQ(maps->view(0)->points().size(), 4U);
+  EXPECT_EQ(maps->view(0)->colourScale(), maps->view(1)->colourScale());
+  // The state that is worst after compensating; what is left is a tenth of what was before, within the noise.
+  const auto value = [&](int side) { return std::abs(*maps->view(side)->points().front().value); };
+  EXPECT_GT(value(0), 3.0);
+  EXPECT_LT(value(1), 0.1 * value(0) + 1.0);
+  const auto middle = maps->view(0)->probeAt(*maps->view(0)->pixelOf({125.0, 75.0, 0.0}));
+  ASSERT_TRUE(middle.has_value()) << "a heat map between the points";
+  EXPECT_NEAR(std::abs(middle->value), value(0), 2.0);
+  maps->stateChoice()->setCurrentText(QStringLiteral("M40"));
+  Q_EMIT maps->stateChoice()->activated(maps->stateChoice()->currentIndex());
+  ASSERT_TRUE(waitForJobs(*window_, 30));
+  EXPECT_EQ(maps->state(), "M40");
+  for (const VerifyPoint& p : page->result()->points) {
+    if (p.state == "M40" && p.point == "F1") {
+      EXPECT_EQ(*maps->view(0)->points().front().value, p.before);
+    }
+  }
+  exportAll();
+  if (qEnvironmentVariableIsSet("SPINDRIFT_PICTURES"))
+    window_->grab().save(qEnvironmentVariable("SPINDRIFT_PICTURES") + QStringLiteral("/verify-table.png"));
 }
 
 TEST_F(VerifyPages, ACampaignWithObservationsHasAModelOverTime) {
