@@ -352,8 +352,9 @@ std::vector<Exclusion> Session::exclusions(std::int64_t id) const {
   return database_->exclusions(id);
 }
 
-std::int64_t Session::addNote(std::int64_t id, const std::string& step, const std::string& text) {
-  return database_->addNote(id, {0, step, text, utcNow()});
+std::int64_t Session::addNote(std::int64_t id, const std::string& step, const std::string& text,
+                              const std::string& item) {
+  return database_->addNote(id, {0, step, text, utcNow(), item});
 }
 void Session::removeNote(std::int64_t note) {
   database_->removeNote(note);

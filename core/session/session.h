@@ -59,6 +59,7 @@ struct Note {
   std::string step;
   std::string text;
   std::string created_utc;
+  std::string item;  ///< what it is about within the step, such as a capture; empty: the step
 };
 
 /// A campaign that has been checked and copied into a session's folder, and is not part of it yet. Takes its copy away
@@ -155,7 +156,8 @@ class Session {
   void exclude(std::int64_t campaign, const std::string& item, const std::string& reason);
   void restore(std::int64_t campaign, const std::string& item);
   [[nodiscard]] std::vector<Exclusion> exclusions(std::int64_t campaign) const;
-  std::int64_t addNote(std::int64_t campaign, const std::string& step, const std::string& text);
+  std::int64_t addNote(std::int64_t campaign, const std::string& step, const std::string& text,
+                       const std::string& item = {});
   void removeNote(std::int64_t note);
   [[nodiscard]] std::vector<Note> notes(std::int64_t campaign) const;
   void setSetting(const std::string& key, const nlohmann::json& value);

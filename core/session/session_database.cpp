@@ -35,9 +35,30 @@ void makeVersion1(soci::session& sql) {
   sql << "create table setting (name text primary key, value text not null)";
 }
 
+/// Version 2: a note may be about one item, such as a capture.
+void makeVersion2(soci::session& sql) {
+  sql << "alter table note add column item text not null default ''";
+}
+
 using Migration = void (*)(soci::session&);
-constexpr Migration migrations[] = {makeVersion1};
+constexpr Migration migrations[] = {makeVersion1, makeVersion2};
 static_assert(std::size(migrations) == SessionDatabase::newest_version);
+
+/// What a user gets back to the older program with. Throws InputError if it cannot be written; an older copy of the
+/// same version stands for the same data and is replaced.
+std::filesystem::path keepCopy(const std::filesystem::path& file, int version) {
+  const std::filesystem::path copy = file.string() + fmt::format(".version-{}", version);
+  const std::filesystem::path working = copy.string() + ".writing";
+  std::error_code error;
+  std::filesystem::copy_file(file, working, std::filesystem::copy_options::overwrite_existing, error);
+  if (!error) std::filesystem::rename(working, copy, error);
+  if (!error) return copy;
+  std::error_code ignored;
+  std::filesystem::remove(working, ignored);
+  throw InputError({file, ""}, fmt::format("is of version {} and cannot be copied before it is changed: {}; make room "
+                                           "beside it or open it with the older program.",
+                                           version, error.message()));
+}
 
 /// Runs `body` and turns what SOCI throws into the sentence a user gets.
 template <typename Body>
@@ -68,12 +89,14 @@ SessionDatabase::SessionDatabase(const std::filesystem::path& file, std::vector<
     }
     if (version < newest_version) {
       const int before = version;
+      const std::filesystem::path copy = before > 0 ? keepCopy(file_, before) : std::filesystem::path();
       soci::transaction transaction(sql);
       while (version < newest_version) migrations[version++](sql);
       sql << fmt::format("pragma user_version = {}", newest_version);
       transaction.commit();
       if (before > 0) {
-        messages.push_back(fmt::format("The session was brought from version {} to {}.", before, newest_version));
+        messages.push_back(fmt::format("The session was brought from version {} to {}; the old database is kept as {}.",
+                                       before, newest_version, copy.filename().string()));
       }
     }
     if (::stat(file_.c_str(), &connection_->identity) != 0) throw InputError({file_, ""}, "cannot be opened.");
@@ -270,8 +293,8 @@ std::int64_t SessionDatabase::addNote(std::int64_t campaign, const Note& note) {
   return writing([&] {
     const long long key = campaign;
     soci::session& sql = connection_->sql;
-    sql << "insert into note (campaign, step, text, created_utc) values (:c, :s, :x, :t)", soci::use(key),
-        soci::use(note.step), soci::use(note.text), soci::use(note.created_utc);
+    sql << "insert into note (campaign, step, text, created_utc, item) values (:c, :s, :x, :t, :i)", soci::use(key),
+        soci::use(note.step), soci::use(note.text), soci::use(note.created_utc), soci::use(note.item);
     long long id = 0;
     sql << "select last_insert_rowid()", soci::into(id);
     return static_cast<std::int64_t>(id);
@@ -286,19 +309,21 @@ void SessionDatabase::removeNote(std::int64_t id) {
 }
 
 std::vector<Note> SessionDatabase::notes(std::int64_t campaign) const {
-  return guarded(file_, [&] {
-    const long long key = campaign;
-    std::vector<Note> list;
-    const soci::rowset<soci::row> rows =
-        (connection_->sql.prepare << "select cast(id as text), step, text, created_utc from note where campaign = :c "
-                                     "order by id",
-         soci::use(key));
-    for (const soci::row& row : rows) {
-      list.push_back({std::stoll(row.get<std::string>(0)), row.get<std::string>(1), row.get<std::string>(2),
-                      row.get<std::string>(3)});
-    }
-    return list;
-  });
+  return guarded(file_,
+                 [&] {
+                   const long long key = campaign;
+                   std::vector<Note> list;
+                   const soci::rowset<soci::row> rows =
+                       (connection_->sql.prepare
+                            << "select cast(id as text), step, text, created_utc, item from note where campaign = :c "
+                               "order by id",
+                        soci::use(key));
+                   for (const soci::row& row : rows) {
+                     list.push_back({std::stoll(row.get<std::string>(0)), row.get<std::string>(1),
+                                     row.get<std::string>(2), row.get<std::string>(3), row.get<std::string>(4)});
+                   }
+                   return list;
+                 });
 }
 
 void SessionDatabase::setSetting(const std::string& key, const std::string& json) {

@@ -15,9 +15,10 @@ namespace spindrift {
 class SessionDatabase {
  public:
   /// Newest schema this program writes.
-  static constexpr int newest_version = 1;
+  static constexpr int newest_version = 2;
 
-  /// Opens or makes the database file and brings it to `newest_version`; `messages` receives what a migration did.
+  /// Opens or makes the database file and brings it to `newest_version`; `messages` receives what a migration did. The
+  /// old database is copied to `<file>.version-<n>` first; a migration that fails leaves it as it was.
   SessionDatabase(const std::filesystem::path& file, std::vector<std::string>& messages);
   ~SessionDatabase();
   SessionDatabase(const SessionDatabase&) = delete;

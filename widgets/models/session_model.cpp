@@ -349,10 +349,10 @@ std::vector<Note> SessionModel::notes() const {
   return session_ != nullptr ? session_->notes(campaign_id_) : std::vector<Note>();
 }
 
-bool SessionModel::addNote(const QString& about, const QString& text) {
+bool SessionModel::addNote(const QString& about, const QString& text, const QString& item) {
   if (session_ == nullptr || campaign_ == nullptr || text.isEmpty()) return false;
   try {
-    session_->addNote(campaign_id_, about.toStdString(), text.toStdString());
+    session_->addNote(campaign_id_, about.toStdString(), text.toStdString(), item.toStdString());
     return true;
   } catch (const InputError& e) {
     Q_EMIT storingFailed(QString::fromUtf8(e.what()));

@@ -136,7 +136,7 @@ class SessionModel : public QObject {
 
   // Notes on the campaign at hand. A note that cannot be stored is told by storingFailed().
   [[nodiscard]] std::vector<Note> notes() const;
-  bool addNote(const QString& about, const QString& text);
+  bool addNote(const QString& about, const QString& text, const QString& item = {});
   void removeNote(std::int64_t note);
 
   // Settings that belong to the session.

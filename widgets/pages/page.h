@@ -42,6 +42,8 @@ class Page : public QWidget {
   [[nodiscard]] virtual std::vector<Exportable> exportables() { return {}; }
   /// The page's main action, for Ctrl+Return; may be null.
   [[nodiscard]] virtual QPushButton* primaryButton() const { return nullptr; }
+  /// What is picked on the page, as exclusions and notes call it ("captures/images/a.jpg"); empty: nothing.
+  [[nodiscard]] virtual QString pickedItem() const { return {}; }
   /// Runs what the page would be asked to run first (the tour and the tests use it).
   virtual void runAll() {}
   [[nodiscard]] StepId step() const { return step_; }

@@ -167,7 +167,8 @@ NotesDialog* MainWindow::openNotes() {
     tell(tr("Open a session first; notes belong to it."));
     return nullptr;
   }
-  auto* dialog = new NotesDialog(session_, stepTitle(workflow_.current()), this);
+  auto* dialog = new NotesDialog(session_, stepTitle(workflow_.current()),
+                                 page_ != nullptr ? page_->pickedItem() : QString(), this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->open();
   return dialog;

@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 #include <QHBoxLayout>
+#include <QLineEdit>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QTableView>
@@ -16,24 +17,36 @@
 
 namespace spindrift::gui {
 
-NotesDialog::NotesDialog(SessionModel& session, const QString& about, QWidget* parent)
+NotesDialog::NotesDialog(SessionModel& session, const QString& about, const QString& item, QWidget* parent)
     : QDialog(parent), session_(session) {
   setWindowTitle(tr("Notes"));
   resize(720, 520);
   auto* column = new QVBoxLayout(this);
   column->setSpacing(8);
-  rows_ = new RowsModel({tr("When (UTC)"), tr("About"), tr("Note")}, this);
+  rows_ = new RowsModel({tr("When (UTC)"), tr("About"), tr("Item"), tr("Note")}, this);
   table_ = makeTable(rows_, tr("Notes"), tr("Notes that you add appear here and in the report."));
   column->addWidget(table_, 2);
   about_ = new QComboBox;
   about_->setEditable(true);
   about_->setAccessibleName(tr("What the note is about"));
-  about_->setToolTip(tr("A step, or what you type: a capture, a result, the session"));
+  about_->setToolTip(tr("A step, or what you type: a result, the session"));
   about_->addItem(tr("Session"));
   for (const StepId step : all_steps) about_->addItem(stepTitle(step));
-  for (const auto& [item, reason] : session_.excluded()) about_->addItem(item);
   about_->setCurrentText(about);
-  column->addWidget(about_);
+  item_ = new QComboBox;
+  item_->setEditable(true);
+  item_->setAccessibleName(tr("Which item of it the note is about"));
+  item_->setToolTip(tr("A capture or an observation; what is picked on the page, or one that was taken out"));
+  item_->addItem(QString());
+  if (!item.isEmpty()) item_->addItem(item);
+  for (const auto& [excluded, reason] : session_.excluded())
+    if (excluded != item) item_->addItem(excluded);
+  item_->setCurrentText(item);
+  item_->lineEdit()->setPlaceholderText(tr("the step as a whole"));
+  auto* what = new QHBoxLayout;
+  what->addWidget(about_, 2);
+  what->addWidget(item_, 3);
+  column->addLayout(what);
   text_ = new QPlainTextEdit;
   text_->setAccessibleName(tr("Text of the note"));
   text_->setPlaceholderText(tr("What somebody who reads the report should know"));
@@ -70,15 +83,18 @@ void NotesDialog::refresh() {
     row.id = QString::number(note.id);
     row.cells = {{QString::fromStdString(note.created_utc).replace(QLatin1Char('T'), QLatin1Char(' ')).chopped(1)},
                  {QString::fromStdString(note.step)},
+                 {QString::fromStdString(note.item)},
                  {QString::fromStdString(note.text)}};
-    row.cells[2].tip = row.cells[2].text;
+    for (const std::size_t cell : {2U, 3U}) row.cells[cell].tip = row.cells[cell].text;
     rows.push_back(std::move(row));
   }
   rows_->setRows(std::move(rows));
 }
 
 void NotesDialog::add() {
-  if (!session_.addNote(about_->currentText().trimmed(), text_->toPlainText().trimmed())) return;
+  if (!session_.addNote(about_->currentText().trimmed(), text_->toPlainText().trimmed(),
+                        item_->currentText().trimmed()))
+    return;
   text_->clear();
   refresh();
 }

@@ -17,11 +17,13 @@ class SessionModel;
 class NotesDialog : public QDialog {
   Q_OBJECT
  public:
-  /// `about` is what a new note is about unless the user says otherwise: the step that is shown.
-  NotesDialog(SessionModel& session, const QString& about, QWidget* parent = nullptr);
+  /// `about` is what a new note is about unless the user says otherwise: the step that is shown, and `item`, what is
+  /// picked on its page (may be empty).
+  NotesDialog(SessionModel& session, const QString& about, const QString& item, QWidget* parent = nullptr);
 
   [[nodiscard]] RowsModel* rows() const { return rows_; }
   [[nodiscard]] QComboBox* about() const { return about_; }
+  [[nodiscard]] QComboBox* item() const { return item_; }
   [[nodiscard]] QPlainTextEdit* text() const { return text_; }
   [[nodiscard]] QPushButton* addButton() const { return add_; }
   [[nodiscard]] QPushButton* removeButton() const { return remove_; }
@@ -35,6 +37,7 @@ class NotesDialog : public QDialog {
   RowsModel* rows_;
   QTableView* table_;
   QComboBox* about_;
+  QComboBox* item_;
   QPlainTextEdit* text_;
   QPushButton* add_;
   QPushButton* remove_;

@@ -40,7 +40,7 @@ TEST(Session, ReopensWithEverythingThatWasPutIn) {
     Session session = Session::create(folder / "a session with blanks");
     campaign = session.importCampaign(source, job);
     session.exclude(campaign, "captures/images/a.jpg", "blurred");
-    session.addNote(campaign, "Capture", "door was open");
+    session.addNote(campaign, "Capture", "door was open", "captures/images/a.jpg");
     session.setSetting("theme", "dark");
     session.addResult(campaign, "fit", {{"points", {"F1", "F2"}}}, {{"rms_um", 1.25}});
   }
@@ -52,6 +52,7 @@ TEST(Session, ReopensWithEverythingThatWasPutIn) {
   EXPECT_EQ(session.exclusions(campaign)[0].reason, "blurred");
   ASSERT_EQ(session.notes(campaign).size(), 1U);
   EXPECT_EQ(session.notes(campaign)[0].text, "door was open");
+  EXPECT_EQ(session.notes(campaign)[0].item, "captures/images/a.jpg");
   EXPECT_EQ(session.setting("theme"), nlohmann::json("dark"));
   const auto result = session.latestResult(campaign, "fit");
   ASSERT_TRUE(result);
@@ -208,6 +209,59 @@ TEST(Session, RefusesDatabaseOfNewerVersionAndLeavesItAlone) {
   const std::string before = readFile(folder / "s/session.sqlite");
   EXPECT_THROW((void)Session::open(folder / "s"), InputError);
   EXPECT_EQ(readFile(folder / "s/session.sqlite"), before);
+}
+
+/// A session folder with the database of version 1.
+void writeVersion1(const TempFolder& folder, const std::string& name) {
+  folder.write(name + "/spindrift-session.json", R"({"format":"spindrift-session","version":1})");
+  std::filesystem::create_directories(folder / (name + "/campaigns"));
+  const auto source = writeCampaign(folder, "source");
+  std::filesystem::rename(source, folder / (name + "/campaigns/warm-up_1"));
+  sqlite3* handle = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / (name + "/session.sqlite")).c_str(), &handle), SQLITE_OK);
+  const std::string sql = readFile(std::filesystem::path(SPINDRIFT_TEST_DATA) / "sessions/version-1.sql");
+  ASSERT_EQ(sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(handle);
+  sqlite3_close(handle);
+}
+
+TEST(Session, OneOfAnOlderVersionIsMigratedAndLosesNothing) {
+  const TempFolder folder;
+  writeVersion1(folder, "old");
+  const std::string before = readFile(folder / "old/session.sqlite");
+  {
+    Session session = Session::open(folder / "old");
+    ASSERT_EQ(session.migrationMessages().size(), 1U);
+    EXPECT_THAT(session.migrationMessages()[0], HasSubstr("version 1 to 2"));
+    ASSERT_EQ(session.campaigns().size(), 1U);
+    EXPECT_EQ(Campaign::read(session.campaigns()[0].folder).machine.name, "mill");
+    EXPECT_EQ(session.latestResult(1, "fit")->payload.at("rms_um"), 1.5);
+    EXPECT_EQ(session.results(1).size(), 2U);
+    EXPECT_EQ(session.exclusions(1).at(0).reason, "blurred");
+    EXPECT_EQ(session.notes(1).at(0).text, "door was open");
+    EXPECT_EQ(session.notes(1).at(0).item, "");
+    EXPECT_EQ(session.setting("theme"), nlohmann::json("dark"));
+    session.addNote(1, "Capture", "blurred by the fan", "captures/images/a.jpg");
+  }
+  EXPECT_EQ(readFile(folder / "old/session.sqlite.version-1"), before) << "the way back to the older program";
+  const Session again = Session::open(folder / "old");
+  EXPECT_TRUE(again.migrationMessages().empty());
+  EXPECT_EQ(again.notes(1).at(1).item, "captures/images/a.jpg");
+}
+
+TEST(Session, AMigrationThatCannotKeepACopyChangesNothing) {
+  const TempFolder folder;
+  writeVersion1(folder, "old");
+  // A folder stands where the copy is to be.
+  folder.write("old/session.sqlite.version-1/in the way", "x");
+  const std::string before = readFile(folder / "old/session.sqlite");
+  try {
+    (void)Session::open(folder / "old");
+    FAIL() << "without a copy nothing may be changed";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("cannot be copied before it is changed"));
+  }
+  EXPECT_EQ(readFile(folder / "old/session.sqlite"), before);
+  EXPECT_FALSE(std::filesystem::exists(folder / "old/session.sqlite.version-1.writing"));
 }
 
 TEST(Session, DamagedDatabaseIsOneSentence) {

@@ -85,6 +85,7 @@ TEST_F(RobustnessTest, NotesAreKeptAndCanBeTakenAway) {
   QTest::mouseClick(notes->addButton(), Qt::LeftButton);
   ASSERT_EQ(window_->session().notes().size(), 1U);
   EXPECT_EQ(window_->session().notes()[0].text, "The door was open.");
+  EXPECT_EQ(window_->session().notes()[0].item, "") << "nothing is picked on this page";
   ASSERT_EQ(notes->rows()->rowCount(), 1);
   notes->findChild<QTableView*>()->setCurrentIndex(notes->rows()->index(0, 0));
   QTest::mouseClick(notes->removeButton(), Qt::LeftButton);

@@ -328,10 +328,6 @@ void FiducialCapturePage::select(const QString& image) {
   if (row >= 0) table_->selectRow(row);
 }
 
-QString FiducialCapturePage::selectedImage() const {
-  return shown_;
-}
-
 void FiducialCapturePage::showImage(const QString& image) {
   const CaptureVerdict* capture = find(image);
   if (capture == nullptr) return;
@@ -380,7 +376,7 @@ void FiducialCapturePage::showImage(const QString& image) {
 }
 
 void FiducialCapturePage::toggleExcluded() {
-  const QString image = selectedImage();
+  const QString image = pickedItem();
   if (image.isEmpty()) return;
   if (session().excluded().contains(image)) {
     context().undo.push(new ExcludeCommand(session(), {image}, {}));

@@ -39,6 +39,7 @@ class FiducialCapturePage : public Page {
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return check_; }
   void runAll() override { checkAll(); }
+  [[nodiscard]] QString pickedItem() const override { return shown_; }
   /// Shows one image (path as in the list).
   void select(const QString& image);
 
@@ -49,7 +50,6 @@ class FiducialCapturePage : public Page {
   void checkAll();
   void showImage(const QString& image);
   void toggleExcluded();
-  [[nodiscard]] QString selectedImage() const;
   [[nodiscard]] const CaptureVerdict* find(const QString& image) const;
 
   std::vector<CaptureVerdict> captures_;

@@ -33,6 +33,8 @@ class TouchCapturePage : public Page {
   /// The programme as checked last; empty if none could be made.
   [[nodiscard]] const std::optional<CheckedProgram>& program() const { return program_; }
   void selectCycle(const QString& cycle);
+  /// The touch that is selected; of several the first.
+  [[nodiscard]] QString pickedItem() const override { return selectedTouches().value(0); }
 
  private:
   void evaluate(bool store);

@@ -120,7 +120,8 @@ ReportOptions ReportPage::options() const {
     o.exclusions.emplace_back(item.toStdString(), reason.toStdString());
   if (Session* store = model.session()) {
     for (const Note& note : store->notes(model.campaignId())) {
-      o.notes.push_back(note.created_utc + "  " + note.step + ": " + note.text);
+      o.notes.push_back(note.created_utc + "  " + note.step + (note.item.empty() ? "" : ", " + note.item) + ": " +
+                        note.text);
     }
   }
   return o;

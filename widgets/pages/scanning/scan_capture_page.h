@@ -43,6 +43,7 @@ class ScanCapturePage : public Page {
   [[nodiscard]] ScanMaskBar* maskBar() const { return mask_; }
   [[nodiscard]] View3D* viewBefore() const { return before_view_; }
   void showProfile(int index);
+  [[nodiscard]] QString pickedItem() const override { return selected(); }
 
  private:
   void check();
