@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/discrepancy/discrepancy_numbers.h"
 #include "core/discrepancy/discrepancy_search.h"
+#include "core/discrepancy/distributed_dynamics.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/math/distributions.h"
 #include "core/math/statistics.h"
@@ -33,24 +34,53 @@ bool overlaps(const JointFit& fit, std::size_t t) {
   return false;
 }
 
-/// Probability that the name is right. Factors as they were found in studies on virtual campaigns: rivals share, an
-/// onset that no log shows and a second effect in the same component are mistaken more often, and so is what leaves
-/// something over or does not predict states that were left out.
-double confidenceOf(const SearchOutcome& outcome, const TermEvidence& evidence, const JointFit& named, std::size_t t) {
-  double confidence = 0.99;
-  for (const RivalFit& r : evidence.rivals) {
-    if (!r.container) confidence *= r.undriven ? 0.82 : 0.92;
+/// Whitened power that all effects explain together where effect `t` acts, with and without its own part.
+std::pair<double, double> powerBeside(const ResidualProblem& problem, const JointFit& fit, std::size_t t) {
+  const Eigen::ArrayXd weight = (problem.sigma * problem.noise.scale).array().inverse();
+  const Eigen::ArrayXd own = (fit.contribution[t].array() * weight).square();
+  const double largest = own.maxCoeff();
+  double all = 0.0;
+  double others = 0.0;
+  Eigen::ArrayXd beside = Eigen::ArrayXd::Zero(own.size());
+  for (std::size_t k = 0; k < fit.terms.size(); ++k) {
+    if (k != t) beside += fit.contribution[k].array() * weight;
   }
-  const double relative = std::min(evidence.margin, 1e6) / std::max(1.0, evidence.delta_chi2);
-  confidence *= 0.95 + 0.05 * (1.0 - std::exp(-std::max(0.0, relative) / 0.02));
-  if (outcome.leftover_p_value < 1e-3) confidence *= 0.96;
-  if (outcome.explained_fraction < 0.95) confidence *= 0.93;
-  const Dynamics dynamics = named.terms[t].variant.inputs[0].dynamics;
-  if (dynamics == Dynamics::Pulse) confidence *= 0.96;
-  if (overlaps(named, t)) confidence *= 0.97;
-  const auto& cv = evidence.crossvalidation;
-  if (!(cv.after_chi2 < 0.7 * cv.before_chi2)) confidence *= 0.97;
-  return std::clamp(confidence, 0.02, 0.995);
+  for (Index u = 0; u < own.size(); ++u) {
+    if (own[u] < 1e-6 * largest) continue;
+    all += own[u];
+    others += beside[u] * beside[u];
+  }
+  return {all + others, others};
+}
+
+/// Probability that the name is right: posterior of the effect over all that were tried in its place, over its being no
+/// effect but an error of the effects beside it, and over a cause that is not in the catalogue, from their scores
+/// (BIC).
+///
+///   p = 1 / (1 + w [sum exp(-T behind_i / 2) + exp(-T gain / 2) + exp(T advantage / 2)]),   T = 1 / (1 + e^2 P / 4)
+///
+/// Scores take the model for true. It is off by a part e of its amplitude, and smoothly, so that four numbers tell most
+/// of it: the chi-squared of an error of power e^2 P moves as that of a signal, and evidence is tempered by T. e^2 is
+/// what is left beyond the noise as a part of what is explained, and e at least 5 %. Of two effects of which one holds
+/// the other, the error serves both alike: their evidence is not tempered. w = 0.3 is
+/// what an alternative that the search did not choose weighs before the evidence.
+double confidenceOf(const ResidualProblem& problem, const SearchOutcome& outcome, const TermEvidence& evidence,
+                    const JointFit& named, std::size_t t) {
+  const double dof = std::max(1.0, static_cast<double>(outcome.dof_before - outcome.fit.parameter_count));
+  const double left = outcome.chi2_after - dof - std::sqrt(2.0 * dof);
+  const double error = std::max(0.05 * 0.05, left / std::max(1.0, outcome.chi2_before - outcome.chi2_after));
+  const auto [all, others] = powerBeside(problem, named, t);
+  const double among = 1.0 / (1.0 + 0.25 * error * all);
+  const double beside = 1.0 / (1.0 + 0.25 * error * others);
+  double odds = 0.0;
+  for (const auto& [behind, nested] : evidence.behind) {
+    odds += std::exp(-0.5 * (nested ? 1.0 : among) * std::max(0.0, behind));
+  }
+  for (const RivalFit& r : evidence.rivals) odds += r.undriven ? 0.6 : 0.0;
+  odds += std::exp(-0.5 * beside * evidence.delta_bic);
+  odds += std::exp(0.5 * among * std::min(0.0, outcome.unknown_course.advantage));
+  constexpr double prior_of_alternatives = 0.3;
+  return std::clamp(1.0 / (1.0 + prior_of_alternatives * odds), 0.02, 0.995);
 }
 
 }  // namespace
@@ -280,7 +310,10 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   problem.setNuisances(base);
   const double chi2_scale = std::max(1.0, outcome.chi2_after / std::max(1.0, static_cast<double>(outcome.dof_before)));
   std::vector<ModelEffect> effects = modelEffects(search, problem, named, "fit of the residual", chi2_scale);
-  result.model = std::make_shared<EffectModel>(drivers, effects, nullptr, input.base_table);
+  const DistributedFit complete = distributedDynamics(search, problem, *drivers, named);
+  const std::vector<ModelEffect> model_effects =
+      modelEffects(search, problem, complete.fit, "fit of the residual", chi2_scale, complete.prior_sigma);
+  result.model = std::make_shared<EffectModel>(drivers, model_effects, nullptr, input.base_table);
 
   // Rows: simulated, completed, gap, held-out.
   std::vector<double> sum(rows.size(), 0.0);
@@ -291,11 +324,15 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   RowResult last = before;
   for (std::size_t t = 0; t < effects.size(); ++t) {
     // Each prefix with its own gains, as it was when the effect entered.
+    const bool whole = t + 1 == effects.size();
+    const std::vector<ModelTerm> first(named.terms.begin(), named.terms.begin() + static_cast<std::ptrdiff_t>(t) + 1);
     const JointFit prefix =
-        search.solve({named.terms.begin(), named.terms.begin() + static_cast<std::ptrdiff_t>(t) + 1});
+        whole ? complete.fit : distributedDynamics(search, problem, *drivers, search.solve(first)).fit;
     std::vector<double> part(rows.size(), 0.0);
     for (std::size_t k = 0; k <= t; ++k) {
       ModelEffect e = effects[k];
+      e.variant = prefix.terms[k].variant;
+      e.parameters = prefix.terms[k].parameters;
       e.gains = prefix.gains[k];
       const std::vector<double> one = EffectModel::contribution(*drivers, e, rows);
       for (std::size_t r = 0; r < rows.size(); ++r) part[r] += one[r];
@@ -342,7 +379,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
       }
       if (count > 0.0 && !isRotation(c)) found.rms_um = std::max(found.rms_um, std::sqrt(power / count));
     }
-    found.confidence = confidenceOf(outcome, evidence[t], named, t);
+    found.confidence = confidenceOf(problem, outcome, evidence[t], named, t);
     result.effects.push_back(std::move(found));
     last = now;
     if (t + 1 == effects.size()) sum = part;

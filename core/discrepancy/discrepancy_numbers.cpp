@@ -18,15 +18,35 @@ using Eigen::Index;
 }  // namespace
 
 std::vector<ModelEffect> modelEffects(const EffectSearch& search, const ResidualProblem& problem, const JointFit& fit,
-                                      const std::string& source, double chi2_scale) {
+                                      const std::string& source, double chi2_scale,
+                                      const std::vector<Eigen::VectorXd>& prior_sigma) {
   if (fit.terms.empty()) return {};
+  std::vector<double> prior;  // of every column of the Jacobian; 0: free
   std::vector<Eigen::MatrixXd> parts;
   Index total = 0;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     const Eigen::MatrixXd x = search.columns(fit.terms[t]);
     Eigen::MatrixXd part(x.rows(), x.cols() + static_cast<Index>(fit.terms[t].parameters.size()));
     part.leftCols(x.cols()) = x;
+    for (Index g = 0; g < x.cols(); ++g) prior.push_back(prior_sigma.empty() ? 0.0 : prior_sigma[t][g]);
+    prior.insert(prior.end(), fit.terms[t].parameters.size(), 0.0);
+    // The lags of inputs with a prior are fixed.
+    std::vector<bool> fixed(fit.terms[t].parameters.size(), false);
+    if (!prior_sigma.empty() && !fit.terms[t].variant.shared_lag) {
+      const auto inputs = fit.terms[t].variant.inputs.size();
+      const auto k = x.cols() / static_cast<Index>(inputs);
+      std::size_t next = 0;
+      for (std::size_t i = 0; i < inputs; ++i) {
+        const auto count = static_cast<std::size_t>(parameterCount({{fit.terms[t].variant.inputs[i]}, false}));
+        const bool held = prior_sigma[t].segment(static_cast<Index>(i) * k, k).maxCoeff() > 0.0;
+        for (std::size_t p = 0; p < count; ++p) fixed[next++] = held;
+      }
+    }
     for (std::size_t p = 0; p < fit.terms[t].parameters.size(); ++p) {
+      if (fixed[p]) {
+        part.col(x.cols() + static_cast<Index>(p)).setZero();
+        continue;
+      }
       const bool lag = search.parameterIsLag(fit.terms[t], p);
       const double value = fit.terms[t].parameters[p];
       const double step = lag ? std::max(1.0, 0.02 * value) : 30.0;
@@ -43,13 +63,26 @@ std::vector<ModelEffect> modelEffects(const EffectSearch& search, const Residual
     jacobian.middleCols(at, part.cols()) = part;
     at += part.cols();
   }
-  const Eigen::MatrixXd x = problem.projected(jacobian);
-  Eigen::VectorXd norm = x.colwise().norm();
+  Eigen::MatrixXd x = problem.projected(jacobian);
+  const Index data_rows = x.rows();
+  x.conservativeResize(data_rows + total, Eigen::NoChange);
+  x.bottomRows(total).setZero();
+  for (Index c = 0; c < total; ++c) {
+    const double sigma = prior[static_cast<std::size_t>(c)];
+    if (sigma > 0.0) x(data_rows + c, c) = 1.0 / sigma;
+  }
+  const Eigen::VectorXd norm = x.colwise().norm();
   Eigen::MatrixXd scaled = x;
   for (Index c = 0; c < total; ++c) scaled.col(c) /= norm[c] > 0.0 ? norm[c] : 1.0;
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod(scaled);
-  const Eigen::MatrixXd inverse = cod.pseudoInverse();
-  Eigen::MatrixXd covariance = inverse * inverse.transpose() * chi2_scale;
+  Eigen::MatrixXd covariance;
+  if (prior_sigma.empty()) {
+    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod(scaled);
+    const Eigen::MatrixXd inverse = cod.pseudoInverse();
+    covariance = inverse * inverse.transpose() * chi2_scale;
+  } else {
+    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod(scaled.transpose() * scaled);
+    covariance = cod.pseudoInverse() * chi2_scale;
+  }
   for (Index r = 0; r < total; ++r) {
     for (Index c = 0; c < total; ++c) {
       covariance(r, c) /= (norm[r] > 0.0 ? norm[r] : 1.0) * (norm[c] > 0.0 ? norm[c] : 1.0);

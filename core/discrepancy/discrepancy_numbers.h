@@ -18,9 +18,11 @@ void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& r
 /// What the log lacks that the search would need.
 void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings);
 
-/// Gains and lags of a joint fit with their covariance (linearised at the solution).
+/// Gains and lags of a joint fit with their covariance (linearised at the solution). `prior_sigma`: of every gain of
+/// every term, 0 free; lags of inputs whose gains have one are fixed.
 [[nodiscard]] std::vector<ModelEffect> modelEffects(const EffectSearch& search, const ResidualProblem& problem,
-                                                    const JointFit& fit, const std::string& source, double chi2_scale);
+                                                    const JointFit& fit, const std::string& source, double chi2_scale,
+                                                    const std::vector<Eigen::VectorXd>& prior_sigma = {});
 
 /// "feed_y (lag 2400 s) + T_room_degC (lag 900 s)".
 [[nodiscard]] std::string driversText(const ModelEffect& effect);

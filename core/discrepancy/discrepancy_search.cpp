@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/discrepancy/distributed_dynamics.h"
 #include "core/discrepancy/forward_search.h"
 
 namespace spindrift {
@@ -22,6 +23,18 @@ bool sameShape(const EffectSearch& search, const Effect& a, const Effect& b) {
   if (first.cols() != 1 || second.cols() != 1) return false;
   const double dot = first.col(0).dot(second.col(0));
   return std::abs(dot) > 0.999 * first.col(0).norm() * second.col(0).norm() && dot != 0.0;
+}
+
+/// Both have a driver in common: with one shape as well they are two names of one thing (a table that turns).
+bool sameDrivers(const Effect& a, const Effect& b) {
+  return std::any_of(a.variants.begin(), a.variants.end(), [&](const EffectVariant& first) {
+    return std::any_of(b.variants.begin(), b.variants.end(), [&](const EffectVariant& second) {
+      return std::equal(first.inputs.begin(), first.inputs.end(), second.inputs.begin(), second.inputs.end(),
+                        [](const EffectInput& x, const EffectInput& y) {
+                          return x.driver == y.driver && !x.driver.empty() && x.dynamics == y.dynamics;
+                        });
+    });
+  });
 }
 
 /// `container` holds `simple`: by the catalogue, or because the one pattern of the latter is made of its patterns.
@@ -88,7 +101,7 @@ void dropSuperfluous(const EffectSearch& search, ResidualProblem& problem, const
       terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(t));
       JointFit without = search.refine(terms, 2);
       const double lost = fit.delta_chi2 - without.delta_chi2;
-      const double least = smallestGain(search, problem, fit, fit.terms[t], t, limits);
+      const double least = smallestGain(search, problem, fit, fit.contribution[t], hasOnset(fit.terms[t]), t, limits);
       if (fit.score - without.score > 8.0 && lost > least) continue;
       if (weakest < fit.terms.size() && without.score < best_without.score) continue;
       weakest = t;
@@ -102,6 +115,12 @@ void dropSuperfluous(const EffectSearch& search, ResidualProblem& problem, const
     out.forced.erase(out.forced.begin() + at);
     if (out.evidence.size() > weakest) out.evidence.erase(out.evidence.begin() + at);
   }
+}
+
+int foreignDrivers(const JointFit& fit) {
+  int count = 0;
+  for (const ModelTerm& term : fit.terms) count += spindrift::foreignDrivers(term);
+  return count;
 }
 
 /// How many effects have their main part in one and the same component, at most.
@@ -129,7 +148,8 @@ struct Leftover {
   UnknownCourse unknown_course;
 };
 
-/// What a fit leaves, against the noise and against an unknown cause.
+/// What a fit leaves, against the noise and against an unknown cause. Its dynamics may be wrong by a part of its
+/// amplitude.
 Leftover leftoverOf(const EffectSearch& search, ResidualProblem& problem, const std::vector<NuisanceColumn>& base,
                     const JointFit& fit, const SearchLimits& limits) {
   problem.setNuisances(base);
@@ -137,8 +157,9 @@ Leftover leftoverOf(const EffectSearch& search, ResidualProblem& problem, const 
   Eigen::VectorXd residual = problem.projectedResidual();
   const double before = residual.squaredNorm();
   std::vector<NamedPart> parts;
+  const DistributedFit allowed = distributedDynamics(search, problem, search.drivers(), fit, limits.leftover_error);
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
-    const Eigen::VectorXd part = problem.projected(search.columns(fit.terms[t])) * fit.gains[t];
+    const Eigen::VectorXd part = problem.projected(allowed.fit.contribution[t]);
     residual -= part;
     parts.push_back({part.head(problem.size()),
                      static_cast<int>(fit.gains[t].size() + static_cast<Index>(fit.terms[t].parameters.size()))});
@@ -180,7 +201,7 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
     out.steps.push_back({id, true, candidate.score, candidate.delta_chi2, "accepted by the user"});
   }
 
-  const ForwardSearch forward(search, problem, base, options, limits, job);
+  ForwardSearch forward(search, problem, base, options, limits, job);
   fit = forward.run(std::move(fit), out.steps);
 
   out.forced.resize(fit.terms.size(), false);
@@ -241,6 +262,9 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
         fit = std::move(joint);
         break;
       }
+      if (!sameShape(search, other, *fit.terms[t].effect) || !sameDrivers(other, *fit.terms[t].effect)) {
+        evidence.behind.emplace_back(-ahead, is_container || is_simpler);
+      }
       if (is_simpler) continue;
       if (!is_container) evidence.margin = std::min(evidence.margin, -ahead);
       if (ahead > -rival_margin) evidence.rivals.push_back({other.id, joint.score, is_container, joint, false, ahead});
@@ -263,7 +287,10 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
     problem.setNuisances(base);
     JointFit joint = refineDynamics(search, search.refine(terms, 2), 0, base);
     // What the larger lacks without it is the model error of its dynamics rather than a cause of its own.
-    if (joint.score < fit.score - std::max(20.0, limits.contained_part * fit.delta_chi2)) continue;
+    const bool simpler = foreignDrivers(joint) <= foreignDrivers(fit);
+    const double price =
+        simpler ? std::max(20.0, limits.contained_part * fit.delta_chi2) : priceOfNames(fit, joint, limits);
+    if (joint.score < fit.score - price) continue;
     out.steps.push_back({id, false, fit.score - joint.score, fit.delta_chi2 - joint.delta_chi2,
                          "left again: another effect of the model does nearly as well without it"});
     fit = std::move(joint);

@@ -21,6 +21,7 @@ struct SearchLimits {
   double rival_margin = 0.01;      ///< part of an effect's power within which another effect is a rival
   double smallest_part = 0.01;     ///< part of the power explained so far that a further effect must have
   double smallest_in_component = 0.03;        ///< the same, of the power in the component in which it mainly acts
+  double smallest_with_onset = 0.075;         ///< the same, where a free onset can follow what another effect misses
   double least_explained = 0.95;              ///< part of the structured power below which nothing is named
   double least_explained_by_stacked = 0.985;  ///< the same, where two effects move the same readings
   double unknown_advantage = 0.0;    ///< in BIC, by which an unknown course may be better than the effects named
@@ -45,6 +46,8 @@ struct TermEvidence {
   double delta_bic = 0.0;
   std::vector<RivalFit> rivals;  ///< containers included
   double margin = 1e9;           ///< score ahead of the best other effect that is no container
+  /// Of every other effect that was tried in its place, in score; and whether one of the two holds the other.
+  std::vector<std::pair<double, bool>> behind;
   EffectSearch::CrossValidation crossvalidation;
 };
 

@@ -21,6 +21,16 @@ struct LagOption {
   bool room_beside = false;  // the room, where the effect itself is not driven by it
 };
 
+/// Holds every driver of at least one way in which the catalogue has the effect driven.
+bool coversAVariant(const ModelTerm& term) {
+  const auto has = [&](const EffectInput& wanted) {
+    return std::any_of(term.variant.inputs.begin(), term.variant.inputs.end(),
+                       [&](const EffectInput& input) { return input.driver == wanted.driver; });
+  };
+  return std::any_of(term.effect->variants.begin(), term.effect->variants.end(),
+                     [&](const EffectVariant& v) { return std::all_of(v.inputs.begin(), v.inputs.end(), has); });
+}
+
 struct SetGain {
   double delta = -1.0;
   double room_part = 0.0;
@@ -103,18 +113,8 @@ JointFit EffectSearch::refineDynamics(JointFit fit, std::size_t t, const std::ve
   if (effect.follows_room && !paired) {
     for (const std::string& room : drivers_->room()) addDrivers({room}, true);
   }
-  // Columns of all options, orthogonal to the nuisances and to the other terms.
-  Eigen::MatrixXd x(problem_->size(), static_cast<Index>(options.size()) * k);
-  for (std::size_t o = 0; o < options.size(); ++o) {
-    const Index each = shape(effect).cols();
-    for (std::size_t d = 0; d < options[o].drivers.size(); ++d) {
-      const Eigen::VectorXd& q = unitResponse(options[o].drivers[d], options[o].tau_s, -1.0);
-      const Index at = static_cast<Index>(o) * k + static_cast<Index>(d) * each;
-      x.middleCols(at, each).noalias() = q.asDiagonal() * shape(effect);
-    }
-  }
-  x = problem_->projected(x);
-  Eigen::VectorXd y = problem_->projectedResidual();
+  // What the other terms explain is taken out of everything.
+  Eigen::MatrixXd taken(problem_->projectedResidual().size(), 0);
   std::vector<ModelTerm> others = fit.terms;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
   if (!others.empty()) {
@@ -127,16 +127,19 @@ JointFit EffectSearch::refineDynamics(JointFit fit, std::size_t t, const std::ve
       raw.middleCols(at, part.cols()) = part;
       at += part.cols();
     }
-    const Eigen::MatrixXd taken = problem_->projected(raw);
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(taken);
-    const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(taken.rows(), qr.rank());
-    x -= q * (q.transpose() * x);
-    y -= q * (q.transpose() * y);
+    const Eigen::MatrixXd projected = problem_->projected(raw);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(projected);
+    taken = qr.householderQ() * Eigen::MatrixXd::Identity(projected.rows(), qr.rank());
   }
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(x.cols(), x.cols());
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
-  gram = Eigen::MatrixXd(gram.selfadjointView<Eigen::Lower>());
-  const Eigen::VectorXd b = x.transpose() * y;
+  const std::size_t drivers_each = paired ? 2 : 1;
+  Eigen::MatrixXd courses(problem_->size(), static_cast<Index>(options.size() * drivers_each));
+  Index course = 0;
+  for (const LagOption& option : options) {
+    for (const std::string& driver : option.drivers) courses.col(course++) = unitResponse(driver, option.tau_s, -1.0);
+  }
+  const ProjectedColumns x = problem_->projectedProducts(courses, shape(effect), activeSeries(effect), taken);
+  const Eigen::MatrixXd gram = x.gram();
+  const Eigen::VectorXd& b = x.with_residual;
 
   std::vector<std::size_t> set;
   double set_gain = 0.0;
@@ -185,6 +188,7 @@ JointFit EffectSearch::refineDynamics(JointFit fit, std::size_t t, const std::ve
       changed.variant.shared_lag = true;
       changed.parameters.resize(1);
     }
+    if (!coversAVariant(changed)) continue;
     next = refine(next.terms, 1);
     if (inputs == 1 && !(next.score > best.score + 4.0)) continue;
     if (!predictsBetter(best, next, base)) break;

@@ -109,6 +109,19 @@ const Eigen::MatrixXd& EffectSearch::shape(const Effect& effect) const {
   return shapes_.emplace(effect.id, std::move(s)).first->second;
 }
 
+const std::vector<int>& EffectSearch::activeSeries(const Effect& effect) const {
+  const auto found = active_.find(effect.id);
+  if (found != active_.end()) return found->second;
+  const Eigen::MatrixXd& s = shape(effect);
+  std::vector<int> active;
+  for (int i = 0; i < problem_->seriesCount(); ++i) {
+    const Index from = problem_->series_begin[static_cast<std::size_t>(i)];
+    const Index count = problem_->series_begin[static_cast<std::size_t>(i) + 1] - from;
+    if (!s.middleRows(from, count).isZero(0.0)) active.push_back(i);
+  }
+  return active_.emplace(effect.id, std::move(active)).first->second;
+}
+
 Eigen::MatrixXd EffectSearch::columns(const ModelTerm& term) const {
   const Eigen::MatrixXd& s = shape(*term.effect);
   const auto k = s.cols();
@@ -126,7 +139,6 @@ CandidateFit EffectSearch::bestOfVariant(const Effect& effect, const EffectVaria
   best.term = {&effect, variant, {}};
   const Eigen::MatrixXd& s = shape(effect);
   const Index k = s.cols();
-  const Eigen::VectorXd& y = problem_->projectedResidual();
   const int nonlinear = parameterCount(variant);
 
   // The options of every input: (parameters, column of q).
@@ -176,14 +188,11 @@ CandidateFit EffectSearch::bestOfVariant(const Effect& effect, const EffectVaria
   }
   const auto count = static_cast<Index>(responses.size());
   if (count == 0) return best;
-  // A slip touches one point only: work on its rows alone.
-  Eigen::MatrixXd raw(problem_->size(), count * k);
-  for (Index c = 0; c < count; ++c) {
-    raw.middleCols(c * k, k).noalias() = responses[static_cast<std::size_t>(c)].asDiagonal() * s;
-  }
-  Eigen::VectorXd whole = problem_->whitened(raw).colwise().squaredNorm();
-  const Eigen::MatrixXd x = problem_->projected(raw);
-  const Eigen::VectorXd b = x.transpose() * y;
+  Eigen::MatrixXd courses(problem_->size(), count);
+  for (Index c = 0; c < count; ++c) courses.col(c) = responses[static_cast<std::size_t>(c)];
+  const ProjectedColumns x = problem_->projectedProducts(courses, s, activeSeries(effect), Eigen::MatrixXd());
+  const Eigen::VectorXd& b = x.with_residual;
+  const Eigen::VectorXd& whole = x.whole;
   const double log_n = log_n_;
   const auto consider = [&](const GramGain& gain, std::vector<double> parameters) {
     const int parameters_used = gain.rank + nonlinear;
@@ -219,7 +228,7 @@ CandidateFit EffectSearch::bestOfVariant(const Effect& effect, const EffectVaria
     const auto onsets = static_cast<Index>(onsets_.size());
     for (std::size_t lag = 0; lag < pulse_lags.size(); ++lag) {
       const Index at = static_cast<Index>(lag) * onsets;
-      const Eigen::MatrixXd gram = x.middleCols(at, onsets).transpose() * x.middleCols(at, onsets);
+      const Eigen::MatrixXd gram = x.gram(at, onsets);
       for (Index i = 0; i < onsets; ++i) {
         for (Index j = i + 1; j <= onsets; ++j) {
           double g = gram(i, i);
@@ -245,25 +254,27 @@ CandidateFit EffectSearch::bestOfVariant(const Effect& effect, const EffectVaria
     const auto lags = static_cast<Index>(options[0].size());
     if (inputs * k > 8) return best;
     for (Index o = 0; o < lags; ++o) {
-      Eigen::MatrixXd part(x.rows(), inputs * k);
+      ProjectedColumns part;
+      part.rows.resize(x.rows.rows(), inputs * k);
+      part.dots.resize(x.dots.rows(), inputs * k);
       Eigen::VectorXd product(inputs * k);
       Eigen::VectorXd power(inputs * k);
       for (int i = 0; i < inputs; ++i) {
         const Index at = (i * lags + o) * k;
-        part.middleCols(i * k, k) = x.middleCols(at, k);
+        part.rows.middleCols(i * k, k) = x.rows.middleCols(at, k);
+        part.dots.middleCols(i * k, k) = x.dots.middleCols(at, k);
         product.segment(i * k, k) = b.segment(at, k);
         power.segment(i * k, k) = whole.segment(at, k);
       }
       std::iota(index.begin(), index.end(), 0);
-      const Eigen::MatrixXd gram = part.transpose() * part;
-      const GramGain gain = gramGain(gram, product, index.data(), static_cast<int>(inputs * k), power);
+      const GramGain gain = gramGain(part.gram(), product, index.data(), static_cast<int>(inputs * k), power);
       if (!admissible(gain, inputs)) continue;
       const auto& p = options[0][static_cast<std::size_t>(o)];
       consider(gain, dynamics == Dynamics::Step ? std::vector<double>{p[0]} : p);
     }
   } else if (variant.inputs.size() == 2) {
     if (2 * k > 8) return best;
-    const Eigen::MatrixXd gram = x.transpose() * x;
+    const Eigen::MatrixXd gram = x.gram();
     const auto first = static_cast<Index>(options[0].size());
     for (Index i = 0; i < first; ++i) {
       for (Index j = first; j < count; ++j) {

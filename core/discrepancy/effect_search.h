@@ -46,6 +46,7 @@ class EffectSearch {
 
   [[nodiscard]] const std::vector<Effect>& catalogue() const noexcept { return *catalogue_; }
   [[nodiscard]] const Effect* find(std::string_view id) const;
+  [[nodiscard]] const DriverTable& drivers() const noexcept { return *drivers_; }
   [[nodiscard]] double logN() const noexcept { return log_n_; }
   /// The grid of onsets, s.
   [[nodiscard]] const std::vector<double>& onsets() const noexcept { return onsets_; }
@@ -82,6 +83,8 @@ class EffectSearch {
 
   /// Shape columns over the units.
   [[nodiscard]] const Eigen::MatrixXd& shape(const Effect& effect) const;
+  /// The series on which an effect has any.
+  [[nodiscard]] const std::vector<int>& activeSeries(const Effect& effect) const;
   [[nodiscard]] bool parameterIsLag(const ModelTerm& term, std::size_t index) const;
   [[nodiscard]] std::pair<double, double> parameterBounds(const ModelTerm& term, std::size_t index) const;
 
@@ -102,6 +105,7 @@ class EffectSearch {
   std::vector<double> onsets_;
   mutable std::map<std::tuple<std::string, double, double>, Eigen::VectorXd> responses_;
   mutable std::map<std::string, Eigen::MatrixXd> shapes_;
+  mutable std::map<std::string, std::vector<int>> active_;
 };
 
 }  // namespace spindrift

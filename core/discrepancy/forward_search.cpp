@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "core/math/distributions.h"
 
@@ -37,37 +38,57 @@ JointFit refineDynamics(const EffectSearch& search, JointFit fit, std::size_t fr
 }
 
 double smallestGain(const EffectSearch& search, const ResidualProblem& problem, const JointFit& fit,
-                    const ModelTerm& further, std::size_t without, const SearchLimits& limits) {
+                    const Eigen::VectorXd& further, bool onset, std::size_t without, const SearchLimits& limits) {
   Eigen::VectorXd explained = Eigen::VectorXd::Zero(problem.size());
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     if (t == without) continue;
     explained += (problem.projected(search.columns(fit.terms[t])) * fit.gains[t]).head(problem.size());
   }
-  const Eigen::MatrixXd columns = problem.projected(search.columns(further)).topRows(problem.size());
+  const Eigen::VectorXd own = problem.projected(further).col(0).head(problem.size());
   std::map<Component, double> seen;
   std::map<Component, double> power;
   for (Eigen::Index u = 0; u < problem.size(); ++u) {
     const Component c = problem.component[static_cast<std::size_t>(u)];
-    seen[c] += columns.row(u).squaredNorm();
+    seen[c] += own[u] * own[u];
     power[c] += explained[u] * explained[u];
   }
   const auto main =
       std::max_element(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   double all = 0.0;
-  for (const auto& [component, part] : power) all += part;
-  return std::max(limits.smallest_part * all, limits.smallest_in_component * power[main->first]);
+  for (const auto& [component, each] : power) all += each;
+  const double part_of_component = onset ? limits.smallest_with_onset : limits.smallest_in_component;
+  return std::max(limits.smallest_part * all, part_of_component * power[main->first]);
 }
 
-namespace {
+int foreignDrivers(const ModelTerm& term) {
+  std::set<std::string> used;
+  for (const EffectInput& input : term.variant.inputs) used.insert(input.driver);
+  int least = static_cast<int>(used.size());
+  for (const EffectVariant& variant : term.effect->variants) {
+    std::set<std::string> foreign = used;
+    for (const EffectInput& input : variant.inputs) foreign.erase(input.driver);
+    least = std::min(least, static_cast<int>(foreign.size()));
+  }
+  return least;
+}
 
-bool hasOnset(const CandidateFit& candidate) {
-  const Dynamics dynamics = candidate.term.variant.inputs[0].dynamics;
+double priceOfNames(const JointFit& larger, const JointFit& smaller, const SearchLimits& limits) {
+  const auto names = static_cast<double>(larger.terms.size()) - static_cast<double>(smaller.terms.size());
+  double hypotheses = names;
+  for (const ModelTerm& term : larger.terms) hypotheses += foreignDrivers(term);
+  for (const ModelTerm& term : smaller.terms) hypotheses -= foreignDrivers(term);
+  return std::max(8.0 * names, hypotheses * std::max(20.0, limits.start_margin * smaller.delta_chi2));
+}
+
+bool hasOnset(const ModelTerm& term) {
+  const Dynamics dynamics = term.variant.inputs[0].dynamics;
   return dynamics == Dynamics::Step || dynamics == Dynamics::Pulse;
 }
 
-}  // namespace
-
-std::vector<CandidateFit> ForwardSearch::candidatesFor(const JointFit& current) const {
+std::vector<CandidateFit> ForwardSearch::candidatesFor(const JointFit& current, bool refined) {
+  // Every path begins with the same sweep.
+  const bool at_start = current.terms.size() == forced_count_;
+  if (at_start && !first_.empty()) return first_;
   problem_->setNuisances(nuisancesOf(*search_, *base_, current, current.terms.size(), limits_->model_error));
   std::vector<std::string> without = idsOf(current.terms);
   without.insert(without.end(), options_->reject.begin(), options_->reject.end());
@@ -76,14 +97,15 @@ std::vector<CandidateFit> ForwardSearch::candidatesFor(const JointFit& current) 
   std::erase_if(candidates, [&](const CandidateFit& c) {
     return std::any_of(current.terms.begin(), current.terms.end(), [&](const ModelTerm& term) {
       return (c.term.effect->refinement && contains(*c.term.effect, term.effect->id)) ||
-             contains(*term.effect, c.term.effect->id);
+             (refined && contains(*term.effect, c.term.effect->id));
     });
   });
+  if (at_start) first_ = candidates;
   return candidates;
 }
 
-bool ForwardSearch::addBest(JointFit& current, std::vector<DiscrepancyStep>& steps) const {
-  std::vector<CandidateFit> candidates = candidatesFor(current);
+bool ForwardSearch::addBest(JointFit& current, bool refined, std::vector<DiscrepancyStep>& steps) {
+  std::vector<CandidateFit> candidates = candidatesFor(current, refined);
   if (candidates.empty()) return false;
   double tried = 0.0;
   for (const CandidateFit& c : candidates) tried += c.tried;
@@ -101,9 +123,10 @@ bool ForwardSearch::addBest(JointFit& current, std::vector<DiscrepancyStep>& ste
     steps.push_back(step);
     return false;
   };
-  const auto onset_effects = static_cast<double>(std::count_if(candidates.begin(), candidates.end(), hasOnset));
+  const auto onset_effects = static_cast<double>(
+      std::count_if(candidates.begin(), candidates.end(), [](const CandidateFit& c) { return hasOnset(c.term); }));
   const auto significant = [&] {
-    if (hasOnset(candidate)) {
+    if (hasOnset(candidate.term)) {
       return candidate.score > 8.0 &&
              onsetPValue(*search_, *problem_, candidate) * onset_effects <= options_->false_alarm_rate;
     }
@@ -122,8 +145,8 @@ bool ForwardSearch::addBest(JointFit& current, std::vector<DiscrepancyStep>& ste
   terms.push_back(candidate.term);
   JointFit joint = search_->refine(terms, 2);
   if (!current.terms.empty() &&
-      joint.delta_chi2 - current.delta_chi2 <
-          smallestGain(*search_, *problem_, current, candidate.term, current.terms.size(), *limits_)) {
+      joint.delta_chi2 - current.delta_chi2 < smallestGain(*search_, *problem_, current, joint.contribution.back(),
+                                                           hasOnset(candidate.term), current.terms.size(), *limits_)) {
     return refuse(too_small);
   }
   const auto cv = search_->crossValidate(current.terms, joint.terms, *base_);
@@ -132,18 +155,18 @@ bool ForwardSearch::addBest(JointFit& current, std::vector<DiscrepancyStep>& ste
   if (!(cv.after_chi2 < cv.before_chi2) && !(scattered.after_chi2 + 8.0 < scattered.before_chi2)) {
     return refuse("does not predict blocks of states that were left out");
   }
-  current = refineDynamics(*search_, joint, 0, *base_);
+  current = refined ? refineDynamics(*search_, joint, 0, *base_) : std::move(joint);
   step.accepted = true;
   step.reason = "gains more than chance and predicts the states that were left out";
   steps.push_back(step);
   return true;
 }
 
-JointFit ForwardSearch::extend(JointFit current, std::vector<DiscrepancyStep>& steps) const {
+JointFit ForwardSearch::extend(JointFit current, bool refined, std::vector<DiscrepancyStep>& steps) {
   while (static_cast<int>(current.terms.size()) < options_->max_effects) {
     job_->throwIfCancelled();
     job_->report(0.1 + 0.1 * static_cast<double>(current.terms.size()), "trying every effect");
-    if (!addBest(current, steps)) break;
+    if (!addBest(current, refined, steps)) break;
   }
   return current;
 }
@@ -162,18 +185,49 @@ bool ForwardSearch::worthOtherStarts(const JointFit& fit) const {
 }
 
 bool ForwardSearch::better(const JointFit& challenger, const JointFit& champion) const {
-  const auto more = static_cast<double>(challenger.terms.size()) - static_cast<double>(champion.terms.size());
-  const double price = std::max(20.0, limits_->start_margin * champion.delta_chi2);
-  return challenger.score > champion.score + (more == 0.0 ? 8.0 : more * price);
+  if (challenger.terms.size() == champion.terms.size()) return challenger.score > champion.score + 8.0;
+  const bool more = challenger.terms.size() > champion.terms.size();
+  const double price =
+      more ? priceOfNames(challenger, champion, *limits_) : priceOfNames(champion, challenger, *limits_);
+  return challenger.score > champion.score + (more ? price : -price);
 }
 
-JointFit ForwardSearch::run(JointFit forced, std::vector<DiscrepancyStep>& steps) const {
+namespace {
+
+bool refinedBeyondCatalogue(const JointFit& fit) {
+  return std::any_of(fit.terms.begin(), fit.terms.end(),
+                     [](const ModelTerm& term) { return foreignDrivers(term) > 0; });
+}
+
+}  // namespace
+
+JointFit ForwardSearch::run(JointFit forced, std::vector<DiscrepancyStep>& steps) {
+  forced_count_ = forced.terms.size();
+  first_.clear();
   const std::vector<DiscrepancyStep> before = steps;
-  JointFit best = extend(forced, steps);
-  if (best.terms.size() == forced.terms.size() || !worthOtherStarts(best)) return best;
-  std::vector<CandidateFit> starts = candidatesFor(forced);
+  const std::size_t first = forced.terms.size();
+  JointFit best = extend(forced, true, steps);
+  if (best.terms.size() == first) return best;
+  const auto consider = [&](JointFit fit, std::vector<DiscrepancyStep> path) {
+    if (!better(fit, best)) return;
+    best = std::move(fit);
+    steps = std::move(path);
+  };
+  if (refinedBeyondCatalogue(best)) {
+    // Another driver or lag of the first effect may be another effect: all that enter, and only then their dynamics.
+    std::vector<DiscrepancyStep> path = before;
+    JointFit fit = extend(forced, false, path);
+    if (fit.terms.size() > best.terms.size()) {
+      problem_->setNuisances(*base_);
+      fit = refineDynamics(*search_, std::move(fit), first, *base_);
+      fit = extend(std::move(fit), true, path);
+      consider(std::move(fit), std::move(path));
+    }
+  }
+  if (!worthOtherStarts(best)) return best;
+  std::vector<CandidateFit> starts = candidatesFor(forced, true);
   const double enough = limits_->start_part * (starts.empty() ? 0.0 : starts.front().delta_chi2);
-  const std::string taken = best.terms[forced.terms.size()].effect->id;
+  const std::string taken = best.terms[first].effect->id;
   std::erase_if(starts, [&](const CandidateFit& c) {
     return c.delta_chi2 < enough || c.term.effect->id == taken || c.score < 8.0;
   });
@@ -185,13 +239,11 @@ JointFit ForwardSearch::run(JointFit forced, std::vector<DiscrepancyStep>& steps
     terms.push_back(start.term);
     std::vector<DiscrepancyStep> path = before;
     JointFit fit = search_->refine(terms, 1);
-    fit = refineDynamics(*search_, std::move(fit), forced.terms.size(), *base_);
+    fit = refineDynamics(*search_, std::move(fit), first, *base_);
     path.push_back({start.term.effect->id, true, start.score, start.delta_chi2,
                     "taken as a start in place of " + taken + ", which explains less in the end"});
-    fit = extend(std::move(fit), path);
-    if (!better(fit, best)) continue;
-    best = std::move(fit);
-    steps = std::move(path);
+    fit = extend(std::move(fit), true, path);
+    consider(std::move(fit), std::move(path));
   }
   return best;
 }

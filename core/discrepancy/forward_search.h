@@ -26,10 +26,22 @@ namespace spindrift {
 [[nodiscard]] JointFit refineDynamics(const EffectSearch& search, JointFit fit, std::size_t from,
                                       const std::vector<NuisanceColumn>& base);
 
+/// Begins at a time that nothing in the log shows.
+[[nodiscard]] bool hasOnset(const ModelTerm& term);
+
 /// The least that one effect more must gain in chi-squared beside what the others of `fit` explain, of which they may
-/// be wrong by a part: in all, and more so in the component in which it mainly acts.
+/// be wrong by a part: in all, and more so in the component in which it mainly acts. `further`: its contribution over
+/// the units; `onset`: it begins at a time that nothing shows.
 [[nodiscard]] double smallestGain(const EffectSearch& search, const ResidualProblem& problem, const JointFit& fit,
-                                  const ModelTerm& further, std::size_t without, const SearchLimits& limits);
+                                  const Eigen::VectorXd& further, bool onset, std::size_t without,
+                                  const SearchLimits& limits);
+
+/// Drivers of a term beyond those of the variant in the catalogue that comes closest.
+[[nodiscard]] int foreignDrivers(const ModelTerm& term);
+
+/// By how much in score a model must be ahead of one with fewer names. A further driver of an effect is as much of a
+/// hypothesis as a further effect: a name that takes its place costs little.
+[[nodiscard]] double priceOfNames(const JointFit& larger, const JointFit& smaller, const SearchLimits& limits);
 
 class ForwardSearch {
  public:
@@ -38,15 +50,16 @@ class ForwardSearch {
       : search_(&search), problem_(&problem), base_(&base), options_(&options), limits_(&limits), job_(&job) {}
 
   /// Extends `forced` (the effects that the user put in) to the best model.
-  [[nodiscard]] JointFit run(JointFit forced, std::vector<DiscrepancyStep>& steps) const;
+  [[nodiscard]] JointFit run(JointFit forced, std::vector<DiscrepancyStep>& steps);
 
  private:
-  /// Adds effects as long as one earns its place.
-  [[nodiscard]] JointFit extend(JointFit current, std::vector<DiscrepancyStep>& steps) const;
+  /// Adds effects as long as one earns its place; the dynamics of those that are in are `refined` each time, or stay as
+  /// the catalogue has them.
+  [[nodiscard]] JointFit extend(JointFit current, bool refined, std::vector<DiscrepancyStep>& steps);
   /// One more effect; false: none earned its place.
-  bool addBest(JointFit& current, std::vector<DiscrepancyStep>& steps) const;
+  bool addBest(JointFit& current, bool refined, std::vector<DiscrepancyStep>& steps);
   /// Every effect on top of `current`, refinements of what is in left out, best first.
-  [[nodiscard]] std::vector<CandidateFit> candidatesFor(const JointFit& current) const;
+  [[nodiscard]] std::vector<CandidateFit> candidatesFor(const JointFit& current, bool refined);
   /// May another start find more than this model? It holds a wide effect, or something is left.
   [[nodiscard]] bool worthOtherStarts(const JointFit& fit) const;
   [[nodiscard]] bool better(const JointFit& challenger, const JointFit& champion) const;
@@ -57,6 +70,8 @@ class ForwardSearch {
   const DiscrepancyOptions* options_;
   const SearchLimits* limits_;
   const JobContext* job_;
+  std::size_t forced_count_ = 0;
+  std::vector<CandidateFit> first_;  ///< candidates beside the effects of the user alone
 };
 
 }  // namespace spindrift

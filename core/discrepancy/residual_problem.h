@@ -30,6 +30,18 @@ struct NuisanceColumn {
   double prior_sigma = 0.0;
 };
 
+/// Columns "projected" through their inner products alone: only the rows on which they are not zero are kept.
+struct ProjectedColumns {
+  Eigen::MatrixXd rows;           ///< whitened, free of the constants, of the series that take part
+  Eigen::MatrixXd dots;           ///< products with the orthonormal basis of the nuisances
+  Eigen::VectorXd with_residual;  ///< products with the projected residual
+  Eigen::VectorXd whole;          ///< squared norms once whitened, before anything was removed
+
+  /// Gram matrix of `count` columns from `from` on.
+  [[nodiscard]] Eigen::MatrixXd gram(Eigen::Index from, Eigen::Index count) const;
+  [[nodiscard]] Eigen::MatrixXd gram() const { return gram(0, rows.cols()); }
+};
+
 class ResidualProblem {
  public:
   /// `rows` are the observations that may be used (matched, fit). At most about `unit_limit` units.
@@ -64,6 +76,11 @@ class ResidualProblem {
   [[nodiscard]] Eigen::MatrixXd projected(const Eigen::MatrixXd& columns) const;
   [[nodiscard]] const Eigen::VectorXd& projectedResidual() const noexcept { return projected_y_; }
   [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& columns) const;
+  /// Columns courses(:, o) * shapes(:, c), o-major, over the series in `active`, on which the shapes are not zero;
+  /// `further`: an orthonormal basis, projected as well, that is removed in addition (no columns: none).
+  [[nodiscard]] ProjectedColumns projectedProducts(const Eigen::MatrixXd& courses, const Eigen::MatrixXd& shapes,
+                                                   const std::vector<int>& active,
+                                                   const Eigen::MatrixXd& further) const;
   [[nodiscard]] int degreesOfFreedom() const noexcept;
 
   /// The nuisances that belong to the simulation: its gain per component within the stated uncertainty, and as much for

@@ -52,11 +52,16 @@ void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& o
         effect.variants.push_back({{{feed, Dynamics::Lag}}, false});
         // A linear scale follows the room by itself; a screw beside it has to show the heat of its own motion.
         if (linear->scale != "linear_scale") {
-          for (const std::string& r : room)
-            effect.variants.push_back({{{feed, Dynamics::Lag}, {r, Dynamics::Lag}}, false});
+          // One body: what its motion heats follows the room at the same pace, more or less.
+          for (const bool shared : {true, false}) {
+            for (const std::string& r : room) {
+              effect.variants.push_back({{{feed, Dynamics::Lag}, {r, Dynamics::Lag}}, shared});
+            }
+          }
         }
       }
-      if (linear->scale != "linear_scale") addLagVariants(effect, room);
+      // The room alone moves no screw whose own motion is known to heat it.
+      if (linear->scale != "linear_scale" && !drivers.has(feed)) addLagVariants(effect, room);
       effect.follows_room = linear->scale == "linear_scale";
       addLagVariants(effect, screw);
       effect.driver_missing = !drivers.has(feed);

@@ -28,7 +28,12 @@ void addPeriodicEffects(const CatalogueContext& context, std::vector<Effect>& ou
                        return c == component ? std::cos(k * q.position_mm[axis]) : 0.0;
                      }}};
     const std::string feed = std::string("feed_") + axis_letters[axis];
-    if (drivers.has(feed)) addLagVariants(effect, {feed});
+    if (drivers.has(feed)) {
+      addLagVariants(effect, {feed});
+      for (const std::string& room : drivers.room()) {
+        effect.variants.push_back({{{feed, Dynamics::Lag}, {room, Dynamics::Lag}}, true});
+      }
+    }
     addLagVariants(effect, drivers.temperatures({SensorRole::Room, SensorRole::Screw}));
     if (context.position_varies) effect.variants.push_back({{{"", Dynamics::None}}, false});
     effect.follows_room = true;

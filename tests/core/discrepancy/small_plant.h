@@ -61,9 +61,11 @@ inline MachineDescription machine() {
       "machine.json");
 }
 
-enum class Hidden { Nothing, SpindleDrift, Screw, Slip, Wave };
+enum class Hidden { Nothing, SpindleDrift, Screw, Slip, Wave, TurnAndDrift };
 
-inline DiscrepancyInput campaign(Hidden hidden, std::uint64_t seed, double strength = 5.0) {
+/// `hidden_signal` takes what is hidden in every row, without noise, um.
+inline DiscrepancyInput campaign(Hidden hidden, std::uint64_t seed, double strength = 5.0,
+                                 std::vector<double>* hidden_signal = nullptr) {
   Random random(seed);
   const Plant plant = runPlant(random);
   DiscrepancyInput input;
@@ -98,6 +100,7 @@ inline DiscrepancyInput campaign(Hidden hidden, std::uint64_t seed, double stren
         o.use = state >= 26 ? ObservationUse::Holdout : ObservationUse::Fit;
         double truth = c == 2 ? 0.5 * plant.housing[at] : 0.0;
         const double simulated = truth * 1.006;
+        const double given = truth;
         switch (hidden) {
           case Hidden::Nothing:
             break;
@@ -113,7 +116,15 @@ inline DiscrepancyInput campaign(Hidden hidden, std::uint64_t seed, double stren
           case Hidden::Wave:
             if (c == 0) truth += 1.4 * strength * sigma * std::sin(o.time_s / 500.0);
             break;
+          case Hidden::TurnAndDrift: {
+            // The frame turns about X with a body that follows the room; the spindle drifts along Y with its own heat.
+            const double turn = 5.0 * strength * sigma * plant.table[at];
+            if (c == 1) truth += -turn * (points[p].z() - 150.0) * 1e-3 + strength * sigma * plant.housing[at] / 12.0;
+            if (c == 2) truth += turn * (points[p].y() - 200.0) * 1e-3;
+            break;
+          }
         }
+        if (hidden_signal != nullptr) hidden_signal->push_back(truth - given);
         o.value = truth + random.normal(0.0, sigma);
         input.observations.rows.push_back(o);
         input.predicted.push_back(simulated);
