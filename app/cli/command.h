@@ -41,6 +41,7 @@ CLI::App* addCommand(CLI::App& parent, CommandLine& line, const std::string& nam
 /// errors as one sentence on standard error. Returns the exit status.
 int runSelected(CommandLine& line);
 
+void addCaptureCommands(CLI::App& app, CommandLine& line);
 void addCompensationCommands(CLI::App& app, CommandLine& line);
 void addDiscrepancyCommands(CLI::App& app, CommandLine& line);
 void addEvaluateCommands(CLI::App& app, CommandLine& line);

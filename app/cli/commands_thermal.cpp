@@ -5,6 +5,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/workflows/campaign_series.h"
 #include "core/workflows/thermal_outputs.h"
 #include "core/workflows/thermal_tests.h"
 #include "core/workflows/thermal_tracking.h"
@@ -55,18 +56,27 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
         a->request.order = parseOrder(a->order);
         const std::vector<std::string> outputs = splitList(a->outputs);
         if (outputs.size() > 1) {
+          if (std::filesystem::is_directory(a->log))
+            throw InputError("--output: of a campaign one output at a time is identified; allowed: one name.");
           const SeveralOutputs several = identifySeveralOutputs(a->request, outputs, job);
           if (!a->prediction.empty()) several.writePrediction(a->prediction);
           if (!a->model.empty()) several.model.write(a->model);
           return CommandResult{several.json(), several.summary(), several.good_enough ? Done : NotGoodEnough};
         }
         a->request.output = a->outputs;
-        const IdentifyResult result = identifyThermalModel(a->request, job);
+        const IdentifyResult result =
+            std::filesystem::is_directory(a->log)
+                ? identifyThermalModel(campaignSeries(std::filesystem::path(a->log), job).series, a->request, job)
+                : identifyThermalModel(a->request, job);
         if (!a->prediction.empty()) result.writePrediction(a->prediction);
         if (!a->model.empty()) result.model.write(a->model);
         return CommandResult{result.json(), result.summary(), result.good_enough ? Done : NotGoodEnough};
       });
-  command->add_option("LOG", a->log, "CSV with time_s and signals in columns")->required();
+  command
+      ->add_option("LOG", a->log,
+                   "CSV with time_s and signals in columns; or the folder of a campaign, whose cycles or observations "
+                   "become outputs beside its log (bar_EX0_um, F1_EZ_um)")
+      ->required();
   command
       ->add_option(
           "--output", a->outputs,

@@ -8,7 +8,9 @@
 namespace spindrift::testing {
 namespace {
 
-const std::vector<std::vector<std::string>> every_command = {{"decode"},
+const std::vector<std::vector<std::string>> every_command = {{"plan"},
+                                                             {"watch"},
+                                                             {"decode"},
                                                              {"evaluate"},
                                                              {"fit"},
                                                              {"heatmap"},

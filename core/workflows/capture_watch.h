@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Capturing without a window: what arrives in a folder is checked, copied into a campaign of a session and answered,
+// file by file, as the desktop program does it (core/workflows/incoming.h). Times in s on any clock that never runs
+// backwards.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/session/session.h"
+#include "core/workflows/incoming.h"
+
+namespace spindrift {
+
+class CaptureWatch {
+ public:
+  /// `pattern`: template of the text that a control prints (spindrift-printed-text); may be empty. Throws InputError:
+  /// no such folder, the folder of the session itself.
+  CaptureWatch(Session& session, std::int64_t campaign, const std::filesystem::path& folder,
+               std::optional<JsonNode> pattern = std::nullopt, const FolderWatchOptions& watch = {},
+               double patience_s = 5.0);
+
+  /// Looks once and examines everything that has settled. Returns what was decided: accepted, to be taken again, twice,
+  /// ignored. Throws InputError if something cannot be stored; what was stored before stays.
+  [[nodiscard]] std::vector<IncomingItem> turn(double now_s);
+  /// Stores touches that still waited for the end of their line or feature.
+  void finish();
+  /// Nothing is being written or waits for a second look.
+  [[nodiscard]] bool idle() const { return folder_.idle(); }
+  [[nodiscard]] const std::string& problem() const { return folder_.problem(); }
+  /// Sentences about captures to be taken again: those whose item of the plan is not there yet.
+  [[nodiscard]] std::vector<std::string> retakes() const;
+  [[nodiscard]] const MeasurementPlan& plan() const { return plan_; }
+  [[nodiscard]] std::set<std::string> done() const;
+  [[nodiscard]] std::size_t touches() const { return feed_->live().touches().size(); }
+
+ private:
+  void storeTouches(bool all);
+  [[nodiscard]] Campaign campaignNow() const;
+
+  Session& session_;
+  std::int64_t campaign_;
+  bool printed_;
+  MeasurementPlan plan_;
+  std::vector<IncomingItem> journal_;
+  std::map<std::string, std::size_t> fullest_;
+  std::map<std::string, double> first_seen_s_;
+  std::unique_ptr<TouchFeed> feed_;
+  IncomingFolder folder_;
+};
+
+}  // namespace spindrift
