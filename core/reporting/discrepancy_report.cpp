@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/base/text.h"
+#include "core/machine/interpolated_field.h"
+#include "core/reporting/heatmap_picture.h"
 #include "core/reporting/svg_plot.h"
 
 namespace spindrift {
@@ -15,50 +18,21 @@ namespace {
 
 constexpr double seconds_per_hour = 3600.0;
 
-/// Measured minus simulation, and minus the completed model, each relative to the constant of its series.
-struct Residuals {
-  double before = 0.0;
-  double after = 0.0;
-};
-
-/// One entry per row; NaN where there is no simulation or the series was not fitted.
-std::vector<Residuals> residualsOf(const DiscrepancyInput& input, const DiscrepancyResult& result) {
-  const auto& rows = input.observations.rows;
-  std::map<std::pair<std::string, Component>, std::pair<double, double>> means;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!std::isfinite(result.simulated[i])) continue;
-    auto& [sum, count] = means[{rows[i].point, rows[i].component}];
-    sum += rows[i].value - result.simulated[i];
-    count += 1.0;
-  }
-  std::vector<Residuals> residuals(rows.size(), {std::nan(""), std::nan("")});
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!std::isfinite(result.simulated[i])) continue;
-    const auto& [sum, count] = means[{rows[i].point, rows[i].component}];
-    residuals[i].before = rows[i].value - result.simulated[i] - sum / count;
-    if (std::isfinite(result.constant[i])) {
-      residuals[i].after = rows[i].value - result.completed[i] - result.constant[i];
-    }
-  }
-  return residuals;
-}
-
-void addTimeCourses(HtmlDocument& document, const DiscrepancyInput& input, const std::vector<Residuals>& residuals) {
-  const auto& rows = input.observations.rows;
+void addTimeCourses(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows) {
   for (const Component component : all_components) {
     PlotSeries before{"measured minus simulation", {}, {}, {}, SeriesStyle::Points};
     PlotSeries after{"measured minus completed model", {}, {}, {}, SeriesStyle::Points};
     double holdout_from = std::nan("");
     double last = 0.0;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].component != component || !std::isfinite(residuals[i].before)) continue;
-      const double hours = rows[i].time_s / seconds_per_hour;
+    for (const DiscrepancyReportRow& row : rows) {
+      if (row.component != component || !std::isfinite(row.before)) continue;
+      const double hours = row.time_s / seconds_per_hour;
       before.x.push_back(hours);
-      before.y.push_back(residuals[i].before);
+      before.y.push_back(row.before);
       after.x.push_back(hours);
-      after.y.push_back(residuals[i].after);
+      after.y.push_back(row.after);
       last = std::max(last, hours);
-      if (rows[i].use == ObservationUse::Holdout && !(holdout_from <= hours)) holdout_from = hours;
+      if (row.held_out && !(holdout_from <= hours)) holdout_from = hours;
     }
     if (before.x.empty()) continue;
     PlotOptions options{.title = std::string(toString(component)),
@@ -72,19 +46,21 @@ void addTimeCourses(HtmlDocument& document, const DiscrepancyInput& input, const
   }
 }
 
-void addPoints(HtmlDocument& document, const DiscrepancyInput& input, const std::vector<Residuals>& residuals) {
+void addPoints(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows) {
   struct Cell {
     double count = 0.0;
     double before = 0.0;
     double after = 0.0;
   };
   std::map<std::pair<std::string, Component>, Cell> cells;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if (!std::isfinite(residuals[i].before) || !std::isfinite(residuals[i].after)) continue;
-    Cell& cell = cells[{input.observations.rows[i].point, input.observations.rows[i].component}];
+  std::vector<std::string> points;
+  for (const DiscrepancyReportRow& row : rows) {
+    if (std::find(points.begin(), points.end(), row.point) == points.end()) points.push_back(row.point);
+    if (!std::isfinite(row.before) || !std::isfinite(row.after)) continue;
+    Cell& cell = cells[{row.point, row.component}];
     cell.count += 1.0;
-    cell.before += residuals[i].before * residuals[i].before;
-    cell.after += residuals[i].after * residuals[i].after;
+    cell.before += row.before * row.before;
+    cell.after += row.after * row.after;
   }
   std::vector<Component> components;
   std::vector<std::string> header{"Point"};
@@ -96,7 +72,7 @@ void addPoints(HtmlDocument& document, const DiscrepancyInput& input, const std:
     header.push_back(fmt::format("{} / {}", toString(component), unitOf(component)));
   }
   std::vector<std::vector<std::string>> table;
-  for (const std::string& point : input.observations.points()) {
+  for (const std::string& point : points) {
     std::vector<std::string> row{point};
     for (const Component component : components) {
       const auto cell = cells.find({point, component});
@@ -110,8 +86,26 @@ void addPoints(HtmlDocument& document, const DiscrepancyInput& input, const std:
   document.table(header, table, "rms per point and component, before \u2192 after");
 }
 
-void addEffect(HtmlDocument& document, const FoundEffect& effect) {
-  document.subsection(effect.id);
+void addMaps(HtmlDocument& document, const DiscrepancyReportData& data, const FieldGrid& table) {
+  double time_s = 0.0;
+  const auto maps = discrepancyMaps(data, table, time_s);
+  if (!maps) return;
+  const double limit = roundLimit((*maps)[0].largestMagnitude());
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::string name(toString((*maps)[side].component));
+    HeatmapPictureOptions options;
+    options.title = fmt::format(
+        "{} {}", name, side == 0 ? "before: measured minus simulation" : "after: measured minus completed model");
+    options.subtitle = fmt::format("at {:.2f} h, where the gap is largest; between the points interpolated",
+                                   time_s / seconds_per_hour);
+    options.limit = limit;
+    document.figure(heatmapSvg((*maps)[side], options),
+                    fmt::format("{} over the table, {}", name, side == 0 ? "before" : "after, on the same scale"));
+  }
+}
+
+void addEffect(HtmlDocument& document, const FoundEffect& effect, bool user_adds) {
+  document.subsection(effect.id + (!user_adds ? "" : effect.forced ? " (added to the model)" : " (proposed)"));
   document.paragraph(effect.physics);
   document.paragraph(fmt::format(
       "Driven by {}. Confidence {:.2f}, gain in BIC {:.0f}; on held-out data {:.2f} um before, "
@@ -142,15 +136,101 @@ const char* verdictKind(DiscrepancyVerdict verdict) {
 
 }  // namespace
 
-void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyInput& input, const DiscrepancyResult& result) {
+DiscrepancyReportData discrepancyReportData(const DiscrepancyInput& input, const DiscrepancyResult& result) {
+  DiscrepancyReportData data;
+  data.verdict = result.verdict;
+  data.message = result.message;
+  data.effects = result.effects;
+  data.gap = result.gap;
+  data.where = result.where;
+  data.suggestion = result.suggestion;
+  data.leftover = result.leftover;
+  data.steps = result.steps;
+  data.warnings = result.warnings;
+  const auto& rows = input.observations.rows;
+  std::map<std::pair<std::string, Component>, std::pair<double, double>> means;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!std::isfinite(result.simulated[i])) continue;
+    auto& [sum, count] = means[{rows[i].point, rows[i].component}];
+    sum += rows[i].value - result.simulated[i];
+    count += 1.0;
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Observation& o = rows[i];
+    DiscrepancyReportRow row{o.time_s, o.point,      o.component,  o.position_mm,
+                             o.sigma,  std::nan(""), std::nan(""), o.use == ObservationUse::Holdout};
+    if (std::isfinite(result.simulated[i])) {
+      const auto& [sum, count] = means[{o.point, o.component}];
+      row.before = o.value - result.simulated[i] - sum / count;
+      if (std::isfinite(result.constant[i])) row.after = o.value - result.completed[i] - result.constant[i];
+    }
+    data.rows.push_back(std::move(row));
+  }
+  return data;
+}
+
+std::optional<std::array<Field, 2>> discrepancyMaps(const DiscrepancyReportData& data, FieldGrid table,
+                                                    double& time_s) {
+  // The readings of a component in order of time; a moment ends where a point comes a second time.
+  std::vector<std::vector<const DiscrepancyReportRow*>> moments;
+  for (const Component component : all_components) {
+    std::vector<const DiscrepancyReportRow*> rows;
+    for (const DiscrepancyReportRow& row : data.rows)
+      if (row.component == component && std::isfinite(row.before) && std::isfinite(row.after)) rows.push_back(&row);
+    std::stable_sort(rows.begin(), rows.end(), [](const auto* a, const auto* b) { return a->time_s < b->time_s; });
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (i == 0 || !seen.insert(rows[i]->point).second) {
+        seen = {rows[i]->point};
+        moments.emplace_back();
+      }
+      moments.back().push_back(rows[i]);
+    }
+  }
+  const std::vector<const DiscrepancyReportRow*>* worst = nullptr;
+  double largest = 0.0;
+  for (const auto& moment : moments) {
+    double sum = 0.0;
+    for (const DiscrepancyReportRow* row : moment) sum += row->before * row->before / (row->sigma * row->sigma);
+    sum /= static_cast<double>(moment.size());
+    if (moment.size() < 3 || sum <= largest) continue;
+    largest = sum;
+    worst = &moment;
+  }
+  if (worst == nullptr) return std::nullopt;
+  const Component component = worst->front()->component;
+  time_s = worst->front()->time_s;
+  std::array<std::vector<ScatteredValue>, 2> values;
+  std::array<std::vector<Field::Marker>, 2> markers;
+  double z_mm = 0.0;
+  for (const DiscrepancyReportRow* row : *worst) {
+    z_mm += row->position_mm.z();
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double value = side == 0 ? row->before : row->after;
+      values[side].push_back({row->position_mm, value, row->sigma});
+      markers[side].push_back({row->point, row->position_mm, value, row->sigma, !row->held_out});
+    }
+  }
+  if (!spreadsOverPlane(values[0])) return std::nullopt;
+  table.z_mm = z_mm / static_cast<double>(values[0].size());
+  std::array<Field, 2> fields{fieldBetween(component, values[0], table), fieldBetween(component, values[1], table)};
+  for (std::size_t side = 0; side < 2; ++side) fields[side].markers = std::move(markers[side]);
+  return fields;
+}
+
+void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& result,
+                         const std::optional<FieldGrid>& table) {
   document.verdict(verdictKind(result.verdict), fmt::format("{}: {}", toString(result.verdict), result.message));
+  const auto text = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.2f}", value) : std::string("\u2013");
+  };
   document.table({"", "before", "after", "noise"},
-                 {{"rms of the rows that were fitted / um", fmt::format("{:.2f}", result.gap.rms_before_um),
-                   fmt::format("{:.2f}", result.gap.rms_after_um), fmt::format("{:.2f}", result.gap.noise_um)},
-                  {"rms of the rows held out / um", fmt::format("{:.2f}", result.gap.heldout_rms_before_um),
-                   fmt::format("{:.2f}", result.gap.heldout_rms_after_um), fmt::format("{:.2f}", result.gap.noise_um)}},
+                 {{"rms of the rows that were fitted / um", text(result.gap.rms_before_um),
+                   text(result.gap.rms_after_um), text(result.gap.noise_um)},
+                  {"rms of the rows held out / um", text(result.gap.heldout_rms_before_um),
+                   text(result.gap.heldout_rms_after_um), text(result.gap.noise_um)}},
                  "The gap between measured and simulated; nobody can go below the noise");
-  for (const FoundEffect& effect : result.effects) addEffect(document, effect);
+  for (const FoundEffect& effect : result.effects) addEffect(document, effect, result.user_adds);
   if (!result.leftover.empty()) document.verdict("bad", fmt::format("Left over: {}.", result.leftover));
   if (result.suggestion) {
     const MeasurementSuggestion& next = *result.suggestion;
@@ -170,9 +250,9 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyInput& input, 
     document.table({"Component", "Points", "Time / h", "Condition", "Beyond the noise", "p"}, rows,
                    "Where measured and simulated disagree; p holds for all places looked at together");
   }
-  const std::vector<Residuals> residuals = residualsOf(input, result);
-  addTimeCourses(document, input, residuals);
-  addPoints(document, input, residuals);
+  if (table && !result.effects.empty()) addMaps(document, result, *table);
+  addTimeCourses(document, result.rows);
+  addPoints(document, result.rows);
   if (!result.steps.empty()) {
     std::vector<std::vector<std::string>> rows;
     for (const DiscrepancyStep& step : result.steps) {
@@ -184,11 +264,11 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyInput& input, 
   for (const std::string& warning : result.warnings) document.paragraph("Note: " + warning);
 }
 
-std::string discrepancyReport(const std::string& campaign, const DiscrepancyInput& input,
-                              const DiscrepancyResult& result) {
+std::string discrepancyReport(const std::string& campaign, const DiscrepancyReportData& data,
+                              const std::optional<FieldGrid>& table) {
   HtmlDocument document(fmt::format("Discrepancy: {}", campaign),
                         "where measured and simulated disagree, which effect is missing, what its addition gains");
-  addDiscrepancyStory(document, input, result);
+  addDiscrepancyStory(document, data, table);
   return document.html();
 }
 

@@ -3,17 +3,57 @@
 // and steps. Deviations um or urad, times h. One self-contained file, or the same parts inside a larger report.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/discrepancy/discrepancy.h"
+#include "core/machine/field.h"
 #include "core/reporting/html_document.h"
 
 namespace spindrift {
 
-/// Adds the story below the present section of a document.
-void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyInput& input, const DiscrepancyResult& result);
+/// One observation: measured minus simulation, and minus the completed model, each relative to the constant of its
+/// series. NaN where there is none.
+struct DiscrepancyReportRow {
+  double time_s = 0.0;
+  std::string point;
+  Component component = Component::EX;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  double sigma = 0.0;
+  double before = 0.0;
+  double after = 0.0;
+  bool held_out = false;
+};
 
-[[nodiscard]] std::string discrepancyReport(const std::string& campaign, const DiscrepancyInput& input,
-                                            const DiscrepancyResult& result);
+/// What the story tells, from a search that was just made or from one that a session keeps.
+struct DiscrepancyReportData {
+  DiscrepancyVerdict verdict = DiscrepancyVerdict::None;
+  std::string message;
+  std::vector<FoundEffect> effects;
+  bool user_adds = false;  ///< effects enter the model when a user adds them: each is then marked added or proposed
+  DiscrepancyGap gap;
+  std::vector<DisagreementPlace> where;
+  std::optional<MeasurementSuggestion> suggestion;
+  std::string leftover;
+  std::vector<DiscrepancyStep> steps;
+  std::vector<std::string> warnings;
+  std::vector<DiscrepancyReportRow> rows;
+};
+[[nodiscard]] DiscrepancyReportData discrepancyReportData(const DiscrepancyInput& input,
+                                                          const DiscrepancyResult& result);
+
+/// What is left before (0) and after (1) at the moment and in the component where it is largest before, over `table`
+/// (its z is set to that of the points); empty if the points of no moment span a plane.
+[[nodiscard]] std::optional<std::array<Field, 2>> discrepancyMaps(const DiscrepancyReportData& data, FieldGrid table,
+                                                                  double& time_s);
+
+/// Adds the story below the present section of a document; with maps over `table` if there is one.
+void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& data,
+                         const std::optional<FieldGrid>& table);
+
+[[nodiscard]] std::string discrepancyReport(const std::string& campaign, const DiscrepancyReportData& data,
+                                            const std::optional<FieldGrid>& table);
 
 }  // namespace spindrift

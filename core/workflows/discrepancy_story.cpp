@@ -314,6 +314,31 @@ double DiscrepancyStory::largestRms(bool rotations) const {
   return largest;
 }
 
+DiscrepancyReportData DiscrepancyStory::reportData() const {
+  DiscrepancyReportData data;
+  data.verdict = verdict;
+  data.message = message;
+  data.effects = effects;
+  data.user_adds = true;
+  data.gap = added.empty() && proposed ? *proposed : gap;
+  data.where = where;
+  data.suggestion = suggestion;
+  data.leftover = leftover;
+  data.steps = steps;
+  data.warnings = warnings;
+  for (const DiscrepancySeries& s : series) {
+    for (std::size_t i = 0; i < s.time_s.size(); ++i) {
+      DiscrepancyReportRow row{s.time_s[i], s.point, s.component, s.position_mm, s.noise, 0.0, 0.0, s.held_out[i]};
+      row.before = s.value[i] - s.simulated[i] - s.constant_before;
+      row.after = !s.completed.empty()   ? s.value[i] - s.completed[i] - s.constant_after
+                  : !s.explained.empty() ? row.before - s.explained[i]
+                                         : row.before;
+      data.rows.push_back(std::move(row));
+    }
+  }
+  return data;
+}
+
 nlohmann::json DiscrepancyStory::json() const {
   nlohmann::json found = nlohmann::json::array();
   for (const FoundEffect& e : effects) found.push_back(effectJson(e));

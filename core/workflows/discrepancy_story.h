@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "core/reporting/discrepancy_report.h"
 #include "core/workflows/discrepancy_workflow.h"
 
 namespace spindrift {
@@ -71,6 +72,9 @@ struct DiscrepancyStory {
   /// Largest rms of a series, before and after, and not below its noise, of displacements or of rotations: the limit of
   /// a common colour scale.
   [[nodiscard]] double largestRms(bool rotations) const;
+
+  /// For a report: "after" is with the effects added, or with those proposed while none is.
+  [[nodiscard]] DiscrepancyReportData reportData() const;
 
   [[nodiscard]] nlohmann::json json() const;
   /// Reads what `json` wrote. Throws InputError if it is something else.

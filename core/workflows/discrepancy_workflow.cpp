@@ -10,6 +10,7 @@
 #include "core/discrepancy/effect_model.h"
 #include "core/reporting/discrepancy_report.h"
 #include "core/workflows/evaluate_campaign.h"
+#include "core/workflows/fit_campaign.h"
 
 namespace spindrift {
 
@@ -49,7 +50,8 @@ DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job
     writeFileAtomically(request.prediction, text);
   }
   if (!request.html.empty()) {
-    writeFileAtomically(request.html, discrepancyReport(campaign.name, run.input, run.result));
+    writeFileAtomically(request.html, discrepancyReport(campaign.name, discrepancyReportData(run.input, run.result),
+                                                        mapTable(campaign.machine)));
   }
   return run;
 }

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct HeatmapOptions {
 [[nodiscard]] FieldGrid tableGrid(const MachineDescription& machine, int nx, int ny, double z_mm);
 
 /// Field of a model over the table, with the measured points of the fit on top. The region spanned by the points that
+/// The same with square cells of about a fortieth of the longer side, for a map in a report; empty without X or Y axis.
+[[nodiscard]] std::optional<FieldGrid> mapTable(const MachineDescription& machine);
 /// were fitted is not extrapolated.
 [[nodiscard]] Field tableField(const NineParameterFit& fit, const ErrorModel& model, const FieldGrid& grid,
                                Component component);

@@ -12,6 +12,7 @@
 #include "core/reporting/heatmap_picture.h"
 #include "core/session/session.h"
 #include "core/workflows/compensated_data.h"
+#include "core/workflows/discrepancy_story.h"
 #include "core/workflows/fit_campaign.h"
 
 namespace spindrift {
@@ -102,11 +103,16 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
                               }});
   }
   if (options.discrepancy && !campaign.simulation.empty()) {
-    JobContext searching = job.part(0.6, 0.95);
-    auto data = std::make_shared<DiscrepancyInput>(discrepancyInput(campaign, input.observations));
-    auto result = std::make_shared<DiscrepancyResult>(findDiscrepancy(*data, options.search, searching));
-    input.sections.push_back({"Where simulation and measurement disagree", [data, result](HtmlDocument& document) {
-                                addDiscrepancyStory(document, *data, *result);
+    auto data = std::make_shared<DiscrepancyReportData>();
+    if (options.story != nullptr) {
+      *data = DiscrepancyStory::parse(*options.story).reportData();
+    } else {
+      JobContext searching = job.part(0.6, 0.95);
+      const DiscrepancyInput found = discrepancyInput(campaign, input.observations);
+      *data = discrepancyReportData(found, findDiscrepancy(found, options.search, searching));
+    }
+    input.sections.push_back({"Where simulation and measurement disagree", [data, &campaign](HtmlDocument& document) {
+                                addDiscrepancyStory(document, *data, mapTable(campaign.machine));
                               }});
   }
   input.conclusions = {[&](HtmlDocument& document) { addThermalModel(document, stored.thermal); },

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,8 @@ struct ReportOptions {
   std::vector<std::pair<std::string, std::string>> exclusions;
   std::vector<std::string> notes;
   StoredResults stored;  ///< of a session; shown as they are
+  /// DiscrepancyStory::json of a session: told in place of a new search; null: search.
+  std::shared_ptr<const nlohmann::json> story;
 };
 
 /// Evaluates the captures (if any), fits where there is something to fit, and returns one self-contained HTML text. A

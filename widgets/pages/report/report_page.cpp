@@ -109,6 +109,11 @@ ReportOptions ReportPage::options() const {
   o.discrepancy = discrepancy_->isChecked();
   o.stored = stored();
   const DiscrepancyChoice choice = DiscrepancyChoice::of(model);
+  // A search that still holds is told, not made again.
+  const StoredResult* searched = model.latest("discrepancy");
+  if (searched != nullptr && model.state("discrepancy").current &&
+      searched->provenance.options.value("discrepancy", nlohmann::json()) == choice.json())
+    o.story = std::make_shared<const nlohmann::json>(searched->payload);
   o.search.accept = choice.added;
   o.search.reject = choice.rejected;
   const nlohmann::json fit = model.setting(fit_options_key, nlohmann::json::object());
