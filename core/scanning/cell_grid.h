@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan compressed into small cells, and a smooth surface through them.
+// A scan compressed into small cells.
 //
 // The surface of an artefact is a smooth height map z = h(x, y) seen on a near-regular grid. Within a cell of some
 // tenths of a millimetre nothing is lost when the points are replaced by their mean, because the mean of h over the
@@ -55,42 +55,5 @@ struct CellGridOptions {
 
 /// Throws InputError if the cloud is so sparse or so large that it cannot be a height map.
 [[nodiscard]] CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options = {});
-
-/// Bicubic B-spline that interpolates the heights of a CellGrid at the centres of its cells (after undoing the mean
-/// over the cell). Source: Unser, "Splines", IEEE Signal Processing Magazine 16 (1999).
-class HeightSpline {
- public:
-  explicit HeightSpline(const CellGrid& grid);
-
-  /// Height and derivatives at one place.
-  struct Value {
-    double z = 0.0;
-    double zx = 0.0, zy = 0.0;
-    double zxx = 0.0, zxy = 0.0, zyy = 0.0;
-    double count = 0.0;          ///< points of the cell at this place
-    float tx = 0.0F, ty = 0.0F;  ///< phase between the nodes, 0 .. 1
-  };
-  /// False outside the measured region (a quarter of a cell is tolerated).
-  [[nodiscard]] bool evaluate(double x, double y, Value& value) const noexcept;
-
- private:
-  void fillHoles(std::vector<double>& heights) const;
-  void prefilter(std::vector<double>& values) const;
-  [[nodiscard]] std::size_t index(int column, int row) const noexcept {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
-  }
-
-  static constexpr int margin_ = 8;
-  Eigen::Vector2d origin_;  ///< place of node (0, 0)
-  Eigen::Vector2d step_;
-  int columns_ = 0;
-  int rows_ = 0;
-  std::vector<double> coefficients_;
-  std::vector<float> count_;          ///< points at each node, 0: not measured
-  std::vector<std::uint8_t> inside_;  ///< the four nodes around are measured
-};
-
-/// Sum of the squared weights with which the values of equal, independent nodes enter a cubic spline at phase t.
-[[nodiscard]] double splineNoiseFactor(double t) noexcept;
 
 }  // namespace spindrift

@@ -25,8 +25,8 @@
 
 #include "core/base/error.h"
 #include "core/geometry/rigid_transform.h"
-#include "core/scanning/cell_grid.h"
 #include "core/scanning/cloud.h"
+#include "core/scanning/height_spline.h"
 
 namespace spindrift {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/scanning/cell_grid.h"
+#include "core/scanning/height_spline.h"
 #include "core/scanning/registration.h"
 
 namespace spindrift {
