@@ -254,11 +254,14 @@ ProfilerCalibration calibrateProfiler(const PointCloud& scan, const std::array<d
   const auto whitened = [&](const Parameters& at, Eigen::VectorXd& raw_rim) {
     Eigen::VectorXd r(rows);
     raw_rim.resize(rims);
+    // The samples of a profile are sharp across its own direction, wherever that points.
+    const Eigen::Vector2d along =
+        RigidTransform::fromAlphaBetaGamma(at[0], at[1], at[2], Eigen::Vector3d::Zero()).rotation().col(0).head<2>();
     for (Eigen::Index i = 0; i < rims; ++i) {
       const RimPoint& rim = result.rim[static_cast<std::size_t>(i)];
       const Eigen::Vector2d d = toTool(at, options.scan_model, rim.point_mm).head<2>() - middle;
       raw_rim[i] = d.norm() - radius - at[6];
-      const double sigma = std::hypot(rim.sigma_x_mm * d.x() / d.norm(), options.rim_roughness_mm);
+      const double sigma = std::hypot(rim.sigma_x_mm * along.dot(d) / d.norm(), options.rim_roughness_mm);
       r[i] = raw_rim[i] / sigma;
     }
     Eigen::Vector3d plane_residual = plane.coefficients - predictedPlane(at, options.scan_model, circle_mm[2]);
@@ -342,10 +345,7 @@ ProfilerCalibration calibrateProfiler(const PointCloud& scan, const std::array<d
           names[static_cast<std::size_t>(i)], toString(options.scan_model),
           options.scan_model == ScanModel::Rigid ? "a circle looks the same after a turn about its axis"
                                                  : "the height of a point does not depend on where the carriage stands",
-          i == 0   ? result.alpha_rad
-          : i == 1 ? result.beta_rad
-                   : result.gamma_rad,
-          result.standardUncertainty(i));
+          std::abs(q[i]) < 5e-5 ? 0.0 : q[i], result.standardUncertainty(i));
     }
   if (std::abs(result.unexplained_slope_rad) > 1e-3)
     result.message += fmt::format(
