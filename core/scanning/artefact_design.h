@@ -24,7 +24,7 @@ struct ArtefactDesignOptions {
   ScanModel scan_model = ScanModel::Rigid;
   double noise_um = 0.5;        ///< standard deviation of a point's height
   double point_count = 640000;  ///< of one scan, spread evenly over the area
-  int drift_order = 1;          ///< push_broom: as in RegistrationOptions, 0 to 2
+  int drift_order = 1;          ///< push_broom: 0 to 2, free (a registration holds the second order)
   double steepest_slope = 1.2;  ///< |dz/dx| or |dz/dy| beyond which nothing returns
   double weak_ratio = 30.0;     ///< a direction is weak if known this much less well than the best one
   int lattice = 200;            ///< places per side at which the surface is evaluated

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "core/base/random.h"
@@ -19,20 +20,45 @@ Eigen::Vector3d ProfilerMounting::arm_mm(const Eigen::Vector3d& centroid_mm, Sca
   return lever_mm + calibration.tcsFromProfiler(lift_mm) * c;
 }
 
+namespace {
+
+/// The shift that the scans show and that turns with the profiler. With push_broom the carriage's direction does not
+/// turn, only the part of u inside the profile's plane.
+Eigen::Vector3d turningShift_mm(const RegistrationResult& registration, const ProfilerCalibration& calibration) {
+  const Eigen::Vector3d seen = registration.translation_mm - registration.commanded_mm;
+  if (registration.scan_model != ScanModel::PushBroom) return seen;
+  Eigen::Matrix3d m = calibration.rotation();
+  m.col(1) = Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d in_cloud = m.inverse() * seen;
+  return m.col(0) * in_cloud.x() + m.col(2) * in_cloud.z();
+}
+
+}  // namespace
+
 Eigen::Matrix<double, 6, 3> calibrationSensitivity(const RegistrationResult& registration,
                                                    const ProfilerCalibration& calibration) {
-  // A small turn t of the profiler turns what it saw: u changes by t x u. With push_broom the carriage's direction does
-  // not turn, only the part of u inside the profile's plane.
-  Eigen::Vector3d turned = registration.translation_mm;
-  if (registration.scan_model == ScanModel::PushBroom) {
-    Eigen::Matrix3d m = calibration.rotation();
-    m.col(1) = Eigen::Vector3d::UnitY();
-    const Eigen::Vector3d in_cloud = m.inverse() * registration.translation_mm;
-    turned = m.col(0) * in_cloud.x() + m.col(2) * in_cloud.z();
-  }
+  // A small turn t of the profiler turns what it saw: u changes by t x u.
   Eigen::Matrix<double, 6, 3> out;
-  out.topRows<3>() = -crossMatrix(turned);
+  out.topRows<3>() = -crossMatrix(turningShift_mm(registration, calibration));
   out.bottomRows<3>() = -crossMatrix(registration.rotation_rad);
+  return out;
+}
+
+Eigen::Matrix<double, 6, 6> calibrationSpread(const RegistrationResult& registration,
+                                              const ProfilerCalibration& calibration) {
+  const Eigen::Matrix<double, 6, 3> turn = calibrationSensitivity(registration, calibration);
+  const Eigen::Vector3d shift = turningShift_mm(registration, calibration);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> angles(calibration.covariance.topLeftCorner<3, 3>());
+  Eigen::Matrix<double, 6, 6> out;
+  for (int k = 0; k < 3; ++k) {
+    const double variance = std::max(0.0, angles.eigenvalues()[k]);
+    const Eigen::Vector3d axis = angles.eigenvectors().col(k);
+    out.col(k) = std::sqrt(variance) * turn * axis;
+    // t x (t x u) / 2 with t = s axis: the mean of s^4 is three times the square of that of s^2.
+    const double second = 0.5 * std::sqrt(3.0) * variance;
+    out.col(3 + k) << second * axis.cross(axis.cross(shift)),
+        second * axis.cross(axis.cross(registration.rotation_rad));
+  }
   return out;
 }
 
@@ -52,11 +78,9 @@ AxisError axisError(const RegistrationResult& registration, const ProfilerMounti
       covariance.row(i).setZero();
       covariance.col(i).setZero();
     }
-  const Eigen::Matrix<double, 6, 3> turn = calibrationSensitivity(registration, mounting.calibration);
-  const Eigen::Matrix3d angles = mounting.calibration.covariance.topLeftCorner<3, 3>();
+  const Eigen::Matrix<double, 6, 6> spread = calibrationSpread(registration, mounting.calibration);
   const Eigen::Matrix3d lengths = mounting.calibration.covariance.bottomRightCorner<3, 3>();
-  Eigen::Matrix<double, 6, 6> calibration = turn * angles * turn.transpose();
-  out.covariance = lever * (covariance + calibration) * lever.transpose();
+  out.covariance = lever * (covariance + spread * spread.transpose()) * lever.transpose();
   const Eigen::Matrix3d w = crossMatrix(registration.rotation_rad);
   out.covariance.topLeftCorner<3, 3>() += w * lengths * w.transpose();
   for (int i = 0; i < 6; ++i) {

@@ -40,6 +40,13 @@ struct AxisError {
 /// (3) with the covariance of the registration and of the calibration.
 [[nodiscard]] AxisError axisError(const RegistrationResult& registration, const ProfilerMounting& mounting);
 
+/// What the uncertainty of the calibration's angles does to (u, w): one column per independent contribution of unit
+/// variance, so that S S^T is the covariance and S_a S_b^T that between two scans of one profiler. The first three
+/// columns are of first order; the last three of second order, which counts where an angle is known only by its
+/// mounting (its mean is not taken out: it is a mean square).
+[[nodiscard]] Eigen::Matrix<double, 6, 6> calibrationSpread(const RegistrationResult& registration,
+                                                            const ProfilerCalibration& calibration);
+
 /// Change of (u, w) with the calibration (alpha, beta, gamma about X, Y, Z; first order): 6 x 3.
 [[nodiscard]] Eigen::Matrix<double, 6, 3> calibrationSensitivity(const RegistrationResult& registration,
                                                                  const ProfilerCalibration& calibration);

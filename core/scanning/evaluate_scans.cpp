@@ -24,7 +24,7 @@ double unitFactor(Component k) {
 /// own noise (half of the covariance of the registration of two alike scans) and the calibration.
 struct ScanCovariance {
   Eigen::Matrix<double, 6, 6> own;
-  Eigen::Matrix<double, 6, 3> turn;
+  Eigen::Matrix<double, 6, 6> spread;  ///< calibrationSpread
 };
 
 nlohmann::json scanJson(const ScanResult& s, const Eigen::Matrix<double, 6, 6>& calibration) {
@@ -74,7 +74,6 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
   out.instrument = "profiler";
   out.rejected = evaluation.rejected;
   out.warnings = evaluation.warnings;
-  const Eigen::Matrix3d angles = evaluation.mounting.calibration.covariance.topLeftCorner<3, 3>();
 
   // Noise of the reference scan of every artefact: half of the smallest covariance of its registrations.
   std::map<std::string, Eigen::Matrix<double, 6, 6>> reference;
@@ -102,8 +101,8 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
     ScanCovariance c;
     c.own = s.registration.covariance;
     if (s.reference) c.own = 2.0 * common;
-    c.turn = calibrationSensitivity(s.registration, evaluation.mounting.calibration);
-    const Eigen::Matrix<double, 6, 6> calibration = c.turn * angles * c.turn.transpose();
+    c.spread = calibrationSpread(s.registration, evaluation.mounting.calibration);
+    const Eigen::Matrix<double, 6, 6> calibration = c.spread * c.spread.transpose();
     for (const Component k : all_components) {
       const int i = static_cast<int>(k);
       if (!std::isfinite(s.registration.covariance(i, i))) continue;
@@ -138,8 +137,7 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
     for (std::size_t b = a + 1; b < rows.size(); ++b) {
       const ScanResult& sb = evaluation.scans[rows[b].scan];
       const int j = rows[b].component;
-      double covariance =
-          covariances[rows[a].scan].turn.row(i) * angles * covariances[rows[b].scan].turn.row(j).transpose();
+      double covariance = covariances[rows[a].scan].spread.row(i).dot(covariances[rows[b].scan].spread.row(j));
       if (rows[a].scan == rows[b].scan)
         covariance += covariances[rows[a].scan].own(i, j);
       else if (sa.capture.artefact == sb.capture.artefact)

@@ -84,11 +84,33 @@ PointCloud mirrored(const PointCloud& cloud, int kind) {
   return out;
 }
 
+/// Standard deviation of the heights about their plane (mm).
+double reliefOf(const CellGrid& grid) {
+  Eigen::Matrix3d n = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d r = Eigen::Vector3d::Zero();
+  double zz = 0.0;
+  for (const SurfaceCell& cell : grid.cells) {
+    if (cell.count <= 0.0) continue;
+    const Eigen::Vector3d d = cell.mean - grid.centroid_mm;
+    const Eigen::Vector3d row(1.0, d.x(), d.y());
+    n += cell.count * row * row.transpose();
+    r += cell.count * d.z() * row;
+    zz += cell.count * d.z() * d.z();
+  }
+  const Eigen::Vector3d plane = n.fullPivLu().solve(r);
+  return std::sqrt(std::max(0.0, zz - plane.dot(r)) / n(0, 0));
+}
+
+/// What u can change by within half a scan (mm); machines drift by some um.
+constexpr double largest_drift_mm = 0.5;
+
 bool fits(const RegistrationSolver::Outcome& o, const RegistrationTarget& target, const RegistrationOptions& options,
           double source_noise) {
   const double noise = std::sqrt(0.5 * (source_noise * source_noise + target.grid().noise_mm * target.grid().noise_mm));
   // Cells agree within a hundredth of the relief, or within the noise where there is hardly any relief.
   const double allowed = std::max(0.01 * target.relief_mm(), 6.0 * noise);
+  // A drift of the size of the artefact would turn its mirror image into itself.
+  if (o.motion.drift_order > 0 && !(o.motion.drift.cwiseAbs().maxCoeff() < largest_drift_mm)) return false;
   return o.cells.size() >= 12 && o.inliers >= options.least_inliers && o.median_residual < allowed;
 }
 
@@ -133,25 +155,14 @@ void RegistrationOptions::validate() const {
   if (!(search_mm >= 0.0) || !(search_rad >= 0.0)) throw InputError("The range of the search must not be negative.");
   if (!start_translation_mm.allFinite() || !start_rotation_rad.allFinite())
     throw InputError("The start must be finite.");
+  if (!(smooth_length_mm > 0.0)) throw InputError("The length over which errors change must be positive (mm).");
+  if (at_y_mm && !std::isfinite(*at_y_mm)) throw InputError("The place along the scan must be finite (mm).");
   if (!(least_inliers >= 0.0 && least_inliers <= 1.0) || !(least_overlap >= 0.0 && least_overlap <= 1.0))
     throw InputError("The least parts of overlap and agreement must lie between 0 and 1.");
 }
 
-RegistrationTarget::RegistrationTarget(const PointCloud& cloud) : grid_(compressCloud(cloud)), spline_(grid_) {
-  Eigen::Matrix3d n = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d r = Eigen::Vector3d::Zero();
-  double zz = 0.0;
-  for (const SurfaceCell& cell : grid_.cells) {
-    if (cell.count <= 0.0) continue;
-    const Eigen::Vector3d d = cell.mean - grid_.centroid_mm;
-    const Eigen::Vector3d row(1.0, d.x(), d.y());
-    n += cell.count * row * row.transpose();
-    r += cell.count * d.z() * row;
-    zz += cell.count * d.z() * d.z();
-  }
-  const Eigen::Vector3d plane = n.fullPivLu().solve(r);
-  relief_mm_ = std::sqrt(std::max(0.0, zz - plane.dot(r)) / n(0, 0));
-}
+RegistrationTarget::RegistrationTarget(const PointCloud& cloud)
+    : grid_(compressCloud(cloud)), spline_(grid_), relief_mm_(reliefOf(grid_)) {}
 
 RegistrationResult registerToSurface(const PointCloud& source, const RegistrationTarget& target,
                                      const RegistrationOptions& options) {
@@ -162,7 +173,8 @@ RegistrationResult registerToSurface(const PointCloud& source, const Registratio
   result.method = "surface";
   const CellGrid grid = compressCloud(source);
   const RegistrationSolver solver(grid, target, options);
-  const RegistrationSolver::Outcome o = match(solver, target, grid, options);
+  RegistrationSolver::Outcome o = match(solver, target, grid, options);
+  if (options.scan_model == ScanModel::PushBroom && options.drift_order > 1 && o.converged) o = solver.bend(o);
   fillTransform(o.motion, options.machine_from_profiler, result);
   result.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
   result.white_covariance = result.covariance;
@@ -191,24 +203,38 @@ RegistrationResult registerToSurface(const PointCloud& source, const Registratio
     return result;
   };
   const bool fitting = fits(o, target, options, grid.noise_mm);
-  // A surface that nearly equals its own mirror image can be matched by half; then a mirrored one fits far better.
+  // A surface that nearly equals its own mirror image can be matched by half; then a mirrored one fits on far more.
   const double agreement = o.overlap * o.inliers;
-  const bool doubtful = fitting && agreement < 0.75 && o.median_residual > 3.0 * target.grid().noise_mm;
+  const bool doubtful = fitting && agreement < 0.75;
+  const double relief = reliefOf(grid);
+  if (!fitting && relief < 0.2 * target.relief_mm() && o.overlap > 0.5)
+    return reject(FitStatus::Rejected,
+                  fmt::format("The scan is nearly flat: its heights vary by {:.3g} mm about a plane, those of the "
+                              "reference by {:.3g} mm; another surface, or none.",
+                              relief, target.relief_mm()));
   if (!fitting || doubtful) {
     // Say what it is, if it is something known.
     constexpr const char* kinds[] = {"mirrored in x", "mirrored in y", "upside down (mirrored in z)",
                                      "turned by 180 degrees about Z"};
+    int best_kind = -1;
+    double best = 0.0;
     for (int kind = 0; kind < 4; ++kind) {
       const CellGrid other = compressCloud(mirrored(source, kind));
       const RegistrationSolver try_solver(other, target, options);
       const RegistrationSolver::Outcome t = match(try_solver, target, other, options);
       if (!fits(t, target, options, other.noise_mm) || t.overlap <= 0.6 || t.inliers <= 0.8) continue;
-      if (doubtful && (t.overlap * t.inliers < agreement + 0.2 || t.median_residual > 0.5 * o.median_residual))
+      if (doubtful && (t.overlap * t.inliers < agreement + 0.2 || t.median_residual > 1.5 * o.median_residual))
         continue;
+      // The one that agrees on most of the surface without a large shift.
+      const double merit = t.overlap * t.inliers - 0.01 * t.motion.shift.norm();
+      if (best_kind >= 0 && merit <= best) continue;
+      best_kind = kind;
+      best = merit;
+    }
+    if (best_kind >= 0)
       return reject(
           FitStatus::Rejected,
-          fmt::format("The scan is {}: that way it fits the reference, as it stands it does not.", kinds[kind]));
-    }
+          fmt::format("The scan is {}: that way it fits the reference, as it stands it does not.", kinds[best_kind]));
   }
   if (!fitting) {
     if (o.cells.size() < 12) return reject(FitStatus::Rejected, "The scan and the reference have no common region.");
@@ -216,7 +242,8 @@ RegistrationResult registerToSurface(const PointCloud& source, const Registratio
         FitStatus::Rejected,
         fmt::format("The scan does not show the same surface as the reference: after the best fit the heights differ "
                     "by {:.0f} um "
-                    "({:.0f} % of the cells agree); another artefact, or it has moved by more than {:.1f} mm.",
+                    "({:.0f} % of the cells agree); another artefact, something over it, or it has moved by more than "
+                    "{:.1f} mm.",
                     1e3 * o.median_residual, 100.0 * o.inliers, options.search_mm));
   }
   if (result.overlap < options.least_overlap)
@@ -225,10 +252,14 @@ RegistrationResult registerToSurface(const PointCloud& source, const Registratio
                               100.0 * result.overlap, 100.0 * options.least_overlap));
   if (!o.converged)
     return reject(FitStatus::NoConvergence,
-                  fmt::format("The registration did not settle within {} iterations.", options.most_iterations));
+                  agreement < 0.8
+                      ? fmt::format("Only {:.0f} % of the reference is seen as it was (the rest is cut short or hidden "
+                                    "by something), too little for the registration to settle.",
+                                    100.0 * std::min(agreement, result.overlap))
+                      : fmt::format("The registration did not settle within {} iterations.", options.most_iterations));
 
   // Inverse on the determined directions, in scaled parameters.
-  const VectorP scale = solver.scales(o.motion);
+  const VectorP scale = solver.scales(o.normal, o.prior);
   const MatrixP scaled = scale.cwiseInverse().asDiagonal() * o.normal * scale.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixP> eigen(scaled);
   const int n = o.motion.parameters();

@@ -3,10 +3,10 @@
 //
 // Model: a point p of the source (warm) lies on the surface of the target (cold) at
 //   p' = p + M^-1 ( u + (R - I) Q (p - c) ),    R = exp([w]x),
-// with u (mm) and w (rad) in machine axes: the deviation of the tool at the centroid c of the target. Scan model rigid:
-// the cloud moves as one body, Q = M (rotation machine_from_cloud). Scan model push_broom: every profile is taken at
-// its own carriage position, so y has no lever: Q = M diag(1, 0, 1), and the second column of M is the carriage's
-// direction.
+// with u (mm) and w (rad) in machine axes: the deviation of the tool at the centroid c of the target, or at another
+// place along the scan if the options ask for one. Scan model rigid: the cloud moves as one body, Q = M (rotation
+// machine_from_cloud). Scan model push_broom: every profile is taken at its own carriage position, so y has no lever:
+// Q = M diag(1, 0, 1), and the second column of M is the carriage's direction.
 //
 // Method `Surface` (ours): both clouds are compressed into cells, the target becomes a bicubic spline with analytic
 // normals, and 6 x 6 normal equations are accumulated over the source cells with Tukey's loss, its scale from the
@@ -45,8 +45,13 @@ struct RegistrationOptions {
   /// Start: translation at the target's centroid (mm) and rotation (rad), machine axes.
   Eigen::Vector3d start_translation_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d start_rotation_rad = Eigen::Vector3d::Zero();
-  /// push_broom: order of the drift of u along the scan, 0 to 2.
-  int drift_order = 1;
+  /// Place along the scan (profiler's y, mm) at which u is asked; the centroid of the target where there is none.
+  std::optional<double> at_y_mm;
+  /// push_broom: order of the drift of u along the scan, 0 to 2. The second order is held by `smooth_length_mm`.
+  int drift_order = 2;
+  /// Length l over which errors of the axis change (mm): with an error A sin(y / l + phase) the second order is at most
+  /// A (L / l)^2 / 2, L half of the scan. Taken as its standard deviation; A from u and its slope.
+  double smooth_length_mm = 300.0;
   int most_iterations = 30;
   double tukey_threshold = 6.0;
   /// Search after a start that does not fit: shifts up to +-search_mm, turns up to +-search_rad about Z.
@@ -68,9 +73,11 @@ struct RegistrationResult {
   std::string message;
   ScanModel scan_model = ScanModel::Rigid;
   std::string method;                                        ///< "surface", "ndt-icp", "gicp"
-  Eigen::Vector3d centroid_mm = Eigen::Vector3d::Zero();     ///< c, profiler's frame
+  Eigen::Vector3d centroid_mm = Eigen::Vector3d::Zero();     ///< c, profiler's frame (its y as the options ask)
   Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero();  ///< u
   Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();    ///< w
+  /// Shift between the scans that was commanded (machine axes) and is already taken out of u.
+  Eigen::Vector3d commanded_mm = Eigen::Vector3d::Zero();
   /// Of (u, w) in mm and rad; infinite where a direction is free.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   /// Covariance if the noise were white and of its present size: the Cramer-Rao bound of these two scans.

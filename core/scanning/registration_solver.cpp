@@ -51,8 +51,8 @@ RegistrationSolver::RegistrationSolver(const CellGrid& source, const Registratio
   length_ = std::max(std::sqrt(sum / std::max(count, 1.0)), 1e-3);
 }
 
-VectorP RegistrationSolver::scales(const ScanMotion& motion) const {
-  VectorP out = VectorP::Ones(motion.parameters());
+VectorP RegistrationSolver::scales(const MatrixP& normal, const VectorP& prior) const {
+  VectorP out = (VectorP::Ones(prior.size()) + prior / std::max(normal(2, 2), 1e-300)).cwiseSqrt();
   out.segment<3>(3).setConstant(length_);
   return out;
 }
@@ -65,11 +65,12 @@ ScanMotion RegistrationSolver::start() const {
   if (options_.scan_model == ScanModel::PushBroom) {
     m.col(1) = Eigen::Vector3d::UnitY();
     motion.lever.col(1).setZero();
-    motion.drift_order = std::clamp(options_.drift_order, 0, 2);
+    motion.drift_order = std::clamp(options_.drift_order, 0, 1);  // the second order comes last: bend()
     motion.drift_length = half_scan_;
   }
   motion.to_cloud = m.inverse();
   motion.centre = target_.grid().centroid_mm;
+  if (options_.at_y_mm) motion.centre.y() = *options_.at_y_mm;
   motion.shift = options_.start_translation_mm;
   motion.rotation = rotationOf(options_.start_rotation_rad);
   return motion;
@@ -121,7 +122,6 @@ RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const s
                                                       int iterations) const {
   Outcome out;
   const int n = motion.parameters();
-  const VectorP scale_of = scales(motion);
   out.normal = MatrixP::Zero(n, n);
   out.free = MatrixP::Zero(n, n);
   std::vector<double> values;
@@ -154,8 +154,16 @@ RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const s
     for (int j = 0; j < n; ++j)
       for (int i = j + 1; i < n; ++i) out.normal(j, i) = out.normal(i, j);
     out.inliers = inliers / static_cast<double>(out.cells.size());
+    out.prior = VectorP::Zero(n);
+    if (motion.drift_order > 1)
+      for (int k = 0; k < 3; ++k) {
+        out.prior[9 + k] = std::pow(out.scale / motion.bend_sigma[k], 2);
+        out.normal(9 + k, 9 + k) += out.prior[9 + k];
+        right[9 + k] -= out.prior[9 + k] * motion.drift(k, 1);
+      }
     if (last) break;
     // Solve in scaled parameters; directions that the surface does not determine are left where they are.
+    const VectorP scale_of = scales(out.normal, out.prior);
     const MatrixP scaled = scale_of.cwiseInverse().asDiagonal() * out.normal * scale_of.cwiseInverse().asDiagonal();
     const Eigen::SelfAdjointEigenSolver<MatrixP> eigen(scaled);
     VectorP step = VectorP::Zero(n);
@@ -189,6 +197,17 @@ RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const s
   for (const CellResidual& c : out.cells) values.push_back(std::abs(c.residual));
   out.median_residual = medianOf(values);
   return out;
+}
+
+RegistrationSolver::Outcome RegistrationSolver::bend(const Outcome& outcome) const {
+  ScanMotion motion = outcome.motion;
+  motion.drift_order = 2;
+  const double part = motion.drift_length / options_.smooth_length_mm;
+  for (int k = 0; k < 3; ++k) {
+    const double size = std::hypot(motion.shift[k], motion.drift(k, 0) / part);
+    motion.bend_sigma[k] = std::max(0.5 * part * part * size, 1e-7);
+  }
+  return solve(motion, filled_, options_.most_iterations);
 }
 
 double RegistrationSolver::cost(const Outcome& outcome) const noexcept {
@@ -330,6 +349,9 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
   }
   for (int j = 0; j < n; ++j)
     for (int i = j + 1; i < n; ++i) scores(j, i) = scores(i, j);
+  // Before anything is measured: weight^2 times variance, with the variance of a unit of `normal`.
+  MatrixP prior = MatrixP::Zero(n, n);
+  prior.diagonal() = outcome.scale * outcome.scale * outcome.prior;
   // Tukey's loss costs a little efficiency: variance of psi over the squared mean of its slope (Huber 1981).
   double psi2 = 0.0, slope = 0.0, robust = 0.0, robust2 = 0.0;
   const double threshold = outcome.tukey_threshold * outcome.scale;
@@ -394,8 +416,8 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
       middle.noalias() += own * row_variance * row.xj[i] * row.xj[i].transpose();
     }
   }
-  noise.covariance = MatrixP(inverse_normal * middle * inverse_normal).topLeftCorner<6, 6>();
-  noise.white = white * MatrixP(inverse_normal * scores * inverse_normal).topLeftCorner<6, 6>();
+  noise.covariance = MatrixP(inverse_normal * (middle + prior) * inverse_normal).topLeftCorner<6, 6>();
+  noise.white = MatrixP(inverse_normal * (white * scores + prior) * inverse_normal).topLeftCorner<6, 6>();
   return noise;
 }
 

@@ -28,6 +28,8 @@ struct ScanMotion {
   int drift_order = 0;
   double drift_length = 1.0;
   Eigen::Matrix<double, 3, 2> drift = Eigen::Matrix<double, 3, 2>::Zero();
+  /// Standard deviation of drift.col(1) before anything is measured (mm); used when drift_order is 2.
+  Eigen::Vector3d bend_sigma = Eigen::Vector3d::Ones();
   [[nodiscard]] int parameters() const noexcept { return 6 + 3 * drift_order; }
 };
 
@@ -55,7 +57,8 @@ class RegistrationSolver {
 
   struct Outcome {
     ScanMotion motion;
-    MatrixP normal;      ///< sum of weight * J J^T
+    MatrixP normal;      ///< sum of weight * J J^T, and `prior`
+    VectorP prior;       ///< what is known beforehand, in the unit of `normal`
     double scale = 0.0;  ///< robust standard deviation of residual * sqrt(weight) (mm)
     double tukey_threshold = 6.0;
     double overlap = 0.0;
@@ -63,17 +66,19 @@ class RegistrationSolver {
     double median_residual = 0.0;  ///< mm
     int iterations = 0;
     bool converged = false;
-    Matrix6 free = Matrix6::Zero();  ///< projector on the directions left free (scaled parameters)
+    MatrixP free = MatrixP::Zero(6, 6);  ///< projector on the directions left free (scaled parameters)
     int free_count = 0;
     std::vector<CellResidual> cells;
   };
   [[nodiscard]] Outcome solve(ScanMotion motion, const std::vector<std::uint32_t>& cells, int iterations) const;
+  /// The second order of the drift added to an outcome of the first (push_broom).
+  [[nodiscard]] Outcome bend(const Outcome& outcome) const;
   /// Starts on a lattice of shifts and turns; the best three are refined. Returns the best.
   [[nodiscard]] Outcome search() const;
 
   [[nodiscard]] ScanMotion start() const;
-  /// What makes the parameters comparable (mm).
-  [[nodiscard]] VectorP scales(const ScanMotion& motion) const;
+  /// What makes the parameters comparable (mm); one that is held by what was known beforehand counts as held by data.
+  [[nodiscard]] VectorP scales(const MatrixP& normal, const VectorP& prior) const;
   [[nodiscard]] const std::vector<std::uint32_t>& allCells() const noexcept { return filled_; }
   /// Length that makes rotations comparable with shifts (mm).
   [[nodiscard]] double length() const noexcept { return length_; }

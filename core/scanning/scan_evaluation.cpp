@@ -9,10 +9,12 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <set>
 
 #include "core/base/csv.h"
 #include "core/base/json_reader.h"
+#include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/scanning/cloud_file.h"
 #include "core/scanning/scan_points.h"
@@ -25,6 +27,7 @@ constexpr double blind_rotation_rad = 100e-6;
 constexpr double blind_shift_mm = 0.1;
 
 struct Extent {
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();
   Eigen::Vector2d size = Eigen::Vector2d::Zero();
 };
 
@@ -35,7 +38,7 @@ Extent extentOf(const CellGrid& grid) {
       low = low.cwiseMin(c.mean.head<2>());
       high = high.cwiseMax(c.mean.head<2>());
     }
-  return {high - low};
+  return {low, high - low};
 }
 
 /// Two separate surfaces in one cloud: an empty strip across it with much on either side.
@@ -79,6 +82,9 @@ class ArtefactEvaluator {
       : campaign_(campaign), mounting_(mounting), captures_(std::move(captures)) {
     options_.scan_model = model;
     options_.machine_from_profiler = mounting.calibration.rotation();
+    // Errors of the axis make about one wave over its travel, no more.
+    if (const LinearAxis* axis = campaign.machine.findAxis(campaign.machine.profiler->axis))
+      options_.smooth_length_mm = (axis->travel_mm[1] - axis->travel_mm[0]) / (2.0 * std::numbers::pi);
   }
 
   void run(const JobContext& job) {
@@ -111,12 +117,12 @@ class ArtefactEvaluator {
       const std::size_t k = (first + i) % captures_.size();
       const ScanCapture& capture = captures_[k];
       try {
-        const PointCloud cloud = readScanPoints(campaign_, capture.cloud).used();
+        PointCloud cloud = readScanPoints(campaign_, capture.cloud).used();
         if (!target) {
           target = makeReference(cloud, capture);
           continue;
         }
-        compare(cloud, capture, *target);
+        compare(std::move(cloud), capture, *target);
       } catch (const InputError& error) {
         rejected.push_back({capture.cloud, error.what()});
       }
@@ -128,9 +134,11 @@ class ArtefactEvaluator {
     if (const auto gap = twoSurfaces(target->grid()))
       throw InputError(
           fmt::format("{} holds two separate surfaces ({}); allowed: one artefact per cloud.", capture.cloud, *gap));
+    reference_extent_ = extentOf(target->grid());
+    reference_y_mm_ = capture.y_mm;
+    placeAtPoint(capture);
     // A scan against itself says which directions the surface leaves free, and gives the noise of one scan.
     const RegistrationResult self = registerToSurface(cloud, *target, options_);
-    reference_extent_ = extentOf(target->grid());
     ScanResult result;
     result.capture = capture;
     result.reference = true;
@@ -145,14 +153,42 @@ class ArtefactEvaluator {
     return target;
   }
 
-  void compare(const PointCloud& cloud, const ScanCapture& capture, const RegistrationTarget& target) {
+  /// The deviation is asked where machine.json says that the point stands, not where the points happen to be dense.
+  void placeAtPoint(const ScanCapture& capture) {
+    options_.at_y_mm.reset();
+    if (const MachinePoint* point = campaign_.machine.findPoint(capture.artefact)) {
+      const double along = point->position_mm.y() - capture.y_mm;
+      const double from = reference_extent_.low.y(), length = reference_extent_.size.y();
+      if (along >= from && along <= from + length) options_.at_y_mm = along;
+    }
+  }
+
+  void compare(PointCloud cloud, const ScanCapture& capture, const RegistrationTarget& target) {
     ScanResult result;
     result.capture = capture;
+    // A scan that started elsewhere: its y counts from there.
+    const Eigen::Vector3d commanded(0.0, capture.y_mm - reference_y_mm_, 0.0);
+    if (commanded.y() != 0.0) {
+      const Eigen::Vector3d in_cloud = options_.scan_model == ScanModel::Rigid
+                                           ? Eigen::Vector3d(options_.machine_from_profiler.transpose() * commanded)
+                                           : commanded;
+      for (Eigen::Vector3d& p : cloud.points_mm) p += in_cloud;
+    }
     result.registration = registerToSurface(cloud, target, options_);
     RegistrationResult& r = result.registration;
+    r.commanded_mm = commanded;
     const bool degenerate = r.status == FitStatus::Degenerate;
     if (!r.usable() && !degenerate) {
       rejected.push_back({capture.cloud, fmt::format("{}: {}", capture.cloud, r.message)});
+      return;
+    }
+    if (r.translation_mm.norm() > options_.search_mm) {
+      rejected.push_back(
+          {capture.cloud,
+           fmt::format(
+               "{}: the scan fits the reference only {:.1f} mm away from where it was taken, on {:.0f} % of the "
+               "surface; allowed: {:.1f} mm. Something lies over it, or it is another artefact.",
+               capture.cloud, r.translation_mm.norm(), 100.0 * r.overlap * r.inliers, options_.search_mm)});
       return;
     }
     const CellGrid grid = compressCloud(cloud);
@@ -168,7 +204,7 @@ class ArtefactEvaluator {
     const auto warn = [&](std::string sentence) {
       result.warnings.push_back(fmt::format("{}: {}", capture.cloud, sentence));
     };
-    if (r.overlap < 0.8)
+    if (r.overlap < 0.9)
       warn(
           fmt::format("covers only {:.0f} % of the reference (cut short or hidden); evaluated with what is there, with "
                       "a larger uncertainty.",
@@ -215,6 +251,7 @@ class ArtefactEvaluator {
   std::vector<ScanCapture> captures_;
   RegistrationOptions options_;
   Extent reference_extent_;
+  double reference_y_mm_ = 0.0;  ///< carriage position where the reference scan starts
 };
 
 /// Angles of the mounting known from elsewhere: profiler.mounting_angles_rad of machine.json.
@@ -265,6 +302,28 @@ ProfilerCalibration calibrationOf(const Campaign& campaign, const ProfilerDescri
       "place within 10 mm; the uncertainties carry that.",
       reason, options.mounting_angle_rad));
   return c;
+}
+
+/// What angles of the profiler that nothing determines do to the deviations, and what would help.
+void warnUndetermined(ScanEvaluation& evaluation) {
+  const ProfilerCalibration& calibration = evaluation.mounting.calibration;
+  double worst = 0.0;
+  const ScanResult* where = nullptr;
+  for (const ScanResult& s : evaluation.scans) {
+    const double shift =
+        calibrationSpread(s.registration, calibration).topRows<3>().rowwise().norm().maxCoeff() * um_per_mm;
+    if (shift > worst) {
+      worst = shift;
+      where = &s;
+    }
+  }
+  if (calibration.undetermined.empty() || where == nullptr || worst < 0.05) return;
+  evaluation.warnings.push_back(fmt::format(
+      "Angles of the profiler that the calibration leaves open ({}) make up to {:.2g} um of the stated uncertainty of "
+      "a "
+      "displacement ({} in {}). An angle measured otherwise, such as with a dial indicator along the axis, goes into "
+      "profiler.mounting_angles_rad of machine.json.",
+      joinedList(calibration.undetermined), worst, where->capture.artefact, where->capture.cycle));
 }
 
 }  // namespace
@@ -338,6 +397,7 @@ ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string&
   }
   std::stable_sort(evaluation.scans.begin(), evaluation.scans.end(),
                    [](const ScanResult& a, const ScanResult& b) { return a.capture.time_s < b.capture.time_s; });
+  warnUndetermined(evaluation);
   for (const ScanResult& s : evaluation.scans)
     for (const std::string& w : s.warnings) evaluation.warnings.push_back(w);
   return evaluation;

@@ -91,9 +91,8 @@ int main(int argc, char** argv) {
     error << s.registration.translation_mm - change.at(arm).translation_mm,
         s.registration.rotation_rad - change.rotation_rad;
     squares += error.cwiseAbs2();
-    const Eigen::Matrix<double, 6, 3> turn = calibrationSensitivity(s.registration, e.mounting.calibration);
     stated += s.registration.covariance.diagonal() +
-              (turn * e.mounting.calibration.covariance.topLeftCorner<3, 3>() * turn.transpose()).diagonal();
+              calibrationSpread(s.registration, e.mounting.calibration).rowwise().squaredNorm();
     points += static_cast<double>(s.registration.points_used);
     ++count;
   }

@@ -83,7 +83,7 @@ void score(const std::filesystem::path& folder) {
     };
     const nlohmann::json near = find("at_artefact"), far = find("errors");
     const Eigen::Matrix<double, 6, 3> turn = calibrationSensitivity(s.registration, c);
-    const Matrix6 calibration = turn * c.covariance.topLeftCorner<3, 3>() * turn.transpose();
+    const Vector6 calibration = calibrationSpread(s.registration, c).rowwise().squaredNorm();
     const Vector6 angles = turn * angle_error;
     const Matrix6 correlated = s.registration.noise_correlation * s.registration.white_covariance;
     const Matrix6 far_bound = atOrigin(correlated, e.mounting.arm_mm(s.registration.centroid_mm, e.scan_model));
@@ -94,7 +94,7 @@ void score(const std::filesystem::path& folder) {
       if (std::isfinite(s.registration.covariance(i, i))) {
         const double error = valueOf(SmallError{s.registration.translation_mm, s.registration.rotation_rad}, k) -
                              near[names[n]].get<double>();
-        artefact.add(i, error, unit * std::sqrt(s.registration.covariance(i, i) + calibration(i, i)));
+        artefact.add(i, error, unit * std::sqrt(s.registration.covariance(i, i) + calibration[i]));
         without_angles.add(i, error - unit * angles[i], unit * std::sqrt(s.registration.covariance(i, i)));
         bound[i] += std::sqrt(s.registration.covariance(i, i) / correlated(i, i));
       }
