@@ -75,6 +75,14 @@ Vector6 boundOf(const Pair& pair, const Eigen::Vector3d& centre) {
   return information.inverse().diagonal().cwiseSqrt();
 }
 
+/// A part of `runs` with its 95 % interval (Wilson 1927).
+std::string partWithInterval(double inside, double runs) {
+  const double p = inside / runs, z2 = 1.96 * 1.96;
+  const double middle = (p + z2 / (2.0 * runs)) / (1.0 + z2 / runs);
+  const double half = 1.96 * std::sqrt(p * (1.0 - p) / runs + z2 / (4.0 * runs * runs)) / (1.0 + z2 / runs);
+  return fmt::format("{:.2f} % [{:.2f}, {:.2f}]", 100.0 * p, 100.0 * (middle - half), 100.0 * (middle + half));
+}
+
 void row(std::string_view name, const Vector6& squares, const Vector6& bound_squares, double ms, int runs) {
   const Vector6 rms = (squares / runs).cwiseSqrt();
   fmt::print("{:9} translation {:.5f} um, rotation {:.4f} urad, {:.2f} x bound, {:.1f} ms CPU\n", name,
@@ -157,7 +165,9 @@ int main(int argc, char** argv) {
   const bool pcl = argc < 4;
   Random random(1);
   Vector6 ours = Vector6::Zero(), bound = ours;
-  double ours_ms = 0.0, inside_full = 0.0;
+  double ours_ms = 0.0;
+  Vector6 inside_full = Vector6::Zero();
+  double joint_full = 0.0;
   Pair first;
   for (int run = 0; run < full; ++run) {
     const Pair pair = makePair(1300, 0.01, 0.0704, random);
@@ -166,23 +176,32 @@ int main(int argc, char** argv) {
     ours_ms += cpu_ms() - start;
     ours += errorOf(r).cwiseAbs2();
     bound += boundOf(pair, r.centroid_mm).cwiseAbs2();
-    for (int i = 0; i < 6; ++i) inside_full += std::abs(errorOf(r)[i]) < 1.96 * r.standardUncertainty(i) ? 1.0 : 0.0;
+    const Vector6 e = errorOf(r);
+    for (int i = 0; i < 6; ++i) inside_full[i] += std::abs(e[i]) < 1.96 * r.standardUncertainty(i) ? 1.0 : 0.0;
+    joint_full += e.dot(r.covariance.inverse() * e) < chiSquaredQuantile(0.95, 6.0) ? 1.0 : 0.0;
     if (run == 0) fmt::print("{} and {} points\n", pair.source.size(), pair.target.size());
     if (run == 0) first = pair;
   }
   row("ours", ours, bound, ours_ms, full);
   if (pcl) compareWithPeers(first, ours_ms / full);
-  fmt::print("full clouds: {:.1f} % of the components inside 95 %\n", 100.0 * inside_full / (6.0 * full));
-  double inside = 0.0, joint = 0.0;
+  const auto coverage = [](std::string_view what, const Vector6& inside, double joint, int runs) {
+    if (runs < 1) return;
+    const char* const names[] = {"EX", "EY", "EZ", "EA", "EB", "EC"};
+    fmt::print("{}, {} runs, truth inside the stated 95 % [95 % interval of that]\n", what, runs);
+    for (int i = 0; i < 6; ++i) fmt::print("  {}          {}\n", names[i], partWithInterval(inside[i], runs));
+    fmt::print("  components  {} (taken as independent)\n", partWithInterval(inside.sum(), 6.0 * runs));
+    fmt::print("  joint       {}\n", partWithInterval(joint, runs));
+  };
+  coverage("full clouds", inside_full, joint_full, full);
+  Vector6 inside = Vector6::Zero();
+  double joint = 0.0;
   for (int run = 0; run < small; ++run) {
     const Pair pair = makePair(130, 0.1, 0.5, random);
     const RegistrationResult r = registerClouds(pair.source, pair.target);
     const Vector6 e = errorOf(r);
-    for (int i = 0; i < 6; ++i) inside += std::abs(e[i]) < 1.96 * r.standardUncertainty(i) ? 1.0 : 0.0;
+    for (int i = 0; i < 6; ++i) inside[i] += std::abs(e[i]) < 1.96 * r.standardUncertainty(i) ? 1.0 : 0.0;
     joint += e.dot(r.covariance.inverse() * e) < chiSquaredQuantile(0.95, 6.0) ? 1.0 : 0.0;
   }
-  if (small > 0)
-    fmt::print("small clouds, {} runs: {:.2f} % of the components, {:.2f} % of the runs (joint) inside 95 %\n", small,
-               100.0 * inside / (6.0 * small), 100.0 * joint / small);
+  coverage("small clouds", inside, joint, small);
   return 0;
 }
