@@ -197,6 +197,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
     }
   }
   const std::vector<Effect> catalogue = effectCatalogue(context);
+  warnAboutUndecidable(input, catalogue, result.warnings);
   for (const auto* list : {&options.accept, &options.reject}) {
     for (const std::string& id : *list) {
       if (std::none_of(catalogue.begin(), catalogue.end(), [&](const Effect& e) { return e.id == id; })) {

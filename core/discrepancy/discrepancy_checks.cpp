@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/text.h"
 #include "core/discrepancy/discrepancy_numbers.h"
 #include "core/math/statistics.h"
 
@@ -48,6 +49,18 @@ void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& r
                                  "same way: they look as if they were in mm; allowed: um and urad.",
                                  1.0 / ratio));
   }
+}
+
+void warnAboutUndecidable(const DiscrepancyInput& input, const std::vector<Effect>& catalogue,
+                          std::vector<std::string>& warnings) {
+  if (!input.log || input.log->empty()) return;
+  std::vector<std::string> ids;
+  for (const Effect& effect : catalogue) {
+    if (effect.variants.empty()) ids.push_back(effect.id);
+  }
+  if (ids.empty()) return;
+  warnings.push_back(fmt::format("Not to be decided, because the log lacks what drives {}: {}.",
+                                 ids.size() > 1 ? "them" : "it", joinedList(ids)));
 }
 
 void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings) {

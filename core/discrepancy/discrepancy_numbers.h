@@ -18,6 +18,10 @@ void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& r
 /// What the log lacks that the search would need.
 void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings);
 
+/// The effects that this machine can have and that this log cannot decide, because nothing that drives them is in it.
+void warnAboutUndecidable(const DiscrepancyInput& input, const std::vector<Effect>& catalogue,
+                          std::vector<std::string>& warnings);
+
 /// Gains and lags of a joint fit with their covariance (linearised at the solution). `prior_sigma`: of every gain of
 /// every term, 0 free; lags of inputs whose gains have one are fixed.
 [[nodiscard]] std::vector<ModelEffect> modelEffects(const EffectSearch& search, const ResidualProblem& problem,

@@ -16,27 +16,6 @@ namespace {
 
 using Eigen::Index;
 
-/// Both act through one and the same shape over the units.
-bool sameShape(const EffectSearch& search, const Effect& a, const Effect& b) {
-  const Eigen::MatrixXd& first = search.shape(a);
-  const Eigen::MatrixXd& second = search.shape(b);
-  if (first.cols() != 1 || second.cols() != 1) return false;
-  const double dot = first.col(0).dot(second.col(0));
-  return std::abs(dot) > 0.999 * first.col(0).norm() * second.col(0).norm() && dot != 0.0;
-}
-
-/// Both have a driver in common: with one shape as well they are two names of one thing (a table that turns).
-bool sameDrivers(const Effect& a, const Effect& b) {
-  return std::any_of(a.variants.begin(), a.variants.end(), [&](const EffectVariant& first) {
-    return std::any_of(b.variants.begin(), b.variants.end(), [&](const EffectVariant& second) {
-      return std::equal(first.inputs.begin(), first.inputs.end(), second.inputs.begin(), second.inputs.end(),
-                        [](const EffectInput& x, const EffectInput& y) {
-                          return x.driver == y.driver && !x.driver.empty() && x.dynamics == y.dynamics;
-                        });
-    });
-  });
-}
-
 /// `container` holds `simple`: by the catalogue, or because the one pattern of the latter is made of its patterns.
 bool holds(const EffectSearch& search, const Effect& container, const Effect& simple) {
   if (contains(container, simple.id)) return true;
@@ -262,7 +241,7 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
         fit = std::move(joint);
         break;
       }
-      if (!sameShape(search, other, *fit.terms[t].effect) || !sameDrivers(other, *fit.terms[t].effect)) {
+      if (!twoNamesOfOne(search, other, *fit.terms[t].effect)) {
         evidence.behind.emplace_back(-ahead, is_container || is_simpler);
       }
       if (is_simpler) continue;

@@ -2,12 +2,40 @@
 #include "core/discrepancy/forward_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "core/math/distributions.h"
 
 namespace spindrift {
+
+bool sameShape(const EffectSearch& search, const Effect& a, const Effect& b) {
+  const Eigen::MatrixXd& first = search.shape(a);
+  const Eigen::MatrixXd& second = search.shape(b);
+  if (first.cols() != 1 || second.cols() != 1) return false;
+  const double dot = first.col(0).dot(second.col(0));
+  return std::abs(dot) > 0.999 * first.col(0).norm() * second.col(0).norm() && dot != 0.0;
+}
+
+namespace {
+
+bool sameDrivers(const Effect& a, const Effect& b) {
+  return std::any_of(a.variants.begin(), a.variants.end(), [&](const EffectVariant& first) {
+    return std::any_of(b.variants.begin(), b.variants.end(), [&](const EffectVariant& second) {
+      return std::equal(first.inputs.begin(), first.inputs.end(), second.inputs.begin(), second.inputs.end(),
+                        [](const EffectInput& x, const EffectInput& y) {
+                          return x.driver == y.driver && !x.driver.empty() && x.dynamics == y.dynamics;
+                        });
+    });
+  });
+}
+
+}  // namespace
+
+bool twoNamesOfOne(const EffectSearch& search, const Effect& a, const Effect& b) {
+  return sameShape(search, a, b) && sameDrivers(a, b);
+}
 
 bool contains(const Effect& container, const std::string& simple) {
   return std::find(container.contains.begin(), container.contains.end(), simple) != container.contains.end();
@@ -93,10 +121,11 @@ std::vector<CandidateFit> ForwardSearch::candidatesFor(const JointFit& current, 
   std::vector<std::string> without = idsOf(current.terms);
   without.insert(without.end(), options_->reject.begin(), options_->reject.end());
   std::vector<CandidateFit> candidates = search_->sweep(without, *job_);
-  // A refinement of an accepted effect (or what it contains) is no name of its own.
+  // A refinement of an accepted effect (or what it contains) is no name of its own, nor is its other name.
   std::erase_if(candidates, [&](const CandidateFit& c) {
     return std::any_of(current.terms.begin(), current.terms.end(), [&](const ModelTerm& term) {
-      return (c.term.effect->refinement && contains(*c.term.effect, term.effect->id)) ||
+      return twoNamesOfOne(*search_, *c.term.effect, *term.effect) ||
+             (c.term.effect->refinement && contains(*c.term.effect, term.effect->id)) ||
              (refined && contains(*term.effect, c.term.effect->id));
     });
   });

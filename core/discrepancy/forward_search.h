@@ -14,6 +14,11 @@
 
 namespace spindrift {
 
+/// Both act through one and the same shape over the units.
+[[nodiscard]] bool sameShape(const EffectSearch& search, const Effect& a, const Effect& b);
+/// One shape and a driver in common: the same thing by two names, as the expansion of a table that turns.
+[[nodiscard]] bool twoNamesOfOne(const EffectSearch& search, const Effect& a, const Effect& b);
+
 /// True if `container` holds the effect `simple` (an id) as a special case.
 [[nodiscard]] bool contains(const Effect& container, const std::string& simple);
 [[nodiscard]] std::vector<std::string> idsOf(const std::vector<ModelTerm>& terms);

@@ -9,6 +9,7 @@ using Eigen::Index;
 
 Eigen::MatrixXd ProjectedColumns::gram(Index from, Index count) const {
   Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(count, count);
+  if (rows.rows() == 0 || count == 0) return lower;
   lower.selfadjointView<Eigen::Lower>().rankUpdate(rows.middleCols(from, count).transpose());
   if (dots.rows() > 0) lower.selfadjointView<Eigen::Lower>().rankUpdate(dots.middleCols(from, count).transpose(), -1.0);
   return lower.selfadjointView<Eigen::Lower>();
@@ -42,6 +43,12 @@ ProjectedColumns ResidualProblem::projectedProducts(const Eigen::MatrixXd& cours
   for (const auto& [from, count] : ranges) total += count;
   out.rows.resize(total, columns);
   out.whole = Eigen::VectorXd::Zero(columns);
+  // A shape that is zero at every point measured.
+  if (total == 0 || columns == 0) {
+    out.dots = Eigen::MatrixXd::Zero(q_.cols() + further.cols(), columns);
+    out.with_residual = Eigen::VectorXd::Zero(columns);
+    return out;
+  }
   const Index basis_columns = q_.cols() + further.cols();
   Eigen::MatrixXd basis(total, basis_columns);
   Eigen::VectorXd left(total);

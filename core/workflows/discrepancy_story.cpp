@@ -62,7 +62,9 @@ void markSignificant(std::vector<DiscrepancySeries>& series, const DiscrepancyRe
   constexpr double level = 0.01;
   for (DiscrepancySeries& s : series) {
     const bool in_place = std::any_of(search.where.begin(), search.where.end(), [&](const DisagreementPlace& p) {
-      return p.component == s.component && std::find(p.points.begin(), p.points.end(), s.point) != p.points.end();
+      // A condition or a part of the volume names every point in it, those that agree as well.
+      return p.component == s.component && p.condition.empty() &&
+             std::find(p.points.begin(), p.points.end(), s.point) != p.points.end();
     });
     const auto count = static_cast<double>(std::count(s.held_out.begin(), s.held_out.end(), false));
     const double span = s.time_s.back() - s.time_s.front();

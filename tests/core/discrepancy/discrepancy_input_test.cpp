@@ -154,6 +154,21 @@ TEST(DiscrepancyInput, WithoutAnythingThatShowsTheSpindleASetHoldsItOrNothingIsN
   }
 }
 
+TEST(DiscrepancyInput, SaysWhichEffectsTheLogCannotDecide) {
+  const auto said = [](const DiscrepancyResult& result, const std::string& id) {
+    return std::any_of(result.warnings.begin(), result.warnings.end(), [&](const std::string& warning) {
+      return warning.starts_with("Not to be decided") && warning.find(id) != std::string::npos;
+    });
+  };
+  DiscrepancyInput input = campaign(Hidden::SpindleDrift, 2);
+  EXPECT_TRUE(said(run(input), "heat_source.position.z"));
+  std::vector<double> place;
+  for (std::size_t i = 0; i < input.log->time_s().size(); ++i) place.push_back(i % 400 < 200 ? 50.0 : 300.0);
+  input.log->setSignal("pos_z_mm", place);
+  EXPECT_FALSE(said(run(input), "heat_source.position.z"));
+  EXPECT_TRUE(said(run(input), "heat_source.position.x"));
+}
+
 TEST(DiscrepancyInput, TellsWhichSideIsInMillimetres) {
   DiscrepancyInput simulation = campaign(Hidden::Nothing, 40);
   for (double& p : simulation.predicted) p *= 1e-3;

@@ -115,5 +115,17 @@ TEST(ProjectedProducts, AreThoseOfTheProjectedColumns) {
   }
 }
 
+TEST(ProjectedProducts, OfAShapeThatIsZeroEverywhereAreZero) {
+  const DiscrepancyInput input = campaign(Hidden::Nothing, 3);
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < input.observations.rows.size(); ++i) rows.push_back(i);
+  ResidualProblem problem(input, rows, 3000);
+  problem.setNuisances(problem.simulationNuisances(0.01));
+  const ProjectedColumns products = problem.projectedProducts(
+      Eigen::MatrixXd::Ones(problem.size(), 4), Eigen::MatrixXd::Zero(problem.size(), 2), {}, Eigen::MatrixXd());
+  EXPECT_EQ(products.gram(), Eigen::MatrixXd::Zero(8, 8));
+  EXPECT_EQ(products.with_residual, Eigen::VectorXd::Zero(8));
+}
+
 }  // namespace
 }  // namespace spindrift
