@@ -3,18 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "core/base/text.h"
 #include "core/discrepancy/discrepancy_numbers.h"
 #include "core/discrepancy/discrepancy_search.h"
 #include "core/discrepancy/distributed_dynamics.h"
 #include "core/discrepancy/effect_model.h"
-#include "core/math/distributions.h"
 #include "core/math/statistics.h"
 
 namespace spindrift {
@@ -32,55 +29,6 @@ bool overlaps(const JointFit& fit, std::size_t t) {
     if (other != t && a.cwiseAbs().dot(b.cwiseAbs()) > 0.1 * a.norm() * b.norm()) return true;
   }
   return false;
-}
-
-/// Whitened power that all effects explain together where effect `t` acts, with and without its own part.
-std::pair<double, double> powerBeside(const ResidualProblem& problem, const JointFit& fit, std::size_t t) {
-  const Eigen::ArrayXd weight = (problem.sigma * problem.noise.scale).array().inverse();
-  const Eigen::ArrayXd own = (fit.contribution[t].array() * weight).square();
-  const double largest = own.maxCoeff();
-  double all = 0.0;
-  double others = 0.0;
-  Eigen::ArrayXd beside = Eigen::ArrayXd::Zero(own.size());
-  for (std::size_t k = 0; k < fit.terms.size(); ++k) {
-    if (k != t) beside += fit.contribution[k].array() * weight;
-  }
-  for (Index u = 0; u < own.size(); ++u) {
-    if (own[u] < 1e-6 * largest) continue;
-    all += own[u];
-    others += beside[u] * beside[u];
-  }
-  return {all + others, others};
-}
-
-/// Probability that the name is right: posterior of the effect over all that were tried in its place, over its being no
-/// effect but an error of the effects beside it, and over a cause that is not in the catalogue, from their scores
-/// (BIC).
-///
-///   p = 1 / (1 + w [sum exp(-T behind_i / 2) + exp(-T gain / 2) + exp(T advantage / 2)]),   T = 1 / (1 + e^2 P / 4)
-///
-/// Scores take the model for true. It is off by a part e of its amplitude, and smoothly, so that four numbers tell most
-/// of it: the chi-squared of an error of power e^2 P moves as that of a signal, and evidence is tempered by T. e^2 is
-/// what is left beyond the noise as a part of what is explained, and e at least 5 %. Of two effects of which one holds
-/// the other, the error serves both alike: their evidence is not tempered. w = 0.3 is
-/// what an alternative that the search did not choose weighs before the evidence.
-double confidenceOf(const ResidualProblem& problem, const SearchOutcome& outcome, const TermEvidence& evidence,
-                    const JointFit& named, std::size_t t) {
-  const double dof = std::max(1.0, static_cast<double>(outcome.dof_before - outcome.fit.parameter_count));
-  const double left = outcome.chi2_after - dof - std::sqrt(2.0 * dof);
-  const double error = std::max(0.05 * 0.05, left / std::max(1.0, outcome.chi2_before - outcome.chi2_after));
-  const auto [all, others] = powerBeside(problem, named, t);
-  const double among = 1.0 / (1.0 + 0.25 * error * all);
-  const double beside = 1.0 / (1.0 + 0.25 * error * others);
-  double odds = 0.0;
-  for (const auto& [behind, nested] : evidence.behind) {
-    odds += std::exp(-0.5 * (nested ? 1.0 : among) * std::max(0.0, behind));
-  }
-  for (const RivalFit& r : evidence.rivals) odds += r.undriven ? 0.6 : 0.0;
-  odds += std::exp(-0.5 * beside * evidence.delta_bic);
-  odds += std::exp(0.5 * among * std::min(0.0, outcome.unknown_course.advantage));
-  constexpr double prior_of_alternatives = 0.3;
-  return std::clamp(1.0 / (1.0 + prior_of_alternatives * odds), 0.02, 0.995);
 }
 
 }  // namespace
@@ -167,36 +115,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   auto drivers = std::make_shared<DriverTable>(input.machine, input.log ? &*input.log : nullptr);
   warnAboutLog(input, *drivers, result.warnings);
   ResidualProblem problem(input, fit_rows, unit_limit);
-  CatalogueContext context;
-  context.machine = &input.machine;
-  context.drivers = drivers.get();
-  {
-    std::set<std::string> points(problem.series_point.begin(), problem.series_point.end());
-    context.points.assign(points.begin(), points.end());
-    Eigen::Vector3d low = Eigen::Vector3d::Constant(2.0);
-    Eigen::Vector3d high = -low;
-    double c_low = 1e300;
-    double c_high = -1e300;
-    for (const DeviationQuery& q : problem.place) {
-      low = low.cwiseMin(q.approach);
-      high = high.cwiseMax(q.approach);
-      c_low = std::min(c_low, q.c_deg);
-      c_high = std::max(c_high, q.c_deg);
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      if (high[axis] > low[axis]) context.varying_approach.insert(axis_letters[axis]);
-    }
-    context.c_varies = c_high > c_low;
-    for (int s = 0; s < problem.seriesCount() && !context.position_varies; ++s) {
-      const auto from = static_cast<std::size_t>(problem.series_begin[static_cast<std::size_t>(s)]);
-      const auto to = static_cast<std::size_t>(problem.series_begin[static_cast<std::size_t>(s) + 1]);
-      for (std::size_t u = from + 1; u < to; ++u) {
-        if ((problem.place[u].position_mm - problem.place[from].position_mm).norm() > 0.05)
-          context.position_varies = true;
-      }
-    }
-  }
-  const std::vector<Effect> catalogue = effectCatalogue(context);
+  const std::vector<Effect> catalogue = effectCatalogue(catalogueContext(input, *drivers, problem));
   warnAboutUndecidable(input, catalogue, result.warnings);
   for (const auto* list : {&options.accept, &options.reject}) {
     for (const std::string& id : *list) {

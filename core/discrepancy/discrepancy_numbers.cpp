@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -16,6 +17,38 @@ namespace {
 using Eigen::Index;
 
 }  // namespace
+
+CatalogueContext catalogueContext(const DiscrepancyInput& input, const DriverTable& drivers,
+                                  const ResidualProblem& problem) {
+  CatalogueContext context;
+  context.machine = &input.machine;
+  context.drivers = &drivers;
+  std::set<std::string> points(problem.series_point.begin(), problem.series_point.end());
+  context.points.assign(points.begin(), points.end());
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(2.0);
+  Eigen::Vector3d high = -low;
+  double c_low = 1e300;
+  double c_high = -1e300;
+  for (const DeviationQuery& q : problem.place) {
+    low = low.cwiseMin(q.approach);
+    high = high.cwiseMax(q.approach);
+    c_low = std::min(c_low, q.c_deg);
+    c_high = std::max(c_high, q.c_deg);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (high[axis] > low[axis]) context.varying_approach.insert(axis_letters[axis]);
+  }
+  context.c_varies = c_high > c_low;
+  for (int s = 0; s < problem.seriesCount() && !context.position_varies; ++s) {
+    const auto from = static_cast<std::size_t>(problem.series_begin[static_cast<std::size_t>(s)]);
+    const auto to = static_cast<std::size_t>(problem.series_begin[static_cast<std::size_t>(s) + 1]);
+    for (std::size_t u = from + 1; u < to; ++u) {
+      if ((problem.place[u].position_mm - problem.place[from].position_mm).norm() > 0.05)
+        context.position_varies = true;
+    }
+  }
+  return context;
+}
 
 std::vector<ModelEffect> modelEffects(const EffectSearch& search, const ResidualProblem& problem, const JointFit& fit,
                                       const std::string& source, double chi2_scale,

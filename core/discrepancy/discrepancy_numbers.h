@@ -18,6 +18,10 @@ void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& r
 /// What the log lacks that the search would need.
 void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings);
 
+/// What decides which effects this machine, its log and the points measured admit.
+[[nodiscard]] CatalogueContext catalogueContext(const DiscrepancyInput& input, const DriverTable& drivers,
+                                                const ResidualProblem& problem);
+
 /// The effects that this machine can have and that this log cannot decide, because nothing that drives them is in it.
 void warnAboutUndecidable(const DiscrepancyInput& input, const std::vector<Effect>& catalogue,
                           std::vector<std::string>& warnings);

@@ -102,6 +102,98 @@ int foreignDrivers(const JointFit& fit) {
   return count;
 }
 
+struct RivalComparison {
+  TermEvidence evidence;
+  bool exchanged = false;  ///< another effect does better in its place and has taken it
+};
+
+/// Term `t` against every other effect, the other terms kept.
+RivalComparison compareRivals(EffectSearch& search, ResidualProblem& problem, const std::vector<NuisanceColumn>& base,
+                              const DiscrepancyOptions& options, const SearchLimits& limits, const JobContext& job,
+                              double chi2_before, bool may_exchange, std::size_t t, JointFit& fit) {
+  std::vector<ModelTerm> others = fit.terms;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
+  problem.setNuisances(base);
+  JointFit reduced;
+  reduced.chi2 = chi2_before;
+  if (!others.empty()) reduced = search.refine(others, 1);
+  RivalComparison out;
+  TermEvidence& evidence = out.evidence;
+  evidence.delta_chi2 = fit.delta_chi2 - reduced.delta_chi2;
+  evidence.delta_bic = fit.score - reduced.score;
+  problem.setNuisances(nuisancesOf(search, base, fit, t, 0.5 * limits.model_error));
+  std::vector<std::string> without = idsOf(fit.terms);
+  std::vector<CandidateFit> candidates = search.sweep(without, job);
+  // What the effect itself gains beside the others, measured in the same way.
+  const double own = std::min(evidence.delta_chi2, search.best(*fit.terms[t].effect).delta_chi2);
+  problem.setNuisances(base);
+  if (candidates.size() > 6) candidates.resize(6);
+  const double rival_margin = std::max(12.0, limits.rival_margin * evidence.delta_chi2);
+  const double container_margin = std::max(20.0, limits.container_margin * evidence.delta_chi2);
+  for (const CandidateFit& candidate : candidates) {
+    const Effect& other = *candidate.term.effect;
+    const bool rejected_id = std::find(options.reject.begin(), options.reject.end(), other.id) != options.reject.end();
+    if (candidate.delta_chi2 < 0.7 * own || rejected_id) continue;
+    std::vector<ModelTerm> terms = fit.terms;
+    terms[t] = candidate.term;
+    JointFit joint = search.refine(terms, 2);
+    joint = refineDynamics(search, joint, t, base);
+    const bool is_container = holds(search, other, *fit.terms[t].effect);
+    const bool is_simpler = !is_container && holds(search, *fit.terms[t].effect, other);
+    const double ahead = joint.score - fit.score;
+    double simpler_margin = container_margin;
+    const bool wider_shape = search.shape(*fit.terms[t].effect).cols() > search.shape(other).cols();
+    if (is_simpler && wider_shape && !(ahead > -container_margin)) {
+      // The simpler shape with the course in time of the wider: if that does nearly as well, what the wider gains it
+      // gains by drivers that happen to fit, and its shape is not what is seen.
+      std::vector<ModelTerm> narrowed = fit.terms;
+      narrowed[t].effect = &other;
+      const double lost = fit.delta_chi2 - search.solve(narrowed).delta_chi2;
+      if (lost < limits.shape_part * evidence.delta_chi2) {
+        simpler_margin = std::max(container_margin, limits.shape_part * evidence.delta_chi2);
+      }
+    }
+    const bool swap = is_container ? ahead > container_margin : is_simpler ? ahead > -simpler_margin : ahead > 0.5;
+    if (swap && may_exchange) {
+      out.exchanged = true;
+      fit = std::move(joint);
+      return out;
+    }
+    if (!twoNamesOfOne(search, other, *fit.terms[t].effect)) {
+      evidence.behind.emplace_back(-ahead, is_container || is_simpler);
+    }
+    if (is_simpler) continue;
+    if (!is_container) evidence.margin = std::min(evidence.margin, -ahead);
+    if (ahead > -rival_margin) evidence.rivals.push_back({other.id, joint.score, is_container, joint, false, ahead});
+  }
+  keepClosestRivals(evidence, limits);
+  return out;
+}
+
+/// A simpler effect beside one that contains it leaves, where the larger can do without it.
+void dropContained(EffectSearch& search, ResidualProblem& problem, const std::vector<NuisanceColumn>& base,
+                   const SearchLimits& limits, JointFit& fit, SearchOutcome& out) {
+  for (std::size_t t = fit.terms.size(); t-- > 0;) {
+    const std::string id = fit.terms[t].effect->id;
+    const auto covers = [&](const ModelTerm& other) { return contains(*other.effect, id); };
+    if (out.forced[t] || std::none_of(fit.terms.begin(), fit.terms.end(), covers)) continue;
+    std::vector<ModelTerm> terms = fit.terms;
+    terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(t));
+    problem.setNuisances(base);
+    JointFit joint = refineDynamics(search, search.refine(terms, 2), 0, base);
+    // What the larger lacks without it is the model error of its dynamics rather than a cause of its own.
+    const bool simpler = foreignDrivers(joint) <= foreignDrivers(fit);
+    const double price =
+        simpler ? std::max(20.0, limits.contained_part * fit.delta_chi2) : priceOfNames(fit, joint, limits);
+    if (joint.score < fit.score - price) continue;
+    out.steps.push_back({id, false, fit.score - joint.score, fit.delta_chi2 - joint.delta_chi2,
+                         "left again: another effect of the model does nearly as well without it"});
+    fit = std::move(joint);
+    out.evidence.erase(out.evidence.begin() + static_cast<std::ptrdiff_t>(t));
+    out.forced.erase(out.forced.begin() + static_cast<std::ptrdiff_t>(t));
+  }
+}
+
 /// How many effects have their main part in one and the same component, at most.
 int mostInOneComponent(const ResidualProblem& problem, const JointFit& fit) {
   std::map<Component, int> count;
@@ -162,7 +254,6 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
   problem.setNuisances(base);
   out.chi2_before = problem.projectedResidual().squaredNorm();
   out.dof_before = problem.degreesOfFreedom();
-  std::vector<std::string> rejected = options.reject;
   JointFit fit;
   fit.chi2 = out.chi2_before;
 
@@ -192,90 +283,17 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
   int exchanges = 0;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     job.throwIfCancelled();
-    std::vector<ModelTerm> others = fit.terms;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
-    problem.setNuisances(base);
-    JointFit reduced;
-    reduced.chi2 = out.chi2_before;
-    if (!others.empty()) reduced = search.refine(others, 1);
-    TermEvidence evidence;
-    evidence.delta_chi2 = fit.delta_chi2 - reduced.delta_chi2;
-    evidence.delta_bic = fit.score - reduced.score;
-    problem.setNuisances(nuisancesOf(search, base, fit, t, 0.5 * limits.model_error));
-    std::vector<std::string> without = idsOf(fit.terms);
-    std::vector<CandidateFit> candidates = search.sweep(without, job);
-    // What the effect itself gains beside the others, measured in the same way.
-    const double own = std::min(evidence.delta_chi2, search.best(*fit.terms[t].effect).delta_chi2);
-    problem.setNuisances(base);
-    if (candidates.size() > 6) candidates.resize(6);
-    const double rival_margin = std::max(12.0, limits.rival_margin * evidence.delta_chi2);
-    const double container_margin = std::max(20.0, limits.container_margin * evidence.delta_chi2);
-    bool exchanged = false;
-    for (const CandidateFit& candidate : candidates) {
-      const Effect& other = *candidate.term.effect;
-      const bool rejected_id = std::find(rejected.begin(), rejected.end(), other.id) != rejected.end();
-      if (candidate.delta_chi2 < 0.7 * own || rejected_id) continue;
-      std::vector<ModelTerm> terms = fit.terms;
-      terms[t] = candidate.term;
-      JointFit joint = search.refine(terms, 2);
-      joint = refineDynamics(search, joint, t, base);
-      const bool is_container = holds(search, other, *fit.terms[t].effect);
-      const bool is_simpler = !is_container && holds(search, *fit.terms[t].effect, other);
-      const double ahead = joint.score - fit.score;
-      double simpler_margin = container_margin;
-      const bool wider_shape = search.shape(*fit.terms[t].effect).cols() > search.shape(other).cols();
-      if (is_simpler && wider_shape && !(ahead > -container_margin)) {
-        // The simpler shape with the course in time of the wider: if that does nearly as well, what the wider gains it
-        // gains by drivers that happen to fit, and its shape is not what is seen.
-        std::vector<ModelTerm> narrowed = fit.terms;
-        narrowed[t].effect = &other;
-        const double lost = fit.delta_chi2 - search.solve(narrowed).delta_chi2;
-        if (lost < limits.shape_part * evidence.delta_chi2) {
-          simpler_margin = std::max(container_margin, limits.shape_part * evidence.delta_chi2);
-        }
-      }
-      const bool swap = is_container ? ahead > container_margin : is_simpler ? ahead > -simpler_margin : ahead > 0.5;
-      if (swap && exchanges < 4 && !out.forced[t]) {
-        ++exchanges;
-        exchanged = true;
-        fit = std::move(joint);
-        break;
-      }
-      if (!twoNamesOfOne(search, other, *fit.terms[t].effect)) {
-        evidence.behind.emplace_back(-ahead, is_container || is_simpler);
-      }
-      if (is_simpler) continue;
-      if (!is_container) evidence.margin = std::min(evidence.margin, -ahead);
-      if (ahead > -rival_margin) evidence.rivals.push_back({other.id, joint.score, is_container, joint, false, ahead});
-    }
-    if (exchanged) {
+    RivalComparison compared = compareRivals(search, problem, base, options, limits, job, out.chi2_before,
+                                             exchanges < 4 && !out.forced[t], t, fit);
+    if (compared.exchanged) {
+      ++exchanges;
       --t;
       continue;
     }
-    keepClosestRivals(evidence, limits);
-    out.evidence[t] = std::move(evidence);
+    out.evidence[t] = std::move(compared.evidence);
   }
 
-  // A simpler effect beside one that contains it leaves, where the larger can do without it.
-  for (std::size_t t = fit.terms.size(); t-- > 0;) {
-    const std::string id = fit.terms[t].effect->id;
-    const auto covers = [&](const ModelTerm& other) { return contains(*other.effect, id); };
-    if (out.forced[t] || std::none_of(fit.terms.begin(), fit.terms.end(), covers)) continue;
-    std::vector<ModelTerm> terms = fit.terms;
-    terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(t));
-    problem.setNuisances(base);
-    JointFit joint = refineDynamics(search, search.refine(terms, 2), 0, base);
-    // What the larger lacks without it is the model error of its dynamics rather than a cause of its own.
-    const bool simpler = foreignDrivers(joint) <= foreignDrivers(fit);
-    const double price =
-        simpler ? std::max(20.0, limits.contained_part * fit.delta_chi2) : priceOfNames(fit, joint, limits);
-    if (joint.score < fit.score - price) continue;
-    out.steps.push_back({id, false, fit.score - joint.score, fit.delta_chi2 - joint.delta_chi2,
-                         "left again: another effect of the model does nearly as well without it"});
-    fit = std::move(joint);
-    out.evidence.erase(out.evidence.begin() + static_cast<std::ptrdiff_t>(t));
-    out.forced.erase(out.forced.begin() + static_cast<std::ptrdiff_t>(t));
-  }
+  dropContained(search, problem, base, limits, fit, out);
   dropSuperfluous(search, problem, base, limits, fit, out);
   problem.setNuisances(base);
   if (!fit.terms.empty()) fit = search.refine(fit.terms, 1);

@@ -108,6 +108,20 @@ struct StructureTest {
 [[nodiscard]] UnknownCourse testUnknownCourse(const ResidualProblem& problem, const Eigen::VectorXd& residual,
                                               const std::vector<NamedPart>& parts, double model_error, double log_n);
 
+/// Probability that the name is right: posterior of the effect over all that were tried in its place, over its being no
+/// effect but an error of the effects beside it, and over a cause that is not in the catalogue, from their scores
+/// (BIC).
+///
+///   p = 1 / (1 + w [sum exp(-T behind_i / 2) + exp(-T gain / 2) + exp(T advantage / 2)]),   T = 1 / (1 + e^2 P / 4)
+///
+/// Scores take the model for true. It is off by a part e of its amplitude, and smoothly, so that four numbers tell most
+/// of it: the chi-squared of an error of power e^2 P moves as that of a signal, and evidence is tempered by T. e^2 is
+/// what is left beyond the noise as a part of what is explained, and e at least 5 %. Of two effects of which one holds
+/// the other, the error serves both alike: their evidence is not tempered. w = 0.3 is
+/// what an alternative that the search did not choose weighs before the evidence.
+[[nodiscard]] double confidenceOf(const ResidualProblem& problem, const SearchOutcome& outcome,
+                                  const TermEvidence& evidence, const JointFit& named, std::size_t t);
+
 /// Where the residual is larger than noise allows.
 [[nodiscard]] std::vector<DisagreementPlace> findPlaces(const ResidualProblem& problem, const DriverTable& drivers,
                                                         const Eigen::VectorXd& residual);

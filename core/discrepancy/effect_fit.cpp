@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Joint fits of several effects: gains at fixed lags and onsets, and line searches over these.
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "core/discrepancy/effect_search.h"
+
+namespace spindrift {
+
+using Eigen::Index;
+
+JointFit EffectSearch::solve(const std::vector<ModelTerm>& terms) const {
+  JointFit fit;
+  fit.terms = terms;
+  const Eigen::VectorXd& y = problem_->projectedResidual();
+  std::vector<Eigen::MatrixXd> parts;
+  Index total = 0;
+  for (const ModelTerm& term : terms) {
+    parts.push_back(columns(term));
+    total += parts.back().cols();
+  }
+  Eigen::MatrixXd raw(problem_->size(), total);
+  Index at = 0;
+  for (const Eigen::MatrixXd& part : parts) {
+    raw.middleCols(at, part.cols()) = part;
+    at += part.cols();
+  }
+  const double before = y.squaredNorm();
+  Eigen::VectorXd beta = Eigen::VectorXd::Zero(total);
+  int rank = 0;
+  if (total > 0) {
+    Eigen::MatrixXd x = problem_->projected(raw);
+    const Eigen::VectorXd whole = problem_->whitened(raw).colwise().norm();
+    Eigen::VectorXd scale(total);
+    for (Index c = 0; c < total; ++c) {
+      const double norm = x.col(c).norm();
+      scale[c] = norm > 3e-3 * whole[c] && norm > 0.0 ? 1.0 / norm : 0.0;
+    }
+    x = x * scale.asDiagonal();
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
+    qr.setThreshold(3e-4);
+    const Eigen::VectorXd scaled = qr.solve(y);
+    beta = scale.cwiseProduct(scaled);
+    rank = static_cast<int>(qr.rank());
+    fit.chi2 = (y - x * scaled).squaredNorm();
+  } else {
+    fit.chi2 = before;
+  }
+  fit.delta_chi2 = before - fit.chi2;
+  fit.parameter_count = rank;
+  at = 0;
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    fit.gains.emplace_back(beta.segment(at, parts[t].cols()));
+    fit.contribution.emplace_back(parts[t] * fit.gains.back());
+    fit.parameter_count += parameterCount(terms[t].variant);
+    at += parts[t].cols();
+  }
+  fit.score = fit.delta_chi2 - fit.parameter_count * log_n_;
+  return fit;
+}
+
+bool EffectSearch::parameterIsLag(const ModelTerm& term, std::size_t index) const {
+  return parameterNames(term.variant)[index].starts_with("tau");
+}
+
+std::pair<double, double> EffectSearch::parameterBounds(const ModelTerm& term, std::size_t index) const {
+  const std::string name = parameterNames(term.variant)[index];
+  const double start = problem_->node_time_s.front();
+  const double end = problem_->node_time_s.back();
+  if (name.starts_with("onset")) return {start, end};
+  if (name.starts_with("length")) return {1.0, 11.0 * (end - start + 1.0)};
+  // A lag much longer than the campaign is an integrator: it fits a drift and predicts nonsense.
+  return {60.0, std::clamp(0.5 * (end - start), 3600.0, 36000.0)};
+}
+
+JointFit EffectSearch::refine(const std::vector<ModelTerm>& terms, int rounds) const {
+  // Projected columns of each term are kept; only those of the term that moves are made anew.
+  const Eigen::VectorXd& y = problem_->projectedResidual();
+  std::vector<ModelTerm> current = terms;
+  std::vector<Eigen::MatrixXd> x;
+  for (const ModelTerm& term : current) x.push_back(problem_->projected(columns(term)));
+  const auto chi2With = [&](std::size_t changed, const Eigen::MatrixXd& replacement) {
+    Index total = 0;
+    for (std::size_t t = 0; t < x.size(); ++t) total += t == changed ? replacement.cols() : x[t].cols();
+    Eigen::MatrixXd all(y.size(), total);
+    Index at = 0;
+    for (std::size_t t = 0; t < x.size(); ++t) {
+      const Eigen::MatrixXd& part = t == changed ? replacement : x[t];
+      all.middleCols(at, part.cols()) = part;
+      at += part.cols();
+    }
+    Eigen::MatrixXd gram = all.transpose() * all;
+    const Eigen::VectorXd b = all.transpose() * y;
+    gram.diagonal() *= 1.0 + 1e-8;
+    gram.diagonal().array() += 1e-12;
+    const Eigen::LDLT<Eigen::MatrixXd> ldlt(gram);
+    return y.squaredNorm() - b.dot(ldlt.solve(b));
+  };
+  double best = x.empty() ? 0.0 : chi2With(0, x[0]);
+  for (int round = 0; round < rounds; ++round) {
+    const double before = best;
+    for (std::size_t t = 0; t < current.size(); ++t) {
+      for (std::size_t p = 0; p < current[t].parameters.size(); ++p) {
+        const bool lag = parameterIsLag(current[t], p);
+        const auto [low, high] = parameterBounds(current[t], p);
+        double step = lag ? 0.35 : 0.5 * (onsets_.size() > 1 ? onsets_[1] - onsets_[0] : 600.0);
+        if (round > 0) step *= 0.4;
+        for (int halving = 0; halving < 4; ++halving, step *= 0.4) {
+          for (const double direction : {1.0, -1.0}) {
+            bool moved = true;
+            for (int guard = 0; moved && guard < 6; ++guard) {
+              moved = false;
+              ModelTerm trial = current[t];
+              double& value = trial.parameters[p];
+              if (lag && value <= 0.0) {
+                if (direction < 0.0) break;
+                value = 60.0;
+              } else {
+                value = lag ? value * std::exp(direction * step) : value + direction * step;
+              }
+              if (value < low || value > high) break;
+              const Eigen::MatrixXd replacement = problem_->projected(columns(trial));
+              const double chi2 = chi2With(t, replacement);
+              if (chi2 < best - 1e-6) {
+                best = chi2;
+                current[t] = std::move(trial);
+                x[t] = replacement;
+                moved = true;
+              }
+            }
+          }
+        }
+      }
+    }
+    if (before - best < 0.05) break;
+  }
+  return solve(current);
+}
+
+}  // namespace spindrift
