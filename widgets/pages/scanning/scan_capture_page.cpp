@@ -20,73 +20,14 @@
 #include "widgets/pages/capture/capture_tabs.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/scanning/cloud_painter.h"
+#include "widgets/pages/scanning/profile_series.h"
+#include "widgets/pages/scanning/scan_check_payload.h"
 #include "widgets/pages/scanning/scan_mask_bar.h"
 #include "widgets/pages/scanning/scan_results.h"
 #include "widgets/plots/plot.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
-namespace {
-
-nlohmann::json payloadOf(const std::vector<ScanCheck>& checks) {
-  nlohmann::json scans = nlohmann::json::array();
-  for (const ScanCheck& c : checks) {
-    scans.push_back({{"cloud", c.capture.cloud},
-                     {"usable", c.usable},
-                     {"reason", c.reason},
-                     {"points", c.points},
-                     {"profiles", c.profiles},
-                     {"completeness", c.completeness},
-                     {"edge_points", c.edge_points},
-                     {"outlier_points", c.outlier_points},
-                     {"painted_points", c.painted_points}});
-  }
-  return {{"scans", scans}};
-}
-
-ScanCheck checkFrom(const nlohmann::json& json) {
-  ScanCheck c;
-  c.capture.cloud = json.at("cloud").get<std::string>();
-  c.usable = json.at("usable").get<bool>();
-  c.reason = json.at("reason").get<std::string>();
-  c.points = json.at("points").get<std::size_t>();
-  c.profiles = json.at("profiles").get<std::size_t>();
-  c.completeness = json.at("completeness").get<double>();
-  c.edge_points = json.at("edge_points").get<std::size_t>();
-  c.outlier_points = json.at("outlier_points").get<std::size_t>();
-  c.painted_points = json.value("painted_points", std::size_t{0});
-  return c;
-}
-
-/// Profile `index` of a cloud as x and z (mm, um about its mean).
-Series profileSeries(const PointCloud& cloud, std::size_t index, const QString& name, int colour) {
-  Series s;
-  s.name = name;
-  s.colour = colour;
-  s.style = SeriesStyle::Points;
-  if (index >= cloud.profileCount()) return s;
-  for (std::size_t i = cloud.profile_start[index]; i < cloud.profile_start[index + 1]; ++i) {
-    s.x.push_back(cloud.points_mm[i].x());
-    s.y.push_back(cloud.points_mm[i].z());
-  }
-  return s;
-}
-
-double carriageOf(const PointCloud& cloud, std::size_t profile) {
-  return cloud.points_mm[cloud.profile_start[profile]].y();
-}
-
-/// The profile of `cloud` whose carriage position is nearest to `y_mm`.
-std::size_t nearestProfile(const PointCloud& cloud, double y_mm) {
-  std::size_t best = 0;
-  for (std::size_t k = 0; k < cloud.profileCount(); ++k) {
-    if (std::abs(carriageOf(cloud, k) - y_mm) < std::abs(carriageOf(cloud, best) - y_mm)) best = k;
-  }
-  return best;
-}
-
-}  // namespace
-
 ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Capture, parent), results_(ScanResults::of(session())) {
   setInstruction(tr("Scan every artefact in every cycle, check the clouds, and scan incomplete ones again."));
@@ -94,7 +35,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   addAction(check_);
 
   auto* list = new Card(tr("Scans"));
-  rows_ = new RowsModel({tr("Scan"), tr("Time / min"), tr("State"), tr("Points"), tr("Full / %")}, this);
+  rows_ = new RowsModel({tr("Scan"), tr("At / min"), tr("State"), tr("Points"), tr("Full / %")}, this);
   table_ = makeTable(rows_, tr("Scans"), tr("Scans appear with the first row of captures/scans.csv."));
   list->body()->addWidget(table_, 1);
   verdict_ = new Callout;
@@ -191,7 +132,7 @@ void ScanCapturePage::check() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr) return;
   run(tr("Checking the scans"), [this, snapshot](JobContext& job) -> std::function<void()> {
-    const nlohmann::json payload = payloadOf(checkScans(*snapshot.campaign, job));
+    const nlohmann::json payload = payloadOfScanChecks(checkScans(*snapshot.campaign, job));
     return [this, payload] {
       session().storeResult("check", nlohmann::json::object(), payload);
       refresh();
@@ -213,10 +154,7 @@ void ScanCapturePage::refresh() {
   }
   checks_.clear();
   if (const auto stored = session().result("check"); stored && stored->payload.contains("scans")) {
-    for (const auto& entry : stored->payload.at("scans")) {
-      const ScanCheck c = checkFrom(entry);
-      checks_[fromCore(c.capture.cloud)] = c;
-    }
+    for (const ScanCheck& c : scanChecksFrom(stored->payload)) checks_[fromCore(c.capture.cloud)] = c;
   }
   fillTable();
   const std::vector<ScanCapture>& captures = results_.captures();
@@ -461,38 +399,18 @@ void ScanCapturePage::showCloud() {
 }
 
 void ScanCapturePage::showProfile(int index) {
-  std::vector<Series> series;
   slider_text_->clear();
   if (picture_.scan != nullptr && index >= 0 && static_cast<std::size_t>(index) < picture_.scan->profileCount()) {
-    const auto k = static_cast<std::size_t>(index);
-    const double y = carriageOf(*picture_.scan, k);
     if (slider_->value() != index) {
       const QSignalBlocker quiet(slider_);
       slider_->setValue(index);
     }
-    if (picture_.reference != nullptr && picture_.reference->profileCount() > 0) {
-      series.push_back(profileSeries(*picture_.reference, nearestProfile(*picture_.reference, y), tr("Cold"), 0));
-    }
-    series.push_back(profileSeries(*picture_.scan, k, picture_.reference == nullptr ? tr("Cold") : tr("This scan"), 1));
-    slider_text_->setText(tr("%1 of %2, y %3 mm").arg(index + 1).arg(picture_.scan->profileCount()).arg(y, 0, 'f', 2));
+    slider_text_->setText(tr("%1 of %2, y %3 mm")
+                              .arg(index + 1)
+                              .arg(picture_.scan->profileCount())
+                              .arg(carriageOf(*picture_.scan, static_cast<std::size_t>(index)), 0, 'f', 2));
   }
-  addLeftOut(series, index);
-  profile_->setContent(std::move(series));
-}
-
-void ScanCapturePage::addLeftOut(std::vector<Series>& series, int index) const {
-  if (picture_.scan == nullptr || picture_.fate == nullptr || series.empty()) return;
-  const auto k = static_cast<std::size_t>(index);
-  Series left_out;
-  left_out.name = tr("Left out");
-  left_out.colour = 3;
-  left_out.style = SeriesStyle::Points;
-  for (std::size_t i = picture_.scan->profile_start[k]; i < picture_.scan->profile_start[k + 1]; ++i) {
-    if ((*picture_.fate)[i] == PointFate::Used) continue;
-    left_out.x.push_back(picture_.scan->points_mm[i].x());
-    left_out.y.push_back(picture_.scan->points_mm[i].z());
-  }
-  if (!left_out.x.empty()) series.push_back(std::move(left_out));
+  profile_->setContent(profileSeries(picture_, index));
 }
 
 std::vector<Exportable> ScanCapturePage::exportables() {

@@ -16,7 +16,6 @@ class QTableView;
 namespace spindrift::gui {
 
 class Plot;
-struct Series;
 class RowsModel;
 class ScanMaskBar;
 class ScanResults;
@@ -50,7 +49,6 @@ class ScanCapturePage : public Page {
   void fillTable();
   void loadCloud();
   void showCloud();
-  void addLeftOut(std::vector<Series>& series, int index) const;
   void showIn(View3D* view, const ScanPicture& picture, const QString& part);
   void showVerdict();
   void toggleExcluded();

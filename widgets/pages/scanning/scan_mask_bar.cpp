@@ -5,6 +5,7 @@
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLineEdit>
+#include <QVBoxLayout>
 
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
@@ -14,8 +15,10 @@ namespace spindrift::gui {
 
 ScanMaskBar::ScanMaskBar(View3D* view, SessionModel& session, QUndoStack& undo, QWidget* parent)
     : QWidget(parent), session_(session), undo_(undo), painter_(new CloudPainter(view)) {
-  auto* line = new QHBoxLayout(this);
-  line->setContentsMargins(0, 0, 0, 0);
+  auto* rows = new QVBoxLayout(this);
+  rows->setContentsMargins(0, 0, 0, 0);
+  auto* line = new QHBoxLayout;
+  rows->addLayout(line);
   tools_ = new Segments({tr("Look"), tr("Brush"), tr("Rectangle"), tr("Lasso")}, tr("Tool on the scan"));
   tools_->setToolTip(tr("Brush, rectangle and lasso look straight down on the scan"));
   line->addWidget(tools_);
@@ -37,9 +40,16 @@ ScanMaskBar::ScanMaskBar(View3D* view, SessionModel& session, QUndoStack& undo, 
       {tr("dirt or chips on the surface"), tr("reflection"), tr("something lay in the way"), tr("damaged surface")});
   reason_->setAccessibleName(tr("Why it is painted away"));
   reason_->setToolTip(tr("The report will say so"));
-  line->addWidget(reason_, 1);
   clear_ = makeButton(tr("Take all back"), "restore");
-  line->addWidget(clear_);
+  line->addStretch();
+  // Only while something is painted: the row above already is as wide as the list beside it can bear.
+  detail_ = new QWidget;
+  auto* second = new QHBoxLayout(detail_);
+  second->setContentsMargins(0, 0, 0, 0);
+  second->addWidget(makeLabel(tr("Reason"), "sectionTitle"));
+  second->addWidget(reason_, 1);
+  second->addWidget(clear_);
+  rows->addWidget(detail_);
 
   connect(tools_, &Segments::chosen, this, [this](int index) {
     painter_->setTool(static_cast<PaintTool>(index));
@@ -60,7 +70,10 @@ void ScanMaskBar::setCloud(const QString& cloud) {
   if (cloud_ == cloud) return;
   cloud_ = cloud;
   const auto [item, reason] = mask();
-  if (!reason.isEmpty()) reason_->setEditText(reason);
+  if (!reason.isEmpty()) {
+    reason_->setEditText(reason);
+    reason_->lineEdit()->setCursorPosition(0);
+  }
   refresh();
 }
 
@@ -81,6 +94,7 @@ void ScanMaskBar::refresh() {
     w->setEnabled(!cloud_.isEmpty());
   radius_->setEnabled(!cloud_.isEmpty() && painter_->tool() == PaintTool::Brush);
   clear_->setEnabled(!mask().first.isEmpty());
+  detail_->setVisible(painter_->tool() != PaintTool::Look || clear_->isEnabled());
 }
 
 void ScanMaskBar::add(const MaskStroke& stroke) {

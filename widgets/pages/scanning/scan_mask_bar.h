@@ -53,6 +53,7 @@ class ScanMaskBar : public QWidget {
   QDoubleSpinBox* radius_;
   QComboBox* reason_;
   QPushButton* clear_;
+  QWidget* detail_;  ///< reason and taking back, while something is painted
 };
 
 }  // namespace spindrift::gui
