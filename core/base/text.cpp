@@ -28,8 +28,9 @@ std::string withUncertainty(double value, double standard_uncertainty, std::stri
     const double leading = standard_uncertainty / std::pow(10.0, exponent);
     const int significant = leading < 2.95 ? 2 : 1;
     const int decimals = std::clamp(static_cast<int>(-exponent) + significant - 1, 0, 12);
-    text = withMinusSign(fmt::format("{:.{}f}", value, decimals)) + " \u00b1 " +
-           fmt::format("{:.{}f}", standard_uncertainty, decimals);
+    std::string rounded = fmt::format("{:.{}f}", value, decimals);
+    if (rounded.starts_with('-') && rounded.find_first_not_of("-0.") == std::string::npos) rounded.erase(0, 1);
+    text = withMinusSign(rounded) + " \u00b1 " + fmt::format("{:.{}f}", standard_uncertainty, decimals);
   } else {
     text = withMinusSign(fmt::format("{:.6g}", value));
   }

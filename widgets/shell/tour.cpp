@@ -2,15 +2,18 @@
 #include "widgets/shell/tour.h"
 
 #include <QDir>
+#include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QEventLoop>
 #include <QTimer>
 #include <algorithm>
 #include <vector>
 
+#include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/report/page_view.h"
 #include "widgets/pages/report/report_page.h"
+#include "widgets/pages/scanning/artefact_designer.h"
 #include "widgets/shell/main_window.h"
 #include "widgets/theme/theme.h"
 #include "widgets/view3d/view3d.h"
@@ -58,7 +61,7 @@ void writeReports(const MainWindow& window, const QString& file, TourResult& res
   }
 }
 
-bool viewsBusy(const MainWindow& window) {
+bool viewsBusy(const QWidget& window) {
   for (const View3D* view : window.findChildren<View3D*>()) {
     if (view->isVisible() && view->refining()) return true;
   }
@@ -66,6 +69,21 @@ bool viewsBusy(const MainWindow& window) {
     if (page->opening() || (page->isVisible() && page->pages()->drawing())) return true;
   }
   return false;
+}
+
+/// The artefact designer with a surface that is too steep in places, coloured by its slope.
+void shootDesigner(const QString& file, TourResult& result) {
+  ArtefactDesigner designer;
+  designer.show();
+  designer.colouring()->button(1)->click();
+  designer.number("amplitude x")->setValue(2.2);  // a little too steep along X
+  designer.recompute();
+  for (int turn = 0; turn < 100; ++turn) {
+    settle(20);
+    if (turn > 2 && !viewsBusy(designer)) break;
+  }
+  if (!designer.grab().save(file)) result.failure = QStringLiteral("%1 could not be written").arg(file);
+  result.pictures << file;
 }
 
 }  // namespace
@@ -99,6 +117,10 @@ TourResult runTour(MainWindow& window, const QString& folder) {
   for (const ThemeKind kind : {ThemeKind::Dark, ThemeKind::Light}) {
     window.setTheme(kind);
     shoot(0, QStringLiteral("welcome"), kind);
+    shootDesigner(
+        QDir(folder).filePath(QStringLiteral("00-artefact designer-%1.png")
+                                  .arg(kind == ThemeKind::Light ? QStringLiteral("light") : QStringLiteral("dark"))),
+        result);
   }
   int number = 1;
   for (const TourStop& stop : tourStops()) {

@@ -6,6 +6,7 @@
 #include <QFileDialog>
 #include <QFormLayout>
 #include <QHBoxLayout>
+#include <QLabel>
 #include <QSplitter>
 #include <QTableView>
 #include <QVBoxLayout>
@@ -45,7 +46,7 @@ QString lengthText(double um) {
 
 ArtefactDesigner::ArtefactDesigner(QWidget* parent) : QDialog(parent) {
   setWindowTitle(tr("Artefact designer"));
-  resize(1200, 780);
+  resize(1240, 860);
   auto* column = new QVBoxLayout(this);
   column->addWidget(makeLabel(tr("A free-form surface for the laser profiler: see what a scan of it can tell before it "
                                  "is milled or printed."),
@@ -80,12 +81,15 @@ ArtefactDesigner::ArtefactDesigner(QWidget* parent) : QDialog(parent) {
   right->body()->addWidget(colouring_);
   view_ = new View3D;
   right->body()->addWidget(view_, 3);
-  sigmas_ = new RowsModel({tr("Error"), tr("rigid"), tr("push broom"), tr("Unit")}, this);
-  weak_ =
-      new RowsModel({tr("Scan model"), tr("Weak direction (rotations times length)"), tr("Uncertainty / um")}, this);
-  auto* tables = makeSplitter(makeTable(sigmas_, tr("Standard uncertainty of the six errors")),
-                              makeTable(weak_, tr("Weak directions"), tr("No direction is weak.")), 4, 5);
-  right->body()->addWidget(tables, 2);
+  sigmas_ = new RowsModel({tr("Uncertainty of"), tr("rigid"), tr("push broom")}, this);
+  weak_ = new RowsModel({tr("Scan model"), tr("Weak direction"), tr("Known to / um")}, this);
+  auto* weak = makeTable(weak_, tr("Weak directions"), tr("No direction is weak."));
+  weak->setToolTip(
+      tr("Directions of the motion that are known thirty times less well than the best one; rotations "
+         "times the artefact's length"));
+  auto* tables = makeSplitter(makeTable(sigmas_, tr("Standard uncertainty of the six errors")), weak, 1, 1);
+  tables->setMinimumHeight(300);  // all six errors
+  right->body()->addWidget(tables);
   column->addWidget(makeSplitter(left, right, 3, 7), 1);
 
   timer_.setSingleShot(true);
@@ -97,6 +101,12 @@ ArtefactDesigner::ArtefactDesigner(QWidget* parent) : QDialog(parent) {
   chooseSurface(0);
 }
 
+void ArtefactDesigner::showEvent(QShowEvent* event) {
+  QDialog::showEvent(event);
+  // Only now the view has its size, by which the camera is placed.
+  QTimer::singleShot(0, this, [this] { view_->resetCamera(StandardView::Isometric); });
+}
+
 void ArtefactDesigner::addNumber(QFormLayout* form, const std::string& name, const QString& label, const QString& unit,
                                  double low, double high, double step, double value, int decimals) {
   auto* box = new QDoubleSpinBox;
@@ -106,7 +116,10 @@ void ArtefactDesigner::addNumber(QFormLayout* form, const std::string& name, con
   box->setValue(value);
   box->setSuffix(unit);
   box->setAccessibleName(label);
-  form->addRow(label, box);
+  auto* name_of = new QLabel(label);
+  name_of->setMinimumHeight(sizes::control_height);  // beside the middle of the box
+  name_of->setBuddy(box);
+  form->addRow(name_of, box);
   numbers_[name] = box;
   connect(box, &QDoubleSpinBox::valueChanged, this, [this] {
     if (!filling_) timer_.start();
@@ -164,14 +177,13 @@ void ArtefactDesigner::showDesigns(const ArtefactDesign& rigid, const ArtefactDe
     const auto i = static_cast<std::size_t>(k);
     Row row;
     row.id = fromCore(std::string(toString(k)));
-    row.cells.push_back(nameCell(row.id));
+    row.cells.push_back(nameCell(QStringLiteral("%1 / %2").arg(row.id, fromCore(std::string(unitOf(k))))));
     for (const ArtefactDesign* d : {&rigid, &push_broom}) {
       Cell cell = std::isfinite(d->sigma[i]) ? Cell{QString::number(d->sigma[i], 'g', 3)}
                                              : toneCell(tr("not determined"), Tone::Attention);
       cell.right = true;
       row.cells.push_back(cell);
     }
-    row.cells.push_back({fromCore(std::string(unitOf(k)))});
     rows.push_back(std::move(row));
   }
   sigmas_->setRows(std::move(rows));
@@ -218,11 +230,11 @@ void ArtefactDesigner::showSurface() {
       const double z = surface_.height_mm(x, y);
       for (const double v : {x, y, z}) xyz->push_back(static_cast<float>(v));
       const double steep = surface_.gradient(x, y).cwiseAbs().maxCoeff();
-      scalar->push_back(static_cast<float>(slope ? std::min(steep / limit - 1.0, 1.0) : z));
+      scalar->push_back(static_cast<float>(slope ? 100.0 * (steep / limit - 1.0) : z));
       low = std::min(low, scalar->back());
       high = std::max(high, scalar->back());
     }
-  ColourScale scale = ColourScale::symmetric(1.0, tr("slope / limit − 1"), QString());
+  ColourScale scale = ColourScale::symmetric(20.0, tr("over the limit"), QStringLiteral("%"));
   if (!slope) {
     scale.map = ColourMap::Sequential;
     scale.low = low;

@@ -40,6 +40,9 @@ class ArtefactDesigner : public QDialog {
   void recompute();
   void writeStl(const std::filesystem::path& file);
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   void addNumber(QFormLayout* form, const std::string& name, const QString& label, const QString& unit, double low,
                  double high, double step, double value, int decimals);
