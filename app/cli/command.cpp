@@ -74,6 +74,29 @@ void refuseResultsInCampaign(const CLI::App& command) {
 
 }  // namespace
 
+namespace {
+
+CLI::Validator numberThat(const char* allowed, bool (*accepts)(double)) {
+  CLI::Validator check;
+  check.description("NUMBER");
+  check.operation([allowed, accepts](const std::string& text) {
+    double value = 0.0;
+    if (parseNumber(text, value) && accepts(value)) return std::string();
+    return fmt::format("{} is not allowed; allowed: {}.", text, allowed);
+  });
+  return check;
+}
+
+}  // namespace
+
+CLI::Validator positiveNumber() {
+  return numberThat("a number greater than zero", [](double v) { return v > 0.0; });
+}
+
+CLI::Validator nonNegativeNumber() {
+  return numberThat("zero or a positive number", [](double v) { return v >= 0.0; });
+}
+
 CommandResult noted(CommandResult result, const std::vector<std::string>& notes) {
   for (const std::string& note : notes) {
     if (!result.summary.empty() && result.summary.back() != '\n') result.summary += '\n';
@@ -116,6 +139,7 @@ int runSelected(CommandLine& line) {
       if (!result.summary.empty() && !result.summary.ends_with('\n')) std::cout << '\n';
     }
     std::cout.flush();
+    if (!std::cout) throw InputError("standard output cannot be written: no space left, or it was closed.");
     return result.exit_status;
   } catch (const InputError& error) {
     std::cerr << "spindrift-cli: " << error.what() << '\n';

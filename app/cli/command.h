@@ -24,6 +24,10 @@ struct CommandResult {
   int exit_status = Done;
 };
 
+/// Checks of an option's number, in words of ours.
+[[nodiscard]] CLI::Validator positiveNumber();
+[[nodiscard]] CLI::Validator nonNegativeNumber();
+
 /// The result with sentences about what was left out, under "notes" and as lines for people.
 [[nodiscard]] CommandResult noted(CommandResult result, const std::vector<std::string>& notes);
 

@@ -91,6 +91,12 @@ CommandResult watch(const WatchArguments& a, bool live, JobContext& job) {
   }
   std::optional<MeasurementPlan> plan;
   if (!a.plan.empty()) plan = MeasurementPlan::parse(JsonNode::read(a.plan));
+  // Before a session is made that would be left behind empty.
+  if (!std::filesystem::is_directory(a.folder))
+    throw InputError({a.folder, ""}, "is no folder; allowed: the folder into which the instrument writes.");
+  if (!a.machine.empty()) (void)MachineDescription::read(a.machine);
+  if (a.machine.empty() && !Session::isSession(a.session))
+    throw InputError({a.session, ""}, "is no session; allowed: a session, or --machine FILE to begin a new one.");
   auto [session, campaign] = sessionFor(a);
   if (plan) storePlan(session, campaign, *plan);
   FolderWatchOptions options;
@@ -147,10 +153,10 @@ void addWatch(CLI::App& app, CommandLine& line) {
   command->add_option("--template", a->pattern, "How a control prints touches (spindrift-printed-text JSON)")
       ->type_name("FILE");
   command->add_option("--until-idle", a->until_idle_s, "End when nothing has arrived for this time in s")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber())
       ->capture_default_str();
   command->add_option("--settle", a->settle_s, "A file is complete when it has stood still for this time in s")
-      ->check(CLI::NonNegativeNumber)
+      ->check(nonNegativeNumber())
       ->capture_default_str();
 }
 

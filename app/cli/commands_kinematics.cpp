@@ -193,7 +193,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
     command->add_option("--component", a->component, "EX, EY or EZ (um)")->check(CLI::IsMember({"EX", "EY", "EZ"}));
     command->add_option("--grid", a->grid, "Nodes along X and Y, such as 61,41")->type_name("NX,NY");
     command->add_option("--limit", a->limit, "Limit of the colour scale in um, to compare pictures; else from the data")
-        ->check(CLI::PositiveNumber);
+        ->check(positiveNumber());
     command->add_option("--svg", a->svg, "Write the picture as SVG")->type_name("FILE");
     command->add_option("--png", a->png, "Write the picture as PNG")->type_name("FILE");
     command->add_option("--csv", a->csv, "Write x_mm,y_mm,z_mm,component,value,sigma,extrapolated")->type_name("FILE");
@@ -241,7 +241,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
     command->add_option("--point", a->point,
                         "The point that was measured again and again; else the one with most rows");
     command->add_option("--limit", a->drift_limit_um_per_h, "Drift in um/h below which it counts as settled")
-        ->check(CLI::PositiveNumber);
+        ->check(positiveNumber());
   }
   addCheck("validate-jogs", "Do jogs of the axes read true? Each state is a jog; verdict against the axis resolution");
   addCheck("repeatability", "Cold repeatability: all states measured cold; verdict against half the axis resolution");

@@ -270,10 +270,10 @@ void addStudy(CLI::App& app, CommandLine& line) {
                                  });
   command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign")->required();
   command->add_option("--angle", a->options.angle_sigma_rad, "Standard deviation of alpha, beta and gamma, rad")
-      ->check(CLI::NonNegativeNumber)
+      ->check(nonNegativeNumber())
       ->capture_default_str();
   command->add_option("--length", a->options.length_sigma_mm, "Standard deviation of dx, dy and dz, mm")
-      ->check(CLI::NonNegativeNumber)
+      ->check(nonNegativeNumber())
       ->capture_default_str();
   command->add_option("--trials", a->options.trials, "Trials a scan")
       ->check(CLI::Range(10, 10000000))

@@ -92,7 +92,7 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
   command->add_option("--train", a->train, "FROM:TO in s, FROM included, TO not")->required();
   command->add_option("--test", a->test, "FROM:TO in s; nothing measured in it is used")->required();
   command->add_option("--period", a->request.period_s, "Sampling period of the identification in s (0: automatic)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(nonNegativeNumber());
   command->add_option("--order", a->order, "na,nb,nk: poles, numerator coefficients per input, delay in samples");
   command
       ->add_option("--method", a->request.method,
@@ -150,19 +150,19 @@ void addTrack(CLI::App& parent, CommandLine& line) {
       ->capture_default_str();
   command->add_option("--interval", a->request.interval_s, "Time between two on-machine measurements in s")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   command->add_option("--output", a->request.output, "Output of the model; default: its first");
   command->add_option("--from", a->from_s, "Time of the first measurement in s; default: end of training")
-      ->check(CLI::NonNegativeNumber);
+      ->check(nonNegativeNumber());
   command
       ->add_option("--sigma", a->request.measurement_sigma,
                    "Standard uncertainty of one measurement in the output's unit")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber())
       ->capture_default_str();
   command
       ->add_option("--gain-bound", a->request.gain_bound,
                    "Largest gain of --update gain (0: none, as printed in the paper)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(nonNegativeNumber());
   command->add_option("--context", a->context,
                       "Columns that the gain may depend on, such as pos_z_mm (kalman only), separated by commas");
   command->add_option("--svg", a->svg, "Write the diagrams to this file")->type_name("FILE");
@@ -199,15 +199,15 @@ void addCompensate(CLI::App& parent, CommandLine& line) {
   command->add_option("--model", a->model, "Model: spindrift-thermal-model JSON, or the JSON of thermal identify")
       ->required();
   command->add_option("--cycle", a->request.cycle_s, "Cycle time of the controller in s; default: distance of the rows")
-      ->check(CLI::NonNegativeNumber);
+      ->check(nonNegativeNumber());
   command->add_option("--limit", a->request.limits.limit, "Bound of every output, um or urad")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber())
       ->capture_default_str();
   command->add_option("--slew", a->request.limits.slew_per_s, "Bound of the change of every output per s")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber())
       ->capture_default_str();
   command->add_option("--stale", a->request.limits.stale_after_s, "Age in s from which an input is stale")
-      ->check(CLI::NonNegativeNumber)
+      ->check(nonNegativeNumber())
       ->capture_default_str();
   command->add_option("--out", a->out, "Write time_s and the compensation of every output to this CSV file")
       ->type_name("FILE");

@@ -85,18 +85,18 @@ void addReplay(CLI::App& parent, CommandLine& line) {
       ->add_option("--sigma", a->sigma,
                    "Standard uncertainty of one measurement; default: as evaluated, or from the scatter of the "
                    "column, which where values are sparse holds changes of the error too")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   command->add_option("--setup", a->setup_h, "Length of the setup in h")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber())
       ->capture_default_str();
   command->add_option("--setup-interval", a->setup_interval_min, "Time between two measurements of the setup in min")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber())
       ->capture_default_str();
   command->add_option("--shortest", a->shortest_min, "Shortest time between two measurements after the setup in min")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber())
       ->capture_default_str();
   command->add_option("--longest", a->longest_h, "Longest time without a measurement in h")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber())
       ->capture_default_str();
   command->add_option("--svg", a->svg, "Write the diagrams to this file")->type_name("FILE");
 }
@@ -137,7 +137,7 @@ void addClusters(CLI::App& parent, CommandLine& line) {
   command->add_option("LOG", a->log, "CSV with time_s and temperatures")->required();
   command->add_option("--sensors", a->sensors, "Columns separated by commas; default: all temperatures");
   command->add_option("--groups", a->count, "Number of groups; 0: cut where they differ most")
-      ->check(CLI::NonNegativeNumber)
+      ->check(nonNegativeNumber())
       ->capture_default_str();
 }
 

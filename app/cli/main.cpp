@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <clocale>
+#include <iostream>
 
 #include "app/cli/command.h"
+
+namespace {
+
+bool knows(const CLI::App& app, const std::string& command) {
+  const auto all = app.get_subcommands([](const CLI::App*) { return true; });
+  return std::any_of(all.begin(), all.end(), [&](const CLI::App* one) { return one->check_name(command); });
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   std::setlocale(LC_ALL, "C");
@@ -29,8 +40,12 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error);
-    return status == 0 ? spindrift::cli::Done : spindrift::cli::BadInput;
+    if (error.get_exit_code() == 0) return app.exit(error);  // help, version
+    std::string sentence = error.what();
+    if (argc > 1 && argv[1][0] != '-' && !knows(app, argv[1]))
+      sentence = "\"" + std::string(argv[1]) + "\" is no command; allowed: those that --help lists.";
+    std::cerr << "spindrift-cli: " << sentence << '\n';
+    return spindrift::cli::BadInput;
   }
   return spindrift::cli::runSelected(line);
 }

@@ -86,6 +86,10 @@ CsvTable CsvTable::parse(std::string content, const std::filesystem::path& name)
     fields.clear();
     for (bool more = true; more;) fields.push_back(takeField(line, more, table.unquoted_, place));
     if (table.names_.empty()) {
+      if (fields.size() == 1 && fields[0].find(';') != std::string_view::npos) {
+        throw InputError(place,
+                         "the columns are separated by semicolons; allowed: commas, and numbers with a decimal point.");
+      }
       for (const std::string_view field : fields) {
         if (field.empty()) throw InputError(place, "a column has no name; allowed: one name per column.");
         if (table.hasColumn(field)) {

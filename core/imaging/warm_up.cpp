@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -35,6 +36,30 @@ void fitDrift(const Series& s, Eigen::Index count, WarmUpAxis& axis) {
   axis.drift_sigma_um_per_h = fit.standardUncertainty(1) * std::sqrt(excess);
 }
 
+/// The drift of the exponential at the end of the series in place of the line's, if both agree: it uses all of the
+/// series, so that its uncertainty is smaller. Covariance of (c, a, tau) to first order, times `excess`.
+void driftAtEnd(const Series& s, double tau, double amplitude, double excess, WarmUpAxis& axis) {
+  const Eigen::ArrayXd t = s.time_s.array() - s.time_s(0);
+  const Eigen::ArrayXd decay = (-t / tau).exp();
+  Eigen::MatrixXd J(t.size(), 3);
+  J.col(0) = 1.0 / s.sigma_um.array();
+  J.col(1) = decay / s.sigma_um.array();
+  J.col(2) = amplitude * t / (tau * tau) * decay / s.sigma_um.array();
+  const Eigen::FullPivLU<Eigen::Matrix3d> information(J.transpose() * J);
+  if (!information.isInvertible()) return;
+  const Eigen::Matrix3d covariance = excess * information.inverse();
+  const double end = t(t.size() - 1);
+  const double left = std::exp(-end / tau);
+  const double drift = -amplitude / tau * left * s_per_h;
+  const Eigen::Vector3d gradient(0.0, -left / tau * s_per_h,
+                                 amplitude * left / (tau * tau) * (1.0 - end / tau) * s_per_h);
+  const double sigma = std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
+  if (!(sigma > 0.0) || sigma >= axis.drift_sigma_um_per_h) return;
+  if (std::abs(drift - axis.drift_um_per_h) > 3.0 * axis.drift_sigma_um_per_h) return;
+  axis.drift_um_per_h = drift;
+  axis.drift_sigma_um_per_h = sigma;
+}
+
 /// Exponential approach, accepted if an F test says that it beats a constant.
 void fitExponential(const Series& s, double limit_um_per_h, WarmUpAxis& axis) {
   const Eigen::Index n = s.time_s.size();
@@ -65,6 +90,7 @@ void fitExponential(const Series& s, double limit_um_per_h, WarmUpAxis& axis) {
   axis.amplitude_um = x(1);
   const double first_drift = std::abs(x(1)) / tau * s_per_h;
   axis.settled_after_s = first_drift > limit_um_per_h ? tau * std::log(first_drift / limit_um_per_h) : 0.0;
+  driftAtEnd(s, tau, x(1), std::max(1.0, best / dof), axis);
 }
 
 }  // namespace

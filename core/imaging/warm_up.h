@@ -3,7 +3,8 @@
 // drift and its uncertainty, not from a fixed time (P0 section 3.5: 10, 25, 20 um over about 80 min).
 //
 // Per axis: v(t) = c + a exp(-t / tau), tau searched, c and a by least squares; and a straight line through the last
-// part of the series for the drift that is left. Settled: |drift| + 2 u(drift) is below the limit in every axis. Time
+// part of the series for the drift that is left; the exponential's drift at the end in its place
+// where both agree and it is known better. Settled: |drift| + 2 u(drift) is below the limit in every axis. Time
 // in s, values in um, drift in um/h.
 #pragma once
 

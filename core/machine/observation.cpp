@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -15,6 +16,9 @@
 
 namespace spindrift {
 namespace {
+
+/// A tenth of a metre or of a radian: no thermal deviation is near it.
+constexpr double largest_deviation = 1e5;
 
 std::filesystem::path covarianceFile(const std::filesystem::path& file) {
   return file.parent_path() / (file.stem().string() + ".cov.csv");
@@ -93,6 +97,12 @@ ObservationSet ObservationSet::fromTable(const CsvTable& table) {
     }
     o.component = *parsed;
     o.value = table.number(row, value);
+    if (!(std::abs(o.value) <= largest_deviation)) {
+      throw InputError(
+          table.place(row, value),
+          fmt::format("{} {} is not allowed; allowed: deviations up to {:g} {} in size.", table.text(row, value),
+                      unitOf(o.component), largest_deviation, unitOf(o.component)));
+    }
     o.sigma = table.number(row, sigma);
     if (!(o.sigma > 0.0)) {
       throw InputError(table.place(row, sigma),

@@ -228,7 +228,7 @@ std::vector<SensorGroup> groupSensors(const OperatingLog& log, int count) {
     sensors.push_back({*high - *low, name});
   }
   std::vector<SensorGroup> groups;
-  if (sensors.empty()) return groups;
+  if (sensors.empty()) throw InputError("the log holds no temperature; allowed: columns named T_<name>_degC.");
   std::sort(sensors.begin(), sensors.end(), [](const Sensor& a, const Sensor& b) { return a.change > b.change; });
   std::vector<double> x;
   for (const Sensor& s : sensors) x.push_back(s.change);

@@ -46,6 +46,14 @@ void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, co
   out.summary +=
       fmt::format("{}: {} cycles, {} touches, {} left out; touch noise {}\n", evaluation.artefact,
                   evaluation.cycles.size(), evaluation.problem.rows.size(), evaluation.rejected.size(), noise);
+  const std::size_t all_touches = evaluation.problem.rows.size() + evaluation.rejected.size();
+  if (2 * evaluation.rejected.size() > all_touches) {
+    out.good_enough = false;
+    out.warnings.push_back(
+        fmt::format("{} of {} touches of {} do not fit: the columns x_mm and y_mm swapped, approach vectors of the "
+                    "wrong sign, or a diameter or stylus in machine.json that is not the one used?",
+                    evaluation.rejected.size(), all_touches, evaluation.artefact));
+  }
   if (evaluation.cycles.size() < 2) {
     out.good_enough = false;
     return;

@@ -37,6 +37,12 @@ Eigen::Vector2d ArtefactSurface::gradient(double x_mm, double y_mm) const {
 void ArtefactSurface::validate() const {
   if (!(size_mm.minCoeff() > 0.0) || !size_mm.allFinite())
     throw InputError("The size of the artefact must be positive in x and y (mm).");
+  for (const double value :
+       {amplitude_x_mm, amplitude_y_mm, amplitude_xy_mm, wave_number_x_per_mm, wave_number_y_per_mm}) {
+    if (!std::isfinite(value))
+      throw InputError(
+          "An amplitude or wave number of the surface is no number; allowed: finite numbers (mm, rad/mm).");
+  }
   if (!(wave_number_x_per_mm >= 0.0) || !(wave_number_y_per_mm >= 0.0))
     throw InputError("The wave numbers of the surface must not be negative (rad/mm).");
   for (const Bump& b : bumps)

@@ -158,6 +158,18 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
   for (const ScanResult& s : evaluation.scans) compared += s.reference ? 0U : 1U;
   out.summary = fmt::format("Profiler ({}): {} scans of {} artefacts compared with their first, {} rejected\n",
                             toString(evaluation.scan_model), compared, reference.size(), out.rejected.size());
+  constexpr std::size_t most_lines = 24;
+  std::size_t lines = 0;
+  for (const ScanResult& s : evaluation.scans) {
+    if (s.reference || ++lines > most_lines) continue;
+    std::string line;
+    for (const Observation& o : out.observations.rows) {
+      if (o.state != s.capture.cycle || o.point != s.capture.artefact) continue;
+      line += fmt::format("  {} {}", toString(o.component), withUncertainty(o.value, o.sigma, unitOf(o.component)));
+    }
+    out.summary += fmt::format("{:<6}{:<6}{}\n", s.capture.artefact, s.capture.cycle, line);
+  }
+  if (lines > most_lines) out.summary += fmt::format("and {} more\n", lines - most_lines);
   if (compared == 0) {
     out.good_enough = false;
     out.warnings.push_back(

@@ -313,7 +313,9 @@ RegistrationResult registerClouds(const PointCloud& source, const PointCloud& ta
     RegistrationOptions other = options;
     other.method = RegistrationMethod::Gicp;
     RegistrationResult free_form = registerWithPcl(source, target, other);
-    if (free_form.usable()) {
+    // Two height maps of different surfaces fit no better as free-form clouds.
+    const bool better = !(result.rms_mm > 0.0) || free_form.rms_mm < 0.5 * result.rms_mm;
+    if (free_form.usable() && better) {
       free_form.message =
           "As a height map the clouds do not fit (" + result.message + "); registered as free-form clouds.";
       result = std::move(free_form);

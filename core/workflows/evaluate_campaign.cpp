@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 #include "core/imaging/evaluate_fiducials.h"
 #include "core/imaging/fiducial_captures.h"
 #include "core/probing/evaluate_touches.h"
@@ -37,12 +40,20 @@ nlohmann::json CampaignEvaluation::json() const {
   return out;
 }
 
+namespace {
+/// Of an instrument in a summary.
+constexpr std::size_t most_rejected = 20;
+}  // namespace
+
 std::string CampaignEvaluation::summary() const {
   std::string text;
   for (const InstrumentEvaluation& instrument : instruments) {
     text += instrument.summary;
     if (!text.empty() && text.back() != '\n') text += '\n';
-    for (const RejectedCapture& r : instrument.rejected) text += fmt::format("rejected {}: {}\n", r.capture, r.reason);
+    for (std::size_t i = 0; i < std::min(instrument.rejected.size(), most_rejected); ++i)
+      text += fmt::format("rejected {}: {}\n", instrument.rejected[i].capture, instrument.rejected[i].reason);
+    if (instrument.rejected.size() > most_rejected)
+      text += fmt::format("and {} more rejected; --json lists all\n", instrument.rejected.size() - most_rejected);
     for (const std::string& w : instrument.warnings) text += fmt::format("note: {}\n", w);
   }
   text += fmt::format("{} observations\n", observations.rows.size());
@@ -85,10 +96,32 @@ ObservationSet allObservationsOf(const Campaign& campaign, const std::filesystem
   return evaluateCampaign(campaign, options, job).observations;
 }
 
+std::string outsideTravel(const ObservationSet& observations, const MachineDescription& machine) {
+  std::set<std::string> outside;
+  std::string example;
+  for (const Observation& o : observations.rows) {
+    for (int i = 0; i < 3; ++i) {
+      const LinearAxis* axis = machine.findAxis(std::string(1, "XYZ"[i]));
+      if (axis == nullptr) continue;
+      const double slack = 0.1 * (axis->travel_mm[1] - axis->travel_mm[0]);
+      if (o.position_mm[i] >= axis->travel_mm[0] - slack && o.position_mm[i] <= axis->travel_mm[1] + slack) continue;
+      if (outside.insert(o.point).second && example.empty())
+        example = fmt::format("{} of point {} is {:g} mm, the travel {:g} to {:g} mm", "xyz"[i], o.point,
+                              o.position_mm[i], axis->travel_mm[0], axis->travel_mm[1]);
+    }
+  }
+  if (outside.empty()) return {};
+  return fmt::format(
+      "{} of {} points lie far outside the travel of this machine ({}): are these its observations, in mm?",
+      outside.size(), observations.points().size(), example);
+}
+
 ObservationSet observationsOf(const Campaign& campaign, const std::filesystem::path& file,
                               const EvaluateOptions& options, JobContext& job, std::vector<std::string>* notes) {
   ObservationSet set = allObservationsOf(campaign, file, options, job);
   const std::string left_out = leaveOutCompensated(set, campaign.log);
+  if (const std::string outside = outsideTravel(set, campaign.machine); notes != nullptr && !outside.empty())
+    notes->push_back(outside);
   if (notes != nullptr && !left_out.empty()) notes->push_back(left_out);
   return set;
 }

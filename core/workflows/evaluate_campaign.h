@@ -35,6 +35,10 @@ struct CampaignEvaluation {
 [[nodiscard]] CampaignEvaluation evaluateCampaign(const Campaign& campaign, const EvaluateOptions& options,
                                                   JobContext& job);
 
+/// One sentence if points lie outside the travel of the machine by more than a tenth of it: a file of another machine,
+/// another unit, or columns that were swapped. Empty otherwise.
+[[nodiscard]] std::string outsideTravel(const ObservationSet& observations, const MachineDescription& machine);
+
 /// Observations for a command: from `file` if given, else the campaign's own, else its captures evaluated in memory.
 /// What was taken while the control was compensating is marked `exclude`, so that no fit uses it; `notes` gets the
 /// sentence that says so.

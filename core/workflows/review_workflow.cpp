@@ -51,6 +51,15 @@ std::vector<ReviewPoint> measuredPoints(const ObservationSet& observations, cons
         fmt::format("State '{}' is not among the observations; allowed: one of {}.", state, states.size()));
   const PlacedValues now = meansOf(observations, state, nullptr);
   const PlacedValues cold = state == states.front() ? PlacedValues() : meansOf(observations, states.front(), nullptr);
+  // What both states have in common (the reference of an evaluation) is in their covariance.
+  std::map<std::pair<std::string, Component>, double> common;
+  for (const CovarianceEntry& entry : observations.covariance) {
+    const Observation* a = &observations.rows[entry.row];
+    const Observation* b = &observations.rows[entry.column];
+    if (a->state != state) std::swap(a, b);
+    if (a->state == state && b->state == states.front() && a->point == b->point && a->component == b->component)
+      common[{a->point, a->component}] = entry.covariance;
+  }
   std::vector<ReviewPoint> points;
   std::map<std::string, std::size_t> index;
   for (const Observation& o : observations.rows) {
@@ -63,7 +72,9 @@ std::vector<ReviewPoint> measuredPoints(const ObservationSet& observations, cons
     if (here == now.end()) continue;
     ReviewValue v = here->second;
     if (const auto before = cold.find(here->first); before != cold.end())
-      v = {v.value - before->second.value, std::hypot(v.sigma, before->second.sigma)};
+      v = {v.value - before->second.value,
+           std::sqrt(std::max(0.0, v.sigma * v.sigma + before->second.sigma * before->second.sigma -
+                                       2.0 * (common.contains(here->first) ? common.at(here->first) : 0.0)))};
     p.components[o.component] = v;
   }
   return points;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "core/base/error.h"
@@ -31,6 +32,9 @@ struct Course {
   std::vector<std::string> states;
   std::map<std::string, Value> values;
 };
+
+/// Points of one name further apart than this are not the same point.
+constexpr double same_place_mm = 1.0;
 
 std::map<SeriesKey, Course> coursesOf(const ObservationSet& set) {
   std::vector<const Observation*> rows;
@@ -194,6 +198,7 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
   const auto first = coursesOf(before);
   const auto second = coursesOf(after);
   std::size_t missing = 0;
+  std::set<std::string> moved;
   for (const auto& [key, course] : first) {
     const auto other = second.find(key);
     if (other == second.end() || course.states.size() < 2 || other->second.states.size() < 2) {
@@ -201,6 +206,11 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
       continue;
     }
     const Value& zero = course.values.at(course.states.front());
+    const Value& elsewhere = other->second.values.at(other->second.states.front());
+    if ((zero.position_mm - elsewhere.position_mm).norm() > same_place_mm) {
+      moved.insert(key.first);
+      continue;
+    }
     const Value& other_zero = other->second.values.at(other->second.states.front());
     // The same plan has the same number of states; names may differ, their order may not.
     const std::size_t states = std::min(course.states.size(), other->second.states.size());
@@ -215,9 +225,18 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
   }
   for (const auto& [key, course] : second) missing += first.contains(key) ? 0U : 1U;
   if (result.points.empty()) {
-    throw InputError({after.file, ""},
-                     "nothing can be compared: no point and component was measured in at least two states both before "
-                     "and after; allowed: the same plan measured again with the compensation on.");
+    throw InputError(
+        {after.file, ""},
+        moved.empty()
+            ? "nothing can be compared: no point and component was measured in at least two states both before "
+              "and after; allowed: the same plan measured again with the compensation on."
+            : "nothing can be compared: the points of the same name are elsewhere than before; "
+              "allowed: the same plan measured again on the same machine.");
+  }
+  if (!moved.empty()) {
+    result.notes.push_back(fmt::format("{} stood more than {:g} mm elsewhere before, and is left out.",
+                                       joinedList(std::vector<std::string>(moved.begin(), moved.end())),
+                                       same_place_mm));
   }
   if (missing > 0) {
     result.notes.push_back(fmt::format(
@@ -250,6 +269,10 @@ VerifyResult verifyCampaigns(const Campaign& before, const ObservationSet& befor
   const std::string left_out = leaveOutCompensated(first, before.log);
   ObservationSet second = after_observations;
   std::vector<std::string> notes;
+  if (before.machine.name != after.machine.name) {
+    notes.push_back(fmt::format("the machines have different names: \"{}\" before, \"{}\" after.", before.machine.name,
+                                after.machine.name));
+  }
   if (!left_out.empty()) notes.push_back("before: " + left_out);
   if (after.log && after.log->has(compensation_signal)) {
     std::size_t off = 0;

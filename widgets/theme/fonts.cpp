@@ -94,4 +94,10 @@ QFont textFont(int pixel_size, QFont::Weight weight) {
   return font;
 }
 
+QFont printFont(int pixel_size, QFont::Weight weight) {
+  QFont font = textFont(pixel_size, weight);
+  if (QFontDatabase::families().contains(QStringLiteral("Inter"))) font.setFamilies({QStringLiteral("Inter")});
+  return font;
+}
+
 }  // namespace spindrift::gui

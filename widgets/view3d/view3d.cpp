@@ -372,7 +372,7 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size) const {
   paintTriad(painter, whole, camera_);
 
   QStringList notes;
-  if (!caption_.isEmpty()) notes << caption_;
+  if (!caption_.isEmpty()) notes << caption_.split(QLatin1Char('\n'));
   if (!arrows_.empty()) {
     notes << tr("Arrows %1 times larger than the deviation").arg(QString::number(exaggeration_, 'f', 0));
   }
@@ -392,6 +392,8 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size) const {
   if (!notes.isEmpty()) {
     painter.setFont(textFont(sizes::font_secondary));
     const QFontMetricsF metrics(painter.font());
+    const double room = area.width() - 48 - (bar.isEmpty() ? 0.0 : area.width() - bar.left());
+    for (QString& note : notes) note = metrics.elidedText(note, Qt::ElideRight, room);
     double width = 0;
     for (const QString& note : notes) width = std::max(width, metrics.horizontalAdvance(note));
     QColor back = t.surface;

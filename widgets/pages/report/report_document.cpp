@@ -53,7 +53,7 @@ QString translated(const char* text) {
 }
 
 QFont pageFont(int px, QFont::Weight weight = QFont::Normal) {
-  QFont font = textFont(px, weight);
+  QFont font = printFont(px, weight);
   font.setHintingPreference(QFont::PreferNoHinting);
   return font;
 }
@@ -117,7 +117,7 @@ QByteArray forQtSvg(QString svg) {
     for (const auto& [dx, dy] : halo_offsets) texts += copy(dx, dy, " fill=\"#ffffff\"");
     svg.replace(match.capturedStart(), match.capturedLength(), texts + copy(0.0, 0.0, ""));
   }
-  svg.replace(family, QStringLiteral("font-family=\"%1\"").arg(bodyFont().family()));
+  svg.replace(family, QStringLiteral("font-family=\"%1\"").arg(printFont(text_px).family()));
   return svg.toUtf8();
 }
 

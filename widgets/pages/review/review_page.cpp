@@ -177,11 +177,12 @@ void ReviewPage::setHeatMaps(bool on) {
 void ReviewPage::refresh() {
   if (session().campaign() == nullptr) return;
   sources_.refresh();
-  const bool other = shown_campaign_ != session().campaignId();
-  shown_campaign_ = session().campaignId();
-  for (ReviewPane* pane : panes_) pane->refresh(shown_campaign_);
+  const std::string folder = session().campaign()->folder.string();
+  const bool other = shown_folder_ != folder;
+  shown_folder_ = folder;
+  for (ReviewPane* pane : panes_) pane->refresh(session().campaignId());
   fillSlider();
-  const auto own = sources_.source(shown_campaign_);
+  const auto own = sources_.source(session().campaignId());
   filling_ = true;
   if (own != nullptr && other) {
     const LinearAxis* y = own->campaign->machine.findAxis("Y");

@@ -58,7 +58,7 @@ class ReviewPage : public Page {
   [[nodiscard]] double exaggeration() const;
 
   ReviewSources sources_;
-  std::int64_t shown_campaign_ = 0;
+  std::string shown_folder_;  ///< of the campaign; ids start again in every session
   std::array<ReviewPane*, 4> panes_{};
   QGridLayout* grid_;
   Segments* count_;

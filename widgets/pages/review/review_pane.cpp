@@ -149,10 +149,11 @@ void ReviewPane::show(const ReviewPicture& picture, const std::optional<double>&
   stack_->setCurrentWidget(view_);
   const auto from = source();
   if (from == nullptr) return;
-  if (machine_of_ != from->id) {
+  const std::string folder = from->campaign->folder.string();
+  if (machine_of_ != folder) {
     view_->clear();
     view_->setMachine(from->campaign->machine);
-    machine_of_ = from->id;
+    machine_of_ = folder;
   }
   view_->setMachineVisible(machine);
   const QString unit = fromCore(std::string(unitOf(picture.component)));
@@ -180,7 +181,7 @@ void ReviewPane::show(const ReviewPicture& picture, const std::optional<double>&
   view_->setPoints(std::move(points));
   view_->setArrows(std::move(shown_arrows), exaggeration);
   view_->setCaption(fromCore(picture.title + ", " + std::string(toString(picture.component))) +
-                    (picture.message.empty() ? QString() : QStringLiteral(": ") + fromCore(picture.message)));
+                    (picture.message.empty() ? QString() : QLatin1Char('\n') + fromCore(picture.message)));
 }
 
 void ReviewPane::showScan(const ScanPicture& picture, const QString& title, double limit) {
@@ -210,7 +211,7 @@ void ReviewPane::showScan(const ScanPicture& picture, const QString& title, doub
 void ReviewPane::showMessage(const QString& title, const QString& how) {
   picture_ = {};
   picture_.message = how.toStdString();
-  machine_of_ = 0;
+  machine_of_.clear();
   View3D* shown = isScan() ? scan_view_ : view_;
   stack_->setCurrentWidget(shown);
   shown->clear();

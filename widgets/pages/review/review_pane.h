@@ -76,7 +76,7 @@ class ReviewPane : public QFrame {
   View3D* scan_view_;
   QLabel* value_;
   ReviewPicture picture_;
-  std::int64_t machine_of_ = 0;  ///< campaign whose machine is in the view
+  std::string machine_of_;  ///< folder of the campaign whose machine is in the view (ids start again in every session)
   bool filling_ = false;
   bool first_;
 };
