@@ -21,16 +21,6 @@ using Eigen::Index;
 
 constexpr std::size_t unit_limit = 3000;
 
-/// Another effect of the fit moves the same readings as effect `t`.
-bool overlaps(const JointFit& fit, std::size_t t) {
-  for (std::size_t other = 0; other < fit.terms.size(); ++other) {
-    const Eigen::VectorXd& a = fit.contribution[t];
-    const Eigen::VectorXd& b = fit.contribution[other];
-    if (other != t && a.cwiseAbs().dot(b.cwiseAbs()) > 0.1 * a.norm() * b.norm()) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::string_view toString(DiscrepancyVerdict verdict) noexcept {

@@ -228,9 +228,13 @@ Leftover leftoverOf(const EffectSearch& search, ResidualProblem& problem, const 
   Eigen::VectorXd residual = problem.projectedResidual();
   const double before = residual.squaredNorm();
   std::vector<NamedPart> parts;
-  const DistributedFit allowed = distributedDynamics(search, problem, search.drivers(), fit, limits.leftover_error);
+  // Two effects in the same readings imitate many courses: they get no such allowance.
+  bool stacked = false;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) stacked = stacked || overlaps(fit, t);
+  const JointFit allowed =
+      stacked ? fit : distributedDynamics(search, problem, search.drivers(), fit, limits.leftover_error).fit;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
-    const Eigen::VectorXd part = problem.projected(allowed.fit.contribution[t]);
+    const Eigen::VectorXd part = problem.projected(allowed.contribution[t]);
     residual -= part;
     parts.push_back({part.head(problem.size()),
                      static_cast<int>(fit.gains[t].size() + static_cast<Index>(fit.terms[t].parameters.size()))});
@@ -247,6 +251,15 @@ Leftover leftoverOf(const EffectSearch& search, ResidualProblem& problem, const 
 }
 
 }  // namespace
+
+bool overlaps(const JointFit& fit, std::size_t t) {
+  for (std::size_t other = 0; other < fit.terms.size(); ++other) {
+    const Eigen::VectorXd& a = fit.contribution[t];
+    const Eigen::VectorXd& b = fit.contribution[other];
+    if (other != t && a.cwiseAbs().dot(b.cwiseAbs()) > 0.1 * a.norm() * b.norm()) return true;
+  }
+  return false;
+}
 
 SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, const std::vector<NuisanceColumn>& base,
                             const DiscrepancyOptions& options, const SearchLimits& limits, const JobContext& job) {

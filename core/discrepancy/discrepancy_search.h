@@ -94,6 +94,9 @@ struct SearchOutcome {
 [[nodiscard]] double onsetPValue(const EffectSearch& search, const ResidualProblem& problem,
                                  const CandidateFit& candidate);
 
+/// Another effect of the fit moves the same readings as effect `t`.
+[[nodiscard]] bool overlaps(const JointFit& fit, std::size_t t);
+
 /// The most significant structure in a whitened residual: common courses in time, gradients, single points.
 struct StructureTest {
   double p_value = 1.0;  ///< for all tests together
