@@ -10,6 +10,7 @@ namespace {
 
 TEST(Text, DigitsFollowTheUncertainty) {
   EXPECT_EQ(withUncertainty(12.3456, 0.34, "um"), "12.3 \u00b1 0.3 um");
+  EXPECT_EQ(withUncertainty(-0.0001, 0.02, "rad"), "0.000 ± 0.020 rad") << "no minus sign before nothing";
   EXPECT_EQ(withUncertainty(-12.3456, 0.123, "um"), "\u221212.35 \u00b1 0.12 um");
   EXPECT_EQ(withUncertainty(1234.5, 40.0, "urad"), "1234 \u00b1 40 urad");
   EXPECT_EQ(withUncertainty(0.000123456, 0.0000021, ""), "0.0001235 \u00b1 0.0000021");
