@@ -2,6 +2,7 @@
 #include "widgets/plots/plot.h"
 
 #include <QEvent>
+#include <QLineF>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QSvgGenerator>
@@ -138,6 +139,7 @@ void Plot::restyle() {
 void Plot::rebuild() {
   plot_->clearPlottables();
   plot_->clearItems();
+  moment_line_ = nullptr;
   restyle();
   const Theme& t = theme();
   int named = 0;
@@ -244,9 +246,31 @@ void Plot::rebuild() {
     text->position->setCoords(mark.x, 0.02);
     text->setPadding(QMargins(6, 2, 6, 2));
   }
+  placeMoment();
   plot_->legend->setVisible(legend_ && named > 1);
   if (series_.empty()) plot_->hide();
   update();
+}
+
+void Plot::setMoment(const std::optional<double>& x) {
+  if (moment_ == x) return;
+  moment_ = x;
+  placeMoment();
+  replotSoon();
+}
+
+void Plot::placeMoment() {
+  if (!moment_ || series_.empty()) {
+    if (moment_line_ != nullptr) plot_->removeItem(moment_line_);
+    moment_line_ = nullptr;
+    return;
+  }
+  if (moment_line_ == nullptr) {
+    moment_line_ = new QCPItemStraightLine(plot_);
+    moment_line_->setPen(QPen(theme().tone(Tone::Accent), 1.5));
+  }
+  moment_line_->point1->setCoords(*moment_, 0);
+  moment_line_->point2->setCoords(*moment_, 1);
 }
 
 /// Once, when the event loop is reached: a page that is being filled changes its plots several times.
@@ -415,6 +439,37 @@ double Plot::pixelOfX(double x) const {
   return plot_->xAxis->coordToPixel(x);
 }
 
+QPointF Plot::pixelOf(double x, double y) const {
+  const_cast<Plot*>(this)->drawIfStale();
+  return {plot_->xAxis->coordToPixel(x), plot_->yAxis->coordToPixel(y)};
+}
+
+void Plot::pickValue(QEvent* event) {
+  constexpr double still_px = 4;
+  constexpr double reach_px = 12;
+  const auto* mouse = static_cast<QMouseEvent*>(event);
+  if (mouse->button() != Qt::LeftButton) return;
+  const QPointF place = mouse->position();
+  if (event->type() == QEvent::MouseButtonPress) {
+    pressed_at_ = place;
+    return;
+  }
+  if (QLineF(place, pressed_at_).length() > still_px) return;  // dragged
+  double nearest = reach_px;
+  std::optional<std::pair<std::size_t, std::size_t>> found;
+  for (std::size_t k = 0; k < series_.size(); ++k) {
+    for (std::size_t i = 0; i < series_[k].x.size(); ++i) {
+      const double distance = QLineF(place, pixelOf(series_[k].x[i], series_[k].y[i])).length();
+      if (!(distance < nearest)) continue;
+      nearest = distance;
+      found = {k, i};
+    }
+  }
+  if (!found) return;
+  Q_EMIT picked(series_[found->first].x[found->second], static_cast<int>(found->first),
+                static_cast<int>(found->second));
+}
+
 std::optional<std::pair<std::size_t, bool>> Plot::spanEdgeAt(double pixel_x) const {
   constexpr double reach_px = 8;
   std::optional<std::pair<std::size_t, bool>> best;
@@ -468,6 +523,7 @@ bool Plot::eventFilter(QObject* watched, QEvent* event) {
   if (watched == plot_) {
     if (event->type() == QEvent::Paint) drawIfStale();
     if (dragSpan(event)) return true;
+    if (event->type() == QEvent::MouseButtonPress || event->type() == QEvent::MouseButtonRelease) pickValue(event);
     if (event->type() == QEvent::MouseButtonDblClick) {
       showAll();
       return true;

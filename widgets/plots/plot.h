@@ -3,6 +3,7 @@
 // bands for uncertainty, shaded spans. Drag pans, wheel zooms, double-click shows everything. QCustomPlot inside.
 #pragma once
 
+#include <QPointF>
 #include <QString>
 #include <QWidget>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include "widgets/theme/theme.h"
 
+class QCPItemStraightLine;
 class QCustomPlot;
 
 namespace spindrift::gui {
@@ -63,6 +65,10 @@ class Plot : public QWidget {
   [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
   /// Horizontal place of a value, pixels of this widget.
   [[nodiscard]] double pixelOfX(double x) const;
+  [[nodiscard]] QPointF pixelOf(double x, double y) const;
+  /// A vertical line that marks what is shown elsewhere; moves without drawing the curves anew. Empty: none.
+  void setMoment(const std::optional<double>& x);
+  [[nodiscard]] const std::optional<double>& moment() const { return moment_; }
   /// Fixes what showAll() shows of the y axis, so that plots side by side can be compared; empty: from the data.
   void setRange(const std::optional<std::pair<double, double>>& y) { fixed_range_ = y; }
 
@@ -78,6 +84,8 @@ class Plot : public QWidget {
  Q_SIGNALS:
   void hovered(const QString& text);
   void spanMoved(int index, double from, double to);
+  /// The user clicked a value, within 12 pixels: its place on the x axis and in its series.
+  void picked(double x, int series, int index);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -106,9 +114,14 @@ class Plot : public QWidget {
   /// The edge of a span at a place of the plot: span and whether it is the left one.
   [[nodiscard]] std::optional<std::pair<std::size_t, bool>> spanEdgeAt(double pixel_x) const;
   bool dragSpan(QEvent* event);
+  void pickValue(QEvent* event);
+  void placeMoment();
 
   bool spans_movable_ = false;
   std::optional<std::pair<std::size_t, bool>> dragged_edge_;
+  std::optional<double> moment_;
+  QCPItemStraightLine* moment_line_ = nullptr;
+  QPointF pressed_at_;
   double least_range_ = 0;
   std::optional<std::pair<double, double>> fixed_range_;
   bool legend_ = true;

@@ -223,6 +223,56 @@ TEST_F(DiscrepancyPageTest, SaysWhatIsMissingWithoutASimulation) {
   EXPECT_TRUE(said);
 }
 
+TEST_F(DiscrepancyPageTest, AClickSelectsTheSameEverywhere) {
+  search(Hidden::SpindleGrowth);
+  ASSERT_FALSE(page_->story()->where.empty());
+  // A value in the plot of the gap: the machine is shown at its time, and the other tab marks it.
+  page_->tabs()->setCurrentWidget(page_->gap());
+  wait();
+  Plot* plot = page_->gap()->plot(false);
+  const Series& measured = plot->series()[1];
+  const std::size_t at = measured.x.size() / 2;
+  const QPoint pixel = plot->pixelOf(measured.x[at], measured.y[at]).toPoint();
+  page_->gap()->moment()->setValue(0);
+  QTest::mouseClick(plot->childAt(pixel), Qt::LeftButton, {}, pixel);
+  EXPECT_EQ(page_->gap()->moment()->value(), static_cast<int>(at));
+  ASSERT_TRUE(plot->moment().has_value());
+  EXPECT_NEAR(*plot->moment(), measured.x[at], 0.1);
+  ASSERT_TRUE(page_->where()->plot()->moment().has_value());
+  EXPECT_NEAR(*page_->where()->plot()->moment(), *plot->moment(), 1e-9);
+  // Nothing near: nothing happens.
+  QTest::mouseClick(plot->childAt(pixel), Qt::LeftButton, {}, QPoint(2, 2));
+  EXPECT_EQ(page_->gap()->moment()->value(), static_cast<int>(at));
+
+  // A point on the machine of the gap: the tables follow.
+  Q_EMIT page_->gap()->view(false)->pointPicked(QStringLiteral("P3"));
+  EXPECT_EQ(page_->where()->point(), "P3");
+  const QModelIndex row = page_->where()->pointTable()->currentIndex();
+  EXPECT_EQ(row.siblingAtColumn(0).data().toString(), QStringLiteral("P3"));
+  EXPECT_EQ(page_->where()->view()->selected(), QStringLiteral("P3"));
+
+  // And the other way round: a row of the table, then a place.
+  page_->tabs()->setCurrentWidget(page_->where());
+  wait();
+  page_->where()->pointTable()->selectRow(1);
+  EXPECT_EQ(page_->gap()->point(), page_->where()->point());
+  const int last = page_->gap()->moment()->maximum();
+  page_->gap()->moment()->setValue(last);
+  page_->where()->placeTable()->clearSelection();
+  page_->where()->placeTable()->setCurrentIndex({});
+  page_->where()->placeTable()->selectRow(0);
+  const DisagreementPlace& place = page_->story()->where.front();
+  ASSERT_TRUE(page_->where()->plot()->moment().has_value());
+  const double time_s = *page_->where()->plot()->moment() * timeUnit(28800.0).seconds;
+  EXPECT_GE(time_s, place.from_s - 1300.0);
+  EXPECT_LE(time_s, place.to_s + 1300.0);
+  EXPECT_LT(page_->gap()->moment()->value(), last);
+  page_->tabs()->setCurrentWidget(page_->gap());
+  wait();
+  EXPECT_EQ(page_->gap()->view(false)->selected().toStdString(), page_->where()->point());
+  EXPECT_NEAR(*page_->gap()->plot(false)->moment(), *page_->where()->plot()->moment(), 1e-9);
+}
+
 TEST_F(DiscrepancyPageTest, ExportsPicturesAndTables) {
   search(Hidden::SpindleGrowth);
   QTest::mouseClick(page_->addButton(), Qt::LeftButton);

@@ -183,6 +183,12 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
     choice.rejected.push_back(id);
     change(tr("leave out %1").arg(effectTitle(id)), choice);
   });
+  connect(gap_, &GapPanel::chosen, this, [this] {
+    where_->choose(gap_->point(), gap_->component());
+    what_->choose(gap_->point(), gap_->component());
+  });
+  connect(gap_, &GapPanel::timeChosen, where_, &WherePanel::markTime);
+  connect(where_, &WherePanel::timeChosen, gap_, &GapPanel::chooseTime);
   connect(where_, &WherePanel::chosen, this, [this] {
     gap_->choose(where_->point(), where_->component());
     what_->choose(where_->point(), where_->component());

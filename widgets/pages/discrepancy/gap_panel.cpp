@@ -80,9 +80,10 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
     connect(views_[i], &View3D::hovered, this, &GapPanel::hovered);
     connect(views_[i], &View3D::pointPicked, this, [this](const QString& id) {
       point_->setCurrentText(id);
-      showPlots();
-      showViews();
+      userChose();
     });
+    plots_[i]->setToolTip(tr("Click a value: the machine is shown at its time"));
+    connect(plots_[i], &Plot::picked, this, [this](double x, int, int) { chooseTime(x / plot_second_); });
   }
   plots_[0]->setEmptyText(tr("Measured and simulated"), tr("Search to compare them over time."));
   plots_[1]->setEmptyText(tr("Nothing has been added yet"),
@@ -92,16 +93,16 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
                           tr("Press Add to the model: what remains at each point appears here."));
   views_[0]->link(views_[1]);
   line->addLayout(grid, 1);
-  connect(moment_, &QSlider::valueChanged, this, &GapPanel::showMoment);
+  connect(moment_, &QSlider::valueChanged, this, [this](int index) {
+    showViews();
+    markMoment();
+    Q_EMIT timeChosen(moments_s_[static_cast<std::size_t>(index)]);
+  });
   connect(component_, &QComboBox::activated, this, [this](int) {
     fillMoments();
-    showPlots();
-    showViews();
+    userChose();
   });
-  connect(point_, &QComboBox::activated, this, [this](int) {
-    showPlots();
-    showViews();
-  });
+  connect(point_, &QComboBox::activated, this, [this](int) { userChose(); });
   connect(what_, &Segments::chosen, this, [this](int) { arrange(); });
   arrange();
 }
@@ -160,8 +161,34 @@ void GapPanel::fillMoments() {
   }
 }
 
-void GapPanel::showMoment(int) {
+void GapPanel::userChose() {
+  showPlots();
   showViews();
+  Q_EMIT chosen();
+}
+
+void GapPanel::chooseTime(double time_s) {
+  if (moments_s_.empty()) return;
+  const auto nearest = std::min_element(moments_s_.begin(), moments_s_.end(), [time_s](double a, double b) {
+    return std::abs(a - time_s) < std::abs(b - time_s);
+  });
+  moment_->setValue(static_cast<int>(nearest - moments_s_.begin()));
+}
+
+void GapPanel::markMoment() {
+  for (Plot* plot : plots_) {
+    plot->setMoment(moments_s_.empty()
+                        ? std::nullopt
+                        : std::optional(moments_s_[static_cast<std::size_t>(moment_->value())] * plot_second_));
+  }
+}
+
+std::string GapPanel::point() const {
+  return point_->currentText().toStdString();
+}
+
+Component GapPanel::component() const {
+  return static_cast<Component>(component_->currentData().toInt());
 }
 
 const DiscrepancySeries* GapPanel::series() const {
@@ -241,6 +268,7 @@ void GapPanel::showPlots() {
     return;
   }
   const TimeUnit unit = timeUnit(s->time_s.back());
+  plot_second_ = 1.0 / unit.seconds;
   const QString y_title = QStringLiteral("%1 / %2").arg(componentName(s->component), componentUnit(s->component));
   double low = 0.0;
   double high = 0.0;
@@ -290,6 +318,7 @@ void GapPanel::showPlots() {
             : tr("After: %1 of %2, rms %3")
                   .arg(componentName(s->component), point, sizeText(s->rms_after, componentUnit(s->component))));
   }
+  markMoment();
 }
 
 void GapPanel::showViews() {

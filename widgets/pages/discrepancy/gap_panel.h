@@ -31,6 +31,10 @@ class GapPanel : public QWidget {
   void show(const std::shared_ptr<const DiscrepancyStory>& story, const MachineDescription* machine);
   /// Shows this series (carried over from the place that was chosen).
   void choose(const std::string& point, Component component);
+  /// Shows the machine at the state nearest to this time.
+  void chooseTime(double time_s);
+  [[nodiscard]] std::string point() const;
+  [[nodiscard]] Component component() const;
   [[nodiscard]] std::vector<Exportable> exportables();
   [[nodiscard]] View3D* view(bool after) const { return views_[after ? 1 : 0]; }
   [[nodiscard]] QSlider* moment() const { return moment_; }
@@ -38,6 +42,10 @@ class GapPanel : public QWidget {
 
  Q_SIGNALS:
   void hovered(const QString& text);
+  /// The user chose another component or point.
+  void chosen();
+  /// The machine is shown at another time.
+  void timeChosen(double time_s);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -49,7 +57,8 @@ class GapPanel : public QWidget {
   void showPlots();
   void showViews();
   void arrange();
-  void showMoment(int index);
+  void userChose();
+  void markMoment();
   void showSide(std::size_t side, Component component, double time_s, bool field);
   [[nodiscard]] const DiscrepancySeries* series() const;
 
@@ -69,6 +78,7 @@ class GapPanel : public QWidget {
   std::shared_ptr<const DiscrepancyStory> discrepancy_;
   std::optional<MachineDescription> machine_;
   std::vector<double> moments_s_;
+  double plot_second_ = 1.0;  ///< one second on the plots' axis of time
   bool views_stale_ = false;  ///< something changed while the panel was not in sight
   int views_asked_ = 0;       ///< which request a field that comes later belongs to
   double largest_ = 0.0;      ///< of the maps of this component, before

@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
@@ -91,6 +92,8 @@ WherePanel::WherePanel(QWidget* parent) : QWidget(parent) {
           [this](const QModelIndex& now) {
             if (!following_ && now.isValid()) choosePoint(points_->idAt(now.row()).toStdString());
           });
+  plot_->setToolTip(tr("Click a value: its place is chosen, and the machine is shown at its time"));
+  connect(plot_, &Plot::picked, this, [this](double x, int, int) { chooseTime(x / plot_second_); });
   connect(view_, &View3D::pointPicked, this, [this](const QString& id) { choosePoint(id.toStdString()); });
   connect(machine_box_, &QCheckBox::toggled, this, [this](bool on) {
     view_->setMachineVisible(on);
@@ -256,6 +259,49 @@ void WherePanel::choosePlace(int row) {
   if (clearest != nullptr) point_ = clearest->point;
   chooseComponent(place.component);
   Q_EMIT chosen();
+  if (clearest == nullptr) return;
+  // The time at which it shows most.
+  std::optional<std::size_t> most;
+  const auto residual = [clearest](std::size_t i) {
+    return std::abs(clearest->value[i] - clearest->simulated[i] - clearest->constant_before);
+  };
+  for (std::size_t i = 0; i < clearest->time_s.size(); ++i) {
+    if (clearest->time_s[i] < place.from_s || clearest->time_s[i] > place.to_s) continue;
+    if (!most || residual(i) > residual(*most)) most = i;
+  }
+  if (most) Q_EMIT timeChosen(clearest->time_s[*most]);
+}
+
+void WherePanel::chooseTime(double time_s) {
+  for (int i = 0; i < static_cast<int>(story_->where.size()); ++i) {
+    const DisagreementPlace& p = story_->where[static_cast<std::size_t>(i)];
+    const bool holds = p.component == component_ && time_s >= p.from_s && time_s <= p.to_s &&
+                       std::find(p.points.begin(), p.points.end(), point_) != p.points.end();
+    if (!holds || i == place_) continue;
+    // A place that holds it and is chosen already stays.
+    if (place_ >= 0) {
+      const DisagreementPlace& now = story_->where[static_cast<std::size_t>(place_)];
+      if (time_s >= now.from_s && time_s <= now.to_s) break;
+    }
+    place_ = i;
+    following_ = true;
+    place_table_->selectRow(i);
+    following_ = false;
+    showPlot();
+    break;
+  }
+  Q_EMIT timeChosen(time_s);
+}
+
+void WherePanel::markTime(double time_s) {
+  plot_->setMoment(time_s * plot_second_);
+}
+
+void WherePanel::choose(const std::string& point, Component component) {
+  if (story_ == nullptr || story_->find(point, component) == nullptr) return;
+  point_ = point;
+  if (component != component_) chooseComponent(component);
+  selectPoint(point);
 }
 
 void WherePanel::chooseComponent(Component component) {
@@ -276,6 +322,11 @@ void WherePanel::chooseComponent(Component component) {
 
 void WherePanel::choosePoint(const std::string& point) {
   if (story_ == nullptr || story_->find(point, component_) == nullptr) return;
+  selectPoint(point);
+  Q_EMIT chosen();
+}
+
+void WherePanel::selectPoint(const std::string& point) {
   point_ = point;
   // The place it belongs to, unless the one that is chosen holds it already.
   const auto holds = [&](int index) {
@@ -300,7 +351,6 @@ void WherePanel::choosePoint(const std::string& point) {
   following_ = false;
   showView();
   showPlot();
-  Q_EMIT chosen();
 }
 
 void WherePanel::showView() {
@@ -337,6 +387,7 @@ void WherePanel::showPlot() {
     return;
   }
   const TimeUnit unit = timeUnit(s->time_s.back());
+  plot_second_ = 1.0 / unit.seconds;
   plot_title_->setText(tr("%1 of point %2 over time").arg(componentName(component_), QString::fromStdString(point_)));
   plot_->setAxes(tr("Time / %1").arg(unit.name),
                  tr("%1 residual / %2").arg(componentName(component_), componentUnit(component_)));

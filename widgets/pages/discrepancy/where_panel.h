@@ -29,6 +29,9 @@ class WherePanel : public QWidget {
   explicit WherePanel(QWidget* parent = nullptr);
   /// Null: nothing has been searched.
   void show(const std::shared_ptr<const DiscrepancyStory>& story, const MachineDescription* machine);
+  /// Selects what was chosen elsewhere: point and component, the place that holds them, the time.
+  void choose(const std::string& point, Component component);
+  void markTime(double time_s);
   [[nodiscard]] std::vector<Exportable> exportables();
   [[nodiscard]] View3D* view() const { return view_; }
   [[nodiscard]] Plot* plot() const { return plot_; }
@@ -41,6 +44,8 @@ class WherePanel : public QWidget {
   void hovered(const QString& text);
   /// The user chose another component or point.
   void chosen();
+  /// The user chose a value over time, or a place, whose clearest value it is.
+  void timeChosen(double time_s);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -54,6 +59,8 @@ class WherePanel : public QWidget {
   void choosePlace(int row);
   void chooseComponent(Component component);
   void choosePoint(const std::string& point);
+  void selectPoint(const std::string& point);
+  void chooseTime(double time_s);
   void arrange();
 
   RowsModel* places_;
@@ -76,7 +83,8 @@ class WherePanel : public QWidget {
   Component component_ = Component::EX;
   std::string point_;
   int place_ = -1;
-  bool following_ = false;  ///< a selection is being carried over
+  double plot_second_ = 1.0;  ///< one second on the plot's axis of time
+  bool following_ = false;    ///< a selection is being carried over
 };
 
 }  // namespace spindrift::gui
