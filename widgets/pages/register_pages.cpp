@@ -3,6 +3,7 @@
 #include "widgets/pages/capture/new_capture_page.h"
 #include "widgets/pages/common/message_page.h"
 #include "widgets/pages/compensate/compensate_page.h"
+#include "widgets/pages/compensate/log_compensate_page.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/imaging/fiducial_calibrate_page.h"
 #include "widgets/pages/imaging/fiducial_capture_page.h"
@@ -70,14 +71,17 @@ void registerPages(PageRegistry& registry) {
   registry.add(
       StepId::Discrepancy, always, [](PageContext c) { return new DiscrepancyPage(std::move(c)); }, "discrepancy");
   registry.add(
+      StepId::Compensate, [](const SessionModel& s) { return s.isLogOnly(); },
+      [](PageContext c) { return new LogCompensatePage(std::move(c)); }, "compensate-log");
+  registry.add(
       StepId::Compensate, always, [](PageContext c) { return new CompensatePage(std::move(c)); }, "compensate");
+  const auto more_than_a_log = [](const SessionModel& s) { return !s.isLogOnly(); };
   registry.add(
-      StepId::Verify, always, [](PageContext c) { return new VerifyPage(std::move(c)); }, "verify");
+      StepId::Verify, more_than_a_log, [](PageContext c) { return new VerifyPage(std::move(c)); }, "verify");
   registry.add(
-      StepId::Review, [](const SessionModel& s) { return !s.isLogOnly(); },
-      [](PageContext c) { return new ReviewPage(std::move(c)); }, "review");
+      StepId::Review, more_than_a_log, [](PageContext c) { return new ReviewPage(std::move(c)); }, "review");
   registry.add(
-      StepId::Report, always, [](PageContext c) { return new ReportPage(std::move(c)); }, "report");
+      StepId::Report, more_than_a_log, [](PageContext c) { return new ReportPage(std::move(c)); }, "report");
   for (const StepId step : all_steps) {
     registry.add(
         step, always, [step](PageContext c) { return new MessagePage(std::move(c), step); }, "message");

@@ -161,6 +161,18 @@ void Workflow::refresh() {
   Q_EMIT statusChanged();
 }
 
+/// Of a log alone: the compensator is run with the model that is identified.
+StepStatus Workflow::compensatorStatus() const {
+  const StoredResult* model = session_.latest("thermal");
+  if (model == nullptr) return {StepState::Blocked, tr("Identify a model over time first (Model).")};
+  const StoredResult* run = session_.latest("log-compensation");
+  if (run == nullptr) return {StepState::NotStarted, tr("Run the compensator over the log.")};
+  if (!session_.state("log-compensation").current || run->provenance.options.value("model", 0L) != model->id) {
+    return {StepState::Outdated, tr("The model has changed since. Run the compensator again.")};
+  }
+  return {StepState::Current, tr("The compensator was run over the log.")};
+}
+
 StepStatus Workflow::evaluate(StepId step) const {
   const auto campaign = session_.campaign();
   if (campaign == nullptr) return {StepState::Blocked, tr("Open a session or a campaign first.")};
@@ -242,7 +254,7 @@ StepStatus Workflow::evaluate(StepId step) const {
       return withChoice(fromResult("discrepancy", tr("Search for what the simulation lacks."), tr("Searched.")),
                         "discrepancy");
     case StepId::Compensate: {
-      if (log_only) return {StepState::Blocked, tr("Export the model from the step Model; the controller loads it.")};
+      if (log_only) return compensatorStatus();
       const bool added = !choice().value("added", nlohmann::json::array()).empty();
       if (!session_.state("fit").there && !added) {
         return {StepState::Blocked, campaign->simulation.empty()
@@ -255,19 +267,19 @@ StepStatus Workflow::evaluate(StepId step) const {
     case StepId::Verify:
       if (log_only)
         return {StepState::Blocked,
-                tr("A log alone has no plan to measure again: run the model's compensator over a new "
-                   "log in the step Model instead.")};
+                tr("A log alone has no plan that could be measured again. Log the machine with the compensation on and "
+                   "open that log as a campaign of its own.")};
       if (!observations) return {StepState::Blocked, tr("Evaluate the captures first (Calibrate).")};
       return fromResult("verify", tr("Measure again with the compensation on."), tr("Before and after are compared."));
     case StepId::Review:
-      if (log_only) return {StepState::Blocked, tr("A log over time is compared in the step Model.")};
+      if (log_only)
+        return {StepState::Blocked, tr("A log over time has no points to compare; Model compares models of it.")};
       if (!observations && !scans) return {StepState::Blocked, tr("There is nothing to compare yet.")};
       return {StepState::Current, tr("Look at it whenever you like.")};
     case StepId::Report:
       if (log_only)
         return {StepState::Blocked,
-                tr("A log alone has no captures to report; export tables and pictures from the step "
-                   "Model.")};
+                tr("A log alone has no captures to report; export pictures and tables of Model and Compensate.")};
       if (!observations) return {StepState::Blocked, tr("There is nothing to report yet.")};
       return withChoice(fromResult("report", tr("Write the report."), tr("The report is written.")), "report");
   }

@@ -59,6 +59,7 @@ class Workflow : public QObject {
 
  private:
   [[nodiscard]] StepStatus evaluate(StepId step) const;
+  [[nodiscard]] StepStatus compensatorStatus() const;
 
   SessionModel& session_;
   StepId current_ = StepId::Machine;

@@ -11,6 +11,8 @@
 #include "tests/widgets/pages/page_test.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/common/message_page.h"
+#include "widgets/pages/compensate/log_compensate_page.h"
 #include "widgets/plots/plot.h"
 
 namespace spindrift::gui {
@@ -137,6 +139,41 @@ TEST_F(ThermalPages, AFileThatIsNoLogGivesOneSentence) {
       << window_->jobBar()->message().toStdString();
   folder_.write("nothing.csv", "time_s,T_a_degC\n0,20\n1,20\n");
   EXPECT_THROW(writeLogCampaign(folder_ / "nothing.csv", folder_ / "c"), InputError);
+}
+
+TEST_F(ThermalPages, TheCompensatorIsRunOverALog) {
+  open(writeLog());
+  Workflow& workflow = window_->workflow();
+  auto* page = go<LogCompensatePage>(StepId::Compensate);
+  ASSERT_NE(page, nullptr);
+  EXPECT_EQ(workflow.status(StepId::Compensate).state, StepState::Blocked);
+  EXPECT_TRUE(workflow.status(StepId::Compensate).sentence.contains(QStringLiteral("Model")));
+  EXPECT_FALSE(page->primaryButton()->isEnabled());
+  go<ThermalModelPage>(StepId::Model);
+  press();
+  EXPECT_EQ(workflow.status(StepId::Compensate).state, StepState::NotStarted);
+  const double model_rmse = qobject_cast<ThermalModelPage*>(window_->currentPage())->result()->test.rmse;
+  page = go<LogCompensatePage>(StepId::Compensate);
+  press();
+  ASSERT_NE(page->result(), nullptr) << page->callout()->sentence().toStdString();
+  EXPECT_EQ(workflow.status(StepId::Compensate).state, StepState::Current);
+  EXPECT_EQ(page->callout()->tone(), Tone::Good);
+  // What the free run of the model leaves, the compensator leaves too.
+  EXPECT_GT(page->result()->before_rms, 2.0);
+  EXPECT_LT(page->result()->after_rms, 0.25 * page->result()->before_rms);
+  EXPECT_LT(page->result()->after_rms, 1.05 * model_rmse);
+  EXPECT_EQ(page->plot()->series().size(), 3U);
+  exportAll();
+  // Another model: to be run again.
+  go<ThermalModelPage>(StepId::Model);
+  press();
+  EXPECT_EQ(workflow.status(StepId::Compensate).state, StepState::Outdated);
+  // What a log alone cannot have says so, and what would be needed.
+  for (const StepId step : {StepId::Verify, StepId::Review, StepId::Report}) {
+    EXPECT_EQ(workflow.status(step).state, StepState::Blocked);
+    workflow.goTo(step);
+    EXPECT_NE(qobject_cast<MessagePage*>(window_->currentPage()), nullptr) << stepTitle(step).toStdString();
+  }
 }
 
 }  // namespace

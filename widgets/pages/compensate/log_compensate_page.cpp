@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/compensate/log_compensate_page.h"
+
+#include <QHBoxLayout>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/base/json_reader.h"
+#include "core/workflows/campaign_series.h"
+#include "widgets/common/parts.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/plots/plot.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr auto result_kind = "log-compensation";
+constexpr std::size_t most_plotted = 3000;
+
+/// Mean and rms about it of what is finite in the range; NaN without values.
+std::pair<double, double> meanAndRms(const std::vector<double>& time_s, const std::vector<double>& values,
+                                     const TimeRange& range) {
+  double sum = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i]) || time_s[i] < range.from_s || time_s[i] > range.to_s) continue;
+    sum += values[i];
+    squares += values[i] * values[i];
+    ++count;
+  }
+  if (count == 0.0) return {0.0, std::nan("")};
+  const double mean = sum / count;
+  return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
+}
+
+/// The range on which the model was judged; the page Model takes the second half if the user chose none.
+TimeRange testRange(const StoredResult& model, const TimeSeries& series) {
+  const nlohmann::json options = model.provenance.options.value("options", nlohmann::json::object());
+  const nlohmann::json test = options.is_object() ? options.value("test", nlohmann::json()) : nlohmann::json();
+  if (test.is_array() && test.size() == 2) return {test[0].get<double>(), test[1].get<double>()};
+  return {std::round(0.5 * (series.time_s.front() + series.time_s.back())), series.time_s.back()};
+}
+
+Series curve(const QString& name, const std::vector<double>& time_s, const std::vector<double>& values, double unit_s,
+             int colour) {
+  Series s;
+  s.name = name;
+  s.style = SeriesStyle::Line;
+  s.colour = colour;
+  const std::size_t stride = 1 + values.size() / most_plotted;
+  for (std::size_t i = 0; i < values.size(); i += stride) {
+    if (!std::isfinite(values[i])) continue;
+    s.x.push_back(time_s[i] / unit_s);
+    s.y.push_back(values[i]);
+  }
+  return s;
+}
+
+}  // namespace
+
+CompensatorRun runCompensator(const TimeSeries& series, const ThermalModel& model, const TimeRange& test,
+                              const JobContext& job) {
+  CompensatorRun run;
+  run.result = compensateLog(series, model, {}, job);
+  run.test = test;
+  run.time_s = series.time_s;
+  if (run.result.outputs.empty()) throw InputError("the model has no output to compensate.");
+  const CompensateResult::Output& output = run.result.outputs.front();
+  run.output = output.name;
+  const Signal* measured = series.find(output.name);
+  if (measured == nullptr) throw InputError("the log has no column " + output.name + " that the model is of.");
+  run.measured = measured->values;
+  run.left = measured->values;
+  const std::size_t last = output.compensation.size() - 1;
+  for (std::size_t i = 0; i < run.left.size(); ++i) {
+    const double cycle = (series.time_s[i] - series.time_s.front()) / run.result.cycle_s;
+    run.left[i] += output.compensation[std::min(last, static_cast<std::size_t>(cycle + 0.5))];
+  }
+  run.before_rms = meanAndRms(run.time_s, run.measured, test).second;
+  run.after_rms = meanAndRms(run.time_s, run.left, test).second;
+  const TimeRange all{series.time_s.front(), series.time_s.back()};
+  for (std::vector<double>* values : {&run.measured, &run.left}) {
+    const double mean = meanAndRms(run.time_s, *values, all).first;
+    for (double& v : *values) v -= mean;
+  }
+  return run;
+}
+
+LogCompensatePage::LogCompensatePage(PageContext page_context, QWidget* parent)
+    : Page(std::move(page_context), StepId::Compensate, parent) {
+  setInstruction(tr("Run the compensator that the control would run over the log, and export its model."));
+  run_button_ = makeButton(tr("Run the compensator"), nullptr, "primary");
+  addAction(run_button_);
+  auto* card = new Card;
+  auto* tiles = new QHBoxLayout;
+  before_ = new NumberTile(tr("Measured in the test range, rms"));
+  after_ = new NumberTile(tr("With the compensator, rms"));
+  largest_ = new NumberTile(tr("Largest correction"));
+  for (NumberTile* tile : {before_, after_, largest_}) tiles->addWidget(tile, 1);
+  card->body()->addLayout(tiles);
+  plot_ = new Plot;
+  plot_->setEmptyText(tr("Measured, correction and what is left will appear here"),
+                      tr("Identify a model (Model), then press Run the compensator."));
+  card->body()->addWidget(plot_, 1);
+  content()->addWidget(card, 1);
+  showHints(plot_);
+  connect(run_button_, &QPushButton::clicked, this, [this] { compensate(true); });
+  connect(&session(), &SessionModel::campaignChanged, this, [this] {
+    result_.reset();
+    result_model_ = 0;
+  });
+}
+
+std::int64_t LogCompensatePage::modelId() {
+  const StoredResult* model = session().latest("thermal");
+  return model == nullptr ? 0 : model->id;
+}
+
+void LogCompensatePage::compensate(bool store) {
+  const auto model = session().result("thermal");
+  if (!model || context().jobs.busy()) return;
+  run(tr("Running the compensator"),
+      [this, stored = *model, store, snapshot = session().snapshot(),
+       observations = session().observations()](JobContext& job) -> std::function<void()> {
+        const CampaignSeries all = campaignSeries(*snapshot.campaign, observations ? &*observations : nullptr, job);
+        const auto thermal = std::make_shared<const ThermalModel>(
+            ThermalModel::parse(JsonNode::parse(stored.payload.at("model").dump(), "model")));
+        const auto result = std::make_shared<const CompensatorRun>(
+            runCompensator(all.series, *thermal, testRange(stored, all.series), job));
+        return [this, result, thermal, store, id = stored.id] {
+          if (id != modelId()) return;
+          result_ = result;
+          model_ = thermal;
+          result_model_ = id;
+          if (store) session().storeResult(result_kind, {{"model", id}}, result->result.json());
+          refresh();
+        };
+      });
+}
+
+void LogCompensatePage::refresh() {
+  if (session().campaign() == nullptr) return;
+  const std::int64_t model = modelId();
+  run_button_->setEnabled(model != 0);
+  if (result_model_ != model) result_.reset();
+  const ResultState state = session().state(result_kind);
+  const StepStatus& status = context().workflow.status(StepId::Compensate);
+  if (model == 0) {
+    callout()->show(Tone::Attention, status.sentence);
+  } else if (result_ == nullptr && status.state == StepState::Current) {
+    compensate(false);
+    return;
+  } else if (result_ == nullptr || status.state == StepState::Outdated) {
+    callout()->show(state.there ? Tone::Outdated : Tone::Accent, status.sentence);
+  } else {
+    const QString unit = fromCore(unitOfSignal(result_->output));
+    const bool better = result_->after_rms < result_->before_rms;
+    callout()->show(better ? Tone::Good : Tone::Attention,
+                    better ? tr("In the test range %1 %3 rms are left of %2 %3. Export the thermal model for the "
+                                "control.")
+                                 .arg(result_->after_rms, 0, 'g', 3)
+                                 .arg(result_->before_rms, 0, 'g', 3)
+                                 .arg(unit)
+                           : tr("In the test range the compensator leaves %1 %3 rms of %2 %3: it would not help. "
+                                "Train on a longer or livelier part (Model).")
+                                 .arg(result_->after_rms, 0, 'g', 3)
+                                 .arg(result_->before_rms, 0, 'g', 3)
+                                 .arg(unit));
+  }
+  showResult();
+}
+
+void LogCompensatePage::showResult() {
+  if (result_ == nullptr) {
+    for (NumberTile* tile : {before_, after_, largest_}) tile->set(QStringLiteral("–"));
+    plot_->setContent({});
+    return;
+  }
+  const CompensatorRun& r = *result_;
+  const QString unit = fromCore(unitOfSignal(r.output));
+  const auto text = [&](double value) { return QStringLiteral("%1 %2").arg(value, 0, 'g', 3).arg(unit); };
+  before_->set(text(r.before_rms), tr("%1, about its mean").arg(fromCore(r.output)));
+  after_->set(text(r.after_rms),
+              r.result.fallback == 0
+                  ? tr("about its mean, test range")
+                  : tr("%1 of %2 cycles in fall-back").arg(r.result.fallback).arg(r.result.time_s.size()));
+  largest_->set(text(r.result.outputs.front().largest), tr("added to the command, cycle %1 s").arg(r.result.cycle_s));
+  const TimeUnit time = timeUnit(r.time_s.back() - r.time_s.front());
+  plot_->setAxes(tr("Time / %1").arg(time.name), QStringLiteral("%1 / %2").arg(fromCore(r.output), unit));
+  plot_->setContent({curve(tr("measured"), r.time_s, r.measured, time.seconds, 1),
+                     curve(tr("correction"), r.result.time_s, r.result.outputs.front().compensation, time.seconds, 2),
+                     curve(tr("left"), r.time_s, r.left, time.seconds, 0)},
+                    {{r.test.from_s / time.seconds, r.test.to_s / time.seconds, tr("test"), Tone::Accent}});
+}
+
+std::vector<Exportable> LogCompensatePage::exportables() {
+  if (result_ == nullptr) return {};
+  const auto result = result_;
+  const auto model = model_;
+  return {{tr("Thermal model"),
+           {QStringLiteral("json")},
+           [model](const QString& file) { model->write(file.toStdString()); }},
+          {tr("Corrections over time"),
+           {QStringLiteral("csv")},
+           [result](const QString& file) { result->result.write(file.toStdString()); }},
+          exportableOf(tr("Compensator over the log"), plot_)};
+}
+
+}  // namespace spindrift::gui
