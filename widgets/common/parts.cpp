@@ -79,6 +79,7 @@ static QString capitalised(QString sentence) {
 
 void Callout::show(Tone tone, const QString& sentence) {
   tone_ = tone;
+  asked_height_ = 0;
   text_->setText(capitalised(sentence));
   icon_->set(QString::fromLatin1(toneIcon(tone)), tone);
   setAccessibleName(sentence);
@@ -102,6 +103,13 @@ void Callout::setAction(const QString& text, std::function<void()> action) {
 }
 
 void Callout::paintEvent(QPaintEvent*) {
+  // Qt at times keeps the height of the sentence before, and the new one would be cut.
+  const int needed = heightForWidth(width());
+  if (needed > height() && needed != asked_height_) {
+    asked_height_ = needed;
+    QMetaObject::invokeMethod(
+        this, [this] { updateGeometry(); }, Qt::QueuedConnection);
+  }
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(Qt::NoPen);

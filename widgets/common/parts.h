@@ -57,6 +57,7 @@ class Callout : public QFrame {
 
  private:
   Tone tone_ = Tone::Neutral;
+  int asked_height_ = 0;
   IconLabel* icon_;
   QLabel* text_;
   QPushButton* button_;

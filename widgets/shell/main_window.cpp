@@ -29,26 +29,13 @@
 #include "widgets/jobs/job_bar.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/help_panel.h"
+#include "widgets/shell/page_area.h"
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/welcome_page.h"
 #include "widgets/theme/icons.h"
 #include "widgets/view3d/prepare.h"
 
 namespace spindrift::gui {
-namespace {
-
-/// Pages fill the window, however much they hold: Qt would ask all of them that were ever shown for their smallest size
-/// and their height at every width whenever one sentence of one page changes.
-class PageStack : public QStackedWidget {
- public:
-  [[nodiscard]] bool hasHeightForWidth() const override { return false; }
-  [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
-  [[nodiscard]] QSize minimumSizeHint() const override {
-    return currentWidget() != nullptr ? currentWidget()->minimumSizeHint() : QSize(640, 480);
-  }
-};
-
-}  // namespace
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session_) {
   setWindowIcon(applicationIcon());
@@ -179,11 +166,11 @@ void MainWindow::showStep() {
   if (page == nullptr) {
     PageContext context{session_, jobs_, undo_, workflow_, [this](const QString& text) { job_bar_->setHint(text); }};
     page = entry->factory(std::move(context));
-    page_stack_->addWidget(page);
+    page_stack_->add(page);
     restoreSplitters(*page);
   }
   page_ = page;
-  page_stack_->setCurrentWidget(page);
+  page_stack_->show(page);
   back_->setEnabled(workflow_.canGoBack());
   next_->setEnabled(workflow_.canGoNext());
   job_bar_->setHint({});

@@ -23,6 +23,7 @@ namespace spindrift::gui {
 class HelpPanel;
 class JobBar;
 class NotesDialog;
+class PageStack;
 class StepList;
 class WelcomePage;
 class Badge;
@@ -93,7 +94,7 @@ class MainWindow : public QMainWindow {
   QStackedWidget* stack_;
   WelcomePage* welcome_;
   QWidget* work_;
-  QStackedWidget* page_stack_;
+  PageStack* page_stack_;
   StepList* steps_;
   JobBar* job_bar_;
   QLabel* session_name_;

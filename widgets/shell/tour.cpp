@@ -5,16 +5,19 @@
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QEventLoop>
+#include <QTemporaryDir>
 #include <QTimer>
 #include <algorithm>
 #include <vector>
 
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/pages/capture/incoming_service.h"
 #include "widgets/pages/report/page_view.h"
 #include "widgets/pages/report/report_page.h"
 #include "widgets/pages/scanning/artefact_designer.h"
 #include "widgets/shell/main_window.h"
+#include "widgets/shell/tour_details.h"
 #include "widgets/theme/theme.h"
 #include "widgets/view3d/view3d.h"
 
@@ -38,6 +41,10 @@ const std::vector<TourStop>& tourStops() {
       {"discrepancy", {StepId::Model, StepId::Discrepancy, StepId::Compensate, StepId::Report}},
   };
   return stops;
+}
+
+bool shows(const TourStop& stop, StepId step) {
+  return std::find(stop.steps.begin(), stop.steps.end(), step) != stop.steps.end();
 }
 
 void settle(int ms) {
@@ -102,14 +109,16 @@ bool waitForJobs(MainWindow& window, int seconds) {
 TourResult runTour(MainWindow& window, const QString& folder) {
   TourResult result;
   QDir().mkpath(folder);
+  const QTemporaryDir scratch;
   // A picture of what is shown; the number keeps light and dark of one page together.
-  const auto shoot = [&](int number, const QString& name, ThemeKind kind) {
+  const auto shoot = [&](int number, const QString& name, ThemeKind kind, QWidget* shown = nullptr) {
     if (!waitForJobs(window, 30)) result.failure = QStringLiteral("%1 did not settle").arg(name);
     const QString file = QDir(folder).filePath(
         QStringLiteral("%1-%2-%3.png")
             .arg(number, 2, 10, QLatin1Char('0'))
             .arg(name, kind == ThemeKind::Light ? QStringLiteral("light") : QStringLiteral("dark")));
-    if (!window.grab().save(file)) result.failure = QStringLiteral("%1 could not be written").arg(file);
+    if (!(shown != nullptr ? shown : &window)->grab().save(file))
+      result.failure = QStringLiteral("%1 could not be written").arg(file);
     result.pictures << file;
   };
   window.resize(1440, 900);
@@ -124,32 +133,56 @@ TourResult runTour(MainWindow& window, const QString& folder) {
   }
   int number = 1;
   for (const TourStop& stop : tourStops()) {
-    window.startDemo(QString::fromLatin1(stop.demo), true);
+    const QString demo = QString::fromLatin1(stop.demo);
+    window.startDemo(demo, true);
     if (!waitForJobs(window, 120) || window.session().campaign() == nullptr) {
-      result.failure = QStringLiteral("the demo %1 could not be made: ").arg(QString::fromLatin1(stop.demo)) +
-                       window.jobBar()->message();
+      result.failure = QStringLiteral("the demo %1 could not be made: ").arg(demo) + window.jobBar()->message();
       return result;
     }
-    const auto name = [&](StepId step) {
-      return QString::fromLatin1(stop.demo) + QLatin1Char('-') + stepTitle(step).toLower();
+    const auto name = [&](StepId step) { return demo + QLatin1Char('-') + stepTitle(step).toLower(); };
+    const std::vector<TourDetail> details = tourDetails(demo, scratch.path());
+    const auto shootDetails = [&](StepId step, int first, ThemeKind kind) {
+      int at = first;
+      for (const TourDetail& detail : details) {
+        if (detail.step != step) continue;
+        QWidget* shown = detail.show(window);
+        shoot(at++, name(step) + QLatin1Char('-') + QLatin1String(detail.name), kind, shown);
+        if (detail.leave) detail.leave(window);
+      }
+      return at;
     };
+    int light = number;
     for (const StepId step : all_steps) {
       window.workflow().goTo(step);
       if (window.currentPage() != nullptr) window.currentPage()->runAll();
       if (!waitForJobs(window, 120)) result.failure = QStringLiteral("%1 did not finish").arg(stepTitle(step));
-      const auto shown = std::find(stop.steps.begin(), stop.steps.end(), step);
-      if (shown == stop.steps.end()) continue;
-      shoot(number + static_cast<int>(shown - stop.steps.begin()), name(step), ThemeKind::Light);
-      if (step == StepId::Report) writeReports(window, QDir(folder).filePath(name(step)), result);
+      if (shows(stop, step)) {
+        shoot(light++, name(step), ThemeKind::Light);
+        if (step == StepId::Report) writeReports(window, QDir(folder).filePath(name(step)), result);
+      }
+      light = shootDetails(step, light, ThemeKind::Light);
     }
     // All dark ones at once: a change of theme styles the whole window anew.
     window.setTheme(ThemeKind::Dark);
-    for (const StepId step : stop.steps) {
+    for (const StepId step : all_steps) {
       window.workflow().goTo(step);
-      shoot(number++, name(step), ThemeKind::Dark);
+      if (shows(stop, step)) shoot(number++, name(step), ThemeKind::Dark);
+      number = shootDetails(step, number, ThemeKind::Dark);
     }
     window.setTheme(ThemeKind::Light);
+    if (demo == QLatin1String("fiducials")) {
+      const QString failure = startArriving(window, scratch.path());
+      if (!failure.isEmpty()) result.failure = failure;
+      for (const ThemeKind kind : {ThemeKind::Light, ThemeKind::Dark}) {
+        window.setTheme(kind);
+        shoot(number, QStringLiteral("new-capture-arriving"), kind);
+      }
+      ++number;
+      IncomingService::of(window.session()).stop();
+      window.setTheme(ThemeKind::Light);
+    }
   }
+  window.closeSession();  // before the files of the tour go
   return result;
 }
 

@@ -16,18 +16,20 @@
 #include "widgets/pages/capture/live_touch_panel.h"
 #include "widgets/pages/capture/plan_panel.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
 
 namespace spindrift::gui {
 namespace {
 
+/// A word with its sign. The sign is in the text: icons of this table are as large as the thumbnails.
 Cell stateCell(IncomingState state) {
   switch (state) {
     case IncomingState::Waiting:
       return Cell{ArrivingPanel::tr("waiting")};
     case IncomingState::Accepted:
-      return Cell{ArrivingPanel::tr("accepted"), Tone::Good};
+      return Cell{QChar(0x2713) + QStringLiteral(" ") + ArrivingPanel::tr("accepted"), Tone::Good};
     case IncomingState::Retake:
-      return Cell{ArrivingPanel::tr("take again"), Tone::Bad};
+      return Cell{QChar(0x2715) + QStringLiteral(" ") + ArrivingPanel::tr("take again"), Tone::Bad};
     case IncomingState::Twice:
       return Cell{ArrivingPanel::tr("twice")};
     case IncomingState::Ignored:
@@ -66,6 +68,7 @@ ArrivingPanel::ArrivingPanel(PageContext page_context, Instrument instrument, QW
   table_ = makeTable(rows_, tr("Files that arrived"), tr("Files appear here as they arrive in the watched folder."));
   table_->setIconSize(QSize(64, 36));
   table_->verticalHeader()->setDefaultSectionSize(44);
+  stretchColumn(table_, 3);
   arrived_->body()->addWidget(table_, 1);
   touch_card_ = new Card(tr("Touches as they come in"));
   touches_ = new LiveTouchPanel(context_.session);

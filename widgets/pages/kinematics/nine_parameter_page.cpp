@@ -81,7 +81,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   addAction(fit_button_);
 
   auto* left = new Card;
-  left->setMinimumWidth(536);  // the points with their three displacements, unscrolled
+  left->setMinimumWidth(440);  // leaves room for the view when the help is open
   auto* choices = new QHBoxLayout;
   choices->addWidget(new QLabel(tr("State")));
   state_ = new QComboBox;

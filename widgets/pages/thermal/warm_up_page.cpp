@@ -38,13 +38,11 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   drift_->setEmptyText(
       tr("Drift curves will appear here"),
       tr("Measure one point every 5 minutes while the instrument warms up: its drift shows when it has settled."));
-  drift_->setMinimumHeight(170);  // the title of the axis is as long
-  drift->addWidget(drift_, 1);
+  drift_->setMinimumHeight(165);  // the title of the axis is as long
   verdicts_ =
       new RowsModel({tr("Axis"), tr("Drift now"), tr("Time constant"), tr("Settles after"), tr("Verdict")}, this);
   auto* table = makeTable(verdicts_, tr("Drift of each axis"), tr("Drift and time constant of each axis appear here."));
-  table->setFixedHeight(150);  // three axes
-  drift->addWidget(table);
+  drift->addWidget(makeSplitter(drift_, table, 11, 10), 1);
   tabs_->addTab(drift_tab, tr("Drift"));
   jogs_ = new ResolutionCheckPanel(
       session(),
@@ -64,9 +62,9 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
   temperature_ = new Plot;
   temperature_->setEmptyText(tr("Temperatures will appear here"),
                              tr("They come from log.csv of the campaign; this one has none."));
-  temperature_->setMinimumHeight(120);  // the drift above needs the room more
+  temperature_->setMinimumHeight(165);  // the drift above needs the room more
   temperature->body()->addWidget(temperature_, 1);
-  content()->addWidget(makeSplitter(instrument, temperature, 5, 2, Qt::Vertical), 1);
+  content()->addWidget(makeSplitter(instrument, temperature, 3, 2, Qt::Vertical), 1);
   showHints(drift_);
   showHints(temperature_);
   connect(confirm_, &QPushButton::clicked, this, &WarmUpPage::confirm);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The place of the pages. A page that is wider than the window scrolls sideways: nothing is cut or lies over another.
+//
+// Pages fill the height, however much they hold: Qt would ask every page that was ever shown for its smallest size and
+// its height at every width whenever one sentence of one page changes.
+#pragma once
+
+#include <QScrollArea>
+#include <QStackedWidget>
+
+namespace spindrift::gui {
+
+class PageArea : public QScrollArea {
+  Q_OBJECT
+ public:
+  explicit PageArea(QWidget* page);
+  [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {640, 480}; }
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void fit();
+};
+
+class PageStack : public QStackedWidget {
+  Q_OBJECT
+ public:
+  /// Adds a page that is not there yet.
+  void add(QWidget* page);
+  void show(QWidget* page);
+  [[nodiscard]] bool hasHeightForWidth() const override { return false; }
+  [[nodiscard]] QSize sizeHint() const override { return minimumSizeHint(); }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {640, 480}; }
+};
+
+}  // namespace spindrift::gui

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/shell/tour_details.h"
+
+#include <QAction>
+#include <QDir>
+#include <QElapsedTimer>
+#include <QEventLoop>
+#include <QImage>
+#include <QTabWidget>
+#include <QTimer>
+#include <cmath>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "widgets/pages/capture/arriving_panel.h"
+#include "widgets/pages/capture/incoming_service.h"
+#include "widgets/pages/capture/new_capture_page.h"
+#include "widgets/pages/capture/plan_panel.h"
+#include "widgets/pages/probing/reference_panel.h"
+#include "widgets/pages/verify/verify_page.h"
+#include "widgets/shell/main_window.h"
+#include "widgets/shell/notes_dialog.h"
+#include "widgets/shell/tour.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr double left_after_compensation = 0.2;
+
+/// The tab of the page that holds `panel` to the front.
+void bringToFront(const QWidget* panel) {
+  for (QWidget* w = panel->parentWidget(); w != nullptr; w = w->parentWidget()) {
+    auto* tabs = qobject_cast<QTabWidget*>(w);
+    if (tabs == nullptr) continue;
+    for (int i = 0; i < tabs->count(); ++i) {
+      if (tabs->widget(i) == panel || tabs->widget(i)->isAncestorOf(panel)) tabs->setCurrentIndex(i);
+    }
+  }
+}
+
+template <class Panel>
+Panel* panelOf(const MainWindow& window) {
+  return window.currentPage()->findChild<Panel*>();
+}
+
+void firstTab(const MainWindow& window) {
+  if (auto* tabs = window.currentPage()->findChild<QTabWidget*>()) tabs->setCurrentIndex(0);
+}
+
+/// A record of an instrument beside the probe: the probe's own values, read at the cycles.
+QWidget* showReference(MainWindow& window, const QString& scratch) {
+  auto* panel = panelOf<ReferencePanel>(window);
+  if (panel == nullptr) return nullptr;
+  bringToFront(panel);
+  if (!panel->comparison().points.empty()) return nullptr;
+  const std::string file = QDir(scratch).filePath(QStringLiteral("grid encoder.csv")).toStdString();
+  writeFileAtomically(file, "time_s,value\n0,0\n1000000,0\n");
+  panel->load(QString::fromStdString(file));
+  std::string record = "time_s,value\n";
+  for (const ReferenceComparison::Point& p : panel->comparison().points) {
+    record +=
+        exactNumber(p.time_s) + "," + exactNumber(p.probe + 0.3 * p.standard_uncertainty * std::sin(p.time_s)) + "\n";
+  }
+  writeFileAtomically(file, record);
+  panel->load(QString::fromStdString(file));
+  return nullptr;
+}
+
+/// The campaign at hand as it could be after compensation: a fifth of every deviation is left, and the log says that
+/// the control was compensating.
+std::filesystem::path writeCompensated(MainWindow& window, const QString& scratch) {
+  const std::filesystem::path folder = std::filesystem::path(scratch.toStdString()) / "compensated";
+  std::filesystem::create_directories(folder);
+  const auto campaign = window.session().campaign();
+  auto observations = window.session().observations();
+  if (!observations || !campaign->log) throw InputError("the demo has no observations to verify.");
+  for (Observation& o : observations->rows) o.value *= left_after_compensation;
+  observations->write(folder / "observations.csv");
+  writeFileAtomically(folder / "machine.json", campaign->machine.source.dump(1));
+  const nlohmann::json head{{"format", "spindrift-campaign"},
+                            {"version", 1},
+                            {"name", "compensation on"},
+                            {"start_utc", campaign->start_utc}};
+  writeFileAtomically(folder / "campaign.json", head.dump(1));
+  std::string log;
+  for (const QString& line :
+       QString::fromStdString(readFile(campaign->path("log.csv"))).split(QLatin1Char('\n'), Qt::SkipEmptyParts)) {
+    log += line.trimmed().toStdString() + (log.empty() ? ",compensation_on\n" : ",1\n");
+  }
+  writeFileAtomically(folder / "log.csv", log);
+  return folder;
+}
+
+QWidget* showVerify(MainWindow& window, const QString& scratch) {
+  auto* page = qobject_cast<VerifyPage*>(window.currentPage());
+  if (page == nullptr || page->result() != nullptr) return nullptr;
+  page->setAfter(QString::fromStdString(writeCompensated(window, scratch).string()));
+  page->runAll();
+  return nullptr;
+}
+
+QWidget* showNotes(MainWindow& window) {
+  if (window.session().notes().empty()) {
+    window.session().addNote(QStringLiteral("Model"), QStringLiteral("Coolant was off while M1 was measured."));
+    window.session().addNote(QStringLiteral("Capture"),
+                             QStringLiteral("Table washed before the first state; the probe was calibrated after it."));
+  }
+  return window.openNotes();
+}
+
+void blur(const QString& from, const QString& to) {
+  const QImage sharp(from);
+  sharp.scaledToWidth(sharp.width() / 12, Qt::SmoothTransformation)
+      .scaled(sharp.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation)
+      .save(to);
+}
+
+}  // namespace
+
+std::vector<TourDetail> tourDetails(const QString& demo, const QString& scratch) {
+  const auto close_help = [](MainWindow& window) { window.helpAction()->trigger(); };
+  if (demo == QLatin1String("fiducials")) {
+    return {{StepId::Model, "help",
+             [](MainWindow& window) -> QWidget* {
+               if (!window.helpAction()->isChecked()) window.helpAction()->trigger();
+               return nullptr;
+             },
+             close_help}};
+  }
+  if (demo == QLatin1String("holes")) {
+    return {{StepId::Machine, "artefacts",
+             [](MainWindow& window) -> QWidget* {
+               auto* tabs = window.currentPage()->findChild<QTabWidget*>();
+               if (tabs != nullptr) tabs->setCurrentIndex(1);
+               return nullptr;
+             },
+             firstTab},
+            {StepId::Calibrate, "reference", [scratch](MainWindow& window) { return showReference(window, scratch); },
+             firstTab},
+            {StepId::Model, "notes", showNotes, [](MainWindow& window) {
+               for (NotesDialog* dialog : window.findChildren<NotesDialog*>()) dialog->close();
+             }}};
+  }
+  if (demo == QLatin1String("discrepancy")) {
+    return {{StepId::Verify, "compared", [scratch](MainWindow& window) { return showVerify(window, scratch); }, {}}};
+  }
+  return {};
+}
+
+QString startArriving(MainWindow& window, const QString& scratch) {
+  const auto campaign = window.session().campaign();
+  const QDir images(QString::fromStdString(campaign->path("captures/images").string()));
+  const QStringList names = images.entryList(QDir::Files, QDir::Name).mid(0, 3);
+  if (names.size() < 3) return QStringLiteral("the demo has no images that could arrive.");
+  QDir(scratch).mkpath(QStringLiteral("watched"));
+  const QDir watched(QDir(scratch).filePath(QStringLiteral("watched")));
+  for (const QString& name : names) QFile::copy(images.filePath(name), watched.filePath(name));
+  blur(images.filePath(names.back()), watched.filePath(QStringLiteral("z blurred.png")));
+
+  auto session =
+      std::make_unique<Session>(Session::create(std::filesystem::path(scratch.toStdString()) / "new measurement"));
+  const std::int64_t id =
+      session->newCampaign("a new measurement", "2026-01-31T08:00:00Z", campaign->machine.source.dump(1));
+  window.session().adopt(std::move(session), id);
+  window.workflow().goTo(StepId::Capture);
+  auto* page = qobject_cast<NewCapturePage*>(window.currentPage());
+  if (page == nullptr) return QStringLiteral("a new measurement has no page for captures.");
+  page->setInstrument(Instrument::Microscope);
+  page->arriving()->plan()->makePlan();
+  IncomingService& service = IncomingService::of(window.session());
+  service.setPace(20, 0.1, 0.5);
+  page->arriving()->watch(watched.path());
+  QElapsedTimer timer;
+  timer.start();
+  while (service.items().size() < 4 || !service.idle()) {
+    if (timer.elapsed() > 20'000) return QStringLiteral("the images did not arrive.");
+    QEventLoop loop;
+    QTimer::singleShot(20, &loop, &QEventLoop::quit);
+    loop.exec();
+  }
+  window.workflow().goTo(StepId::Machine);
+  window.workflow().goTo(StepId::Capture);
+  if (auto* panel = panelOf<ArrivingPanel>(window)) bringToFront(panel);
+  return {};
+}
+
+}  // namespace spindrift::gui
