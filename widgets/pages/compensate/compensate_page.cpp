@@ -344,7 +344,11 @@ void CompensatePage::refresh() {
                                        "were worked out."));
     callout()->setAction(tr("Work out again"), [this] { compute(); });
   } else {
-    callout()->set(Tone::Neutral, {});
+    // A correction from a model that does not describe the state must not be given away unnoticed.
+    QStringList warnings;
+    if (plan_)
+      for (const std::string& w : plan_->warnings) warnings << QString::fromStdString(w);
+    callout()->set(warnings.isEmpty() ? Tone::Neutral : Tone::Attention, warnings.join(QLatin1Char(' ')));
     // The plan is worked out again from what is stored: it takes less time than reading it would.
     if (!plan_ && stored->id != shown_result_) {
       shown_result_ = stored->id;
