@@ -62,46 +62,117 @@ std::string EffectModel::description() const {
   return base_ ? sum + " on top of " + base_->description() : sum;
 }
 
-PredictedComponent EffectModel::predict(const DeviationQuery& query, Component component) const {
-  PredictedComponent out;
-  if (base_) out = base_->predict(query, component);
-  const double time[1] = {query.time_s};
-  double variance = out.sigma * out.sigma;
-  for (const ModelEffect& e : effects_) {
-    const auto k = static_cast<Eigen::Index>(e.effect.shape.size());
-    const auto inputs = static_cast<Eigen::Index>(e.variant.inputs.size());
-    Eigen::VectorXd shape(k);
-    for (Eigen::Index c = 0; c < k; ++c) shape[c] = e.effect.shape[static_cast<std::size_t>(c)].value(query, component);
-    if (shape.isZero(0.0)) continue;
-    const auto rowAt = [&](std::span<const double> parameters) {
-      const Eigen::MatrixXd q = inputResponses(*drivers_, e.variant, parameters, time);
-      Eigen::VectorXd row(inputs * k);
-      for (Eigen::Index i = 0; i < inputs; ++i) row.segment(i * k, k) = shape * q(0, i);
-      return row;
-    };
-    const Eigen::VectorXd row = rowAt(e.parameters);
-    out.value += row.dot(e.gains);
-    Eigen::VectorXd gradient(row.size() + static_cast<Eigen::Index>(e.parameters.size()));
-    gradient.head(row.size()) = row;
-    for (std::size_t p = 0; p < e.parameters.size(); ++p) {
-      std::vector<double> moved = e.parameters;
-      const double step = std::max(1e-3 * std::abs(moved[p]), 1e-3);
-      moved[p] += step;
-      gradient[row.size() + static_cast<Eigen::Index>(p)] = (rowAt(moved) - row).dot(e.gains) / step;
-    }
-    if (e.covariance.rows() == gradient.size()) variance += std::max(0.0, gradient.dot(e.covariance * gradient));
+namespace {
+
+/// Of a non-linear parameter, for its derivative.
+double stepOf(double parameter) {
+  return std::max(1e-3 * std::abs(parameter), 1e-3);
+}
+
+/// Responses at some times, and with each parameter moved by its step: times x inputs.
+std::vector<Eigen::MatrixXd> movedResponses(const DriverTable& drivers, const ModelEffect& e,
+                                            std::span<const double> times) {
+  std::vector<Eigen::MatrixXd> out{inputResponses(drivers, e.variant, e.parameters, times)};
+  for (std::size_t p = 0; p < e.parameters.size(); ++p) {
+    std::vector<double> moved = e.parameters;
+    moved[p] += stepOf(moved[p]);
+    out.push_back(inputResponses(drivers, e.variant, moved, times));
   }
-  out.sigma = std::sqrt(variance);
   return out;
 }
 
-std::vector<double> EffectModel::contribution(const DriverTable& drivers, const ModelEffect& effect,
-                                              std::span<const Observation> rows) {
+/// d value / d (gains, parameters) at one place: `q(i)` of the inputs as they are, `moved(p, i)` with one moved.
+template <typename Moved>
+Eigen::VectorXd gradientAt(const ModelEffect& e, const Eigen::VectorXd& shape, const Eigen::VectorXd& q,
+                           const Moved& moved) {
+  const Eigen::Index k = shape.size();
+  Eigen::VectorXd gradient(q.size() * k + static_cast<Eigen::Index>(e.parameters.size()));
+  for (Eigen::Index i = 0; i < q.size(); ++i) gradient.segment(i * k, k) = shape * q[i];
+  for (std::size_t p = 0; p < e.parameters.size(); ++p) {
+    double change = 0.0;
+    for (Eigen::Index i = 0; i < q.size(); ++i) change += (moved(p, i) - q[i]) * shape.dot(e.gains.segment(i * k, k));
+    gradient[q.size() * k + static_cast<Eigen::Index>(p)] = change / stepOf(e.parameters[p]);
+  }
+  return gradient;
+}
+
+Eigen::VectorXd shapeAt(const ModelEffect& e, const DeviationQuery& query, Component component) {
+  Eigen::VectorXd shape(static_cast<Eigen::Index>(e.effect.shape.size()));
+  for (Eigen::Index c = 0; c < shape.size(); ++c)
+    shape[c] = e.effect.shape[static_cast<std::size_t>(c)].value(query, component);
+  return shape;
+}
+
+double varianceOf(const ModelEffect& e, const Eigen::VectorXd& gradient) {
+  return e.covariance.rows() == gradient.size() ? std::max(0.0, gradient.dot(e.covariance * gradient)) : 0.0;
+}
+
+std::vector<double> distinctTimes(std::span<const Observation> rows) {
   std::vector<double> times;
   times.reserve(rows.size());
   for (const Observation& o : rows) times.push_back(o.time_s);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+}  // namespace
+
+std::shared_ptr<const std::vector<EffectModel::Responses>> EffectModel::responsesAt(double time_s) const {
+  const std::scoped_lock lock(mutex_);
+  if (kept_ != nullptr && kept_time_s_ == time_s) return kept_;
+  auto all = std::make_shared<std::vector<Responses>>();
+  const double time[1] = {time_s};
+  for (const ModelEffect& e : effects_) {
+    const std::vector<Eigen::MatrixXd> q = movedResponses(*drivers_, e, time);
+    Responses r{q[0].row(0).transpose(), {}};
+    for (std::size_t p = 1; p < q.size(); ++p) r.moved.emplace_back(q[p].row(0).transpose());
+    all->push_back(std::move(r));
+  }
+  kept_time_s_ = time_s;
+  return kept_ = std::move(all);
+}
+
+PredictedComponent EffectModel::predict(const DeviationQuery& query, Component component) const {
+  PredictedComponent out;
+  if (base_) out = base_->predict(query, component);
+  double variance = out.sigma * out.sigma;
+  const auto responses = responsesAt(query.time_s);
+  for (std::size_t n = 0; n < effects_.size(); ++n) {
+    const ModelEffect& e = effects_[n];
+    const Eigen::VectorXd shape = shapeAt(e, query, component);
+    if (shape.isZero(0.0)) continue;
+    const Responses& r = (*responses)[n];
+    const Eigen::VectorXd gradient =
+        gradientAt(e, shape, r.inputs, [&](std::size_t p, Eigen::Index i) { return r.moved[p][i]; });
+    out.value += gradient.head(e.gains.size()).dot(e.gains);
+    variance += varianceOf(e, gradient);
+  }
+  out.sigma = std::sqrt(variance);
+  return out;
+}
+
+std::vector<double> EffectModel::effectSigma(std::span<const Observation> rows) const {
+  const std::vector<double> times = distinctTimes(rows);
+  std::vector<double> variance(rows.size(), 0.0);
+  for (const ModelEffect& e : effects_) {
+    const std::vector<Eigen::MatrixXd> q = movedResponses(*drivers_, e, times);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const Eigen::VectorXd shape = shapeAt(e, DeviationQuery::of(rows[r]), rows[r].component);
+      if (shape.isZero(0.0)) continue;
+      const auto at = std::lower_bound(times.begin(), times.end(), rows[r].time_s) - times.begin();
+      const Eigen::VectorXd gradient = gradientAt(e, shape, q[0].row(at).transpose(),
+                                                  [&](std::size_t p, Eigen::Index i) { return q[p + 1](at, i); });
+      variance[r] += varianceOf(e, gradient);
+    }
+  }
+  for (double& v : variance) v = std::sqrt(v);
+  return variance;
+}
+
+std::vector<double> EffectModel::contribution(const DriverTable& drivers, const ModelEffect& effect,
+                                              std::span<const Observation> rows) {
+  const std::vector<double> times = distinctTimes(rows);
   const Eigen::MatrixXd q = inputResponses(drivers, effect.variant, effect.parameters, times);
   const auto k = static_cast<Eigen::Index>(effect.effect.shape.size());
   std::vector<double> out(rows.size(), 0.0);

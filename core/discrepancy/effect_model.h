@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ class EffectModel : public ErrorModel {
   [[nodiscard]] const DriverTable& drivers() const noexcept { return *drivers_; }
   /// Sum of the effects (without the base) for many rows at once, um or urad.
   [[nodiscard]] std::vector<double> effectPart(std::span<const Observation> rows) const;
+  /// Standard uncertainty of that sum, from the covariances of the effects.
+  [[nodiscard]] std::vector<double> effectSigma(std::span<const Observation> rows) const;
   [[nodiscard]] static std::vector<double> contribution(const DriverTable& drivers, const ModelEffect& effect,
                                                         std::span<const Observation> rows);
   /// model.json.
@@ -60,6 +63,17 @@ class EffectModel : public ErrorModel {
   std::vector<ModelEffect> effects_;
   std::shared_ptr<const ErrorModel> base_;
   std::string table_;
+
+  /// Responses of the inputs of one effect at one time, and with each parameter moved by its step.
+  struct Responses {
+    Eigen::VectorXd inputs;
+    std::vector<Eigen::VectorXd> moved;
+  };
+  /// Of all effects. A grid is asked for at one time, and a response runs over the whole log: the last time is kept.
+  [[nodiscard]] std::shared_ptr<const std::vector<Responses>> responsesAt(double time_s) const;
+  mutable std::mutex mutex_;
+  mutable double kept_time_s_ = 0.0;
+  mutable std::shared_ptr<const std::vector<Responses>> kept_;
 };
 
 }  // namespace spindrift

@@ -86,6 +86,7 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
   std::vector<DiscrepancySeries> out;
   std::vector<std::vector<double>> sigmas;
   std::map<std::pair<std::string, Component>, std::size_t> index;
+  const std::vector<double> sigma = model != nullptr ? model->model->effectSigma(rows) : std::vector<double>();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Observation& o = rows[i];
     // A series without any row to fit has no constant.
@@ -109,8 +110,7 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
     sigmas[at->second].push_back(o.sigma);
     if (model != nullptr) {
       s.completed.push_back(model->completed[i]);
-      s.completed_sigma.push_back(std::hypot(model->model->predict(DeviationQuery::of(o), o.component).sigma,
-                                             input.simulation_gain_uncertainty * search.simulated[i]));
+      s.completed_sigma.push_back(std::hypot(sigma[i], input.simulation_gain_uncertainty * search.simulated[i]));
       s.constant_after = model->constant[i];
     }
   }

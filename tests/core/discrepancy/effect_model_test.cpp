@@ -97,6 +97,8 @@ TEST(EffectModel, EveryVariantOfEveryFamilySurvivesSavingAndLoading) {
       for (double& g : e.gains) g = random.normal();
       e.gain_uncertainty = 0.1 * e.gains.cwiseAbs();
       e.source = "a test";
+      const auto unknowns = e.gains.size() + static_cast<Eigen::Index>(e.parameters.size());
+      e.covariance = 0.04 * Eigen::MatrixXd::Identity(unknowns, unknowns);
       const EffectModel model(drivers, {e});
       const auto file = folder.path() / "model.json";
       std::ofstream(file) << model.json().dump(2);
@@ -111,8 +113,19 @@ TEST(EffectModel, EveryVariantOfEveryFamilySurvivesSavingAndLoading) {
         q.position_mm = {random.uniform(0.0, 480.0), random.uniform(0.0, 400.0), random.uniform(0.0, 400.0)};
         q.c_deg = 90.0 * static_cast<double>(random.index(4));
         q.approach = {1.0, -1.0, 1.0};
+        Observation row;
+        row.time_s = q.time_s;
+        row.point = q.point;
+        row.position_mm = q.position_mm;
+        row.c_deg = q.c_deg;
+        row.approach = q.approach;
         for (const Component c : all_components) {
-          const double value = model.predict(q, c).value;
+          row.component = c;
+          const PredictedComponent predicted = model.predict(q, c);
+          const double value = predicted.value;
+          // For many rows at once the same as one by one.
+          EXPECT_NEAR(model.effectPart({&row, 1})[0], value, 1e-9 * (1.0 + std::abs(value))) << effect.id;
+          EXPECT_NEAR(model.effectSigma({&row, 1})[0], predicted.sigma, 1e-9 * (1.0 + predicted.sigma)) << effect.id;
           largest = std::max(largest, std::abs(value));
           EXPECT_EQ(loaded->predict(q, c).value, value) << effect.id;
         }
