@@ -90,7 +90,9 @@ void fitExponential(const Series& s, double limit_um_per_h, WarmUpAxis& axis) {
   axis.amplitude_um = x(1);
   const double first_drift = std::abs(x(1)) / tau * s_per_h;
   axis.settled_after_s = first_drift > limit_um_per_h ? tau * std::log(first_drift / limit_um_per_h) : 0.0;
-  driftAtEnd(s, tau, x(1), std::max(1.0, best / dof), axis);
+  // Where the exponential does not describe the series, what it says of the end is no knowledge.
+  const double misfit = best / dof;
+  if (misfit < 2.0) driftAtEnd(s, tau, x(1), std::max(1.0, misfit), axis);
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ TourResult runTour(MainWindow& window, const QString& folder) {
     window.setTheme(kind);
     shoot(0, QStringLiteral("welcome"), kind);
     shootDesigner(
-        QDir(folder).filePath(QStringLiteral("00-artefact designer-%1.png")
+        QDir(folder).filePath(QStringLiteral("00-artefact-designer-%1.png")
                                   .arg(kind == ThemeKind::Light ? QStringLiteral("light") : QStringLiteral("dark"))),
         result);
   }

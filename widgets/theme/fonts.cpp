@@ -97,6 +97,8 @@ QFont textFont(int pixel_size, QFont::Weight weight) {
 QFont printFont(int pixel_size, QFont::Weight weight) {
   QFont font = textFont(pixel_size, weight);
   if (QFontDatabase::families().contains(QStringLiteral("Inter"))) font.setFamilies({QStringLiteral("Inter")});
+  // Contextual forms (a colon between figures) are replaced glyphs, too.
+  font.setStyleStrategy(QFont::PreferNoShaping);
   return font;
 }
 

@@ -218,14 +218,17 @@ void View3D::shareCamera() {
 }
 
 void View3D::fitCamera(const QSize& size) {
-  // A view that joins others looks as these do.
+  auto box = scene_->bounds();
+  // A view that joins others which show the same machine looks as these do.
   for (const QPointer<View3D>& other : linked_) {
-    if (other == nullptr || !other->fitted_ || !other->isVisible() || other->empty()) continue;
-    camera_ = other->camera_;
+    if (other == nullptr || !other->fitted_ || !other->isVisible() || other->scene_ == nullptr || !box) continue;
+    const auto theirs = other->scene_->bounds();
+    if (!theirs || other->camera_.vertical != camera_.vertical) continue;
+    if ((theirs->first - box->first).norm() + (theirs->second - box->second).norm() > 1.0) continue;
+    automatic_ = camera_ = other->camera_;
     fitted_ = true;
     return;
   }
-  auto box = scene_->bounds();
   for (const ViewPoint& point : points_) {
     if (!box) box = {point.position_mm, point.position_mm};
     box->first = box->first.cwiseMin(point.position_mm);
@@ -242,11 +245,13 @@ void View3D::fitCamera(const QSize& size) {
   camera_.fit(box->first, box->second, free);
   camera_.half_height_mm *= size.height() / free.height();
   camera_.pan(QPointF(-bar / 2, top / 2), QSizeF(size));
+  automatic_ = camera_;
   fitted_ = true;
   // Linked views that nobody has turned yet look at the same.
   for (const QPointer<View3D>& other : linked_) {
     if (other == nullptr || other->fitted_) continue;
     other->setCamera(camera_);
+    other->automatic_ = camera_;
   }
 }
 

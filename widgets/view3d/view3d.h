@@ -197,6 +197,7 @@ class View3D : public QWidget {
   QImage frame_;
   bool dirty_ = true;
   bool fitted_ = false;  ///< the camera has been fitted to the content
+  Camera automatic_;     ///< as it was fitted: while nobody turns it, it is fitted again when the size changes
   bool following_ = false;
   QPointF press_position_;
   QPointF last_position_;

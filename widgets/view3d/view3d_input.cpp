@@ -93,7 +93,7 @@ std::optional<QPointF> View3D::pixelOf(const Eigen::Vector3d& point_mm) const {
 void View3D::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   // A view that nobody has turned yet keeps showing everything.
-  if (event->oldSize().isEmpty()) fitted_ = false;
+  if (event->oldSize().isEmpty() || (fitted_ && camera_ == automatic_)) fitted_ = false;
 }
 
 void View3D::mousePressEvent(QMouseEvent* event) {

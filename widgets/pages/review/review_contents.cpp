@@ -5,6 +5,7 @@
 #include <QSlider>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.h"
 #include "widgets/common/parts.h"
@@ -109,6 +110,9 @@ void ReviewPage::showAll() {
           }
           for (std::size_t i = 0; i < panes_.size(); ++i)
             if (!(*answers)[i].problem.isEmpty()) panes_[i]->showMessage(tr("Nothing to show"), (*answers)[i].problem);
+          // Only now the panes have the sizes that they keep.
+          if (std::exchange(refit_, false))
+            panes_[0]->view()->resetCamera(machine_->isChecked() ? StandardView::Isometric : StandardView::Top);
           showTable();
           showSection();
         };

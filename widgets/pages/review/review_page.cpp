@@ -179,6 +179,7 @@ void ReviewPage::refresh() {
   sources_.refresh();
   const std::string folder = session().campaign()->folder.string();
   const bool other = shown_folder_ != folder;
+  refit_ = refit_ || other;
   shown_folder_ = folder;
   for (ReviewPane* pane : panes_) pane->refresh(session().campaignId());
   fillSlider();

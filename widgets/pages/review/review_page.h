@@ -81,6 +81,7 @@ class ReviewPage : public Page {
   std::shared_ptr<std::atomic<int>> states_request_ = std::make_shared<std::atomic<int>>(0);
   std::shared_ptr<std::atomic<int>> request_ = std::make_shared<std::atomic<int>>(0);
   bool filling_ = false;
+  bool refit_ = true;  ///< the next pictures are of another campaign: all views are fitted anew
 };
 
 }  // namespace spindrift::gui

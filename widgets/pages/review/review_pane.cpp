@@ -51,6 +51,10 @@ ReviewPane::ReviewPane(int number, ReviewSources& sources, QWidget* parent)
   state_->setAccessibleName(tr("State of pane %1").arg(number));
   content_ = new QComboBox;
   content_->setAccessibleName(tr("What pane %1 shows").arg(number));
+  for (QComboBox* box : {state_, content_}) {  // else the longest choice decides how wide the page is
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(8);
+  }
   line->addWidget(campaign_, 1);
   line->addWidget(state_, 2);
   line->addWidget(content_, 3);

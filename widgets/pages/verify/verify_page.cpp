@@ -90,7 +90,7 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
   stack_->addWidget(plot_);
   stack_->addWidget(maps_);
   right->body()->addWidget(stack_, 1);
-  content()->addWidget(makeSplitter(left, right, 7, 6), 1);
+  content()->addWidget(makeSplitter(left, right, 8, 5), 1);
   showHints(plot_);
   connect(compare_, &QPushButton::clicked, this, [this] { compare(true); });
   connect(component_, &QComboBox::activated, this, [this](int) {
