@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -132,15 +131,6 @@ double figureOf(const nlohmann::json& parameters, const std::string& name, const
   return value != found->end() && value->is_number() ? value->get<double>() : std::nan("");
 }
 
-/// "EX_um" -> {"EX", "um"}; the unit is what follows the first underscore that a known unit follows.
-std::pair<std::string, std::string> nameAndUnit(const std::string& name) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> units{
-      {{"_um_per_m", "um/m"}, {"_urad", "urad"}, {"_um", "um"}, {"_mm", "mm"}}};
-  for (const auto& [ending, unit] : units)
-    if (name.ends_with(ending)) return {name.substr(0, name.size() - ending.size()), std::string(unit)};
-  return {name, {}};
-}
-
 /// One cycle of one artefact.
 struct CycleRow {
   std::string cycle;
@@ -156,8 +146,7 @@ void cycleTables(HtmlDocument& document, const std::vector<CycleRow>& rows, cons
     const std::size_t last = std::min(names.size(), first + columns);
     std::vector<std::string> header{"Cycle"};
     for (std::size_t i = first; i < last; ++i) {
-      const auto [name, unit] = nameAndUnit(names[i]);
-      header.push_back(unit.empty() ? name : name + " / " + unit);
+      header.push_back(titleWithUnit(names[i]));
     }
     std::vector<std::vector<std::string>> cells;
     for (const CycleRow& r : rows) {
@@ -211,13 +200,12 @@ void cyclesSection(HtmlDocument& document, const nlohmann::json& cycles) {
       if (trend.x.size() >= 3) trends.push_back(std::move(trend));
     }
     if (trends.empty()) continue;
-    const auto [quantity, unit] = nameAndUnit(name);
     PlotOptions options;
     options.x_label = timed ? "time / h" : "cycle";
-    options.y_label = unit.empty() ? quantity : quantity + " / " + unit;
+    options.y_label = titleWithUnit(name);
     options.width_px = 860;
     options.height_px = 180;
-    document.figure(svgPlot(trends, options), fmt::format("{} over the cycles", quantity));
+    document.figure(svgPlot(trends, options), fmt::format("{} over the cycles", titleWithUnit(name)));
   }
 }
 
@@ -235,6 +223,13 @@ void instrumentSections(HtmlDocument& document, const std::vector<InstrumentEval
 }
 
 }  // namespace
+
+std::string titleWithUnit(const std::string& name) {
+  for (const auto& [ending, unit] : {std::pair{"_um_per_m", "um/m"}, {"_urad", "urad"}, {"_um", "um"}, {"_mm", "mm"}}) {
+    if (name.ends_with(ending)) return fmt::format("{} / {}", name.substr(0, name.rfind(ending)), unit);
+  }
+  return name;
+}
 
 HtmlDocument campaignReport(const CampaignReportInput& input) {
   SPINDRIFT_ASSERT(input.campaign != nullptr, "a report needs a campaign");

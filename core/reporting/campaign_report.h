@@ -39,6 +39,9 @@ struct CampaignReportInput {
   std::string operator_name;  ///< may be empty: a line to sign on is left
 };
 
+/// For tables and axes: "alpha_X_um_per_m" -> "alpha_X / um/m"; a name without a known unit stays.
+[[nodiscard]] std::string titleWithUnit(const std::string& name);
+
 /// The whole report: title, machine, operating log; `preparation`; results of each instrument, observations over time;
 /// `sections`, `conclusions`; exclusions, notes and provenance.
 [[nodiscard]] HtmlDocument campaignReport(const CampaignReportInput& input);

@@ -28,21 +28,6 @@ std::string encoded(const cv::Mat& image) {
   return {bytes.begin(), bytes.end()};
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 /// As much of a text as fits into `width` at `size` px (a letter is taken as 0.56 of it).
 std::string fitted(const std::string& text, double width, double size) {
   const auto most = static_cast<std::size_t>(std::max(4.0, width / (0.56 * size)));
@@ -143,9 +128,9 @@ std::string contactSheetSvg(const std::vector<Thumbnail>& thumbnails, int column
           x + 1, y + 1, width - 2, height - 2, base64(t.jpeg));
     }
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"11\" fill=\"#1f2933\">{}</text>", x,
-                       y + height + 14, escaped(fitted(t.label, width, 11)));
+                       y + height + 14, escapedXml(fitted(t.label, width, 11)));
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"10\" fill=\"#52606d\">{}</text>", x,
-                       y + height + 28, escaped(fitted(t.comment, width, 10)));
+                       y + height + 28, escapedXml(fitted(t.comment, width, 10)));
   }
   return svg + "</svg>";
 }

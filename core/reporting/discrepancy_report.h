@@ -27,6 +27,9 @@ struct DiscrepancyReportRow {
   bool held_out = false;
 };
 
+/// Nodes of a map along the longer side of the table.
+inline constexpr int report_map_nodes = 40;
+
 /// What the story tells, from a search that was just made or from one that a session keeps.
 struct DiscrepancyReportData {
   DiscrepancyVerdict verdict = DiscrepancyVerdict::None;

@@ -51,7 +51,7 @@ DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job
   }
   if (!request.html.empty()) {
     writeFileAtomically(request.html, discrepancyReport(campaign.name, discrepancyReportData(run.input, run.result),
-                                                        mapTable(campaign.machine)));
+                                                        mapTable(campaign.machine, 0.0, report_map_nodes)));
   }
   return run;
 }

@@ -148,13 +148,12 @@ FieldGrid tableGrid(const MachineDescription& machine, int nx, int ny, double z_
   return {x->travel_mm[0], x->travel_mm[1], y->travel_mm[0], y->travel_mm[1], z_mm, nx, ny};
 }
 
-std::optional<FieldGrid> mapTable(const MachineDescription& machine) {
-  constexpr int along = 40;
+std::optional<FieldGrid> mapTable(const MachineDescription& machine, double z_mm, int nodes) {
   if (machine.findAxis("X") == nullptr || machine.findAxis("Y") == nullptr) return std::nullopt;
-  FieldGrid grid = tableGrid(machine, along, along, 0.0);
+  FieldGrid grid = tableGrid(machine, nodes, nodes, z_mm);
   const double x = grid.x_to_mm - grid.x_from_mm, y = grid.y_to_mm - grid.y_from_mm;
-  grid.nx = std::max(2, static_cast<int>(std::lround(along * x / std::max(x, y))));
-  grid.ny = std::max(2, static_cast<int>(std::lround(along * y / std::max(x, y))));
+  grid.nx = std::max(2, static_cast<int>(std::lround(nodes * x / std::max(x, y))));
+  grid.ny = std::max(2, static_cast<int>(std::lround(nodes * y / std::max(x, y))));
   return grid;
 }
 

@@ -39,9 +39,11 @@ struct HeatmapOptions {
 /// The table of a machine: travels of X and Y. Throws InputError if it has no X or Y axis.
 [[nodiscard]] FieldGrid tableGrid(const MachineDescription& machine, int nx, int ny, double z_mm);
 
+/// The same with cells that are about square, `nodes` (>= 2) along the longer side; empty if there is no X or Y axis,
+/// so that pages and reports go without a map.
+[[nodiscard]] std::optional<FieldGrid> mapTable(const MachineDescription& machine, double z_mm, int nodes);
+
 /// Field of a model over the table, with the measured points of the fit on top. The region spanned by the points that
-/// The same with square cells of about a fortieth of the longer side, for a map in a report; empty without X or Y axis.
-[[nodiscard]] std::optional<FieldGrid> mapTable(const MachineDescription& machine);
 /// were fitted is not extrapolated.
 [[nodiscard]] Field tableField(const NineParameterFit& fit, const ErrorModel& model, const FieldGrid& grid,
                                Component component);

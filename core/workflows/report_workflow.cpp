@@ -23,14 +23,6 @@ bool spreadsOverTheTable(const ObservationSet& observations) {
   return observations.points().size() >= 3 && observations.states().size() >= 2;
 }
 
-/// "alpha_X_um_per_m" -> "alpha_X / um/m".
-std::string parameterTitle(const std::string& name) {
-  for (const auto& [ending, unit] : {std::pair{"_um_per_m", "um/m"}, {"_urad", "urad"}, {"_um", "um"}}) {
-    if (name.ends_with(ending)) return fmt::format("{} / {}", name.substr(0, name.rfind(ending)), unit);
-  }
-  return name;
-}
-
 /// The nine-parameter model of one state with its heat maps, or the reason why there is none.
 void addState(HtmlDocument& document, const Campaign& campaign, const ObservationSet& observations,
               const NineParameterOptions& fit_options, const std::string& state) {
@@ -44,10 +36,10 @@ void addState(HtmlDocument& document, const Campaign& campaign, const Observatio
     const nlohmann::json json = toJson(fit);
     for (const auto& [name, parameter] : json.at("parameters").items()) {
       const bool known = parameter.is_object() && parameter.at("value").is_number();
-      rows.push_back(
-          {parameterTitle(name), known ? withUncertainty(parameter.at("value").get<double>(),
-                                                         parameter.at("standard_uncertainty").get<double>(), "")
-                                       : std::string("not determined")});
+      rows.push_back({titleWithUnit(name), known
+                                               ? withUncertainty(parameter.at("value").get<double>(),
+                                                                 parameter.at("standard_uncertainty").get<double>(), "")
+                                               : std::string("not determined")});
     }
     document.table({"Parameter", "Value ± standard uncertainty"}, rows,
                    fmt::format("Nine-parameter model of {}", state));
@@ -112,7 +104,7 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
       *data = discrepancyReportData(found, findDiscrepancy(found, options.search, searching));
     }
     input.sections.push_back({"Where simulation and measurement disagree", [data, &campaign](HtmlDocument& document) {
-                                addDiscrepancyStory(document, *data, mapTable(campaign.machine));
+                                addDiscrepancyStory(document, *data, mapTable(campaign.machine, 0.0, report_map_nodes));
                               }});
   }
   input.conclusions = {[&](HtmlDocument& document) { addThermalModel(document, stored.thermal); },

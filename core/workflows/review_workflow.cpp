@@ -93,14 +93,6 @@ void findLargest(ReviewPicture& picture) {
       picture.largest = std::max(picture.largest, std::abs(picture.field->value[i]));
 }
 
-FieldGrid gridOf(const MachineDescription& machine, double z_mm, int nodes) {
-  FieldGrid grid = tableGrid(machine, nodes, nodes, z_mm);
-  const double x = grid.x_to_mm - grid.x_from_mm, y = grid.y_to_mm - grid.y_from_mm;
-  grid.nx = std::max(2, static_cast<int>(std::lround(nodes * x / std::max(x, y))));
-  grid.ny = std::max(2, static_cast<int>(std::lround(nodes * y / std::max(x, y))));
-  return grid;
-}
-
 /// Puts the model's value (or measured minus model) in the place of the measured one.
 void applyModel(ReviewPicture& picture, const NineParameterFit& fit, bool residual) {
   const NineParameterModel model = fit.model();
@@ -134,7 +126,12 @@ void showNineParameters(ReviewPicture& picture, const ObservationSet& observatio
     double z = 0.0;
     for (const NineParameterResidual& r : fit.residuals)
       z += r.position_mm.z() / static_cast<double>(fit.residuals.size());
-    picture.field = tableField(fit, fit.model(), gridOf(machine, z, std::max(2, request.nodes)), request.component);
+    const auto grid = mapTable(machine, z, std::max(2, request.nodes));
+    if (!grid) {
+      picture.message = "The machine has no X or no Y axis, so there is no heat map.";
+      return;
+    }
+    picture.field = tableField(fit, fit.model(), *grid, request.component);
     picture.field->markers.clear();
     const auto& s = picture.field->sigma;
     if (std::none_of(s.begin(), s.end(), [](double v) { return std::isfinite(v); })) {
@@ -191,8 +188,8 @@ void addFieldBetween(ReviewPicture& picture, const MachineDescription& machine, 
   // A prediction may state no uncertainty; a field needs some.
   const double least = std::max(1e-4, 1e-3 * largest);
   for (ScatteredValue& v : values) v.sigma = std::isfinite(v.sigma) ? std::max(v.sigma, least) : least;
-  picture.field = fieldBetween(picture.component, values,
-                               gridOf(machine, z / static_cast<double>(values.size()), std::max(2, nodes / 2)));
+  if (const auto grid = mapTable(machine, z / static_cast<double>(values.size()), std::max(2, nodes / 2)))
+    picture.field = fieldBetween(picture.component, values, *grid);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Four points, three moments in which each is read at its own time; EY grows along X, the model takes a tenth away
-/// from nothing else.
+/// Four points, three moments in which each is read at its own time; EY grows along X and with time, a tenth of it is
+/// left by the model; EX is zero.
 DiscrepancyReportData data() {
   DiscrepancyReportData d;
   d.verdict = DiscrepancyVerdict::Named;

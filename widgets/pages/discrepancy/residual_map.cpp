@@ -6,12 +6,11 @@
 #include <set>
 
 #include "core/machine/interpolated_field.h"
+#include "core/workflows/fit_campaign.h"
 
 namespace spindrift::gui {
 namespace {
 
-/// More points say no more about a smooth field, and cost their number cubed.
-constexpr std::size_t most_points = 40;
 constexpr int nodes_along = 40;
 
 /// Index of the reading of a series nearest in time; the size of the series if none is near.
@@ -25,27 +24,6 @@ std::size_t nearestReading(const DiscrepancySeries& series, double time_s, doubl
     found = i;
   }
   return found;
-}
-
-FieldGrid planeOver(const MachineDescription& machine, double z_mm) {
-  FieldGrid grid;
-  const LinearAxis* x = machine.findAxis("X");
-  const LinearAxis* y = machine.findAxis("Y");
-  grid.x_to_mm = 100.0;
-  grid.y_to_mm = 100.0;
-  if (x != nullptr) {
-    grid.x_from_mm = x->travel_mm[0];
-    grid.x_to_mm = x->travel_mm[1];
-  }
-  if (y != nullptr) {
-    grid.y_from_mm = y->travel_mm[0];
-    grid.y_to_mm = y->travel_mm[1];
-  }
-  grid.z_mm = z_mm;
-  const double longer = std::max(grid.x_to_mm - grid.x_from_mm, grid.y_to_mm - grid.y_from_mm);
-  grid.nx = std::max(2, static_cast<int>(std::lround(nodes_along * (grid.x_to_mm - grid.x_from_mm) / longer)));
-  grid.ny = std::max(2, static_cast<int>(std::lround(nodes_along * (grid.y_to_mm - grid.y_from_mm) / longer)));
-  return grid;
 }
 
 /// Half of the shortest time between two moments.
@@ -109,22 +87,16 @@ ResidualMap residualMap(const DiscrepancyStory& story, const MachineDescription&
                         double time_s, bool after) {
   ResidualMap map;
   map.points = residualsAt(story, component, time_s, after);
-  std::vector<Eigen::Vector2d> around;
+  std::vector<ScatteredValue> values;
   double z_mm = 0.0;
   for (const Field::Marker& p : map.points) {
-    around.emplace_back(p.position_mm.head<2>());
+    if (p.sigma > 0.0) values.push_back({p.position_mm, p.value, p.sigma});
     z_mm += p.position_mm.z();
   }
-  std::vector<ScatteredValue> values;
-  const std::size_t every = std::max<std::size_t>(1, (map.points.size() + most_points - 1) / most_points);
-  for (std::size_t i = 0; i < map.points.size(); i += every) {
-    const Field::Marker& p = map.points[i];
-    if (p.sigma > 0.0) values.push_back({p.position_mm, p.value, p.sigma});
-  }
-  if (values.size() < 3) return map;
-  const InterpolatedField between(component, std::move(values));
-  auto field = std::make_shared<Field>(
-      evaluateField(between, planeOver(machine, z_mm / static_cast<double>(map.points.size())), component, {}, around));
+  if (!spreadsOverPlane(values)) return map;
+  const auto grid = mapTable(machine, z_mm / static_cast<double>(map.points.size()), nodes_along);
+  if (!grid) return map;
+  auto field = std::make_shared<Field>(fieldBetween(component, values, *grid));
   field->markers = map.points;
   map.field = std::move(field);
   return map;

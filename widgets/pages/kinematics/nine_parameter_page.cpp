@@ -24,7 +24,6 @@ namespace spindrift::gui {
 namespace {
 
 constexpr auto options_key = "nine-parameter";
-constexpr std::array<Component, 3> shown_components{Component::EX, Component::EY, Component::EZ};
 
 QString parameterName(int i) {
   static const std::array<const char*, nine_parameter_count> names{"EX", "EY",   "EZ", "EA", "EB",
@@ -60,16 +59,6 @@ Cell number(double value, double sigma, std::string_view unit) {
   cell.text = QString::fromStdString(withUncertainty(value, sigma, unit));
   cell.right = true;
   return cell;
-}
-
-double niceExaggeration(double table_mm, double largest_um) {
-  if (!(largest_um > 0)) return 1000;
-  const double raw = 0.12 * table_mm / (largest_um * 1e-3);
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double f : {5.0, 2.0, 1.0}) {
-    if (f * power <= raw) return f * power;
-  }
-  return power;
 }
 
 }  // namespace
@@ -471,138 +460,6 @@ void NineParameterPage::showComparison() {
   } catch (const InputError& e) {
     comparison_verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
   }
-}
-
-FieldGrid NineParameterPage::tableGrid(int nodes) const {
-  const MachineDescription& machine = const_cast<NineParameterPage*>(this)->session().campaign()->machine;
-  FieldGrid grid;
-  const LinearAxis* x = machine.findAxis("X");
-  const LinearAxis* y = machine.findAxis("Y");
-  grid.x_from_mm = x != nullptr ? x->travel_mm[0] : 0;
-  grid.x_to_mm = x != nullptr ? x->travel_mm[1] : 100;
-  grid.y_from_mm = y != nullptr ? y->travel_mm[0] : 0;
-  grid.y_to_mm = y != nullptr ? y->travel_mm[1] : 100;
-  if (result_ && !result_->residuals.empty()) {
-    double z = 0;
-    for (const auto& r : result_->residuals) z += r.position_mm.z();
-    grid.z_mm = z / static_cast<double>(result_->residuals.size());
-  }
-  const double longer = std::max(grid.x_to_mm - grid.x_from_mm, grid.y_to_mm - grid.y_from_mm);
-  grid.nx = std::max(2, static_cast<int>(std::lround(nodes * (grid.x_to_mm - grid.x_from_mm) / longer)));
-  grid.ny = std::max(2, static_cast<int>(std::lround(nodes * (grid.y_to_mm - grid.y_from_mm) / longer)));
-  return grid;
-}
-
-void NineParameterPage::setComponent(int index) {
-  component_->setCurrent(index);
-  showField();
-}
-
-/// Where the two sets of points disagree: other points minus checked ones, faded where that is within its uncertainty.
-void NineParameterPage::showDifference(const NineParameterComparison& comparison) {
-  const Component component = shown_components[static_cast<std::size_t>(component_->current())];
-  const NineParameterModel model = comparison.differenceModel();
-  DeviationQuery conditions;
-  conditions.state = comparison.a.state;
-  std::vector<Eigen::Vector2d> measured;
-  std::vector<ViewPoint> points;
-  for (const NineParameterResidual& r : comparison.a.residuals) {
-    if (r.component != component) continue;
-    measured.push_back(r.position_mm.head<2>());
-    DeviationQuery here = conditions;
-    here.position_mm = r.position_mm;
-    const PredictedComponent difference = model.predict(here, component);
-    ViewPoint point;
-    point.id = point.label = QString::fromStdString(r.point);
-    point.position_mm = r.position_mm;
-    point.used = r.used;
-    if (std::isfinite(difference.sigma)) {
-      point.value = difference.value;
-      point.value_text = QString::fromStdString(withUncertainty(difference.value, difference.sigma, "um"));
-    }
-    points.push_back(point);
-  }
-  auto field = std::make_shared<Field>(evaluateField(model, tableGrid(120), component, conditions, measured));
-  field_ = field;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < field->value.size(); ++i) {
-    if (std::isfinite(field->sigma[i])) largest = std::max(largest, std::abs(field->value[i]));
-  }
-  const QString name = QString::fromStdString(std::string(toString(component)));
-  view_->setMachine(session().campaign()->machine);
-  view_->setColourScale(ColourScale::symmetric(largest, name, QStringLiteral("um")));
-  view_->setField(field, FieldStyle{});
-  view_->setPoints(std::move(points));
-  view_->setArrows({}, 1.0);
-  view_->setCaption(tr("%1: other points minus checked points").arg(name));
-}
-
-void NineParameterPage::showField() {
-  if (!result_ || session().campaign() == nullptr) return;
-  if (tabs_->currentWidget()->isAncestorOf(comparison_verdict_) && compared_) {
-    showDifference(*compared_);
-    return;
-  }
-  const NineParameterFit& f = *result_;
-  const NineParameterModel model = f.model();
-  const Component component = shown_components[static_cast<std::size_t>(component_->current())];
-  std::vector<Eigen::Vector2d> measured;
-  std::vector<ViewPoint> points;
-  std::map<std::string, ViewArrow> arrow_of;
-  double largest = 0;
-  const FieldGrid grid = tableGrid(120);
-  const auto counts = [&](Component c) { return same_scale_->isChecked() || c == component; };
-  for (const Component c : shown_components) {
-    if (!counts(c)) continue;
-    for (const int ix : {0, grid.nx - 1}) {
-      for (const int iy : {0, grid.ny - 1}) {
-        DeviationQuery corner;
-        corner.position_mm = {grid.x_mm(ix), grid.y_mm(iy), grid.z_mm};
-        const PredictedComponent p = model.predict(corner, c);
-        if (std::isfinite(p.sigma)) largest = std::max(largest, std::abs(p.value));
-      }
-    }
-  }
-  double largest_arrow = 0;
-  for (const NineParameterResidual& r : f.residuals) {
-    if (counts(r.component)) largest = std::max(largest, std::abs(r.value_um));
-    ViewArrow& arrow = arrow_of[r.point];
-    arrow.from_mm = r.position_mm;
-    if (!isRotation(r.component)) arrow.deviation_um[axisIndex(r.component)] = r.value_um;
-    largest_arrow = std::max(largest_arrow, arrow.deviation_um.norm());
-    if (r.used) measured.push_back(r.position_mm.head<2>());
-    if (r.component != component) continue;
-    ViewPoint point;
-    point.id = point.label = QString::fromStdString(r.point);
-    point.position_mm = r.position_mm;
-    point.value = r.value_um;
-    point.value_text = QString::fromStdString(withUncertainty(r.value_um, r.sigma_um, "um"));
-    point.used = r.used;
-    points.push_back(point);
-  }
-  DeviationQuery conditions;
-  conditions.state = f.state;
-  auto field = std::make_shared<Field>(evaluateField(model, grid, component, conditions, measured));
-  field_ = field;
-  const QString name = QString::fromStdString(std::string(toString(component)));
-  const ColourScale scale = ColourScale::symmetric(largest, name, QStringLiteral("um"));
-  FieldStyle style;
-  const double table = std::max(grid.x_to_mm - grid.x_from_mm, grid.y_to_mm - grid.y_from_mm);
-  const double exaggeration = niceExaggeration(table, largest_arrow);
-  if (relief_->isChecked()) style.relief_exaggeration = exaggeration;
-  if (view_->empty()) view_->setMachine(session().campaign()->machine);
-  view_->setMachine(session().campaign()->machine);
-  view_->setColourScale(scale);
-  view_->setField(field, style);
-  view_->setPoints(std::move(points));
-  std::vector<ViewArrow> arrows;
-  if (arrows_->isChecked()) {
-    for (auto& [id, arrow] : arrow_of) arrows.push_back(arrow);
-  }
-  view_->setArrows(std::move(arrows), exaggeration);
-  view_->setCaption(tr("%1 of state %2 against %3")
-                        .arg(name, QString::fromStdString(f.state),
-                             QString::fromStdString(f.reference_state.empty() ? "zero" : f.reference_state)));
 }
 
 std::vector<Exportable> NineParameterPage::exportables() {

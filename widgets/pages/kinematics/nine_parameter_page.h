@@ -43,7 +43,10 @@ class NineParameterPage : public Page {
   void showComparison();
   [[nodiscard]] NineParameterOptions options() const;
   [[nodiscard]] nlohmann::json optionsJson() const;
-  [[nodiscard]] FieldGrid tableGrid(int nodes) const;
+  /// The table with the level of the fitted points; a machine without X or Y has none, and the view says so.
+  [[nodiscard]] std::optional<FieldGrid> mapGrid();
+
+  static constexpr std::array<Component, 3> shown_components{Component::EX, Component::EY, Component::EZ};
 
   QPushButton* fit_button_;
   QComboBox* state_;

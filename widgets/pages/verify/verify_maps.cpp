@@ -31,7 +31,8 @@ std::optional<Field> mapOf(const std::vector<Field::Marker>& points, const Machi
     z += p.position_mm.z();
   }
   if (!spreadsOverPlane(values)) return std::nullopt;
-  return fieldBetween(component, values, tableGrid(machine, nodes, nodes, z / static_cast<double>(values.size())));
+  const auto grid = mapTable(machine, z / static_cast<double>(values.size()), nodes);
+  return grid ? std::optional(fieldBetween(component, values, *grid)) : std::nullopt;
 }
 
 }  // namespace
