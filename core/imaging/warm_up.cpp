@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/base/text.h"
 #include "core/math/distributions.h"
@@ -22,77 +22,96 @@ struct Series {
   Eigen::VectorXd sigma_um;
 };
 
-/// Straight line through the last `count` values: slope and its uncertainty in um/h. The uncertainty is the larger of
-/// what the sigmas and what the residuals say.
-void fitDrift(const Series& s, Eigen::Index count, WarmUpAxis& axis) {
+/// Straight line through the last `count` of `values`, um/h.
+LinearFitResult lineThroughEnd(const Series& s, const Eigen::VectorXd& values, Eigen::Index count) {
   const Eigen::Index from = s.time_s.size() - count;
   Eigen::MatrixXd A(count, 2);
   A.col(0).setOnes();
   A.col(1) = (s.time_s.tail(count).array() - s.time_s(from)) / s_per_h;
-  const LinearFitResult fit = solveLinear(A, s.value_um.tail(count), s.sigma_um.tail(count));
+  return solveLinear(A, values.tail(count), s.sigma_um.tail(count));
+}
+
+/// Slope of the last `count` values and its uncertainty in um/h. The uncertainty is the larger of what the sigmas and
+/// what the residuals say.
+void fitDrift(const Series& s, Eigen::Index count, WarmUpAxis& axis) {
+  const LinearFitResult fit = lineThroughEnd(s, s.value_um, count);
   if (!fit.usable()) return;
   axis.drift_um_per_h = fit.x(1);
   const double excess = fit.degrees_of_freedom > 0 ? std::max(1.0, fit.chi2 / fit.degrees_of_freedom) : 1.0;
   axis.drift_sigma_um_per_h = fit.standardUncertainty(1) * std::sqrt(excess);
 }
 
-/// The drift of the exponential at the end of the series in place of the line's, if both agree: it uses all of the
-/// series, so that its uncertainty is smaller. Covariance of (c, a, tau) to first order, times `excess`.
-void driftAtEnd(const Series& s, double tau, double amplitude, double excess, WarmUpAxis& axis) {
-  const Eigen::ArrayXd t = s.time_s.array() - s.time_s(0);
-  const Eigen::ArrayXd decay = (-t / tau).exp();
-  Eigen::MatrixXd J(t.size(), 3);
-  J.col(0) = 1.0 / s.sigma_um.array();
-  J.col(1) = decay / s.sigma_um.array();
-  J.col(2) = amplitude * t / (tau * tau) * decay / s.sigma_um.array();
-  const Eigen::FullPivLU<Eigen::Matrix3d> information(J.transpose() * J);
-  if (!information.isInvertible()) return;
-  const Eigen::Matrix3d covariance = excess * information.inverse();
-  const double end = t(t.size() - 1);
-  const double left = std::exp(-end / tau);
-  const double drift = -amplitude / tau * left * s_per_h;
-  const Eigen::Vector3d gradient(0.0, -left / tau * s_per_h,
-                                 amplitude * left / (tau * tau) * (1.0 - end / tau) * s_per_h);
-  const double sigma = std::sqrt(std::max(0.0, gradient.dot(covariance * gradient)));
+/// One time constant that was tried, with c and a by least squares.
+struct Approach {
+  double tau_s = 0.0;
+  double amplitude_um = 0.0;
+  double amplitude_sigma_um = 0.0;
+  double chi2 = 0.0;
+};
+
+std::vector<Approach> approachesOf(const Series& s) {
+  const Eigen::Index n = s.time_s.size();
+  const double duration = s.time_s(n - 1) - s.time_s(0);
+  std::vector<Approach> out;
+  constexpr int steps = 160;
+  for (int i = 0; i <= steps; ++i) {
+    const double tau = duration / 30.0 * std::pow(90.0, i / static_cast<double>(steps));
+    Eigen::MatrixXd A(n, 2);
+    A.col(0).setOnes();
+    A.col(1) = (-(s.time_s.array() - s.time_s(0)) / tau).exp();
+    const LinearFitResult fit = solveLinear(A, s.value_um, s.sigma_um);
+    if (fit.usable()) out.push_back({tau, fit.x(1), fit.standardUncertainty(1), fit.chi2});
+  }
+  return out;
+}
+
+/// The drift of the approach at the end of the series in place of the line's through the last `count` values, if that
+/// line is as the approach would have it: it uses all of the series, so that its uncertainty is smaller, and it tells
+/// the drift now, not the mean over a while. Mean and standard deviation over all time constants, each weighted by its
+/// likelihood (even in ln tau) with noise `excess` times the stated variance.
+void driftAtEnd(const Series& s, const std::vector<Approach>& tried, const Approach& best, double excess,
+                Eigen::Index count, WarmUpAxis& axis) {
+  // As likely with the longest time constant that was tried: a line as far as anybody can tell.
+  if (tried.back().chi2 - best.chi2 < 9.0 * excess) return;
+  const double end = s.time_s(s.time_s.size() - 1) - s.time_s(0);
+  double weights = 0.0, mean = 0.0, square = 0.0;
+  for (const Approach& a : tried) {
+    const double weight = std::exp(-0.5 * (a.chi2 - best.chi2) / excess);
+    const double factor = -std::exp(-end / a.tau_s) / a.tau_s * s_per_h;
+    const double drift = factor * a.amplitude_um;
+    weights += weight;
+    mean += weight * drift;
+    square += weight * (drift * drift + excess * factor * factor * a.amplitude_sigma_um * a.amplitude_sigma_um);
+  }
+  mean /= weights;
+  const double sigma = std::sqrt(std::max(0.0, square / weights - mean * mean));
   if (!(sigma > 0.0) || sigma >= axis.drift_sigma_um_per_h) return;
-  if (std::abs(drift - axis.drift_um_per_h) > 3.0 * axis.drift_sigma_um_per_h) return;
-  axis.drift_um_per_h = drift;
+  const Eigen::VectorXd course = best.amplitude_um * (-(s.time_s.array() - s.time_s(0)) / best.tau_s).exp();
+  const LinearFitResult line = lineThroughEnd(s, course, count);
+  if (std::abs(line.x(1) - axis.drift_um_per_h) > 3.0 * axis.drift_sigma_um_per_h) return;
+  axis.drift_um_per_h = mean;
   axis.drift_sigma_um_per_h = sigma;
 }
 
 /// Exponential approach, accepted if an F test says that it beats a constant.
-void fitExponential(const Series& s, double limit_um_per_h, WarmUpAxis& axis) {
+void fitExponential(const Series& s, double limit_um_per_h, Eigen::Index end_count, WarmUpAxis& axis) {
   const Eigen::Index n = s.time_s.size();
   if (n < 6) return;
-  const double duration = s.time_s(n - 1) - s.time_s(0);
-  Eigen::MatrixXd constant = Eigen::MatrixXd::Ones(n, 1);
-  const double chi2_constant = solveLinear(constant, s.value_um, s.sigma_um).chi2;
-  double best = chi2_constant;
-  double tau = 0.0;
-  Eigen::VectorXd x;
-  constexpr int steps = 160;
-  for (int i = 0; i <= steps; ++i) {
-    const double trial = duration / 30.0 * std::pow(90.0, i / static_cast<double>(steps));
-    Eigen::MatrixXd A(n, 2);
-    A.col(0).setOnes();
-    A.col(1) = (-(s.time_s.array() - s.time_s(0)) / trial).exp();
-    const LinearFitResult fit = solveLinear(A, s.value_um, s.sigma_um);
-    if (fit.usable() && fit.chi2 < best) {
-      best = fit.chi2;
-      tau = trial;
-      x = fit.x;
-    }
-  }
+  const std::vector<Approach> tried = approachesOf(s);
+  const auto best = std::min_element(tried.begin(), tried.end(),
+                                     [](const Approach& a, const Approach& b) { return a.chi2 < b.chi2; });
+  if (best == tried.end() || !(best->chi2 > 0.0)) return;
+  const double chi2_constant = solveLinear(Eigen::MatrixXd::Ones(n, 1), s.value_um, s.sigma_um).chi2;
   const double dof = static_cast<double>(n - 3);
-  if (tau == 0.0 || !(best > 0.0)) return;
-  if (fisherTail((chi2_constant - best) / 2.0 / (best / dof), 2.0, dof) > 0.01) return;
-  axis.tau_s = tau;
-  axis.amplitude_um = x(1);
-  const double first_drift = std::abs(x(1)) / tau * s_per_h;
-  axis.settled_after_s = first_drift > limit_um_per_h ? tau * std::log(first_drift / limit_um_per_h) : 0.0;
+  const double misfit = best->chi2 / dof;
+  if (best->chi2 >= chi2_constant) return;
+  if (fisherTail((chi2_constant - best->chi2) / 2.0 / misfit, 2.0, dof) > 0.01) return;
+  axis.tau_s = best->tau_s;
+  axis.amplitude_um = best->amplitude_um;
+  const double first_drift = std::abs(best->amplitude_um) / best->tau_s * s_per_h;
+  axis.settled_after_s = first_drift > limit_um_per_h ? best->tau_s * std::log(first_drift / limit_um_per_h) : 0.0;
   // Where the exponential does not describe the series, what it says of the end is no knowledge.
-  const double misfit = best / dof;
-  if (misfit < 2.0) driftAtEnd(s, tau, x(1), std::max(1.0, misfit), axis);
+  if (misfit < 2.0) driftAtEnd(s, tried, *best, std::max(1.0, misfit), end_count, axis);
 }
 
 }  // namespace
@@ -160,8 +179,9 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
     const double from = s.time_s(n - 1) - options.window_part * (s.time_s(n - 1) - s.time_s(0));
     Eigen::Index count = 0;
     while (count < n && s.time_s(n - 1 - count) >= from) ++count;
-    fitDrift(s, std::max<Eigen::Index>(count, options.window_points), axis);
-    fitExponential(s, options.drift_limit_um_per_h, axis);
+    const auto end_count = std::max<Eigen::Index>(count, options.window_points);
+    fitDrift(s, end_count, axis);
+    fitExponential(s, options.drift_limit_um_per_h, end_count, axis);
     const double magnitude = std::abs(axis.drift_um_per_h);
     axis.settled = magnitude + 2.0 * axis.drift_sigma_um_per_h < options.drift_limit_um_per_h;
     settled = settled && axis.settled;

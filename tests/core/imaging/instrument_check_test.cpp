@@ -74,6 +74,34 @@ TEST(WarmUp, DriftUncertaintyHolds) {
   EXPECT_GT(inside, 0.92 * runs);
 }
 
+TEST(WarmUp, DriftOfAnApproachHoldsAndIsKnownBetterThanThatOfALine) {
+  Random random(5);
+  int inside = 0, runs = 0;
+  double sigma = 0.0;
+  for (int n = 0; n < 300; ++n) {
+    const WarmUpResult result = judgeWarmUp(warmUp(random, 120.0), "F1");
+    const std::array<double, 3> amplitude{10.0, 25.0, 20.0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double truth = amplitude[k] / 25.0 * std::exp(-120.0 / 25.0) * 60.0;  // um/h
+      const WarmUpAxis& axis = result.axes[k];
+      inside += std::abs(axis.drift_um_per_h - truth) < 1.96 * axis.drift_sigma_um_per_h ? 1 : 0;
+      sigma += axis.drift_sigma_um_per_h;
+      ++runs;
+    }
+  }
+  EXPECT_GT(inside, 0.92 * runs);
+  // A line through the last 40 min of nine readings with 0.14 um: 0.14 / (0.215 h sqrt(9)).
+  EXPECT_LT(sigma / runs, 0.5 * 0.14 / (0.215 * 3.0));
+}
+
+TEST(WarmUp, ASeriesThatIsNoApproachIsJudgedByItsEnd) {
+  Random random(6);
+  ObservationSet set = warmUp(random, 120.0);
+  for (Observation& o : set.rows) o.value += 4.0 * std::sin(o.time_s / 900.0);  // a machine at work
+  const WarmUpAxis axis = judgeWarmUp(set, "F1").axes[0];
+  EXPECT_GT(axis.drift_sigma_um_per_h, 0.5) << "nobody knows its drift to hundredths of a micrometre per hour";
+}
+
 TEST(WarmUp, TooFewMeasurementsAndUnknownPoint) {
   Random random(4);
   EXPECT_EQ(judgeWarmUp(warmUp(random, 10.0), "F1").status, FitStatus::Degenerate);
