@@ -87,6 +87,20 @@ TEST_F(Images, EvaluateListsBadImagesAndEvaluatesTheRest) {
   EXPECT_EQ(contentOf(c), before);
 }
 
+TEST_F(Images, ObservationsOfAnotherMachineAreSaid) {
+  const std::string out = (*folder() / "own.csv").string();
+  ASSERT_EQ(runCli({"evaluate", campaign().string(), "--out", out}).status, 0);
+  const auto fit = [&](const std::string& file) {
+    return runCli({"fit", campaign().string(), "--observations", file, "--state", "M1"}).output;
+  };
+  EXPECT_EQ(fit(out).find("travel of this machine"), std::string::npos);
+  auto lines = linesOf(out);
+  for (std::size_t i = 2; i <= lines.size(); ++i) setField(out, i, "x_mm", "2000");
+  const std::string answer = fit(out);
+  EXPECT_NE(answer.find("far outside the travel of this machine (x of point F1 is 2000 mm"), std::string::npos)
+      << answer;
+}
+
 TEST_F(Images, WrongListsAreRefusedInOneSentence) {
   const std::string out = (*folder() / "refused.csv").string();
   const auto wrong = [&](std::size_t line, const std::string& column, const std::string& value,

@@ -50,6 +50,20 @@ TEST_F(Touches, HoleBarGivesTheParametersOfTheContract) {
   EXPECT_EQ(runCli({"report", campaign, "--observations", out, "--out", (folder / "r.html").string()}).status, 0);
 }
 
+TEST_F(Touches, SwappedColumnsAreNotGoodEnough) {
+  make("hole_bar");
+  auto lines = linesOf(list);
+  std::string header = lines.front();
+  const auto at = header.find("x_mm,y_mm");
+  ASSERT_NE(at, std::string::npos);
+  lines.front() = header.replace(at, 9, "y_mm,x_mm");
+  writeLines(list, lines);
+  const Outcome outcome = runCli({"evaluate", campaign, "--out", out});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.output.find("x_mm and y_mm swapped"), std::string::npos) << outcome.output;
+  EXPECT_LT(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 80) << "one line for every reject";
+}
+
 TEST_F(Touches, BallArtefactGivesTheParametersOfTheContract) {
   make("ball_artefact");
   const nlohmann::json j = jsonOf({"evaluate", campaign, "--out", out});

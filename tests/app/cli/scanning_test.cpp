@@ -54,6 +54,23 @@ class Scans : public ::testing::Test {
   static std::string in(const std::string& name) { return (*folder() / name).string(); }
 };
 
+TEST_F(Scans, AnotherArtefactIsNoMotion) {
+  VirtualScanCampaign c;
+  c.optics.profile_points = 400;
+  c.optics.profile_interval_mm = 0.08;
+  c.optics.profile_spacing_mm = 0.3;
+  VirtualArtefact a;
+  a.surface.amplitude_x_mm = 0.7;
+  a.surface.bumps = {{{5.0, 20.0}, 3.0, 0.6}};
+  c.artefacts = {a};
+  c.cycles = {{"C0", 0.0, 40.0}};
+  JobContext job;
+  writeVirtualScanCampaign(c, *folder() / "other", 6, job);
+  const Outcome outcome = runCli({"register", cloud("A1_C1.pcd"), in("other/captures/clouds/A1_C0.pcd")});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.output.find("another artefact"), std::string::npos) << outcome.output;
+}
+
 TEST_F(Scans, RegisterGivesTheKeysOfTheContract) {
   const nlohmann::json j = jsonOf({"register", cloud("A1_C1.pcd"), cloud("A1_C0.pcd")});
   ASSERT_EQ(j["target_from_source"].size(), 4U);

@@ -68,6 +68,15 @@ TEST(Usage, WrongUseEndsWithTwo) {
   }
 }
 
+TEST(Usage, WhatIsWrongIsSaidInASentenceOfOurs) {
+  const TempFolder folder;
+  expectBadInput({"nonsense"}, {"\"nonsense\" is no command"});
+  expectBadInput({"verify", "a", "b", "--goal", "-5"}, {"--goal", "-5 is not allowed", "greater than zero"});
+  expectBadInput({"report", ".", "--out", (folder / "r.pdf").string()}, {"r.pdf", ".html"});
+  expectBadInput({"sensor-groups", folder.write("log.csv", "time_s,spindle_rpm\n0,1\n60,1\n").string()},
+                 {"no temperature", "T_"});
+}
+
 TEST(Usage, FilesThatAreNotThereAreNamed) {
   const TempFolder folder;
   const std::string none = (folder / "none").string();

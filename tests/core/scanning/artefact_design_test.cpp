@@ -92,6 +92,8 @@ TEST(ArtefactDesign, LeavesOutWhatIsTooSteep) {
   EXPECT_EQ(designArtefact(steep, blind).status, FitStatus::Rejected);
   blind.noise_um = 0.0;
   EXPECT_THROW((void)designArtefact(steep, blind), InputError);
+  steep.amplitude_xy_mm = std::nan("");
+  EXPECT_THROW((void)designArtefact(steep), InputError);
 }
 
 TEST(ArtefactDesign, StlIsClosedAndHoldsTheVolume) {

@@ -72,6 +72,15 @@ TEST(Review, DifferenceIsTheSecondMinusTheFirst) {
   EXPECT_FALSE(reviewDifference(nothing, b).message.empty());
 }
 
+TEST(Review, WhatTwoStatesHaveInCommonDoesNotCountTwice) {
+  ObservationSet all = states(1);  // M0, M1, M2 of one point: EX, EY, EZ each
+  // The reading of M2 holds the reference's noise: covariance 0.04 beside 0.09 + 0.09.
+  all.covariance.push_back({0, 6, 0.04});
+  const ReviewPicture m2 = reviewOf(all, table(), {"M2", ReviewQuantity::Measured, Component::EX});
+  EXPECT_NEAR(m2.points[0].components.at(Component::EX).sigma, std::sqrt(0.18 - 0.08), 1e-12);
+  EXPECT_NEAR(m2.points[0].components.at(Component::EY).sigma, std::sqrt(0.18), 1e-12);
+}
+
 TEST(Review, RepeatedReadingsOfAStateAreAveraged) {
   std::string csv = "time_s,state,point,x_mm,y_mm,z_mm,c_deg,component,value,sigma,instrument,use\n";
   const double readings[4] = {1.0, 3.0, 10.0, 14.0};

@@ -39,6 +39,29 @@ Campaign campaignWith(std::vector<double> on) {
   return c;
 }
 
+TEST(Verify, PointsThatStandElsewhereAreNotCompared) {
+  const ObservationSet before = measured(30.0, 0.2, 1);
+  ObservationSet after = measured(2.0, 0.2, 2);
+  for (Observation& o : after.rows)
+    if (o.point == "P3") o.position_mm.x() += 20.0;
+  const VerifyResult result = verifyCompensation(before, after, {});
+  EXPECT_EQ(result.components.at(0).values, 21U) << "three states of seven points";
+  for (const VerifyPoint& p : result.points) EXPECT_NE(p.point, "P3");
+  ASSERT_EQ(result.notes.size(), 1U);
+  EXPECT_NE(result.notes[0].find("P3 stood more than 1 mm elsewhere"), std::string::npos) << result.notes[0];
+  for (Observation& o : after.rows) o.position_mm.y() += 20.0;
+  EXPECT_THROW((void)verifyCompensation(before, after, {}), InputError);
+}
+
+TEST(Verify, MachinesOfDifferentNamesAreSaid) {
+  Campaign one = campaignWith({0.0, 0.0, 0.0}), other = campaignWith({1.0, 1.0, 1.0});
+  one.machine.name = "mill";
+  other.machine.name = "lathe";
+  const VerifyResult result =
+      verifyCampaigns(one, measured(30.0, 0.2, 1), other, measured(2.0, 0.2, 2), VerifyRequest{});
+  EXPECT_NE(result.json()["notes"].dump().find("different names"), std::string::npos) << result.summary();
+}
+
 TEST(Verify, AGoalFarAboveWhatIsLeftIsMetAndFarBelowIsNot) {
   const ObservationSet before = measured(30.0, 0.2, 1);
   const ObservationSet after = measured(2.0, 0.2, 2);

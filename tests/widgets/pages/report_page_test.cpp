@@ -3,11 +3,14 @@
 #include "widgets/pages/report/report_page.h"
 #include "widgets/pages/report/report_pages.h"
 
+#include <QGlyphRun>
 #include <QImage>
 #include <QLineEdit>
 #include <QPainter>
 #include <QPushButton>
+#include <QRawFont>
 #include <QTest>
+#include <QTextLayout>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -18,6 +21,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/report/report_document.h"
+#include "widgets/theme/fonts.h"
 
 namespace spindrift::gui {
 namespace {
@@ -34,6 +38,21 @@ int inkIn(const ReportDocument& document, int page, const QRect& area) {
     for (int x = area.left(); x < area.right(); ++x) dark += qGray(picture.pixel(x, y)) < 160 ? 1 : 0;
   }
   return dark;
+}
+
+TEST(ReportDocumentTest, PrintedCharactersAreTheFontsOwnSoThatAPdfCanBeSearched) {
+  const QString text = QStringLiteral("2026-01-31T08:10:00Z  1.25 um (3, 4); -7");
+  QTextLayout layout(text, printFont(12));
+  layout.beginLayout();
+  layout.createLine();
+  layout.endLayout();
+  QList<quint32> drawn;
+  QRawFont font;
+  for (const QGlyphRun& run : layout.glyphRuns()) {
+    drawn += run.glyphIndexes();
+    font = run.rawFont();
+  }
+  EXPECT_EQ(drawn, font.glyphIndexesForString(text)) << "a replaced glyph has no character any more";
 }
 
 TEST(ReportDocumentTest, KeepsEveryPartOfALongReport) {

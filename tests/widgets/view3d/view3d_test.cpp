@@ -200,6 +200,53 @@ TEST(View3D, LinkedViewsLookTheSameWay) {
   EXPECT_EQ(a.camera(), b.camera());
 }
 
+TEST(View3D, AViewThatNobodyTurnedShowsEverythingAtEverySize) {
+  View3D view;
+  view.resize(700, 500);
+  view.show();  // else the sizes come only with the first picture
+  view.setMachine(desktopMill());
+  view.setMachineVisible(false);
+  view.resetCamera(StandardView::Top);
+  (void)view.grab();
+  const auto inside = [&] {
+    for (const double x : {0.0, 300.0}) {
+      const auto pixel = view.pixelOf({x, 65.0, 0.0});
+      if (!pixel || pixel->x() < 0.0 || pixel->x() > view.width()) return false;
+    }
+    return true;
+  };
+  EXPECT_TRUE(inside());
+  view.resize(260, 500);
+  (void)view.grab();
+  EXPECT_TRUE(inside());
+  // Once it is turned it stays as the user left it.
+  QTest::keyClick(&view, Qt::Key_Plus);
+  const Camera chosen = view.camera();
+  view.resize(700, 300);
+  (void)view.grab();
+  EXPECT_EQ(view.camera(), chosen);
+}
+
+TEST(View3D, AViewJoinsOthersOnlyIfTheyShowTheSameMachine) {
+  MachineDescription larger = desktopMill();
+  for (LinearAxis& axis : larger.axes) axis.travel_mm[1] *= 4.0;
+  View3D same, other, joining;
+  for (View3D* view : {&same, &other, &joining}) {
+    view->resize(300, 200);
+    view->show();
+  }
+  joining.link(&same);
+  same.setMachine(desktopMill());
+  (void)same.grab();
+  QTest::keyClick(&same, Qt::Key_Left);
+  joining.setMachine(desktopMill());
+  (void)joining.grab();
+  EXPECT_EQ(joining.camera(), same.camera()) << "turned as the one it joins";
+  joining.setMachine(larger);
+  (void)joining.grab();
+  EXPECT_NE(joining.camera().half_height_mm, same.camera().half_height_mm) << "another machine needs another picture";
+}
+
 TEST(View3D, ALargeCloudIsDrawnBitByBitAndCompletes) {
   const std::size_t count = 1'600'000;
   auto xyz = std::make_shared<std::vector<float>>();

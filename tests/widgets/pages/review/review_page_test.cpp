@@ -176,6 +176,25 @@ TEST_F(Review, TheSimulationStandsBesideTheMeasurement) {
     window_->grab().save(pictures + QStringLiteral("/review_simulation.png"));
 }
 
+TEST_F(Review, AnotherSessionBringsItsOwnMachine) {
+  open(writeStates("small", 1.0));
+  auto* page = go<ReviewPage>(StepId::Review);
+  const Camera small = page->pane(1)->view()->camera();
+  window_->closeSession();
+  const std::filesystem::path folder = writeStates("large", 1.0);
+  std::string machine = readFile(folder / "machine.json");
+  for (std::size_t at = machine.find("[0,300]"); at != std::string::npos; at = machine.find("[0,300]"))
+    machine.replace(at, 7, "[0,1500]");
+  writeFileAtomically(folder / "machine.json", machine);
+  open(folder);
+  page = go<ReviewPage>(StepId::Review);
+  (void)window_->grab();
+  ASSERT_TRUE(page->pane(1)->picture().field.has_value());
+  EXPECT_EQ(page->pane(1)->picture().field->grid.x_to_mm, 1500.0);
+  EXPECT_GT(page->pane(1)->view()->camera().half_height_mm, 2.0 * small.half_height_mm)
+      << "the first campaign of every session has the same number; the view must not keep the machine of the last one";
+}
+
 TEST_F(Review, ScansStandSideBySide) {
   VirtualScanCampaign c;
   c.optics.profile_points = 640;
