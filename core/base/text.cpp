@@ -27,15 +27,28 @@ std::string withUncertainty(double value, double standard_uncertainty, std::stri
     const double exponent = std::floor(std::log10(standard_uncertainty));
     const double leading = standard_uncertainty / std::pow(10.0, exponent);
     const int significant = leading < 2.95 ? 2 : 1;
-    const int decimals = std::clamp(static_cast<int>(-exponent) + significant - 1, 0, 12);
-    std::string rounded = fmt::format("{:.{}f}", value, decimals);
+    const int last_digit = static_cast<int>(-exponent) + significant - 1;
+    const int decimals = std::clamp(last_digit, 0, 12);
+    // From 30 on no digit stands behind the point, and those before it are rounded as far.
+    const double step = last_digit < 0 ? std::pow(10.0, -last_digit) : 1.0;
+    const auto digits = [&](double x) {
+      return last_digit < 0 ? fmt::format("{:.0f}", std::round(x / step) * step) : fmt::format("{:.{}f}", x, decimals);
+    };
+    std::string rounded = digits(value);
     if (rounded.starts_with('-') && rounded.find_first_not_of("-0.") == std::string::npos) rounded.erase(0, 1);
-    text = withMinusSign(rounded) + " \u00b1 " + fmt::format("{:.{}f}", standard_uncertainty, decimals);
+    text = withMinusSign(rounded) + " \u00b1 " + digits(standard_uncertainty);
   } else {
     text = withMinusSign(fmt::format("{:.6g}", value));
   }
   if (!unit.empty()) text.append(" ").append(unit);
   return text;
+}
+
+std::string pValueText(double p_value) {
+  if (!std::isfinite(p_value)) return "p not determined";
+  if (p_value < 1e-12) return "p < 1e-12";
+  if (p_value < 1e-3) return fmt::format("p = {:.0e}", p_value);
+  return fmt::format("p = {:.2g}", p_value);
 }
 
 std::string exactNumber(double value) {

@@ -13,6 +13,9 @@ namespace spindrift {
 /// minus sign. Without a usable uncertainty (not finite or <= 0): six significant digits of the value alone.
 [[nodiscard]] std::string withUncertainty(double value, double standard_uncertainty, std::string_view unit);
 
+/// "p = 0.51", "p = 6e-04", and "p < 1e-12" where the model of the noise says no more than that.
+[[nodiscard]] std::string pValueText(double p_value);
+
 /// A number for a file: shortest text that reads back to the same double, C locale.
 [[nodiscard]] std::string exactNumber(double value);
 

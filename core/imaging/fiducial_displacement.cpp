@@ -340,9 +340,9 @@ FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list, c
     findDirections(list, images, groups, out);
     if (!out.axes.pooled) {
       out.warnings.push_back(
-          fmt::format("the direction of the camera differs between fiducials or states (p = {:.2g}): "
+          fmt::format("the direction of the camera differs between fiducials or states ({}): "
                       "each fiducial is turned by its own axis images.",
-                      out.axes.p_value));
+                      pValueText(out.axes.p_value)));
     }
   } else {
     out.warnings.emplace_back(
@@ -412,10 +412,10 @@ FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list, c
       out.warnings.push_back(fmt::format("the centre of rotation cannot be found: {}.", out.centres.message));
       for (FiducialState& s : out.states) s.centre.reset();
     } else if (out.centres.pooling != CentrePooling::All) {
-      out.warnings.push_back(
-          fmt::format("the centre of rotation is not the same everywhere (p = {:.2g}): {} is used. The microscope has "
-                      "moved in the spindle or had not settled.",
-                      std::min(out.centres.p_value_all, out.centres.p_value_per_state), toString(out.centres.pooling)));
+      out.warnings.push_back(fmt::format(
+          "the centre of rotation is not the same everywhere ({}): {} is used. The microscope has "
+          "moved in the spindle or had not settled.",
+          pValueText(std::min(out.centres.p_value_all, out.centres.p_value_per_state)), toString(out.centres.pooling)));
     }
   }
   out.focus = fitFocus(out.focus_sets);

@@ -398,8 +398,8 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
       fit.warnings.push_back(
           fmt::format("the residuals are larger than the stated uncertainties allow (chi-squared {:.1f} with {} "
                       "degrees of freedom, "
-                      "p = {:.1g}): the nine parameters do not describe this state, or a point is disturbed.",
-                      fit.chi2, fit.degrees_of_freedom, *fit.p_value));
+                      "{}): the nine parameters do not describe this state, or a point is disturbed.",
+                      fit.chi2, fit.degrees_of_freedom, pValueText(*fit.p_value)));
     }
   }
   fit.value_covariance = change.covariance;

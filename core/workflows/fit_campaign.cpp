@@ -127,7 +127,7 @@ std::string summaryOf(const NineParameterComparison& comparison) {
     }
     text += fmt::format("  {:<9}{}{}\n", symbolOf(i), value, differs ? "   differs" : "");
   }
-  text += fmt::format("all together: p = {:.3g}; {}\n", comparison.p_value_all,
+  text += fmt::format("all together: {}; {}\n", pValueText(comparison.p_value_all),
                       comparison.p_value_all < 0.05 ? "the sets of points disagree beyond their uncertainty"
                                                     : "the sets of points agree within their uncertainty");
   return text;

@@ -57,42 +57,6 @@ std::map<SeriesKey, Course> coursesOf(const ObservationSet& set) {
   return out;
 }
 
-/// rms without noise and its uncertainty; all changes of a series share the noise of the first state.
-void addRms(const std::vector<const VerifyPoint*>& points, bool after, VerifyFigures& f) {
-  double squares = 0.0;
-  double noise = 0.0;
-  double spread = 0.0;
-  const auto n = static_cast<double>(points.size());
-  for (const VerifyPoint* p : points) {
-    const double d = after ? p->after : p->before;
-    const double s = after ? p->after_sigma : p->before_sigma;
-    squares += d * d / n;
-    noise += s * s / n;
-    // Neighbours share the first state: counted as if all did, half of the variance is common to a series.
-    spread += (2.0 * std::pow(s, 4) + 4.0 * d * d * s * s) / (n * n);
-    if (std::abs(d) <= f.largest) continue;
-    f.largest = std::abs(d);
-    f.largest_sigma = s;
-    f.largest_at = p->point + ", " + p->state;
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (points[i]->point != points[j]->point) continue;
-      const double di = after ? points[i]->after : points[i]->before;
-      const double dj = after ? points[j]->after : points[j]->before;
-      const double si = after ? points[i]->after_sigma : points[i]->before_sigma;
-      const double sj = after ? points[j]->after_sigma : points[j]->before_sigma;
-      const double common = 0.5 * si * sj;
-      spread += 2.0 * (2.0 * common * common + 4.0 * di * dj * common) / (n * n);
-    }
-  }
-  const double left = std::max(0.0, squares - noise);
-  f.rms = std::sqrt(left);
-  const double u = std::sqrt(std::max(0.0, spread));
-  // u of the root; near zero by the distance to the root of the upper end.
-  f.rms_sigma = std::sqrt(left + u) - f.rms;
-}
-
 VerifyVerdict judge(double value, double sigma, double goal) {
   if (!(goal > 0.0)) return VerifyVerdict::NotJudged;
   if (value + coverage * sigma <= goal) return VerifyVerdict::Met;
@@ -167,6 +131,43 @@ void conclude(VerifyResult& r) {
 }
 
 }  // namespace
+
+VerifyFigures verifyFigures(const std::vector<const VerifyPoint*>& points, bool after) {
+  VerifyFigures f;
+  double squares = 0.0;
+  double noise = 0.0;
+  double spread = 0.0;
+  const auto n = static_cast<double>(points.size());
+  for (const VerifyPoint* p : points) {
+    const double d = after ? p->after : p->before;
+    const double s = after ? p->after_sigma : p->before_sigma;
+    squares += d * d / n;
+    noise += s * s / n;
+    // Neighbours share the first state: counted as if all did, half of the variance is common to a series.
+    spread += (2.0 * std::pow(s, 4) + 4.0 * d * d * s * s) / (n * n);
+    if (std::abs(d) <= f.largest) continue;
+    f.largest = std::abs(d);
+    f.largest_sigma = s;
+    f.largest_at = p->point + ", " + p->state;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (points[i]->point != points[j]->point) continue;
+      const double di = after ? points[i]->after : points[i]->before;
+      const double dj = after ? points[j]->after : points[j]->before;
+      const double si = after ? points[i]->after_sigma : points[i]->before_sigma;
+      const double sj = after ? points[j]->after_sigma : points[j]->before_sigma;
+      const double common = 0.5 * si * sj;
+      spread += 2.0 * (2.0 * common * common + 4.0 * di * dj * common) / (n * n);
+    }
+  }
+  const double left = std::max(0.0, squares - noise);
+  f.rms = std::sqrt(left);
+  const double u = std::sqrt(std::max(0.0, spread));
+  // u of the root; near zero by the distance to the root of the upper end.
+  f.rms_sigma = std::sqrt(left + u) - f.rms;
+  return f;
+}
 
 std::string_view toString(VerifyVerdict verdict) noexcept {
   switch (verdict) {
@@ -252,8 +253,8 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
     VerifyComponent row;
     row.component = component;
     row.values = points.size();
-    addRms(points, false, row.before);
-    addRms(points, true, row.after);
+    row.before = verifyFigures(points, false);
+    row.after = verifyFigures(points, true);
     const double goal = isRotation(component) ? request.goal_urad : request.goal_um;
     row.verdict = request.criterion == VerifyCriterion::Largest ? judgeLargest(points, goal)
                                                                 : judge(row.after.rms, row.after.rms_sigma, goal);

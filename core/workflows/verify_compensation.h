@@ -61,6 +61,10 @@ struct VerifyPoint {
   double after_sigma = 0.0;
 };
 
+/// rms with the measuring noise taken out, and the largest |value|, of some compared values (um or urad). All changes
+/// of a series share the noise of its first state: half of their variance is counted as common.
+[[nodiscard]] VerifyFigures verifyFigures(const std::vector<const VerifyPoint*>& points, bool after);
+
 struct VerifyResult {
   VerifyRequest request;
   std::vector<VerifyComponent> components;

@@ -2,6 +2,7 @@
 #include "widgets/common/parts.h"
 
 #include <QButtonGroup>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QPainter>
@@ -79,12 +80,31 @@ static QString capitalised(QString sentence) {
 
 void Callout::show(Tone tone, const QString& sentence) {
   tone_ = tone;
-  asked_height_ = 0;
   text_->setText(capitalised(sentence));
   icon_->set(QString::fromLatin1(toneIcon(tone)), tone);
   setAccessibleName(sentence);
   setVisible(true);
+  fitHeight();
   update();
+}
+
+void Callout::resizeEvent(QResizeEvent* event) {
+  QFrame::resizeEvent(event);
+  fitHeight();
+}
+
+bool Callout::event(QEvent* event) {
+  const bool handled = QFrame::event(event);
+  if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Show) fitHeight();
+  return handled;
+}
+
+/// A layout asks a hidden widget, and one whose text has just changed, for the height of the sentence before: a second
+/// line would be cut. So the height for the width it really has is its least height.
+void Callout::fitHeight() {
+  if (!isVisible()) return;
+  const int needed = layout()->heightForWidth(width());
+  if (needed != minimumHeight()) setMinimumHeight(needed);
 }
 
 void Callout::set(Tone tone, const QString& sentence) {
@@ -103,13 +123,6 @@ void Callout::setAction(const QString& text, std::function<void()> action) {
 }
 
 void Callout::paintEvent(QPaintEvent*) {
-  // Qt at times keeps the height of the sentence before, and the new one would be cut.
-  const int needed = heightForWidth(width());
-  if (needed > height() && needed != asked_height_) {
-    asked_height_ = needed;
-    QMetaObject::invokeMethod(
-        this, [this] { updateGeometry(); }, Qt::QueuedConnection);
-  }
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setPen(Qt::NoPen);

@@ -54,10 +54,13 @@ class Callout : public QFrame {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  bool event(QEvent* event) override;
 
  private:
+  void fitHeight();
+
   Tone tone_ = Tone::Neutral;
-  int asked_height_ = 0;
   IconLabel* icon_;
   QLabel* text_;
   QPushButton* button_;

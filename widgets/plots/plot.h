@@ -79,7 +79,7 @@ class Plot : public QWidget {
   [[nodiscard]] const std::vector<Series>& series() const { return series_; }
 
   [[nodiscard]] QSize sizeHint() const override { return {480, 280}; }
-  [[nodiscard]] QSize minimumSizeHint() const override { return {260, 180}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {220, 180}; }
 
  Q_SIGNALS:
   void hovered(const QString& text);

@@ -75,6 +75,11 @@ MachineBodies machineBodies(const MachineDescription& machine) {
     const Eigen::Vector3d high = layout.machine({a.high, d.high, u.high});
     result.bodies.push_back({std::move(name), kind, low.cwiseMin(high), low.cwiseMax(high)});
   };
+  // A round body about a local direction.
+  const auto addRound = [&](QString name, BodyKind kind, int about, Extent a, Extent d, Extent u) {
+    add(std::move(name), kind, a, d, u);
+    result.bodies.back().round_about = layout.axis[static_cast<std::size_t>(about)];
+  };
   const auto around = [](double middle, double half) { return Extent{middle - half, middle + half}; };
 
   // Workpiece side: the table, then one slide for each further axis that carries it, down to the bed.
@@ -86,13 +91,41 @@ MachineBodies machineBodies(const MachineDescription& machine) {
   const double slab = 0.055 * size;
   add(translated("Table"), BodyKind::Table, across, deep, {under - slab, under});
   under -= slab;
-  for (std::size_t i = 1; i < carriers.size(); ++i) {
-    const bool moves_across = !carriers[i]->rotary && carriers[i]->direction.x() > 0.5;
+  for (std::size_t i = 0; i < carriers.size(); ++i) {
+    const ChainAxis& carrier = *carriers[i];
+    const Eigen::Vector3d direction = layout.local(carrier.direction).cwiseAbs();
+    const QString name = QString::fromStdString(carrier.name);
+    if (carrier.rotary && direction.z() > 0.5) {  // a turning table: a disc
+      const double radius = 0.4 * std::min(across.length(), deep.length());
+      addRound(translated("%1 turning table").arg(name), BodyKind::WorkpieceSide, 2, around(across.middle(), radius),
+               around(deep.middle(), radius), {under - 1.4 * slab, under});
+      under -= 1.4 * slab;
+      continue;
+    }
+    if (carrier.rotary) {  // a swivelling table: a shaft between two bearings
+      const bool across_shaft = direction.x() > 0.5;
+      const double radius = 0.09 * size;
+      const Extent height{under - 2 * radius, under};
+      const Extent& along = across_shaft ? across : deep;
+      const Extent shaft_across = across_shaft ? along : around(across.middle(), radius);
+      const Extent shaft_deep = across_shaft ? around(deep.middle(), radius) : along;
+      addRound(translated("%1 swivel").arg(name), BodyKind::WorkpieceSide, across_shaft ? 0 : 1, shaft_across,
+               shaft_deep, height);
+      for (const double end : {along.low, along.high}) {
+        const Extent bearing = around(end, 0.04 * size);
+        add(translated("%1 bearing").arg(name), BodyKind::WorkpieceSide,
+            across_shaft ? bearing : around(across.middle(), 1.3 * radius),
+            across_shaft ? around(deep.middle(), 1.3 * radius) : bearing, {height.low, under - 0.2 * slab});
+      }
+      under = height.low;
+      continue;
+    }
+    if (i == 0) continue;  // the slide that is the table
+    const bool moves_across = direction.x() > 0.5;
     const Extent a = moves_across ? Extent{across.low + 0.1 * across.length(), across.high - 0.1 * across.length()}
                                   : around(across.middle(), 0.3 * across.length());
     const Extent d = moves_across ? around(deep.middle(), 0.3 * deep.length()) : deep;
-    add(translated("%1 slide").arg(QString::fromStdString(carriers[i]->name)), BodyKind::WorkpieceSide, a, d,
-        {under - slab, under});
+    add(translated("%1 slide").arg(name), BodyKind::WorkpieceSide, a, d, {under - slab, under});
     under -= slab;
   }
 
@@ -127,20 +160,29 @@ MachineBodies machineBodies(const MachineDescription& machine) {
     }
     add(translated("Head"), BodyKind::ToolSide, around(a0, head_half),
         {d0 - head_half, gantry ? d0 + head_half : column_front}, head_height);
-    add(translated("Spindle"), BodyKind::Spindle, around(a0, 0.055 * size), around(d0, 0.055 * size),
-        {tip + 0.05 * size, tip + 0.16 * size});
-    add(translated("Tool"), BodyKind::Spindle, around(a0, 0.012 * size), around(d0, 0.012 * size),
-        {tip, tip + 0.05 * size});
+    for (const ChainAxis& axis : machine.chain.axes()) {
+      if (!axis.rotary || axis.carries_workpiece || axis.spindle) continue;
+      const Eigen::Vector3d direction = layout.local(axis.direction).cwiseAbs();
+      const int about = direction.x() > 0.5 ? 0 : direction.y() > 0.5 ? 1 : 2;
+      const double long_half = about == 2 ? 0.085 * size : 0.13 * size;
+      addRound(translated("%1 swivel").arg(QString::fromStdString(axis.name)), BodyKind::ToolSide, about,
+               around(a0, about == 0 ? long_half : 0.085 * size), around(d0, about == 1 ? long_half : 0.085 * size),
+               {tip + 0.13 * size, tip + 0.30 * size});
+    }
+    addRound(translated("Spindle"), BodyKind::Spindle, 2, around(a0, 0.055 * size), around(d0, 0.055 * size),
+             {tip + 0.05 * size, tip + 0.16 * size});
+    addRound(translated("Tool"), BodyKind::Spindle, 2, around(a0, 0.012 * size), around(d0, 0.012 * size),
+             {tip, tip + 0.05 * size});
   } else {
     const double a0 = travel[0].middle();
     const double u0 = table_height + 0.45 * travel[2].length();
     add(translated("Column"), BodyKind::Column, around(a0, 0.26 * size), {column_front, column_back}, {under, top});
     add(translated("Head"), BodyKind::ToolSide, around(a0, head_half), {column_front - 0.1 * size, column_front},
         around(u0, head_half));
-    add(translated("Spindle"), BodyKind::Spindle, around(a0, 0.055 * size),
-        {column_front - 0.24 * size, column_front - 0.1 * size}, around(u0, 0.055 * size));
-    add(translated("Tool"), BodyKind::Spindle, around(a0, 0.012 * size),
-        {column_front - 0.3 * size, column_front - 0.24 * size}, around(u0, 0.012 * size));
+    addRound(translated("Spindle"), BodyKind::Spindle, 1, around(a0, 0.055 * size),
+             {column_front - 0.24 * size, column_front - 0.1 * size}, around(u0, 0.055 * size));
+    addRound(translated("Tool"), BodyKind::Spindle, 1, around(a0, 0.012 * size),
+             {column_front - 0.3 * size, column_front - 0.24 * size}, around(u0, 0.012 * size));
   }
 
   const auto motion = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, int local_axis) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A simple model of a machine: a few boxes placed from its kinematic chain and travels. For pictures, not for
-// measuring.
+// A simple model of a machine: boxes and round bodies placed from its kinematic chain and travels. For pictures, not
+// for measuring.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,12 +13,13 @@ namespace spindrift::gui {
 
 enum class BodyKind { Bed, WorkpieceSide, Table, Column, ToolSide, Spindle };
 
-/// An axis-parallel box in MCF, mm.
+/// An axis-parallel box in MCF, mm, or the round body inside it.
 struct Body {
   QString name;
   BodyKind kind = BodyKind::Bed;
   Eigen::Vector3d low_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d high_mm = Eigen::Vector3d::Zero();
+  int round_about = -1;  ///< 0, 1, 2: a cylinder about X, Y, Z; -1: a box
 };
 
 /// A motion to be drawn as a double arrow: the travel of a linear axis beside the body that moves.

@@ -19,8 +19,6 @@ void paintMotions(QPainter& painter, const Camera& camera, const QSizeF& size, c
 void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies);
 void paintArrows(QPainter& painter, const Camera& camera, const QSizeF& size, const std::vector<ViewArrow>& arrows,
                  double exaggeration);
-void paintPoints(QPainter& painter, const Camera& camera, const QSizeF& size, const std::vector<ViewPoint>& points,
-                 const std::optional<ColourScale>& scale, const QString& selected, const QRectF& keep_out);
 /// Spacing of the table grid, mm: about ten lines on the longer side.
 [[nodiscard]] double gridSpacing_mm(const MachineBodies& bodies);
 

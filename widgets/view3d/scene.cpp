@@ -117,9 +117,9 @@ struct Scene::Impl {
           high.push_back(&body);
       }
     }
-    makeBoxes(table, table_edges, table_bodies);
-    makeBoxes(lower, lower_edges, low);
-    makeBoxes(upper, upper_edges, high);
+    makeBodies(table, table_edges, table_bodies);
+    makeBodies(lower, lower_edges, low);
+    makeBodies(upper, upper_edges, high);
     // Grid on the table, at round values.
     const double spacing = gridSpacing_mm(*bodies);
     const Eigen::Vector3d& a = bodies->table_low_mm;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts of the scene: a piece of geometry with its actor, lines and the flat-shaded boxes of the machine (private to
+// Parts of the scene: a piece of geometry with its actor, lines and the shaded bodies of the machine (private to
 // view3d).
 #pragma once
 
@@ -33,7 +33,7 @@ struct Piece {
 void setColour(Piece& piece, const QColor& colour);
 /// Lines without lighting.
 void makeLines(Piece& piece, const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& lines);
-/// Flat-shaded boxes with a colour each, and their edges.
-void makeBoxes(Piece& faces, Piece& edges, const std::vector<const Body*>& bodies);
+/// Shaded boxes and cylinders with a colour each, and their edges.
+void makeBodies(Piece& faces, Piece& edges, const std::vector<const Body*>& bodies);
 
 }  // namespace spindrift::gui

@@ -11,6 +11,7 @@
 
 #include "widgets/theme/fonts.h"
 #include "widgets/view3d/overlay.h"
+#include "widgets/view3d/point_labels.h"
 #include "widgets/view3d/scene.h"
 
 namespace spindrift::gui {
@@ -108,6 +109,7 @@ void View3D::setToolSideVisible(bool visible) {
 
 void View3D::setPoints(std::vector<ViewPoint> points) {
   points_ = std::move(points);
+  extentChanged();
   update();
 }
 
@@ -120,6 +122,7 @@ void View3D::setArrows(std::vector<ViewArrow> arrows, double exaggeration) {
 void View3D::setShapes(std::vector<ViewShape> shapes) {
   shapes_ = std::move(shapes);
   if (scene_ != nullptr) scene_->setShapes(shapes_);
+  extentChanged();
   changed();
 }
 
@@ -200,6 +203,10 @@ void View3D::changed() {
   update();
 }
 
+void View3D::extentChanged() {
+  if (fitted_ && camera_ == automatic_) fitted_ = false;
+}
+
 void View3D::cameraMoved() {
   changed();
   Q_EMIT cameraChanged();
@@ -240,7 +247,7 @@ void View3D::fitCamera(const QSize& size) {
   // And so do the numbers along the table's edges.
   // In a low view the notes would cover what is drawn.
   const double top = size.height() < low_view_px ? notes_px : 0.0;
-  const QSizeF free(std::max(40.0, size.width() - bar - 2 * edge_label_px),
+  const QSizeF free(std::max(40.0, size.width() - bar - 2 * edgeReserve()),
                     std::max(40.0, size.height() - top - 2.0 * edge_label_px));
   camera_.fit(box->first, box->second, free);
   camera_.half_height_mm *= size.height() / free.height();
@@ -260,7 +267,11 @@ void View3D::ensureFrame(const QSize& size, double ratio) {
   if (scene_ == nullptr) return;
   const QSize pixels(std::max(1, static_cast<int>(std::lround(size.width() * ratio))),
                      std::max(1, static_cast<int>(std::lround(size.height() * ratio))));
-  if (!fitted_) fitCamera(size);
+  if (!fitted_) {
+    const Camera before = camera_;
+    fitCamera(size);
+    if (!(camera_ == before)) dirty_ = true;
+  }
   if (!dirty_ && frame_pixels_ == pixels) return;
   frame_ = scene_->draw(camera_, pixels, ratio);
   frame_.setDevicePixelRatio(ratio);
@@ -274,6 +285,18 @@ bool View3D::showsScale() const {
   return scale_ &&
          (field_ != nullptr || cloud_.scalar != nullptr ||
           std::any_of(points_.begin(), points_.end(), [](const ViewPoint& p) { return p.value.has_value(); }));
+}
+
+double View3D::edgeReserve() const {
+  if (!bodies_ || machine_visible_) return edge_label_px;
+  const QFontMetricsF metrics(textFont(11));
+  double widest = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(bodies_->vertical[i]) > 0.5) continue;
+    for (const double mm : {bodies_->table_low_mm[i], bodies_->table_high_mm[i]})
+      widest = std::max(widest, metrics.horizontalAdvance(QString::number(mm, 'f', 0)));
+  }
+  return std::max(edge_label_px, widest + 12);
 }
 
 double View3D::reservedRight(const QSize& size) const {
@@ -373,9 +396,37 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size) const {
   paintArrows(painter, camera_, area, arrows_, exaggeration_);
   QRectF bar;
   if (showsScale()) bar = paintColourBar(painter, whole, *scale_);
-  paintPoints(painter, camera_, area, points_, scale_, selected_, bar);
+  painter.setFont(textFont(sizes::font_secondary));
+  const QFontMetricsF metrics(painter.font());
+  const double room = area.width() - 48 - (bar.isEmpty() ? 0.0 : area.width() - bar.left());
+  QStringList lines = notes(size);
+  double width = 0;
+  for (QString& line : lines) {
+    line = metrics.elidedText(line, Qt::ElideRight, room);
+    width = std::max(width, metrics.horizontalAdvance(line));
+  }
+  const double line_height = metrics.height() + 3;
+  const QRectF panel =
+      lines.isEmpty() ? QRectF() : QRectF(8, 8, width + 16, line_height * static_cast<double>(lines.size()) + 9);
+  const QRectF triad(whole.left(), whole.bottom() - 92, 92, 92);
+  paintPoints(painter, camera_, area, points_, scale_, {selected_, hovered_point_, {bar, panel, triad}});
   paintTriad(painter, whole, camera_);
+  if (lines.isEmpty()) return;
+  painter.setFont(textFont(sizes::font_secondary));
+  QColor back = t.surface;
+  back.setAlphaF(0.85F);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(back);
+  painter.drawRoundedRect(panel, 6, 6);
+  double y = 13 + metrics.ascent();
+  for (qsizetype i = 0; i < lines.size(); ++i) {
+    painter.setPen(i == 0 && !caption_.isEmpty() ? t.text : t.text_secondary);
+    painter.drawText(QPointF(16, y), lines[i]);
+    y += line_height;
+  }
+}
 
+QStringList View3D::notes(const QSize& size) const {
   QStringList notes;
   if (!caption_.isEmpty()) notes << caption_.split(QLatin1Char('\n'));
   if (!arrows_.empty()) {
@@ -394,26 +445,7 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size) const {
     if (faded) notes << tr("Faded: within %1 standard uncertainties of zero").arg(significance);
     if (striped) notes << tr("Striped: outside the measured points");
   }
-  if (!notes.isEmpty()) {
-    painter.setFont(textFont(sizes::font_secondary));
-    const QFontMetricsF metrics(painter.font());
-    const double room = area.width() - 48 - (bar.isEmpty() ? 0.0 : area.width() - bar.left());
-    for (QString& note : notes) note = metrics.elidedText(note, Qt::ElideRight, room);
-    double width = 0;
-    for (const QString& note : notes) width = std::max(width, metrics.horizontalAdvance(note));
-    QColor back = t.surface;
-    back.setAlphaF(0.85F);
-    const double line = metrics.height() + 3;
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(back);
-    painter.drawRoundedRect(QRectF(8, 8, width + 16, line * static_cast<double>(notes.size()) + 9), 6, 6);
-    double y = 13 + metrics.ascent();
-    for (qsizetype i = 0; i < notes.size(); ++i) {
-      painter.setPen(i == 0 && !caption_.isEmpty() ? t.text : t.text_secondary);
-      painter.drawText(QPointF(16, y), notes[i]);
-      y += line;
-    }
-  }
+  return notes;
 }
 
 QImage View3D::picture(const QSize& size, double ratio) {

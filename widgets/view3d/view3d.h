@@ -137,7 +137,7 @@ class View3D : public QWidget {
   [[nodiscard]] const QString& failure() const { return failure_; }
 
   [[nodiscard]] QSize sizeHint() const override { return {640, 480}; }
-  [[nodiscard]] QSize minimumSizeHint() const override { return {280, 220}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {240, 200}; }
 
  Q_SIGNALS:
   void pointPicked(const QString& id);
@@ -160,11 +160,18 @@ class View3D : public QWidget {
   bool event(QEvent* event) override;
 
  private:
-  void changed();      ///< redraw solid things
+  void changed();  ///< redraw solid things
+  /// What is to be seen has another extent: a view that nobody has turned is fitted again.
+  void extentChanged();
+  /// Room beside the machine for the numbers along the edges of its table, pixels.
+  [[nodiscard]] double edgeReserve() const;
+  /// What the notes at the top left say: caption, exaggeration, what faded and striped mean.
+  [[nodiscard]] QStringList notes(const QSize& size) const;
   void cameraMoved();  ///< redraw, thinned, and refine a moment later
   void ensureFrame(const QSize& size, double ratio);
   void fitCamera(const QSize& size);
-  void shareCamera();  ///< with the linked views
+  void setHoveredPoint(const QString& id);  ///< its label is always shown
+  void shareCamera();                       ///< with the linked views
   void paintOverlay(QPainter& painter, const QSize& size) const;
   [[nodiscard]] QSizeF viewSize() const { return {static_cast<double>(width()), static_cast<double>(height())}; }
   void refineStep();
@@ -193,6 +200,7 @@ class View3D : public QWidget {
   QString empty_title_;
   QString empty_how_;
   QString selected_;
+  QString hovered_point_;
   QString failure_;
   QImage frame_;
   bool dirty_ = true;

@@ -117,7 +117,8 @@ void View3D::mouseMoveEvent(QMouseEvent* event) {
       if (probe->extrapolated) text += tr(" (extrapolated)");
     }
     Q_EMIT cursorMoved(position);
-    setCursor(pointAt(position).isEmpty() ? Qt::ArrowCursor : Qt::PointingHandCursor);
+    setHoveredPoint(pointAt(position));
+    setCursor(hovered_point_.isEmpty() ? Qt::ArrowCursor : Qt::PointingHandCursor);
     Q_EMIT hovered(text);
     return;
   }
@@ -233,7 +234,14 @@ void View3D::keyPressEvent(QKeyEvent* event) {
   }
 }
 
+void View3D::setHoveredPoint(const QString& id) {
+  if (hovered_point_ == id) return;
+  hovered_point_ = id;
+  update();
+}
+
 void View3D::leaveEvent(QEvent* event) {
+  setHoveredPoint({});
   Q_EMIT hovered({});
   QWidget::leaveEvent(event);
 }

@@ -13,6 +13,7 @@
 
 #include "core/base/random.h"
 #include "core/base/units.h"
+#include "widgets/view3d/point_labels.h"
 
 namespace spindrift::gui {
 namespace {
@@ -184,6 +185,80 @@ TEST(View3D, KeysGoThroughThePoints) {
   EXPECT_EQ(picked[0].front().toString(), QStringLiteral("F1"));
   EXPECT_EQ(picked[1].front().toString(), QStringLiteral("F2"));
   EXPECT_EQ(picked[2].front().toString(), QStringLiteral("F1"));
+}
+
+/// Points on a square of 100 mm with values that grow with their number.
+std::vector<ViewPoint> crowd(int count) {
+  Random random(17);
+  std::vector<ViewPoint> points;
+  for (int i = 0; i < count; ++i) {
+    ViewPoint p;
+    p.id = p.label = QStringLiteral("F%1").arg(i + 1);
+    p.position_mm = {random.uniform(0.0, 100.0), random.uniform(0.0, 100.0), 0.0};
+    p.value = i;
+    p.value_text = QStringLiteral("%1 um").arg(i);
+    points.push_back(p);
+  }
+  return points;
+}
+
+Camera fromAbove(const QSizeF& size) {
+  Camera camera;
+  camera.look(StandardView::Top);
+  camera.fit({0, 0, 0}, {100, 100, 0}, size);
+  return camera;
+}
+
+TEST(PointLabels, CoverNothingAndTheImportantOnesAreThere) {
+  const QSizeF small(320, 220);
+  const auto points = crowd(40);
+  const Camera camera = fromAbove(small);
+  const QRectF bar(240, 0, 80, 220);
+  const auto labels = placeLabels(camera, small, points, {QStringLiteral("F1"), QStringLiteral("F2"), {bar}});
+  ASSERT_GT(labels.size(), 5U);
+  ASSERT_LT(labels.size(), 40U) << "there is no room for all";
+  EXPECT_EQ(labels[0].point->id, QStringLiteral("F1"));
+  EXPECT_EQ(labels[1].point->id, QStringLiteral("F2"));
+  EXPECT_EQ(labels[2].point->id, QStringLiteral("F40")) << "the largest value comes first of the others";
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    EXPECT_TRUE(QRectF(QPointF(0, 0), small).contains(labels[i].box)) << i;
+    if (i < 2) continue;  // the emphasised ones may cover a mark where nothing is free
+    EXPECT_FALSE(labels[i].box.intersects(bar)) << i;
+    for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(labels[i].box.intersects(labels[j].box)) << i << ' ' << j;
+    for (const ViewPoint& p : points) {
+      const QPointF mark = *camera.project(p.position_mm, small);
+      EXPECT_FALSE(labels[i].box.contains(mark)) << i;
+    }
+  }
+}
+
+TEST(PointLabels, AllAreShownWithTheirValuesWhereThereIsRoom) {
+  const QSizeF large(1400, 1200);
+  const auto points = crowd(12);
+  const auto labels = placeLabels(fromAbove(large), large, points, {});
+  ASSERT_EQ(labels.size(), points.size());
+  for (const PlacedLabel& label : labels) EXPECT_TRUE(label.with_value);
+}
+
+TEST(MachineBodies, RotaryAxesAreRoundBodiesWhereTheChainHasThem) {
+  MachineDescription machine = desktopMill();
+  const auto about = [&](const char* chain, const QString& part) {
+    machine.chain = KinematicChain::parse(chain);
+    for (const Body& body : machineBodies(machine).bodies) {
+      if (body.name.contains(part)) return body.round_about;
+    }
+    return -2;
+  };
+  const char* five_axes = "V [w-C2'-A'-X'-b-Y-Z-(C1)-t]";
+  EXPECT_EQ(about(five_axes, QStringLiteral("C2 turning")), 2);
+  EXPECT_EQ(about(five_axes, QStringLiteral("A swivel")), 0);
+  EXPECT_EQ(about(five_axes, QStringLiteral("X slide")), -1);
+  EXPECT_EQ(about(five_axes, QStringLiteral("Spindle")), 2);
+  EXPECT_EQ(about(five_axes, QStringLiteral("Table")), -1);
+  EXPECT_EQ(about("V [w-X'-b-Y-Z-B-(C)-t]", QStringLiteral("B swivel")), 1);
+  EXPECT_EQ(about("V [w-X'-b-Y-Z-(C)-t]", QStringLiteral("swivel")), -2) << "the spindle is no swivel";
+  EXPECT_EQ(about("H [w-B'-X'-b-Y-Z-(C)-t]", QStringLiteral("B turning")), 1);
+  EXPECT_EQ(about("H [w-B'-X'-b-Y-Z-(C)-t]", QStringLiteral("Spindle")), 2);
 }
 
 TEST(View3D, LinkedViewsLookTheSameWay) {

@@ -25,6 +25,7 @@
 #include "core/base/text.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
@@ -98,8 +99,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   choices->addWidget(source_, 2);
   choices->addWidget(new QLabel(tr("State")));
   choices->addWidget(state_, 1);
-  auto* file_choices = new QHBoxLayout;
-  file_choices->setSpacing(8);
+  auto* file_choices = new WrapLayout;
   file_choices->addWidget(new QLabel(tr("Positions")));
   file_choices->addWidget(positions_);
   file_choices->addWidget(new QLabel(tr("At / mm")));
@@ -110,7 +110,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
     reference_[i]->setAccessibleName(tr("Reference position %1 of the tables in mm").arg(axis_names[i]));
     reference_[i]->setButtonSymbols(QAbstractSpinBox::NoButtons);
     reference_[i]->setMinimumWidth(84);
-    file_choices->addWidget(reference_[i], 1);
+    file_choices->addWidget(reference_[i]);
   }
   head->body()->addLayout(choices);
   auto* tiles = new QHBoxLayout;

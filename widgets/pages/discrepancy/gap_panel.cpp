@@ -30,7 +30,7 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   line->setContentsMargins(0, 8, 0, 0);
   line->setSpacing(12);
   auto* left = new Card(tr("How large the gap is"));
-  left->setFixedWidth(296);
+  left->setFixedWidth(280);
   bars_ = new GapBars;
   left->body()->addWidget(bars_);
   model_ = makeLabel({}, "secondaryText");

@@ -17,6 +17,7 @@
 #include "core/base/text.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/view3d/view3d.h"
 
@@ -70,7 +71,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   addAction(fit_button_);
 
   auto* left = new Card;
-  left->setMinimumWidth(440);  // leaves room for the view when the help is open
+  left->setMinimumWidth(440);
   auto* choices = new QHBoxLayout;
   choices->addWidget(new QLabel(tr("State")));
   state_ = new QComboBox;
@@ -123,10 +124,9 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   left->body()->addWidget(tabs_, 3);
 
   auto* right = new Card;
-  auto* view_line = new QHBoxLayout;
+  auto* view_line = new WrapLayout;
   component_ = new Segments({QStringLiteral("EX"), QStringLiteral("EY"), QStringLiteral("EZ")}, tr("Component"));
   view_line->addWidget(component_);
-  view_line->addStretch();
   arrows_ = new QCheckBox(tr("Arrows"));
   arrows_->setChecked(true);
   same_scale_ = new QCheckBox(tr("One scale"));
@@ -401,7 +401,8 @@ void NineParameterPage::showFit() {
   rms_validation_->set(rms(f.rms_validation_um),
                        f.rms_validation_um ? tr("over the other points") : tr("uncheck a point to validate"));
   condition_->set(QString::number(f.condition_number, 'g', 3),
-                  f.p_value ? tr("χ² test: p = %1").arg(*f.p_value, 0, 'g', 2) : tr("no degrees of freedom left"));
+                  f.p_value ? tr("χ² test: %1").arg(QString::fromStdString(pValueText(*f.p_value)))
+                            : tr("no degrees of freedom left"));
   showComparison();
   showField();
 }

@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/common/editor_table.h"
 #include "widgets/pages/machine/artefact_fields.h"
@@ -45,14 +46,15 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
   verdict_ = new Callout;
   column->addWidget(verdict_);
   auto* left = new Card;
-  auto* head = new QHBoxLayout;
+  auto* head = new WrapLayout;
   choice_ = new QComboBox;
   choice_->setAccessibleName(tr("Artefact"));
   choice_->setMinimumWidth(140);
   auto* add_bar = makeButton(tr("Hole bar"), "plus");
   auto* add_balls = makeButton(tr("Balls"), "plus");
   remove_ = makeButton(tr("Remove"), "trash");
-  head->addWidget(choice_, 1);
+  choice_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  head->addWidget(choice_);
   head->addWidget(add_bar);
   head->addWidget(add_balls);
   head->addWidget(remove_);
@@ -68,14 +70,13 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
   styli_ = makeEditor({tr("Stylus"), tr("Radius / mm"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Styli"));
   styli_->setToolTip(tr("Offset: tip minus spindle reference"));
   right->body()->addWidget(styli_, 2);
-  auto* stylus_buttons = new QHBoxLayout;
+  auto* stylus_buttons = new WrapLayout;
   auto* add_stylus = makeButton(tr("Add stylus"), "plus");
   auto* remove_stylus = makeButton(tr("Remove stylus"), "trash");
   discard_ = makeButton(tr("Discard"), "undo");
   apply_ = makeButton(tr("Apply artefacts"), nullptr, "primary");
   stylus_buttons->addWidget(add_stylus);
   stylus_buttons->addWidget(remove_stylus);
-  stylus_buttons->addStretch();
   right->body()->addLayout(stylus_buttons);
   auto* buttons = new QHBoxLayout;
   buttons->addStretch();

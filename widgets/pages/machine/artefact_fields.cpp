@@ -66,12 +66,12 @@ ArtefactFields::ArtefactFields(QWidget* parent) : QWidget(parent) {
   addField(form, 0, 1, tr("Serial number"), "serial_number", 1, tr("Goes into the report"));
   addField(form, 1, 0, tr("Material"), "material", 1, tr("Goes into the report"));
   addField(form, 1, 1, tr("Expansion / um/m/K"), "expansion_um_per_m_K", 1, tr("Steel 11.5, Invar 1.2"));
-  addField(form, 2, 0, tr("Temperature / degC"), "temperature_degC", 1, tr("Of the artefact, where no sensor says it"));
+  addField(form, 2, 0, tr("Temperature / °C"), "temperature_degC", 1, tr("Of the artefact, where no sensor says it"));
   addField(form, 2, 1, tr("Certificate ± / um"), "certificate_uncertainty_um", 1,
            tr("Standard uncertainty of a certified position"));
   addField(form, 3, 0, tr("Hole diameter / mm"), "hole_diameter_mm", 1, {});
   addField(form, 3, 1, tr("Reference hole"), "reference_hole", 1, tr("H1, H2, …"));
-  addField(form, 4, 0, tr("Reference in table / mm"), "reference_in_table_mm", 3,
+  addField(form, 4, 0, tr("Reference at / mm"), "reference_in_table_mm", 3,
            tr("x, y, z of the reference hole from the centre of the rotary axis at 0°"));
   addField(form, 4, 1, tr("Direction at 0°"), "direction_at_c0", 3, tr("Along the bar, from H1 on"));
   column->addLayout(form);
@@ -104,7 +104,7 @@ void ArtefactFields::addField(QGridLayout* form, int row, int column, const QStr
   for (int k = 0; k < parts; ++k) {
     auto* edit = new QLineEdit;
     edit->setAccessibleName(parts > 1 ? QStringLiteral("%1, %2").arg(title, QString(QLatin1Char("xyz"[k]))) : title);
-    edit->setMinimumWidth(parts > 1 ? 54 : 90);
+    edit->setMinimumWidth(parts > 1 ? 38 : 64);
     edit->setMinimumHeight(sizes::control_height);
     edit->setToolTip(tip);
     connect(edit, &QLineEdit::editingFinished, this, [this, edit] {

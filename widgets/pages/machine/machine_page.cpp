@@ -19,6 +19,7 @@
 #include "core/workflows/fit_campaign.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/pages/common/editor_table.h"
 #include "widgets/pages/machine/artefact_editor.h"
 #include "widgets/view3d/view3d.h"
@@ -26,15 +27,24 @@
 namespace spindrift::gui {
 QStringList machineFindings(const MachineDescription& machine) {
   QStringList findings;
+  QStringList no_resolution;
+  QStringList no_bearing;
   for (const LinearAxis& axis : machine.axes) {
     const QString name = QString::fromStdString(axis.name);
-    if (!axis.resolution_um) {
-      findings << MachinePage::tr("Axis %1 has no resolution: verdicts against the resolution are left out.").arg(name);
-    }
-    if (axis.drive_type == "ball_screw" && !axis.fixed_bearing_mm) {
-      findings
-          << MachinePage::tr("The screw of axis %1 has no fixed bearing: its expansion cannot be placed.").arg(name);
-    }
+    if (!axis.resolution_um) no_resolution << name;
+    if (axis.drive_type == "ball_screw" && !axis.fixed_bearing_mm) no_bearing << name;
+  }
+  const auto listed = [](QStringList names) {
+    const QString last = names.takeLast();
+    return names.isEmpty() ? last : MachinePage::tr("%1 and %2").arg(names.join(QStringLiteral(", ")), last);
+  };
+  if (!no_resolution.isEmpty()) {
+    findings << MachinePage::tr("No resolution is stated for %1: verdicts against the resolution are left out.")
+                    .arg(listed(no_resolution));
+  }
+  if (!no_bearing.isEmpty()) {
+    findings << MachinePage::tr("No fixed bearing is stated for the screw of %1: its expansion cannot be placed.")
+                    .arg(listed(no_bearing));
   }
   for (const MachinePoint& point : machine.points) {
     for (int i = 0; i < 3; ++i) {
@@ -84,13 +94,13 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   card->body()->addWidget(axes_, 2);
   card->body()->addWidget(makeLabel(tr("Measuring points"), "sectionTitle"));
   points_ = makeEditor({tr("Point"), tr("Kind"), tr("x / mm"), tr("y / mm"), tr("z / mm")}, tr("Measuring points"));
+  points_->setMinimumHeight(84);
   card->body()->addWidget(points_, 3);
-  auto* point_buttons = new QHBoxLayout;
+  auto* point_buttons = new WrapLayout;
   auto* add = makeButton(tr("Add point"), "plus");
   auto* remove = makeButton(tr("Remove point"), "trash");
   point_buttons->addWidget(add);
   point_buttons->addWidget(remove);
-  point_buttons->addStretch();
   suggest_count_ = new QSpinBox;
   suggest_count_->setRange(3, 20);
   suggest_count_->setValue(6);
@@ -98,6 +108,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   suggest_goal_ = new QComboBox;
   suggest_goal_->addItem(tr("best heat map"), static_cast<int>(PlacementCriterion::I));
   suggest_goal_->addItem(tr("best parameters"), static_cast<int>(PlacementCriterion::D));
+  suggest_goal_->setMaximumWidth(156);
   suggest_goal_->setAccessibleName(tr("What the points shall be best for"));
   suggest_ = makeButton(tr("Suggest points"), "target");
   suggest_->setToolTip(
@@ -114,7 +125,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   picture->body()->addWidget(view_, 1);
   auto* tabs = makeTabs();
   tabs->setObjectName(QStringLiteral("machineTabs"));
-  tabs->addTab(makeSplitter(card, picture, 7, 5), tr("Axes and points"));
+  tabs->addTab(makeSplitter(card, picture, 8, 5), tr("Axes and points"));
   artefacts_ = new ArtefactEditor(context());
   tabs->addTab(artefacts_, tr("Artefacts and styli"));
   content()->addWidget(tabs, 1);

@@ -3,7 +3,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
@@ -14,6 +13,7 @@
 #include <cmath>
 
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/probing/cycle_model_page.h"
@@ -47,7 +47,7 @@ QWidget* CycleModelPage::makeVolumePart() {
                       tr("Fit all cycles: the error is drawn on a plane through the working space."));
   view_->setMachineVisible(false);
   card->body()->addWidget(view_, 1);
-  auto* line = new QHBoxLayout;
+  auto* line = new WrapLayout;
   line->addWidget(new QLabel(tr("Plane at")));
   normal_ =
       new Segments({QStringLiteral("X"), QStringLiteral("Y"), QStringLiteral("Z")}, tr("Axis the plane is normal to"));
@@ -56,7 +56,9 @@ QWidget* CycleModelPage::makeVolumePart() {
   level_ = new QSlider(Qt::Horizontal);
   level_->setAccessibleName(tr("Place of the plane"));
   level_->setMinimumHeight(sizes::control_height);
-  line->addWidget(level_, 1);
+  level_->setMinimumWidth(120);
+  level_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  line->addWidget(level_);
   level_text_ = new QLabel;
   level_text_->setMinimumWidth(72);
   line->addWidget(level_text_);
@@ -81,7 +83,7 @@ QWidget* CycleModelPage::makeBarPart() {
   line_->setEmptyText(tr("Deviations from a straight line will appear here"),
                       tr("Fit all cycles: what the axis does beyond a uniform growth is drawn per hole."));
   card->body()->addWidget(line_, 3);
-  auto* extend = new QHBoxLayout;
+  auto* extend = new WrapLayout;
   second_axis_ = new QCheckBox(tr("Second axis expands too"));
   second_axis_->setToolTip(tr("One parameter more; needs a bar whose growth is known"));
   second_axis_->setObjectName(QStringLiteral("secondAxis"));
@@ -102,9 +104,10 @@ QWidget* CycleModelPage::makeBarPart() {
   extend->addWidget(growth_);
   extend->addWidget(new QLabel(QStringLiteral("±")));
   extend->addWidget(trust_);
-  extend->addStretch();
   card->body()->addLayout(extend);
-  card->body()->addWidget(makeLabel(tr("What an unnoticed growth of the second axis does"), "sectionTitle"));
+  auto* unnoticed = makeLabel(tr("What an unnoticed growth of the second axis does"), "sectionTitle");
+  unnoticed->setWordWrap(true);
+  card->body()->addWidget(unnoticed);
   bias_ = new RowsModel({tr("Parameter"), tr("Change per um/m"), tr("Unit")}, this);
   card->body()->addWidget(makeTable(bias_, tr("Bias by the second axis"), tr("The bias appears after the fit.")), 3);
   connect(second_axis_, &QCheckBox::toggled, this, [this](bool on) {

@@ -18,6 +18,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/review/review_pane.h"
@@ -46,7 +47,7 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   play_ = makeButton(tr("Play the states"), "play", "primary");
   play_->setCheckable(true);
   addAction(play_);
-  auto* options = new QHBoxLayout;
+  auto* options = new WrapLayout;
   count_ = new Segments({tr("Two panes"), tr("Three"), tr("Four")}, tr("Number of panes"));
   component_ = new Segments({QStringLiteral("EX"), QStringLiteral("EY"), QStringLiteral("EZ"), QStringLiteral("EA"),
                              QStringLiteral("EB"), QStringLiteral("EC")},
@@ -63,7 +64,6 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   options->addWidget(heat_maps_);
   options->addWidget(arrows_);
   options->addWidget(machine_);
-  options->addStretch();
   content()->addLayout(options);
 
   auto* left = new QWidget;

@@ -2,7 +2,6 @@
 #include "widgets/pages/review/review_pane.h"
 
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QStackedWidget>
@@ -12,6 +11,7 @@
 
 #include "core/base/text.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/review/review_sources.h"
 #include "widgets/view3d/view3d.h"
@@ -41,7 +41,7 @@ ReviewPane::ReviewPane(int number, ReviewSources& sources, QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(8, 8, 8, 8);
   column->setSpacing(4);
-  auto* line = new QHBoxLayout;
+  auto* line = new WrapLayout;
   line->addWidget(makeLabel(QString::number(number), "sectionTitle"));
   campaign_ = new QComboBox;
   campaign_->setAccessibleName(tr("Campaign of pane %1").arg(number));
@@ -55,9 +55,10 @@ ReviewPane::ReviewPane(int number, ReviewSources& sources, QWidget* parent)
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(8);
   }
-  line->addWidget(campaign_, 1);
-  line->addWidget(state_, 2);
-  line->addWidget(content_, 3);
+  for (QComboBox* box : {campaign_, state_, content_}) box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+  line->addWidget(campaign_);
+  line->addWidget(state_);
+  line->addWidget(content_);
   column->addLayout(line);
   stack_ = new QStackedWidget;
   view_ = new View3D;

@@ -16,6 +16,7 @@
 #include "core/base/error.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/capture_tabs.h"
 #include "widgets/pages/common/cells.h"
@@ -56,9 +57,8 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   part_ = new Segments({tr("Before"), tr("After"), tr("Side by side")}, tr("Before or after cleaning"));
   part_->setToolTip(tr("Before or after trimming of edges, removal of outliers and what was painted away"));
   part_->setCurrent(1);
-  auto* choices = new QHBoxLayout;
+  auto* choices = new WrapLayout;
   choices->addWidget(colouring_);
-  choices->addStretch();
   choices->addWidget(part_);
   right->body()->addLayout(choices);
   before_view_ = new View3D;
@@ -87,7 +87,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   line->addWidget(slider_text_);
   right->body()->addLayout(line);
   right->body()->addWidget(profile_, 3);
-  content()->addWidget(captureTabs(makeSplitter(list, right, 5, 7), context(), Instrument::Profiler), 1);
+  content()->addWidget(captureTabs(makeSplitter(list, right, 4, 7), context(), Instrument::Profiler), 1);
   showHints(profile_);
   showHints(view_);
 

@@ -18,9 +18,12 @@
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/verify/verify_maps.h"
+#include "widgets/pages/verify/verify_series.h"
 #include "widgets/plots/plot.h"
 #include "widgets/view3d/view3d.h"
 
@@ -74,7 +77,15 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
       this);
   left->body()->addWidget(makeTable(components_, tr("Before and after of each component"),
                                     tr("Every component before and after appears here after the comparison.")),
-                          1);
+                          2);
+  points_title_ = makeLabel(tr("Points"), "sectionTitle");
+  left->body()->addWidget(points_title_);
+  points_ =
+      new RowsModel({tr("Point"), tr("rms before"), tr("rms after"), tr("Largest before"), tr("Largest after")}, this);
+  auto* point_table =
+      makeTable(points_, tr("Before and after of each point"), tr("Every point appears here after the comparison."));
+  stretchColumn(point_table, 0);
+  left->body()->addWidget(point_table, 3);
   auto* right = new Card(tr("Before and after"));
   shown_ = new Segments({tr("Every value"), tr("On the table")}, tr("How before and after are shown"));
   right->addToTitle(shown_);
@@ -99,6 +110,15 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
   });
   connect(shown_, &Segments::chosen, this, [this] { setShown(shown_->current()); });
   connect(maps_, &VerifyMaps::stateChosen, this, &VerifyPage::showMaps);
+  connect(point_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this](const QModelIndex& now) {
+    for (const int side : {0, 1}) maps_->view(side)->setSelected(points_->idAt(now.row()));
+  });
+  for (const int side : {0, 1}) {
+    connect(maps_->view(side), &View3D::pointPicked, this, [this, point_table](const QString& id) {
+      const int row = points_->rowOf(id);
+      if (row >= 0) point_table->selectRow(row);
+    });
+  }
 }
 
 void VerifyPage::setShown(int index) {
@@ -109,19 +129,28 @@ void VerifyPage::setShown(int index) {
 
 QWidget* VerifyPage::makeChoices() {
   auto* box = new QWidget;
-  auto* line = new QHBoxLayout(box);
-  line->setContentsMargins(0, 0, 0, 0);
-  line->addWidget(new QLabel(tr("Measured again in")));
+  auto* line = new WrapLayout;
+  box->setLayout(line);
+  // A label stays with what it names when the line goes on below.
+  const auto group = [line] {
+    auto* together = new QWidget;
+    auto* inner = new QHBoxLayout(together);
+    inner->setContentsMargins(0, 0, 0, 0);
+    line->addWidget(together);
+    return inner;
+  };
+  auto* campaign = group();
+  campaign->addWidget(new QLabel(tr("Measured again in")));
   after_ = new QComboBox;
   after_->setAccessibleName(tr("Campaign measured with the compensation on"));
   after_->setMinimumWidth(220);
-  line->addWidget(after_);
+  campaign->addWidget(after_);
   auto* choose = makeButton(tr("Folder …"), nullptr);
   choose->setAccessibleName(tr("Choose the folder of a campaign"));
-  line->addWidget(choose);
-  line->addStretch();
+  campaign->addWidget(choose);
   const auto goal = [&](const QString& text, const QString& name, const QString& unit, double most) {
-    line->addWidget(new QLabel(text));
+    auto* inner = group();
+    inner->addWidget(new QLabel(text));
     auto* spin = new QDoubleSpinBox;
     spin->setAccessibleName(name);
     spin->setDecimals(1);
@@ -129,18 +158,19 @@ QWidget* VerifyPage::makeChoices() {
     spin->setSuffix(unit);
     spin->setMinimumHeight(sizes::control_height);
     spin->setKeyboardTracking(false);
-    line->addWidget(spin);
+    inner->addWidget(spin);
     return spin;
   };
   goal_um_ = goal(tr("Goal"), tr("Goal of displacements"), tr(" um"), 1000);
   goal_um_->setMinimum(0.1);
   goal_urad_ = goal(tr("and"), tr("Goal of rotations"), tr(" urad"), 10000);
   goal_urad_->setSpecialValueText(tr("none"));
-  line->addWidget(new QLabel(tr("for the")));
+  auto* criterion = group();
+  criterion->addWidget(new QLabel(tr("for the")));
   criterion_ = new QComboBox;
   criterion_->setAccessibleName(tr("What the goal bounds"));
   criterion_->addItems({tr("largest value"), tr("rms")});
-  line->addWidget(criterion_);
+  criterion->addWidget(criterion_);
   connect(after_, &QComboBox::activated, this, [this](int) {
     changeOptions(tr("choose the second campaign"), {{"after", after_->currentData().toString().toStdString()}});
   });
@@ -344,54 +374,24 @@ void VerifyPage::showMaps() {
 }
 
 void VerifyPage::showPlot() {
-  if (result_ == nullptr) {
+  const auto component = componentFromString(component_->currentText().toStdString());
+  if (result_ == nullptr || !component) {
+    points_title_->setText(tr("Points"));
+    points_->setRows({});
     plot_->setContent({});
     return;
   }
-  Series before;
-  before.name = tr("Before, ± 2 uncertainties");
-  before.style = SeriesStyle::Points;
-  before.colour = 1;
-  Series after = before;
-  after.name = tr("After, ± 2 uncertainties");
-  after.colour = 0;
-  bool rotation = false;
-  for (const VerifyPoint& p : result_->points) {
-    if (fromCore(std::string(toString(p.component))) != component_->currentText()) continue;
-    rotation = isRotation(p.component);
-    const double x = static_cast<double>(before.x.size()) + 1.0;
-    before.x.push_back(x - 0.12);
-    before.y.push_back(p.before);
-    before.sigma.push_back(p.before_sigma);
-    after.x.push_back(x + 0.12);
-    after.y.push_back(p.after);
-    after.sigma.push_back(p.after_sigma);
-  }
-  if (before.x.empty()) {
-    plot_->setContent({});
-    return;
-  }
-  std::vector<Series> all{before, after};
-  const double goal = rotation ? result_->request.goal_urad : result_->request.goal_um;
-  for (const double sign : {1.0, -1.0}) {
-    if (!(goal > 0.0)) continue;
-    Series limit;
-    limit.name = tr("Goal");
-    limit.style = SeriesStyle::Dashed;
-    limit.colour = 2;
-    limit.legend = sign > 0;
-    limit.x = {0.5, static_cast<double>(before.x.size()) + 0.5};
-    limit.y = {sign * goal, sign * goal};
-    all.push_back(std::move(limit));
-  }
-  plot_->setAxes(tr("Measured value, points in order of the plan"),
-                 tr("Change of %1 / %2").arg(component_->currentText(), rotation ? tr("urad") : tr("um")));
-  plot_->setContent(std::move(all));
+  points_title_->setText(tr("%1 at the points").arg(component_->currentText()));
+  points_->setRows(verifyPointRows(*result_, *component));
+  VerifyCurves curves = verifyCurves(*result_, *component);
+  plot_->setAxes(curves.x_title, curves.y_title);
+  plot_->setContent(std::move(curves.series));
 }
 
 std::vector<Exportable> VerifyPage::exportables() {
   if (result_ == nullptr) return {};
   std::vector<Exportable> items{exportableOf(tr("Before and after"), components_),
+                                exportableOf(tr("Points before and after"), points_),
                                 exportableOf(tr("Values before and after"), plot_)};
   if (!maps_->view(0)->empty()) {
     items.push_back(exportableOf(tr("Before on the table"), maps_->view(0)));

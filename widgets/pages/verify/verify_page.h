@@ -32,6 +32,7 @@ class VerifyPage : public Page {
   void setAfter(const QString& folder);
   [[nodiscard]] QDoubleSpinBox* goal() const { return goal_um_; }
   [[nodiscard]] RowsModel* components() const { return components_; }
+  [[nodiscard]] RowsModel* points() const { return points_; }
   [[nodiscard]] Plot* plot() const { return plot_; }
   [[nodiscard]] VerifyMaps* maps() const { return maps_; }
   /// 0: every value, 1: on the table.
@@ -46,6 +47,7 @@ class VerifyPage : public Page {
   void fillChoices();
   void compare(bool store);
   void showResult();
+  /// Curves and table of the points, of the component that is chosen.
   void showPlot();
   void showMaps();
 
@@ -64,6 +66,8 @@ class VerifyPage : public Page {
   NumberTile* verdict_;
   QComboBox* component_;
   RowsModel* components_;
+  RowsModel* points_;
+  QLabel* points_title_;
   Segments* shown_;
   QStackedWidget* stack_;
   Plot* plot_;

@@ -5,7 +5,9 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QTabWidget>
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/base/random.h"
 #include "core/base/text.h"
@@ -75,7 +77,30 @@ TEST_F(VerifyPages, BeforeAndAfterAreJudgedAgainstTheGoal) {
   EXPECT_EQ(page->callout()->tone(), Tone::Good);
   EXPECT_EQ(window_->workflow().status(StepId::Verify).state, StepState::Current);
   EXPECT_EQ(page->components()->rowCount(), 1);
-  EXPECT_EQ(page->plot()->series().size(), 4U);
+  // 160 values are drawn as the range over the points of a state, and every point has its row.
+  ASSERT_EQ(page->plot()->series().size(), 4U);
+  ASSERT_EQ(page->plot()->series().front().x.size(), 79U);  // all but the first state
+  ASSERT_EQ(page->points()->rowCount(), 2);
+  for (int side = 0; side < 2; ++side) {
+    const Series& range = page->plot()->series()[static_cast<std::size_t>(side)];
+    std::map<std::string, std::pair<double, double>> expected;
+    for (const VerifyPoint& p : page->result()->points) {
+      const double value = side == 0 ? p.before : p.after;
+      const double reach = 2.0 * (side == 0 ? p.before_sigma : p.after_sigma);
+      const auto [at, first] = expected.try_emplace(p.state, value - reach, value + reach);
+      if (!first) at->second = {std::min(at->second.first, value - reach), std::max(at->second.second, value + reach)};
+    }
+    ASSERT_EQ(expected.count("M7"), 1U);
+    EXPECT_NEAR(range.y[6] - range.sigma[6], expected["M7"].first, 1e-9);
+    EXPECT_NEAR(range.y[6] + range.sigma[6], expected["M7"].second, 1e-9);
+  }
+  std::vector<const VerifyPoint*> first_point;
+  for (const VerifyPoint& p : page->result()->points)
+    if (p.point == "F1") first_point.push_back(&p);
+  const VerifyFigures figures = verifyFigures(first_point, true);
+  EXPECT_EQ(page->points()->rows()[0].id, QStringLiteral("F1"));
+  EXPECT_EQ(page->points()->rows()[0].cells[2].text.toStdString(),
+            withUncertainty(figures.rms, figures.rms_sigma, "um"));
   // A goal below what is left: outdated, and then not met.
   page->goal()->setValue(0.5);
   EXPECT_EQ(page->callout()->tone(), Tone::Outdated);

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every page of every demo fits the window: at 1440 x 900 with the help open, and on a small screen of 1280 x 800
+// without it, nothing is pushed out sideways and the button that runs the step is in sight.
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QCoreApplication>
+#include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QTabWidget>
+#include <QVBoxLayout>
+
+#include "tests/widgets/pages/story_support.h"
+#include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
+#include "widgets/shell/help_panel.h"
+
+namespace spindrift::gui {
+namespace {
+
+/// The widgets that ask for the width, from the page down: where to look when a page is too wide.
+std::string whatIsWide(const QWidget& widget, int depth = 0) {
+  std::string text;
+  for (const QWidget* child : widget.findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+    const int width = std::max(child->minimumSizeHint().width(), child->minimumWidth());
+    if (child->isHidden() || width < 280) continue;
+    text += "\n" + std::string(static_cast<std::size_t>(2 * depth + 2), ' ') + std::to_string(width) + " " +
+            child->metaObject()->className() + " " + child->accessibleName().toStdString();
+    text += whatIsWide(*child, depth + 1);
+  }
+  return text;
+}
+
+class LayoutTest : public StoryTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+  void setHelp(bool open) {
+    auto* help = window_->findChild<HelpPanel*>();
+    ASSERT_NE(help, nullptr);
+    if (help->isVisible() != open) window_->helpAction()->trigger();
+    ASSERT_EQ(help->isVisible(), open);
+  }
+  void expectFits(const std::string& what) {
+    Page* page = window_->currentPage();
+    QScrollArea* area = nullptr;
+    for (QWidget* w = page; w != nullptr && area == nullptr; w = w->parentWidget())
+      area = qobject_cast<QScrollArea*>(w);
+    ASSERT_NE(area, nullptr);
+    EXPECT_LE(page->minimumSizeHint().width(), area->viewport()->width()) << what << whatIsWide(*page);
+    const QPushButton* button = page->primaryButton();
+    if (button != nullptr && button->isVisible()) {
+      const QRect place(button->mapTo(window_.get(), QPoint(0, 0)), button->size());
+      const QRect seen(area->viewport()->mapTo(window_.get(), QPoint(0, 0)), area->viewport()->size());
+      EXPECT_TRUE(seen.contains(place)) << what;
+    }
+  }
+};
+
+TEST_P(LayoutTest, NoPageIsPushedOutSideways) {
+  window_->startDemo(QString::fromLatin1(GetParam()), true);
+  wait();
+  ASSERT_NE(window_->session().campaign(), nullptr);
+  for (const StepId step : all_steps) {
+    window_->workflow().goTo(step);
+    wait();
+    window_->currentPage()->runAll();
+    wait();
+    for (const bool help : {true, false}) {
+      window_->resize(help ? QSize(1440, 900) : QSize(1280, 800));
+      setHelp(help);
+      QCoreApplication::processEvents();
+      const std::string what =
+          stepTitle(step).toStdString() + (help ? " at 1440 with the help" : " at 1280 without help");
+      expectFits(what);
+      for (auto* tabs : window_->currentPage()->findChildren<QTabWidget*>()) {
+        for (int i = 0; tabs->isVisible() && i < tabs->count(); ++i) {
+          tabs->setCurrentIndex(i);
+          QCoreApplication::processEvents();
+          expectFits(what + ", tab " + tabs->tabText(i).toStdString());
+        }
+        tabs->setCurrentIndex(0);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Demos, LayoutTest, ::testing::Values("fiducials", "holes", "balls", "scans", "discrepancy"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST(Callout, IsAsHighAsItsSentenceNeedsWhenFirstShownAndWhenItChanges) {
+  QWidget box;
+  auto* column = new QVBoxLayout(&box);
+  auto* callout = new Callout;
+  column->addWidget(callout);
+  column->addStretch();
+  box.resize(400, 300);
+  box.show();
+  QCoreApplication::processEvents();
+  const auto expectRoom = [&](int least_lines) {
+    QCoreApplication::processEvents();
+    const auto* text = callout->findChild<QLabel*>();
+    ASSERT_NE(text, nullptr);
+    EXPECT_GE(text->height(), text->heightForWidth(text->width()));
+    EXPECT_GE(text->height(), least_lines * text->fontMetrics().height());
+  };
+  callout->show(Tone::Attention, QStringLiteral("One sentence that is long enough to need more than a single line in a "
+                                                "callout that is four hundred pixels wide, as on a small page."));
+  expectRoom(2);
+  const int high = callout->height();
+  callout->show(Tone::Good, QStringLiteral("Short."));
+  expectRoom(1);
+  EXPECT_LT(callout->height(), high);
+  callout->hide();
+  box.resize(250, 300);
+  callout->show(Tone::Bad, QStringLiteral("Another sentence that was set while nobody saw the callout, and which needs "
+                                          "three lines or more here."));
+  expectRoom(3);
+}
+
+TEST(WrapLayout, GoesOnInTheNextLineAndNeverIsWiderThanItsWidestItem) {
+  QWidget box;
+  auto* row = new WrapLayout;
+  std::vector<QWidget*> items;
+  for (int i = 0; i < 5; ++i) {
+    auto* item = new QWidget;
+    item->setFixedSize(100, 30 + 2 * i);
+    items.push_back(item);
+    row->addWidget(item);
+  }
+  box.setLayout(row);
+  EXPECT_EQ(row->minimumSize().width(), 100);
+  EXPECT_EQ(row->sizeHint().width(), 5 * 100 + 4 * 8);
+  EXPECT_EQ(row->heightForWidth(532), 38);
+  EXPECT_EQ(row->heightForWidth(531), 36 + 8 + 38);
+  EXPECT_EQ(row->heightForWidth(100), 30 + 32 + 34 + 36 + 38 + 4 * 8);
+  box.resize(320, 200);
+  box.show();
+  QCoreApplication::processEvents();
+  EXPECT_EQ(items[2]->geometry().center().y(), items[0]->geometry().center().y())
+      << "items of a line share their middle";
+  EXPECT_EQ(items[3]->x(), 0);
+  EXPECT_GT(items[3]->y(), items[0]->geometry().bottom());
+  items[1]->hide();
+  QCoreApplication::processEvents();
+  EXPECT_EQ(items[3]->geometry().center().y(), items[0]->geometry().center().y()) << "what is hidden takes no place";
+}
+
+}  // namespace
+}  // namespace spindrift::gui
