@@ -2,8 +2,6 @@
 #include "widgets/plots/plot.h"
 
 #include <QEvent>
-#include <QLineF>
-#include <QMouseEvent>
 #include <QPainter>
 #include <QSvgGenerator>
 #include <QTimer>
@@ -432,116 +430,6 @@ void Plot::paintEvent(QPaintEvent*) {
 
 void Plot::resizeEvent(QResizeEvent*) {
   replotSoon();
-}
-
-double Plot::pixelOfX(double x) const {
-  const_cast<Plot*>(this)->drawIfStale();
-  return plot_->xAxis->coordToPixel(x);
-}
-
-QPointF Plot::pixelOf(double x, double y) const {
-  const_cast<Plot*>(this)->drawIfStale();
-  return {plot_->xAxis->coordToPixel(x), plot_->yAxis->coordToPixel(y)};
-}
-
-void Plot::pickValue(QEvent* event) {
-  constexpr double still_px = 4;
-  constexpr double reach_px = 12;
-  const auto* mouse = static_cast<QMouseEvent*>(event);
-  if (mouse->button() != Qt::LeftButton) return;
-  const QPointF place = mouse->position();
-  if (event->type() == QEvent::MouseButtonPress) {
-    pressed_at_ = place;
-    return;
-  }
-  if (QLineF(place, pressed_at_).length() > still_px) return;  // dragged
-  double nearest = reach_px;
-  std::optional<std::pair<std::size_t, std::size_t>> found;
-  for (std::size_t k = 0; k < series_.size(); ++k) {
-    for (std::size_t i = 0; i < series_[k].x.size(); ++i) {
-      const double distance = QLineF(place, pixelOf(series_[k].x[i], series_[k].y[i])).length();
-      if (!(distance < nearest)) continue;
-      nearest = distance;
-      found = {k, i};
-    }
-  }
-  if (!found) return;
-  Q_EMIT picked(series_[found->first].x[found->second], static_cast<int>(found->first),
-                static_cast<int>(found->second));
-}
-
-std::optional<std::pair<std::size_t, bool>> Plot::spanEdgeAt(double pixel_x) const {
-  constexpr double reach_px = 8;
-  std::optional<std::pair<std::size_t, bool>> best;
-  double nearest = reach_px;
-  for (std::size_t i = 0; i < spans_.size(); ++i) {
-    for (const bool left : {true, false}) {
-      const double d = std::abs(pixelOfX(left ? spans_[i].from : spans_[i].to) - pixel_x);
-      if (d >= nearest) continue;
-      nearest = d;
-      best = {i, left};
-    }
-  }
-  return best;
-}
-
-bool Plot::dragSpan(QEvent* event) {
-  if (!spans_movable_) return false;
-  const auto place = [event] { return static_cast<QMouseEvent*>(event)->position().x(); };
-  switch (event->type()) {
-    case QEvent::MouseButtonPress:
-      if (static_cast<QMouseEvent*>(event)->button() != Qt::LeftButton) return false;
-      dragged_edge_ = spanEdgeAt(place());
-      return dragged_edge_.has_value();
-    case QEvent::MouseMove: {
-      if (!dragged_edge_) {
-        plot_->setCursor(spanEdgeAt(place()) ? Qt::SizeHorCursor : Qt::ArrowCursor);
-        return false;
-      }
-      Span& span = spans_[dragged_edge_->first];
-      const double x = plot_->xAxis->pixelToCoord(place());
-      (dragged_edge_->second ? span.from : span.to) = x;
-      rebuild();
-      replotSoon();
-      return true;
-    }
-    case QEvent::MouseButtonRelease: {
-      if (!dragged_edge_) return false;
-      const std::size_t index = dragged_edge_->first;
-      dragged_edge_.reset();
-      Span& span = spans_[index];
-      if (span.from > span.to) std::swap(span.from, span.to);
-      Q_EMIT spanMoved(static_cast<int>(index), span.from, span.to);
-      return true;
-    }
-    default:
-      return false;
-  }
-}
-
-bool Plot::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == plot_) {
-    if (event->type() == QEvent::Paint) drawIfStale();
-    if (dragSpan(event)) return true;
-    if (event->type() == QEvent::MouseButtonPress || event->type() == QEvent::MouseButtonRelease) pickValue(event);
-    if (event->type() == QEvent::MouseButtonDblClick) {
-      showAll();
-      return true;
-    }
-    if (event->type() == QEvent::MouseMove) {
-      const QPointF p = static_cast<QMouseEvent*>(event)->position();
-      const auto number = [](double v) {
-        QString text = QString::number(v, 'g', 4);
-        text.replace(QLatin1Char('-'), QChar(0x2212));
-        return text;
-      };
-      Q_EMIT hovered(x_title_ + QStringLiteral(" = ") + number(plot_->xAxis->pixelToCoord(p.x())) +
-                     QStringLiteral(",  ") + y_title_ + QStringLiteral(" = ") +
-                     number(plot_->yAxis->pixelToCoord(p.y())));
-    }
-    if (event->type() == QEvent::Leave) Q_EMIT hovered({});
-  }
-  return QWidget::eventFilter(watched, event);
 }
 
 QString Plot::csv() const {

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a worked-out correction shows: figures, points, files with their signs, arrows on the machine.
+#include <QPlainTextEdit>
+#include <QTableView>
+#include <algorithm>
+#include <cmath>
+
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/compensate/compensate_page.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/view3d/view3d.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr std::array<const char*, 3> axis_names{"X", "Y", "Z"};
+constexpr int preview_lines = 200;
+
+double niceExaggeration(double size_mm, double largest_um) {
+  if (!(largest_um > 0)) return 1000;
+  const double raw = 0.3 * size_mm / (largest_um * 1e-3);
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double f : {5.0, 2.0, 1.0}) {
+    if (f * power <= raw) return f * power;
+  }
+  return power;
+}
+
+Cell number(const QString& text) {
+  Cell cell{text.trimmed()};
+  cell.right = true;
+  return cell;
+}
+
+/// Correction, measured and what remains of one axis as cells with their uncertainty.
+QString valueText(double value, double sigma) {
+  // Hundredths of a micrometre are the last that mean anything to a control.
+  if (!(sigma > 0.0)) return sizeText(value, {});
+  const double shown = std::max(sigma, 0.01);
+  const int decimals = shown < 0.295 ? 2 : shown < 2.95 ? 1 : 0;
+  QString text = QString::number(value, 'f', decimals);
+  if (text.toDouble() == 0.0) text.remove(QLatin1Char('-'));
+  text.replace(QLatin1Char('-'), QChar(0x2212));
+  return text + QStringLiteral(" ± ") + QString::number(shown, 'f', decimals);
+}
+
+}  // namespace
+
+void CompensatePage::showPlan() {
+  export_->setEnabled(plan_.has_value());
+  if (!plan_) {
+    for (NumberTile* tile : {before_, after_, expected_, largest_}) tile->set(QStringLiteral("–"));
+    model_->clear();
+    points_->setRows({});
+    files_->setRows({});
+    convention_->clear();
+    preview_->clear();
+    view_->clear();
+    return;
+  }
+  const QString um = QStringLiteral("um");
+  const QString state = QString::fromStdString(plan_->state);
+  before_->set(sizeText(plan_->rms_before_um, um), tr("state %1").arg(state));
+  after_->set(sizeText(plan_->rms_after_um, um), tr("noise of the measurement included"),
+              plan_->rms_after_um < plan_->rms_before_um ? Tone::Good : Tone::Attention);
+  expected_->set(QStringLiteral("± ") + sizeText(plan_->rms_sigma_um, um), tr("one standard uncertainty, rms"));
+  largest_->set(sizeText(plan_->largest_um, um), tr("length of the vector at a point"));
+  QString text = QString::fromStdString(plan_->model) + QLatin1Char('.');
+  if (request().source == CompensationSource::CompletedModel) {
+    text = tr("Simulation completed by %1.").arg(effectTitles(request().added, tr("and")));
+  }
+  text += QLatin1Char(' ') + tr("Relative to %1.").arg(QString::fromStdString(plan_->reference));
+  if (!plan_->limitation.empty()) text += QLatin1Char(' ') + QString::fromStdString(plan_->limitation);
+  model_->setText(text);
+  showPoints();
+  std::vector<Row> rows;
+  for (const CompensationFile& f : plan_->files) {
+    Row row;
+    row.id = QString::fromStdString(f.name);
+    Cell name{row.id};
+    name.bold = true;
+    row.cells = {name, {QString::fromStdString(f.title)}};
+    rows.push_back(std::move(row));
+  }
+  const QModelIndex chosen = file_table_->selectionModel()->currentIndex();
+  const int row = chosen.isValid() ? chosen.row() : 0;
+  files_->setRows(std::move(rows));
+  file_table_->selectRow(std::min(row, files_->rowCount() - 1));
+  showFiles();
+  showView();
+}
+
+void CompensatePage::showPoints() {
+  std::vector<Row> rows;
+  for (const CompensationPoint& p : plan_->points) {
+    Row row;
+    row.id = QString::fromStdString(p.point);
+    Cell name{row.id};
+    name.bold = true;
+    if (!p.used) name.tip = tr("Not used by the fit: it only validates");
+    row.cells = {name};
+    for (int i = 0; i < 3; ++i) row.cells.push_back(number(valueText(p.correction_um[i], p.sigma_um[i])));
+    const auto length = [](const std::array<std::optional<double>, 3>& v) {
+      double sum = 0.0;
+      bool any = false;
+      for (const auto& one : v) {
+        if (!one) continue;
+        sum += *one * *one;
+        any = true;
+      }
+      return any ? std::sqrt(sum) : std::nan("");
+    };
+    row.cells.push_back(number(sizeText(length(p.remains_um), {})));
+    QStringList parts;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (p.remains_um[i]) {
+        parts << QString::fromLatin1(axis_names[i]) + QLatin1Char(' ') +
+                     valueText(*p.remains_um[i],
+                               std::hypot(p.measured_sigma_um[i], p.sigma_um[static_cast<Eigen::Index>(i)]));
+      }
+    }
+    row.cells.back().tip = tr("Measured %1 um; remains / um: %2")
+                               .arg(sizeText(length(p.measured_um), {}), parts.join(QStringLiteral(", ")));
+    rows.push_back(std::move(row));
+  }
+  points_->setHeaders({tr("Point"), tr("X / um"), tr("Y / um"), tr("Z / um"), tr("Remains")});
+  points_->setRows(std::move(rows));
+}
+
+void CompensatePage::showFiles() {
+  const QModelIndex now = file_table_->selectionModel()->currentIndex();
+  if (!plan_ || !now.isValid() || now.row() >= static_cast<int>(plan_->files.size())) return;
+  const CompensationFile& f = plan_->files[static_cast<std::size_t>(now.row())];
+  convention_->setText(QString::fromStdString(f.convention));
+  const QStringList lines = QString::fromStdString(f.content).split(QLatin1Char('\n'));
+  QString text = lines.mid(0, preview_lines).join(QLatin1Char('\n'));
+  if (lines.size() > preview_lines) text += tr("\n… %1 lines in all").arg(lines.size() - 1);
+  preview_->setPlainText(text);
+}
+
+void CompensatePage::showView() {
+  if (!plan_) return;
+  view_->setMachine(session().campaign()->machine);
+  std::vector<ViewPoint> points;
+  std::vector<ViewArrow> arrows;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
+  Eigen::Vector3d high = -low;
+  double largest = plan_->largest_um;
+  const int what = arrows_->current();
+  for (const CompensationPoint& p : plan_->points) {
+    ViewPoint point;
+    point.id = point.label = QString::fromStdString(p.point);
+    point.position_mm = p.position_mm;
+    point.used = p.used;
+    ViewArrow arrow;
+    arrow.from_mm = p.position_mm;
+    arrow.tone = what == 0 ? Tone::Accent : what == 1 ? Tone::Attention : Tone::Good;
+    Eigen::Vector3d measured = Eigen::Vector3d::Zero();
+    Eigen::Vector3d remains = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      measured[static_cast<Eigen::Index>(i)] = p.measured_um[i].value_or(0.0);
+      remains[static_cast<Eigen::Index>(i)] = p.remains_um[i].value_or(0.0);
+    }
+    largest = std::max(largest, measured.norm());
+    arrow.deviation_um = what == 0 ? p.correction_um : what == 1 ? measured : remains;
+    point.value_text = sizeText(arrow.deviation_um.norm(), QStringLiteral("um"));
+    points.push_back(std::move(point));
+    arrows.push_back(arrow);
+    low = low.cwiseMin(p.position_mm);
+    high = high.cwiseMax(p.position_mm);
+  }
+  // The same exaggeration for all three, so that they can be compared.
+  const double size = plan_->points.empty() ? 100.0 : std::max(50.0, (high - low).norm());
+  view_->setPoints(std::move(points));
+  view_->setArrows(std::move(arrows), niceExaggeration(size, largest));
+  const QString state = QString::fromStdString(plan_->state);
+  view_->setCaption(what == 0   ? tr("Correction to add to the command, state %1").arg(state)
+                    : what == 1 ? tr("Measured deviation of state %1").arg(state)
+                                : tr("What remains of state %1 with the correction").arg(state));
+}
+
+}  // namespace spindrift::gui
