@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace spindrift::gui {
 namespace {
@@ -36,173 +37,238 @@ struct Extent {
   [[nodiscard]] double length() const { return high - low; }
 };
 
-}  // namespace
+Extent around(double middle, double half) {
+  return {middle - half, middle + half};
+}
 
-MachineBodies machineBodies(const MachineDescription& machine) {
-  MachineBodies result;
-  Layout layout;
-  const bool vertical = machine.chain.verticalSpindle();
-  if (!vertical) layout.axis = {0, 2, 1};
-  result.vertical = vertical ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
+/// Puts the bodies together: what carries the workpiece downwards from the table, then what carries the tool.
+class Builder {
+ public:
+  explicit Builder(const MachineDescription& machine) : machine_(machine), vertical_(machine.chain.verticalSpindle()) {
+    if (!vertical_) layout_.axis = {0, 2, 1};
+    result_.vertical = vertical_ ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
+    findExtents();
+  }
 
-  std::array<Extent, 3> travel{Extent{0, 300}, Extent{0, 200}, Extent{0, 200}};
-  for (const LinearAxis& axis : machine.axes) {
+  [[nodiscard]] MachineBodies build() {
+    const double under = addWorkpieceSide();
+    addToolSide(under);
+    addMotions();
+    result_.table_low_mm = layout_.machine({across_.low, deep_.low, table_height_});
+    result_.table_high_mm = layout_.machine({across_.high, deep_.high, table_height_});
+    return std::move(result_);
+  }
+
+ private:
+  void findExtents();
+  /// Returns the height at which the bed begins.
+  double addWorkpieceSide();
+  void addTurningTable(const QString& name, double& under);
+  void addSwivellingTable(const QString& name, bool across_shaft, double& under);
+  void addToolSide(double under);
+  void addVerticalTool(double under, double bed_bottom);
+  void addSwivelHeads(double across_middle, double deep_middle, double tip);
+  void addHorizontalTool(double under);
+  void addMotions();
+  void addMotion(const Eigen::Vector3d& from, const Eigen::Vector3d& to, int local_axis);
+
+  void add(QString name, BodyKind kind, Extent a, Extent d, Extent u) {
+    const Eigen::Vector3d low = layout_.machine({a.low, d.low, u.low});
+    const Eigen::Vector3d high = layout_.machine({a.high, d.high, u.high});
+    result_.bodies.push_back({std::move(name), kind, low.cwiseMin(high), low.cwiseMax(high)});
+  }
+  /// A round body about a local direction.
+  void addRound(QString name, BodyKind kind, int about, Extent a, Extent d, Extent u) {
+    add(std::move(name), kind, a, d, u);
+    result_.bodies.back().round_about = layout_.axis[static_cast<std::size_t>(about)];
+  }
+  /// Absolute direction of an axis: across, deep, up.
+  [[nodiscard]] Eigen::Vector3d localDirection(const ChainAxis& axis) const {
+    return layout_.local(axis.direction).cwiseAbs();
+  }
+
+  const MachineDescription& machine_;
+  bool vertical_;
+  Layout layout_;
+  MachineBodies result_;
+  std::array<Extent, 3> travel_{Extent{0, 300}, Extent{0, 200}, Extent{0, 200}};
+  Extent across_;
+  Extent deep_;
+  double table_height_ = 0;
+  double size_ = 1;  ///< the longest travel, to which everything is scaled
+  double slab_ = 0;  ///< thickness of a slide
+};
+
+void Builder::findExtents() {
+  for (const LinearAxis& axis : machine_.axes) {
     const std::size_t letter = std::string_view("XYZ").find(axis.name.empty() ? ' ' : axis.name.front());
     if (letter == std::string_view::npos) continue;
     for (std::size_t i = 0; i < 3; ++i) {
-      if (static_cast<std::size_t>(layout.axis[i]) == letter) travel[i] = {axis.travel_mm[0], axis.travel_mm[1]};
+      if (static_cast<std::size_t>(layout_.axis[i]) == letter) travel_[i] = {axis.travel_mm[0], axis.travel_mm[1]};
     }
   }
-  double table_height = travel[2].low;
-  if (!machine.points.empty()) {
-    table_height = layout.local(machine.points.front().position_mm).z();
-    for (const MachinePoint& point : machine.points) {
-      const Eigen::Vector3d p = layout.local(point.position_mm);
-      table_height = std::min(table_height, p.z());
-      for (int i = 0; i < 2; ++i) {
-        auto& extent = travel[static_cast<std::size_t>(i)];
-        extent.low = std::min(extent.low, p[i]);
-        extent.high = std::max(extent.high, p[i]);
-      }
+  table_height_ = travel_[2].low;
+  if (!machine_.points.empty()) table_height_ = layout_.local(machine_.points.front().position_mm).z();
+  for (const MachinePoint& point : machine_.points) {
+    const Eigen::Vector3d p = layout_.local(point.position_mm);
+    table_height_ = std::min(table_height_, p.z());
+    for (int i = 0; i < 2; ++i) {
+      auto& extent = travel_[static_cast<std::size_t>(i)];
+      extent.low = std::min(extent.low, p[i]);
+      extent.high = std::max(extent.high, p[i]);
     }
   }
-  const double size = std::max({travel[0].length(), travel[1].length(), travel[2].length(), 1.0});
-  const double margin = 0.06 * size;
-  const Extent across{travel[0].low - margin, travel[0].high + margin};
-  const Extent deep{travel[1].low - margin, travel[1].high + margin};
-  const auto add = [&](QString name, BodyKind kind, Extent a, Extent d, Extent u) {
-    const Eigen::Vector3d low = layout.machine({a.low, d.low, u.low});
-    const Eigen::Vector3d high = layout.machine({a.high, d.high, u.high});
-    result.bodies.push_back({std::move(name), kind, low.cwiseMin(high), low.cwiseMax(high)});
-  };
-  // A round body about a local direction.
-  const auto addRound = [&](QString name, BodyKind kind, int about, Extent a, Extent d, Extent u) {
-    add(std::move(name), kind, a, d, u);
-    result.bodies.back().round_about = layout.axis[static_cast<std::size_t>(about)];
-  };
-  const auto around = [](double middle, double half) { return Extent{middle - half, middle + half}; };
+  size_ = std::max({travel_[0].length(), travel_[1].length(), travel_[2].length(), 1.0});
+  slab_ = 0.055 * size_;
+  const double margin = 0.06 * size_;
+  across_ = {travel_[0].low - margin, travel_[0].high + margin};
+  deep_ = {travel_[1].low - margin, travel_[1].high + margin};
+}
 
-  // Workpiece side: the table, then one slide for each further axis that carries it, down to the bed.
-  double under = table_height;
-  std::vector<const ChainAxis*> carriers;
-  for (const ChainAxis& axis : machine.chain.axes()) {
-    if (axis.carries_workpiece) carriers.push_back(&axis);
-  }
-  const double slab = 0.055 * size;
-  add(translated("Table"), BodyKind::Table, across, deep, {under - slab, under});
-  under -= slab;
-  for (std::size_t i = 0; i < carriers.size(); ++i) {
-    const ChainAxis& carrier = *carriers[i];
-    const Eigen::Vector3d direction = layout.local(carrier.direction).cwiseAbs();
-    const QString name = QString::fromStdString(carrier.name);
-    if (carrier.rotary && direction.z() > 0.5) {  // a turning table: a disc
-      const double radius = 0.4 * std::min(across.length(), deep.length());
-      addRound(translated("%1 turning table").arg(name), BodyKind::WorkpieceSide, 2, around(across.middle(), radius),
-               around(deep.middle(), radius), {under - 1.4 * slab, under});
-      under -= 1.4 * slab;
+double Builder::addWorkpieceSide() {
+  double under = table_height_;
+  add(translated("Table"), BodyKind::Table, across_, deep_, {under - slab_, under});
+  under -= slab_;
+  bool table_is_slide = true;  // the first linear axis moves the table itself
+  for (const ChainAxis& axis : machine_.chain.axes()) {
+    if (!axis.carries_workpiece) continue;
+    const Eigen::Vector3d direction = localDirection(axis);
+    const QString name = QString::fromStdString(axis.name);
+    if (axis.rotary) {
+      table_is_slide = false;
+      direction.z() > 0.5 ? addTurningTable(name, under) : addSwivellingTable(name, direction.x() > 0.5, under);
       continue;
     }
-    if (carrier.rotary) {  // a swivelling table: a shaft between two bearings
-      const bool across_shaft = direction.x() > 0.5;
-      const double radius = 0.09 * size;
-      const Extent height{under - 2 * radius, under};
-      const Extent& along = across_shaft ? across : deep;
-      const Extent shaft_across = across_shaft ? along : around(across.middle(), radius);
-      const Extent shaft_deep = across_shaft ? around(deep.middle(), radius) : along;
-      addRound(translated("%1 swivel").arg(name), BodyKind::WorkpieceSide, across_shaft ? 0 : 1, shaft_across,
-               shaft_deep, height);
-      for (const double end : {along.low, along.high}) {
-        const Extent bearing = around(end, 0.04 * size);
-        add(translated("%1 bearing").arg(name), BodyKind::WorkpieceSide,
-            across_shaft ? bearing : around(across.middle(), 1.3 * radius),
-            across_shaft ? around(deep.middle(), 1.3 * radius) : bearing, {height.low, under - 0.2 * slab});
-      }
-      under = height.low;
-      continue;
-    }
-    if (i == 0) continue;  // the slide that is the table
+    if (std::exchange(table_is_slide, false)) continue;
     const bool moves_across = direction.x() > 0.5;
-    const Extent a = moves_across ? Extent{across.low + 0.1 * across.length(), across.high - 0.1 * across.length()}
-                                  : around(across.middle(), 0.3 * across.length());
-    const Extent d = moves_across ? around(deep.middle(), 0.3 * deep.length()) : deep;
-    add(translated("%1 slide").arg(name), BodyKind::WorkpieceSide, a, d, {under - slab, under});
-    under -= slab;
+    const Extent a = moves_across ? Extent{across_.low + 0.1 * across_.length(), across_.high - 0.1 * across_.length()}
+                                  : around(across_.middle(), 0.3 * across_.length());
+    const Extent d = moves_across ? around(deep_.middle(), 0.3 * deep_.length()) : deep_;
+    add(translated("%1 slide").arg(name), BodyKind::WorkpieceSide, a, d, {under - slab_, under});
+    under -= slab_;
   }
+  return under;
+}
 
-  // Tool side.
-  const double tip = table_height + 0.3 * travel[2].length() + 0.02 * size;
-  const double column_front = deep.high + 0.03 * size;
-  const double column_back = column_front + 0.24 * size;
-  const double top = table_height + travel[2].length() + 0.5 * size;
-  bool gantry = false;
-  for (const ChainAxis& axis : machine.chain.axes()) {
-    if (!axis.carries_workpiece && !axis.rotary && axis.direction.x() > 0.5) gantry = true;
+void Builder::addTurningTable(const QString& name, double& under) {
+  const double radius = 0.4 * std::min(across_.length(), deep_.length());
+  const double height = 1.4 * slab_;
+  addRound(translated("%1 turning table").arg(name), BodyKind::WorkpieceSide, 2, around(across_.middle(), radius),
+           around(deep_.middle(), radius), {under - height, under});
+  under -= height;
+}
+
+/// A shaft between two bearings.
+void Builder::addSwivellingTable(const QString& name, bool across_shaft, double& under) {
+  const double radius = 0.09 * size_;
+  const Extent height{under - 2 * radius, under};
+  const Extent& along = across_shaft ? across_ : deep_;
+  addRound(translated("%1 swivel").arg(name), BodyKind::WorkpieceSide, across_shaft ? 0 : 1,
+           across_shaft ? along : around(across_.middle(), radius),
+           across_shaft ? around(deep_.middle(), radius) : along, height);
+  for (const double end : {along.low, along.high}) {
+    const Extent bearing = around(end, 0.04 * size_);
+    add(translated("%1 bearing").arg(name), BodyKind::WorkpieceSide,
+        across_shaft ? bearing : around(across_.middle(), 1.3 * radius),
+        across_shaft ? around(deep_.middle(), 1.3 * radius) : bearing, {height.low, under - 0.2 * slab_});
   }
-  const double bed_bottom = under - 0.12 * size;
-  add(translated("Bed"), BodyKind::Bed, {across.low - 0.02 * size, across.high + 0.02 * size},
-      {deep.low - 0.02 * size, column_back}, {bed_bottom, under});
-  const double head_half = 0.1 * size;
-  if (vertical) {
-    const double a0 = travel[0].middle();
-    const double d0 = travel[1].middle();
-    const Extent head_height{tip + 0.16 * size, tip + 0.44 * size};
-    if (gantry) {
-      const double post = 0.07 * size;
-      add(translated("Column"), BodyKind::Column, {across.low - 0.02 * size - post, across.low - 0.02 * size},
-          around(column_front, 0.12 * size), {bed_bottom, head_height.high});
-      add(translated("Column"), BodyKind::Column, {across.high + 0.02 * size, across.high + 0.02 * size + post},
-          around(column_front, 0.12 * size), {bed_bottom, head_height.high});
-      add(translated("Crossbeam"), BodyKind::Column,
-          {across.low - 0.02 * size - post, across.high + 0.02 * size + post},
-          {d0 + head_half, column_front + 0.1 * size}, {head_height.low + 0.05 * size, head_height.high});
-    } else {
-      add(translated("Column"), BodyKind::Column, around(a0, 0.2 * size), {column_front, column_back}, {under, top});
+  under = height.low;
+}
+
+void Builder::addToolSide(double under) {
+  const double bed_bottom = under - 0.12 * size_;
+  const double column_back = deep_.high + 0.27 * size_;
+  add(translated("Bed"), BodyKind::Bed, {across_.low - 0.02 * size_, across_.high + 0.02 * size_},
+      {deep_.low - 0.02 * size_, column_back}, {bed_bottom, under});
+  vertical_ ? addVerticalTool(under, bed_bottom) : addHorizontalTool(under);
+}
+
+void Builder::addVerticalTool(double under, double bed_bottom) {
+  const double head_half = 0.1 * size_;
+  const double tip = table_height_ + 0.3 * travel_[2].length() + 0.02 * size_;
+  const double top = table_height_ + travel_[2].length() + 0.5 * size_;
+  const double column_front = deep_.high + 0.03 * size_;
+  const double a0 = travel_[0].middle();
+  const double d0 = travel_[1].middle();
+  const Extent head_height{tip + 0.16 * size_, tip + 0.44 * size_};
+  const auto& axes = machine_.chain.axes();
+  const bool gantry = std::any_of(axes.begin(), axes.end(), [](const ChainAxis& axis) {
+    return !axis.carries_workpiece && !axis.rotary && axis.direction.x() > 0.5;
+  });
+  if (gantry) {
+    const double post = 0.07 * size_;
+    const Extent posts{across_.low - 0.02 * size_ - post, across_.high + 0.02 * size_ + post};
+    for (const Extent& side : {Extent{posts.low, posts.low + post}, Extent{posts.high - post, posts.high}}) {
+      add(translated("Column"), BodyKind::Column, side, around(column_front, 0.12 * size_),
+          {bed_bottom, head_height.high});
     }
-    add(translated("Head"), BodyKind::ToolSide, around(a0, head_half),
-        {d0 - head_half, gantry ? d0 + head_half : column_front}, head_height);
-    for (const ChainAxis& axis : machine.chain.axes()) {
-      if (!axis.rotary || axis.carries_workpiece || axis.spindle) continue;
-      const Eigen::Vector3d direction = layout.local(axis.direction).cwiseAbs();
-      const int about = direction.x() > 0.5 ? 0 : direction.y() > 0.5 ? 1 : 2;
-      const double long_half = about == 2 ? 0.085 * size : 0.13 * size;
-      addRound(translated("%1 swivel").arg(QString::fromStdString(axis.name)), BodyKind::ToolSide, about,
-               around(a0, about == 0 ? long_half : 0.085 * size), around(d0, about == 1 ? long_half : 0.085 * size),
-               {tip + 0.13 * size, tip + 0.30 * size});
-    }
-    addRound(translated("Spindle"), BodyKind::Spindle, 2, around(a0, 0.055 * size), around(d0, 0.055 * size),
-             {tip + 0.05 * size, tip + 0.16 * size});
-    addRound(translated("Tool"), BodyKind::Spindle, 2, around(a0, 0.012 * size), around(d0, 0.012 * size),
-             {tip, tip + 0.05 * size});
+    add(translated("Crossbeam"), BodyKind::Column, posts, {d0 + head_half, column_front + 0.1 * size_},
+        {head_height.low + 0.05 * size_, head_height.high});
   } else {
-    const double a0 = travel[0].middle();
-    const double u0 = table_height + 0.45 * travel[2].length();
-    add(translated("Column"), BodyKind::Column, around(a0, 0.26 * size), {column_front, column_back}, {under, top});
-    add(translated("Head"), BodyKind::ToolSide, around(a0, head_half), {column_front - 0.1 * size, column_front},
-        around(u0, head_half));
-    addRound(translated("Spindle"), BodyKind::Spindle, 1, around(a0, 0.055 * size),
-             {column_front - 0.24 * size, column_front - 0.1 * size}, around(u0, 0.055 * size));
-    addRound(translated("Tool"), BodyKind::Spindle, 1, around(a0, 0.012 * size),
-             {column_front - 0.3 * size, column_front - 0.24 * size}, around(u0, 0.012 * size));
+    add(translated("Column"), BodyKind::Column, around(a0, 0.2 * size_), {column_front, column_front + 0.24 * size_},
+        {under, top});
   }
+  add(translated("Head"), BodyKind::ToolSide, around(a0, head_half),
+      {d0 - head_half, gantry ? d0 + head_half : column_front}, head_height);
+  addSwivelHeads(a0, d0, tip);
+  addRound(translated("Spindle"), BodyKind::Spindle, 2, around(a0, 0.055 * size_), around(d0, 0.055 * size_),
+           {tip + 0.05 * size_, tip + 0.16 * size_});
+  addRound(translated("Tool"), BodyKind::Spindle, 2, around(a0, 0.012 * size_), around(d0, 0.012 * size_),
+           {tip, tip + 0.05 * size_});
+}
 
-  const auto motion = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, int local_axis) {
-    const int direction = layout.axis[static_cast<std::size_t>(local_axis)];
-    for (const LinearAxis& axis : machine.axes) {
-      if (axis.name.empty() || axis.name.front() != "XYZ"[direction]) continue;
-      result.motions.push_back(
-          {QString::fromStdString(axis.name), direction, layout.machine(from), layout.machine(to)});
-      return;
-    }
-  };
-  const double beside = 0.1 * size;
-  motion({travel[0].low, deep.low - beside, table_height}, {travel[0].high, deep.low - beside, table_height}, 0);
-  motion({across.high + beside, travel[1].low, table_height}, {across.high + beside, travel[1].high, table_height}, 1);
-  motion({across.low - beside, deep.high, table_height},
-         {across.low - beside, deep.high, table_height + travel[2].length()}, 2);
+void Builder::addSwivelHeads(double across_middle, double deep_middle, double tip) {
+  for (const ChainAxis& axis : machine_.chain.axes()) {
+    if (!axis.rotary || axis.carries_workpiece || axis.spindle) continue;
+    const Eigen::Vector3d direction = localDirection(axis);
+    const int about = direction.x() > 0.5 ? 0 : direction.y() > 0.5 ? 1 : 2;
+    const double radius = 0.085 * size_;
+    const double long_half = about == 2 ? radius : 0.13 * size_;
+    addRound(translated("%1 swivel").arg(QString::fromStdString(axis.name)), BodyKind::ToolSide, about,
+             around(across_middle, about == 0 ? long_half : radius),
+             around(deep_middle, about == 1 ? long_half : radius), {tip + 0.13 * size_, tip + 0.30 * size_});
+  }
+}
 
-  result.table_low_mm = layout.machine({across.low, deep.low, table_height});
-  result.table_high_mm = layout.machine({across.high, deep.high, table_height});
-  return result;
+void Builder::addHorizontalTool(double under) {
+  const double column_front = deep_.high + 0.03 * size_;
+  const double top = table_height_ + travel_[2].length() + 0.5 * size_;
+  const double a0 = travel_[0].middle();
+  const double u0 = table_height_ + 0.45 * travel_[2].length();
+  add(translated("Column"), BodyKind::Column, around(a0, 0.26 * size_), {column_front, column_front + 0.24 * size_},
+      {under, top});
+  add(translated("Head"), BodyKind::ToolSide, around(a0, 0.1 * size_), {column_front - 0.1 * size_, column_front},
+      around(u0, 0.1 * size_));
+  addRound(translated("Spindle"), BodyKind::Spindle, 1, around(a0, 0.055 * size_),
+           {column_front - 0.24 * size_, column_front - 0.1 * size_}, around(u0, 0.055 * size_));
+  addRound(translated("Tool"), BodyKind::Spindle, 1, around(a0, 0.012 * size_),
+           {column_front - 0.3 * size_, column_front - 0.24 * size_}, around(u0, 0.012 * size_));
+}
+
+void Builder::addMotions() {
+  const double beside = 0.1 * size_;
+  addMotion({travel_[0].low, deep_.low - beside, table_height_}, {travel_[0].high, deep_.low - beside, table_height_},
+            0);
+  addMotion({across_.high + beside, travel_[1].low, table_height_},
+            {across_.high + beside, travel_[1].high, table_height_}, 1);
+  addMotion({across_.low - beside, deep_.high, table_height_},
+            {across_.low - beside, deep_.high, table_height_ + travel_[2].length()}, 2);
+}
+
+void Builder::addMotion(const Eigen::Vector3d& from, const Eigen::Vector3d& to, int local_axis) {
+  const int direction = layout_.axis[static_cast<std::size_t>(local_axis)];
+  for (const LinearAxis& axis : machine_.axes) {
+    if (axis.name.empty() || axis.name.front() != "XYZ"[direction]) continue;
+    result_.motions.push_back(
+        {QString::fromStdString(axis.name), direction, layout_.machine(from), layout_.machine(to)});
+    return;
+  }
+}
+
+}  // namespace
+
+MachineBodies machineBodies(const MachineDescription& machine) {
+  return Builder(machine).build();
 }
 
 }  // namespace spindrift::gui
