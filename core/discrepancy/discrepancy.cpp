@@ -220,9 +220,14 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   problem.setNuisances(base);
   const double chi2_scale = std::max(1.0, outcome.chi2_after / std::max(1.0, static_cast<double>(outcome.dof_before)));
   std::vector<ModelEffect> effects = modelEffects(search, problem, named, "fit of the residual", chi2_scale);
-  const DistributedFit complete = distributedDynamics(search, problem, *drivers, named);
-  const std::vector<ModelEffect> model_effects =
-      modelEffects(search, problem, complete.fit, "fit of the residual", chi2_scale, complete.prior_sigma);
+  std::vector<std::vector<ModelEffect>> versions;
+  std::vector<double> weights;
+  for (const WeightedDynamics& w : alternativeDynamics(search, problem, *drivers, named)) {
+    versions.push_back(
+        modelEffects(search, problem, w.distributed.fit, "fit of the residual", chi2_scale, w.distributed.prior_sigma));
+    weights.push_back(w.weight);
+  }
+  const std::vector<ModelEffect> model_effects = averagedEffects(versions, weights);
   result.model = std::make_shared<EffectModel>(drivers, model_effects, nullptr, input.base_table);
 
   // Rows: simulated, completed, gap, held-out.
@@ -237,13 +242,15 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
     const bool whole = t + 1 == effects.size();
     const std::vector<ModelTerm> first(named.terms.begin(), named.terms.begin() + static_cast<std::ptrdiff_t>(t) + 1);
     const JointFit prefix =
-        whole ? complete.fit : distributedDynamics(search, problem, *drivers, search.solve(first)).fit;
+        whole ? JointFit{} : distributedDynamics(search, problem, *drivers, search.solve(first)).fit;
     std::vector<double> part(rows.size(), 0.0);
     for (std::size_t k = 0; k <= t; ++k) {
-      ModelEffect e = effects[k];
-      e.variant = prefix.terms[k].variant;
-      e.parameters = prefix.terms[k].parameters;
-      e.gains = prefix.gains[k];
+      ModelEffect e = whole ? model_effects[k] : effects[k];
+      if (!whole) {
+        e.variant = prefix.terms[k].variant;
+        e.parameters = prefix.terms[k].parameters;
+        e.gains = prefix.gains[k];
+      }
       const std::vector<double> one = EffectModel::contribution(*drivers, e, rows);
       for (std::size_t r = 0; r < rows.size(); ++r) part[r] += one[r];
     }

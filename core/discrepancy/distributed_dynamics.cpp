@@ -14,10 +14,19 @@ namespace {
 using Eigen::Index;
 
 /// Widths that stand where the data do not decide: of a driver that the effect has, and of the room beside it.
-constexpr double usual_width = 0.1;
-constexpr double room_width = 0.04;
+constexpr double usual_width = 0.05;
+constexpr double room_width = 0.02;
+/// The same for what happens in one span of time alone.
+constexpr double scatter_width = 0.02;
+constexpr int most_spans = 48;
 /// Of the prior's variance, for the inputs of the simplest dynamics: as much as each of the lags beside them.
 constexpr double bound_share = 0.2;
+
+/// What coolant does depends on how much colder than the room it is.
+constexpr double product_width = 0.3;
+bool product(const std::string& driver) {
+  return driver.starts_with("coolant*");
+}
 
 /// One input that a term has, or may have besides. Inputs of one group (a driver of a term) share the prior's width.
 struct LagInput {
@@ -62,13 +71,20 @@ void addCorrections(const ModelTerm& term, const DriverTable& drivers, std::map<
   // Whatever is heated follows the room, too, a little.
   const std::set<std::string> own = names;
   for (const std::string& room : drivers.room()) names.insert(room);
+  // Friction rises less, or more, than in proportion to speed.
+  for (const std::string& name : own) {
+    if (drivers.has(name + "^2")) names.insert(name + "^2");
+  }
   for (const std::string& name : names) {
     const Driver* driver = drivers.find(name);
     if (driver == nullptr) continue;
     const std::size_t first = inputs.size();
     const int group = groupOf(name);
-    if (!own.contains(name)) beside.insert(group);
+    if (!own.contains(name) && driver->linear) beside.insert(group);
     if (driver->linear) inputs.push_back({{name, Dynamics::Lag}, {0.0}, 1.0, group});
+    if (product(name) && dynamics == Dynamics::AsymmetricLag) {
+      inputs.push_back({{name, dynamics}, {term.parameters[0], term.parameters[1]}, 1.0, group});
+    }
     for (const double tau : {300.0, 900.0, 2700.0, 8100.0}) {
       inputs.push_back({{name, Dynamics::Lag}, {tau}, 1.0, group});
     }
@@ -112,10 +128,15 @@ std::size_t bindInputs(const EffectSearch& search, const ResidualProblem& proble
   return main;
 }
 
+struct Widths {
+  std::vector<double> of_group;
+  double log_evidence = 0.0;  // beyond that of no columns
+};
+
 /// The widths of the prior, one for each group, at the maximum of the marginal likelihood, for y = C c + e with unit
 /// noise, c_i ~ N(0, width(group of i)^2). What the data do not decide stays as usual.
-std::vector<double> likeliestWidths(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b,
-                                    const std::vector<int>& group, const std::vector<double>& usual) {
+Widths likeliestWidths(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b, const std::vector<int>& group,
+                       const std::vector<double>& usual) {
   std::vector<double> widths = usual;
   const auto value = [&] {
     Eigen::VectorXd s(b.size());
@@ -134,7 +155,7 @@ std::vector<double> likeliestWidths(const Eigen::MatrixXd& gram, const Eigen::Ve
   double best = value();
   for (int round = 0; round < 2; ++round) {
     for (std::size_t g = 0; g < widths.size(); ++g) {
-      for (const double trial : {0.02, 0.04, 0.1, 0.2, 0.4, 0.8, 1.6}) {
+      for (const double trial : {0.005, 0.01, 0.02, 0.04, 0.1, 0.2, 0.4, 0.8, 1.6}) {
         const double before = widths[g];
         if (trial == before) continue;
         widths[g] = trial;
@@ -147,7 +168,20 @@ std::vector<double> likeliestWidths(const Eigen::MatrixXd& gram, const Eigen::Ve
       }
     }
   }
-  return widths;
+  return {widths, best};
+}
+
+/// Course of a term by which it is off in one span of time, over all spans: what its drivers were measured with, and
+/// all that has no dynamics, moves every reading of the effect together.
+void addScatter(const ResidualProblem& problem, const Eigen::VectorXd& spread, double scale,
+                std::vector<Eigen::VectorXd>& values) {
+  const int bins = std::min(most_spans, problem.epoch_count);
+  std::vector<Eigen::VectorXd> columns(static_cast<std::size_t>(bins), Eigen::VectorXd::Zero(problem.size()));
+  for (Index u = 0; u < problem.size(); ++u) {
+    const int bin = problem.epoch[static_cast<std::size_t>(u)] * bins / std::max(1, problem.epoch_count);
+    columns[static_cast<std::size_t>(bin)][u] = spread[u] * scale;
+  }
+  for (Eigen::VectorXd& column : columns) values.push_back(std::move(column));
 }
 
 }  // namespace
@@ -158,9 +192,10 @@ DistributedFit distributedDynamics(const EffectSearch& search, const ResidualPro
   out.fit = fit;
   struct Column {
     std::size_t term = 0;
-    std::size_t input = 0;  // of the term
+    std::size_t input = 0;  // of the term; `scatter`: of none
     double scale = 1.0;
   };
+  constexpr std::size_t scatter = static_cast<std::size_t>(-1);
   std::vector<Column> columns;
   std::vector<Eigen::VectorXd> values;
   std::vector<int> group_of;
@@ -187,6 +222,8 @@ DistributedFit distributedDynamics(const EffectSearch& search, const ResidualPro
       const Eigen::VectorXd q =
           problem.toUnits(inputResponses(drivers, alone, input.parameters, problem.node_time_s).col(0));
       if (input.group < 0) {
+        // Of a free gain, and of its lag, the prior is as wide as what one observation tells.
+        out.log_evidence -= 0.5 * search.logN() * static_cast<double>(k + parameterCount(alone));
         free_parts.emplace_back(q.asDiagonal() * search.shape(*term.effect));
         free_count += k;
         kept.push_back(std::move(input));
@@ -204,9 +241,20 @@ DistributedFit distributedDynamics(const EffectSearch& search, const ResidualPro
     for (int g = 0; g < static_cast<int>(groups.size()); ++g) {
       usual.push_back(beside.contains(g) ? room_width : usual_width);
     }
+    for (const auto& [name, g] : groups) {
+      if (product(name)) usual[usual.size() - groups.size() + static_cast<std::size_t>(g)] = product_width;
+    }
+    if (fixed_width > 0.0 || groups.empty() || !(size > 0.0)) continue;
+    const double whole = problem.whitened(spread).norm();
+    if (!(whole > 0.0)) continue;
+    addScatter(problem, spread, size / whole, values);
+    columns.resize(values.size(), {t, scatter, 1.0});
+    group_of.resize(values.size(), static_cast<int>(usual.size()));
+    usual.push_back(scatter_width);
   }
   const auto count = static_cast<Index>(columns.size());
   if (count == 0) {
+    out.log_evidence -= 0.5 * fit.chi2;
     for (const Eigen::VectorXd& gains : fit.gains) out.prior_sigma.emplace_back(Eigen::VectorXd::Zero(gains.size()));
     return out;
   }
@@ -225,13 +273,16 @@ DistributedFit distributedDynamics(const EffectSearch& search, const ResidualPro
   const auto apart = [&](const Eigen::MatrixXd& m) { return Eigen::MatrixXd(m - free * qr.solve(m)); };
   const Eigen::MatrixXd c = apart(x.rightCols(count));
   Eigen::MatrixXd gram = c.transpose() * c;
-  const Eigen::VectorXd b = c.transpose() * apart(y);
-  const std::vector<double> widths =
-      fixed_width > 0.0 ? std::vector<double>(usual.size(), fixed_width) : likeliestWidths(gram, b, group_of, usual);
+  const Eigen::VectorXd rest = apart(y);
+  const Eigen::VectorXd b = c.transpose() * rest;
+  const Widths found = fixed_width > 0.0 ? Widths{std::vector<double>(usual.size(), fixed_width), 0.0}
+                                         : likeliestWidths(gram, b, group_of, usual);
+  const std::vector<double>& widths = found.of_group;
   Eigen::VectorXd width(count);
   for (Index i = 0; i < count; ++i) {
     width[i] = widths[static_cast<std::size_t>(group_of[static_cast<std::size_t>(i)])];
   }
+  out.log_evidence += found.log_evidence - 0.5 * rest.squaredNorm();
   gram.diagonal() += width.array().square().inverse().matrix();
   const Eigen::VectorXd weight = gram.ldlt().solve(b);
   const Eigen::VectorXd free_gains = qr.solve(y - x.rightCols(count) * weight);
@@ -256,6 +307,7 @@ DistributedFit distributedDynamics(const EffectSearch& search, const ResidualPro
         at += k;
         continue;
       }
+      while (columns[static_cast<std::size_t>(column)].input == scatter) ++column;
       const double scale = columns[static_cast<std::size_t>(column)].scale;
       gains.segment(place, k) = patterns[t] * (scale * weight[column]);
       prior.segment(place, k) = patterns[t].cwiseAbs() * (scale * width[column]);

@@ -84,10 +84,12 @@ DriverTable::DriverTable(const MachineDescription& machine, const OperatingLog* 
   for (const char* axis : {"x", "y", "z"}) {
     if (const auto* feed = log->signal(fmt::format("feed_{}_mm_min", axis))) {
       add({fmt::format("feed_{}", axis), "m_per_min", false, SensorRole::Other, scaled(*feed, 1e-3, 1.0)});
+      add({fmt::format("feed_{}^2", axis), "m2_per_min2", false, SensorRole::Other, scaled(*feed, 1e-3, 2.0)});
     }
   }
   if (const auto* speed = log->signal("speed_c_rpm")) {
     add({"speed_c", "rpm", false, SensorRole::Other, scaled(*speed, 1.0, 1.0)});
+    add({"speed_c^2", "rpm2", false, SensorRole::Other, scaled(*speed, 1.0, 2.0)});
   }
   for (const char* name : {"coolant", "instrument_on"}) {
     if (const auto* on = log->signal(name)) add({name, "on", false, SensorRole::Other, scaled(*on, 1.0, 1.0)});

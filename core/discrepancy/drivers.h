@@ -30,7 +30,8 @@ struct Driver {
   std::vector<double> values;           ///< at the rows of the log
 };
 
-/// Signals by name: "spindle_rpm^1", "^1.5", "^2" (krpm^p), "feed_x" (m/min), "speed_c", "coolant", "instrument_on",
+/// Signals by name: "spindle_rpm^1", "^1.5", "^2" (krpm^p), "feed_x" (m/min), "speed_c" (rpm) and the squares of both,
+/// "feed_x^2", "speed_c^2" (friction is not quite in proportion to speed), "coolant", "instrument_on",
 /// "coolant*T_room" (on x K), every temperature under its own name, "column_difference" (front minus rear), and heat
 /// times position "spindle_rpm^1*pos_y", and "instrument_on_assumed" (on from the first row) where the log does not say
 /// when the instrument was switched on. Signals that never change are left out and named in `dead`.

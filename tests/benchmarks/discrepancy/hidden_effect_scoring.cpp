@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
+
+#include "core/discrepancy/effect_model.h"
 
 namespace spindrift::study {
 
@@ -49,34 +52,123 @@ DiscrepancyInput inputOf(const VirtualCampaign& campaign) {
   return input;
 }
 
-double explainedFraction(const VirtualCampaign& campaign, const std::vector<double>& effect_part) {
+namespace {
+
+/// Values over the rows, whitened and relative to their mean over the fitted rows of the same point and component; 0
+/// where there is no such row, and on rows that are not held out.
+std::vector<double> heldOutMotion(const VirtualCampaign& campaign, const std::vector<double>& values) {
   const auto& rows = campaign.campaign.observations->rows;
-  struct Mean {
-    double hidden = 0.0;
-    double estimate = 0.0;
-    int count = 0;
-  };
-  std::map<std::pair<std::string, Component>, Mean> means;
+  std::map<std::pair<std::string, Component>, std::pair<double, int>> sums;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].use != ObservationUse::Fit) continue;
-    Mean& mean = means[{rows[i].point, rows[i].component}];
-    mean.hidden += campaign.truth.hidden_signal[i];
-    mean.estimate += i < effect_part.size() ? effect_part[i] : 0.0;
-    ++mean.count;
+    auto& [sum, count] = sums[{rows[i].point, rows[i].component}];
+    sum += values[i];
+    ++count;
   }
-  double left = 0.0;
-  double whole = 0.0;
+  std::vector<double> out(rows.size(), 0.0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].use != ObservationUse::Holdout) continue;
-    const Mean& mean = means[{rows[i].point, rows[i].component}];
-    if (mean.count == 0) continue;
-    const double hidden = (campaign.truth.hidden_signal[i] - mean.hidden / mean.count) / rows[i].sigma;
-    const double estimate =
-        ((i < effect_part.size() ? effect_part[i] : 0.0) - mean.estimate / mean.count) / rows[i].sigma;
-    left += (estimate - hidden) * (estimate - hidden);
-    whole += hidden * hidden;
+    const auto found = sums.find({rows[i].point, rows[i].component});
+    if (rows[i].use != ObservationUse::Holdout || found == sums.end()) continue;
+    out[i] = (values[i] - found->second.first / found->second.second) / rows[i].sigma;
   }
-  return whole > 0.0 ? 1.0 - left / whole : std::numeric_limits<double>::quiet_NaN();
+  return out;
+}
+
+/// sum (a - b)^2 / sum reference^2.
+double relativePower(const std::vector<double>& a, const std::vector<double>& b, const std::vector<double>& reference) {
+  double difference = 0.0;
+  double whole = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    difference += (a[i] - b[i]) * (a[i] - b[i]);
+    whole += reference[i] * reference[i];
+  }
+  return whole > 0.0 ? difference / whole : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<double> orZero(const std::vector<double>& values, std::size_t count) {
+  return values.size() == count ? values : std::vector<double>(count, 0.0);
+}
+
+}  // namespace
+
+double explainedFraction(const VirtualCampaign& campaign, const std::vector<double>& effect_part) {
+  const std::vector<double> hidden = heldOutMotion(campaign, campaign.truth.hidden_signal);
+  return 1.0 - relativePower(heldOutMotion(campaign, orZero(effect_part, hidden.size())), hidden, hidden);
+}
+
+namespace {
+
+/// What the noise alone takes from the signal explained: the variance of the prediction over the held-out rows as the
+/// model states it, as a part of the hidden signal.
+double statedCost(const VirtualCampaign& campaign, const EffectModel& model) {
+  const auto& rows = campaign.campaign.observations->rows;
+  std::vector<double> variance(rows.size(), 0.0);
+  for (const ModelEffect& effect : model.effects()) {
+    const auto gains = static_cast<Eigen::Index>(effect.gains.size());
+    const auto count = gains + static_cast<Eigen::Index>(effect.parameters.size());
+    Eigen::MatrixXd gradient(static_cast<Eigen::Index>(rows.size()), count);
+    const auto motion = [&](const ModelEffect& e) {
+      const std::vector<double> part = EffectModel::contribution(model.drivers(), e, rows);
+      const std::vector<double> held = heldOutMotion(campaign, part);
+      return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(held.data(), static_cast<Eigen::Index>(held.size())));
+    };
+    const Eigen::VectorXd at = motion(effect);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      ModelEffect moved = effect;
+      if (i < gains) {
+        moved.gains.setZero();
+        moved.gains[i] = 1.0;
+        gradient.col(i) = motion(moved);
+        continue;
+      }
+      if (!(effect.covariance(i, i) > 0.0)) {
+        gradient.col(i).setZero();
+        continue;
+      }
+      double& parameter = moved.parameters[static_cast<std::size_t>(i - gains)];
+      const double step = std::max(1.0, 0.02 * parameter);
+      parameter += step;
+      gradient.col(i) = (motion(moved) - at) / step;
+    }
+    const Eigen::MatrixXd spread = gradient * effect.covariance;
+    for (Eigen::Index r = 0; r < gradient.rows(); ++r) {
+      variance[static_cast<std::size_t>(r)] += spread.row(r).dot(gradient.row(r));
+    }
+  }
+  double whole = 0.0;
+  for (const double h : heldOutMotion(campaign, campaign.truth.hidden_signal)) whole += h * h;
+  return whole > 0.0 ? std::accumulate(variance.begin(), variance.end(), 0.0) / whole
+                     : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+OracleFit fitKnowingNames(const VirtualCampaign& campaign, const std::vector<std::string>& hidden) {
+  DiscrepancyOptions options;
+  options.suggest = false;
+  options.max_effects = 0;
+  options.accept = hidden;
+  JobContext job;
+  DiscrepancyInput input = inputOf(campaign);
+  const std::size_t count = input.observations.rows.size();
+  const DiscrepancyResult fitted = findDiscrepancy(input, options, job);
+  const std::vector<double> measured = orZero(fitted.effect_part, count);
+  for (std::size_t i = 0; i < count; ++i) input.observations.rows[i].value = campaign.truth.total[i];
+  const std::vector<double> clean = orZero(findDiscrepancy(input, options, job).effect_part, count);
+  OracleFit out;
+  if (fitted.model != nullptr) out.stated_cost = statedCost(campaign, *fitted.model);
+  double power = 0.0;
+  double held = 0.0;
+  for (const double h : heldOutMotion(campaign, campaign.truth.hidden_signal)) {
+    power += h * h;
+    held += h != 0.0 ? 1.0 : 0.0;
+  }
+  out.strength = held > 0.0 ? std::sqrt(power / held) : 0.0;
+  out.explained = explainedFraction(campaign, measured);
+  out.noise_free = explainedFraction(campaign, clean);
+  out.noise_cost = relativePower(heldOutMotion(campaign, measured), heldOutMotion(campaign, clean),
+                                 heldOutMotion(campaign, campaign.truth.hidden_signal));
+  return out;
 }
 
 }  // namespace spindrift::study

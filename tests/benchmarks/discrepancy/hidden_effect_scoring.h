@@ -38,4 +38,15 @@ struct Answer {
 /// rows of the same point and component. NaN if nothing is hidden.
 [[nodiscard]] double explainedFraction(const VirtualCampaign& campaign, const std::vector<double>& effect_part);
 
+/// What the best fit explains that knows which effects are hidden: the same catalogue, data, choice of drivers and
+/// lags.
+struct OracleFit {
+  double explained = 0.0;    ///< as explainedFraction, from the observations as they are
+  double noise_free = 0.0;   ///< the same, from observations without noise: what the form of the model can reach
+  double noise_cost = 0.0;   ///< squared difference of the two fits over held-out rows, as a part of the hidden signal
+  double stated_cost = 0.0;  ///< the variance that the model states for its prediction there, as the same part
+  double strength = 0.0;     ///< rms of the hidden signal over the held-out rows that it moves, in sigma
+};
+[[nodiscard]] OracleFit fitKnowingNames(const VirtualCampaign& campaign, const std::vector<std::string>& hidden);
+
 }  // namespace spindrift::study

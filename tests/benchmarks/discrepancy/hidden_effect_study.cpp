@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Study of the search for hidden effects on virtual campaigns, blind to what they hide.
 //
-//   hidden_effect_study [--campaigns N] [--seed S] [--short] [--plain] [--kind K] [--list] [--require]
+//   hidden_effect_study [--campaigns N] [--seed S] [--short] [--plain] [--kind K] [--oracle] [--list] [--require]
 //
 // N campaigns (default 320) are shared among: one hidden effect at strength 1, 2, 4, 8 times the noise, the same at
 // strength 4 with noise correlated 0.9, two effects, nothing, a cause outside the catalogue, confounded logs. Each has
 // its own machine, programme, room, sensors and seed; the given simulation is off by up to 1 %. --plain also runs
 // forward stepwise BIC and LASSO; --require ends with 1 where the rates are not what the search is known to reach;
-// --list prints every campaign that was not named rightly.
+// --oracle also fits, at strength 4 and more, the effects that are hidden by their names, to the observations and to
+// the same without noise: what search, noise and the form of the model cost on held-out states. --list prints every
+// campaign that was not named rightly.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +18,7 @@
 #include <ctime>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "core/base/text.h"
@@ -71,6 +74,7 @@ struct Outcomes {
   std::vector<Tally> stepwise = std::vector<Tally>(cells().size());
   std::vector<Tally> lasso = std::vector<Tally>(cells().size());
   std::vector<std::vector<double>> explained = std::vector<std::vector<double>>(cells().size());
+  std::vector<std::vector<OracleFit>> oracle = std::vector<std::vector<OracleFit>>(cells().size());
   std::vector<std::pair<double, bool>> confidences;
   int unknowable = 0;  ///< campaigns whose held-out states cannot be known
   std::vector<double> search_ms;
@@ -141,7 +145,12 @@ std::string described(const Answer& answer) {
   return text;
 }
 
-void runOne(const Assignment& which, bool plain, Outcomes& all, std::mutex& mutex) {
+struct Wanted {
+  bool plain = false;
+  bool oracle = false;
+};
+
+void runOne(const Assignment& which, const Wanted& wanted, Outcomes& all, std::mutex& mutex) {
   const Cell& cell = cells()[which.cell];
   StudyOptions options;
   options.kind = cell.kind;
@@ -165,9 +174,12 @@ void runOne(const Assignment& which, bool plain, Outcomes& all, std::mutex& mute
   const Answer answer = searched(input, job, result);
   const double ms = threadTime_ms() - started;
   const Outcome outcome = judged(answer);
+  const bool signal = !made.hidden.empty() && cell.kind != StudyKind::Outside && cell.kind != StudyKind::Confounded;
+  std::optional<OracleFit> oracle;
+  if (wanted.oracle && signal && cell.strength >= 4.0) oracle = fitKnowingNames(campaign, made.hidden);
   Answer stepwise;
   Answer lasso;
-  if (plain) {
+  if (wanted.plain) {
     stepwise = forwardStepwiseBic(input);
     lasso = lassoBic(input);
   }
@@ -180,10 +192,19 @@ void runOne(const Assignment& which, bool plain, Outcomes& all, std::mutex& mute
       ++all.unknowable;
     } else if (std::isfinite(explained)) {
       all.explained[which.cell].push_back(explained);
+      if (oracle) all.oracle[which.cell].push_back(*oracle);
     }
     if (outcome == Outcome::Named && cell.strength >= 4.0 && explained < 0.95) {
-      all.poorly_explained.push_back(fmt::format("seed {:5} {:20} hidden {:42} explained {:5.1f} % by {}", which.seed,
-                                                 cell.name, joinedList(made.hidden), 100.0 * explained,
+      std::string beside;
+      if (oracle) {
+        beside = fmt::format(
+            " (names known {:.1f} %, without noise {:.1f} %, noise costs {:.1f} %, stated "
+            "{:.1f} %, {:.1f} sigma)",
+            100.0 * oracle->explained, 100.0 * oracle->noise_free, 100.0 * oracle->noise_cost,
+            100.0 * oracle->stated_cost, oracle->strength);
+      }
+      all.poorly_explained.push_back(fmt::format("seed {:5} {:20} hidden {:42} explained {:5.1f} %{} by {}", which.seed,
+                                                 cell.name, joinedList(made.hidden), 100.0 * explained, beside,
                                                  result.effects.front().drivers));
     }
   }
@@ -202,10 +223,26 @@ void runOne(const Assignment& which, bool plain, Outcomes& all, std::mutex& mute
                                      joinedList(made.hidden), described(answer), result.explained_fraction,
                                      result.leftover.empty() ? "nothing left" : result.leftover));
   }
-  if (plain) {
+  if (wanted.plain) {
     all.stepwise[which.cell].add(stepwise, judged(stepwise));
     all.lasso[which.cell].add(lasso, judged(lasso));
   }
+}
+
+void printOracle(const std::vector<OracleFit>& fits) {
+  const auto line = [&](const char* what, double OracleFit::*value) {
+    std::vector<double> values;
+    for (const OracleFit& fit : fits) values.push_back(fit.*value);
+    const auto good = static_cast<int>(std::count_if(values.begin(), values.end(), [](double v) { return v >= 0.95; }));
+    fmt::print("{:22} median {:5.1f} %, at least 95 % explained in {}\n", what, 100.0 * median(values),
+               rate(good, static_cast<int>(values.size())));
+  };
+  line("  names known", &OracleFit::explained);
+  line("  and without noise", &OracleFit::noise_free);
+  std::vector<double> cost;
+  for (const OracleFit& fit : fits) cost.push_back(fit.noise_cost);
+  fmt::print("{:22} median {:5.2f} %, 90 % below {:.2f} %\n", "  cost of the noise", 100.0 * median(cost),
+             100.0 * quantile(cost, 0.9));
 }
 
 /// Rates that a search which names too little, or too much, does not reach. True: reached.
@@ -248,7 +285,7 @@ bool reached(const std::vector<Tally>& tallies) {
 int run(int argc, char** argv) {
   int campaigns = 320;
   std::uint64_t seed = 1;
-  bool plain = false;
+  Wanted wanted;
   bool list = false;
   bool required = false;
   std::string only;
@@ -261,7 +298,9 @@ int run(int argc, char** argv) {
     } else if (std::strcmp(argv[i], "--short") == 0) {
       campaigns = 45;
     } else if (std::strcmp(argv[i], "--plain") == 0) {
-      plain = true;
+      wanted.plain = true;
+    } else if (std::strcmp(argv[i], "--oracle") == 0) {
+      wanted.oracle = true;
     } else if (std::strcmp(argv[i], "--list") == 0) {
       list = true;
     } else if (std::strcmp(argv[i], "--require") == 0) {
@@ -270,7 +309,7 @@ int run(int argc, char** argv) {
       only = value();
     } else {
       fmt::print(
-          "usage: {} [--campaigns N] [--seed S] [--short] [--plain] [--list] [--require] [--kind "
+          "usage: {} [--campaigns N] [--seed S] [--short] [--plain] [--oracle] [--list] [--require] [--kind "
           "one|two|nothing|outside|confounded]\n",
           argv[0]);
       return 2;
@@ -292,12 +331,12 @@ int run(int argc, char** argv) {
   Outcomes all;
   std::mutex mutex;
   const JobContext job;
-  parallelFor(work.size(), job, [&](std::size_t i) { runOne(work[i], plain, all, mutex); });
+  parallelFor(work.size(), job, [&](std::size_t i) { runOne(work[i], wanted, all, mutex); });
 
   fmt::print("{} campaigns, seed {}; rates with 95 % intervals (Wilson)\n", work.size(), seed);
   print("search (\"right name\" is \"unknown\" outside the catalogue and \"none\" where nothing is hidden)",
         all.search);
-  if (plain) {
+  if (wanted.plain) {
     print("forward stepwise BIC over the same candidates", all.stepwise);
     print("LASSO (BIC along the path) over the same candidates", all.lasso);
   }
@@ -308,6 +347,7 @@ int run(int argc, char** argv) {
     const auto good = static_cast<int>(std::count_if(e.begin(), e.end(), [](double v) { return v >= 0.95; }));
     fmt::print("{:22} median {:5.1f} %, at least 95 % explained in {}\n", cells()[c].name, 100.0 * median(e),
                rate(good, static_cast<int>(e.size())));
+    if (!all.oracle[c].empty()) printOracle(all.oracle[c]);
   }
   if (all.unknowable > 0) {
     fmt::print("left out: {} campaigns in which heat from outside ends after the last state that is fitted\n",

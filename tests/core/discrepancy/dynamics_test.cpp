@@ -7,7 +7,9 @@
 #include <array>
 #include <map>
 
+#include "core/discrepancy/catalogue.h"
 #include "core/discrepancy/discrepancy.h"
+#include "core/discrepancy/distributed_dynamics.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/residual_problem.h"
 #include "tests/core/discrepancy/small_plant.h"
@@ -73,6 +75,81 @@ TEST(Dynamics, OfTheModelAreThoseOfThePrediction) {
   const PredictedComponent predicted = result.model->predict(query, input.observations.rows.back().component);
   EXPECT_NEAR(predicted.value, part.back(), 1e-9);
   EXPECT_GT(predicted.sigma, 0.0);
+}
+
+/// The drift of the spindle, driven by one signal with a lag, with a covariance of gain and lag.
+ModelEffect drivenBy(const DiscrepancyInput& input, const DriverTable& drivers, const char* driver, double tau_s,
+                     double gain) {
+  CatalogueContext context;
+  context.machine = &input.machine;
+  context.drivers = &drivers;
+  ModelEffect effect;
+  for (const Effect& e : effectCatalogue(context)) {
+    if (e.id == "spindle.drift.y") effect.effect = e;
+  }
+  effect.variant = {{{driver, Dynamics::Lag}}, false};
+  effect.parameters = {tau_s};
+  effect.gains = Eigen::VectorXd::Constant(1, gain);
+  effect.covariance = (Eigen::Matrix2d() << 0.01, 0.2, 0.2, 900.0).finished();
+  return effect;
+}
+
+TEST(Dynamics, OfSeveralPossibleDriversAreAveragedWithTheScatterAmongThem) {
+  const DiscrepancyInput input = campaign(Hidden::SpindleDrift, 1);
+  const auto drivers = std::make_shared<const DriverTable>(input.machine, &*input.log);
+  const ModelEffect heat = drivenBy(input, *drivers, "spindle_rpm^1", 1800.0, 0.8);
+  const ModelEffect bearing = drivenBy(input, *drivers, "T_spindle_degC", 600.0, 0.2);
+  const auto& rows = input.observations.rows;
+  const std::vector<double> by_heat = EffectModel(drivers, {heat}).effectPart(rows);
+  const std::vector<double> by_bearing = EffectModel(drivers, {bearing}).effectPart(rows);
+  const std::vector<double> sigma_heat = EffectModel(drivers, {heat}).effectSigma(rows);
+  const std::vector<double> sigma_bearing = EffectModel(drivers, {bearing}).effectSigma(rows);
+  const EffectModel mean(drivers, averagedEffects({{heat}, {bearing}}, {0.7, 0.3}));
+  const std::vector<double> part = mean.effectPart(rows);
+  const std::vector<double> sigma = mean.effectSigma(rows);
+  for (std::size_t i = 0; i < rows.size(); i += 5) {
+    EXPECT_NEAR(part[i], 0.7 * by_heat[i] + 0.3 * by_bearing[i], 1e-9);
+    const double apart = by_heat[i] - by_bearing[i];
+    const double variance =
+        0.7 * sigma_heat[i] * sigma_heat[i] + 0.3 * sigma_bearing[i] * sigma_bearing[i] + 0.7 * 0.3 * apart * apart;
+    EXPECT_NEAR(sigma[i], std::sqrt(variance), 1e-3 + 0.02 * std::sqrt(variance));
+  }
+}
+
+TEST(Dynamics, OfEqualVersionsAreOneVersion) {
+  const DiscrepancyInput input = campaign(Hidden::SpindleDrift, 1);
+  const auto drivers = std::make_shared<const DriverTable>(input.machine, &*input.log);
+  const ModelEffect heat = drivenBy(input, *drivers, "spindle_rpm^1", 1800.0, 0.8);
+  const std::vector<ModelEffect> mean = averagedEffects({{heat}, {heat}}, {0.5, 0.5});
+  ASSERT_EQ(mean.size(), 1u);
+  EXPECT_EQ(mean[0].variant.inputs.size(), 1u);
+  EXPECT_DOUBLE_EQ(mean[0].gains[0], 0.8);
+  EXPECT_LT((mean[0].covariance - heat.covariance).norm(), 1e-9 * heat.covariance.norm());
+}
+
+TEST(Dynamics, TryEveryDriverThatTheDataAllow) {
+  const DiscrepancyInput input = campaign(Hidden::SpindleDrift, 2, 1.5);
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < input.observations.rows.size(); ++i) {
+    if (input.observations.rows[i].use == ObservationUse::Fit) rows.push_back(i);
+  }
+  const DriverTable drivers(input.machine, &*input.log);
+  ResidualProblem problem(input, rows, 3000);
+  problem.setNuisances(problem.simulationNuisances(0.01));
+  CatalogueContext context;
+  context.machine = &input.machine;
+  context.drivers = &drivers;
+  const std::vector<Effect> catalogue = effectCatalogue(context);
+  const EffectSearch search(problem, drivers, catalogue);
+  const CandidateFit candidate = search.best(*search.find("spindle.drift.y"));
+  const auto versions = alternativeDynamics(search, problem, drivers, search.refine({candidate.term}, 2));
+  ASSERT_GT(versions.size(), 1u) << "bearing temperature and powers of the speed fit alike at this strength";
+  double sum = 0.0;
+  for (std::size_t v = 0; v < versions.size(); ++v) {
+    sum += versions[v].weight;
+    EXPECT_LE(versions[v].weight, versions[v == 0 ? 0 : v - 1].weight);
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
 TEST(ProjectedProducts, AreThoseOfTheProjectedColumns) {
