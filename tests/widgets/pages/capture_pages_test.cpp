@@ -111,6 +111,31 @@ TEST_F(CapturePages, ANewFiducialMeasurementFillsFromAWatchedFolder) {
   EXPECT_EQ(service().folder(), watched());
 }
 
+TEST_F(CapturePages, TheSentenceNamesABadCaptureAndItsButtonGoesThere) {
+  std::filesystem::create_directories(folder_ / "kept/captures");
+  folder_.write("kept/campaign.json",
+                R"({"format":"spindrift-campaign","version":1,"name":"kept","start_utc":"2026-01-31T08:00:00Z"})");
+  folder_.write("kept/machine.json", mill_text);
+  std::string list = "time_s,state,fiducial,role,index,x_mm,y_mm,z_mm,spindle_deg,image\n";
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = "captures/r" + std::to_string(i) + ".png";
+    folder_.write("kept/" + name, encodePng(picture(static_cast<std::uint64_t>(i), i == 1 ? 9.0 : 1.0)));
+    list += std::to_string(10 * i) + ",M0,F1,rotation," + std::to_string(i) + ",20,30,0," + std::to_string(120 * i) +
+            "," + name + "\n";
+  }
+  folder_.write("kept/captures/fiducials.csv", list);
+  open(folder_ / "kept");
+  auto* page = go<FiducialCapturePage>(StepId::Capture);
+  ASSERT_NE(page, nullptr);
+  press();
+  EXPECT_TRUE(page->callout()->sentence().contains(QStringLiteral("(F1 in state M0, rotation 2)")))
+      << page->callout()->sentence().toStdString();
+  page->select(QStringLiteral("captures/r2.png"));
+  EXPECT_EQ(page->pickedItem(), QStringLiteral("captures/r2.png"));
+  QTest::mouseClick(page->callout()->findChild<QPushButton*>(), Qt::LeftButton);
+  EXPECT_EQ(page->pickedItem(), QStringLiteral("captures/r1.png"));
+}
+
 TEST_F(CapturePages, ThePlanCanBeUndone) {
   newMeasurement(mill_text);
   auto* page = go<NewCapturePage>(StepId::Capture);

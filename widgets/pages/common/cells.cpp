@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/pages/common/cells.h"
 
+#include <QCoreApplication>
 #include <cmath>
 
 #include "core/base/text.h"
@@ -56,6 +57,17 @@ QString parameterUnit(const std::string& name) {
   if (at == std::string::npos) return {};
   QString unit = QString::fromStdString(name.substr(at + 1));
   return unit.replace(QStringLiteral("_per_"), QStringLiteral("/"));
+}
+
+QString firstOf(const QStringList& names, qsizetype most) {
+  const auto joined = [](const QStringList& some, const QString& last) {
+    return some.isEmpty()
+               ? last
+               : QCoreApplication::translate("Cells", "%1 and %2").arg(some.join(QStringLiteral(", ")), last);
+  };
+  if (names.isEmpty()) return {};
+  if (names.size() <= most) return joined(names.mid(0, names.size() - 1), names.back());
+  return joined(names.mid(0, most), QCoreApplication::translate("Cells", "%1 more").arg(names.size() - most));
 }
 
 QString quantityText(double value, double sigma, const QString& unit) {

@@ -2,6 +2,7 @@
 // Cells of tables as all pages write them: numbers at the right with a true minus sign, names in bold.
 #pragma once
 
+#include <QStringList>
 #include <string>
 
 #include "widgets/models/rows_model.h"
@@ -18,6 +19,8 @@ namespace spindrift::gui {
 
 /// Text of the core library.
 [[nodiscard]] QString fromCore(const std::string& text);
+/// "F1, F2 and 3 more": the first few of many names.
+[[nodiscard]] QString firstOf(const QStringList& names, qsizetype most = 3);
 /// "EXX_um_per_m" -> "EXX" and "um/m".
 [[nodiscard]] QString parameterTitle(const std::string& name);
 [[nodiscard]] QString parameterUnit(const std::string& name);

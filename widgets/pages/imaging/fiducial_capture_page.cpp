@@ -20,6 +20,7 @@
 #include "widgets/image_view/image_view.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/capture_tabs.h"
+#include "widgets/pages/common/cells.h"
 #include "widgets/pages/imaging/decode_marks.h"
 
 namespace spindrift::gui {
@@ -181,6 +182,7 @@ void FiducialCapturePage::refresh() {
   if (session().campaign() == nullptr) return;
   const bool other = loaded_campaign_ != session().campaignId();
   loaded_campaign_ = session().campaignId();
+  callout()->setAction({}, {});
   callout()->set(Tone::Neutral, {});
   load();
   QStringList states;
@@ -195,9 +197,10 @@ void FiducialCapturePage::refresh() {
   fillTable();
   fillPlan();
 
-  const auto bad = std::count_if(captures_.begin(), captures_.end(), [this](const CaptureVerdict& c) {
-    return c.checked && !c.good && !session().excluded().contains(c.image);
-  });
+  std::vector<const CaptureVerdict*> bad;
+  for (const CaptureVerdict& c : captures_) {
+    if (c.checked && !c.good && !session().excluded().contains(c.image)) bad.push_back(&c);
+  }
   const auto unchecked =
       std::count_if(captures_.begin(), captures_.end(), [](const CaptureVerdict& c) { return !c.checked; });
   if (callout()->sentence().isEmpty()) {
@@ -207,12 +210,8 @@ void FiducialCapturePage::refresh() {
       callout()->show(Tone::Accent, tr("%1 captures are there and none is checked yet. Checking decodes every image "
                                        "and says which to take again.")
                                         .arg(captures_.size()));
-    } else if (bad > 0) {
-      callout()->show(
-          Tone::Attention,
-          tr("%1 of %2 captures cannot be used. Take them again, or exclude them: the rest is evaluated without.")
-              .arg(bad)
-              .arg(captures_.size()));
+    } else if (!bad.empty()) {
+      showBad(bad);
     } else {
       callout()->show(Tone::Good, tr("All %1 captures are checked and can be used.").arg(captures_.size()));
     }
@@ -224,6 +223,25 @@ void FiducialCapturePage::refresh() {
     if (row >= 0) table_->selectRow(row);
     showImage(shown_);
   }
+}
+
+void FiducialCapturePage::showBad(const std::vector<const CaptureVerdict*>& bad) {
+  QStringList names;
+  for (const CaptureVerdict* c : bad) {
+    names << tr("%1 in state %2, %3 %4").arg(c->fiducial, c->state, roleName(c->role)).arg(c->index + 1);
+  }
+  callout()->setAction(tr("Show it"), [this, image = bad.front()->image] {
+    state_filter_->setCurrentIndex(0);
+    verdict_filter_->setCurrentIndex(0);
+    fillTable();
+    select(image);
+  });
+  callout()->show(Tone::Attention,
+                  tr("%1 of %2 captures cannot be used (%3). Take them again, or exclude them: the rest "
+                     "is evaluated without.")
+                      .arg(bad.size())
+                      .arg(captures_.size())
+                      .arg(firstOf(names)));
 }
 
 void FiducialCapturePage::fillTable() {

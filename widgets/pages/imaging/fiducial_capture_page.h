@@ -47,6 +47,8 @@ class FiducialCapturePage : public Page {
   void load();
   void fillTable();
   void fillPlan();
+  /// Says which captures are bad, with a button that goes to the first.
+  void showBad(const std::vector<const CaptureVerdict*>& bad);
   void checkAll();
   void showImage(const QString& image);
   void toggleExcluded();

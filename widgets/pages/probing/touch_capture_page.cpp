@@ -208,17 +208,33 @@ void TouchCapturePage::refresh() {
   const auto count = [&](TouchState s) {
     return std::count_if(verdicts_.begin(), verdicts_.end(), [s](const TouchVerdict& v) { return v.state == s; });
   };
+  QStringList bad;
+  const TouchVerdict* first_bad = nullptr;
+  for (const TouchVerdict& v : verdicts_) {
+    if (v.state != TouchState::LeftOut && v.state != TouchState::Missing) continue;
+    if (first_bad == nullptr) first_bad = &v;
+    bad << fromCore(v.touch.cycle + " " + v.touch.feature + " · " + std::to_string(v.touch.touch));
+  }
+  callout()->setAction({}, {});
   if (!judged_) {
     callout()->show(Tone::Accent, tr("%1 touches are there and none is checked yet. Checking compares every touch "
                                      "with all others and says which to take again.")
                                       .arg(verdicts_.size()));
   } else if (!state.current || !results_.current()) {
     callout()->show(Tone::Outdated, tr("Exclusions or the machine have changed since. Check the touches again."));
-  } else if (count(TouchState::LeftOut) + count(TouchState::Missing) > 0) {
-    callout()->show(Tone::Attention, tr("%1 touches are rejected and %2 are missing. Take them again while the machine "
-                                        "is in this state; the rest is evaluated without them.")
+  } else if (first_bad != nullptr) {
+    callout()->setAction(tr("Show it"),
+                         [this, cycle = fromCore(first_bad->touch.cycle), id = fromCore(first_bad->touch.id())] {
+                           state_filter_->setCurrentIndex(0);
+                           selectCycle(cycle);
+                           fillTouches();
+                           if (const int row = touches_->rowOf(id); row >= 0) touch_table_->selectRow(row);
+                         });
+    callout()->show(Tone::Attention, tr("%1 touches are rejected and %2 are missing (%3). Take them again while the "
+                                        "machine is in this state; the rest is evaluated without them.")
                                          .arg(count(TouchState::LeftOut))
-                                         .arg(count(TouchState::Missing)));
+                                         .arg(count(TouchState::Missing))
+                                         .arg(firstOf(bad)));
   } else {
     callout()->show(Tone::Good, tr("All %1 touches are plausible and none is missing.").arg(verdicts_.size()));
   }

@@ -158,9 +158,17 @@ void ScanCapturePage::refresh() {
   }
   fillTable();
   const std::vector<ScanCapture>& captures = results_.captures();
-  const auto bad = std::count_if(checks_.begin(), checks_.end(), [this](const auto& c) {
-    return (!c.second.usable || !c.second.reason.empty()) && !session().excluded().contains(c.first);
-  });
+  QStringList bad;
+  QString first_bad;
+  for (const ScanCapture& c : captures) {
+    const auto check = checks_.find(fromCore(c.cloud));
+    if (check == checks_.end() || (check->second.usable && check->second.reason.empty()) ||
+        session().excluded().contains(check->first))
+      continue;
+    if (bad.isEmpty()) first_bad = check->first;
+    bad << QStringLiteral("%1 · %2").arg(fromCore(c.artefact), fromCore(c.cycle));
+  }
+  callout()->setAction({}, {});
   if (!results_.failure().isEmpty()) {
     callout()->show(Tone::Bad, results_.failure());
   } else if (checks_.empty()) {
@@ -169,11 +177,13 @@ void ScanCapturePage::refresh() {
                                       .arg(captures.size()));
   } else if (!session().state("check").current) {
     callout()->show(Tone::Outdated, tr("Exclusions or the machine have changed since. Check the scans again."));
-  } else if (bad > 0) {
-    callout()->show(Tone::Attention, tr("%1 of %2 scans are incomplete or cannot be used. Scan again, or exclude them: "
-                                        "the rest is evaluated without.")
-                                         .arg(bad)
-                                         .arg(captures.size()));
+  } else if (!bad.isEmpty()) {
+    callout()->setAction(tr("Show it"), [this, first_bad] { select(first_bad); });
+    callout()->show(Tone::Attention, tr("%1 of %2 scans are incomplete or cannot be used (%3). Scan again, or exclude "
+                                        "them: the rest is evaluated without.")
+                                         .arg(bad.size())
+                                         .arg(captures.size())
+                                         .arg(firstOf(bad)));
   } else {
     callout()->show(Tone::Good, tr("All %1 scans are complete and can be used.").arg(captures.size()));
   }

@@ -68,7 +68,15 @@ TEST_F(ProbingPages, CaptureSaysWhatBecameOfEveryTouch) {
   EXPECT_EQ(cell(*page->cycleRows(), QStringLiteral("M2"), 3), QStringLiteral("1"));
   EXPECT_EQ(cell(*page->cycleRows(), QStringLiteral("M3"), 4), QStringLiteral("1"));
   EXPECT_EQ(cell(*page->cycleRows(), QStringLiteral("M1"), 3), QStringLiteral("0"));
-  page->selectCycle(QStringLiteral("M2"));
+  // The sentence names both, and its button goes to the first.
+  auto* show_it = page->callout()->findChild<QPushButton*>();
+  ASSERT_NE(show_it, nullptr);
+  EXPECT_TRUE(page->callout()->sentence().contains(QStringLiteral("(M2 ")) &&
+              page->callout()->sentence().contains(QStringLiteral(" and M3 ")))
+      << page->callout()->sentence().toStdString();
+  page->selectCycle(QStringLiteral("M0"));
+  QTest::mouseClick(show_it, Qt::LeftButton);
+  EXPECT_EQ(page->pickedItem(), bad_);
   EXPECT_EQ(cell(*page->touchRows(), bad_, 1), QStringLiteral("rejected"));
   // The bad touch misses by 40 um.
   const double residual = cell(*page->touchRows(), bad_, 2).replace(QChar(0x2212), QLatin1Char('-')).toDouble();
