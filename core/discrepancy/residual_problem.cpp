@@ -263,6 +263,7 @@ void ResidualProblem::setNoise(const NoiseModel& model) {
 }
 
 Eigen::MatrixXd ResidualProblem::whitened(const Eigen::MatrixXd& columns) const {
+  if (columns.cols() == 0) return columns;  // Eigen's triangular product reads the first element of nothing
   if (blocks_.empty()) return diagonal_whitener_.asDiagonal() * columns;
   Eigen::MatrixXd out(columns.rows(), columns.cols());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
