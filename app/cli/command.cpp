@@ -139,6 +139,7 @@ int runSelected(CommandLine& line) {
       if (!result.summary.empty() && !result.summary.ends_with('\n')) std::cout << '\n';
     }
     std::cout.flush();
+    for (const std::string& warning : result.warnings) std::cerr << "spindrift-cli: warning: " << warning << '\n';
     if (!std::cout) throw InputError("standard output cannot be written: no space left, or it was closed.");
     return result.exit_status;
   } catch (const InputError& error) {

@@ -16,12 +16,13 @@ namespace spindrift::cli {
 /// Exit status as in FORMATS.md.
 enum ExitStatus { Done = 0, NotGoodEnough = 1, BadInput = 2, InternalFailure = 3 };
 
-/// What a command gives back: JSON for `--json`, a summary for people, and 0 or 1 (not good enough; the summary says
-/// why).
+/// What a command gives back: JSON for `--json`, a summary for people, 0 or 1 (not good enough; the summary says why),
+/// and sentences that must be seen also where the summary is not: on standard error.
 struct CommandResult {
   nlohmann::json json = nlohmann::json::object();
   std::string summary;
   int exit_status = Done;
+  std::vector<std::string> warnings = {};
 };
 
 /// Checks of an option's number, in words of ours.

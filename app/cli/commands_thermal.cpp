@@ -178,20 +178,22 @@ void addCompensate(CLI::App& parent, CommandLine& line) {
     std::string out;
   };
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = addCommand(parent, line, "compensate",
-                                 "Run the controller's compensator over a log and show what it would have achieved",
-                                 [a](JobContext& job) {
-                                   a->request.log = a->log;
-                                   a->request.model = a->model;
-                                   const CompensateResult result = compensateLog(a->request, job);
-                                   if (!a->out.empty()) result.write(a->out);
-                                   bool worse = false;
-                                   for (const auto& o : result.outputs) worse = worse || o.rms_after >= o.rms_before;
-                                   std::string summary = result.summary();
-                                   if (worse)
-                                     summary += "not good enough: an output is no better compensated than left alone\n";
-                                   return CommandResult{result.json(), summary, worse ? NotGoodEnough : Done};
-                                 });
+  CLI::App* command =
+      addCommand(parent, line, "compensate",
+                 "Run the controller's compensator over a log and show what it would have achieved. "
+                 "Compensation = minus the predicted deviation (actual minus commanded), to be added "
+                 "to the command; a reduction is positive where the rms becomes smaller",
+                 [a](JobContext& job) {
+                   a->request.log = a->log;
+                   a->request.model = a->model;
+                   const CompensateResult result = compensateLog(a->request, job);
+                   if (!a->out.empty()) result.write(a->out);
+                   bool worse = false;
+                   for (const auto& o : result.outputs) worse = worse || o.rms_after >= o.rms_before;
+                   std::string summary = result.summary();
+                   if (worse) summary += "not good enough: an output is no better compensated than left alone\n";
+                   return CommandResult{result.json(), summary, worse ? NotGoodEnough : Done, result.warnings};
+                 });
   command
       ->add_option("LOG", a->log,
                    "CSV with time_s and the inputs of the model; measured outputs are compared if they are there")
@@ -209,7 +211,9 @@ void addCompensate(CLI::App& parent, CommandLine& line) {
   command->add_option("--stale", a->request.limits.stale_after_s, "Age in s from which an input is stale")
       ->check(nonNegativeNumber())
       ->capture_default_str();
-  command->add_option("--out", a->out, "Write time_s and the compensation of every output to this CSV file")
+  command
+      ->add_option("--out", a->out,
+                   "Write time_s and the compensation of every output (minus its predicted deviation) to this CSV file")
       ->type_name("FILE");
 }
 

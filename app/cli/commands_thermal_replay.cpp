@@ -55,7 +55,10 @@ void addReplay(CLI::App& parent, CommandLine& line) {
   CLI::App* command = addCommand(
       parent, line, "replay",
       "Replay a record with the self-optimising compensation: uncompensated, static and adaptive side by side, number "
-      "of on-machine measurements spent",
+      "of on-machine measurements spent. Compensation = minus the predicted deviation; what is left = recorded minus "
+      "predicted, each in the sign of its column; a reduction is positive where the rms becomes smaller, negative "
+      "where "
+      "compensating makes it larger",
       [a](JobContext& job) {
         ReplayRequest& r = a->request;
         r.source = a->source;

@@ -232,6 +232,29 @@ StepResponse ThermalModel::stepResponse(std::size_t which, const std::string& in
   return response;
 }
 
+namespace {
+
+nlohmann::json jsonOf(const ThermalVerdict& v) {
+  return {{"good_enough", v.good_enough},
+          {"test_s", {v.test_from_s, v.test_to_s}},
+          {"test_rms", jsonNumber(v.test_rms)},
+          {"reason", v.reason}};
+}
+
+ThermalVerdict verdictFrom(const JsonNode& node) {
+  ThermalVerdict v;
+  v.good_enough = node.at("good_enough").boolean();
+  const std::vector<double> test = node.at("test_s").numbers();
+  if (test.size() != 2) node.at("test_s").reject("two numbers, from and to");
+  v.test_from_s = test[0];
+  v.test_to_s = test[1];
+  v.test_rms = node.numberOr("test_rms", 0.0);
+  v.reason = node.stringOr("reason", "");
+  return v;
+}
+
+}  // namespace
+
 nlohmann::json ThermalModel::json() const {
   nlohmann::json out = {{"format", "spindrift-thermal-model"},   {"version", 1},         {"kind", kind},
                         {"train_s", {train_from_s, train_to_s}}, {"period_s", period_s}, {"source", source}};
@@ -268,6 +291,7 @@ nlohmann::json ThermalModel::json() const {
                               {"noise_tau_s", o.noise_tau_s},
                               {"uncertainty_factor", o.uncertainty_factor},
                               {"covariance_lower", lower}});
+    if (o.verdict) out["outputs"].back()["verdict"] = jsonOf(*o.verdict);
   }
   return out;
 }
@@ -335,6 +359,7 @@ ThermalModel ThermalModel::parse(const JsonNode& root) {
     output.noise_sigma = node.numberOr("noise_sigma", 0.0);
     output.noise_tau_s = node.numberOr("noise_tau_s", 0.0);
     output.uncertainty_factor = node.numberOr("uncertainty_factor", 1.0);
+    if (const auto verdict = node.find("verdict")) output.verdict = verdictFrom(*verdict);
     if (const auto lower = node.find("covariance_lower")) {
       const std::vector<double> values = lower->numbers();
       auto n = static_cast<Eigen::Index>(output.terms.size() + 1);

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +42,15 @@ struct LagTerm {
   double gain = 0.0;
 };
 
+/// What the identification said of a model after running it free over rows it had not seen.
+struct ThermalVerdict {
+  bool good_enough = true;  ///< false: no better there than a plain model; not to be compensated with
+  double test_from_s = 0.0;
+  double test_to_s = 0.0;
+  double test_rms = 0.0;  ///< of measured minus predicted, in the output's unit
+  std::string reason;     ///< why it is not good enough; empty if it is
+};
+
 struct ThermalOutput {
   std::string name;
   std::string unit;  ///< "um", "urad"
@@ -48,10 +58,11 @@ struct ThermalOutput {
   std::vector<LagTerm> terms;
   /// Of (offset, gains), size 1 + terms, or of (offset, gains, ln tau), size 1 + 2 terms; empty if not known.
   Eigen::MatrixXd covariance;
-  double degrees_of_freedom = 0.0;  ///< of that covariance; 0: many
-  double noise_sigma = 0.0;         ///< stationary standard deviation of what the model leaves in training
-  double noise_tau_s = 0.0;         ///< correlation time of that remainder
-  double uncertainty_factor = 1.0;  ///< held-out error over predicted error in blocks left out, >= 1
+  double degrees_of_freedom = 0.0;        ///< of that covariance; 0: many
+  double noise_sigma = 0.0;               ///< stationary standard deviation of what the model leaves in training
+  double noise_tau_s = 0.0;               ///< correlation time of that remainder
+  double uncertainty_factor = 1.0;        ///< held-out error over predicted error in blocks left out, >= 1
+  std::optional<ThermalVerdict> verdict;  ///< none: nobody has judged it
   /// Half width of an interval of this probability in standard uncertainties (Student's where the degrees are known).
   [[nodiscard]] double coverageFactor(double probability = 0.95) const;
 };

@@ -188,12 +188,17 @@ bool ReplayResult::goodEnough() const {
 }
 
 nlohmann::json ReplayResult::json() const {
-  nlohmann::json out = {{"setup_s", setup_s},
-                        {"setup_measurements", run.setup_measurements},
-                        {"measurements", run.measurements},
-                        {"reidentifications", run.reidentifications},
-                        {"inputs", inputs},
-                        {"notes", notes}};
+  nlohmann::json out = {
+      {"setup_s", setup_s},
+      {"setup_measurements", run.setup_measurements},
+      {"measurements", run.measurements},
+      {"reidentifications", run.reidentifications},
+      {"inputs", inputs},
+      {"notes", notes},
+      {"sign_convention",
+       "compensation = minus the predicted deviation; what is left = recorded minus predicted, each in "
+       "the sign of its column; a reduction is positive where the rms became smaller, negative where "
+       "it became larger"}};
   for (std::size_t e = 0; e < errors.size(); ++e) {
     const AdaptiveErrorResult& r = run.errors[e];
     out["outputs"].push_back({{"name", r.name},
@@ -226,14 +231,17 @@ std::string ReplayResult::summary() const {
       fmt::format("setup of {:.4g} h with {} measurements; then {} measurements in {:.4g} h, {} identifications\n",
                   setup_s / 3600.0, run.setup_measurements, run.measurements, (time_s.back() - setup_end_s) / 3600.0,
                   run.reidentifications);
-  text += fmt::format("  {:<16} {:>14} {:>22} {:>22}\n", "rms", "uncompensated", "static", "adaptive");
+  text += fmt::format("  {:<16} {:>14} {:>22} {:>22}\n", "rms (reduction)", "uncompensated", "static", "adaptive");
   for (std::size_t e = 0; e < errors.size(); ++e) {
     const AdaptiveErrorResult& r = run.errors[e];
     text += fmt::format("  {:<16} {:>14.2f} {:>11.2f} ({:>5.1f} %) {:>11.2f} ({:>5.1f} %) {}, limit {:.3g}\n", r.name,
-                        r.rms_uncompensated, r.rms_static, -r.static_reduction_percent, r.rms_adaptive,
-                        -r.adaptive_reduction_percent, units[e], errors[e].action_limit);
+                        r.rms_uncompensated, r.rms_static, r.static_reduction_percent, r.rms_adaptive,
+                        r.adaptive_reduction_percent, units[e], errors[e].action_limit);
   }
-  text += "reduction against measurements after the setup:\n";
+  text +=
+      "  a reduction is positive where the rms became smaller, negative where compensating made it larger;\n"
+      "  compensation = minus the predicted deviation, what is left = recorded minus predicted\n"
+      "reduction against measurements after the setup:\n";
   for (const ReplayPoint& p : curve) {
     text += fmt::format("  {:4} measurements", p.measurements);
     for (std::size_t e = 0; e < errors.size(); ++e)
@@ -291,7 +299,8 @@ std::string ReplayResult::svg() const {
     }
     spent.series.push_back(std::move(line));
   }
-  spent.options.title = "reduction of the rms against measurements spent after the setup (0: static)";
+  spent.options.title =
+      "reduction of the rms (positive: smaller) against measurements spent after the setup (0: static)";
   spent.options.x_label = "on-machine measurements after the setup";
   spent.options.y_label = "reduction / %";
   spent.options.width_px = 860;

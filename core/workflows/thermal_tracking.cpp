@@ -233,6 +233,13 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
   Compensator compensator;
   const std::string problem = compensator.load(model, result.cycle_s, request.limits);
   if (!problem.empty()) throw InputError({request.model, ""}, problem);
+  for (const ThermalOutput& output : model.outputs) {
+    if (!output.verdict || output.verdict->good_enough) continue;
+    result.warnings.push_back(
+        fmt::format("the model of {} was called not good enough when it was identified ({}); do not use this "
+                    "compensation on a machine.",
+                    output.name, output.verdict->reason));
+  }
   std::vector<const Signal*> inputs;
   for (int i = 0; i < compensator.inputCount(); ++i) inputs.push_back(&series.at(compensator.inputName(i)));
   const auto steps =
@@ -285,7 +292,16 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
 
 nlohmann::json CompensateResult::json() const {
   nlohmann::json out = {
-      {"cycle_s", cycle_s}, {"steps", time_s.size()}, {"holding_steps", holding}, {"fallback_steps", fallback}};
+      {"cycle_s", cycle_s},
+      {"steps", time_s.size()},
+      {"holding_steps", holding},
+      {"fallback_steps", fallback},
+      {"warnings", warnings},
+      {"sign_convention",
+       "compensation = minus the predicted deviation, to be added to the command; deviation = actual minus commanded, "
+       "as "
+       "the log measures it; rms_after is of measured deviation plus compensation; reduction_percent is positive where "
+       "the rms became smaller"}};
   for (const Output& o : outputs) {
     out["outputs"].push_back({{"name", o.name},
                               {"rms_before", jsonNumber(o.rms_before)},
@@ -300,9 +316,16 @@ std::string CompensateResult::summary() const {
   std::string text = fmt::format("{} cycles of {:.6g} s, {} on held inputs, {} in fall-back\n", time_s.size(), cycle_s,
                                  holding, fallback);
   for (const Output& o : outputs) {
-    text += fmt::format("  {}: rms {:.3f} before, {:.3f} after ({:.0f} % less), largest compensation {:.2f}\n", o.name,
-                        o.rms_before, o.rms_after, o.reduction_percent, o.largest);
+    text += fmt::format("  {}: ", o.name);
+    if (std::isfinite(o.reduction_percent)) {
+      text += fmt::format("rms {:.3f} before, {:.3f} after ({:.0f} % {}), ", o.rms_before, o.rms_after,
+                          std::abs(o.reduction_percent), o.reduction_percent < 0.0 ? "more" : "less");
+    } else {
+      text += "not measured in this log, ";
+    }
+    text += fmt::format("largest compensation {:.2f}\n", o.largest);
   }
+  text += "compensation = minus the predicted deviation, to be added to the command\n";
   return text;
 }
 

@@ -64,15 +64,16 @@ struct CompensateResult {
     std::string name;
     double rms_before = 0.0;  ///< of the measured deviation about its mean where it is measured; NaN if it is not
     double rms_after = 0.0;   ///< of measured deviation plus compensation, about its mean
-    double reduction_percent = 0.0;
+    double reduction_percent = 0.0;  ///< of the rms; positive where it became smaller
     double largest = 0.0;
-    std::vector<double> compensation;
+    std::vector<double> compensation;  ///< minus the predicted deviation, to be added to the command
   };
   double cycle_s = 0.0;
   std::vector<double> time_s;
   std::vector<Output> outputs;
   std::size_t holding = 0;
   std::size_t fallback = 0;
+  std::vector<std::string> warnings;  ///< a model that was called not good enough when it was identified
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string summary() const;
   void write(const std::filesystem::path& file) const;

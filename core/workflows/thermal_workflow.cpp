@@ -224,19 +224,26 @@ IdentifyResult identifyThermalModel(const TimeSeries& all, const IdentifyRequest
     plain_models.push_back(firstOrderArx(series, request.output, plain_from, plain_to));
     plain_models.push_back(laggedRidge(series, request.output, plain_from, plain_to));
   }
+  ThermalVerdict verdict{true,
+                         std::max(request.test.from_s, series.time_s.front()),
+                         std::min(request.test.to_s, series.time_s.back()),
+                         result.test.rmse,
+                         {}};
   for (std::size_t i = 0; i < plain_models.size(); ++i) {
     const PlainModel& plain = plain_models[i];
     result.plain.push_back({plain.name, runQuality(result.time_s, result.measured, plain.prediction, request.train),
                             runQuality(result.time_s, result.measured, plain.prediction, request.test), plain.note});
     if (i >= 2) continue;  // the peers are other dynamic models: shown, but not what decides
     if (result.test.rmse >= result.plain.back().test.rmse) {
-      result.good_enough = false;
-      result.notes.push_back(fmt::format(
-          "in the test range the model (rms {:.3g}) is no better than \"{}\" (rms {:.3g}): do not compensate with it; "
-          "train on a longer or more varied range.",
-          result.test.rmse, plain.name, result.plain.back().test.rmse));
+      result.good_enough = verdict.good_enough = false;
+      const std::string reason =
+          fmt::format("in the test range the model (rms {:.3g}) is no better than \"{}\" (rms {:.3g})",
+                      result.test.rmse, plain.name, result.plain.back().test.rmse);
+      verdict.reason += (verdict.reason.empty() ? "" : "; ") + reason;
+      result.notes.push_back(reason + ": do not compensate with it; train on a longer or more varied range.");
     }
   }
+  result.model.outputs.front().verdict = std::move(verdict);
   for (const std::string& name : result.inputs) result.step_responses.push_back(result.model.stepResponse(0, name));
   result.residual = diagnose(series, result, request.train);
   result.elapsed_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count();

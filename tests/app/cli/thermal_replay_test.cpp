@@ -63,6 +63,12 @@ TEST_F(ThermalReplay, AdaptiveStaysTrueWhereStaticDoesNot) {
   EXPECT_DOUBLE_EQ(j["curve"][0]["reduction_percent"]["growth_um"].get<double>(),
                    output["static_reduction_percent"].get<double>());
   EXPECT_TRUE(textOf(svg).starts_with("<svg"));
+  // One sign everywhere: a reduction is positive where the rms became smaller.
+  EXPECT_NE(j["sign_convention"].get<std::string>().find("positive where the rms became smaller"), std::string::npos);
+  words.resize(words.size() - 6);
+  const std::string summary = runCli(words).output;
+  EXPECT_EQ(summary.find("(-"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("positive where the rms became smaller"), std::string::npos) << summary;
 }
 
 TEST_F(ThermalReplay, ReadsTheErrorsOfACampaignFromItsTouches) {

@@ -2,6 +2,7 @@
 // thermal identify and thermal track on a log made here: a spindle that heats up, a first-order growth.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -263,6 +264,68 @@ TEST_F(Thermal, AnUnstableFitIsNamedAndNotRecommended) {
   EXPECT_NE(j["notes"].dump().find("do not compensate"), std::string::npos) << j["notes"];
   for (const auto& pole : j["structure"]["poles"])
     EXPECT_LT(std::hypot(pole[0].get<double>(), pole[1].get<double>()), 1.0);
+}
+
+TEST_F(Thermal, CompensateSaysWhenItsModelWasNotGoodEnough) {
+  // A growth that turns its sign after training: no model of the training rows can be right there.
+  auto lines = linesOf(log);
+  for (std::size_t k = 401; k < lines.size(); ++k) {
+    const std::size_t at = lines[k].rfind(',') + 1;
+    lines[k] = lines[k].substr(0, at) + std::to_string(-std::stod(lines[k].substr(at)));
+  }
+  const std::string good_log = textOf(log);
+  writeLines(log, lines);
+  const std::string bad = (folder / "bad.json").string();
+  auto words = identify();
+  words.insert(words.end(), {"--model-out", bad});
+  ASSERT_EQ(runCli(words).status, 1);
+  const nlohmann::json verdict = nlohmann::json::parse(textOf(bad)).at("outputs").at(0).at("verdict");
+  EXPECT_EQ(verdict["good_enough"], false);
+  EXPECT_NE(verdict["reason"].get<std::string>().find("no better than"), std::string::npos);
+  const Outcome warned = runCli({"thermal", "compensate", log.string(), "--model", bad, "--json", "-"});
+  EXPECT_NE(warned.error.find("growth_um was called not good enough"), std::string::npos) << warned.error;
+  EXPECT_EQ(std::count(warned.error.begin(), warned.error.end(), '\n'), 1) << "one sentence";
+  EXPECT_EQ(warned.json().at("warnings").size(), 1U);
+  // The result file of identify, joined models and the window carry the same verdict; a good model says nothing.
+  writeText(log, good_log);
+  const std::string good = (folder / "good.json").string();
+  words = identify();
+  words.insert(words.end(), {"--model-out", good});
+  ASSERT_EQ(runCli(words).status, 0);
+  EXPECT_EQ(nlohmann::json::parse(textOf(good)).at("outputs").at(0).at("verdict").at("good_enough"), true);
+  const Outcome quiet = runCli({"thermal", "compensate", log.string(), "--model", good, "--json", "-"});
+  EXPECT_EQ(quiet.error, "");
+  EXPECT_TRUE(quiet.json().at("warnings").empty());
+  // A model of an earlier version, without a verdict, is still read.
+  nlohmann::json old = nlohmann::json::parse(textOf(good));
+  old["outputs"][0].erase("verdict");
+  writeText(good, old.dump());
+  EXPECT_EQ(runCli({"thermal", "compensate", log.string(), "--model", good}).status, 0);
+}
+
+TEST_F(Thermal, CompensationIsMinusThePredictedDeviation) {
+  const std::string model = (folder / "model.json").string();
+  const std::string out = (folder / "out.csv").string();
+  auto words = identify();
+  words.insert(words.end(), {"--model-out", model});
+  ASSERT_EQ(runCli(words).status, 0);
+  const nlohmann::json j = jsonOf({"thermal", "compensate", log.string(), "--model", model, "--out", out});
+  EXPECT_NE(j["sign_convention"].get<std::string>().find("minus the predicted deviation"), std::string::npos);
+  // The compensator begins at rest while this spindle begins cold: not more than this.
+  EXPECT_GT(j["outputs"][0]["reduction_percent"].get<double>(), 30.0);
+  // The spindle has grown upwards: the command goes down.
+  const auto lines = linesOf(out);
+  double lowest = 0.0;
+  double highest = 0.0;
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    const double value = std::stod(lines[k].substr(lines[k].rfind(',') + 1));
+    lowest = std::min(lowest, value);
+    highest = std::max(highest, value);
+  }
+  EXPECT_LT(lowest, -10.0);
+  EXPECT_LT(highest, 2.0);
+  EXPECT_NE(runCli({"thermal", "compensate", "--help"}).output.find("minus the predicted deviation"),
+            std::string::npos);
 }
 
 TEST_F(Thermal, ArxSaysWhenItsEquationDoesNotFit) {
