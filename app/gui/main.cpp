@@ -16,11 +16,16 @@
 #include <cstdio>
 #include <ctime>
 #include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/log.h"
+#include "core/base/text.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/shell/demo.h"
 #include "widgets/shell/diagnostics.h"
 #include "widgets/shell/main_window.h"
 #include "widgets/shell/self_test.h"
@@ -34,11 +39,49 @@ constexpr int exit_not_good_enough = 1;
 constexpr int exit_bad_input = 2;
 constexpr int exit_internal = 3;
 
-/// --scale has to be known before the application object is made.
-void applyScale(int argc, char** argv) {
-  for (int i = 1; i + 1 < argc; ++i) {
-    if (qstrcmp(argv[i], "--scale") == 0) qputenv("QT_SCALE_FACTOR", argv[i + 1]);
+constexpr double smallest_scale = 0.5;
+constexpr double largest_scale = 4.0;
+
+/// --scale has to be known before the application object is made. Returns why its value is not allowed, or nothing.
+std::string applyScale(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    std::string text;
+    if (argument == "--scale" && i + 1 < argc) {
+      text = argv[i + 1];
+    } else if (argument.starts_with("--scale=")) {
+      text = argument.substr(8);
+    } else {
+      continue;
+    }
+    double scale = 0.0;
+    if (!spindrift::parseNumber(text, scale) || scale < smallest_scale || scale > largest_scale) {
+      return "--scale " + text + " is not allowed; allowed: a number from 0.5 to 4.";
+    }
+    qputenv("QT_SCALE_FACTOR", text.c_str());
   }
+  return {};
+}
+
+/// What the command line asks for and the program does not have; empty if it is all right.
+std::string wrongUsage(const QCommandLineParser& parser) {
+  const QStringList words = parser.positionalArguments();
+  if (words.size() > 1) {
+    return "\"" + words[1].toStdString() + "\" is one word too many; allowed: one session, campaign or name of a demo.";
+  }
+  const QString theme = parser.value(QStringLiteral("theme"));
+  if (parser.isSet(QStringLiteral("theme")) && theme != QLatin1String("light") && theme != QLatin1String("dark")) {
+    return "--theme " + theme.toStdString() + " is not allowed; allowed: light or dark.";
+  }
+  if (parser.isSet(QStringLiteral("json")) && !parser.isSet(QStringLiteral("self-test"))) {
+    return "--json is allowed only together with --self-test.";
+  }
+  if (!parser.isSet(QStringLiteral("demo")) || words.isEmpty()) return {};
+  std::vector<std::string> known;
+  for (const spindrift::gui::Demo& demo : spindrift::gui::demos()) known.push_back(demo.name);
+  const std::string asked = words.front().toStdString();
+  if (std::find(known.begin(), known.end(), asked) != known.end()) return {};
+  return "--demo " + asked + " is not known; allowed: " + spindrift::joinedList(known, "or") + ".";
 }
 
 /// What a slot throws must not end the program and take unsaved thoughts along: it is told and written to the log.
@@ -104,9 +147,16 @@ int selfTest(spindrift::gui::MainWindow& window, const QString& json_file) {
   return result.passed() ? exit_done : exit_not_good_enough;
 }
 
+/// One sentence on standard error, as of the command line.
+int refused(const std::string& sentence) {
+  std::fprintf(stderr, "spindrift: %s\n", sentence.c_str());
+  return exit_bad_input;
+}
+
 int run(int argc, char** argv) {
   using namespace spindrift::gui;
-  applyScale(argc, argv);
+  const std::string wrong_scale = applyScale(argc, argv);
+  if (!wrong_scale.empty()) return refused(wrong_scale);
   const bool unattended = std::any_of(argv + 1, argv + argc, [](const char* argument) {
     return qstrcmp(argument, "--tour") == 0 || qstrcmp(argument, "--self-test") == 0 ||
            qstrcmp(argument, "--startup-time") == 0;
@@ -155,8 +205,7 @@ int run(int argc, char** argv) {
       QCoreApplication::translate("main", "Print how long it takes to the first usable window, and end."));
   parser.addOptions({demo, tour, theme_option, scale, self_test, json, start_time});
   if (!parser.parse(application.arguments())) {
-    std::fprintf(stderr, "%s\n", qPrintable(parser.errorText()));
-    return exit_bad_input;
+    return refused(parser.errorText().toStdString());
   }
   if (parser.isSet(QStringLiteral("help"))) {
     std::printf("%s", qPrintable(parser.helpText()));
@@ -166,6 +215,7 @@ int run(int argc, char** argv) {
     std::printf("spindrift %s\n", SPINDRIFT_VERSION);
     return exit_done;
   }
+  if (const std::string wrong = wrongUsage(parser); !wrong.empty()) return refused(wrong);
   // The user's sessions, recent folders and settings are none of the business of tour and self-test.
   QTemporaryDir scratch;
   if (parser.isSet(tour) || parser.isSet(self_test) || parser.isSet(start_time)) {
@@ -178,10 +228,6 @@ int run(int argc, char** argv) {
 
   QString kind = parser.value(theme_option);
   if (kind.isEmpty() && !parser.isSet(tour)) kind = QSettings().value(QStringLiteral("theme")).toString();
-  if (!kind.isEmpty() && kind != QLatin1String("light") && kind != QLatin1String("dark")) {
-    std::fprintf(stderr, "--theme %s is not allowed; allowed: light or dark.\n", qPrintable(kind));
-    return exit_bad_input;
-  }
   applyTheme(application, kind == QLatin1String("dark") ? ThemeKind::Dark : ThemeKind::Light);
 
   MainWindow window;

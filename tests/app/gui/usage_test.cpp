@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the desktop program says of a command line that it cannot follow.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "tests/support/temp_folder.h"
+
+namespace spindrift::testing {
+namespace {
+
+struct Outcome {
+  int status = -1;  ///< 124: it did not end by itself
+  std::string text;
+};
+
+/// Standard output and error together, and the exit status.
+Outcome start(const std::string& arguments) {
+  // Without a folder of its own for the run Qt complains beside what the program says.
+  const TempFolder home;
+  const std::string command = "QT_QPA_PLATFORM=offscreen XDG_RUNTIME_DIR='" + home.path().string() +
+                              "' timeout 30 '" SPINDRIFT_PROGRAM "' " + arguments + " 2>&1";
+  Outcome outcome;
+  FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return outcome;
+  std::array<char, 256> buffer{};
+  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) outcome.text += buffer.data();
+  const int status = ::pclose(pipe);
+  if (WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
+  return outcome;
+}
+
+void expectRefused(const std::string& arguments, const std::string& part, const std::string& allowed) {
+  const Outcome outcome = start(arguments);
+  EXPECT_EQ(outcome.status, 2) << arguments << '\n' << outcome.text;
+  EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << arguments << '\n' << outcome.text;
+  EXPECT_NE(outcome.text.find(part), std::string::npos) << arguments << '\n' << outcome.text;
+  EXPECT_NE(outcome.text.find(allowed), std::string::npos) << arguments << '\n' << outcome.text;
+}
+
+TEST(GuiUsage, WhatIsNotAllowedIsRefusedInOneSentence) {
+  expectRefused("--scale 99", "99", "from 0.5 to 4");
+  expectRefused("--scale=0.1", "0.1", "from 0.5 to 4");
+  expectRefused("--scale big", "big", "from 0.5 to 4");
+  expectRefused("--scale nan", "nan", "from 0.5 to 4");
+  expectRefused("--demo nonsense", "nonsense", "fiducials, holes, balls, scans or discrepancy");
+  expectRefused("--theme pink", "pink", "light or dark");
+  expectRefused("--json x.json", "--json", "--self-test");
+  expectRefused("one two", "two", "one session");
+  EXPECT_EQ(start("--nonsense").status, 2);
+}
+
+TEST(GuiUsage, WhatIsAllowedRuns) {
+  EXPECT_EQ(start("--version").status, 0);
+  EXPECT_EQ(start("--scale 2 --help").status, 0);
+  EXPECT_EQ(start("--scale=1.5 --theme dark --startup-time").status, 0);
+}
+
+}  // namespace
+}  // namespace spindrift::testing
