@@ -54,19 +54,8 @@ std::string simulationCsv(const std::vector<SimulatedRow>& rows) {
   return text;
 }
 
-}  // namespace
-
-void writeCampaign(const VirtualCampaign& virtual_campaign, const std::filesystem::path& folder) {
-  JobContext job;
-  writeCampaign(virtual_campaign, folder, job);
-}
-
-void writeCampaign(const VirtualCampaign& virtual_campaign, const std::filesystem::path& folder, JobContext& job) {
+void writeFiles(const VirtualCampaign& virtual_campaign, const std::filesystem::path& folder, JobContext& job) {
   const Campaign& campaign = virtual_campaign.campaign;
-  if (std::filesystem::exists(folder) &&
-      (!std::filesystem::is_directory(folder) || !std::filesystem::is_empty(folder))) {
-    throw InputError({folder, ""}, "is there already and not empty; allowed: a new or an empty folder.");
-  }
   nlohmann::json json{
       {"format", "spindrift-campaign"}, {"version", 1}, {"name", campaign.name}, {"start_utc", campaign.start_utc}};
   if (!campaign.simulation.empty()) {
@@ -86,6 +75,30 @@ void writeCampaign(const VirtualCampaign& virtual_campaign, const std::filesyste
   }
   // Last, so that a folder without it is known to be unfinished.
   writeFileAtomically(folder / "campaign.json", json.dump(1) + "\n");
+}
+
+}  // namespace
+
+void writeCampaign(const VirtualCampaign& virtual_campaign, const std::filesystem::path& folder) {
+  JobContext job;
+  writeCampaign(virtual_campaign, folder, job);
+}
+
+void writeCampaign(const VirtualCampaign& virtual_campaign, const std::filesystem::path& folder, JobContext& job) {
+  if (std::filesystem::exists(folder) &&
+      (!std::filesystem::is_directory(folder) || !std::filesystem::is_empty(folder))) {
+    throw InputError({folder, ""}, "is there already and not empty; allowed: a new or an empty folder.");
+  }
+  try {
+    writeFiles(virtual_campaign, folder, job);
+  } catch (...) {
+    // Half a campaign is of no use and would be in the way of the next attempt. The folder was empty before.
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+      std::filesystem::remove_all(entry.path(), ignored);
+    }
+    throw;
+  }
 }
 
 }  // namespace spindrift

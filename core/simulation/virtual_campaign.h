@@ -73,7 +73,8 @@ struct VirtualCampaign {
                                                const JobContext& job);
 
 /// Writes campaign.json, machine.json, log.csv and what there is of observations.csv, simulation.csv and captures/
-/// (images and clouds are rendered now). Throws InputError if the folder is there and not empty.
+/// (images and clouds are rendered now). Throws InputError if the folder is there and not empty; Cancelled, and then
+/// nothing is left in it.
 void writeCampaign(const VirtualCampaign& campaign, const std::filesystem::path& folder, JobContext& job);
 void writeCampaign(const VirtualCampaign& campaign, const std::filesystem::path& folder);
 

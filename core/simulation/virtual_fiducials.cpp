@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -103,12 +104,15 @@ void writeVirtualFiducialCaptures(const std::filesystem::path& folder, const Fid
     }
   }
   std::filesystem::create_directories(folder / "captures" / "images");
+  std::atomic<std::size_t> done = 0;
   parallelFor(shots.size(), job, [&](std::size_t k) {
     MicroscopeScene scene = shots[k].scene;
     const int quality = scene.jpeg_quality > 0 ? scene.jpeg_quality : 100;
     scene.jpeg_quality = 0;
     writeFileAtomically(folder / shots[k].name, encodeJpeg(renderFiducial(pattern, scene, shots[k].seed), quality));
-    job.report(static_cast<double>(k + 1) / static_cast<double>(shots.size()), "rendering images");
+    const std::size_t now = ++done;
+    job.report(static_cast<double>(now) / static_cast<double>(shots.size()),
+               fmt::format("image {} of {}", now, shots.size()));
   });
   writeFileAtomically(folder / "captures" / "fiducials.csv", csv);
 }

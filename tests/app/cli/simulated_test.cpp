@@ -2,6 +2,7 @@
 // simulate, fit, heatmap, discrepancy and report on a campaign of the virtual machine.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 
 #include "tests/app/cli/child_process.h"
@@ -57,6 +58,23 @@ TEST_F(Simulated, SameSeedSameFilesAndNoFolderIsOverwritten) {
   expectBadInput({"simulate", campaign() + "/machine.json", "--out", in("nothing")},
                  {"machine.json", "$.format", "spindrift-machine", "spindrift-scenario"});
   EXPECT_FALSE(std::filesystem::exists(in("nothing")));
+}
+
+TEST_F(Simulated, TimesOfTheMachineAndOfWritingAreToldApart) {
+  // A machine is simulated in milliseconds, its images are not: what was said to take 23 ms took minutes.
+  nlohmann::json json = nlohmann::json::parse(textOf(SPINDRIFT_SOURCE_DIR "/resources/scenarios/fiducials.json"));
+  json["microscope"].update({{"fiducials", {"F1"}}, {"width_px", 640}, {"height_px", 480}});
+  writeText(in("images.json"), json.dump());
+  const auto started = std::chrono::steady_clock::now();
+  const nlohmann::json j = jsonOf({"simulate", in("images.json"), "--out", in("images")});
+  const double took_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started).count();
+  EXPECT_DOUBLE_EQ(j["elapsed_ms"].get<double>(), j["plant_ms"].get<double>() + j["writing_ms"].get<double>());
+  EXPECT_GT(j["writing_ms"].get<double>(), j["plant_ms"].get<double>());
+  EXPECT_GT(j["elapsed_ms"].get<double>(), 0.5 * took_ms);
+  EXPECT_LE(j["elapsed_ms"].get<double>(), took_ms);
+  const Outcome people = runCli({"simulate", scenario, "--out", in("people")});
+  EXPECT_NE(people.output.find("machine simulated in"), std::string::npos) << people.output;
+  EXPECT_NE(people.output.find("files written in"), std::string::npos) << people.output;
 }
 
 TEST_F(Simulated, FitGivesTheKeysOfTheContract) {

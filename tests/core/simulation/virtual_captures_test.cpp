@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <mutex>
+#include <stop_token>
+
 #include "core/base/error.h"
 #include "core/imaging/evaluate_fiducials.h"
 #include "core/machine/campaign.h"
@@ -62,6 +65,29 @@ TEST(VirtualCaptures, ImagesLeadBackToTheHiddenDeviation) {
   }
   EXPECT_EQ(compared, 6);
   EXPECT_GT(largest, 5.0) << "the machine has to be bent for this to mean anything";
+}
+
+TEST(VirtualCaptures, ACancelledCampaignLeavesNothingBehind) {
+  nlohmann::json json = scenarioJson("fiducials");
+  json["microscope"].update({{"fiducials", {"F1"}}, {"width_px", 400}, {"height_px", 300}});
+  const VirtualCampaign made = simulateCampaign(parsed(json), std::nullopt, {});
+  struct Impatient final : ProgressSink {
+    void report(double fraction, std::string_view stage) override {
+      const std::scoped_lock lock(mutex);
+      EXPECT_GE(fraction, last) << stage << ": progress never runs backwards by more than a parallel image";
+      last = std::max(last, fraction - 0.1);
+      if (fraction > 0.3) stop.request_stop();
+    }
+    std::mutex mutex;
+    double last = 0.0;
+    std::stop_source stop;
+  } sink;
+  const testing::TempFolder folder;
+  JobContext job(sink.stop.get_token(), &sink);
+  EXPECT_THROW(writeCampaign(made, folder / "campaign", job), Cancelled);
+  EXPECT_TRUE(!std::filesystem::exists(folder / "campaign") || std::filesystem::is_empty(folder / "campaign"));
+  writeCampaign(made, folder / "campaign");
+  EXPECT_NO_THROW((void)Campaign::read(folder / "campaign")) << "the same folder can be used again";
 }
 
 TEST(VirtualCaptures, WrongScenariosAreRefused) {
