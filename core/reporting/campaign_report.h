@@ -35,15 +35,17 @@ struct CampaignReportInput {
   /// Excluded items with reasons, notes: shown as they are.
   std::vector<std::pair<std::string, std::string>> exclusions;
   std::vector<std::string> notes;
+  /// Names and values for the summary on the first page, beside the largest changes of the observations.
+  std::vector<std::pair<std::string, std::string>> headlines;
   std::string created_utc;
   std::string operator_name;  ///< may be empty: a line to sign on is left
 };
 
-/// For tables and axes: "alpha_X_um_per_m" -> "alpha_X / um/m"; a name without a known unit stays.
-[[nodiscard]] std::string titleWithUnit(const std::string& name);
+/// False for the machine that stands in for one in a campaign made of a log alone.
+[[nodiscard]] bool isDescribed(const MachineDescription& machine);
 
-/// The whole report: title, machine, operating log; `preparation`; results of each instrument, observations over time;
-/// `sections`, `conclusions`; exclusions, notes and provenance.
+/// The whole report: title, summary, machine, operating log; `preparation`; results of each instrument, observations
+/// over time; `sections`, `conclusions`; exclusions, notes and provenance.
 [[nodiscard]] HtmlDocument campaignReport(const CampaignReportInput& input);
 
 }  // namespace spindrift

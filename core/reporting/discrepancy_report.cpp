@@ -9,8 +9,10 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/discrepancy/effect_titles.h"
 #include "core/machine/interpolated_field.h"
 #include "core/reporting/heatmap_picture.h"
+#include "core/reporting/printed_text.h"
 #include "core/reporting/svg_plot.h"
 
 namespace spindrift {
@@ -91,34 +93,43 @@ void addMaps(HtmlDocument& document, const DiscrepancyReportData& data, const Fi
   const auto maps = discrepancyMaps(data, table, time_s);
   if (!maps) return;
   const double limit = roundLimit((*maps)[0].largestMagnitude());
+  const std::string name(toString((*maps)[0].component));
+  std::vector<std::string> pictures;
   for (std::size_t side = 0; side < 2; ++side) {
-    const std::string name(toString((*maps)[side].component));
     HeatmapPictureOptions options;
-    options.title = fmt::format(
-        "{} {}", name, side == 0 ? "before: measured minus simulation" : "after: measured minus completed model");
-    options.subtitle = fmt::format("at {:.2f} h, where the gap is largest; between the points interpolated",
-                                   time_s / seconds_per_hour);
+    options.width_px = 480;
+    options.title = fmt::format("{} {}", name, side == 0 ? "before" : "after");
+    options.subtitle = side == 0 ? "measured minus simulation" : "measured minus completed model";
     options.limit = limit;
-    document.figure(heatmapSvg((*maps)[side], options),
-                    fmt::format("{} over the table, {}", name, side == 0 ? "before" : "after, on the same scale"));
+    options.legend = false;
+    pictures.push_back(heatmapSvg((*maps)[side], options));
   }
+  document.figure(svgGrid(pictures, 2),
+                  fmt::format("{} over the table at {:.2f} h, where the gap is largest, before and after on one scale; "
+                              "between the points interpolated; {}",
+                              name, time_s / seconds_per_hour, heatmap_legend));
 }
 
 void addEffect(HtmlDocument& document, const FoundEffect& effect, bool user_adds) {
-  document.subsection(effect.id + (!user_adds ? "" : effect.forced ? " (added to the model)" : " (proposed)"));
+  document.subsection(effectHeading(effect.id) + (!user_adds      ? ""
+                                                  : effect.forced ? " (added to the model)"
+                                                                  : " (proposed)"));
   document.paragraph(effect.physics);
-  document.paragraph(fmt::format(
-      "Driven by {}. Confidence {:.2f}, gain in BIC {:.0f}; on held-out data {:.2f} um before, "
-      "{:.2f} um after.",
-      effect.drivers, effect.confidence, effect.delta_bic, effect.heldout_rms_before_um, effect.heldout_rms_after_um));
+  document.paragraph(
+      fmt::format("Driven by {}. Probability that the name is right {:.2f}; gain in BIC {:.0f}; rms on "
+                  "held-out data {:.2f} um before, {:.2f} um after.",
+                  driversInWords(effect.drivers), effect.confidence, effect.delta_bic, effect.heldout_rms_before_um,
+                  effect.heldout_rms_after_um));
   if (!effect.rivals.empty()) {
-    document.verdict("attention", fmt::format("These data cannot tell it from {}.", joinedList(effect.rivals, "or")));
+    document.verdict("attention", withEffectTitles(fmt::format("These data cannot tell it from {}.",
+                                                               joinedList(effect.rivals, "or"))));
   }
   std::vector<std::vector<std::string>> rows;
   for (const FittedParameter& p : effect.parameters) {
-    rows.push_back({p.name, withUncertainty(p.value, p.standard_uncertainty, "")});
+    rows.push_back(
+        {parameterTitle(p.name) + ' ' + smallPrint(p.name), withUncertainty(p.value, p.standard_uncertainty, "")});
   }
-  document.table({"Parameter", "Value"}, rows, "Parameters of " + effect.id);
+  document.table({"Parameter", "Value ± standard uncertainty"}, rows, "Parameters of the " + effectTitle(effect.id));
 }
 
 const char* verdictKind(DiscrepancyVerdict verdict) {
@@ -220,7 +231,7 @@ std::optional<std::array<Field, 2>> discrepancyMaps(const DiscrepancyReportData&
 
 void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& result,
                          const std::optional<FieldGrid>& table) {
-  document.verdict(verdictKind(result.verdict), fmt::format("{}: {}", toString(result.verdict), result.message));
+  document.verdict(verdictKind(result.verdict), discrepancyHeadline(result));
   const auto text = [](double value) {
     return std::isfinite(value) ? fmt::format("{:.2f}", value) : std::string("\u2013");
   };
@@ -231,13 +242,14 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
                    text(result.gap.heldout_rms_after_um), text(result.gap.noise_um)}},
                  "The gap between measured and simulated; nobody can go below the noise");
   for (const FoundEffect& effect : result.effects) addEffect(document, effect, result.user_adds);
-  if (!result.leftover.empty()) document.verdict("bad", fmt::format("Left over: {}.", result.leftover));
+  if (!result.leftover.empty())
+    document.verdict("bad", withEffectTitles(fmt::format("Left over: {}.", result.leftover)));
   if (result.suggestion) {
     const MeasurementSuggestion& next = *result.suggestion;
     document.subsection("Measure next");
-    document.paragraph(fmt::format(
+    document.paragraph(withEffectTitles(fmt::format(
         "To tell {}: measure {} at {} times of the programme; {}. Expected gain in BIC {:.0f}.", next.separates,
-        joinedList(next.points), next.times_s.size(), next.conditions, next.expected_delta_bic));
+        joinedList(next.points), next.times_s.size(), next.conditions, next.expected_delta_bic)));
   }
   if (!result.where.empty()) {
     std::vector<std::vector<std::string>> rows;
@@ -245,10 +257,11 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
       rows.push_back({std::string(toString(place.component)), joinedList(place.points),
                       fmt::format("{:.1f} to {:.1f}", place.from_s / seconds_per_hour, place.to_s / seconds_per_hour),
                       place.condition, fmt::format("{:.2f} {}", place.excess_um, unitOf(place.component)),
-                      place.p_value < 1e-12 ? std::string("< 1e-12") : fmt::format("{:.1e}", place.p_value)});
+                      probabilityInWords(place.p_value)});
     }
     document.table({"Component", "Points", "Time / h", "Condition", "Beyond the noise", "p"}, rows,
-                   "Where measured and simulated disagree; p holds for all places looked at together");
+                   "Where measured and simulated disagree; p: probability of so much by chance, for all places looked "
+                   "at together");
   }
   if (table && !result.effects.empty()) addMaps(document, result, *table);
   addTimeCourses(document, result.rows);
@@ -256,12 +269,19 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
   if (!result.steps.empty()) {
     std::vector<std::vector<std::string>> rows;
     for (const DiscrepancyStep& step : result.steps) {
-      rows.push_back({step.id, fmt::format("{:.0f}", step.delta_bic),
-                      step.accepted ? std::string("added") : "not added: " + step.reason});
+      rows.push_back({withEffectTitles(step.id), fmt::format("{:.0f}", step.delta_bic),
+                      step.accepted ? std::string("added") : withEffectTitles("not added: " + step.reason)});
     }
     document.table({"Effect", "Gain in BIC", "Decision"}, rows, "What was tried, in this order");
   }
-  for (const std::string& warning : result.warnings) document.paragraph("Note: " + warning);
+  for (const std::string& warning : result.warnings) document.paragraph(withEffectTitles("Note: " + warning));
+  document.paragraph(
+      "rms: root mean square of what is left, each series about its own constant. BIC: Bayesian information criterion; "
+      "a gain above 10 is strong evidence for the effect. Held out: rows that took no part in the choice.");
+}
+
+std::string discrepancyHeadline(const DiscrepancyReportData& data) {
+  return withEffectTitles(data.message);
 }
 
 std::string discrepancyReport(const std::string& campaign, const DiscrepancyReportData& data,

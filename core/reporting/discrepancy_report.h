@@ -52,6 +52,9 @@ struct DiscrepancyReportData {
 [[nodiscard]] std::optional<std::array<Field, 2>> discrepancyMaps(const DiscrepancyReportData& data, FieldGrid table,
                                                                   double& time_s);
 
+/// The sentence of the verdict, effects by their titles.
+[[nodiscard]] std::string discrepancyHeadline(const DiscrepancyReportData& data);
+
 /// Adds the story below the present section of a document; with maps over `table` if there is one.
 void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& data,
                          const std::optional<FieldGrid>& table);

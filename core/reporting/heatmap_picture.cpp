@@ -40,8 +40,12 @@ struct Layout {
 Layout layoutOf(const FieldGrid& grid, const HeatmapPictureOptions& options) {
   Layout l;
   l.grid = &grid;
-  constexpr double right = 118.0;  // colour bar and its labels
-  constexpr double bottom = 96.0;  // tick labels, axis label, legend
+  // A small picture has narrow margins.
+  const bool small = options.width_px < 600;
+  if (small) l.left = 62.0;
+  if (options.subtitle.empty()) l.top -= 10.0;
+  const double right = small ? 86.0 : 118.0;           // colour bar and its labels
+  const double bottom = options.legend ? 96.0 : 52.0;  // tick labels, axis label, legend
   l.picture_width = options.width_px;
   const double room = options.width_px - l.left - right;
   const double aspect = (grid.y_to_mm - grid.y_from_mm) / (grid.x_to_mm - grid.x_from_mm);
@@ -55,7 +59,7 @@ Layout layoutOf(const FieldGrid& grid, const HeatmapPictureOptions& options) {
   }
   constexpr double lowest = 120.0;  // the colour bar needs room for its ticks
   l.height = std::max(l.height, lowest);
-  l.bar_left = l.left + l.width + 24.0;
+  l.bar_left = l.left + l.width + (small ? 16.0 : 24.0);
   l.picture_height = static_cast<int>(std::lround(l.top + l.height + bottom));
   return l;
 }
@@ -205,10 +209,63 @@ void drawColourBar(PictureCanvas& canvas, const Layout& l, const Field& field, d
               13.0, TextAnchor::Start);
 }
 
+std::size_t lettersOf(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+struct Box {
+  double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
+};
+
+double overlap(const Box& a, const Box& b) {
+  const double x = std::min(a.right, b.right) - std::max(a.left, b.left);
+  const double y = std::min(a.bottom, b.bottom) - std::max(a.top, b.top);
+  return x > 0.0 && y > 0.0 ? x * y : 0.0;
+}
+
+struct LabelPlace {
+  double x = 0.0, base = 0.0;
+};
+
+/// Where a label of a point covers least of what is there already: below, above (beyond an arrow that points up by
+/// `up`), to the right or left, and once more further away; inside the frame.
+LabelPlace freePlace(const Layout& l, const std::vector<Box>& taken, double x, double y, double half, double size,
+                     double up) {
+  const double below = y + 20.0 + std::max(0.0, -up), above = y - 10.0 - std::max(0.0, up);
+  const std::array<LabelPlace, 8> candidates{{{x, up < 0.0 ? above : below},
+                                              {x, up < 0.0 ? below : above},
+                                              {x + half + 9.0, y + 4.0},
+                                              {x - half - 9.0, y + 4.0},
+                                              {x, below + 15.0},
+                                              {x, above - 15.0},
+                                              {x + half + 9.0, y + 19.0},
+                                              {x - half - 9.0, y - 11.0}}};
+  LabelPlace best;
+  double least = 1e300;
+  for (LabelPlace place : candidates) {
+    const double leftmost = l.left + half + 2.0;
+    place.x = std::clamp(place.x, leftmost, std::max(leftmost, l.left + l.width - half - 2.0));
+    place.base = std::clamp(place.base, l.top + size, l.top + l.height - 4.0);
+    double covered = 0.0;
+    for (const Box& box : taken)
+      covered += overlap(box, {place.x - half, place.base - size, place.x + half, place.base + 3.0});
+    if (covered >= least) continue;
+    least = covered;
+    best = place;
+  }
+  return best;
+}
+
 void drawMarkers(PictureCanvas& canvas, const Layout& l, const Field& field, double limit) {
   constexpr double longest = 38.0;
   constexpr double size = 12.0;
   const bool across = field.component == Component::EX || field.component == Component::EB;
+  std::vector<Box> taken;
+  for (const Field::Marker& m : field.markers) {
+    const double x = l.px(m.position_mm.x()), y = l.py(m.position_mm.y());
+    taken.push_back({x - 5.0, y - 5.0, x + 5.0, y + 5.0});
+  }
   for (const Field::Marker& m : field.markers) {
     const double x = l.px(m.position_mm.x());
     const double y = l.py(m.position_mm.y());
@@ -228,14 +285,11 @@ void drawMarkers(PictureCanvas& canvas, const Layout& l, const Field& field, dou
     }
     canvas.disc(x, y, 4.0, m.used ? ink : white, ink);
     const std::string label = m.point + ": " + withUncertainty(m.value, m.sigma, "");
-    // About 0.6 of the size per character; labels stay inside the frame.
-    const double half = 0.31 * size * static_cast<double>(label.size());
-    const double at = std::clamp(x, l.left + half + 2.0, std::max(l.left + half + 2.0, l.left + l.width - half - 2.0));
-    double base = y + 20.0;
-    if (!across && length < 0.0) base = y - 10.0;
-    if (base > l.top + l.height - 4.0) base = y - (across ? 10.0 : std::max(10.0, length + 8.0));
-    if (base < l.top + size) base = y + (across ? 20.0 : std::max(20.0, -length + 18.0));
-    canvas.text(at, base, label, size, TextAnchor::Middle, false, false, true);
+    // About 0.55 of the size per character.
+    const double half = 0.275 * size * static_cast<double>(lettersOf(label));
+    const LabelPlace place = freePlace(l, taken, x, y, half, size, across ? 0.0 : length);
+    taken.push_back({place.x - half, place.base - size, place.x + half, place.base + 3.0});
+    canvas.text(place.x, place.base, label, size, TextAnchor::Middle, false, false, true);
   }
 }
 
@@ -251,13 +305,21 @@ void draw(PictureCanvas& canvas, const Layout& l, const Field& field, const Heat
       options.title.empty() ? fmt::format("{} over the table", toString(field.component)) : options.title;
   canvas.text(16.0, 28.0, title, 18.0, TextAnchor::Start, true);
   if (!options.subtitle.empty()) canvas.text(16.0, 48.0, options.subtitle, 12.0, TextAnchor::Start);
-  const double y = l.picture_height - 16.0;
+  if (!options.legend) return;
   const std::array<std::string_view, 3> legend{"pale: smaller than 2 sigma", "hatched: outside the measured points",
                                                "hollow point: not fitted"};
+  double whole = 0.0;
+  for (const std::string_view entry : legend) whole += 6.6 * static_cast<double>(entry.size()) + 24.0;
+  const bool two_lines = whole > l.picture_width - 16.0;
   double x = 16.0;
-  for (const std::string_view entry : legend) {
-    canvas.text(x, y, entry, 12.0, TextAnchor::Start);
-    x += 7.2 * static_cast<double>(entry.size()) + 24.0;
+  double y = l.picture_height - (two_lines ? 30.0 : 16.0);
+  for (std::size_t i = 0; i < legend.size(); ++i) {
+    if (two_lines && i == 2) {
+      x = 16.0;
+      y += 16.0;
+    }
+    canvas.text(x, y, legend[i], 12.0, TextAnchor::Start);
+    x += 6.6 * static_cast<double>(legend[i].size()) + 24.0;
   }
 }
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/machine/field.h"
 
@@ -20,11 +21,16 @@ struct HeatmapPictureOptions {
   std::string title;            ///< empty: component and unit
   std::string subtitle;         ///< empty: none
   std::optional<double> limit;  ///< of the colour scale, um or urad; empty: from the field, rounded up
+  bool legend = true;           ///< what pale, hatched and hollow mean, below; else the caption has to say it
   int width_px = 820;           ///< of the picture; the height follows from the table, >= 480
   double png_scale = 2.0;       ///< pixels of the PNG per px of the layout
   /// Throws InputError.
   void validate() const;
 };
+
+/// For the caption of a picture without a legend.
+inline constexpr std::string_view heatmap_legend =
+    "pale: smaller than two standard uncertainties, hatched: outside the measured points, hollow: not fitted";
 
 /// The whole <svg> element.
 [[nodiscard]] std::string heatmapSvg(const Field& field, const HeatmapPictureOptions& options = {});

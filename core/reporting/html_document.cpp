@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "core/base/text.h"
+#include "core/reporting/printed_text.h"
 
 namespace spindrift {
 namespace {
@@ -22,12 +23,15 @@ header p,figcaption,caption{color:var(--soft);margin:0}p{margin:8px 0}
 table{border-collapse:collapse;width:100%;margin:12px 0}caption{text-align:left;padding-bottom:6px}
 th,td{padding:5px 10px;border-bottom:1px solid var(--line);text-align:right;vertical-align:top}
 th{font-weight:600;border-bottom:1px solid var(--soft)}th:first-child,td:first-child{text-align:left}
-th.text,td.text{text-align:left}table.facts td{text-align:left}table.facts td:first-child{width:32%;color:var(--soft)}
+th.text,td.text{text-align:left}td{white-space:nowrap}td.text,table.facts td{white-space:normal}p{orphans:3;widows:3}
+table.facts td{text-align:left}small{font-size:11px;font-weight:400;color:var(--soft)}th small{display:block}
+table.facts td:first-child{width:32%;color:var(--soft)}
 figure{margin:16px 0}figure svg,figure img{max-width:100%;height:auto;display:block}
 .verdict{padding:10px 16px;border-left:4px solid var(--soft);background:#f8f9fa;margin:12px 0;font-weight:600}
 .good{border-color:var(--good)}.attention{border-color:var(--attention)}.bad{border-color:var(--bad)}
 @page{size:A4;margin:18mm}
-@media print{body{background:#fff}main{border:0;margin:0;padding:0;max-width:none}h2,h3{break-after:avoid}figure,table{break-inside:avoid}}
+@media print{body{background:#fff}main{border:0;margin:0;padding:0;max-width:none}h2,h3,caption,thead{break-after:avoid}
+figure,table,tr,.verdict{break-inside:avoid}table.long{break-inside:auto}}
 )";
 
 /// A column of sentences or names: some cell has more than a word and does not begin as a number does.
@@ -39,6 +43,35 @@ bool isText(const std::vector<std::vector<std::string>>& rows, std::size_t colum
                         cell.starts_with("\u2212") || cell.starts_with("\u2013") || cell.starts_with("not determined");
     return !number;
   });
+}
+
+/// Tables with more rows may be broken between two of them.
+constexpr std::size_t longest_unbroken_table = 24;
+/// Letters of a cell in the first column that is never broken.
+constexpr std::size_t longest_name = 24;
+
+/// Escaped, with units as printed and small print as an element.
+std::string printed(std::string_view text) {
+  std::string out;
+  bool small = false;
+  const std::string escaped = escapedXml(printedUnits(text));
+  for (std::size_t i = 0; i < escaped.size();) {
+    const std::size_t end = std::min(escaped.find('\x1f', i), escaped.size());
+    out += escaped.substr(i, end - i);
+    if (end < escaped.size()) {
+      out += small ? "</small>" : "<small>";
+      small = !small;
+    }
+    i = end + 1;
+  }
+  return small ? out + "</small>" : out;
+}
+
+/// "EX / um" on one line.
+std::string unbroken(std::string text) {
+  const std::size_t at = text.find(" / ");
+  if (at != std::string::npos) text.replace(at, 3, "\u00a0/\u00a0");
+  return text;
 }
 
 }  // namespace
@@ -61,34 +94,35 @@ HtmlDocument::HtmlDocument(std::string title, std::string subtitle)
     : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
 
 HtmlDocument& HtmlDocument::section(std::string_view heading) {
-  body_ += fmt::format("<h2>{}</h2>\n", escapedXml(heading));
+  body_ += fmt::format("<h2>{}</h2>\n", printed(heading));
   return *this;
 }
 
 HtmlDocument& HtmlDocument::subsection(std::string_view heading) {
-  body_ += fmt::format("<h3>{}</h3>\n", escapedXml(heading));
+  body_ += fmt::format("<h3>{}</h3>\n", printed(heading));
   return *this;
 }
 
 HtmlDocument& HtmlDocument::paragraph(std::string_view text) {
-  body_ += fmt::format("<p>{}</p>\n", escapedXml(text));
+  body_ += fmt::format("<p>{}</p>\n", printed(text));
   return *this;
 }
 
 HtmlDocument& HtmlDocument::verdict(std::string_view kind, std::string_view text) {
-  body_ += fmt::format("<p class=\"verdict {}\">{}</p>\n", kind, escapedXml(text));
+  body_ += fmt::format("<p class=\"verdict {}\">{}</p>\n", kind, printed(text));
   return *this;
 }
 
 HtmlDocument& HtmlDocument::table(const std::vector<std::string>& header,
                                   const std::vector<std::vector<std::string>>& rows, std::string_view caption) {
-  body_ += "<table>";
-  if (!caption.empty()) body_ += fmt::format("<caption>Table {}: {}</caption>", ++tables_, escapedXml(caption));
+  body_ += rows.size() > longest_unbroken_table ? "<table class=\"long\">" : "<table>";
+  if (!caption.empty()) body_ += fmt::format("<caption>Table {}: {}</caption>", ++tables_, printed(caption));
   body_ += "<thead><tr>";
   const auto cells = [&](const char* tag, const std::vector<std::string>& row) {
     for (std::size_t i = 0; i < row.size(); ++i) {
-      body_ +=
-          fmt::format("<{}{}>{}</{}>", tag, i > 0 && isText(rows, i) ? " class=\"text\"" : "", escapedXml(row[i]), tag);
+      // A short name stays on one line, and so does a quantity with its unit.
+      const bool text = i > 0 ? isText(rows, i) : row[i].size() > longest_name;
+      body_ += fmt::format("<{}{}>{}</{}>", tag, text ? " class=\"text\"" : "", unbroken(printed(row[i])), tag);
     }
   };
   cells("th", header);
@@ -105,15 +139,15 @@ HtmlDocument& HtmlDocument::table(const std::vector<std::string>& header,
 HtmlDocument& HtmlDocument::facts(const std::vector<std::pair<std::string, std::string>>& rows) {
   body_ += "<table class=\"facts\"><tbody>";
   for (const auto& [name, value] : rows) {
-    body_ += fmt::format("<tr><td>{}</td><td>{}</td></tr>", escapedXml(name), escapedXml(value));
+    body_ += fmt::format("<tr><td>{}</td><td>{}</td></tr>", printed(name), printed(value));
   }
   body_ += "</tbody></table>\n";
   return *this;
 }
 
 HtmlDocument& HtmlDocument::figure(std::string_view svg, std::string_view caption) {
-  body_ +=
-      fmt::format("<figure>{}<figcaption>Figure {}: {}</figcaption></figure>\n", svg, ++figures_, escapedXml(caption));
+  body_ += fmt::format("<figure>{}<figcaption>Figure {}: {}</figcaption></figure>\n", printedUnitsOfDrawing(svg),
+                       ++figures_, printed(caption));
   return *this;
 }
 
@@ -127,7 +161,7 @@ std::string HtmlDocument::html() const {
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head>\n<body><main>\n<header><h1>{0}</h1>"
       "<p>{2}</p></header>\n{3}</main></body></html>\n",
-      escapedXml(title_), style, escapedXml(subtitle_), body_);
+      escapedXml(title_), style, printed(subtitle_), body_);
 }
 
 }  // namespace spindrift

@@ -9,8 +9,10 @@
 
 namespace spindrift {
 
-/// Builds a document from top to bottom. Texts are escaped; `figure` takes ready SVG. Numbers come formatted
-/// (withUncertainty); a table's first column and columns of text are left-aligned, numbers right-aligned.
+/// Builds a document from top to bottom. Texts are escaped and their units printed as people write them (um as µm);
+/// what smallPrint marks is set small. `figure` takes ready SVG. Numbers come formatted (withUncertainty); a table's
+/// first column and columns of text are left-aligned, numbers right-aligned and never broken. A short table stays on
+/// one page, a long one repeats its header.
 class HtmlDocument {
  public:
   HtmlDocument(std::string title, std::string subtitle);

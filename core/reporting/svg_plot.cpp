@@ -47,7 +47,8 @@ struct Frame {
 
 std::string axes(const Frame& f, const PlotOptions& options) {
   std::string out;
-  const std::vector<double> x_ticks = roundTicks(f.x.low, f.x.high, std::max(3, static_cast<int>(f.width / 90)));
+  const std::vector<double> x_ticks =
+      roundTicks(f.x.low, f.x.high, std::max(3, static_cast<int>(f.width / (options.compact ? 50 : 90))));
   const std::vector<double> y_ticks = roundTicks(f.y.low, f.y.high, std::max(4, static_cast<int>(f.height / 32)));
   const double x_step = x_ticks.size() > 1 ? x_ticks[1] - x_ticks[0] : 1.0;
   const double y_step = y_ticks.size() > 1 ? y_ticks[1] - y_ticks[0] : 1.0;
@@ -113,7 +114,8 @@ std::vector<std::size_t> rowsToDraw(const PlotSeries& s, const Frame& f) {
 }
 
 /// As one path each for bars and dots: readers of drawings take long over thousands of elements.
-std::string manyPoints(const PlotSeries& s, const Frame& f, const char* colour, const std::vector<std::size_t>& rows) {
+std::string manyPoints(const PlotSeries& s, const Frame& f, const std::string& colour,
+                       const std::vector<std::size_t>& rows) {
   std::string bars;
   std::string dots;
   for (const std::size_t i : rows) {
@@ -130,23 +132,42 @@ std::string manyPoints(const PlotSeries& s, const Frame& f, const char* colour, 
                            colour);
 }
 
-std::string drawSeries(const PlotSeries& s, const Frame& f, const char* colour) {
+std::string markerAt(PlotMarker marker, double x, double y, double radius, const std::string& colour) {
+  switch (marker) {
+    case PlotMarker::Circle:
+      break;
+    case PlotMarker::Square:
+      return fmt::format(R"(<rect x="{0:.1f}" y="{1:.1f}" width="{2:.1f}" height="{2:.1f}" fill="{3}"/>)",
+                         x - 0.9 * radius, y - 0.9 * radius, 1.8 * radius, colour);
+    case PlotMarker::Triangle:
+      return fmt::format(R"(<polygon points="{:.1f},{:.1f} {:.1f},{:.1f} {:.1f},{:.1f}" fill="{}"/>)", x,
+                         y - 1.25 * radius, x - 1.1 * radius, y + 0.75 * radius, x + 1.1 * radius, y + 0.75 * radius,
+                         colour);
+  }
+  return fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{:g}" fill="{}"/>)", x, y, radius, colour);
+}
+
+std::string drawPoints(const PlotSeries& s, const Frame& f, const std::string& colour,
+                       const std::vector<std::size_t>& rows, bool bars) {
+  if (s.x.size() > most_points_drawn) return manyPoints(s, f, colour, rows);
+  std::string out;
+  for (const std::size_t i : rows) {
+    if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
+    if (bars) {
+      out += fmt::format(R"(<line x1="{0:.1f}" x2="{0:.1f}" y1="{1:.1f}" y2="{2:.1f}" stroke="{3}" stroke-width="1" )"
+                         R"(opacity="0.5"/>)",
+                         f.px(s.x[i]), f.py(s.y[i] - s.sigma[i]), f.py(s.y[i] + s.sigma[i]), colour);
+    }
+    out += markerAt(s.marker, f.px(s.x[i]), f.py(s.y[i]), 2.2, colour);
+  }
+  return out;
+}
+
+std::string drawSeries(const PlotSeries& s, const Frame& f, const std::string& colour) {
   std::string out;
   const bool with_sigma = s.sigma.size() == s.x.size() && !s.sigma.empty();
   const std::vector<std::size_t> rows = rowsToDraw(s, f);
-  if (s.style == SeriesStyle::Points) {
-    if (s.x.size() > most_points_drawn) return manyPoints(s, f, colour, rows);
-    for (const std::size_t i : rows) {
-      if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
-      if (with_sigma) {
-        out += fmt::format(R"(<line x1="{0:.1f}" x2="{0:.1f}" y1="{1:.1f}" y2="{2:.1f}" stroke="{3}" stroke-width="1" )"
-                           R"(opacity="0.5"/>)",
-                           f.px(s.x[i]), f.py(s.y[i] - s.sigma[i]), f.py(s.y[i] + s.sigma[i]), colour);
-      }
-      out += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="2.2" fill="{}"/>)", f.px(s.x[i]), f.py(s.y[i]), colour);
-    }
-    return out;
-  }
+  if (s.style == SeriesStyle::Points) return drawPoints(s, f, colour, rows, with_sigma);
   if (with_sigma) {
     std::string upper;
     std::string lower;
@@ -172,7 +193,66 @@ std::string drawSeries(const PlotSeries& s, const Frame& f, const char* colour) 
     pen_down = true;
   }
   out += fmt::format(R"(<path d="{}" fill="none" stroke="{}" stroke-width="1.4"/>)", path, colour);
+  if (s.style == SeriesStyle::Both) out += drawPoints(s, f, colour, rows, false);
   return out;
+}
+
+std::string colourOf(const std::vector<PlotSeries>& series, std::size_t index) {
+  return series[index].colour.empty() ? palette[index % palette.size()] : series[index].colour;
+}
+
+/// Width of a text of 12 px, generously.
+double textWidth(std::string_view text) {
+  const auto letters =
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+  return 6.8 * static_cast<double>(letters);
+}
+
+/// Where each name of the legend stands: x and row. Names wrap into rows of `width`.
+std::vector<std::pair<double, int>> legendPlaces(const std::vector<PlotSeries>& series, double width) {
+  std::vector<std::pair<double, int>> places;
+  double x = 0.0;
+  int row = 0;
+  for (const PlotSeries& s : series) {
+    const double needed = 36.0 + textWidth(s.name);
+    if (x > 0.0 && x + needed - 15.0 > width) {
+      x = 0.0;
+      ++row;
+    }
+    places.emplace_back(x, row);
+    x += needed;
+  }
+  return places;
+}
+
+std::string drawLegend(const std::vector<PlotSeries>& series, const std::vector<std::pair<double, int>>& places,
+                       double left, double top) {
+  std::string out;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const double x = left + places[i].first;
+    const double y = top + 18.0 * places[i].second;
+    const std::string colour = colourOf(series, i);
+    const SeriesStyle style = series[i].style;
+    if (style == SeriesStyle::Line || style == SeriesStyle::Step || style == SeriesStyle::Both) {
+      out += fmt::format(R"(<line x1="{:.1f}" x2="{:.1f}" y1="{:.1f}" y2="{:.1f}" stroke="{}" stroke-width="2"/>)", x,
+                         x + 16, y - 4, y - 4, colour);
+    }
+    if (style == SeriesStyle::Points || style == SeriesStyle::Both)
+      out += markerAt(series[i].marker, x + 8, y - 4, 3.0, colour);
+    out += fmt::format(R"(<text x="{:.1f}" y="{:.1f}">{}</text>)", x + 21, y, escapedXml(series[i].name));
+  }
+  return out;
+}
+
+/// Widens one pair of limits so that both axes have the same scale.
+void equalise(Frame& f) {
+  const double per_px_x = (f.x.high - f.x.low) / f.width;
+  const double per_px_y = (f.y.high - f.y.low) / f.height;
+  Limits& narrow = per_px_x < per_px_y ? f.x : f.y;
+  const double wanted = per_px_x < per_px_y ? per_px_y * f.width : per_px_x * f.height;
+  const double add = 0.5 * (wanted - (narrow.high - narrow.low));
+  narrow.low -= add;
+  narrow.high += add;
 }
 
 }  // namespace
@@ -222,12 +302,19 @@ std::string svgPlot(const std::vector<PlotSeries>& series, const PlotOptions& op
   f.y.widen(0.06);
   if (options.y_from) f.y.low = *options.y_from;
   if (options.y_to) f.y.high = *options.y_to;
+  if (options.x_from) f.x.low = *options.x_from;
+  if (options.x_to) f.x.high = *options.x_to;
   const bool titled = !options.title.empty();
   const bool legend = series.size() > 1 || (series.size() == 1 && !series[0].name.empty() && titled);
-  f.left = 64.0;
-  f.top = 12.0 + (titled ? 18.0 : 0.0) + (legend ? 18.0 : 0.0);
+  f.left = options.compact ? 56.0 : 64.0;
   f.width = options.width_px - f.left - 14.0;
+  const double beside = options.compact && titled ? textWidth(options.title) + 16.0 : 0.0;
+  const auto places = legendPlaces(series, f.width - beside);
+  const int legend_rows = legend ? places.back().second + 1 : 0;
+  const int rows_above = std::max(legend_rows, options.compact ? 1 : 0) + (titled && beside == 0.0 ? 1 : 0);
+  f.top = 12.0 + 18.0 * rows_above;
   f.height = options.height_px - f.top - 42.0;
+  if (options.equal_scale) equalise(f);
 
   std::string out =
       fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" )"
@@ -252,23 +339,9 @@ std::string svgPlot(const std::vector<PlotSeries>& series, const PlotOptions& op
       R"(<clipPath id="c{0}"><rect x="{1:.1f}" y="{2:.1f}" width="{3:.1f}" height="{4:.1f}"/></clipPath>)"
       R"svg(<g clip-path="url(#c{0})">)svg",
       options.width_px * 1000000 + options.height_px * 100 + static_cast<int>(f.top), f.left, f.top, f.width, f.height);
-  for (std::size_t i = 0; i < series.size(); ++i) out += drawSeries(series[i], f, palette[i % palette.size()]);
+  for (std::size_t i = 0; i < series.size(); ++i) out += drawSeries(series[i], f, colourOf(series, i));
   out += "</g>";
-  if (legend) {
-    double x = f.left;
-    for (std::size_t i = 0; i < series.size(); ++i) {
-      const double y = f.top - 8.0;
-      const char* colour = palette[i % palette.size()];
-      if (series[i].style == SeriesStyle::Points) {
-        out += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="{}"/>)", x + 8, y - 4, colour);
-      } else {
-        out += fmt::format(R"(<line x1="{:.1f}" x2="{:.1f}" y1="{:.1f}" y2="{:.1f}" stroke="{}" stroke-width="2"/>)", x,
-                           x + 16, y - 4, y - 4, colour);
-      }
-      out += fmt::format(R"(<text x="{:.1f}" y="{:.1f}">{}</text>)", x + 21, y, escapedXml(series[i].name));
-      x += 36.0 + 6.8 * static_cast<double>(series[i].name.size());
-    }
-  }
+  if (legend) out += drawLegend(series, places, f.left + beside, f.top - 8.0 - 18.0 * (legend_rows - 1));
   if (empty) {
     out += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" fill="#7b8794">no data</text>)",
                        f.left + f.width / 2, f.top + f.height / 2);
@@ -276,18 +349,69 @@ std::string svgPlot(const std::vector<PlotSeries>& series, const PlotOptions& op
   return out + "</svg>";
 }
 
-std::string svgPlotStack(const std::vector<StackedPlot>& plots) {
-  int width = 160;
-  int height = 0;
-  std::string body;
-  for (const StackedPlot& plot : plots) {
-    body += fmt::format(R"svg(<g transform="translate(0 {})">{}</g>)svg", height, svgPlot(plot.series, plot.options));
-    width = std::max(width, plot.options.width_px);
-    height += plot.options.height_px;
+std::string svgGrid(const std::vector<std::string>& drawings, int columns, int gap_px) {
+  SPINDRIFT_ASSERT(columns >= 1, "a grid has a column");
+  struct Part {
+    std::string attributes, body;
+    int width = 0, height = 0;
+  };
+  std::vector<Part> parts;
+  for (const std::string& svg : drawings) {
+    const std::size_t end = svg.find('>');
+    const std::size_t close = svg.rfind("</svg>");
+    SPINDRIFT_ASSERT(svg.starts_with("<svg") && end < close, "a drawing is one <svg>");
+    Part part{svg.substr(4, end - 4), svg.substr(end + 1, close - end - 1)};
+    // What only the outermost element has; font and fill go on to the group.
+    for (const char* name : {"xmlns:xlink", "xmlns", "viewBox", "width", "height"}) {
+      const std::string key = std::string(" ") + name + "=\"";
+      const std::size_t from = part.attributes.find(key);
+      if (from == std::string::npos) continue;
+      const std::size_t to = part.attributes.find('"', from + key.size());
+      const std::string value = part.attributes.substr(from + key.size(), to - from - key.size());
+      if (key == " width=\"") part.width = std::stoi(value);
+      if (key == " height=\"") part.height = std::stoi(value);
+      part.attributes.erase(from, to + 1 - from);
+    }
+    parts.push_back(std::move(part));
   }
-  return fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}">{2}</svg>)", width,
-      std::max(1, height), body);
+  std::vector<int> widths(static_cast<std::size_t>(columns), 0);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    int& width = widths[i % widths.size()];
+    width = std::max(width, parts[i].width);
+  }
+  std::string body;
+  int x = 0, y = 0, row_height = 0, whole_width = 1;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0 && i % widths.size() == 0) {
+      y += row_height + gap_px;
+      x = row_height = 0;
+    }
+    body += fmt::format(R"svg(<g transform="translate({} {})"{}>{}</g>)svg", x, y, parts[i].attributes, parts[i].body);
+    whole_width = std::max(whole_width, x + parts[i].width);
+    x += widths[i % widths.size()] + gap_px;
+    row_height = std::max(row_height, parts[i].height);
+  }
+  return fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" )"
+                     R"(viewBox="0 0 {0} {1}" width="{0}" height="{1}">{2}</svg>)",
+                     whole_width, std::max(1, y + row_height), body);
+}
+
+std::string svgPlotStack(const std::vector<StackedPlot>& plots) {
+  std::vector<std::string> drawings;
+  for (const StackedPlot& plot : plots) drawings.push_back(svgPlot(plot.series, plot.options));
+  return svgGrid(drawings, 1);
+}
+
+AxisLook axisLook(int axis) {
+  SPINDRIFT_ASSERT(axis >= 0 && axis < 3, "there are three axes");
+  // The axes of the 3D view on a light background.
+  static const std::array<AxisLook, 3> looks{
+      {{"#b83227", PlotMarker::Circle}, {"#2a7f46", PlotMarker::Square}, {"#2460b4", PlotMarker::Triangle}}};
+  return looks[static_cast<std::size_t>(axis)];
+}
+
+AxisLook componentLook(Component component) {
+  return axisLook(axisIndex(component));
 }
 
 }  // namespace spindrift

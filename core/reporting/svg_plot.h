@@ -7,10 +7,24 @@
 #include <string>
 #include <vector>
 
+#include "core/machine/component.h"
+
 namespace spindrift {
 
-/// How a series is drawn. Colours come from a fixed, colour-blind safe table by the index of the series.
-enum class SeriesStyle { Points, Line, Step };
+/// How a series is drawn. Colours come from a fixed, colour-blind safe table by the index of the series, unless the
+/// series brings its own. Both: points where measured, joined by a line with a band.
+enum class SeriesStyle { Points, Line, Step, Both };
+/// Shape of points, so that colour never carries a meaning alone.
+enum class PlotMarker { Circle, Square, Triangle };
+
+/// The convention of the program for what belongs to an axis: X red circles, Y green squares, Z blue triangles, for
+/// displacements along and rotations about it.
+struct AxisLook {
+  std::string colour;  ///< "#b83227"
+  PlotMarker marker = PlotMarker::Circle;
+};
+[[nodiscard]] AxisLook axisLook(int axis);
+[[nodiscard]] AxisLook componentLook(Component component);
 
 struct PlotSeries {
   std::string name;
@@ -18,6 +32,13 @@ struct PlotSeries {
   std::vector<double> y;
   std::vector<double> sigma;  ///< empty, or one standard uncertainty each: a bar at points, a 2 sigma band at lines
   SeriesStyle style = SeriesStyle::Line;
+  std::string colour = {};  ///< "#rrggbb"; empty: from the table
+  PlotMarker marker = PlotMarker::Circle;
+
+  void dress(const AxisLook& look) {
+    colour = look.colour;
+    marker = look.marker;
+  }
 };
 
 /// A shaded range of x, such as training or held-out data.
@@ -36,10 +57,18 @@ struct PlotOptions {
   std::vector<PlotRange> ranges;
   std::optional<double> y_from;  ///< fixed limits, else from the data
   std::optional<double> y_to;
+  std::optional<double> x_from;
+  std::optional<double> x_to;
+  bool equal_scale = false;  ///< a millimetre is as long upwards as across
+  bool compact = false;      ///< one of many small plots: legend beside the title, narrow margins
 };
 
 /// The whole <svg> element. Non-finite values are left out and break a line. Without any point it says so in the plot.
 [[nodiscard]] std::string svgPlot(const std::vector<PlotSeries>& series, const PlotOptions& options);
+
+/// Drawings side by side in `columns`, row by row, in one <svg> without any other inside. Every column is as wide as
+/// its widest drawing.
+[[nodiscard]] std::string svgGrid(const std::vector<std::string>& drawings, int columns, int gap_px = 0);
 
 /// Plots one under another in one <svg>, all as wide as the widest.
 struct StackedPlot {

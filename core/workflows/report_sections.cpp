@@ -14,6 +14,7 @@
 #include "core/imaging/fiducial_captures.h"
 #include "core/probing/touch.h"
 #include "core/reporting/contact_sheet.h"
+#include "core/reporting/printed_text.h"
 #include "core/reporting/svg_plot.h"
 #include "core/scanning/scan_picture.h"
 #include "core/workflows/log_campaign.h"
@@ -36,7 +37,9 @@ std::string textOf(const nlohmann::json& json, const char* key) {
 }
 
 std::string numberText(double value, std::string_view unit, int decimals) {
-  return std::isfinite(value) ? fmt::format("{:.{}f} {}", value, decimals, unit) : std::string("not determined");
+  if (!std::isfinite(value)) return "not determined";
+  const std::string number = tickText(value, std::pow(10.0, -decimals));
+  return unit.empty() ? number : number + ' ' + std::string(unit);
 }
 
 /// Every n-th of the items, so that at most `most` are left, the first among them.
@@ -46,6 +49,13 @@ std::vector<T> spread(const std::vector<T>& items, std::size_t most) {
   std::vector<T> out;
   for (std::size_t i = 0; i < most; ++i) out.push_back(items[i * items.size() / most]);
   return out;
+}
+
+/// What an image was taken for.
+std::string roleTitle(const std::string& role) {
+  if (role == "x_axis") return "along X";
+  if (role == "y_axis") return "along Y";
+  return words(role);
 }
 
 void addImages(HtmlDocument& document, const Campaign& campaign, const std::filesystem::path& list,
@@ -67,7 +77,8 @@ void addImages(HtmlDocument& document, const Campaign& campaign, const std::file
       to = std::max(to, c.time_s);
     }
     std::string roles;
-    for (const auto& [role, count] : by_role) roles += fmt::format("{}{} {}", roles.empty() ? "" : ", ", count, role);
+    for (const auto& [role, count] : by_role)
+      roles += fmt::format("{}{} {}", roles.empty() ? "" : ", ", count, roleTitle(role));
     rows.push_back({state, std::to_string(fiducials.size()), roles, std::to_string(excluded),
                     fmt::format("{:.2f} to {:.2f}", from / seconds_per_hour, to / seconds_per_hour)});
   }
@@ -127,8 +138,9 @@ void addTouches(HtmlDocument& document, const std::filesystem::path& list) {
   PlotOptions options;
   options.x_label = "X / mm";
   options.y_label = "Y / mm";
-  options.width_px = 860;
-  options.height_px = 300;
+  options.width_px = 600;
+  options.height_px = 340;
+  options.equal_scale = true;
   document.figure(svgPlot(seen, options), "Where the touches of the first cycle are, machine coordinates");
 }
 
@@ -168,16 +180,26 @@ void addCheck(std::vector<std::vector<std::string>>& rows, const char* name, con
   rows.push_back({name, passed ? "passed" : "not passed", reason});
 }
 
+/// What a model over time predicts; empty where the result does not say it.
+SignalTitle outputOf(const nlohmann::json& thermal) {
+  const nlohmann::json model = thermal.value("model", nlohmann::json::object());
+  const nlohmann::json outputs = model.is_object() ? model.value("outputs", nlohmann::json::array()) : nlohmann::json();
+  if (!outputs.is_array() || outputs.empty()) return {};
+  return signalTitle(textOf(outputs.front(), "name"));
+}
+
 void addStepResponses(HtmlDocument& document, const nlohmann::json& responses) {
   std::vector<std::vector<std::string>> rows;
   for (const nlohmann::json& r : responses) {
+    const SignalTitle title = signalTitle(textOf(r, "input"));
     rows.push_back(
-        {textOf(r, "input"),
+        {title.name, fmt::format("{:g} {}", numberOf(r, "step"), title.unit == "degC" ? "K" : title.unit),
          withUncertainty(numberOf(r, "final_value"), numberOf(r, "final_standard_uncertainty"), textOf(r, "unit")),
-         numberText(numberOf(r, "time_to_63_percent_s") / 60.0, "min", 1)});
+         spanOfTime(numberOf(r, "time_to_63_percent_s"))});
   }
   if (!rows.empty()) {
-    document.table({"Input", "End value of the step response", "63 % after"}, rows, "Step responses of the model");
+    document.table({"Input", "Step", "End value of the response", "63 % after"}, rows,
+                   "Step responses of the model, end value ± one standard uncertainty");
   }
 }
 
@@ -257,9 +279,11 @@ void addThermalModel(HtmlDocument& document, const nlohmann::json& thermal) {
   document.section("Model over time");
   std::vector<std::string> inputs;
   for (const nlohmann::json& in : thermal.value("inputs", nlohmann::json::array()))
-    inputs.push_back(in.get<std::string>());
-  document.paragraph(
-      fmt::format("Inputs: {}. Quality in free run, without looking at the measured output.", joinedList(inputs)));
+    inputs.push_back(signalTitle(in.get<std::string>()).name);
+  const SignalTitle output = outputOf(thermal);
+  const std::string& unit = output.unit;
+  document.paragraph(fmt::format("{}Inputs: {}. Quality in free run, without looking at the measured output.",
+                                 output.name.empty() ? "" : "Output: " + output.name + ". ", joinedList(inputs)));
   std::vector<std::vector<std::string>> rows;
   const auto add = [&](const std::string& name, const nlohmann::json& train, const nlohmann::json& test) {
     rows.push_back({name, numberText(numberOf(train, "rmse"), "", 2), numberText(numberOf(test, "rmse"), "", 2),
@@ -268,8 +292,10 @@ void addThermalModel(HtmlDocument& document, const nlohmann::json& thermal) {
   add("this model", thermal["train"], thermal["test"]);
   for (const nlohmann::json& p : thermal.value("plain_models", nlohmann::json::array()))
     add(textOf(p, "name"), p.at("train"), p.at("test"));
-  document.table({"Model", "rms in training", "rms in the test", "Fit in the test", "Peak to peak in the test"}, rows,
-                 "Quality of the model and of plain ones, in the unit of the output");
+  document.table(
+      {"Model", "rms in training", "rms in the test", "Fit in the test", "Peak to peak in the test"}, rows,
+      fmt::format("Quality of the model and of plain ones{}; fit: 100 % is perfect, 0 % no better than the mean",
+                  unit.empty() ? "" : ", in " + unit));
   addStepResponses(document, thermal.value("step_response", nlohmann::json::array()));
   if (!thermal.value("good_enough", true))
     document.verdict("attention",
@@ -291,7 +317,7 @@ void addIso230(HtmlDocument& document, const Campaign& campaign) {
   std::vector<std::vector<std::string>> rows;
   if (result.spindle) {
     for (const SpindleComponent& c : result.spindle->components) {
-      rows.push_back({c.name, withUncertainty(c.first_hour, c.change_sigma, c.unit),
+      rows.push_back({signalTitle(c.name).name, withUncertainty(c.first_hour, c.change_sigma, c.unit),
                       withUncertainty(c.at_end, c.change_sigma, c.unit), numberText(c.range, c.unit, 2),
                       numberText(c.time_to_fraction_s / 60.0, "min", 0)});
     }
@@ -305,7 +331,7 @@ void addIso230(HtmlDocument& document, const Campaign& campaign) {
                    rows, "Parameters of the rotating spindle test");
   } else if (result.etve) {
     for (const EtveComponent& c : result.etve->components) {
-      rows.push_back({c.name, withUncertainty(c.range, c.range_sigma, c.unit),
+      rows.push_back({signalTitle(c.name).name, withUncertainty(c.range, c.range_sigma, c.unit),
                       numberText(c.range_per_K, c.unit + "/K", 2),
                       std::isfinite(c.slope_per_K) ? withUncertainty(c.slope_per_K, c.slope_sigma, c.unit + "/K")
                                                    : std::string("not determined")});
@@ -355,6 +381,28 @@ void addCompensation(HtmlDocument& document, const nlohmann::json& plan) {
   for (const nlohmann::json& f : plan.value("files", nlohmann::json::array()))
     files.push_back({textOf(f, "name"), textOf(f, "convention")});
   if (!files.empty()) document.table({"File", "Sign and reference"}, files, "Tables for the control");
+}
+
+void addLogCompensation(HtmlDocument& document, const nlohmann::json& run) {
+  if (!run.is_object() || !run.contains("outputs")) return;
+  document.section("Compensation over the log");
+  document.paragraph(fmt::format(
+      "The control's compensator, run over the log in {:.0f} cycles of {:g} s: {:.0f} on held inputs, {:.0f} "
+      "in fall-back. Compensation = −predicted deviation, added to the command.",
+      numberOf(run, "steps"), numberOf(run, "cycle_s"), numberOf(run, "holding_steps"),
+      numberOf(run, "fallback_steps")));
+  std::vector<std::vector<std::string>> rows;
+  for (const nlohmann::json& o : run["outputs"]) {
+    const SignalTitle title = signalTitle(textOf(o, "name"));
+    rows.push_back({title.unit.empty() ? title.name : title.name + " / " + title.unit,
+                    numberText(numberOf(o, "rms_before"), "", 2), numberText(numberOf(o, "rms_after"), "", 2),
+                    numberText(numberOf(o, "reduction_percent"), "%", 0),
+                    numberText(numberOf(o, "largest_compensation"), "", 1)});
+  }
+  document.table({"Output", "rms before", "rms after", "Reduction", "Largest compensation"}, rows,
+                 "What the compensation leaves of the measured deviations; a reduction is positive where it helps");
+  for (const nlohmann::json& w : run.value("warnings", nlohmann::json::array()))
+    document.verdict("attention", w.get<std::string>());
 }
 
 void addVerification(HtmlDocument& document, const nlohmann::json& result) {

@@ -22,7 +22,9 @@ struct StoredResults {
   nlohmann::json repeatability;  ///< {"passed","reason"}
   nlohmann::json thermal;        ///< IdentifyResult::json
   nlohmann::json compensation;   ///< CompensationPlan::json
-  nlohmann::json verification;   ///< VerifyResult::json
+  /// CompensateResult::json: the control's compensator run over the log.
+  nlohmann::json log_compensation;
+  nlohmann::json verification;  ///< VerifyResult::json
 };
 
 /// States with what was to be captured and what was. Nothing without a plan.
@@ -44,6 +46,9 @@ void addIso230(HtmlDocument& document, const Campaign& campaign);
 
 /// What a control would be commanded, and what is expected to remain.
 void addCompensation(HtmlDocument& document, const nlohmann::json& compensation);
+
+/// What the control's compensator would have achieved over the log. Nothing without such a run.
+void addLogCompensation(HtmlDocument& document, const nlohmann::json& run);
 
 /// Before and after, judged against the goal.
 void addVerification(HtmlDocument& document, const nlohmann::json& verification);

@@ -10,6 +10,9 @@
 #include "core/reporting/campaign_report.h"
 #include "core/reporting/discrepancy_report.h"
 #include "core/reporting/heatmap_picture.h"
+#include "core/reporting/parameter_meanings.h"
+#include "core/reporting/printed_text.h"
+#include "core/reporting/svg_plot.h"
 #include "core/session/session.h"
 #include "core/workflows/compensated_data.h"
 #include "core/workflows/discrepancy_story.h"
@@ -23,6 +26,22 @@ bool spreadsOverTheTable(const ObservationSet& observations) {
   return observations.points().size() >= 3 && observations.states().size() >= 2;
 }
 
+/// The table of the nine parameters: value, uncertainty, meaning.
+void addParameters(HtmlDocument& document, const NineParameterFit& fit, const std::string& state) {
+  std::vector<std::vector<std::string>> rows;
+  const nlohmann::json json = toJson(fit);
+  for (const auto& [name, parameter] : json.at("parameters").items()) {
+    const bool known = parameter.is_object() && parameter.at("value").is_number();
+    rows.push_back({titleWithUnit(name),
+                    known ? withUncertainty(parameter.at("value").get<double>(),
+                                            parameter.at("standard_uncertainty").get<double>(), "")
+                          : std::string("not determined"),
+                    parameterMeaning(name)});
+  }
+  document.table({"Parameter", "Value ± standard uncertainty", "Meaning"}, rows,
+                 fmt::format("Nine-parameter model of {}", state));
+}
+
 /// The nine-parameter model of one state with its heat maps, or the reason why there is none.
 void addState(HtmlDocument& document, const Campaign& campaign, const ObservationSet& observations,
               const NineParameterOptions& fit_options, const std::string& state) {
@@ -31,18 +50,9 @@ void addState(HtmlDocument& document, const Campaign& campaign, const Observatio
   options.fit.state = state;
   document.subsection(fmt::format("State {}", state));
   try {
-    const NineParameterFit fit = fitNineParameters(observations, options.fit);
-    std::vector<std::vector<std::string>> rows;
-    const nlohmann::json json = toJson(fit);
-    for (const auto& [name, parameter] : json.at("parameters").items()) {
-      const bool known = parameter.is_object() && parameter.at("value").is_number();
-      rows.push_back({titleWithUnit(name), known
-                                               ? withUncertainty(parameter.at("value").get<double>(),
-                                                                 parameter.at("standard_uncertainty").get<double>(), "")
-                                               : std::string("not determined")});
-    }
-    document.table({"Parameter", "Value ± standard uncertainty"}, rows,
-                   fmt::format("Nine-parameter model of {}", state));
+    addParameters(document, fitNineParameters(observations, options.fit), state);
+    std::vector<std::string> maps;
+    std::string subtitle;
     for (const Component component : {Component::EX, Component::EY, Component::EZ}) {
       options.component = component;
       const HeatmapResult map = heatmapOf(campaign, observations, options);
@@ -50,15 +60,32 @@ void addState(HtmlDocument& document, const Campaign& campaign, const Observatio
         document.paragraph(map.message);
         continue;
       }
-      document.figure(heatmapSvg(map.field, {.title = map.title(), .subtitle = map.subtitle()}),
-                      fmt::format("{} over the table, state {}", toString(component), state));
+      subtitle = map.subtitle();
+      maps.push_back(heatmapSvg(map.field, {.title = map.title(), .legend = false, .width_px = 480}));
     }
+    if (!maps.empty())
+      document.figure(svgGrid(maps, 2), fmt::format("Model of the displacement over the table in state {}: {}; {}",
+                                                    state, subtitle, heatmap_legend));
   } catch (const InputError& error) {
     document.paragraph(fmt::format("No model of this state: {}", error.what()));
   }
 }
 
+/// Lines for the first page from what a session keeps.
+void addHeadlines(CampaignReportInput& input, const StoredResults& stored) {
+  if (stored.thermal.is_object() && stored.thermal.contains("good_enough"))
+    input.headlines.emplace_back("Model over time", stored.thermal.value("good_enough", true)
+                                                        ? "better than plain models on rows it had not seen"
+                                                        : "no better than a plain model: not to be compensated with");
+  if (stored.verification.is_object() && stored.verification.contains("reason"))
+    input.headlines.emplace_back("Compensation verified", stored.verification.value("reason", ""));
+}
+
 }  // namespace
+
+bool canReport(const Campaign& campaign, bool has_observations) {
+  return has_observations || (campaign.log && !campaign.log->empty());
+}
 
 std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& options, JobContext& job) {
   CampaignReportInput input;
@@ -83,6 +110,7 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
   const std::string left_out = leaveOutCompensated(input.observations, campaign.log);
   if (!left_out.empty()) input.notes.push_back(left_out);
   const StoredResults& stored = options.stored;
+  addHeadlines(input, stored);
   input.preparation = {[&](HtmlDocument& document) { addPlan(document, stored.plan, campaign); },
                        [&](HtmlDocument& document) { addCaptures(document, campaign, job); },
                        [&](HtmlDocument& document) { addInstrumentState(document, stored); }};
@@ -103,6 +131,7 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
       const DiscrepancyInput found = discrepancyInput(campaign, input.observations);
       *data = discrepancyReportData(found, findDiscrepancy(found, options.search, searching));
     }
+    input.headlines.emplace_back("Simulation and measurement", discrepancyHeadline(*data));
     input.sections.push_back({"Where simulation and measurement disagree", [data, &campaign](HtmlDocument& document) {
                                 addDiscrepancyStory(document, *data, mapTable(campaign.machine, 0.0, report_map_nodes));
                               }});
@@ -110,6 +139,7 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
   input.conclusions = {[&](HtmlDocument& document) { addThermalModel(document, stored.thermal); },
                        [&](HtmlDocument& document) { addIso230(document, campaign); },
                        [&](HtmlDocument& document) { addCompensation(document, stored.compensation); },
+                       [&](HtmlDocument& document) { addLogCompensation(document, stored.log_compensation); },
                        [&](HtmlDocument& document) { addVerification(document, stored.verification); }};
   job.report(1.0, "writing the report");
   return campaignReport(input).html();

@@ -31,6 +31,10 @@ struct ReportOptions {
   std::shared_ptr<const nlohmann::json> story;
 };
 
+/// Whether there is anything to report: observations (own or evaluated), or a log. A log alone is reported with its
+/// conditions, displacements, ISO 230-3 parameters and what was modelled over time.
+[[nodiscard]] bool canReport(const Campaign& campaign, bool has_observations);
+
 /// Evaluates the captures (if any), fits where there is something to fit, and returns one self-contained HTML text. A
 /// part that cannot be computed from this campaign is left out with the reason in the report.
 [[nodiscard]] std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& options, JobContext& job);

@@ -92,8 +92,15 @@ Iso230Result evaluateIso230Test(const TimeSeries& series, const Iso230Request& r
   }
   for (const std::string& name : request.columns)
     components.push_back({name, name.ends_with("_urad") ? "urad" : "um", series.at(name).values, 0.0});
-  for (const ComponentSeries& c : components)
-    curves.push_back({c.name, series.time_s, c.values, {}, SeriesStyle::Line});
+  for (const ComponentSeries& c : components) {
+    PlotSeries curve{c.name, series.time_s, c.values, {}, SeriesStyle::Line};
+    // What is measured along an axis has its colour; tilts follow the palette.
+    const std::size_t axis = c.unit == "um" && c.name.size() > 1 && c.name[1] == '_'
+                                 ? std::string("XYZ").find(c.name[0])
+                                 : std::string::npos;
+    if (axis != std::string::npos) curve.dress(axisLook(static_cast<int>(axis)));
+    curves.push_back(std::move(curve));
+  }
   if (request.test == "etve") {
     std::string ambient = request.ambient;
     for (const char* candidate : {"T_room_degC", "T_ambient_degC"})

@@ -64,9 +64,13 @@ TEST(DiscrepancyReport, SaysWhatWasAddedAndWhatIsProposed) {
   EXPECT_THAT(discrepancyReport("c", d, std::nullopt), Not(HasSubstr("(added to the model)")));
   d.user_adds = true;
   const std::string html = discrepancyReport("c", d, FieldGrid{0, 100, 0, 80, 0, 11, 9});
-  EXPECT_THAT(html, HasSubstr("ball_screw.expansion.y (added to the model)"));
-  EXPECT_THAT(html, HasSubstr("EY before: measured minus simulation"));
-  EXPECT_THAT(html, HasSubstr("EY after: measured minus completed model"));
+  EXPECT_THAT(
+      html,
+      HasSubstr("Thermal expansion of the Y ball screw <small>ball_screw.expansion.y</small> (added to the model)"));
+  EXPECT_THAT(html, HasSubstr("EY before"));
+  EXPECT_THAT(html, HasSubstr("EY after"));
+  EXPECT_THAT(html, HasSubstr("Missing in the simulation: thermal expansion of the Y ball screw <small>"));
+  EXPECT_THAT(html, Not(HasSubstr(" um")));
   EXPECT_THAT(html, Not(HasSubstr("nan")));
 }
 

@@ -45,5 +45,53 @@ TEST(SvgPlot, SaysWhenThereIsNothingToShow) {
   EXPECT_THAT(svgPlot({{"one", {5.0}, {7.0}, {}, SeriesStyle::Points}}, {}), HasSubstr("<circle"));
 }
 
+TEST(SvgPlot, AxesHaveOneColourAndOneShapeEach) {
+  PlotSeries x{"EX", {0.0, 1.0}, {0.0, 1.0}, {}, SeriesStyle::Points};
+  PlotSeries y = x, z = x;
+  x.dress(componentLook(Component::EX));
+  y.dress(componentLook(Component::EB));
+  z.dress(axisLook(2));
+  const std::string svg = svgPlot({x, y, z}, {});
+  EXPECT_THAT(svg, HasSubstr("r=\"2.2\" fill=\"#b83227\""));
+  EXPECT_THAT(svg, HasSubstr("height=\"4.0\" fill=\"#2a7f46\""));
+  EXPECT_THAT(svg, HasSubstr("fill=\"#2460b4\""));
+}
+
+TEST(SvgPlot, LongLegendsWrapInsteadOfBeingCut) {
+  std::vector<PlotSeries> series;
+  for (int i = 0; i < 12; ++i)
+    series.push_back({"a rather long name " + std::to_string(i), {0.0, 1.0}, {0.0, 1.0}, {}, SeriesStyle::Line});
+  const std::string svg = svgPlot(series, {.width_px = 640});
+  int names = 0;
+  for (std::size_t at = svg.find("<text x=\""); at != std::string::npos; at = svg.find("<text x=\"", at + 1)) {
+    const std::string element = svg.substr(at, svg.find("</text>", at) - at);
+    if (element.find("rather long") == std::string::npos) continue;
+    ++names;
+    EXPECT_LT(std::stod(element.substr(9)) + 6.8 * 20, 640.0) << element;
+  }
+  EXPECT_EQ(names, 12);
+}
+
+TEST(SvgPlot, AGridIsOneDrawingWithoutAnotherInside) {
+  const std::string plot = svgPlot({}, {.width_px = 200, .height_px = 120});
+  const std::string grid = svgGrid({plot, plot, plot}, 2, 10);
+  EXPECT_EQ(grid.find("<svg", 1), std::string::npos);
+  EXPECT_THAT(grid, HasSubstr("width=\"410\" height=\"250\""));
+  EXPECT_THAT(grid, HasSubstr("translate(210 0)"));
+  EXPECT_THAT(grid, HasSubstr("translate(0 130)"));
+}
+
+TEST(SvgPlot, EqualScalesAreEqual) {
+  PlotSeries square{"s", {0.0, 10.0}, {0.0, 10.0}, {}, SeriesStyle::Points};
+  const std::string svg = svgPlot({square}, {.width_px = 640, .height_px = 300, .equal_scale = true});
+  std::vector<double> x, y;
+  for (std::size_t at = svg.find("<circle cx=\""); at != std::string::npos; at = svg.find("<circle cx=\"", at + 1)) {
+    x.push_back(std::stod(svg.substr(at + 12)));
+    y.push_back(std::stod(svg.substr(svg.find("cy=\"", at) + 4)));
+  }
+  ASSERT_EQ(x.size(), 2U);
+  EXPECT_NEAR(x[1] - x[0], y[0] - y[1], 0.2);
+}
+
 }  // namespace
 }  // namespace spindrift

@@ -12,6 +12,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/reporting/contact_sheet.h"
+#include "core/workflows/log_campaign.h"
 #include "core/workflows/report_workflow.h"
 #include "tests/support/temp_folder.h"
 
@@ -63,7 +64,8 @@ TEST_F(Report, GivesTheParametersOfTheStandardTestThatTheLogHolds) {
   EXPECT_THAT(spindle, Not(HasSubstr("environmental temperature variation error")));
   // 30 um (1 - e^-2) after 60 min of running.
   std::smatch found;
-  ASSERT_TRUE(std::regex_search(spindle, found, std::regex("Z_um</td><td[^>]*>([0-9.]+)")));
+  const std::string table = spindle.substr(spindle.find("Parameters of the rotating spindle test"));
+  ASSERT_TRUE(std::regex_search(table, found, std::regex("Z</td><td[^>]*>([0-9.]+)")));
   EXPECT_NEAR(std::stod(found[1]), 30.0 * (1.0 - std::exp(-2.0)), 0.3);
   writeLog(0);
   EXPECT_THAT(html(), HasSubstr("environmental temperature variation error"));
@@ -133,13 +135,64 @@ TEST_F(Report, TellsPlanChecksCompensationAndVerification) {
           "verdict":"not met"}]})");
   const std::string text = html(options);
   EXPECT_THAT(text, HasSubstr("stated by the operator, not measured"));
-  EXPECT_THAT(text, HasSubstr("EX returns within 4 um only."));
+  EXPECT_THAT(text, HasSubstr("EX returns within 4 µm only."));
   EXPECT_THAT(text, HasSubstr("1 of 1 planned items were not captured."));
-  EXPECT_THAT(text, HasSubstr("12.30 um"));
+  EXPECT_THAT(text, HasSubstr("12.30 µm"));
   EXPECT_THAT(text, HasSubstr("10.5 ± 0.3"));
   EXPECT_THAT(text, HasSubstr("added to the command"));
-  EXPECT_THAT(text, HasSubstr("EX is left with 7.0 um; the goal is 5 um."));
+  EXPECT_THAT(text, HasSubstr("EX is left with 7.0 µm; the goal is 5 µm."));
   EXPECT_THAT(text, HasSubstr("class=\"verdict bad\""));
+}
+
+TEST_F(Report, OfALogAloneTellsConditionsStandardTestModelAndCompensation) {
+  const auto log = folder_ / "spindle test.csv";
+  writeLog(6000);
+  std::filesystem::rename(folder_ / "log.csv", log);
+  writeLogCampaign(log, folder_ / "campaign");
+  const Campaign campaign = Campaign::read(folder_ / "campaign");
+  EXPECT_TRUE(canReport(campaign, false));
+  EXPECT_FALSE(canReport(Campaign::read(folder_.path()), false)) << "neither log nor observations";
+  EXPECT_TRUE(canReport(Campaign::read(folder_.path()), true));
+  ReportOptions options;
+  options.stored.thermal = {{"inputs", {"spindle_rpm"}},
+                            {"train", {{"rmse", 0.5}}},
+                            {"test", {{"rmse", 0.7}, {"fit_percent", 88.0}, {"p2p", 2.5}}},
+                            {"model", {{"outputs", {{{"name", "Z_um"}, {"unit", "um"}}}}}},
+                            {"good_enough", true}};
+  options.stored.log_compensation = {{"cycle_s", 60},
+                                     {"steps", 181},
+                                     {"holding_steps", 0},
+                                     {"fallback_steps", 0},
+                                     {"warnings", {"the model of Z_um was called not good enough"}},
+                                     {"outputs",
+                                      {{{"name", "Z_um"},
+                                        {"rms_before", 9.5},
+                                        {"rms_after", 1.25},
+                                        {"reduction_percent", 87.0},
+                                        {"largest_compensation", 30.0}}}}};
+  JobContext job;
+  const std::string text = campaignReportHtml(campaign, options, job);
+  for (const char* part :
+       {"of a log alone", "Operating conditions", "spindle speed, up to 6000 rpm", "Displacements of the log",
+        "thermal distortion caused by the rotating spindle", "Model over time", "Output: Z. Inputs: spindle speed",
+        "Compensation over the log", "Z\u00a0/\u00a0µm", "was called not good enough", "better than plain models"})
+    EXPECT_THAT(text, HasSubstr(part));
+  EXPECT_THAT(text, Not(HasSubstr("Linear axes"))) << "nobody described the machine";
+  EXPECT_THAT(text, Not(HasSubstr("1970")));
+}
+
+TEST_F(Report, EquipmentIsNamedWithItsSerialNumberAndCalibration) {
+  std::string machine = machine_json;
+  machine.pop_back();
+  writeFileAtomically(
+      folder_ / "machine.json",
+      machine + R"(,"serial_number":"M-7","styli":[{"id":"p0","radius_mm":2,"offset_mm":[0,0,-50],"serial":"S-12",
+"calibrated":"2026-01-10"}],"axes_note":"x"})");
+  const std::string text = html();
+  EXPECT_THAT(text, HasSubstr("Measuring equipment"));
+  EXPECT_THAT(text, HasSubstr("S-12"));
+  EXPECT_THAT(text, HasSubstr("2026-01-10"));
+  EXPECT_THAT(text, HasSubstr("M-7"));
 }
 
 }  // namespace

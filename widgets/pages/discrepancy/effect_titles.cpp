@@ -5,55 +5,14 @@
 #include <QHeaderView>
 #include <QStringList>
 #include <QTableView>
-#include <array>
 #include <cmath>
 
+#include "core/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
 namespace {
-
-struct Title {
-  const char* stem;  ///< id without its last part, or the whole id
-  const char* text;  ///< %1: the last part as a capital letter or as it stands
-};
-
-// In the order of the catalogue.
-constexpr std::array<Title, 32> titles{{
-    {"spindle.growth.z", QT_TRANSLATE_NOOP("Effect", "growth of the spindle along Z")},
-    {"spindle.centrifugal.z", QT_TRANSLATE_NOOP("Effect", "shortening of the spindle by its speed along Z")},
-    {"spindle.drift", QT_TRANSLATE_NOOP("Effect", "drift of the spindle along %1")},
-    {"head.tilt", QT_TRANSLATE_NOOP("Effect", "tilt of the head about %1")},
-    {"column.bending.a", QT_TRANSLATE_NOOP("Effect", "bending of the column towards Y")},
-    {"column.bending.b", QT_TRANSLATE_NOOP("Effect", "bending of the column towards X")},
-    {"column.expansion.z", QT_TRANSLATE_NOOP("Effect", "expansion of the column along Z")},
-    {"ball_screw.expansion", QT_TRANSLATE_NOOP("Effect", "thermal expansion of the %1 ball screw")},
-    {"ball_screw.nonuniform", QT_TRANSLATE_NOOP("Effect", "uneven expansion of the %1 ball screw")},
-    {"scale.expansion", QT_TRANSLATE_NOOP("Effect", "expansion of the %1 scale")},
-    {"table.expansion.xy", QT_TRANSLATE_NOOP("Effect", "expansion of the table")},
-    {"frame.rotation", QT_TRANSLATE_NOOP("Effect", "rotation of the frame about %1")},
-    {"squareness.drift.c0y", QT_TRANSLATE_NOOP("Effect", "drift of the squareness of Y to X")},
-    {"crossbeam.sag.z", QT_TRANSLATE_NOOP("Effect", "sag of the crossbeam")},
-    {"ambient.drift", QT_TRANSLATE_NOOP("Effect", "drift with the room temperature along %1")},
-    {"instrument.warm_up", QT_TRANSLATE_NOOP("Effect", "warm-up of the instrument along %1")},
-    {"fixture.slip", QT_TRANSLATE_NOOP("Effect", "slip of point %1 in its fixture")},
-    {"periodic.pitch", QT_TRANSLATE_NOOP("Effect", "periodic error of the %1 ball screw")},
-    {"backlash", QT_TRANSLATE_NOOP("Effect", "backlash of %1")},
-    {"coolant.shock", QT_TRANSLATE_NOOP("Effect", "shock by the coolant along %1")},
-    {"external_heat.a", QT_TRANSLATE_NOOP("Effect", "heat from outside that bends the column towards Y")},
-    {"external_heat.b", QT_TRANSLATE_NOOP("Effect", "heat from outside that bends the column towards X")},
-    {"external_heat.z", QT_TRANSLATE_NOOP("Effect", "heat from outside that acts along Z")},
-    {"heat_source.position", QT_TRANSLATE_NOOP("Effect", "spindle heat that depends on the position of %1")},
-    {"rotary.drift.x0c", QT_TRANSLATE_NOOP("Effect", "drift of the rotary table along X")},
-    {"rotary.drift.y0c", QT_TRANSLATE_NOOP("Effect", "drift of the rotary table along Y")},
-    {"rotary.drift.z0t", QT_TRANSLATE_NOOP("Effect", "drift of the rotary table along Z")},
-    {"rotary.tilt.a0c", QT_TRANSLATE_NOOP("Effect", "tilt of the rotary table about X")},
-    {"rotary.tilt.b0c", QT_TRANSLATE_NOOP("Effect", "tilt of the rotary table about Y")},
-    {"rotary.tilt.c0c", QT_TRANSLATE_NOOP("Effect", "rotation of the rotary table about Z")},
-    {"rotary.expansion.r0t", QT_TRANSLATE_NOOP("Effect", "radial growth of the rotary table")},
-    {"artefact.expansion", QT_TRANSLATE_NOOP("Effect", "expansion of the artefact")},
-}};
 
 QString translated(const char* text) {
   return QCoreApplication::translate("Effect", text);
@@ -69,22 +28,10 @@ QString superscript(int number) {
 }  // namespace
 
 QString effectTitle(const std::string& id) {
-  const QString whole = QString::fromStdString(id);
-  const qsizetype dot = whole.lastIndexOf(QLatin1Char('.'));
-  const QString stem = dot < 0 ? whole : whole.left(dot);
-  const QString last = dot < 0 ? QString() : whole.mid(dot + 1);
-  for (const Title& title : titles) {
-    if (whole == QLatin1String(title.stem)) return translated(title.text);
-    // The id of a point may hold dots of its own.
-    const bool slip = qstrcmp(title.stem, "fixture.slip") == 0 && whole.startsWith(QLatin1String("fixture.slip."));
-    if (slip) return translated(title.text).arg(whole.mid(13));
-    if (stem != QLatin1String(title.stem)) continue;
-    // Rotations a, b, c are about X, Y, Z.
-    const qsizetype about = QStringLiteral("abc").indexOf(last);
-    return translated(title.text)
-        .arg(about >= 0 && last.size() == 1 ? QString(QLatin1Char("XYZ"[about])) : last.toUpper());
-  }
-  return whole;
+  const auto title = effectTitleOf(id);
+  if (!title) return QString::fromStdString(id);
+  const QString text = translated(std::string(title->pattern).c_str());
+  return title->subject.empty() ? text : text.arg(QString::fromStdString(title->subject));
 }
 
 QString effectTitles(const std::vector<std::string>& ids, const QString& last_word) {

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "core/base/text.h"
+#include "core/reporting/point_map.h"
+#include "core/reporting/report_parts.h"
+#include "core/reporting/svg_plot.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double seconds_per_hour = 3600.0;
+/// Readings of a point from which on a curve says more than a map.
+constexpr std::size_t least_for_curves = 4;
+constexpr std::size_t most_panels = 18;
+constexpr std::size_t most_maps = 4;
+
+using Key = std::pair<std::string, Component>;
+
+/// An observation minus the first of its point and component, with the uncertainty of the difference.
+struct Change {
+  const Observation* row = nullptr;
+  const Observation* first = nullptr;
+  double value = 0.0;
+  double sigma = 0.0;
+};
+
+/// In order of time within each point and component; the first of each is zero by definition and not among them.
+std::vector<Change> changesOf(const ObservationSet& observations) {
+  const auto& rows = observations.rows;
+  std::map<std::pair<std::size_t, std::size_t>, double> covariance;
+  for (const CovarianceEntry& c : observations.covariance) covariance[std::minmax(c.row, c.column)] = c.covariance;
+  std::map<Key, std::vector<std::size_t>> series;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].use != ObservationUse::Exclude) series[{rows[i].point, rows[i].component}].push_back(i);
+  std::vector<Change> changes;
+  for (auto& [key, indices] : series) {
+    std::stable_sort(indices.begin(), indices.end(),
+                     [&](std::size_t a, std::size_t b) { return rows[a].time_s < rows[b].time_s; });
+    const std::size_t f = indices.front();
+    for (std::size_t k = 1; k < indices.size(); ++k) {
+      const std::size_t i = indices[k];
+      const auto common = covariance.find(std::minmax(f, i));
+      const double shared = common == covariance.end() ? 0.0 : common->second;
+      const double variance = rows[i].sigma * rows[i].sigma + rows[f].sigma * rows[f].sigma - 2.0 * shared;
+      changes.push_back({&rows[i], &rows[f], rows[i].value - rows[f].value, std::sqrt(std::max(0.0, variance))});
+    }
+  }
+  return changes;
+}
+
+std::size_t medianCount(const ObservationSet& observations) {
+  std::map<Key, std::size_t> counts;
+  for (const Observation& o : observations.rows)
+    if (o.use != ObservationUse::Exclude) ++counts[{o.point, o.component}];
+  std::vector<std::size_t> sorted;
+  for (const auto& [key, count] : counts) sorted.push_back(count);
+  std::sort(sorted.begin(), sorted.end());
+  return sorted.empty() ? 0 : sorted[sorted.size() / 2];
+}
+
+void addChangeTable(HtmlDocument& document, const std::vector<Change>& changes) {
+  std::vector<Component> components;
+  for (const Component c : all_components)
+    if (std::any_of(changes.begin(), changes.end(), [c](const Change& x) { return x.row->component == c; }))
+      components.push_back(c);
+  std::vector<std::string> header{"Point", "State", "X / mm", "Y / mm"};
+  for (const Component c : components) header.push_back(fmt::format("{} / {}", toString(c), unitOf(c)));
+  // In the order of the states, then of the points.
+  std::vector<std::pair<std::string, std::string>> order;
+  std::map<std::pair<std::string, std::string>, std::map<Component, const Change*>> cells;
+  for (const Change& c : changes) {
+    auto& row = cells[{c.row->state, c.row->point}];
+    if (row.empty()) order.emplace_back(c.row->state, c.row->point);
+    row[c.row->component] = &c;
+  }
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& key : order) {
+    const auto& row = cells[key];
+    const Observation& o = *row.begin()->second->row;
+    rows.push_back(
+        {key.second, key.first, fmt::format("{:.1f}", o.position_mm.x()), fmt::format("{:.1f}", o.position_mm.y())});
+    for (const Component c : components) {
+      const auto found = row.find(c);
+      rows.back().push_back(found == row.end() ? std::string("–")
+                                               : withUncertainty(found->second->value, found->second->sigma, ""));
+    }
+  }
+  document.table(header, rows, "Change of each point from its first reading, value ± one standard uncertainty");
+}
+
+void addMaps(HtmlDocument& document, const std::vector<Change>& changes) {
+  std::vector<std::string> states;
+  for (const Change& c : changes)
+    if (std::find(states.begin(), states.end(), c.row->state) == states.end()) states.push_back(c.row->state);
+  std::sort(states.begin(), states.end());
+  for (std::size_t s = 0; s < std::min(states.size(), most_maps); ++s) {
+    std::map<std::string, PointDisplacement> points;
+    std::set<std::string> references;
+    for (const Change& c : changes) {
+      if (c.row->state != states[s] || isRotation(c.row->component)) continue;
+      PointDisplacement& p = points[c.row->point];
+      if (p.point.empty()) {
+        p.point = c.row->point;
+        p.change_um.setConstant(std::nan(""));
+        p.position_mm = c.row->position_mm;
+      }
+      p.change_um[axisIndex(c.row->component)] = c.value;
+      p.sigma_um[axisIndex(c.row->component)] = c.sigma;
+      references.insert(c.first->state);
+    }
+    std::vector<PointDisplacement> list;
+    for (auto& [name, point] : points) list.push_back(std::move(point));
+    const std::string from = references.size() == 1 ? "state " + *references.begin() : "its first reading";
+    const std::string svg =
+        pointMapSvg(list, {.title = fmt::format("Displacement in state {}", states[s]),
+                           .subtitle = fmt::format("change of the tool relative to the table from {}", from)});
+    if (!svg.empty())
+      document.figure(svg, fmt::format("Measured displacement of the points in state {}, from {}: arrows X and Y, "
+                                       "colour and number Z in um",
+                                       states[s], from));
+  }
+}
+
+/// Limits of all panels of a group, so that they can be compared.
+struct Limits {
+  double low = 0.0, high = 0.0;
+  void add(double v) {
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+};
+
+/// The points whose readings change most against their uncertainty, in the order they came in.
+std::vector<std::string> mostTelling(const ObservationSet& observations, const std::vector<Change>& changes,
+                                     bool rotations) {
+  std::map<std::string, double> largest;
+  for (const Change& c : changes)
+    if (isRotation(c.row->component) == rotations && c.sigma > 0.0) {
+      double& most = largest[c.row->point];
+      most = std::max(most, std::abs(c.value) / c.sigma);
+    }
+  std::vector<std::pair<double, std::string>> order;
+  for (const auto& [point, size] : largest) order.emplace_back(-size, point);
+  std::sort(order.begin(), order.end());
+  if (order.size() > most_panels) order.resize(most_panels);
+  std::vector<std::string> kept;
+  for (const std::string& point : observations.points())
+    if (std::any_of(order.begin(), order.end(), [&](const auto& o) { return o.second == point; }))
+      kept.push_back(point);
+  return kept;
+}
+
+void addPanels(HtmlDocument& document, const ObservationSet& observations, const std::vector<Change>& changes,
+               bool rotations) {
+  const std::vector<std::string> points = mostTelling(observations, changes, rotations);
+  if (points.empty()) return;
+  std::map<Key, PlotSeries> series;
+  Limits x, y;
+  for (const Change& c : changes) {
+    if (isRotation(c.row->component) != rotations) continue;
+    PlotSeries& s = series[{c.row->point, c.row->component}];
+    if (s.x.empty()) {
+      s.name = toString(c.row->component);
+      s.dress(componentLook(c.row->component));
+      s.style = SeriesStyle::Both;
+      // The reading that all others are relative to.
+      s.x.push_back(c.first->time_s / seconds_per_hour);
+      s.y.push_back(0.0);
+      s.sigma.push_back(0.0);
+    }
+    // Two readings at one moment (both directions of approach) make no line.
+    if (s.x.back() == c.row->time_s / seconds_per_hour) s.style = SeriesStyle::Points;
+    s.x.push_back(c.row->time_s / seconds_per_hour);
+    s.y.push_back(c.value);
+    s.sigma.push_back(c.sigma);
+    x.add(s.x.back());
+    y.add(c.value - 2.0 * c.sigma);
+    y.add(c.value + 2.0 * c.sigma);
+  }
+  const PanelGrid grid = PanelGrid::of(points.size());
+  std::vector<std::string> panels;
+  for (const std::string& point : points) {
+    std::vector<PlotSeries> lines;
+    for (const Component c : all_components) {
+      const auto found = series.find({point, c});
+      if (found != series.end()) lines.push_back(std::move(found->second));
+    }
+    PlotOptions options{.title = point,
+                        .x_label = "time / h",
+                        .y_label = rotations ? "change / urad" : "change / um",
+                        .width_px = grid.width_px,
+                        .height_px = grid.height_px,
+                        .y_from = y.low,
+                        .y_to = y.high,
+                        .x_from = x.low - 0.02 * (x.high - x.low),
+                        .x_to = x.high + 0.02 * (x.high - x.low),
+                        .compact = true};
+    panels.push_back(svgPlot(lines, options));
+  }
+  const std::size_t all = observations.points().size();
+  document.figure(
+      svgGrid(panels, grid.columns, PanelGrid::gap_px),
+      fmt::format("{} of {} from its first reading, all on one scale; bands: two standard uncertainties",
+                  rotations ? "Rotation" : "Displacement",
+                  points.size() < all ? fmt::format("the {} of {} points that change most", points.size(), all)
+                                      : std::string("each point")));
+}
+
+}  // namespace
+
+PanelGrid PanelGrid::of(std::size_t panels) {
+  if (panels > 4) return {};
+  return {2, 428, 200};
+}
+
+std::vector<LargestChange> largestChanges(const ObservationSet& observations) {
+  std::map<Component, LargestChange> largest;
+  for (const Change& c : changesOf(observations)) {
+    LargestChange& most = largest[c.row->component];
+    if (!most.point.empty() && std::abs(c.value) <= std::abs(most.value)) continue;
+    most = {c.row->component, c.row->point, c.row->state, c.value, c.sigma};
+  }
+  std::vector<LargestChange> list;
+  for (auto& [component, change] : largest) list.push_back(std::move(change));
+  return list;
+}
+
+void addObservations(HtmlDocument& document, const ObservationSet& observations) {
+  if (observations.rows.empty()) return;
+  document.section("Observations");
+  document.paragraph(
+      fmt::format("{} observations of {} points in {} states. Deviation = actual minus commanded position of the tool "
+                  "relative to the table, up to a constant per point and component; shown is the change from the first "
+                  "reading of each point.",
+                  observations.rows.size(), observations.points().size(), observations.states().size()));
+  const std::vector<Change> changes = changesOf(observations);
+  if (changes.empty()) {
+    document.verdict("note", "Every point was read once only: there is no change to show.");
+  } else if (medianCount(observations) < least_for_curves) {
+    addMaps(document, changes);
+    addChangeTable(document, changes);
+  } else {
+    addPanels(document, observations, changes, false);
+    addPanels(document, observations, changes, true);
+  }
+}
+
+}  // namespace spindrift

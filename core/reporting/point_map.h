@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Displacements of measured points over the table as a drawing: an arrow for X and Y with its uncertainty, the disc's
+// colour and a number for Z. Positions mm, displacements um.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace spindrift {
+
+/// One point; a component that was not measured is NaN.
+struct PointDisplacement {
+  std::string point;
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d change_um = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma_um = Eigen::Vector3d::Zero();
+};
+
+struct PointMapOptions {
+  std::string title;
+  std::string subtitle;
+  int width_px = 820;
+};
+
+/// The whole <svg> element. How much arrows are exaggerated is written below, a round factor for which the longest is
+/// about a sixth of the picture. Empty if fewer than two points differ in place.
+[[nodiscard]] std::string pointMapSvg(const std::vector<PointDisplacement>& points, const PointMapOptions& options);
+
+}  // namespace spindrift

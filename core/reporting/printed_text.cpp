@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/reporting/printed_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/base/text.h"
+#include "core/discrepancy/effect_titles.h"
+
+namespace spindrift {
+namespace {
+
+constexpr char mark = '\x1f';  // unit separator: in no text that a user writes
+
+bool inWord(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || (static_cast<unsigned char>(c) & 0x80U) != 0;
+}
+
+std::string_view printedWord(std::string_view word) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> signs{
+      {{"um", "µm"}, {"urad", "µrad"}, {"degC", "°C"}}};
+  for (const auto& [ascii, printed] : signs)
+    if (word == ascii) return printed;
+  return word;
+}
+
+std::vector<std::string> partsOf(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t to = std::min(text.find(separator, from), text.size());
+    parts.emplace_back(text.substr(from, to - from));
+    from = to + 1;
+  }
+  return parts;
+}
+
+std::string joinedWords(const std::vector<std::string>& parts, std::string_view between = " ") {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? std::string() : std::string(between)) + part;
+  return text;
+}
+
+/// A unit as it stands in names of parameters and drivers; empty for another word.
+std::string_view unitInName(std::string_view word) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 16> units{{{"um", "um"},
+                                                                                 {"urad", "urad"},
+                                                                                 {"m", "m"},
+                                                                                 {"m2", "m²"},
+                                                                                 {"mm", "mm"},
+                                                                                 {"K", "K"},
+                                                                                 {"s", "s"},
+                                                                                 {"h", "h"},
+                                                                                 {"min", "min"},
+                                                                                 {"rpm", "rpm"},
+                                                                                 {"krpm", "(1000 rpm)"},
+                                                                                 {"krpm1.5", "(1000 rpm)^1.5"},
+                                                                                 {"krpm2", "(1000 rpm)²"},
+                                                                                 {"W", "W"},
+                                                                                 {"percent", "%"},
+                                                                                 {"degC", "degC"}}};
+  for (const auto& [name, printed] : units)
+    if (word == name) return printed;
+  return {};
+}
+
+std::string superscript(int number) {
+  static constexpr std::array<std::string_view, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = number < 0 ? "⁻" : "";
+  for (const char c : std::to_string(std::abs(number))) text += digits[static_cast<std::size_t>(c - '0')];
+  return text;
+}
+
+std::string capital(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string axisOf(std::string_view letter) {
+  return capital(std::string(letter));
+}
+
+}  // namespace
+
+std::string printedUnits(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    if (!inWord(text[i])) {
+      out += text[i++];
+      continue;
+    }
+    std::size_t end = i;
+    while (end < text.size() && inWord(text[end])) ++end;
+    out += printedWord(text.substr(i, end - i));
+    i = end;
+  }
+  return out;
+}
+
+std::string printedUnitsOfDrawing(std::string_view svg) {
+  std::string out;
+  for (std::size_t i = 0; i < svg.size();) {
+    const std::size_t open = std::min(svg.find('<', i), svg.size());
+    out += printedUnits(svg.substr(i, open - i));
+    const std::size_t close = std::min(svg.find('>', open), svg.size());
+    out += svg.substr(open, std::min(close + 1, svg.size()) - open);
+    i = std::min(close + 1, svg.size());
+  }
+  return out;
+}
+
+std::string smallPrint(std::string_view text) {
+  return fmt::format("{}{}{}", mark, text, mark);
+}
+
+std::string withoutSmallPrint(std::string_view text) {
+  std::string out(text);
+  std::erase(out, mark);
+  return out;
+}
+
+std::string withEffectTitles(std::string_view text) {
+  const auto inId = [](char c) { return inWord(c) || c == '.' || c == '-'; };
+  std::string out;
+  bool small = false;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] == mark) small = !small;
+    if (!inId(text[i]) || small) {
+      out += text[i++];
+      continue;
+    }
+    std::size_t end = i;
+    while (end < text.size() && inId(text[end])) ++end;
+    std::size_t id_end = end;
+    while (id_end > i && (text[id_end - 1] == '.' || text[id_end - 1] == '-')) --id_end;  // of the sentence
+    const std::string_view id = text.substr(i, id_end - i);
+    if (id.find('.') != std::string_view::npos && effectTitleOf(id)) {
+      out += effectTitle(id) + ' ' + smallPrint(id);
+    } else {
+      out += id;
+    }
+    out += text.substr(id_end, end - id_end);
+    i = end;
+  }
+  return out;
+}
+
+std::string effectHeading(std::string_view id) {
+  return effectTitleOf(id) ? capital(effectTitle(id)) + ' ' + smallPrint(id) : std::string(id);
+}
+
+std::string parameterTitle(std::string_view name) {
+  std::vector<std::string> title, above, below;
+  bool per = false;
+  constexpr std::string_view feed = "_per_m_per_min";
+  const std::string_view whole = name;
+  if (name.ends_with(feed)) {
+    below.emplace_back("(m/min)");
+    name.remove_suffix(feed.size());
+  }
+  for (const std::string& part : partsOf(name, '_')) {
+    const std::string_view unit = title.empty() ? std::string_view() : unitInName(part);
+    if (part == "per") {
+      per = true;
+    } else if (!unit.empty() && per) {
+      below.emplace_back(unit);
+    } else if (!unit.empty()) {
+      above.emplace_back(unit);
+    } else {
+      title.push_back(part == "tau" ? "time constant" : part);
+    }
+  }
+  std::string text = joinedWords(title);
+  if (above.empty() && below.empty()) return words(whole);
+  text += " / " + (above.empty() ? std::string("1") : joinedWords(above));
+  if (below.size() == 1) text += "/" + below.front();
+  if (below.size() > 1) text += "/(" + joinedWords(below) + ")";
+  return text;
+}
+
+std::string titleWithUnit(const std::string& name) {
+  for (const auto& [ending, unit] : {std::pair{"_um_per_m", "um/m"}, {"_urad", "urad"}, {"_um", "um"}, {"_mm", "mm"}}) {
+    if (name.ends_with(ending)) return fmt::format("{} / {}", name.substr(0, name.rfind(ending)), unit);
+  }
+  return name;
+}
+
+SignalTitle signalTitle(std::string_view column) {
+  const auto without = [&](std::string_view begin, std::string_view end) {
+    return column.substr(begin.size(), column.size() - begin.size() - end.size());
+  };
+  const auto is = [&](std::string_view begin, std::string_view end) {
+    return column.size() > begin.size() + end.size() && column.starts_with(begin) && column.ends_with(end);
+  };
+  if (column == "spindle_rpm") return {"spindle speed", "rpm"};
+  if (column == "instrument_on_assumed") return {"instrument on (assumed)", ""};
+  if (is("feed_", "_mm_min")) return {"feed " + axisOf(without("feed_", "_mm_min")), "mm/min"};
+  if (is("pos_", "_mm")) return {"position " + axisOf(without("pos_", "_mm")), "mm"};
+  if (is("speed_", "_rpm")) return {"speed " + axisOf(without("speed_", "_rpm")), "rpm"};
+  if (is("T_", "_degC")) return {words(without("T_", "_degC")), "degC"};
+  for (const auto& [ending, unit] : {std::pair<std::string_view, std::string_view>{"_um_per_m", "um/m"},
+                                     {"_urad", "urad"},
+                                     {"_um", "um"},
+                                     {"_degC", "degC"}}) {
+    if (is("", ending)) return {words(without("", ending)), std::string(unit)};
+  }
+  return {words(column), ""};
+}
+
+std::string driversInWords(std::string_view drivers) {
+  std::string out;
+  for (std::size_t i = 0; i < drivers.size();) {
+    const std::size_t end = std::min(drivers.find_first_of(" *()", i), drivers.size());
+    const std::string_view word = drivers.substr(i, end - i);
+    const std::size_t power = std::min(word.find('^'), word.size());
+    const std::string_view name = word.substr(0, power);
+    double seconds = 0.0;
+    if (parseNumber(word, seconds) && drivers.substr(end).starts_with(" s")) {
+      out += spanOfTime(seconds);
+      i = end + 2;
+      continue;
+    }
+    if (name.starts_with("feed_") && name.size() == 6) {
+      out += "feed " + axisOf(name.substr(5));
+    } else if (name.starts_with("pos_") && name.size() == 5) {
+      out += "position " + axisOf(name.substr(4));
+    } else if (name.starts_with("speed_") && name.size() == 7) {
+      out += "speed " + axisOf(name.substr(6));
+    } else if (name.starts_with("T_") && name.ends_with("_degC")) {
+      out += "temperature of " + signalTitle(name).name;
+    } else {
+      out += signalTitle(name).name;
+    }
+    const std::string_view exponent = word.substr(power);
+    if (exponent == "^2") out += "²";
+    if (!exponent.empty() && exponent != "^1" && exponent != "^2") out += exponent;
+    if (end < drivers.size()) out += drivers[end] == '*' ? std::string(" × ") : std::string(1, drivers[end]);
+    i = end + 1;
+  }
+  return out;
+}
+
+std::string spanOfTime(double seconds) {
+  if (!std::isfinite(seconds)) return "not determined";
+  if (seconds < 90.0) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 5400.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+std::string utcInWords(std::string_view utc) {
+  if (utc.size() != 20 || utc[10] != 'T' || utc[19] != 'Z') return std::string(utc);
+  return fmt::format("{} {} UTC", utc.substr(0, 10), utc.substr(11, 5));
+}
+
+std::string probabilityInWords(double p) {
+  if (!std::isfinite(p)) return "–";
+  if (p < 1e-12) return "< 10" + superscript(-12);
+  if (p >= 0.001) return fmt::format("{:.2g}", p);
+  const int exponent = static_cast<int>(std::floor(std::log10(p)));
+  return fmt::format("{:.0f} × 10", p / std::pow(10.0, exponent)) + superscript(exponent);
+}
+
+std::string words(std::string_view key) {
+  std::string text(key);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+}  // namespace spindrift

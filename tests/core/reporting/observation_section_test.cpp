@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Observations in a report: few moments as a map with a table, many as a small plot for each point.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "core/reporting/report_parts.h"
+#include "core/reporting/svg_plot.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+/// F1 ... F4 on a square; each moment adds 2 um in EX, -1 um in EY, 3 um in EZ.
+ObservationSet observations(int moments) {
+  ObservationSet set;
+  for (int m = 0; m < moments; ++m)
+    for (int p = 0; p < 4; ++p)
+      for (const Component c : {Component::EX, Component::EY, Component::EZ}) {
+        Observation o;
+        o.time_s = 3600.0 * m;
+        o.state = "M" + std::to_string(m);
+        o.point = "F" + std::to_string(p + 1);
+        o.position_mm = {100.0 * (p % 2), 80.0 * (p / 2), 0.0};
+        o.component = c;
+        o.sigma = 0.3;
+        o.value = 5.0 + m * (c == Component::EX ? 2.0 : c == Component::EY ? -1.0 : 3.0);
+        set.rows.push_back(o);
+      }
+  return set;
+}
+
+std::string html(const ObservationSet& set) {
+  HtmlDocument document("t", "s");
+  addObservations(document, set);
+  return document.html();
+}
+
+TEST(ObservationSection, TwoStatesAreArrowsOverTheTableAndATable) {
+  const std::string text = html(observations(2));
+  EXPECT_THAT(text, HasSubstr("Displacement in state M1"));
+  EXPECT_THAT(text, HasSubstr("times as long")) << "the exaggeration stands beside the arrows";
+  EXPECT_THAT(text, HasSubstr("F3: 3.0 ± 0.4")) << "EZ, with the uncertainty of a difference";
+  EXPECT_THAT(text, HasSubstr("<td>−1.0 ± 0.4</td>"));
+  EXPECT_EQ(count(text, "<circle"), 4U) << "one disc a point";
+  EXPECT_THAT(text, Not(HasSubstr("over time")));
+}
+
+TEST(ObservationSection, ManyStatesAreOnePlotAPointInTheColoursOfTheAxes) {
+  const std::string text = html(observations(6));
+  EXPECT_EQ(count(text, "<figure>"), 1U);
+  EXPECT_EQ(count(text, "change / µm"), 4U) << "one plot a point";
+  EXPECT_EQ(count(text, "<path d=\"M"), 12U) << "a line for each component";
+  for (int axis = 0; axis < 3; ++axis) EXPECT_THAT(text, HasSubstr(axisLook(axis).colour));
+  EXPECT_THAT(text, HasSubstr("bands: two standard uncertainties"));
+}
+
+TEST(ObservationSection, CommonCovarianceLeavesTheDifference) {
+  ObservationSet set = observations(2);
+  // Rows 0 and 12: EX of F1 in M0 and M1.
+  set.covariance = {{0, 12, 0.05}};
+  const auto largest = largestChanges(set);
+  ASSERT_EQ(largest.size(), 3U);
+  EXPECT_EQ(largest[0].component, Component::EX);
+  EXPECT_EQ(largest[0].point, "F1");
+  EXPECT_DOUBLE_EQ(largest[0].value, 2.0);
+  EXPECT_NEAR(largest[0].sigma, std::sqrt(0.18 - 0.10), 1e-12);
+}
+
+TEST(ObservationSection, NothingIsDrawnOfNothing) {
+  EXPECT_THAT(html({}), Not(HasSubstr("Observations")));
+  EXPECT_THAT(html(observations(1)), HasSubstr("there is no change to show"));
+  ObservationSet excluded = observations(2);
+  for (Observation& o : excluded.rows) o.use = ObservationUse::Exclude;
+  EXPECT_TRUE(largestChanges(excluded).empty());
+}
+
+TEST(InstrumentSection, ExplainsItsParametersAndTellsTheReference) {
+  InstrumentEvaluation probe;
+  probe.instrument = "touch_probe";
+  for (int k = 0; k < 5; ++k)
+    probe.details["cycles"].push_back(
+        {{"cycle", "C" + std::to_string(k)},
+         {"time_s", 3600.0 * k},
+         {"parameters",
+          {{"EC0C_urad", {{"value", 1.5 * k}, {"standard_uncertainty", k == 0 ? 0.0 : 0.2}}},
+           {"EX0C_um", {{"value", -0.5 * k}, {"standard_uncertainty", k == 0 ? 0.0 : 0.1}}}}}});
+  HtmlDocument document("t", "s");
+  addInstrument(document, probe);
+  const std::string text = document.html();
+  EXPECT_THAT(text, HasSubstr("Measured with: Touch probe"));
+  EXPECT_THAT(text, HasSubstr("rotation of the table about Z"));
+  EXPECT_EQ(count(text, "0 (reference)"), 2U);
+  EXPECT_THAT(text, HasSubstr("6.00 ± 0.20"));
+  EXPECT_THAT(text, HasSubstr("No capture was rejected."));
+  EXPECT_EQ(count(text, "<figure>"), 1U) << "all trends in one figure";
+}
+
+TEST(InstrumentSection, LongSeriesAreThinnedInTheTableAndItSaysSo) {
+  InstrumentEvaluation probe;
+  probe.instrument = "touch_probe";
+  for (int k = 0; k < 200; ++k)
+    probe.details["cycles"].push_back({{"cycle", "C" + std::to_string(k)},
+                                       {"time_s", 3600.0 * k},
+                                       {"parameters", {{"EX0C_um", {{"value", k}, {"standard_uncertainty", 0.1}}}}}});
+  HtmlDocument document("t", "s");
+  addInstrument(document, probe);
+  EXPECT_THAT(document.html(), HasSubstr("40 of 200 cycles"));
+  EXPECT_EQ(count(document.html(), "<tr>"), 1U + 40U + 1U + 1U) << "cycles, meanings and their headers";
+}
+
+TEST(OperatingConditions, EverySignalHasALaneAndDisplacementsTheColourOfTheirAxis) {
+  OperatingLog log(std::vector<double>{0.0, 3600.0, 7200.0});
+  log.setSignal("spindle_rpm", {0.0, 6000.0, 6000.0});
+  log.setSignal("feed_x_mm_min", {0.0, 0.0, 12000.0});
+  log.setSignal("coolant", {0.0, 0.0, 0.0});
+  log.setSignal("T_room_degC", {20.0, 20.5, 21.0});
+  log.setSignal("Z_um", {0.0, 5.0, 9.0});
+  HtmlDocument document("t", "s");
+  addOperatingConditions(document, log);
+  const std::string text = document.html();
+  EXPECT_THAT(text, HasSubstr("spindle speed, up to 6000 rpm"));
+  EXPECT_THAT(text, HasSubstr("feed X, up to 12000 mm/min"));
+  EXPECT_THAT(text, Not(HasSubstr("coolant"))) << "never on";
+  EXPECT_THAT(text, HasSubstr("temperature / °C"));
+  EXPECT_THAT(text, HasSubstr("displacement / µm"));
+  EXPECT_THAT(text, HasSubstr(axisLook(2).colour));
+}
+
+}  // namespace
+}  // namespace spindrift
