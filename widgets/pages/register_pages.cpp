@@ -81,7 +81,7 @@ void registerPages(PageRegistry& registry) {
   registry.add(
       StepId::Review, more_than_a_log, [](PageContext c) { return new ReviewPage(std::move(c)); }, "review");
   registry.add(
-      StepId::Report, more_than_a_log, [](PageContext c) { return new ReportPage(std::move(c)); }, "report");
+      StepId::Report, always, [](PageContext c) { return new ReportPage(std::move(c)); }, "report");
   for (const StepId step : all_steps) {
     registry.add(
         step, always, [step](PageContext c) { return new MessagePage(std::move(c), step); }, "message");

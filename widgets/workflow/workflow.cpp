@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/workflows/report_workflow.h"
 #include "widgets/models/session_model.h"
 
 namespace spindrift::gui {
@@ -277,10 +278,7 @@ StepStatus Workflow::evaluate(StepId step) const {
       if (!observations && !scans) return {StepState::Blocked, tr("There is nothing to compare yet.")};
       return {StepState::Current, tr("Look at it whenever you like.")};
     case StepId::Report:
-      if (log_only)
-        return {StepState::Blocked,
-                tr("A log alone has no captures to report; export pictures and tables of Model and Compensate.")};
-      if (!observations) return {StepState::Blocked, tr("There is nothing to report yet.")};
+      if (!canReport(*campaign, observations)) return {StepState::Blocked, tr("There is nothing to report yet.")};
       return withChoice(fromResult("report", tr("Write the report."), tr("The report is written.")), "report");
   }
   return {};

@@ -328,6 +328,23 @@ TEST_F(Thermal, CompensationIsMinusThePredictedDeviation) {
             std::string::npos);
 }
 
+TEST_F(Thermal, ALogAloneHasAReport) {
+  const std::string result = (folder / "result.json").string();
+  auto words = identify();
+  words.insert(words.end(), {"--json", result});
+  ASSERT_EQ(runCli(words).status, 0);
+  const std::string html = (folder / "report.html").string();
+  const Outcome written = runCli({"report", log.string(), "--thermal", result, "--out", html});
+  ASSERT_EQ(written.status, 0) << written.error;
+  const std::string text = textOf(html);
+  for (const char* part : {"of a log alone", "Displacements of the log", "Model over time", "spindle speed"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  EXPECT_EQ(text.find("degC"), std::string::npos);
+  expectBadInput({"report", log.string(), "--thermal", log.string(), "--out", html}, {"log.csv"});
+  writeText(folder / "speeds.csv", "time_s,spindle_rpm\n0,0\n60,100\n");
+  expectBadInput({"report", (folder / "speeds.csv").string(), "--out", html}, {"speeds.csv", "_um"});
+}
+
 TEST_F(Thermal, ArxSaysWhenItsEquationDoesNotFit) {
   auto words = identify();
   words.insert(words.end(), {"--order", "1,1,1"});  // noise at the output

@@ -145,6 +145,7 @@ StoredResults ReportPage::stored() const {
   out.repeatability = payload("check-repeatability");
   out.thermal = payload("thermal");
   out.compensation = payload("compensation");
+  out.log_compensation = payload("log-compensation");
   out.verification = payload("verify");
   return out;
 }
@@ -152,7 +153,8 @@ StoredResults ReportPage::stored() const {
 nlohmann::json ReportPage::dependencies() const {
   auto& model = const_cast<ReportPage*>(this)->session();
   nlohmann::json results = nlohmann::json::array();
-  for (const char* kind : {"warm-up", "check-jogs", "check-repeatability", "thermal", "compensation", "verify"}) {
+  for (const char* kind :
+       {"warm-up", "check-jogs", "check-repeatability", "thermal", "compensation", "log-compensation", "verify"}) {
     const StoredResult* result = model.latest(kind);
     results.push_back(result == nullptr ? 0 : result->id);
   }
@@ -173,7 +175,7 @@ std::filesystem::path ReportPage::file() const {
 void ReportPage::refresh() {
   if (session().campaign() == nullptr) return;
   callout()->setAction({}, {});
-  const bool possible = session().observations().has_value();
+  const bool possible = canReport(*session().campaign(), session().observations().has_value());
   write_->setEnabled(possible);
   discrepancy_->setVisible(!session().campaign()->simulation.empty());
   const auto stored = session().result(result_kind);
@@ -262,7 +264,7 @@ void ReportPage::showDocument(std::shared_ptr<ReportPages> document) {
 
 void ReportPage::write() {
   const auto observations = session().observations();
-  if (!observations || context().jobs.busy()) return;
+  if (!canReport(*session().campaign(), observations.has_value()) || context().jobs.busy()) return;
   session().setSetting("operator", operator_->text().trimmed().toStdString());
   const std::int64_t campaign = session().campaignId();
   const std::string name = "reports/report-" + std::to_string(campaign) + ".html";

@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <cmath>
 
+#include "core/base/atomic_file.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
 #include "core/workflows/log_campaign.h"
@@ -13,6 +14,7 @@
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/message_page.h"
 #include "widgets/pages/compensate/log_compensate_page.h"
+#include "widgets/pages/report/report_page.h"
 #include "widgets/plots/plot.h"
 
 namespace spindrift::gui {
@@ -169,11 +171,21 @@ TEST_F(ThermalPages, TheCompensatorIsRunOverALog) {
   press();
   EXPECT_EQ(workflow.status(StepId::Compensate).state, StepState::Outdated);
   // What a log alone cannot have says so, and what would be needed.
-  for (const StepId step : {StepId::Verify, StepId::Review, StepId::Report}) {
+  for (const StepId step : {StepId::Verify, StepId::Review}) {
     EXPECT_EQ(workflow.status(step).state, StepState::Blocked);
     workflow.goTo(step);
     EXPECT_NE(qobject_cast<MessagePage*>(window_->currentPage()), nullptr) << stepTitle(step).toStdString();
   }
+  // But it has its report, with the model and what the compensator would have achieved.
+  EXPECT_EQ(workflow.status(StepId::Report).state, StepState::NotStarted);
+  auto* report = go<ReportPage>(StepId::Report);
+  press();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return report->document() != nullptr; }, 20000));
+  EXPECT_EQ(workflow.status(StepId::Report).state, StepState::Current);
+  const std::string html = readFile(report->file());
+  EXPECT_NE(html.find("Model over time"), std::string::npos);
+  EXPECT_NE(html.find("Compensation over the log"), std::string::npos);
+  EXPECT_NE(html.find("of a log alone"), std::string::npos);
 }
 
 }  // namespace
