@@ -10,16 +10,23 @@
 #include <QPushButton>
 #include <QRawFont>
 #include <QTest>
+#include <QTextCursor>
+#include <QTextDocument>
 #include <QTextLayout>
+#include <filesystem>
+#include <stop_token>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/reporting/html_document.h"
+#include "core/reporting/printed_text.h"
 #include "core/reporting/svg_plot.h"
+#include "tests/support/temp_folder.h"
 #include "tests/widgets/pages/story_support.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
+#include "widgets/pages/report/report_builder.h"
 #include "widgets/pages/report/report_document.h"
 #include "widgets/theme/fonts.h"
 
@@ -85,6 +92,82 @@ TEST(ReportDocumentTest, KeepsEveryPartOfALongReport) {
     EXPECT_EQ(inkIn(document, page, QRect(0, 0, 60, ReportDocument::page_height)), 0) << "page " << page;
     EXPECT_EQ(inkIn(document, page, QRect(734, 0, 60, ReportDocument::page_height)), 0) << "page " << page;
   }
+}
+
+std::string longReport() {
+  HtmlDocument html("Thermal errors: long", "a machine");
+  for (int i = 0; i < 30; ++i) {
+    html.section("Section " + std::to_string(i));
+    html.figure(svgPlot({{"line", {0, 1, 2}, {0, 1, 0}, {}, spindrift::SeriesStyle::Line}}, {.title = "t"}),
+                "A figure");
+    html.table({"A", "B"}, {{"1", "2"}, {"3", "4"}}, "Numbers");
+  }
+  return html.html();
+}
+
+/// Asks to stop once that part of the work is done.
+struct Impatient final : ProgressSink {
+  explicit Impatient(double part) : from(part) {}
+  void report(double fraction, std::string_view) override {
+    seen = std::max(seen, fraction);
+    if (fraction >= from) stop.request_stop();
+  }
+  double from;
+  double seen = 0.0;
+  std::stop_source stop;
+};
+
+TEST(ReportDocumentTest, ACancelInMidRunLeavesTheEarlierFileAndNoOther) {
+  const testing::TempFolder folder;
+  const auto html = folder.write("report.html", longReport());
+  const auto pdf = folder.write("report.pdf", "what was saved yesterday");
+  const QString target = QString::fromStdString(pdf.string());
+  for (const double part : {0.2, 0.6, 0.9}) {
+    Impatient sink(part);
+    EXPECT_THROW(saveReport(html, target, JobContext(sink.stop.get_token(), &sink)), Cancelled);
+    EXPECT_GE(sink.seen, part) << "pages had been written";
+    EXPECT_EQ(readFile(pdf), "what was saved yesterday");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2) << "no part is left";
+  }
+  std::filesystem::remove(pdf);
+  Impatient sink(0.5);
+  EXPECT_THROW(saveReport(html, target, JobContext(sink.stop.get_token(), &sink)), Cancelled);
+  EXPECT_FALSE(std::filesystem::exists(pdf));
+  saveReport(html, target, {});
+  EXPECT_TRUE(readFile(pdf).starts_with("%PDF-"));
+}
+
+TEST(ReportDocumentTest, SmallPrintUnitsAndDrawingsInDrawingsAreKept) {
+  HtmlDocument html("Thermal errors: t", "s");
+  html.section("Effects").subsection(effectHeading("ball_screw.expansion.x"));
+  html.paragraph("30 um at 21 degC");
+  html.figure(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100\" height=\"50\"><g><svg width=\"10\" "
+      "height=\"10\"></svg></g><text x=\"5\" y=\"20\">EX / um</text></svg>",
+      "A drawing that holds a drawing");
+  html.paragraph("after the figure");
+  QTextDocument text;
+  ReportFigures figures;
+  const QString whole = QString::fromStdString(html.html());
+  const qsizetype from = whole.indexOf(QLatin1String("<main>")) + 6;
+  const ReportOutline outline =
+      buildReport(whole.mid(from, whole.lastIndexOf(QLatin1String("</main>")) - from), text, figures);
+  EXPECT_EQ(outline.figures, 1);
+  const QString plain = text.toPlainText();
+  EXPECT_TRUE(plain.contains(QString::fromUtf8("30 µm at 21 °C")));
+  EXPECT_TRUE(plain.contains(QStringLiteral("after the figure")));
+  EXPECT_FALSE(plain.contains(QLatin1String("svg")));
+  const QTextCursor id = text.find(QStringLiteral("ball_screw.expansion.x"));
+  const QTextCursor title = text.find(QStringLiteral("Thermal expansion of the X ball screw"));
+  ASSERT_FALSE(id.isNull() || title.isNull());
+  EXPECT_LT(id.charFormat().font().pixelSize(), title.charFormat().font().pixelSize());
+}
+
+TEST(ReportColours, AxesAreThoseOfTheViewOnALightBackground) {
+  const Theme light = Theme::light();
+  EXPECT_EQ(light.axis_x.name().toStdString(), axisLook(0).colour);
+  EXPECT_EQ(light.axis_y.name().toStdString(), axisLook(1).colour);
+  EXPECT_EQ(light.axis_z.name().toStdString(), axisLook(2).colour);
 }
 
 TEST(ReportDocumentTest, RefusesWhatIsNoReport) {

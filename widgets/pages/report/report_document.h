@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The HTML report as pages: the same layout on screen and in the PDF, figures as vector.
 //
-// Reads what HtmlDocument of core/reporting writes (headings, paragraphs, verdicts, tables, figures with inline SVG or
-// embedded pictures); an element it does not know becomes plain text. Lengths in px of a page of A4 at 96 dpi.
+// Lengths in px of a page of A4 at 96 dpi.
 #pragma once
 
 #include <QString>
@@ -11,6 +10,8 @@
 #include <vector>
 
 #include "core/base/job_context.h"
+#include "widgets/pages/report/report_builder.h"
+#include "widgets/pages/report/report_style.h"
 
 class QPainter;
 
@@ -22,10 +23,10 @@ class ReportDocument {
   explicit ReportDocument(const QString& html);
   ~ReportDocument();
 
-  static constexpr int page_width = 794;
-  static constexpr int page_height = 1123;
+  static constexpr int page_width = report_style::page_width;
+  static constexpr int page_height = report_style::page_height;
 
-  [[nodiscard]] const QString& title() const { return title_; }
+  [[nodiscard]] const QString& title() const { return outline_.title; }
   [[nodiscard]] int pageCount() const;
   /// One page with header and footer, always black on white.
   void drawPage(QPainter& painter, int page) const;
@@ -38,20 +39,14 @@ class ReportDocument {
   };
   /// Sections in order, with the page each begins on.
   [[nodiscard]] std::vector<Heading> sections() const;
-  [[nodiscard]] int figureCount() const { return figures_; }
-  [[nodiscard]] int tableCount() const { return tables_; }
+  [[nodiscard]] int figureCount() const { return outline_.figures; }
+  [[nodiscard]] int tableCount() const { return outline_.tables; }
 
  private:
-  class Builder;
   void keepHeadingsWithText();
 
-  QString title_;
-  QString subtitle_;
+  ReportOutline outline_;
   std::unique_ptr<QTextDocument> document_;
-  std::vector<int> headings_;  ///< block numbers, sections and subsections
-  std::vector<int> sections_;
-  int figures_ = 0;
-  int tables_ = 0;
 };
 
 }  // namespace spindrift::gui
