@@ -70,7 +70,7 @@ void equipmentTable(HtmlDocument& document, const MachineDescription& machine) {
     number("temperature_degC", "certified at", "degC");
     number("certificate_uncertainty_um", "uncertainty of the certificate", "um");
     const std::string extra = joinedFacts(extraFacts(item, known));
-    rows.push_back({item.value("id", item.value("name", std::string("–"))), kind, properties.empty() ? "–" : properties,
+    rows.push_back({item.value("id", item.value("name", kind)), kind, properties.empty() ? "not stated" : properties,
                     extra.empty() ? "not stated" : extra});
   };
   for (const auto& [key, name] : {std::pair{"artefacts", "artefact"}, {"styli", "stylus"}}) {

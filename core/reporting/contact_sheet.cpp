@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -26,6 +27,15 @@ std::string encoded(const cv::Mat& image) {
   std::vector<unsigned char> bytes;
   if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, jpeg_quality})) return {};
   return {bytes.begin(), bytes.end()};
+}
+
+/// Width and height of a picture made as large as fits into a box.
+std::pair<double, double> fittedSize(const std::string& jpeg, double width, double height) {
+  const std::vector<unsigned char> bytes(jpeg.begin(), jpeg.end());
+  const cv::Mat image = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE);
+  if (image.empty()) return {width, height};
+  const double scale = std::min(width / image.cols, height / image.rows);
+  return {scale * image.cols, scale * image.rows};
 }
 
 /// As much of a text as fits into `width` at `size` px (a letter is taken as 0.56 of it).
@@ -122,10 +132,12 @@ std::string contactSheetSvg(const std::vector<Thumbnail>& thumbnails, int column
           "read</text>",
           x + width / 2, y + height / 2);
     } else {
+      // In its own shape, said in numbers: not every reader of drawings knows preserveAspectRatio.
+      const auto [part, tall] = fittedSize(t.jpeg, width - 2, height - 2);
       svg += fmt::format(
-          "<image x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" preserveAspectRatio=\"xMidYMid meet\" "
+          "<image x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
           "xlink:href=\"data:image/jpeg;base64,{}\"/>",
-          x + 1, y + 1, width - 2, height - 2, base64(t.jpeg));
+          x + 0.5 * (width - part), y + 0.5 * (height - tall), part, tall, base64(t.jpeg));
     }
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"11\" fill=\"#1f2933\">{}</text>", x,
                        y + height + 14, escapedXml(fitted(t.label, width, 11)));

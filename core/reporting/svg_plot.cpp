@@ -49,7 +49,9 @@ std::string axes(const Frame& f, const PlotOptions& options) {
   std::string out;
   const std::vector<double> x_ticks =
       roundTicks(f.x.low, f.x.high, std::max(3, static_cast<int>(f.width / (options.compact ? 50 : 90))));
-  const std::vector<double> y_ticks = roundTicks(f.y.low, f.y.high, std::max(4, static_cast<int>(f.height / 32)));
+  std::vector<double> y_ticks = roundTicks(f.y.low, f.y.high, std::max(4, static_cast<int>(f.height / 32)));
+  // A scale needs two marks at least, better three.
+  if (y_ticks.size() < 3) y_ticks = roundTicks(f.y.low, f.y.high, 2 * std::max(4, static_cast<int>(f.height / 32)));
   const double x_step = x_ticks.size() > 1 ? x_ticks[1] - x_ticks[0] : 1.0;
   const double y_step = y_ticks.size() > 1 ? y_ticks[1] - y_ticks[0] : 1.0;
   for (const double t : x_ticks) {
@@ -153,7 +155,7 @@ std::string drawPoints(const PlotSeries& s, const Frame& f, const std::string& c
   std::string out;
   for (const std::size_t i : rows) {
     if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
-    if (bars) {
+    if (bars && s.sigma[i] > 0.0) {
       out += fmt::format(R"(<line x1="{0:.1f}" x2="{0:.1f}" y1="{1:.1f}" y2="{2:.1f}" stroke="{3}" stroke-width="1" )"
                          R"(opacity="0.5"/>)",
                          f.px(s.x[i]), f.py(s.y[i] - s.sigma[i]), f.py(s.y[i] + s.sigma[i]), colour);

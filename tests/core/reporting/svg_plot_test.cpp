@@ -72,6 +72,19 @@ TEST(SvgPlot, LongLegendsWrapInsteadOfBeingCut) {
   EXPECT_EQ(names, 12);
 }
 
+TEST(SvgPlot, EveryScaleHasThreeMarks) {
+  for (double top = 1.0; top < 10.0; top += 0.1) {
+    const PlotSeries s{"s", {0.0, 1.0}, {-top, top}, {}, SeriesStyle::Points};
+    const std::string svg = svgPlot({s}, {.width_px = 284, .height_px = 170, .compact = true});
+    int marks = 0;
+    for (std::size_t at = svg.find("text-anchor=\"end\""); at != std::string::npos;
+         at = svg.find("text-anchor=\"end\"", at + 1))
+      ++marks;
+    EXPECT_GE(marks, 3) << top;
+    EXPECT_LE(marks, 9) << top;
+  }
+}
+
 TEST(SvgPlot, AGridIsOneDrawingWithoutAnotherInside) {
   const std::string plot = svgPlot({}, {.width_px = 200, .height_px = 120});
   const std::string grid = svgGrid({plot, plot, plot}, 2, 10);

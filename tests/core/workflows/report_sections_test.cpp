@@ -92,6 +92,10 @@ TEST_F(Report, ShowsImagesAndSaysWhichCannotBeRead) {
   EXPECT_THAT(sheet, HasSubstr("data:image/jpeg;base64,"));
   EXPECT_THAT(sheet, HasSubstr("M0 &lt;F1&gt;"));
   EXPECT_THAT(sheet, HasSubstr("cannot be read"));
+  // In its own shape also where preserveAspectRatio is not known: 120 x 80.
+  std::smatch box;
+  ASSERT_TRUE(std::regex_search(sheet, box, std::regex("<image [^>]*width=\"([0-9.]+)\" height=\"([0-9.]+)\"")));
+  EXPECT_NEAR(std::stod(box[1]) / std::stod(box[2]), 1.5, 0.01);
 }
 
 TEST_F(Report, CloudsAreSeenFromAboveWithHolesLeftWhite) {

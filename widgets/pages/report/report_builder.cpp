@@ -287,6 +287,8 @@ class Builder {
         look.setBottomBorder(head ? 1.0 : 0.6);
         look.setBottomBorderStyle(QTextFrameFormat::BorderStyle_Solid);
         look.setBottomBorderBrush(head ? soft : line_colour);
+        // Numbers end where the next column's words begin: keep them apart.
+        if (c > 0 && text_columns.contains(c)) look.setLeftPadding(14);
         cell.setFormat(look);
         QTextCursor at = cell.firstCursorPosition();
         QTextBlockFormat align;
