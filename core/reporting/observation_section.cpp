@@ -66,7 +66,17 @@ std::size_t medianCount(const ObservationSet& observations) {
   return sorted.empty() ? 0 : sorted[sorted.size() / 2];
 }
 
-void addChangeTable(HtmlDocument& document, const std::vector<Change>& changes) {
+/// States of the changes in the order in which they were measured.
+std::vector<std::string> statesOf(const ObservationSet& observations, const std::vector<Change>& changes) {
+  std::vector<std::string> states;
+  for (const std::string& state : observations.states())
+    if (std::any_of(changes.begin(), changes.end(), [&](const Change& c) { return c.row->state == state; }))
+      states.push_back(state);
+  return states;
+}
+
+void addChangeTable(HtmlDocument& document, const std::vector<std::string>& states,
+                    const std::vector<Change>& changes) {
   std::vector<Component> components;
   for (const Component c : all_components)
     if (std::any_of(changes.begin(), changes.end(), [c](const Change& x) { return x.row->component == c; }))
@@ -81,7 +91,9 @@ void addChangeTable(HtmlDocument& document, const std::vector<Change>& changes) 
     if (row.empty()) order.emplace_back(c.row->state, c.row->point);
     row[c.row->component] = &c;
   }
-  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  const auto rank = [&](const std::string& state) { return std::find(states.begin(), states.end(), state); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const auto& a, const auto& b) { return rank(a.first) < rank(b.first); });
   std::vector<std::vector<std::string>> rows;
   for (const auto& key : order) {
     const auto& row = cells[key];
@@ -97,11 +109,7 @@ void addChangeTable(HtmlDocument& document, const std::vector<Change>& changes) 
   document.table(header, rows, "Change of each point from its first reading, value ± one standard uncertainty");
 }
 
-void addMaps(HtmlDocument& document, const std::vector<Change>& changes) {
-  std::vector<std::string> states;
-  for (const Change& c : changes)
-    if (std::find(states.begin(), states.end(), c.row->state) == states.end()) states.push_back(c.row->state);
-  std::sort(states.begin(), states.end());
+void addMaps(HtmlDocument& document, const std::vector<std::string>& states, const std::vector<Change>& changes) {
   for (std::size_t s = 0; s < std::min(states.size(), most_maps); ++s) {
     std::map<std::string, PointDisplacement> points;
     std::set<std::string> references;
@@ -246,8 +254,9 @@ void addObservations(HtmlDocument& document, const ObservationSet& observations)
   if (changes.empty()) {
     document.verdict("note", "Every point was read once only: there is no change to show.");
   } else if (medianCount(observations) < least_for_curves) {
-    addMaps(document, changes);
-    addChangeTable(document, changes);
+    const std::vector<std::string> states = statesOf(observations, changes);
+    addMaps(document, states, changes);
+    addChangeTable(document, states, changes);
   } else {
     addPanels(document, observations, changes, false);
     addPanels(document, observations, changes, true);

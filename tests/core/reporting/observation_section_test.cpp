@@ -54,6 +54,15 @@ TEST(ObservationSection, TwoStatesAreArrowsOverTheTableAndATable) {
   EXPECT_THAT(text, Not(HasSubstr("over time")));
 }
 
+TEST(ObservationSection, StatesStandInTheOrderOfTime) {
+  ObservationSet set = observations(3);
+  for (Observation& o : set.rows) o.state = o.state == "M0" ? "M8" : o.state == "M1" ? "M9" : "M10";
+  const std::string text = html(set);
+  EXPECT_LT(text.find("Displacement in state M9"), text.find("Displacement in state M10"));
+  EXPECT_LT(text.find("<td class=\"text\">M9</td>"), text.find("<td class=\"text\">M10</td>"));
+  EXPECT_NE(text.find("<td class=\"text\">M10</td>"), std::string::npos);
+}
+
 TEST(ObservationSection, ManyStatesAreOnePlotAPointInTheColoursOfTheAxes) {
   const std::string text = html(observations(6));
   EXPECT_EQ(count(text, "<figure>"), 1U);
