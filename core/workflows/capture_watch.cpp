@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace spindrift {
 namespace {
 
@@ -12,13 +10,10 @@ std::filesystem::path allowedFolder(const std::filesystem::path& folder, const s
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
     throw InputError({folder, ""}, "is no folder; allowed: the folder into which the instrument writes.");
-  const std::filesystem::path watched = std::filesystem::canonical(folder);
-  const std::filesystem::path own = std::filesystem::canonical(session);
-  const auto [end, ignored] = std::mismatch(own.begin(), own.end(), watched.begin(), watched.end());
-  if (end == own.end())
+  if (CaptureIntake::liesInside(folder, session))
     throw InputError({folder, ""},
                      "belongs to the session itself; allowed: the folder into which the instrument writes.");
-  return watched;
+  return std::filesystem::canonical(folder);
 }
 
 }  // namespace
@@ -27,14 +22,10 @@ CaptureWatch::CaptureWatch(Session& session, std::int64_t campaign, const std::f
                            std::optional<JsonNode> pattern, const FolderWatchOptions& watch, double patience_s)
     : session_(session),
       campaign_(campaign),
-      printed_(pattern.has_value()),
       plan_(storedPlan(session, campaign)),
-      journal_(incomingJournal(session, campaign)),
+      intake_(incomingJournal(session, campaign)),
       folder_(allowedFolder(folder, session.folder()), watch, patience_s) {
-  const Campaign now = campaignNow();
-  std::optional<TouchList> there;
-  if (const auto list = now.captureList("touches.csv")) there = TouchList::read(*list);
-  feed_ = std::make_unique<TouchFeed>(now.machine, there ? &*there : nullptr, std::move(pattern));
+  intake_.expectTouches(campaignNow(), std::move(pattern));
 }
 
 Campaign CaptureWatch::campaignNow() const {
@@ -49,12 +40,10 @@ std::vector<IncomingItem> CaptureWatch::turn(double now_s) {
   std::vector<IncomingItem> decided;
   folder_.look(now_s);
   while (const auto task = folder_.next()) {
-    IncomingContext context = incomingContext(campaignNow(), plan_, journal_, printed_);
-    context.fullest = fullest_;
-    ExaminedFile examined = examineArrival(task->file.file, task->name, task->file.written_ns, context);
+    ExaminedFile examined =
+        examineArrival(task->file.file, task->name, task->file.written_ns, intake_.context(campaignNow(), plan_));
     if (examined.item.kind == IncomingKind::Touches && !examined.text.empty()) {
-      const auto [first, fresh] = first_seen_s_.try_emplace(examined.item.name, examined.item.time_s);
-      feed_->update(examined.item.name, examined.text, first->second);
+      intake_.takeTouches(examined);
       storeTouches(false);
       examined.item.sentence = fmt::format("{} touches so far.", touches());
     }
@@ -62,9 +51,8 @@ std::vector<IncomingItem> CaptureWatch::turn(double now_s) {
     answer.item = folder_.finish(*task, std::move(examined), now_s);
     if (answer.item.state == IncomingState::Waiting) continue;
     recordArrival(session_, campaign_, answer);
-    journal_ = incomingJournal(session_, campaign_);
-    if (answer.points > 0 && answer.item.state == IncomingState::Accepted)
-      fullest_[answer.artefact] = std::max(fullest_[answer.artefact], answer.points);
+    intake_.show(answer.item);
+    intake_.remember(answer);
     decided.push_back(answer.item);
   }
   return decided;
@@ -75,20 +63,14 @@ void CaptureWatch::finish() {
 }
 
 void CaptureWatch::storeTouches(bool all) {
-  const std::vector<std::string> rows = feed_->takeRows(all);
+  const std::vector<std::string> rows = intake_.takeRows(all);
   if (!rows.empty()) session_.addCaptureRows(campaign_, "touches.csv", TouchFeed::header(), rows);
 }
 
 std::vector<std::string> CaptureWatch::retakes() const {
   std::vector<std::string> sentences;
-  const std::set<std::string> there = done();
-  for (const IncomingItem& item : journal_) {
-    if (item.state != IncomingState::Retake) continue;
-    if (!item.plan_item.empty() && there.contains(item.plan_item)) continue;
-    sentences.push_back(
-        fmt::format("Take {} again: {}", item.plan_item.empty() ? item.name : item.plan_item, item.sentence));
-  }
-  for (const std::string& s : feed_->live().retakes()) sentences.push_back(s);
+  for (const CaptureIntake::Retake& retake : intake_.retakes(done()))
+    sentences.push_back(retake.what.empty() ? retake.why : fmt::format("Take {} again: {}", retake.what, retake.why));
   return sentences;
 }
 

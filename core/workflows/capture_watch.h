@@ -4,12 +4,12 @@
 // backwards.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/session/session.h"
+#include "core/workflows/capture_intake.h"
 #include "core/workflows/incoming.h"
 
 namespace spindrift {
@@ -34,7 +34,7 @@ class CaptureWatch {
   [[nodiscard]] std::vector<std::string> retakes() const;
   [[nodiscard]] const MeasurementPlan& plan() const { return plan_; }
   [[nodiscard]] std::set<std::string> done() const;
-  [[nodiscard]] std::size_t touches() const { return feed_->live().touches().size(); }
+  [[nodiscard]] std::size_t touches() const { return intake_.touchCount(); }
 
  private:
   void storeTouches(bool all);
@@ -42,12 +42,8 @@ class CaptureWatch {
 
   Session& session_;
   std::int64_t campaign_;
-  bool printed_;
   MeasurementPlan plan_;
-  std::vector<IncomingItem> journal_;
-  std::map<std::string, std::size_t> fullest_;
-  std::map<std::string, double> first_seen_s_;
-  std::unique_ptr<TouchFeed> feed_;
+  CaptureIntake intake_;
   IncomingFolder folder_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Captures that arrive in a watched folder in every way they may: half-written, renamed, out of order, twice, bad.
 #include "core/workflows/incoming.h"
+#include "core/workflows/capture_intake.h"
 
 #include <gtest/gtest.h>
 
@@ -59,16 +60,15 @@ class Incoming : public ::testing::Test {
     for (const double end = now_ + seconds; now_ < end; now_ += 0.5) {
       (void)incoming_.look(now_);
       while (const auto task = incoming_.next()) {
-        IncomingContext context =
-            incomingContext(campaign(), storedPlan(session_, id_), incomingJournal(session_, id_), false);
-        context.fullest = fullest_;
-        ExaminedFile examined = examineArrival(task->file.file, task->name, task->file.written_ns, context);
-        if (examined.item.state == IncomingState::Accepted && examined.points > 0) {
-          fullest_[examined.artefact] = std::max(fullest_[examined.artefact], examined.points);
-        }
-        const ExaminedFile kept = examined;
+        ExaminedFile examined = examineArrival(task->file.file, task->name, task->file.written_ns,
+                                               intake_.context(campaign(), storedPlan(session_, id_)));
+        ExaminedFile kept = examined;
         const IncomingItem& item = incoming_.finish(*task, std::move(examined), now_);
-        if (item.state != IncomingState::Waiting) recordArrival(session_, id_, kept);
+        if (item.state == IncomingState::Waiting) continue;
+        recordArrival(session_, id_, kept);
+        kept.item = item;
+        intake_.show(item);
+        intake_.remember(kept);
       }
     }
   }
@@ -88,7 +88,7 @@ class Incoming : public ::testing::Test {
   Session session_;
   std::int64_t id_;
   IncomingFolder incoming_;
-  std::map<std::string, std::size_t> fullest_;
+  CaptureIntake intake_;
   double now_ = 0.0;
 };
 
@@ -330,6 +330,35 @@ TEST(MeasurementPlan, MistakesAreOneSentence) {
   EXPECT_NE(failure(head + R"({"id":"a","kind":"walk","state":"M0","due_s":0}]})").find("walk"), std::string::npos);
   EXPECT_NE(failure(head + R"({"id":"a","kind":"cycle","state":"M7","due_s":0,"artefact":"A1"}]})").find("M7"),
             std::string::npos);
+}
+
+TEST(CaptureIntakeTest, KnowsTheFolderOfTheSessionFromItsNeighbours) {
+  const testing::TempFolder folder;
+  for (const char* name : {"session/campaigns/1", "session2", "watched"})
+    std::filesystem::create_directories(folder / name);
+  std::filesystem::create_directory_symlink(folder / "session/campaigns", folder / "link");
+  EXPECT_TRUE(CaptureIntake::liesInside(folder / "session", folder / "session"));
+  EXPECT_TRUE(CaptureIntake::liesInside(folder / "session/campaigns/1", folder / "session"));
+  EXPECT_TRUE(CaptureIntake::liesInside(folder / "link/1", folder / "session"));
+  EXPECT_FALSE(CaptureIntake::liesInside(folder / "session2", folder / "session")) << "begins with the same letters";
+  EXPECT_FALSE(CaptureIntake::liesInside(folder / "watched", folder / "session"));
+}
+
+TEST(CaptureIntakeTest, RetakesVanishWhenTheyHaveBeenTakenAgain) {
+  IncomingItem blurred{.name = "a.png", .state = IncomingState::Retake, .sentence = "blurred.", .plan_item = "M0_F1"};
+  CaptureIntake intake({blurred});
+  IncomingItem stray{.name = "b.png", .state = IncomingState::Retake, .sentence = "dark."};
+  intake.show(stray);
+  ASSERT_EQ(intake.retakes({}).size(), 2U);
+  EXPECT_EQ(intake.retakes({})[0].what, "M0_F1");
+  EXPECT_EQ(intake.retakes({})[1].what, "b.png") << "a file that belongs to no item of the plan";
+  ASSERT_EQ(intake.retakes({"M0_F1"}).size(), 1U);
+  stray.state = IncomingState::Ignored;
+  intake.show(stray);
+  EXPECT_EQ(intake.items().size(), 2U) << "the same file has one line";
+  EXPECT_TRUE(intake.retakes({"M0_F1"}).empty());
+  EXPECT_TRUE(intake.takeRows(true).empty()) << "no touches are expected";
+  EXPECT_EQ(intake.touchCount(), 0U);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <QDateTime>
 #include <QDir>
 #include <QFileInfo>
-#include <algorithm>
 
 #include "core/base/error.h"
 #include "core/imaging/image.h"
@@ -58,18 +57,12 @@ void IncomingService::follow() {
   jobs_.cancelAll();
   examining_ = false;
   folder_.reset();
-  feed_.reset();
-  pattern_.reset();
   thumbnails_.clear();
-  fullest_.clear();
-  first_seen_s_.clear();
   failure_.clear();
   plan_.reset();
   done_.reset();
-  items_.clear();
-  if (session_.session() != nullptr && session_.campaign() != nullptr) {
-    items_ = incomingJournal(*session_.session(), campaign_);
-  }
+  const bool there = session_.session() != nullptr && session_.campaign() != nullptr;
+  intake_ = there ? CaptureIntake(incomingJournal(*session_.session(), campaign_)) : CaptureIntake();
   Q_EMIT changed();
   Q_EMIT planProgressed();
 }
@@ -92,20 +85,16 @@ QString IncomingService::start(const QString& folder, const QString& template_fi
   if (folder.isEmpty() || !info.isDir()) {
     return tr("\"%1\" is no folder; allowed: the folder into which the instrument writes.").arg(folder);
   }
-  const std::string inside = session_.folder().string();
-  if (QDir(folder).absolutePath().toStdString().starts_with(inside)) {
+  if (CaptureIntake::liesInside(folder.toStdString(), session_.folder())) {
     return tr("This folder belongs to the session itself; allowed: the folder into which the instrument writes.");
   }
   try {
-    pattern_.reset();
+    std::optional<JsonNode> pattern;
     if (!template_file.isEmpty()) {
-      pattern_ = JsonNode::read(template_file.toStdString());
-      pattern_->requireFormat("spindrift-printed-text", 1);
+      pattern = JsonNode::read(template_file.toStdString());
+      pattern->requireFormat("spindrift-printed-text", 1);
     }
-    const auto list = session_.campaign()->captureList("touches.csv");
-    std::optional<TouchList> there;
-    if (list) there = TouchList::read(*list);
-    feed_ = std::make_unique<TouchFeed>(session_.campaign()->machine, there ? &*there : nullptr, pattern_);
+    intake_.expectTouches(*session_.campaign(), std::move(pattern));
   } catch (const InputError& e) {
     return QString::fromUtf8(e.what());
   }
@@ -128,8 +117,8 @@ void IncomingService::stop() {
 QString IncomingService::problem() const {
   if (!failure_.isEmpty()) return failure_;
   if (folder_ != nullptr && !folder_->problem().empty()) return fromCore(folder_->problem());
-  if (feed_ != nullptr) {
-    const std::vector<std::string> problems = feed_->problems();
+  if (touches() != nullptr) {
+    const std::vector<std::string> problems = touches()->problems();
     if (!problems.empty()) return fromCore(problems.back());
   }
   return {};
@@ -147,22 +136,15 @@ QImage IncomingService::thumbnail(const std::string& name) const {
 QStringList IncomingService::retakes() const {
   QStringList sentences;
   auto* self = const_cast<IncomingService*>(this);
-  for (const IncomingItem& item : items_) {
-    if (item.state != IncomingState::Retake) continue;
-    if (!item.plan_item.empty() && self->done().contains(item.plan_item)) continue;
-    sentences << tr("Take %1 again: %2")
-                     .arg(fromCore(item.plan_item.empty() ? item.name : item.plan_item), fromCore(item.sentence));
-  }
-  if (feed_ != nullptr) {
-    for (const std::string& s : feed_->live().retakes()) sentences << fromCore(s);
+  for (const CaptureIntake::Retake& retake : intake_.retakes(self->done())) {
+    sentences << (retake.what.empty() ? fromCore(retake.why)
+                                      : tr("Take %1 again: %2").arg(fromCore(retake.what), fromCore(retake.why)));
   }
   return sentences;
 }
 
 IncomingContext IncomingService::contextNow() {
-  IncomingContext context = incomingContext(*session_.campaign(), plan(), items_, pattern_.has_value());
-  context.fullest = fullest_;
-  return context;
+  return intake_.context(*session_.campaign(), plan());
 }
 
 void IncomingService::look() {
@@ -170,7 +152,7 @@ void IncomingService::look() {
   const QString before = problem();
   const bool news = folder_->look(now());
   for (const IncomingItem& item : folder_->items()) {
-    if (item.state == IncomingState::Waiting) show(item);
+    if (item.state == IncomingState::Waiting) intake_.show(item);
   }
   if (news || before != problem()) Q_EMIT changed();
   examineNext();
@@ -208,10 +190,10 @@ void IncomingService::finished(const IncomingFolder::Task& task, ExaminedFile ex
   const ExaminedFile kept = examined;
   if (kept.item.kind == IncomingKind::Touches) {
     feed(kept);
-    examined.item.sentence = tr("%1 touches so far.").arg(feed_->live().touches().size()).toStdString();
+    examined.item.sentence = tr("%1 touches so far.").arg(intake_.touchCount()).toStdString();
   }
   const IncomingItem& item = folder_->finish(task, std::move(examined), now());
-  show(item);
+  intake_.show(item);
   if (item.state != IncomingState::Waiting) {
     ExaminedFile answer = kept;
     answer.item = item;
@@ -229,7 +211,7 @@ void IncomingService::record(const ExaminedFile& found) {
     examined.item.state = IncomingState::Twice;
     examined.item.sentence =
         tr("%1 is there already; this one is kept aside.").arg(fromCore(examined.item.plan_item)).toStdString();
-    show(examined.item);
+    intake_.show(examined.item);
   }
   try {
     session_.recordArrival(examined);
@@ -238,9 +220,7 @@ void IncomingService::record(const ExaminedFile& found) {
     failure_ = QString::fromUtf8(e.what());
     return;
   }
-  if (examined.points > 0 && examined.item.state == IncomingState::Accepted) {
-    fullest_[examined.artefact] = std::max(fullest_[examined.artefact], examined.points);
-  }
+  intake_.remember(examined);
   if (!examined.row.empty()) {
     done_.reset();
     Q_EMIT planProgressed();
@@ -249,8 +229,7 @@ void IncomingService::record(const ExaminedFile& found) {
 
 void IncomingService::feed(const ExaminedFile& examined) {
   try {
-    const auto [first, fresh] = first_seen_s_.try_emplace(examined.item.name, examined.item.time_s);
-    if (feed_->update(examined.item.name, examined.text, first->second) > 0) {
+    if (intake_.takeTouches(examined) > 0) {
       flushTouches(false);
       Q_EMIT touchesChanged();
     }
@@ -260,9 +239,8 @@ void IncomingService::feed(const ExaminedFile& examined) {
 }
 
 void IncomingService::flushTouches(bool all) {
-  if (feed_ == nullptr) return;
   try {
-    const std::vector<std::string> rows = feed_->takeRows(all);
+    const std::vector<std::string> rows = intake_.takeRows(all);
     if (rows.empty()) return;
     session_.addCaptureRows("touches.csv", TouchFeed::header(), rows);
     done_.reset();
@@ -270,15 +248,6 @@ void IncomingService::flushTouches(bool all) {
   } catch (const InputError& e) {
     failure_ = QString::fromUtf8(e.what());
   }
-}
-
-void IncomingService::show(const IncomingItem& item) {
-  for (IncomingItem& known : items_) {
-    if (known.name != item.name) continue;
-    known = item;
-    return;
-  }
-  items_.push_back(item);
 }
 
 void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage> image) {
@@ -295,7 +264,7 @@ void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage>
     return std::function<void()>([this, id, examined, picture, folder] {
       if (folder != campaign_folder_) return;
       thumbnails_[id] = picture;
-      show(examined->item);
+      intake_.show(examined->item);
       record(*examined);
       Q_EMIT changed();
     });

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "core/imaging/image.h"
+#include "core/workflows/capture_intake.h"
 #include "core/workflows/incoming.h"
 #include "widgets/jobs/job_runner.h"
 #include "widgets/models/session_model.h"
@@ -33,12 +34,12 @@ class IncomingService : public QObject {
   [[nodiscard]] QString templateFile() const;
   /// What is wrong with the folder or with taking over, one sentence; empty: nothing.
   [[nodiscard]] QString problem() const;
-  [[nodiscard]] const std::vector<IncomingItem>& items() const { return items_; }
+  [[nodiscard]] const std::vector<IncomingItem>& items() const { return intake_.items(); }
   [[nodiscard]] QImage thumbnail(const std::string& name) const;
   /// Sentences of what is to be taken again now; what has been taken again since is not among them.
   [[nodiscard]] QStringList retakes() const;
   /// Touches as they come in; null while none came.
-  [[nodiscard]] const TouchFeed* touches() const { return feed_.get(); }
+  [[nodiscard]] const TouchFeed* touches() const { return intake_.touches(); }
   /// A picture of a camera, checked and taken over like a file.
   void take(const QString& name, std::shared_ptr<const GrayImage> image);
   /// True while nothing is waiting to be read or checked.
@@ -72,7 +73,6 @@ class IncomingService : public QObject {
   [[nodiscard]] IncomingContext contextNow();
   [[nodiscard]] std::string key(const char* what) const;
   [[nodiscard]] double now() const { return 1e-3 * static_cast<double>(clock_.elapsed()); }
-  void show(const IncomingItem& item);
 
   SessionModel& session_;
   JobRunner jobs_;
@@ -86,12 +86,8 @@ class IncomingService : public QObject {
   int pictures_ = 0;
   bool examining_ = false;
   std::unique_ptr<IncomingFolder> folder_;
-  std::unique_ptr<TouchFeed> feed_;
-  std::optional<JsonNode> pattern_;
-  std::vector<IncomingItem> items_;
+  CaptureIntake intake_;
   std::map<std::string, QImage> thumbnails_;
-  std::map<std::string, std::size_t> fullest_;
-  std::map<std::string, double> first_seen_s_;
   QString failure_;
   std::optional<MeasurementPlan> plan_;
   std::optional<std::set<std::string>> done_;
