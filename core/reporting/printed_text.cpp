@@ -30,6 +30,13 @@ std::string_view printedWord(std::string_view word) {
   return word;
 }
 
+/// "-7" after a blank or a bracket, not the hyphen of a date, a range or a name.
+bool isSignOfNumber(std::string_view text, std::size_t at) {
+  if (text[at] != '-' || at + 1 >= text.size() || std::isdigit(static_cast<unsigned char>(text[at + 1])) == 0)
+    return false;
+  return at == 0 || text[at - 1] == ' ' || text[at - 1] == '(' || text[at - 1] == '[';
+}
+
 std::vector<std::string> partsOf(std::string_view text, char separator) {
   std::vector<std::string> parts;
   for (std::size_t from = 0; from <= text.size();) {
@@ -90,6 +97,11 @@ std::string axisOf(std::string_view letter) {
 std::string printedUnits(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
+    if (isSignOfNumber(text, i)) {
+      out += "−";
+      ++i;
+      continue;
+    }
     if (!inWord(text[i])) {
       out += text[i++];
       continue;

@@ -8,7 +8,8 @@
 
 namespace spindrift {
 
-/// "3.2 um, 5 urad at 20 degC" -> "3.2 µm, 5 µrad at 20 °C"; whole words only, so that names of columns stay.
+/// "-3.2 um, 5 urad at 20 degC" -> "−3.2 µm, 5 µrad at 20 °C"; whole words only, so that names of columns stay, and the
+/// signs of numbers only, so that dates and ranges stay.
 [[nodiscard]] std::string printedUnits(std::string_view text);
 
 /// The same for the texts of a drawing; its elements, attributes and embedded pictures stay.

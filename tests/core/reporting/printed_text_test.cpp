@@ -20,6 +20,9 @@ TEST(PrintedText, UnitsAreWholeWordsAndNamesOfColumnsStay) {
   EXPECT_EQ(printedUnits("3.2 um, 5 urad at 20 degC; 11 um/(m K)"), "3.2 µm, 5 µrad at 20 °C; 11 µm/(m K)");
   EXPECT_EQ(printedUnits("column growth_um, T_room_degC, aluminium, Aum"),
             "column growth_um, T_room_degC, aluminium, Aum");
+  EXPECT_EQ(printedUnits("misses by -7.2 um (-33 times), z -7.94 to -0.39 mm"),
+            "misses by −7.2 µm (−33 times), z −7.94 to −0.39 mm");
+  EXPECT_EQ(printedUnits("2026-11-22, M0-1, --order, a - 3"), "2026-11-22, M0-1, --order, a - 3");
   EXPECT_EQ(printedUnitsOfDrawing(R"(<text id="um">EX / um</text><image href="um,degC"/>)"),
             R"(<text id="um">EX / µm</text><image href="um,degC"/>)");
 }
