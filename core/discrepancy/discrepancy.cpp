@@ -12,6 +12,7 @@
 #include "core/discrepancy/discrepancy_search.h"
 #include "core/discrepancy/distributed_dynamics.h"
 #include "core/discrepancy/effect_model.h"
+#include "core/discrepancy/log_gaps.h"
 #include "core/math/statistics.h"
 
 namespace spindrift {
@@ -56,11 +57,13 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   std::size_t usable = 0;
   std::size_t beyond_log = 0;
   double log_end = std::numeric_limits<double>::infinity();
+  std::vector<LogGap> gaps;
   if (input.log && input.log->time_s().size() > 1) {
     const auto& t = input.log->time_s();
     std::vector<double> steps;
     for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
     log_end = t.back() + std::max(300.0, 2.0 * median(steps));
+    gaps = logGaps(t);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].use == ObservationUse::Exclude) continue;
@@ -78,6 +81,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
       ++beyond_log;
       continue;
     }
+    if (inGap(gaps, rows[i].time_s)) continue;
     fit_rows.push_back(i);
   }
   if (usable == 0)
@@ -97,8 +101,10 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
     result.warnings.push_back(
         fmt::format("{} observations are later than the end of the log and are not fitted.", beyond_log));
   }
-  if (fit_rows.empty())
-    throw InputError({input.observations.file, ""}, "holds no row to be fitted; allowed: at least one with use fit.");
+  if (fit_rows.empty()) {
+    throw InputError({input.observations.file, ""},
+                     "holds no row to be fitted; allowed: at least one with use fit, at a time that the log covers.");
+  }
   checkUnits(input, fit_rows);
 
   job.report(0.0, "preparing");
@@ -157,7 +163,8 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   bool stacked = false;
   for (std::size_t t = 0; t < outcome.fit.terms.size(); ++t) stacked = stacked || overlaps(outcome.fit, t);
   const bool stacked_left =
-      stacked && outcome.leftover_p_value < 0.01 && outcome.explained_fraction < limits.least_explained_by_stacked;
+      stacked &&
+      (left || (outcome.leftover_p_value < 0.01 && outcome.explained_fraction < limits.least_explained_by_stacked));
   const bool unexplained = stacked_left || (clearly_left && outcome.explained_fraction < limits.least_explained) ||
                            (left && (outcome.unknown_course.advantage > limits.unknown_advantage ||
                                      outcome.unknown_course.smallest_part < limits.least_over_leftover)) ||
@@ -171,8 +178,10 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   std::size_t alike_term = 0;
   for (const TermEvidence& e : evidence) {
     int rivals = 0;
-    for (const RivalFit& r : e.rivals) rivals += r.container ? 0 : 1;
-    ambiguous = ambiguous || rivals > 0;
+    for (const RivalFit& r : e.rivals) {
+      rivals += r.container ? 0 : 1;
+      ambiguous = ambiguous || !r.container || r.undecided;
+    }
     if (rivals > 2 && !too_many) {
       alike.push_back(outcome.fit.terms[alike_term].effect->id);
       for (const RivalFit& r : e.rivals) {
@@ -231,8 +240,13 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.model = std::make_shared<EffectModel>(drivers, model_effects, nullptr, input.base_table);
 
   // Rows: simulated, completed, gap, held-out.
+  std::vector<std::size_t> held_rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool known = rows[i].time_s <= log_end && !inGap(gaps, rows[i].time_s);
+    if (known && rows[i].use == ObservationUse::Holdout) held_rows.push_back(i);
+  }
   std::vector<double> sum(rows.size(), 0.0);
-  RowResult before = evaluateRows(input, fit_rows, sum);
+  RowResult before = evaluateRows(input, fit_rows, held_rows, sum);
   result.gap.rms_before_um = before.fit_rms;
   const bool has_holdout = before.holdout_rows > 0;
   result.gap.heldout_rms_before_um = before.holdout_rms;
@@ -254,7 +268,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
       const std::vector<double> one = EffectModel::contribution(*drivers, e, rows);
       for (std::size_t r = 0; r < rows.size(); ++r) part[r] += one[r];
     }
-    const RowResult now = evaluateRows(input, fit_rows, part);
+    const RowResult now = evaluateRows(input, fit_rows, held_rows, part);
     FoundEffect found;
     const ModelEffect& e = effects[t];
     found.id = e.effect.id;
@@ -279,7 +293,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
       found.parameters.push_back({names[p], e.parameters[p], e.parameter_uncertainty[p]});
     }
     for (const RivalFit& r : evidence[t].rivals) {
-      (r.container ? found.containers : found.rivals).push_back(r.id);
+      (r.container && !r.undecided ? found.containers : found.rivals).push_back(r.id);
       if (r.undriven) {
         result.warnings.push_back(
             fmt::format("{} cannot be told from {}, because the log lacks what drives the latter: log it next time.",
@@ -296,7 +310,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
       }
       if (count > 0.0 && !isRotation(c)) found.rms_um = std::max(found.rms_um, std::sqrt(power / count));
     }
-    found.confidence = confidenceOf(problem, outcome, evidence[t], named, t);
+    found.confidence = confidenceOf(outcome, evidence[t], named, t, limits);
     result.effects.push_back(std::move(found));
     last = now;
     if (t + 1 == effects.size()) sum = part;
@@ -331,7 +345,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   if (options.suggest && enough) {
     for (std::size_t t = 0; t < evidence.size() && !result.suggestion; ++t) {
       for (const RivalFit& rival : evidence[t].rivals) {
-        if (rival.container || rival.undriven) continue;
+        if ((rival.container && !rival.undecided) || rival.undriven) continue;
         result.suggestion = suggestMeasurement(input, *drivers, search, problem, named, rival.joint,
                                                named.terms[t].effect->id + " from " + rival.id, search.logN());
         break;

@@ -8,7 +8,7 @@
 
 #include "core/base/text.h"
 #include "core/discrepancy/discrepancy_numbers.h"
-#include "core/math/statistics.h"
+#include "core/discrepancy/log_gaps.h"
 
 namespace spindrift {
 
@@ -75,17 +75,15 @@ void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std
   }
   if (!input.log->has("spindle_rpm"))
     warnings.emplace_back("The log has no spindle_rpm: spindle heat is known from temperatures at best.");
-  const auto& t = input.log->time_s();
-  if (t.size() > 3) {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
-    const double typical = median(steps);
-    const auto gap = std::max_element(steps.begin(), steps.end());
-    if (*gap > std::max(1800.0, 20.0 * typical)) {
-      warnings.push_back(
-          fmt::format("The log has a gap of {:.0f} s after {:.0f} s; states are taken as unchanged in it.", *gap,
-                      t[static_cast<std::size_t>(gap - steps.begin())]));
-    }
+  for (const LogGap& gap : logGaps(input.log->time_s())) {
+    const auto count =
+        std::count_if(input.observations.rows.begin(), input.observations.rows.end(), [&](const Observation& o) {
+          return inGap({&gap, 1}, o.time_s);
+        });
+    warnings.push_back(fmt::format(
+        "The log has a gap of {:.0f} s after {:.0f} s: what the machine did in it is not known, and {} observations "
+        "between {:.0f} s and {:.0f} s, until its heat has gone, are not compared.",
+        gap.to_s - gap.from_s, gap.from_s, count, gap.from_s, gap.known_from_s));
   }
 }
 

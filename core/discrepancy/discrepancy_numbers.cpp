@@ -175,7 +175,7 @@ std::string driversText(const ModelEffect& e) {
 }
 
 RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::size_t>& fit_rows,
-                       const std::vector<double>& effect_part) {
+                       const std::vector<std::size_t>& held_rows, const std::vector<double>& effect_part) {
   const auto& rows = input.observations.rows;
   RowResult out;
   out.constant.assign(rows.size(), std::numeric_limits<double>::quiet_NaN());
@@ -191,6 +191,7 @@ RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::siz
   double fit_count = 0.0;
   double held = 0.0;
   const std::set<std::size_t> fitted(fit_rows.begin(), fit_rows.end());
+  const std::set<std::size_t> held_out(held_rows.begin(), held_rows.end());
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const Observation& o = rows[row];
     const auto found = sums.find({o.point, static_cast<int>(o.component)});
@@ -201,7 +202,7 @@ RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::siz
     if (fitted.contains(row)) {
       fit += r * r;
       fit_count += 1.0;
-    } else if (o.use == ObservationUse::Holdout) {
+    } else if (held_out.contains(row)) {
       held += r * r;
       ++out.holdout_rows;
     }

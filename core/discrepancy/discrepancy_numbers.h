@@ -44,6 +44,6 @@ struct RowResult {
 
 /// Constants of the series from the fit rows, and the rms of what is left in displacements (um).
 [[nodiscard]] RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::size_t>& fit_rows,
-                                     const std::vector<double>& effect_part);
+                                     const std::vector<std::size_t>& held_rows, const std::vector<double>& effect_part);
 
 }  // namespace spindrift

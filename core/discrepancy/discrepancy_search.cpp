@@ -47,7 +47,7 @@ void addUndrivenRivals(const EffectSearch& search, SearchOutcome& out) {
       }
       if (by_position || (!onset && !effect.variants.empty())) continue;
       if (std::any_of(rivals.begin(), rivals.end(), [&](const RivalFit& r) { return r.id == effect.id; })) continue;
-      rivals.push_back({effect.id, out.fit.score, false, {}, true});
+      rivals.push_back({effect.id, out.fit.score, false, {}, true, false, 0.0});
     }
   }
 }
@@ -65,6 +65,18 @@ void keepClosestRivals(TermEvidence& evidence, const SearchLimits& limits) {
     kept += keep ? 1 : 0;
     return !keep;
   });
+}
+
+/// Of wider effects that fit as well, the best joins a set of rivals that has room for it.
+void closeSets(SearchOutcome& out) {
+  for (TermEvidence& evidence : out.evidence) {
+    auto& rivals = evidence.rivals;
+    bool room = std::count_if(rivals.begin(), rivals.end(), [](const RivalFit& r) { return !r.container; }) < 2;
+    for (RivalFit& r : rivals) {
+      r.undecided = r.undecided && room;
+      room = room && !r.undecided;
+    }
+  }
 }
 
 /// An effect that no longer earns its place leaves, the smallest gain first.
@@ -164,7 +176,10 @@ RivalComparison compareRivals(EffectSearch& search, ResidualProblem& problem, co
     }
     if (is_simpler) continue;
     if (!is_container) evidence.margin = std::min(evidence.margin, -ahead);
-    if (ahead > -rival_margin) evidence.rivals.push_back({other.id, joint.score, is_container, joint, false, ahead});
+    if (ahead > -rival_margin) {
+      const bool undecided = is_container && ahead > -limits.undecided_margin;
+      evidence.rivals.push_back({other.id, joint.score, is_container, joint, false, undecided, ahead});
+    }
   }
   keepClosestRivals(evidence, limits);
   return out;
@@ -331,6 +346,7 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
   out.fit = std::move(fit);
   out.crowded = mostInOneComponent(problem, out.fit) > limits.most_in_one_component || out.unknown_course.cancelling;
   addUndrivenRivals(search, out);
+  closeSets(out);
   return out;
 }
 

@@ -18,6 +18,7 @@ struct SearchLimits {
   double contained_part = 0.05;    ///< part of the power that an effect beside one that contains it must bring
   double equal_margin = 0.0015;    ///< the same, within which all rivals count, however many
   double shape_part = 0.05;        ///< part of a wide effect's power that its wider shape must bring
+  double undecided_margin = 2.0;   ///< in BIC: "not worth more than a bare mention" (Kass and Raftery 1995)
   double rival_margin = 0.01;      ///< part of an effect's power within which another effect is a rival
   double smallest_part = 0.01;     ///< part of the power explained so far that a further effect must have
   double smallest_in_component = 0.03;        ///< the same, of the power in the component in which it mainly acts
@@ -37,8 +38,9 @@ struct RivalFit {
   double score = 0.0;
   bool container = false;
   JointFit joint;
-  bool undriven = false;  ///< its driver is not logged: it cannot be fitted, nor told apart
-  double ahead = 0.0;     ///< in score, of the effect it would replace
+  bool undriven = false;   ///< its driver is not logged: it cannot be fitted, nor told apart
+  bool undecided = false;  ///< a container that fits as well, its further parameters paid: a rival all the same
+  double ahead = 0.0;      ///< in score, of the effect it would replace
 };
 
 struct TermEvidence {
@@ -112,18 +114,19 @@ struct StructureTest {
                                               const std::vector<NamedPart>& parts, double model_error, double log_n);
 
 /// Probability that the name is right: posterior of the effect over all that were tried in its place, over its being no
-/// effect but an error of the effects beside it, and over a cause that is not in the catalogue, from their scores
-/// (BIC).
+/// effect at all, and over a cause that is not in the catalogue, from their scores (BIC).
 ///
-///   p = 1 / (1 + w [sum exp(-T behind_i / 2) + exp(-T gain / 2) + exp(T advantage / 2)]),   T = 1 / (1 + e^2 P / 4)
+///   p = 1 / (1 + sum exp(-T_i behind_i / 2) + w sum exp(-T_j behind_j / 2) + u + exp(-gain / 2) + o B(leftover))
 ///
-/// Scores take the model for true. It is off by a part e of its amplitude, and smoothly, so that four numbers tell most
-/// of it: the chi-squared of an error of power e^2 P moves as that of a signal, and evidence is tempered by T. e^2 is
-/// what is left beyond the noise as a part of what is explained, and e at least 5 %. Of two effects of which one holds
-/// the other, the error serves both alike: their evidence is not tempered. w = 0.3 is
-/// what an alternative that the search did not choose weighs before the evidence.
-[[nodiscard]] double confidenceOf(const ResidualProblem& problem, const SearchOutcome& outcome,
-                                  const TermEvidence& evidence, const JointFit& named, std::size_t t);
+/// Scores take the model for true; it is off by a part of what it explains, and evidence is tempered by T, the margin
+/// in score of the noise alone over the one that the search keeps for such errors (SearchLimits). Names weigh alike
+/// before the evidence; effects j that hold the named one as a special case, or are held by it, weigh w, the part of
+/// such campaigns in which the wider one is the cause. u counts effects of the same shape whose driver the log lacks,
+/// so that nothing tells them apart. A cause outside the catalogue has the odds o, times the largest odds B that what
+/// is left allows where several effects move the same readings. w and o were found on virtual campaigns; that
+/// confidence is right as often as it says is shown on others (hidden_effect_study).
+[[nodiscard]] double confidenceOf(const SearchOutcome& outcome, const TermEvidence& evidence, const JointFit& named,
+                                  std::size_t t, const SearchLimits& limits);
 
 /// Where the residual is larger than noise allows.
 [[nodiscard]] std::vector<DisagreementPlace> findPlaces(const ResidualProblem& problem, const DriverTable& drivers,

@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/discrepancy/log_gaps.h"
+#include "core/math/statistics.h"
 
 namespace spindrift {
 namespace {
@@ -149,6 +151,27 @@ DriverTable::DriverTable(const MachineDescription& machine, const OperatingLog* 
         add({fmt::format("spindle_rpm^{}*pos_{}", power, axis), unit, false, SensorRole::Other, std::move(product)});
       }
     }
+  }
+  fillGaps();
+}
+
+void DriverTable::fillGaps() {
+  const std::vector<LogGap> gaps = logGaps(time_s_);
+  for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) {
+    const auto after = static_cast<std::ptrdiff_t>(gap->row_before) + 1;
+    const double inserted_s = gap->from_s + 0.01 * (gap->to_s - gap->from_s);
+    for (Driver& driver : drivers_) {
+      const double before = driver.values[gap->row_before];
+      const double next = driver.values[gap->row_before + 1];
+      double guess = before;
+      if (driver.linear) {
+        guess += 0.01 * (next - before);
+      } else if (next != before) {
+        guess = mean(driver.values);
+      }
+      driver.values.insert(driver.values.begin() + after, guess);
+    }
+    time_s_.insert(time_s_.begin() + after, inserted_s);
   }
 }
 

@@ -59,6 +59,8 @@ class DriverTable {
 
  private:
   void add(Driver driver);
+  /// A row soon after the beginning of every gap of the log, from which on what is not known is guessed (log_gaps.h).
+  void fillGaps();
   std::vector<double> time_s_;
   std::vector<Driver> drivers_;
   std::vector<std::string> dead_;

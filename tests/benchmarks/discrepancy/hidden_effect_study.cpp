@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Study of the search for hidden effects on virtual campaigns, blind to what they hide.
 //
-//   hidden_effect_study [--campaigns N] [--seed S] [--short] [--plain] [--kind K] [--oracle] [--list] [--require]
+//   hidden_effect_study [--campaigns N] [--seed S] [--seeds K] [--short] [--plain] [--kind K] [--oracle] [--list]
+//   [--require]
 //
-// N campaigns (default 320) are shared among: one hidden effect at strength 1, 2, 4, 8 times the noise, the same at
-// strength 4 with noise correlated 0.9, two effects, nothing, a cause outside the catalogue, confounded logs. Each has
-// its own machine, programme, room, sensors and seed; the given simulation is off by up to 1 %. --plain also runs
-// forward stepwise BIC and LASSO; --require ends with 1 where the rates are not what the search is known to reach;
+// N campaigns (default 320), for each of K seeds from S on (default 1; all rates pooled), are shared among: one hidden
+// effect at strength 1, 2, 4, 8 times the noise, the same at strength 4 with noise correlated 0.9, two effects,
+// nothing, a cause outside the catalogue, confounded logs. Each has its own machine, programme, room, sensors and seed;
+// the given simulation is off by up to 1 %. --plain also runs forward stepwise BIC and LASSO; --require ends with 1
+// where the rates are not what the search is known to reach;
 // --oracle also fits, at strength 4 and more, the effects that are hidden by their names, to the observations and to
 // the same without noise: what search, noise and the form of the model cost on held-out states. --list prints every
 // campaign that was not named rightly.
@@ -285,6 +287,7 @@ bool reached(const std::vector<Tally>& tallies) {
 int run(int argc, char** argv) {
   int campaigns = 320;
   std::uint64_t seed = 1;
+  std::uint64_t seeds = 1;
   Wanted wanted;
   bool list = false;
   bool required = false;
@@ -295,6 +298,8 @@ int run(int argc, char** argv) {
       campaigns = std::max(1, std::atoi(value().c_str()));
     } else if (std::strcmp(argv[i], "--seed") == 0) {
       seed = static_cast<std::uint64_t>(std::atoll(value().c_str()));
+    } else if (std::strcmp(argv[i], "--seeds") == 0) {
+      seeds = static_cast<std::uint64_t>(std::max(1, std::atoi(value().c_str())));
     } else if (std::strcmp(argv[i], "--short") == 0) {
       campaigns = 45;
     } else if (std::strcmp(argv[i], "--plain") == 0) {
@@ -309,7 +314,8 @@ int run(int argc, char** argv) {
       only = value();
     } else {
       fmt::print(
-          "usage: {} [--campaigns N] [--seed S] [--short] [--plain] [--oracle] [--list] [--require] [--kind "
+          "usage: {} [--campaigns N] [--seed S] [--seeds K] [--short] [--plain] [--oracle] [--list] [--require] "
+          "[--kind "
           "one|two|nothing|outside|confounded]\n",
           argv[0]);
       return 2;
@@ -322,18 +328,22 @@ int run(int argc, char** argv) {
     return 2;
   }
   std::vector<Assignment> work;
-  std::size_t turn = seed * 7;
-  for (std::size_t c = 0; c < cells().size(); ++c) {
-    if (!only.empty() && only != toString(cells()[c].kind)) continue;
-    const int count = std::max(1, campaigns * cells()[c].share / shares);
-    for (int i = 0; i < count; ++i) work.push_back({c, turn++, seed * 100000 + work.size()});
+  for (std::uint64_t k = seed; k < seed + seeds; ++k) {
+    std::size_t turn = k * 7;
+    const std::size_t first = work.size();
+    for (std::size_t c = 0; c < cells().size(); ++c) {
+      if (!only.empty() && only != toString(cells()[c].kind)) continue;
+      const int count = std::max(1, campaigns * cells()[c].share / shares);
+      for (int i = 0; i < count; ++i) work.push_back({c, turn++, k * 100000 + work.size() - first});
+    }
   }
   Outcomes all;
   std::mutex mutex;
   const JobContext job;
   parallelFor(work.size(), job, [&](std::size_t i) { runOne(work[i], wanted, all, mutex); });
 
-  fmt::print("{} campaigns, seed {}; rates with 95 % intervals (Wilson)\n", work.size(), seed);
+  fmt::print("{} campaigns, {} {}; rates with 95 % intervals (Wilson)\n", work.size(),
+             seeds == 1 ? "seed" : fmt::format("{} seeds from", seeds), seed);
   print("search (\"right name\" is \"unknown\" outside the catalogue and \"none\" where nothing is hidden)",
         all.search);
   if (wanted.plain) {

@@ -124,6 +124,57 @@ struct TiedCampaign {
   Random random_;
 };
 
+/// An outcome with terms that move the given readings.
+SearchOutcome outcomeOf(const std::vector<Eigen::VectorXd>& contributions, double leftover_p_value) {
+  SearchOutcome outcome;
+  outcome.fit.terms.resize(contributions.size());
+  outcome.fit.contribution = contributions;
+  outcome.evidence.resize(contributions.size());
+  for (TermEvidence& e : outcome.evidence) e.delta_bic = 200.0;
+  outcome.leftover_p_value = leftover_p_value;
+  outcome.unknown_course.advantage = -100.0;
+  return outcome;
+}
+
+TEST(Confidence, IsThePosteriorOverWhatWasTriedInPlaceOfTheName) {
+  const Eigen::VectorXd moves = Eigen::VectorXd::Ones(10);
+  SearchOutcome outcome = outcomeOf({moves}, 0.5);
+  TermEvidence& evidence = outcome.evidence[0];
+  const auto confidence = [&] { return confidenceOf(outcome, evidence, outcome.fit, 0, SearchLimits{}); };
+  EXPECT_GT(confidence(), 0.99);
+  // One that fits as well takes half, two take two thirds; one that is far behind takes nothing.
+  evidence.behind = {{0.0, false}};
+  EXPECT_NEAR(confidence(), 0.5, 0.01);
+  evidence.behind = {{0.0, false}, {0.0, false}};
+  EXPECT_NEAR(confidence(), 1.0 / 3.0, 0.01);
+  evidence.behind = {{30.0, false}};
+  EXPECT_GT(confidence(), 0.99);
+  // A wider effect that fits much better is the likelier cause though the simpler name is given.
+  evidence.behind = {{0.0, true}};
+  EXPECT_GT(confidence(), 0.9);
+  evidence.behind = {{-16.0, true}};
+  EXPECT_LT(confidence(), 0.05);
+  // The same lead over an effect a hundred times as strong is within what its dynamics may be wrong by.
+  evidence.delta_chi2 = 40000.0;
+  EXPECT_GT(confidence(), 0.9);
+  evidence.behind.clear();
+  evidence.rivals.push_back({"ambient.drift.x", 0.0, false, {}, true});
+  EXPECT_NEAR(confidence(), 0.5, 0.01);
+}
+
+TEST(Confidence, CountsWhatIsLeftAgainstEffectsThatMoveTheSameReadings) {
+  Eigen::VectorXd first = Eigen::VectorXd::Zero(10);
+  Eigen::VectorXd second = Eigen::VectorXd::Zero(10);
+  first.head(5).setOnes();
+  second.tail(5).setOnes();
+  const auto confidence = [](const SearchOutcome& o) {
+    return confidenceOf(o, o.evidence[0], o.fit, 0, SearchLimits{});
+  };
+  EXPECT_GT(confidence(outcomeOf({first, second}, 1e-5)), 0.98) << "apart";
+  EXPECT_LT(confidence(outcomeOf({first, first}, 1e-5)), 0.2) << "stacked";
+  EXPECT_GT(confidence(outcomeOf({first, first}, 0.3)), 0.98) << "stacked, nothing left";
+}
+
 TEST(Suggestion, SeparatesRivalsFurtherThanAsManyReadingsAtRandom) {
   int ambiguous = 0;
   int by_suggestion = 0;

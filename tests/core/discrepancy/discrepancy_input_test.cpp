@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/discrepancy/drivers.h"
+#include "core/discrepancy/log_gaps.h"
 #include "tests/core/discrepancy/small_plant.h"
 #include "tests/support/temp_folder.h"
 
@@ -116,6 +118,72 @@ TEST(DiscrepancyInput, SaysWhereTheLogHasAGap) {
   const DiscrepancyResult result = run(input);
   EXPECT_THAT(result.warnings, Contains(HasSubstr("gap")));
   EXPECT_EQ(result.verdict, DiscrepancyVerdict::None);
+}
+
+TEST(DiscrepancyInput, NamesAnEffectThoughTheLogHasAGapOfTwoHours) {
+  for (std::uint64_t seed = 51; seed < 55; ++seed) {
+    DiscrepancyInput input = campaign(Hidden::SpindleDrift, seed, 8.0);
+    input.log = filtered(*input.log, {"T_spindle_degC"}, [](double t) { return t < 10000.0 || t > 17200.0; });
+    const DiscrepancyResult result = run(input);
+    EXPECT_THAT(result.warnings, Contains(HasSubstr("what the machine did in it is not known")));
+    ASSERT_EQ(result.effects.size(), 1u) << "seed " << seed << ": " << result.summary();
+    EXPECT_EQ(result.effects[0].id, "spindle.drift.y") << "seed " << seed;
+  }
+}
+
+TEST(LogGaps, AreLongStepsAndTheTimeUntilTheirHeatHasGone) {
+  std::vector<double> time;
+  for (int i = 0; i < 100; ++i) time.push_back(60.0 * i);
+  for (int i = 0; i < 100; ++i) time.push_back(5940.0 + 2400.0 + 60.0 * i);
+  for (int i = 0; i < 100; ++i) time.push_back(time[199] + 9000.0 + 60.0 * i);
+  const std::vector<LogGap> gaps = logGaps(time);
+  ASSERT_EQ(gaps.size(), 2u);
+  EXPECT_EQ(gaps[0].row_before, 99u);
+  EXPECT_DOUBLE_EQ(gaps[0].known_from_s, 5940.0 + 2400.0 + 4800.0);
+  EXPECT_DOUBLE_EQ(gaps[1].known_from_s, gaps[1].to_s + 7200.0);
+  EXPECT_FALSE(inGap(gaps, 5940.0));
+  EXPECT_TRUE(inGap(gaps, 6000.0));
+  EXPECT_TRUE(inGap(gaps, 13000.0));
+  EXPECT_FALSE(inGap(gaps, 13140.0));
+  // A step of 20 minutes is none, and of slow logs neither is one of 40.
+  EXPECT_TRUE(logGaps(std::vector<double>{0.0, 60.0, 120.0, 180.0, 1380.0, 1440.0}).empty());
+  EXPECT_TRUE(logGaps(std::vector<double>{0.0, 600.0, 1200.0, 1800.0, 4200.0, 4800.0}).empty());
+}
+
+TEST(LogGaps, TakeASpeedThatChangedAtItsMeanAndATemperatureStraightOn) {
+  OperatingLog log({0.0, 60.0, 120.0, 180.0, 7380.0, 7440.0});
+  log.setSignal("spindle_rpm", {1000.0, 1000.0, 1000.0, 1000.0, 4000.0, 4000.0});
+  log.setSignal("coolant", {0.0, 1.0, 1.0, 1.0, 1.0, 0.0});
+  log.setSignal("T_room_degC", {20.0, 20.0, 20.0, 20.0, 22.0, 22.0});
+  const DriverTable drivers(machine(), &log);
+  const std::vector<double> in_gap{3000.0};
+  EXPECT_NEAR(drivers.response(*drivers.find("spindle_rpm^1"), 0.0, -1.0, in_gap)[0], 2.0, 1e-9);
+  EXPECT_NEAR(drivers.response(*drivers.find("coolant"), 0.0, -1.0, in_gap)[0], 1.0, 1e-9);
+  EXPECT_NEAR(drivers.response(*drivers.find("T_room_degC"), 0.0, -1.0, in_gap)[0], 2.0 * 2820.0 / 7200.0, 1e-6);
+}
+
+TEST(DiscrepancyInput, ComparesNothingHeldOutAfterTheEndOfTheLog) {
+  DiscrepancyInput input = campaign(Hidden::SpindleDrift, 35, 8.0);
+  const double whole = run(input).gap.heldout_rms_before_um;
+  // Beyond the log by far: an error there must not count.
+  input.log = filtered(*input.log, {}, [](double t) { return t < 36000.0; });
+  const double shorter = run(input).gap.heldout_rms_before_um;
+  for (Observation& o : input.observations.rows) {
+    if (o.time_s > 37000.0) o.value += 100.0;
+  }
+  EXPECT_NEAR(run(input).gap.heldout_rms_before_um, shorter, 1e-9);
+  EXPECT_NE(whole, shorter);
+}
+
+TEST(DiscrepancyInput, SaysThatTenObservationsDecideNothing) {
+  DiscrepancyInput input = campaign(Hidden::SpindleDrift, 44, 8.0);
+  input.observations.rows.resize(10);
+  input.predicted.resize(10);
+  const DiscrepancyResult result = run(input);
+  EXPECT_FALSE(result.decided);
+  EXPECT_TRUE(result.effects.empty());
+  EXPECT_THAT(result.message, HasSubstr("10 observations"));
+  EXPECT_THAT(result.message, HasSubstr("cannot be decided"));
 }
 
 TEST(DiscrepancyInput, LeavesADeadSensorOut) {
