@@ -79,6 +79,7 @@ void SessionModel::createSession(const std::filesystem::path& folder) {
   latest_.clear();
   campaign_.reset();
   campaign_id_ = 0;
+  ++visit_;
   excluded_.clear();
   Q_EMIT sessionChanged();
   Q_EMIT campaignChanged();
@@ -89,6 +90,7 @@ void SessionModel::close() {
   latest_.clear();
   campaign_.reset();
   campaign_id_ = 0;
+  ++visit_;
   excluded_.clear();
   Q_EMIT sessionChanged();
   Q_EMIT campaignChanged();
@@ -108,6 +110,7 @@ void SessionModel::adopt(std::unique_ptr<Session> session, std::int64_t campaign
 
 void SessionModel::adopt(LoadedSession loaded) {
   take(std::move(loaded));
+  ++visit_;
   if (campaign_id_ != 0) setSetting("campaign", campaign_id_);
   Q_EMIT sessionChanged();
   Q_EMIT campaignChanged();
@@ -125,6 +128,7 @@ void SessionModel::take(LoadedSession loaded) {
 
 void SessionModel::selectCampaign(std::int64_t id) {
   load(id);
+  ++visit_;
   setSetting("campaign", id);
   Q_EMIT campaignChanged();
 }
@@ -376,6 +380,18 @@ void SessionModel::setSetting(const std::string& key, const nlohmann::json& valu
   } catch (const InputError& e) {
     Q_EMIT storingFailed(QString::fromUtf8(e.what()));
   }
+}
+
+std::string SessionModel::warmStatementKey() const {
+  return "warm-statement/" + std::to_string(campaign_id_);
+}
+
+std::optional<nlohmann::json> SessionModel::warmStatement() const {
+  nlohmann::json given = setting(warmStatementKey(), nlohmann::json());
+  if (given.is_object() && given.contains("by")) return given;
+  // Sessions of earlier versions keep it as a result; an empty object takes that back.
+  const StoredResult* result = given.is_null() ? latest("warm-up") : nullptr;
+  return result == nullptr ? std::nullopt : std::optional(result->payload);
 }
 
 nlohmann::json SessionModel::setting(const std::string& key, const nlohmann::json& otherwise) const {

@@ -91,6 +91,9 @@ class SessionModel : public QObject {
   void selectCampaign(std::int64_t id);
   [[nodiscard]] std::vector<CampaignRecord> campaigns() const;
   [[nodiscard]] std::int64_t campaignId() const { return campaign_id_; }
+  /// Another number whenever a session is opened or a campaign chosen, never the same twice. Ids of campaigns and
+  /// results begin again in every session, so that nothing may be recognised by them across sessions.
+  [[nodiscard]] std::int64_t visit() const { return visit_; }
   [[nodiscard]] std::shared_ptr<const Campaign> campaign() const { return campaign_; }
   [[nodiscard]] bool has(Instrument instrument) const;
   /// True for a campaign that is a log with a measured output over time, without captures or observations.
@@ -139,6 +142,11 @@ class SessionModel : public QObject {
   bool addNote(const QString& about, const QString& text, const QString& item = {});
   void removeNote(std::int64_t note);
 
+  /// The operator's word that the instrument was warm ("settled", "by"), if it was given for the campaign at hand; the
+  /// key under which it is kept as an option that can be undone.
+  [[nodiscard]] std::optional<nlohmann::json> warmStatement() const;
+  [[nodiscard]] std::string warmStatementKey() const;
+
   // Settings that belong to the session.
   void setSetting(const std::string& key, const nlohmann::json& value);
   [[nodiscard]] nlohmann::json setting(const std::string& key, const nlohmann::json& otherwise) const;
@@ -159,6 +167,7 @@ class SessionModel : public QObject {
 
   std::unique_ptr<Session> session_;
   std::int64_t campaign_id_ = 0;
+  std::int64_t visit_ = 0;
   std::shared_ptr<const Campaign> campaign_;
   std::map<QString, QString> excluded_;
   bool machine_edited_ = false;

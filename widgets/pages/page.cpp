@@ -2,6 +2,7 @@
 #include "widgets/pages/page.h"
 
 #include <QHBoxLayout>
+#include <QTabWidget>
 #include <QVBoxLayout>
 
 #include "widgets/common/parts.h"
@@ -55,6 +56,13 @@ void Page::addModelSwitch(bool over_time) {
   update();
   connect(button, &QPushButton::clicked, this, [this, over_time] { session().setModelOverTime(over_time); });
   addAction(button);
+}
+
+bool Page::newCampaign() {
+  if (seen_visit_ == context_.session.visit()) return false;
+  seen_visit_ = context_.session.visit();
+  for (auto* tabs : findChildren<QTabWidget*>()) tabs->setCurrentIndex(0);
+  return true;
 }
 
 void Page::run(const QString& title, std::function<std::function<void()>(JobContext&)> work) {

@@ -44,6 +44,8 @@ class Page : public QWidget {
   [[nodiscard]] virtual QPushButton* primaryButton() const { return nullptr; }
   /// What is picked on the page, as exclusions and notes call it ("captures/images/a.jpg"); empty: nothing.
   [[nodiscard]] virtual QString pickedItem() const { return {}; }
+  /// Asks what is to become of changes that are not applied yet. False: the user wants to stay.
+  [[nodiscard]] virtual bool mayBeLeft() { return true; }
   /// Runs what the page would be asked to run first (the tour and the tests use it).
   virtual void runAll() {}
   [[nodiscard]] StepId step() const { return step_; }
@@ -60,6 +62,9 @@ class Page : public QWidget {
   /// A button that switches the step Model between the model of the instrument and the one over time.
   void addModelSwitch(bool over_time);
   /// Runs a job whose failure is shown in the page's callout.
+  /// True once for every campaign that is shown, also if it has the number of the one before: what belongs to the other
+  /// has to be taken away. Tabs go back to the first.
+  [[nodiscard]] bool newCampaign();
   void run(const QString& title, std::function<std::function<void()>(JobContext&)> work);
   /// Wires a hover signal to the hint line.
   template <class View>
@@ -70,6 +75,7 @@ class Page : public QWidget {
   }
 
  private:
+  std::int64_t seen_visit_ = -1;
   PageContext context_;
   StepId step_;
   QLabel* instruction_;

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/shell/main_window.h"
 
+#include <QAbstractButton>
 #include <QAction>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QComboBox>
+#include <QCoreApplication>
+#include <QCryptographicHash>
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QGuiApplication>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QScreen>
 #include <QSettings>
 #include <QSplitter>
 #include <QStackedWidget>
@@ -29,6 +35,7 @@
 #include "widgets/jobs/job_bar.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/help_panel.h"
+#include "widgets/shell/new_measurement_dialog.h"
 #include "widgets/shell/page_area.h"
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/welcome_page.h"
@@ -138,12 +145,32 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this,
           [this] { theme_button_->setIcon(icon(theme().kind == ThemeKind::Dark ? "sun" : "moon")); });
 
+  QCoreApplication::instance()->installEventFilter(this);
   QSettings settings;
   const QStringList recent = settings.value(QStringLiteral("recent")).toStringList();
   welcome_->setRecent(recent);
   if (!recent.isEmpty() && Session::wasLeftOpen(recent.front().toStdString())) welcome_->offerRecovery(recent.front());
-  if (!restoreGeometry(settings.value(QStringLiteral("window")).toByteArray())) resize(1440, 900);
+  if (!restoreGeometry(settings.value(QStringLiteral("window")).toByteArray())) {
+    // Frame and title bar need room too, where there are such.
+    const QSize room = screen()->availableSize() - QSize(16, 48);
+    const bool framed = QGuiApplication::platformName() != QStringLiteral("offscreen");
+    resize(framed ? QSize(1440, 900).boundedTo(room) : QSize(1440, 900));
+  }
   refreshTitle();
+}
+
+bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
+  // Enter presses a button that has the focus, as Space does.
+  if (event->type() == QEvent::KeyPress) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    auto* button = qobject_cast<QAbstractButton*>(watched);
+    if (button != nullptr && button->isEnabled() && (key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter) &&
+        (key->modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier) {
+      button->click();
+      return true;
+    }
+  }
+  return QMainWindow::eventFilter(watched, event);
 }
 
 MainWindow::~MainWindow() {
@@ -365,11 +392,15 @@ void MainWindow::exportTo(const QString& folder) {
 }
 
 void MainWindow::newMeasurement() {
-  const QString machine =
-      QFileDialog::getOpenFileName(this, tr("Choose the machine description"), {}, tr("Machine (*.json)"));
-  if (machine.isEmpty()) return;
+  const auto campaign = session_.campaign();
+  NewMeasurementDialog dialog(campaign == nullptr ? std::nullopt : std::optional(campaign->machine.source), this);
+  if (dialog.exec() == QDialog::Accepted) startMeasurement(dialog.machine());
+}
+
+void MainWindow::startMeasurement(const nlohmann::json& machine) {
   try {
-    const MachineDescription description = MachineDescription::read(machine.toStdString());
+    const MachineDescription description =
+        MachineDescription::parse(JsonNode::parse(machine.dump(), "machine.json"), "machine.json");
     auto session =
         std::make_unique<Session>(Session::create(newSessionFolder(QString::fromStdString(description.name))));
     const std::int64_t id = session->newCampaign(description.name, utcNow(), description.source.dump(1));
@@ -385,30 +416,54 @@ void MainWindow::newMeasurement() {
 
 namespace {
 
-/// The borders of a page, in the order in which it made them.
-QString splitterKey(const Page& page, qsizetype index) {
-  return QStringLiteral("splitter/%1/%2")
-      .arg(QString::fromLatin1(page.metaObject()->className()).section(QLatin1Char(':'), -1))
-      .arg(index);
+constexpr auto borders_key = "bordersKey";
+
+/// The borders of a page by what they separate when the page is new: the order of the splitters is not always the same,
+/// and a border between two other areas, or of another direction, must not be taken for it.
+QString splitterKey(const Page& page, const QSplitter& splitter) {
+  QStringList areas;
+  for (int i = 0; i < splitter.count(); ++i) {
+    QStringList titles;
+    for (const QLabel* label : splitter.widget(i)->findChildren<QLabel*>()) {
+      if (label->property("role") == QStringLiteral("sectionTitle")) titles << label->text();
+    }
+    areas << titles.join(QLatin1Char('+'));
+  }
+  return QStringLiteral("borders/%1/%2-%3")
+      .arg(QString::fromLatin1(page.metaObject()->className()).section(QLatin1Char(':'), -1),
+           splitter.orientation() == Qt::Horizontal ? QStringLiteral("h") : QStringLiteral("v"),
+           QString::fromLatin1(QCryptographicHash::hash(areas.join(QLatin1Char('|')).toUtf8(), QCryptographicHash::Md5)
+                                   .toHex()
+                                   .left(12)));
 }
 
 }  // namespace
 
 void MainWindow::restoreSplitters(Page& page) {
   const QSettings settings;
-  const auto splitters = page.findChildren<QSplitter*>();
-  for (qsizetype i = 0; i < splitters.size(); ++i) {
-    const QByteArray state = settings.value(splitterKey(page, i)).toByteArray();
-    if (!state.isEmpty()) splitters[i]->restoreState(state);
+  for (QSplitter* splitter : page.findChildren<QSplitter*>()) {
+    const QString key = splitterKey(page, *splitter);
+    splitter->setProperty(borders_key, key);
+    QList<int> sizes;
+    for (const QVariant& size : settings.value(key).toList()) sizes << size.toInt();
+    if (!sizes.isEmpty() && sizes.size() == splitter->count()) splitter->setSizes(sizes);
   }
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   for (const auto& [entry, page] : pages_) {
+    if (page == nullptr || session_.campaign() == nullptr || page->mayBeLeft()) continue;
+    event->ignore();
+    return;
+  }
+  for (const auto& [entry, page] : pages_) {
     if (page == nullptr) continue;
-    const auto splitters = page->findChildren<QSplitter*>();
-    for (qsizetype i = 0; i < splitters.size(); ++i) {
-      QSettings().setValue(splitterKey(*page, i), splitters[i]->saveState());
+    for (const QSplitter* splitter : page->findChildren<QSplitter*>()) {
+      QVariantList sizes;
+      for (const int size : splitter->sizes()) sizes << size;
+      // What was never shown has no sizes that anybody chose.
+      if (!sizes.isEmpty() && !sizes.contains(QVariant(0)))
+        QSettings().setValue(splitter->property(borders_key).toString(), sizes);
     }
   }
   QSettings().setValue(QStringLiteral("window"), saveGeometry());

@@ -62,10 +62,13 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] HelpPanel* help() const { return help_; }
   [[nodiscard]] QAction* helpAction() const { return help_action_; }
   void saveLog(const QString& file);  ///< what `diagnosticsText` says, by a file
-  NotesDialog* openNotes();           ///< null if nothing is open
+  /// A new session with an empty campaign of this machine (machine.json), at the step Machine.
+  void startMeasurement(const nlohmann::json& machine);
+  NotesDialog* openNotes();  ///< null if nothing is open
 
  protected:
   void closeEvent(QCloseEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void buildMenu();

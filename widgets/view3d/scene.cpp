@@ -267,9 +267,13 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
   const FieldGrid& grid = field->grid;
   const bool relief = style.relief_exaggeration > 0;
   const double lift = 1e-3 * std::max(grid.x_to_mm - grid.x_from_mm, grid.y_to_mm - grid.y_from_mm);
-  // Distance from the plane of the grid.
+  // Distance from the plane of the grid. A relief stands on the table: below it, it would not be seen.
+  double lowest = 0.0;
+  for (const double v : field->value) {
+    if (relief && std::isfinite(v)) lowest = std::min(lowest, v);
+  }
   const auto height = [&](double value) {
-    return lift + (relief && std::isfinite(value) ? value * style.relief_exaggeration * 1e-3 : 0.0);
+    return lift + (relief && std::isfinite(value) ? (value - lowest) * style.relief_exaggeration * 1e-3 : 0.0);
   };
 
   // Surface: a quad, or a mesh where it is lifted, with a texture.

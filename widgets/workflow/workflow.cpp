@@ -215,7 +215,8 @@ StepStatus Workflow::evaluate(StepId step) const {
       return {StepState::Current, session_.machineEdited() ? tr("Edited in this session.") : tr("As in machine.json.")};
     case StepId::WarmUp:
       if (log_only) return {StepState::Current, tr("The campaign is a log over time: no instrument to warm up.")};
-      return fromResult("warm-up", tr("Check whether the instrument had settled."), tr("Checked."));
+      if (session_.warmStatement()) return {StepState::Current, tr("You stated that the instrument was warm.")};
+      return {StepState::NotStarted, tr("Check whether the instrument had settled.")};
     case StepId::Capture:
       if (log_only) return {StepState::Current, tr("The campaign is a log over time: nothing to capture.")};
       if (!captures && !own_observations) return {StepState::NotStarted, tr("No captures yet.")};

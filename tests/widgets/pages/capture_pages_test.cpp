@@ -10,6 +10,7 @@
 #include "core/simulation/virtual_microscope.h"
 #include "tests/core/probing/probing_machines.h"
 #include "tests/widgets/pages/page_test.h"
+#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/arriving_panel.h"
@@ -134,6 +135,45 @@ TEST_F(CapturePages, TheSentenceNamesABadCaptureAndItsButtonGoesThere) {
   EXPECT_EQ(page->pickedItem(), QStringLiteral("captures/r2.png"));
   QTest::mouseClick(page->callout()->findChild<QPushButton*>(), Qt::LeftButton);
   EXPECT_EQ(page->pickedItem(), QStringLiteral("captures/r1.png"));
+}
+
+TEST_F(CapturePages, NothingOfTheSessionBeforeIsSeenOrCanBeExcluded) {
+  newMeasurement(mill_text);
+  const auto plan = [this] {
+    auto* empty = go<NewCapturePage>(StepId::Capture);
+    ASSERT_NE(empty, nullptr);
+    empty->setInstrument(Instrument::Microscope);
+    empty->arriving()->plan()->makePlan();
+  };
+  plan();
+  put("M0_F1_rotation_0.png", encodePng(picture(1)));
+  ASSERT_TRUE(service().start(watched(), {}).isEmpty());
+  waitFor([&] { return stateOf("M0_F1_rotation_0.png") == IncomingState::Accepted; }, "first session");
+  auto* page = go<FiducialCapturePage>(StepId::Capture);
+  ASSERT_NE(page, nullptr);
+  ASSERT_FALSE(page->pickedItem().isEmpty());
+  window_->undoStack().push(
+      new ExcludeCommand(window_->session(), {page->pickedItem()}, QStringLiteral("a drop on the glass")));
+  ASSERT_TRUE(waitForJobs(*window_, 20));
+  service().stop();
+  // A second session begins with the same numbers for campaign and results.
+  auto session = std::make_unique<Session>(Session::create(folder_ / "second"));
+  const std::int64_t id = session->newCampaign("second", "2026-02-01T08:00:00Z", mill_text);
+  ASSERT_EQ(id, window_->session().campaignId());
+  window_->session().adopt(std::move(session), id);
+  service().setPace(20, 0.1, 0.5);
+  plan();
+  std::filesystem::create_directories(folder_ / "other");
+  ASSERT_TRUE(service().start(QString::fromStdString((folder_ / "other").string()), {}).isEmpty());
+  folder_.write("other/M0_F1_rotation_1.png", encodePng(picture(2)));
+  waitFor([&] { return stateOf("M0_F1_rotation_1.png") == IncomingState::Accepted; }, "second session");
+  page = go<FiducialCapturePage>(StepId::Capture);
+  ASSERT_NE(page, nullptr);
+  EXPECT_EQ(page->findChild<QTabWidget*>(QStringLiteral("captureTabs"))->currentIndex(), 1) << "capturing goes on";
+  EXPECT_TRUE(page->pickedItem().contains(QStringLiteral("rotation_1"))) << page->pickedItem().toStdString();
+  for (const Callout* callout : page->findChildren<Callout*>())
+    EXPECT_FALSE(callout->sentence().contains(QStringLiteral("drop on the glass")));
+  for (const auto* button : page->findChildren<QPushButton*>()) EXPECT_NE(button->text(), QStringLiteral("Bring back"));
 }
 
 TEST_F(CapturePages, ThePlanCanBeUndone) {

@@ -9,6 +9,8 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QSettings>
+#include <QSplitter>
 #include <QTabWidget>
 #include <QVBoxLayout>
 
@@ -87,6 +89,40 @@ TEST_P(LayoutTest, NoPageIsPushedOutSideways) {
 
 INSTANTIATE_TEST_SUITE_P(Demos, LayoutTest, ::testing::Values("fiducials", "holes", "balls", "scans", "discrepancy"),
                          [](const auto& test) { return std::string(test.param); });
+
+class BordersTest : public StoryTest {};
+
+TEST_F(BordersTest, AreKeptForTheNextStartAndNeverTurnAPageRound) {
+  QSettings().clear();
+  const auto campaign = writeStoryCampaign(folder_, Hidden::SpindleGrowth);
+  open(campaign, StepId::Model);
+  auto* splitter = window_->currentPage()->findChild<QSplitter*>();
+  ASSERT_NE(splitter, nullptr);
+  ASSERT_EQ(splitter->orientation(), Qt::Horizontal);
+  const int total = splitter->sizes()[0] + splitter->sizes()[1];
+  splitter->setSizes({total / 2 + 60, total / 2 - 60});
+  const QList<int> wanted = splitter->sizes();
+  window_->close();
+  // What an earlier version, or another page, has left must not be taken for it.
+  for (const QString& key : QSettings().allKeys()) {
+    if (key.startsWith(QStringLiteral("borders/DiscrepancyPage"))) QSettings().setValue(key, QVariantList{1, 2, 3});
+  }
+  window_ = std::make_unique<MainWindow>();
+  window_->resize(1440, 900);
+  window_->show();
+  open(campaign, StepId::Model);
+  splitter = window_->currentPage()->findChild<QSplitter*>();
+  EXPECT_EQ(splitter->orientation(), Qt::Horizontal);
+  EXPECT_NEAR(splitter->sizes()[0], wanted[0], 4);
+  for (const StepId step : all_steps) {
+    window_->workflow().goTo(step);
+    wait();
+    for (const QSplitter* one : window_->currentPage()->findChildren<QSplitter*>()) {
+      if (!one->isVisible()) continue;
+      for (const int size : one->sizes()) EXPECT_GE(size, 0);
+    }
+  }
+}
 
 TEST(Callout, IsAsHighAsItsSentenceNeedsWhenFirstShownAndWhenItChanges) {
   QWidget box;

@@ -4,11 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <QApplication>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QSettings>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTest>
+#include <QTimer>
 
 #include "core/base/random.h"
 #include "core/machine/nine_parameter_model.h"
@@ -20,6 +25,7 @@
 #include "widgets/pages/kinematics/nine_parameter_page.h"
 #include "widgets/pages/thermal/resolution_check_panel.h"
 #include "widgets/pages/thermal/warm_up_page.h"
+#include "widgets/shell/new_measurement_dialog.h"
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/tour.h"
 #include "widgets/shell/welcome_page.h"
@@ -111,6 +117,94 @@ TEST_F(MainWindowTest, OpensACampaignAndWalksThroughTheStepsByMouseAndKeys) {
     EXPECT_EQ(window_->currentPage()->step(), step);
     EXPECT_FALSE(window_->currentPage()->accessibleName().isEmpty());
   }
+}
+
+TEST_F(MainWindowTest, ANewMeasurementBeginsWithAMachineThatIsThere) {
+  NewMeasurementDialog dialog(std::nullopt);
+  ASSERT_EQ(dialog.choices()->count(), 4);
+  for (int i = 0; i < dialog.choices()->count(); ++i) {
+    dialog.choices()->setCurrentRow(i);
+    EXPECT_FALSE(dialog.name()->text().isEmpty());
+    const nlohmann::json machine = dialog.machine();
+    EXPECT_NO_THROW((void)MachineDescription::parse(JsonNode::parse(machine.dump(), "machine.json"), "machine.json"));
+  }
+  dialog.name()->setText(QStringLiteral("  "));
+  EXPECT_FALSE(dialog.startButton()->isEnabled()) << "a machine has a name";
+  folder_.write("rubbish.json", "{\"format\":\"else\"}");
+  dialog.takeFile(QString::fromStdString((folder_ / "rubbish.json").string()));
+  EXPECT_EQ(dialog.choices()->count(), 4);
+  EXPECT_EQ(dialog.findChild<Callout*>()->tone(), Tone::Bad);
+  const auto campaign = writeCampaignWithObservations(folder_);
+  dialog.takeFile(QString::fromStdString((campaign / "machine.json").string()));
+  ASSERT_EQ(dialog.choices()->count(), 5);
+  EXPECT_EQ(dialog.name()->text(), QStringLiteral("mill"));
+  dialog.name()->setText(QStringLiteral("the mill in hall 2"));
+  window_->startMeasurement(dialog.machine());
+  ASSERT_NE(window_->session().campaign(), nullptr) << window_->jobBar()->message().toStdString();
+  EXPECT_EQ(window_->session().campaign()->machine.name, "the mill in hall 2");
+  EXPECT_EQ(window_->session().campaign()->machine.points.size(), 8U);
+  EXPECT_EQ(window_->workflow().current(), StepId::Machine);
+  // The machine at hand is offered next time.
+  NewMeasurementDialog next(window_->session().campaign()->machine.source);
+  EXPECT_EQ(next.choices()->count(), 5);
+  EXPECT_EQ(next.name()->text(), QStringLiteral("the mill in hall 2"));
+}
+
+TEST_F(MainWindowTest, EnterPressesTheButtonThatHasTheFocus) {
+  openEightPoints();
+  window_->nextButton()->setFocus();
+  QTest::keyClick(window_->nextButton(), Qt::Key_Return);
+  EXPECT_EQ(window_->workflow().current(), StepId::WarmUp);
+}
+
+TEST_F(MainWindowTest, TheWordThatTheInstrumentWasWarmCanBeTakenBack) {
+  openEightPoints();
+  window_->workflow().goTo(StepId::WarmUp);
+  auto* page = qobject_cast<WarmUpPage*>(window_->currentPage());
+  ASSERT_NE(page, nullptr);
+  const auto state = [&] { return window_->workflow().status(StepId::WarmUp).state; };
+  EXPECT_EQ(state(), StepState::NotStarted);
+  QPushButton* button = nullptr;
+  for (auto* b : page->findChildren<QPushButton*>()) {
+    if (b->text().contains(QStringLiteral("was warm"))) button = b;
+  }
+  ASSERT_NE(button, nullptr);
+  QTest::mouseClick(button, Qt::LeftButton);
+  EXPECT_EQ(state(), StepState::Current);
+  EXPECT_EQ(window_->session().warmStatement()->at("by"), "operator");
+  window_->undoStack().undo();
+  EXPECT_EQ(state(), StepState::NotStarted);
+  EXPECT_FALSE(window_->session().warmStatement().has_value());
+  window_->undoStack().redo();
+  ASSERT_TRUE(button->text().contains(QStringLiteral("back"))) << button->text().toStdString();
+  QTest::mouseClick(button, Qt::LeftButton);
+  EXPECT_EQ(state(), StepState::NotStarted);
+}
+
+TEST_F(MainWindowTest, WhatIsTypedOnTheMachinePageStaysUntilItIsAppliedOrDiscarded) {
+  openEightPoints();
+  auto* page = window_->currentPage();
+  QLineEdit* name = nullptr;
+  for (auto* edit : page->findChildren<QLineEdit*>()) {
+    if (edit->accessibleName() == QStringLiteral("Name of the machine")) name = edit;
+  }
+  ASSERT_NE(name, nullptr);
+  EXPECT_TRUE(page->mayBeLeft());
+  name->setFocus();
+  name->selectAll();
+  QTest::keyClicks(name, QStringLiteral("another"));
+  window_->workflow().goTo(StepId::Review);
+  window_->workflow().goTo(StepId::Machine);
+  EXPECT_EQ(name->text(), QStringLiteral("another"));
+  EXPECT_EQ(window_->session().campaign()->machine.name, "mill");
+  // Leaving asks; Apply keeps it.
+  QTimer::singleShot(0, [] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    ASSERT_NE(box, nullptr);
+    box->button(QMessageBox::Apply)->click();
+  });
+  EXPECT_TRUE(page->mayBeLeft());
+  EXPECT_EQ(window_->session().campaign()->machine.name, "another");
 }
 
 TEST_F(MainWindowTest, FitsTheModelAndUndoesAChangeOfPoints) {

@@ -261,6 +261,31 @@ TEST(MachineBodies, RotaryAxesAreRoundBodiesWhereTheChainHasThem) {
   EXPECT_EQ(about("H [w-B'-X'-b-Y-Z-(C)-t]", QStringLiteral("Spindle")), 2);
 }
 
+TEST(View3D, AReliefOfNegativeValuesStandsOnTheTable) {
+  View3D view;
+  view.resize(640, 480);
+  view.setMachine(desktopMill());
+  view.setMachineVisible(false);
+  auto field = tiltedField(31);
+  for (double& v : field->value) v = -20.0 + 0.2 * v;  // -23 to -17 um
+  field->extrapolated.assign(field->extrapolated.size(), false);
+  view.setField(field, {2.0, 1000.0, false});
+  ColourScale scale;
+  scale.low = -24;
+  scale.high = 24;
+  view.setColourScale(scale);
+  view.show();
+  const QImage picture = view.picture({640, 480}, 1.0);
+  int blue = 0;
+  for (int y = 0; y < picture.height(); y += 2) {
+    for (int x = 0; x < 540; x += 2) {
+      const QColor c = picture.pixelColor(x, y);
+      if (c.blue() > c.red() + 60) ++blue;
+    }
+  }
+  EXPECT_GT(blue, 2000);
+}
+
 TEST(View3D, LinkedViewsLookTheSameWay) {
   View3D a, b;
   a.resize(300, 200);

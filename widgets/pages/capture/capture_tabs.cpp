@@ -24,4 +24,9 @@ QTabWidget* captureTabs(QWidget* captured, const PageContext& context, Instrumen
   return tabs;
 }
 
+void chooseCaptureTab(QWidget& page, SessionModel& session) {
+  auto* tabs = page.findChild<QTabWidget*>(QStringLiteral("captureTabs"));
+  if (tabs != nullptr) tabs->setCurrentIndex(IncomingService::of(session).running() ? 1 : 0);
+}
+
 }  // namespace spindrift::gui

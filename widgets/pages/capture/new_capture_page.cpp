@@ -8,6 +8,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/pages/capture/arriving_panel.h"
 #include "widgets/pages/capture/camera_panel.h"
+#include "widgets/pages/capture/incoming_service.h"
 
 namespace spindrift::gui {
 
@@ -22,6 +23,12 @@ NewCapturePage::NewCapturePage(PageContext page_context, QWidget* parent)
   tabs_->addTab(arriving_, tr("Arriving"));
   tabs_->addTab(camera_, tr("Camera"));
   content()->addWidget(tabs_, 1);
+  connect(&IncomingService::of(session()), &IncomingService::changed, this, [this] {
+    if (isVisible()) refresh();
+  });
+  connect(&IncomingService::of(session()), &IncomingService::planProgressed, this, [this] {
+    if (isVisible()) refresh();
+  });
   connect(instrument_, &Segments::chosen, this, [this](int index) { setInstrument(static_cast<Instrument>(index)); });
 }
 
@@ -34,8 +41,7 @@ void NewCapturePage::setInstrument(Instrument instrument) {
 void NewCapturePage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  if (shown_campaign_ != session().campaignId()) {
-    shown_campaign_ = session().campaignId();
+  if (newCampaign()) {
     const MachineDescription& machine = campaign->machine;
     const bool surfaces = std::any_of(machine.points.begin(), machine.points.end(),
                                       [](const MachinePoint& p) { return p.kind == "surface"; });
@@ -43,8 +49,13 @@ void NewCapturePage::refresh() {
                   : !machine.artefacts.empty() ? Instrument::TouchProbe
                                                : Instrument::Microscope);
   }
-  callout()->show(Tone::Accent, tr("Nothing is captured yet. Make a plan, then watch the folder into which the "
-                                   "instrument writes."));
+  IncomingService& service = IncomingService::of(session());
+  callout()->show(Tone::Accent, service.plan().empty()
+                                    ? tr("Nothing is captured yet. Make a plan, then watch the folder into which the "
+                                         "instrument writes.")
+                                : !service.running()
+                                    ? tr("The plan is made. Watch the folder into which the instrument writes.")
+                                    : tr("Ready: take the captures of the plan. Each is checked as it arrives."));
   arriving_->refresh();
 }
 

@@ -27,7 +27,6 @@ class NewCapturePage : public Page {
   Segments* instrument_;
   ArrivingPanel* arriving_;
   CameraPanel* camera_;
-  std::int64_t shown_campaign_ = 0;
 };
 
 }  // namespace spindrift::gui

@@ -88,6 +88,7 @@ void PlanPanel::makePlan() {
 
 void PlanPanel::showCountdown() {
   if (service_.plan().empty()) {
+    count_->clear();
     return next_->show(Tone::Neutral,
                        tr("There is no plan yet. It says what to measure when, and tells which capture a "
                           "file is that arrives."));

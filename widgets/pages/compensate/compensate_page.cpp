@@ -87,7 +87,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   auto* tiles = new QHBoxLayout;
   tiles->setSpacing(24);
   before_ = new NumberTile(tr("Measured before, rms"));
-  after_ = new NumberTile(tr("Measured with the correction, rms"));
+  after_ = new NumberTile(tr("Expected with the correction, rms"));
   expected_ = new NumberTile(tr("Uncertainty of the correction"));
   largest_ = new NumberTile(tr("Largest correction"));
   for (NumberTile* tile : {before_, after_, expected_, largest_}) tiles->addWidget(tile, 1);
@@ -284,6 +284,10 @@ void CompensatePage::fillChoices() {
 
 void CompensatePage::refresh() {
   if (session().campaign() == nullptr) return;
+  if (newCampaign()) {
+    plan_.reset();
+    shown_result_ = 0;
+  }
   callout()->setAction({}, {});
   const bool possible = session().observations().has_value() && (hasSource(CompensationSource::NineParameters) ||
                                                                  hasSource(CompensationSource::CompletedModel));
@@ -338,14 +342,14 @@ void CompensatePage::runPlan(bool store) {
   if (!observations ||
       !(hasSource(CompensationSource::NineParameters) || hasSource(CompensationSource::CompletedModel)))
     return;
-  const std::int64_t campaign = session().campaignId();
+  const std::int64_t visit = session().visit();
   Job job;
   job.title = tr("Working out the corrections");
-  job.work = [this, store, campaign, set = *observations, asked = request(), depends = dependencies(),
+  job.work = [this, store, visit, set = *observations, asked = request(), depends = dependencies(),
               data = session().snapshot().campaign](JobContext& progress) -> std::function<void()> {
     const CompensationPlan plan = planCompensation(*data, set, asked, progress);
-    return [this, store, campaign, plan, depends] {
-      if (session().campaignId() != campaign) return;
+    return [this, store, visit, plan, depends] {
+      if (session().visit() != visit) return;
       plan_ = plan;
       if (store) {
         session().storeResult(result_kind, {{"depends", depends}}, plan.json());

@@ -221,6 +221,10 @@ QString DiscrepancyPage::missing() const {
 
 void DiscrepancyPage::refresh() {
   if (session().campaign() == nullptr) return;
+  if (newCampaign()) {
+    story_.reset();
+    shown_result_ = 0;
+  }
   const QString lacks = missing();
   callout()->setAction({}, {});
   if (!lacks.isEmpty()) {
@@ -280,14 +284,14 @@ void DiscrepancyPage::search() {
   DiscrepancyOptions options;
   options.accept = choice.added;
   options.reject = choice.rejected;
-  const std::int64_t campaign = session().campaignId();
+  const std::int64_t visit = session().visit();
   Job job;
   job.title = tr("Searching for what the simulation lacks");
-  job.work = [this, campaign, options, choice, data = session().snapshot().campaign,
+  job.work = [this, visit, options, choice, data = session().snapshot().campaign,
               observations = *session().observations()](JobContext& progress) -> std::function<void()> {
     const DiscrepancyStory story = tellDiscrepancy(*data, observations, options, progress);
-    return [this, campaign, choice, payload = story.json()] {
-      if (session().campaignId() != campaign) return;
+    return [this, visit, choice, payload = story.json()] {
+      if (session().visit() != visit) return;
       session().storeResult(result_kind, {{option_name, choice.json()}}, payload);
       refresh();
     };

@@ -180,8 +180,12 @@ void FiducialCapturePage::load() {
 
 void FiducialCapturePage::refresh() {
   if (session().campaign() == nullptr) return;
-  const bool other = loaded_campaign_ != session().campaignId();
-  loaded_campaign_ = session().campaignId();
+  const bool other = newCampaign();
+  if (other) {
+    chooseCaptureTab(*this, session());
+    verdict_filter_->setCurrentIndex(0);
+    clearImage();
+  }
   callout()->setAction({}, {});
   callout()->set(Tone::Neutral, {});
   load();
@@ -213,16 +217,40 @@ void FiducialCapturePage::refresh() {
     } else if (!bad.empty()) {
       showBad(bad);
     } else {
-      callout()->show(Tone::Good, tr("All %1 captures are checked and can be used.").arg(captures_.size()));
+      showComplete();
     }
   }
   if (other || shown_.isEmpty()) {
+    // A row that was already the current one does not become it again.
     if (model_->rowCount() > 0) table_->selectRow(0);
+    if (model_->rowCount() > 0 && shown_.isEmpty()) showImage(model_->idAt(0));
   } else {
     const int row = model_->rowOf(shown_);
     if (row >= 0) table_->selectRow(row);
     showImage(shown_);
   }
+}
+
+void FiducialCapturePage::showComplete() {
+  const auto excluded = std::count_if(captures_.begin(), captures_.end(), [this](const CaptureVerdict& c) {
+    return session().excluded().contains(c.image);
+  });
+  QString text = excluded == 0 ? tr("All %1 captures are checked and can be used.").arg(captures_.size())
+                               : tr("Of %1 captures %2 can be used, %3 excluded.")
+                                     .arg(captures_.size())
+                                     .arg(static_cast<std::ptrdiff_t>(captures_.size()) - excluded)
+                                     .arg(excluded == 1 ? tr("one is") : tr("%1 are").arg(excluded));
+  QStringList lacking;
+  for (const Row& row : plan_->rows()) {
+    for (std::size_t c = 2; c < row.cells.size(); ++c) {
+      if (row.cells[c].tone != Tone::Attention) continue;
+      lacking << tr("%1 in state %2 has %3 for %4")
+                     .arg(row.cells[0].text, row.cells[1].text, row.cells[c].text,
+                          plan_->headerData(static_cast<int>(c), Qt::Horizontal, Qt::DisplayRole).toString().toLower());
+    }
+  }
+  if (!lacking.isEmpty()) text += tr(" Too few: %1.").arg(firstOf(lacking));
+  callout()->show(lacking.isEmpty() ? Tone::Good : Tone::Attention, text);
 }
 
 void FiducialCapturePage::showBad(const std::vector<const CaptureVerdict*>& bad) {
@@ -351,6 +379,7 @@ void FiducialCapturePage::showImage(const QString& image) {
   if (capture == nullptr) return;
   const bool same = shown_ == image && !image_->empty();
   shown_ = image;
+  exclude_->setEnabled(true);
   const bool excluded = session().excluded().contains(image);
   exclude_->setText(excluded ? tr("Bring back") : tr("Exclude …"));
   if (excluded) {
@@ -391,6 +420,18 @@ void FiducialCapturePage::showImage(const QString& image) {
     image_->setEmptyText(tr("This image cannot be shown"), sentence);
   };
   context().jobs.run(std::move(job));
+}
+
+void FiducialCapturePage::clearImage() {
+  ++request_;
+  shown_.clear();
+  image_->setImage({});
+  image_->setMarks({});
+  image_->setCaption({});
+  badge_->set({}, Tone::Neutral, {});
+  verdict_->set(Tone::Neutral, {});
+  exclude_->setText(tr("Exclude …"));
+  exclude_->setEnabled(false);
 }
 
 void FiducialCapturePage::toggleExcluded() {

@@ -46,7 +46,11 @@ class FiducialCapturePage : public Page {
  private:
   void load();
   void fillTable();
+  /// Nothing of another campaign may be seen, nor be excluded.
+  void clearImage();
   void fillPlan();
+  /// All are good: says what is excluded, and where too few are left.
+  void showComplete();
   /// Says which captures are bad, with a button that goes to the first.
   void showBad(const std::vector<const CaptureVerdict*>& bad);
   void checkAll();
@@ -55,7 +59,6 @@ class FiducialCapturePage : public Page {
   [[nodiscard]] const CaptureVerdict* find(const QString& image) const;
 
   std::vector<CaptureVerdict> captures_;
-  std::int64_t loaded_campaign_ = 0;
   QPushButton* check_;
   QComboBox* state_filter_;
   QComboBox* verdict_filter_;

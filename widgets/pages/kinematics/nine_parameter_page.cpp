@@ -11,6 +11,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -210,6 +211,7 @@ void NineParameterPage::changeOptions(const QString& what, const nlohmann::json&
 void NineParameterPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
+  if (newCampaign()) result_.reset();
   filling_ = true;
   const auto set = session().observations();
   QString chosen = QString::fromStdString(options().state);
@@ -243,6 +245,9 @@ void NineParameterPage::refresh() {
   }
   fillPoints();
   showFit();
+  const ResultState stored = session().state("fit");
+  if (result_ && stored.there && !stored.current)
+    callout()->show(Tone::Outdated, tr("What was fitted has changed since. Fit the model again."));
 }
 
 void NineParameterPage::fillPoints() {
@@ -260,12 +265,19 @@ void NineParameterPage::fillPoints() {
         positions[row.point] = row.position_mm;
       }
     }
+    std::set<std::pair<std::string, Component>> in_reference;
     for (const Observation& row : set->rows) {
+      if (row.state == reference) in_reference.insert({row.point, row.component});
       if (row.state == reference && reference != state && values.contains(row.point) &&
           values[row.point].contains(row.component)) {
         auto& v = values[row.point][row.component];
         v = {v.first - row.value, std::hypot(v.second, row.sigma)};
       }
+    }
+    // Without a value in the reference state there is no deviation from it.
+    for (auto& [point, of] : values) {
+      if (reference != state)
+        std::erase_if(of, [&](const auto& v) { return !in_reference.contains({point, v.first}); });
     }
     for (const std::string& point : set->points()) {
       if (!values.contains(point)) continue;

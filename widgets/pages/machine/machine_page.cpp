@@ -7,6 +7,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QSpinBox>
 #include <QSplitter>
 #include <QTabWidget>
@@ -83,8 +84,10 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
       "From the workpiece w over the bed b to the tool t (ISO 10791-1); ' marks an axis that carries the workpiece"));
   form->addWidget(new QLabel(tr("Name")), 0, 0);
   form->addWidget(name_, 0, 1);
-  form->addWidget(new QLabel(tr("Chain")), 1, 0);
-  form->addWidget(chain_, 1, 1);
+  form->addWidget(new QLabel(tr("Chain")), 0, 2);
+  form->addWidget(chain_, 0, 3);
+  form->setColumnStretch(1, 1);
+  form->setColumnStretch(3, 1);
   card->body()->addLayout(form);
   card->body()->addWidget(makeLabel(tr("Linear axes"), "sectionTitle"));
   axes_ = makeEditor({tr("Axis"), tr("From\n/ mm"), tr("To\n/ mm"), tr("Resolution\n/ um"), tr("Drive"),
@@ -162,14 +165,24 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   });
   connect(suggest_, &QPushButton::clicked, this, &MachinePage::suggestPoints);
   connect(apply_, &QPushButton::clicked, this, &MachinePage::apply);
-  connect(discard_, &QPushButton::clicked, this, &MachinePage::refresh);
-  connect(original_, &QPushButton::clicked, this,
-          [this] { context().undo.push(new MachineCommand(session(), nlohmann::json::object())); });
+  connect(discard_, &QPushButton::clicked, this, [this] {
+    edited_ = false;
+    refresh();
+  });
+  connect(original_, &QPushButton::clicked, this, [this] {
+    edited_ = false;
+    context().undo.push(new MachineCommand(session(), nlohmann::json::object()));
+  });
 }
 
 void MachinePage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
+  if (newCampaign()) edited_ = false;
+  if (edited_) {  // what was typed and not applied stays
+    artefacts_->refresh();
+    return;
+  }
   const MachineDescription& machine = campaign->machine;
   filling_ = true;
   name_->setText(QString::fromStdString(machine.name));
@@ -223,6 +236,7 @@ void MachinePage::showFindings() {
 
 void MachinePage::markEdited() {
   if (filling_) return;
+  edited_ = true;
   apply_->setEnabled(true);
   discard_->setEnabled(true);
 }
@@ -325,7 +339,25 @@ void MachinePage::apply() {
     callout()->show(Tone::Bad, QString::fromUtf8(e.what()));
     return;
   }
+  edited_ = false;
   context().undo.push(new MachineCommand(session(), machine));
+}
+
+bool MachinePage::mayBeLeft() {
+  if (!edited_) return true;
+  QMessageBox box(QMessageBox::Question, tr("Machine"), tr("The machine has changes that are not applied."),
+                  QMessageBox::Apply | QMessageBox::Discard | QMessageBox::Cancel, this);
+  box.setDefaultButton(QMessageBox::Apply);
+  switch (box.exec()) {
+    case QMessageBox::Apply:
+      apply();
+      return !edited_;
+    case QMessageBox::Discard:
+      edited_ = false;
+      return true;
+    default:
+      return false;
+  }
 }
 
 std::vector<Exportable> MachinePage::exportables() {

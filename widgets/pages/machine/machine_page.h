@@ -27,6 +27,8 @@ class MachinePage : public Page {
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] ArtefactEditor* artefacts() const { return artefacts_; }
 
+  [[nodiscard]] bool mayBeLeft() override;
+
  private:
   void markEdited();
   void apply();
@@ -48,6 +50,7 @@ class MachinePage : public Page {
   QPushButton* discard_;
   QPushButton* original_;
   bool filling_ = false;
+  bool edited_ = false;  ///< what is typed is not applied yet
 };
 
 /// Sentences about what the description lacks for which use.

@@ -181,8 +181,7 @@ void CycleModelPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
   const auto list = results_.touches();
-  if (shown_campaign_ != session().campaignId()) {
-    shown_campaign_ = session().campaignId();
+  if (newCampaign()) {
     clear();
   }
   const Artefact* artefact = artefactOf(*campaign, list.get());

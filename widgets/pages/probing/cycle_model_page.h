@@ -59,7 +59,6 @@ class CycleModelPage : public Page {
   TouchResults& results_;
   std::shared_ptr<const TouchEvaluation> evaluation_;
   std::shared_ptr<const Field> field_;
-  std::int64_t shown_campaign_ = 0;
   bool filling_ = false;
   QPushButton* fit_;
   QComboBox* cycle_;

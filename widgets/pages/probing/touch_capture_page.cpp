@@ -172,8 +172,8 @@ void TouchCapturePage::evaluate(bool store) {
 void TouchCapturePage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  const bool other = shown_campaign_ != session().campaignId();
-  shown_campaign_ = session().campaignId();
+  const bool other = newCampaign();
+  if (other) chooseCaptureTab(*this, session());
   const auto list = results_.touches();
   if (list == nullptr) {
     verdicts_.clear();

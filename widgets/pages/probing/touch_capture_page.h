@@ -51,7 +51,6 @@ class TouchCapturePage : public Page {
   TouchResults& results_;
   std::vector<TouchVerdict> verdicts_;
   bool judged_ = false;  ///< verdicts come from an evaluation, not from the bare list
-  std::int64_t shown_campaign_ = 0;
   QString cycle_;
   std::optional<CheckedProgram> program_;
   QPushButton* check_;

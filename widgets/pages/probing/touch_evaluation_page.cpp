@@ -167,8 +167,7 @@ void TouchEvaluationPage::clear() {
 
 void TouchEvaluationPage::refresh() {
   if (session().campaign() == nullptr) return;
-  if (shown_campaign_ != session().campaignId()) {
-    shown_campaign_ = session().campaignId();
+  if (newCampaign()) {
     details_ = {};
     clear();
   }

@@ -54,7 +54,6 @@ class TouchEvaluationPage : public Page {
 
   TouchResults& results_;
   Details details_;
-  std::int64_t shown_campaign_ = 0;
   QPushButton* evaluate_;
   NumberTile* used_;
   NumberTile* noise_;

@@ -55,6 +55,11 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   operator_->setPlaceholderText(tr("Name, or empty to sign by hand"));
   operator_->setAccessibleName(tr("Name of the operator"));
   left->body()->addWidget(operator_);
+  connect(operator_, &QLineEdit::editingFinished, this, [this] {
+    if (session().campaign() == nullptr) return;
+    session().setSetting("operator", operator_->text().trimmed().toStdString());
+    if (session().result(result_kind)) refresh();
+  });
   discrepancy_ = new QCheckBox(tr("Tell the discrepancy"));
   discrepancy_->setToolTip(tr("Search for what the simulation lacks and tell it with the effects that were added"));
   left->body()->addWidget(discrepancy_);
@@ -140,7 +145,7 @@ StoredResults ReportPage::stored() const {
   };
   StoredResults out;
   out.plan = model.setting("plan/" + std::to_string(model.campaignId()), nlohmann::json());
-  out.warm_up = payload("warm-up");
+  out.warm_up = model.warmStatement().value_or(nlohmann::json());
   out.jogs = payload("check-jogs");
   out.repeatability = payload("check-repeatability");
   out.thermal = payload("thermal");
@@ -154,11 +159,12 @@ nlohmann::json ReportPage::dependencies() const {
   auto& model = const_cast<ReportPage*>(this)->session();
   nlohmann::json results = nlohmann::json::array();
   for (const char* kind :
-       {"warm-up", "check-jogs", "check-repeatability", "thermal", "compensation", "log-compensation", "verify"}) {
+       {"check-jogs", "check-repeatability", "thermal", "compensation", "log-compensation", "verify"}) {
     const StoredResult* result = model.latest(kind);
     results.push_back(result == nullptr ? 0 : result->id);
   }
-  return {{"fit", model.setting(fit_options_key, nlohmann::json::object())},
+  return {{"warm", model.warmStatement().value_or(nlohmann::json())},
+          {"fit", model.setting(fit_options_key, nlohmann::json::object())},
           {"results", results},
           {"discrepancy", DiscrepancyChoice::of(model).json()},
           {"tells_discrepancy", discrepancy_->isChecked()},
@@ -174,6 +180,11 @@ std::filesystem::path ReportPage::file() const {
 
 void ReportPage::refresh() {
   if (session().campaign() == nullptr) return;
+  if (newCampaign()) {
+    shown_result_ = 0;
+    opening_.reset();
+    showDocument(nullptr);
+  }
   callout()->setAction({}, {});
   const bool possible = canReport(*session().campaign(), session().observations().has_value());
   write_->setEnabled(possible);
@@ -267,20 +278,21 @@ void ReportPage::write() {
   if (!canReport(*session().campaign(), observations.has_value()) || context().jobs.busy()) return;
   session().setSetting("operator", operator_->text().trimmed().toStdString());
   const std::int64_t campaign = session().campaignId();
+  const std::int64_t visit = session().visit();
   const std::string name = "reports/report-" + std::to_string(campaign) + ".html";
   auto campaign_copy = std::make_shared<Campaign>(*session().snapshot().campaign);
   // What the user excluded is marked in the observations.
   if (campaign_copy->observations) campaign_copy->observations = observations;
   Job job;
   job.title = tr("Writing the report");
-  job.work = [this, campaign, name, campaign_copy, asked = options(), depends = dependencies(),
+  job.work = [this, visit, name, campaign_copy, asked = options(), depends = dependencies(),
               target = session().folder() / name](JobContext& progress) -> std::function<void()> {
     const std::string html = campaignReportHtml(*campaign_copy, asked, progress);
     progress.throwIfCancelled();
     std::filesystem::create_directories(target.parent_path());
     writeFileAtomically(target, html);
-    return [this, campaign, name, depends, bytes = html.size()] {
-      if (session().campaignId() != campaign) return;
+    return [this, visit, name, depends, bytes = html.size()] {
+      if (session().visit() != visit) return;
       session().storeResult(result_kind, {{"depends", depends}}, {{"file", name}, {"bytes", bytes}});
       refresh();
     };

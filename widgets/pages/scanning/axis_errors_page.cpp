@@ -168,8 +168,7 @@ void AxisErrorsPage::clear() {
 
 void AxisErrorsPage::refresh() {
   if (session().campaign() == nullptr) return;
-  if (shown_campaign_ != session().campaignId()) {
-    shown_campaign_ = session().campaignId();
+  if (newCampaign()) {
     clear();
   }
   model_->setCurrent(chosenModel() == models[1] ? 1 : 0);

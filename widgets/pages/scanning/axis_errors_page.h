@@ -49,7 +49,6 @@ class AxisErrorsPage : public Page {
   void showObservability(const ScanEvaluation& evaluation);
 
   ScanResults& results_;
-  std::int64_t shown_campaign_ = 0;
   QPushButton* fit_;
   Segments* model_;
   Segments* component_;

@@ -95,8 +95,7 @@ void ProfilerCalibrationPage::clear() {
 
 void ProfilerCalibrationPage::refresh() {
   if (session().campaign() == nullptr) return;
-  if (shown_campaign_ != session().campaignId()) {
-    shown_campaign_ = session().campaignId();
+  if (newCampaign()) {
     clear();
   }
   const auto stored = session().evaluation();

@@ -37,7 +37,6 @@ class ProfilerCalibrationPage : public Page {
   void showScans(const ScanEvaluation& evaluation);
 
   ScanResults& results_;
-  std::int64_t shown_campaign_ = 0;
   QPushButton* evaluate_;
   NumberTile* rim_;
   NumberTile* plane_;

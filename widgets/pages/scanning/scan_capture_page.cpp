@@ -142,8 +142,8 @@ void ScanCapturePage::check() {
 
 void ScanCapturePage::refresh() {
   if (session().campaign() == nullptr) return;
-  const bool other = shown_campaign_ != session().campaignId();
-  shown_campaign_ = session().campaignId();
+  const bool other = newCampaign();
+  if (other) chooseCaptureTab(*this, session());
   if (other) {
     picture_ = before_picture_ = {};
     shown_.clear();

@@ -57,7 +57,6 @@ class ScanCapturePage : public Page {
 
   ScanResults& results_;
   std::map<QString, ScanCheck> checks_;
-  std::int64_t shown_campaign_ = 0;
   ScanPicture picture_;
   QString shown_;
   int request_ = 0;

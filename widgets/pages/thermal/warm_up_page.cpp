@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/imaging/warm_up.h"
+#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/thermal/clock_panel.h"
@@ -71,13 +72,20 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
 }
 
 void WarmUpPage::confirm() {
-  session().storeResult("warm-up", {{"statement", "instrument was warm"}}, {{"settled", true}, {"by", "operator"}});
-  refresh();
+  const bool given = session().warmStatement().has_value();
+  context().undo.push(new OptionsCommand(
+      session(), given ? tr("take back that the instrument was warm") : tr("state that the instrument was warm"),
+      session().warmStatementKey(),
+      given ? nlohmann::json::object() : nlohmann::json{{"settled", true}, {"by", "operator"}}, [this] {
+        context().workflow.refresh();
+        refresh();
+      }));
 }
 
 void WarmUpPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
+  static_cast<void>(newCampaign());
   std::vector<Series> temperatures;
   if (campaign->log) {
     const OperatingLog& log = *campaign->log;
@@ -164,10 +172,10 @@ void WarmUpPage::refresh() {
   }
   drift_->setContent(std::move(drift));
   verdicts_->setRows(std::move(rows));
-  const ResultState state = session().state("warm-up");
+  const bool stated = session().warmStatement().has_value();
   const bool measured = judged && judged->status == FitStatus::Converged;
-  if (state.there) {
-    callout()->show(Tone::Good, tr("You stated that the instrument was warm. The report says so."));
+  if (stated) {
+    callout()->show(Tone::Good, tr("You stated that the instrument was warm. Reports written from now on say so."));
   } else if (measured) {
     callout()->show(judged->settled ? Tone::Good : Tone::Attention, QString::fromStdString(judged->reason));
   } else if (!unreadable.isEmpty()) {
@@ -176,7 +184,7 @@ void WarmUpPage::refresh() {
     callout()->show(Tone::Attention, tr("This campaign has no warm-up measurement. Either measure one point every 5 "
                                         "minutes until it settles, or state that the instrument was warm."));
   }
-  confirm_->setVisible(!state.there);
+  confirm_->setText(QChar(0x2009) + (stated ? tr("Take the statement back") : tr("The instrument was warm")));
   jogs_->refresh();
   repeatability_->refresh();
   clocks_->refresh();
