@@ -58,7 +58,8 @@ void addPoints(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& 
   std::vector<std::string> points;
   for (const DiscrepancyReportRow& row : rows) {
     if (std::find(points.begin(), points.end(), row.point) == points.end()) points.push_back(row.point);
-    if (!std::isfinite(row.before) || !std::isfinite(row.after)) continue;
+    // As in the window: what was held out only proves, and has figures of its own.
+    if (row.held_out || !std::isfinite(row.before) || !std::isfinite(row.after)) continue;
     Cell& cell = cells[{row.point, row.component}];
     cell.count += 1.0;
     cell.before += row.before * row.before;
@@ -85,7 +86,7 @@ void addPoints(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& 
     }
     table.push_back(std::move(row));
   }
-  document.table(header, table, "rms per point and component, before \u2192 after");
+  document.table(header, table, "rms of the rows that were fitted, per point and component, before \u2192 after");
 }
 
 void addMaps(HtmlDocument& document, const DiscrepancyReportData& data, const FieldGrid& table) {

@@ -187,7 +187,9 @@ void makeFiles(const MachineDescription& machine, const Prepared& prepared, cons
       "measured_x_um,measured_y_um,measured_z_um,remains_x_um,remains_y_um,remains_z_um\n",
       relative);
   for (const CompensationPoint& p : plan.points) {
-    csv += fmt::format("{},{},{},{}", p.point, p.position_mm.x(), p.position_mm.y(), p.position_mm.z());
+    csv += p.point;
+    // A nanometre is more than a place is known to.
+    for (int i = 0; i < 3; ++i) csv += fmt::format(",{}", std::round(1e6 * p.position_mm[i]) / 1e6);
     for (int i = 0; i < 3; ++i) csv += fmt::format(",{:.4f}", p.correction_um[i]);
     for (int i = 0; i < 3; ++i) csv += fmt::format(",{:.4f}", p.sigma_um[i]);
     for (const auto* list : {&p.measured_um, &p.remains_um}) {

@@ -67,6 +67,8 @@ TEST(DiscrepancyReport, SaysWhatWasAddedAndWhatIsProposed) {
   EXPECT_THAT(
       html,
       HasSubstr("Thermal expansion of the Y ball screw <small>ball_screw.expansion.y</small> (added to the model)"));
+  // F2 moves by 0, 5 and 10; the last is held out and is no part of the figures, as in the window.
+  EXPECT_THAT(html, HasSubstr("3.54 \u2192 0.35"));
   EXPECT_THAT(html, HasSubstr("EY before"));
   EXPECT_THAT(html, HasSubstr("EY after"));
   EXPECT_THAT(html, HasSubstr("Missing in the simulation: thermal expansion of the Y ball screw <small>"));

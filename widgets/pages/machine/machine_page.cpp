@@ -111,7 +111,6 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   suggest_goal_ = new QComboBox;
   suggest_goal_->addItem(tr("best heat map"), static_cast<int>(PlacementCriterion::I));
   suggest_goal_->addItem(tr("best parameters"), static_cast<int>(PlacementCriterion::D));
-  suggest_goal_->setMaximumWidth(156);
   suggest_goal_->setAccessibleName(tr("What the points shall be best for"));
   suggest_ = makeButton(tr("Suggest points"), "target");
   suggest_->setToolTip(
