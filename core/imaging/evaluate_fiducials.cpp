@@ -122,7 +122,9 @@ nlohmann::json detailsOf(const FiducialCaptureList& list, const FiducialImages& 
 std::string summaryOf(const FiducialDisplacement& d) {
   std::string text = "fiducial  state     EX / um            EY / um            EZ / um\n";
   for (const FiducialState& s : d.states) {
-    const auto cell = [](bool there, double value, double sigma) {
+    const auto isOwn = [&](const std::optional<std::size_t>& of) { return of && &d.states[*of] == &s; };
+    const auto cell = [](bool own, bool there, double value, double sigma) {
+      if (own) return std::string("reference");
       return there ? withUncertainty(value, sigma, "") : std::string("-");
     };
     // Widths count characters, not bytes of the signs.
@@ -132,14 +134,15 @@ std::string summaryOf(const FiducialDisplacement& d) {
       if (length < width) cell_text.append(width - length, ' ');
       return cell_text;
     };
-    if (s.reference) {
+    if (isOwn(s.xy_reference) && isOwn(s.z_reference)) {
       text += padded(s.fiducial, 10) + padded(s.state, 10) + "reference\n";
       continue;
     }
-    text += padded(s.fiducial, 10) + padded(s.state, 10) +
-            padded(cell(s.xy_um.has_value(), s.xy_um ? s.xy_um->x() : 0.0, s.xy_sigma_um.x()), 19) +
-            padded(cell(s.xy_um.has_value(), s.xy_um ? s.xy_um->y() : 0.0, s.xy_sigma_um.y()), 19) +
-            cell(s.z_um.has_value(), s.z_um.value_or(0.0), s.z_sigma_um) + "\n";
+    text +=
+        padded(s.fiducial, 10) + padded(s.state, 10) +
+        padded(cell(isOwn(s.xy_reference), s.xy_um.has_value(), s.xy_um ? s.xy_um->x() : 0.0, s.xy_sigma_um.x()), 19) +
+        padded(cell(isOwn(s.xy_reference), s.xy_um.has_value(), s.xy_um ? s.xy_um->y() : 0.0, s.xy_sigma_um.y()), 19) +
+        cell(isOwn(s.z_reference), s.z_um.has_value(), s.z_um.value_or(0.0), s.z_sigma_um) + "\n";
   }
   if (d.centres.status == FitStatus::Converged) {
     text += fmt::format("centre of rotation: {}; the spindle repeats to {:.2f} um\n", toString(d.centres.pooling),

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/text.h"
@@ -190,6 +191,103 @@ RotationSet rotationSet(const FiducialCaptureList& list, const FiducialImages& i
   return set;
 }
 
+/// The first state in which any fiducial has what `has` asks for; empty if none has.
+template <typename Has>
+std::string referenceState(const std::vector<std::string>& states, const FiducialDisplacement& d, const Has& has) {
+  for (const std::string& state : states) {
+    for (const FiducialState& s : d.states) {
+      if (s.state == state && has(s)) return state;
+    }
+  }
+  return {};
+}
+
+/// xy_um and z_um of every state, relative to the same fiducial in the reference state; none without it.
+void findDisplacements(const std::vector<std::string>& states, FiducialDisplacement& out) {
+  const std::string xy_state = referenceState(states, out, [](const FiducialState& s) { return s.centre.has_value(); });
+  const std::string z_state =
+      referenceState(states, out, [](const FiducialState& s) { return s.focus_set.has_value(); });
+  for (FiducialState& s : out.states) {
+    s.reference = s.state == xy_state || s.state == z_state;
+    for (std::size_t k = 0; k < out.states.size(); ++k) {
+      if (out.states[k].fiducial != s.fiducial) continue;
+      if (s.centre && out.states[k].state == xy_state && out.states[k].centre) s.xy_reference = k;
+      if (s.focus_set && out.states[k].state == z_state && out.states[k].focus_set) s.z_reference = k;
+    }
+    if (s.xy_reference) {
+      const FiducialState& reference = out.states[*s.xy_reference];
+      const Eigen::Vector2d moved = out.centres.sets[*s.centre].place_um - out.centres.sets[*reference.centre].place_um;
+      s.xy_um =
+          turned(directionOf(out, s.fiducial)->psi_rad) * moved - (s.commanded_mm - reference.commanded_mm) * um_per_mm;
+    }
+    if (s.z_reference) {
+      const std::size_t reference = *out.states[*s.z_reference].focus_set;
+      s.z_um = -(out.focus.peaks[*s.focus_set].peak_um - out.focus.peaks[reference].peak_um);
+    }
+  }
+  const std::vector<std::string>& all = states;
+  for (const auto& [what, state] : {std::pair{"position in the plane", &xy_state}, std::pair{"height", &z_state}}) {
+    if (all.empty() || state->empty() || *state == all.front()) continue;
+    out.warnings.push_back(
+        fmt::format("no fiducial has a {} in {}: its change is relative to {}.", what, all.front(), *state));
+  }
+}
+
+std::string numberWord(std::size_t n) {
+  constexpr std::array<const char*, 6> words{"none", "one", "two", "three", "four", "five"};
+  return n < words.size() ? words[n] : fmt::format("{}", n);
+}
+
+/// "F1 has only two of the three rotation images it needs in M0".
+std::string lackOf(const std::string& fiducial, const std::string& state, bool height, const std::vector<Group>& groups,
+                   const FiducialImages& images) {
+  const auto group = std::find_if(groups.begin(), groups.end(),
+                                  [&](const Group& g) { return g.fiducial == fiducial && g.state == state; });
+  const std::size_t needed = height ? 5 : 3;
+  std::size_t there = 0;
+  if (group != groups.end()) there = height ? group->focus.size() : orientationCount(images, group->rotation);
+  if (there >= needed)
+    return fmt::format("{} has no {} in {}", fiducial, height ? "height" : "position in the plane", state);
+  return fmt::format("{} has {}{} of the {} {} images it needs in {}", fiducial, there > 0 ? "only " : "",
+                     numberWord(there), numberWord(needed), height ? "focus" : "rotation", state);
+}
+
+/// What a fiducial lacks in a state, and what follows: without the reference nothing, else only that state.
+void warnOfMissing(const FiducialCaptureList& list, const std::vector<Group>& groups, const FiducialImages& images,
+                   FiducialDisplacement& out) {
+  const std::vector<std::string> states = list.states();
+  for (const std::string& fiducial : list.fiducials()) {
+    for (const bool height : {false, true}) {
+      const auto measured = [&](const FiducialState& s) {
+        return height ? s.focus_set.has_value() : s.centre.has_value();
+      };
+      const std::string reference = referenceState(states, out, measured);
+      if (reference.empty()) continue;  // of no fiducial at all; said elsewhere
+      std::vector<std::string> there, missing;
+      for (const std::string& state : states) {
+        const bool has = std::any_of(out.states.begin(), out.states.end(), [&](const FiducialState& s) {
+          return s.fiducial == fiducial && s.state == state && measured(s);
+        });
+        if (state != reference) (has ? there : missing).push_back(state);
+        if (state == reference && !has) missing.insert(missing.begin(), state);
+      }
+      if (missing.empty()) continue;
+      const char* axes = height ? "Z" : "X and Y";
+      if (missing.front() == reference && !there.empty()) {
+        out.warnings.push_back(fmt::format("{}: it has no deviation in {} in {}.",
+                                           lackOf(fiducial, reference, height, groups, images), axes,
+                                           joinedList(there)));
+        missing.erase(missing.begin());
+      }
+      for (const std::string& state : missing) {
+        if (state == reference) continue;  // nowhere measured: nothing is lost by it
+        out.warnings.push_back(
+            fmt::format("{}: it has no deviation in {} there.", lackOf(fiducial, state, height, groups, images), axes));
+      }
+    }
+  }
+}
+
 /// A row of the result together with what it is made of.
 struct Row {
   Observation observation;
@@ -206,14 +304,7 @@ void writeObservations(FiducialDisplacement& out) {
       if (z ? !s.z_um.has_value() : !s.xy_um.has_value()) continue;
       Row row;
       row.state = i;
-      row.reference = i;
-      for (std::size_t k = 0; k < i; ++k) {
-        const FiducialState& other = out.states[k];
-        if (other.fiducial == s.fiducial && (z ? other.z_um.has_value() : other.xy_um.has_value())) {
-          row.reference = k;
-          break;
-        }
-      }
+      row.reference = z ? *s.z_reference : *s.xy_reference;
       row.observation.time_s = s.time_s;
       row.observation.state = s.state;
       row.observation.point = s.fiducial;
@@ -427,54 +518,8 @@ FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list, c
                             peak.message.empty() ? out.focus.message + "." : peak.message});
     s.focus_set.reset();
   }
-  // Displacements relative to the first state of each fiducial.
-  for (std::size_t i = 0; i < out.states.size(); ++i) {
-    FiducialState& s = out.states[i];
-    const FiducialState* xy_reference = nullptr;
-    const FiducialState* z_reference = nullptr;
-    for (std::size_t k = 0; k < i; ++k) {
-      if (out.states[k].fiducial != s.fiducial) continue;
-      if (xy_reference == nullptr && out.states[k].centre) xy_reference = &out.states[k];
-      if (z_reference == nullptr && out.states[k].focus_set) z_reference = &out.states[k];
-    }
-    s.reference = xy_reference == nullptr && z_reference == nullptr;
-    if (s.centre) {
-      s.xy_um = Eigen::Vector2d::Zero();
-      if (xy_reference != nullptr) {
-        const Eigen::Vector2d moved =
-            out.centres.sets[*s.centre].place_um - out.centres.sets[*xy_reference->centre].place_um;
-        s.xy_um = turned(directionOf(out, s.fiducial)->psi_rad) * moved -
-                  (s.commanded_mm - xy_reference->commanded_mm) * um_per_mm;
-      }
-    }
-    if (s.focus_set) {
-      s.z_um = 0.0;
-      if (z_reference != nullptr) {
-        s.z_um = -(out.focus.peaks[*s.focus_set].peak_um - out.focus.peaks[*z_reference->focus_set].peak_um);
-      }
-    }
-  }
-  // A fiducial that is missing somewhere.
-  const std::vector<std::string> all_states = list.states();
-  for (const std::string& fiducial : list.fiducials()) {
-    for (const auto& [what, has] :
-         {std::pair<std::string_view, bool (*)(const FiducialState&)>{
-              "position in the plane", [](const FiducialState& s) { return s.xy_um.has_value(); }},
-          std::pair<std::string_view, bool (*)(const FiducialState&)>{
-              "height", [](const FiducialState& s) { return s.z_um.has_value(); }}}) {
-      std::vector<std::string> missing;
-      for (const std::string& state : all_states) {
-        const bool there = std::any_of(out.states.begin(), out.states.end(), [&, test = has](const FiducialState& s) {
-          return s.fiducial == fiducial && s.state == state && test(s);
-        });
-        if (!there) missing.push_back(state);
-      }
-      if (missing.empty()) continue;
-      out.warnings.push_back(fmt::format(
-          "fiducial {} has no {} in state {}; it is evaluated in the other states{}.", fiducial, what,
-          joinedList(missing), missing.front() == all_states.front() ? " relative to the first of them" : ""));
-    }
-  }
+  findDisplacements(list.states(), out);
+  warnOfMissing(list, groups, images, out);
   writeObservations(out);
   return out;
 }

@@ -5,7 +5,9 @@
 // XY (P0 (12)-(15)): the spindle's axis meets the fiducial at s (FCF). If the tool moves by d relative to the table, s
 // moves by R(-psi) d, so  d = R(psi) (s - s_ref) - (c - c_ref)  with c the commanded position.
 // Z (P0 (20)): the focus peak over commanded height moves by -d, so d = -(peak - peak_ref).
-// The reference of a fiducial is the first state in which it was measured.
+// The reference is one state for all fiducials, the first of the list in which any of them has a place in the plane (or
+// a focus peak). A fiducial without it there has no displacement in any other state: relative to another reference it
+// would stand beside the rest as if it were relative to the same (a warning says so).
 //
 // Observations: rows of the reference state are 0 by definition. Their sigma is the share of the reference in the
 // noise, and covariances are given such that the difference of any row and the reference row of its point has exactly
@@ -25,7 +27,7 @@
 
 namespace spindrift {
 
-/// One fiducial in one state. um, MCF, relative to the reference state of the fiducial.
+/// One fiducial in one state. um, MCF, relative to the reference state.
 struct FiducialState {
   std::string fiducial;
   std::string state;
@@ -36,6 +38,8 @@ struct FiducialState {
   std::optional<std::size_t> focus_set;   ///< index in focus sets
   std::optional<std::size_t> directions;  ///< index in AxisResult::sets
   Eigen::Vector2d commanded_mm = Eigen::Vector2d::Zero();
+  std::optional<std::size_t> xy_reference;  ///< index in FiducialDisplacement::states of what xy_um is relative to
+  std::optional<std::size_t> z_reference;
   std::optional<Eigen::Vector2d> xy_um;
   Eigen::Vector2d xy_sigma_um = Eigen::Vector2d::Zero();
   std::optional<double> z_um;

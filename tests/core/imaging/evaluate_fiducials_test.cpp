@@ -212,8 +212,26 @@ TEST_F(RenderedCampaign, AFiducialMissingInAStateIsSaid) {
   }
   std::ofstream(campaign / "captures/fiducials.csv") << kept;
   const InstrumentEvaluation e = evaluate(campaign);
-  EXPECT_THAT(e.warnings, ::testing::Contains(HasSubstr("fiducial F2 has no position in the plane in state M0")));
-  EXPECT_EQ(e.observations.rows.size(), 15u);
+  EXPECT_THAT(e.warnings, ::testing::Contains(HasSubstr("F2 has none of the three rotation images it needs in M0")));
+  EXPECT_EQ(e.observations.rows.size(), 12u) << "F2 has no reference, so no deviation";
+}
+
+TEST_F(RenderedCampaign, WithoutItsReferenceAPointHasNoDeviation) {
+  Campaign campaign = Campaign::read(copy());
+  campaign.excluded_captures.insert("captures/images/M0_F1_rotation_1.jpg");
+  JobContext job;
+  const InstrumentEvaluation e = evaluateFiducials(campaign, job);
+  // Zero relative to M1 itself would stand beside the others as if it were relative to M0, where it is -28 um.
+  for (const Observation& o : e.observations.rows) {
+    EXPECT_FALSE(o.point == "F1" && o.component != Component::EZ) << o.state << " " << o.value;
+  }
+  const nlohmann::json& states = e.details["fiducials"][0]["states"];
+  EXPECT_TRUE(states[1]["EX_um"].is_null());
+  EXPECT_FALSE(states[1]["EZ_um"].is_null());
+  EXPECT_THAT(e.warnings, ::testing::Contains("F1 has only two of the three rotation images it needs in M0: it has no "
+                                              "deviation in X and Y in M1."));
+  EXPECT_EQ(e.observations.rows.size(), 14u);
+  EXPECT_EQ(e.observations.rows.front().state, "M0");
 }
 
 }  // namespace
