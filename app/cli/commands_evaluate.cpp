@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "app/cli/command.h"
+#include "core/base/count_text.h"
+#include "core/workflows/capture_check.h"
 #include "core/workflows/evaluate_campaign.h"
 
 namespace spindrift::cli {
@@ -16,9 +20,46 @@ struct EvaluateArguments {
   std::vector<std::string> excluded;
 };
 
+CommandResult check(const EvaluateArguments& a, JobContext& job) {
+  Campaign campaign = Campaign::read(a.campaign);
+  campaign.excluded_captures.insert(a.excluded.begin(), a.excluded.end());
+  const std::vector<CheckedCapture> captures = checkFiducialCaptures(campaign, job);
+  CommandResult result;
+  result.json["captures"] = nlohmann::json::array();
+  std::size_t bad = 0;
+  for (const CheckedCapture& c : captures) {
+    const bool excluded = campaign.excluded_captures.contains(c.image);
+    result.json["captures"].push_back(c.json());
+    result.json["captures"].back()["excluded"] = excluded;
+    if (c.good || excluded) continue;
+    ++bad;
+    result.summary += fmt::format("{}: {}\n", c.image, c.sentence);
+  }
+  result.json["to_take_again"] = bad;
+  result.summary +=
+      bad == 0 ? fmt::format("{} checked: all can be used\n", countOf(captures.size(), "image"))
+               : fmt::format("{} of {} cannot be used: take {} again, or exclude {}\n", bad,
+                             countOf(captures.size(), "image"), bad == 1 ? "it" : "them", bad == 1 ? "it" : "them");
+  if (bad > 0) result.exit_status = NotGoodEnough;
+  return result;
+}
+
+void addCheck(CLI::App& app, CommandLine& line) {
+  auto a = std::make_shared<EvaluateArguments>();
+  CLI::App* command = addCommand(app, line, "check",
+                                 "Check every image of a campaign: can it be evaluated, and does it show what the list "
+                                 "commands (turn of the spindle, position, focus)? Exit status 1: something is to be "
+                                 "taken again",
+                                 [a](JobContext& job) { return check(*a, job); });
+  command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign")->required();
+  command->add_option("--exclude", a->excluded, "Leave out a capture (its file as the list names it)")
+      ->type_name("ITEM");
+}
+
 }  // namespace
 
 void addEvaluateCommands(CLI::App& app, CommandLine& line) {
+  addCheck(app, line);
   auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* command = addCommand(
       app, line, "evaluate", "Evaluate the raw captures of a campaign into observations with uncertainties",

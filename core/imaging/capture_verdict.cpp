@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/count_text.h"
+
 namespace spindrift {
 
 CaptureVerdict judgeCapture(const GrayImage& image, bool focus_series, const CaptureVerdictOptions& options) {
@@ -25,10 +27,10 @@ CaptureVerdict judgeCapture(const GrayImage& image, bool focus_series, const Cap
   const auto count = verdict.decoded.subpatterns.size();
   if (focus_series) {
     verdict.good = verdict.focus.normalised > 0.0;
-    verdict.sentence = !verdict.good ? "No structure is in view."
-                       : count > 0
-                           ? fmt::format("Sharpness {:.3f}, {} ellipses decoded.", verdict.focus.normalised, count)
-                           : fmt::format("Sharpness {:.3f}.", verdict.focus.normalised);
+    verdict.sentence =
+        !verdict.good ? "No structure is in view."
+        : count > 0 ? fmt::format("Sharpness {:.3f}, {} decoded.", verdict.focus.normalised, countOf(count, "ellipse"))
+                    : fmt::format("Sharpness {:.3f}.", verdict.focus.normalised);
     return verdict;
   }
   if (!verdict.decoded.usable()) {
@@ -41,8 +43,8 @@ CaptureVerdict judgeCapture(const GrayImage& image, bool focus_series, const Cap
     return verdict;
   }
   verdict.good = true;
-  verdict.sentence = fmt::format("{} ellipses decoded, blur {:.1f} px, centres within {:.3f} px rms of the pattern.",
-                                 count, light.blur_sigma_px, verdict.decoded.map_rms_px);
+  verdict.sentence = fmt::format("{} decoded, blur {:.1f} px, centres within {:.3f} px rms of the pattern.",
+                                 countOf(count, "ellipse"), light.blur_sigma_px, verdict.decoded.map_rms_px);
   return verdict;
 }
 

@@ -33,6 +33,13 @@ std::string_view toString(CaptureRole role) noexcept {
   return roles[static_cast<std::size_t>(role)].first;
 }
 
+std::optional<CaptureRole> captureRole(std::string_view name) noexcept {
+  for (const auto& [text, role] : roles) {
+    if (text == name) return role;
+  }
+  return std::nullopt;
+}
+
 std::vector<std::string> FiducialCaptureList::states() const {
   return distinct(captures, &FiducialCapture::state);
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,8 @@ namespace spindrift {
 /// What an image is for: >= 3 spindle orientations, >= 3 positions along a machine axis, >= 5 heights.
 enum class CaptureRole { Rotation, XAxis, YAxis, Focus };
 [[nodiscard]] std::string_view toString(CaptureRole role) noexcept;
+/// Of its name in a list; none if it is not known.
+[[nodiscard]] std::optional<CaptureRole> captureRole(std::string_view name) noexcept;
 
 /// One row. The position is the commanded tool position relative to the table, mm in MCF.
 struct FiducialCapture {

@@ -75,12 +75,36 @@ std::string shortHash(const std::string& hash) {
   return hash.substr(0, 8);
 }
 
+/// The hash in the name of a stored file; empty if it has none.
+std::string hashInName(const std::filesystem::path& file) {
+  const std::string stem = file.stem().string();
+  const std::size_t at = stem.rfind('_');
+  return at != std::string::npos && stem.size() - at == 9 ? stem.substr(at + 1) : std::string();
+}
+
+ListedImage listedImage(const FiducialCapture& c, const std::vector<IncomingItem>& journal) {
+  ListedImage listed;
+  listed.seen = {c.fiducial, c.state, c.role, c.index, c.position_mm, c.spindle_deg, std::nullopt, 0.0};
+  listed.image = c.image;
+  const std::string hash = hashInName(c.image);
+  for (const IncomingItem& item : journal) {
+    if (hash.empty() || !(item.sharpness > 0.0) || shortHash(item.hash) != hash) continue;
+    listed.seen.pose = item.pose;
+    listed.seen.sharpness = item.sharpness;
+    listed.known = true;
+  }
+  return listed;
+}
+
 /// Files of the lists by the hash in their names: what a crash kept out of the journal is known all the same.
-void addListed(const Campaign& campaign, std::map<std::string, std::string>& known) {
+void addListed(const Campaign& campaign, const std::vector<IncomingItem>& journal, IncomingContext& context) {
   std::vector<std::string> files;
   try {
     if (const auto file = campaign.captureList("fiducials.csv")) {
-      for (const FiducialCapture& c : readFiducialCaptures(*file).captures) files.push_back(c.image);
+      for (const FiducialCapture& c : readFiducialCaptures(*file).captures) {
+        files.push_back(c.image);
+        if (!campaign.excluded_captures.contains(c.image)) context.images.push_back(listedImage(c, journal));
+      }
     }
     if (campaign.captureList("scans.csv")) {
       for (const ScanCapture& c : readScanList(campaign)) files.push_back(c.cloud);
@@ -90,9 +114,8 @@ void addListed(const Campaign& campaign, std::map<std::string, std::string>& kno
   }
   for (const std::string& name : files) {
     const std::filesystem::path path(name);
-    const std::string stem = path.stem().string();
-    const std::size_t at = stem.rfind('_');
-    if (at != std::string::npos && stem.size() - at == 9) known[stem.substr(at + 1)] = path.filename().string();
+    const std::string hash = hashInName(path);
+    if (!hash.empty()) context.known[hash] = path.filename().string();
   }
 }
 
@@ -154,6 +177,40 @@ bool foundTwice(const IncomingContext& context, IncomingItem& item) {
   return true;
 }
 
+SeenCapture seenOf(const PlannedItem& planned, const CaptureVerdict& verdict) {
+  SeenCapture seen;
+  seen.fiducial = planned.fiducial;
+  seen.state = planned.state;
+  seen.role = captureRole(planned.role).value_or(CaptureRole::Rotation);
+  seen.index = planned.index;
+  seen.position_mm = planned.position_mm;
+  seen.spindle_deg = planned.spindle_deg;
+  seen.pose = poseOf(verdict.decoded);
+  seen.sharpness = verdict.focus.normalised;
+  return seen;
+}
+
+/// The images of the same state; of the same fiducial they are read again where the journal does not know them.
+std::vector<SeenCapture> comparable(const IncomingContext& context, const SeenCapture& seen) {
+  std::vector<SeenCapture> others;
+  for (const ListedImage& listed : context.images) {
+    if (listed.seen.state != seen.state) continue;
+    SeenCapture other = listed.seen;
+    if (!listed.known) {
+      if (other.fiducial != seen.fiducial) continue;
+      try {
+        const GrayImage image = readImage(context.campaign_folder / listed.image);
+        other.pose = poseOf(decodeImage(image));
+        other.sharpness = measureFocus(image).normalised;
+      } catch (const InputError&) {
+        continue;  // the check of all captures says so
+      }
+    }
+    others.push_back(std::move(other));
+  }
+  return others;
+}
+
 void examineImageBytes(const std::string& bytes, const std::string& ending, const IncomingContext& context,
                        ExaminedFile& out) {
   GrayImage image;
@@ -170,7 +227,17 @@ void examineImageBytes(const std::string& bytes, const std::string& ending, cons
   const std::string stem =
       planned != nullptr ? safeName(planned->id) : std::filesystem::path(safeName(out.item.name)).stem().string();
   if (planned == nullptr) return keep(context, out.item, "kept", stem, ending, bytes);
-  const CaptureVerdict verdict = judgeCapture(image, planned->role == "focus");
+  CaptureVerdict verdict = judgeCapture(image, planned->role == "focus");
+  if (verdict.good) {
+    const SeenCapture seen = seenOf(*planned, verdict);
+    out.item.pose = seen.pose;
+    out.item.sharpness = seen.sharpness;
+    const std::string contradiction = contradictionOf(seen, comparable(context, seen));
+    if (!contradiction.empty()) {
+      verdict.good = false;
+      verdict.sentence = contradiction;
+    }
+  }
   out.item.sentence = verdict.sentence;
   out.item.state = verdict.good ? IncomingState::Accepted : IncomingState::Retake;
   keep(context, out.item, verdict.good ? "images" : "kept", stem, ending, bytes);
@@ -248,30 +315,6 @@ std::string toString(IncomingState state) {
   return {};
 }
 
-nlohmann::json IncomingItem::json() const {
-  return {{"name", name},
-          {"kind", static_cast<int>(kind)},
-          {"state", static_cast<int>(state)},
-          {"sentence", sentence},
-          {"hash", hash},
-          {"stored", stored},
-          {"plan_item", plan_item},
-          {"time_s", time_s}};
-}
-
-IncomingItem IncomingItem::parse(const nlohmann::json& json) {
-  IncomingItem item;
-  item.name = json.value("name", "");
-  item.kind = static_cast<IncomingKind>(std::clamp(json.value("kind", 3), 0, 3));
-  item.state = static_cast<IncomingState>(std::clamp(json.value("state", 4), 0, 4));
-  item.sentence = json.value("sentence", "");
-  item.hash = json.value("hash", "");
-  item.stored = json.value("stored", "");
-  item.plan_item = json.value("plan_item", "");
-  item.time_s = json.value("time_s", 0.0);
-  return item;
-}
-
 IncomingContext incomingContext(const Campaign& campaign, const MeasurementPlan& plan,
                                 const std::vector<IncomingItem>& journal, bool printed) {
   IncomingContext context;
@@ -280,7 +323,7 @@ IncomingContext incomingContext(const Campaign& campaign, const MeasurementPlan&
   context.plan = plan;
   context.done = capturedItems(plan, campaign);
   context.printed = printed;
-  addListed(campaign, context.known);
+  addListed(campaign, journal, context);
   for (const IncomingItem& item : journal) {
     if (!item.hash.empty() && item.kind != IncomingKind::Touches) context.known[shortHash(item.hash)] = item.name;
   }
@@ -398,90 +441,6 @@ const IncomingItem& IncomingFolder::finish(const Task& task, ExaminedFile examin
     again_.emplace_back(now_s + patience_s_, again);
   }
   return item;
-}
-
-TouchFeed::TouchFeed(const MachineDescription& machine, const TouchList* there, std::optional<JsonNode> pattern)
-    : machine_(machine), pattern_(std::move(pattern)), live_(machine) {
-  if (there != nullptr) live_.seed(*there);
-}
-
-const char* TouchFeed::header() {
-  return "time_s,cycle,artefact,feature,stylus,c_deg,touch,x_mm,y_mm,z_mm,nx,ny,nz";
-}
-
-std::size_t TouchFeed::update(const std::string& name, std::string_view text, double first_s) {
-  const bool csv = endingOf(name) == ".csv";
-  auto at = sources_.find(name);
-  if (at == sources_.end()) {
-    at = sources_.emplace(name, Source{TouchStream(name, machine_, csv ? std::nullopt : pattern_), csv ? 0.0 : first_s})
-             .first;
-  }
-  std::size_t fresh = 0;
-  for (Touch& t : at->second.stream.update(text)) {
-    t.time_s += at->second.first_s;
-    if (live_.add(t)) ++fresh;
-  }
-  return fresh;
-}
-
-std::vector<std::string> TouchFeed::takeRows(bool all) {
-  TouchList list;
-  list.touches = live_.takeFinished(all);
-  std::vector<std::string> rows;
-  const std::string text = list.csv();
-  std::size_t begin = text.find('\n') + 1;
-  while (begin < text.size()) {
-    const std::size_t end = text.find('\n', begin);
-    rows.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return rows;
-}
-
-std::vector<std::string> TouchFeed::problems() const {
-  std::vector<std::string> sentences;
-  for (const auto& [name, source] : sources_) {
-    for (const StreamProblem& p : source.stream.problems()) sentences.push_back(p.sentence);
-  }
-  return sentences;
-}
-
-bool TouchFeed::waiting() const {
-  return std::any_of(sources_.begin(), sources_.end(), [](const auto& s) { return s.second.stream.waiting(); });
-}
-
-std::vector<IncomingItem> incomingJournal(const Session& session, std::int64_t campaign) {
-  std::vector<IncomingItem> items;
-  const auto stored = session.setting(fmt::format("incoming/{}", campaign));
-  if (!stored || !stored->is_array()) return items;
-  for (const nlohmann::json& entry : *stored) items.push_back(IncomingItem::parse(entry));
-  return items;
-}
-
-MeasurementPlan storedPlan(const Session& session, std::int64_t campaign) {
-  const auto stored = session.setting(fmt::format("plan/{}", campaign));
-  if (!stored || !stored->is_object() || stored->empty()) return {};
-  return MeasurementPlan::parse(JsonNode::parse(stored->dump(), "measurement plan"));
-}
-
-void storePlan(Session& session, std::int64_t campaign, const MeasurementPlan& plan) {
-  session.setSetting(fmt::format("plan/{}", campaign), plan.json());
-}
-
-void recordArrival(Session& session, std::int64_t campaign, const ExaminedFile& examined) {
-  if (!examined.row.empty()) session.addCaptureRows(campaign, examined.list, examined.header, {examined.row});
-  const std::string key = fmt::format("incoming/{}", campaign);
-  nlohmann::json journal = session.setting(key).value_or(nlohmann::json::array());
-  if (!journal.is_array()) journal = nlohmann::json::array();
-  const nlohmann::json entry = examined.item.json();
-  for (nlohmann::json& known : journal) {
-    if (known.value("name", "") != examined.item.name) continue;
-    known = entry;
-    session.setSetting(key, journal);
-    return;
-  }
-  journal.push_back(entry);
-  session.setSetting(key, journal);
 }
 
 }  // namespace spindrift

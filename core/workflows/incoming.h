@@ -6,6 +6,7 @@
 //   the session: row into the list, journal)
 // A file is copied before anything is said about it, under a name that follows from its content, so that a crash at any
 // moment loses nothing and repeats nothing. What is not accepted lies in captures/kept, beside the campaign's data.
+// An image that contradicts the others of its fiducial and state (capture_agreement.h) is to be taken again.
 // Twice: by content, whatever the name. Which item of the plan a file is: by the item's id in its name, else the first
 // open item of its kind. Its time is when it was written, since the campaign start.
 #pragma once
@@ -18,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "core/imaging/capture_agreement.h"
 #include "core/machine/campaign.h"
 #include "core/probing/live_touches.h"
 #include "core/probing/touch_stream.h"
@@ -37,13 +39,22 @@ struct IncomingItem {
   IncomingKind kind = IncomingKind::Other;
   IncomingState state = IncomingState::Waiting;
   std::string sentence;
-  std::string hash;       ///< of the content
-  std::string stored;     ///< where its copy lies, relative to the campaign folder
-  std::string plan_item;  ///< which item of the plan it is
-  double time_s = 0.0;    ///< when it was written, since the campaign start
+  std::string hash;               ///< of the content
+  std::string stored;             ///< where its copy lies, relative to the campaign folder
+  std::string plan_item;          ///< which item of the plan it is
+  double time_s = 0.0;            ///< when it was written, since the campaign start
+  std::optional<ImagePose> pose;  ///< of an image whose pattern was decoded
+  double sharpness = 0.0;         ///< of an image, FocusMeasure::normalised
 
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] static IncomingItem parse(const nlohmann::json& json);
+};
+
+/// An image of the campaign that an arriving one is compared with.
+struct ListedImage {
+  SeenCapture seen;
+  std::string image;   ///< relative to the campaign folder
+  bool known = false;  ///< false: pose and sharpness are still to be read from the file
 };
 
 /// What a check needs to know, copied so that it can run anywhere.
@@ -52,6 +63,7 @@ struct IncomingContext {
   double start_unix_s = 0.0;
   MeasurementPlan plan;
   std::set<std::string> done;                  ///< items of the plan that are there
+  std::vector<ListedImage> images;             ///< of the list of the campaign
   std::map<std::string, std::string> known;    ///< first 8 digits of the hash -> name of what arrived before
   std::map<std::string, std::size_t> fullest;  ///< artefact -> points of its fullest scan so far
   bool printed = false;                        ///< a template for printed text is set: .txt and .log hold touches

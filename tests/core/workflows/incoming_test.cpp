@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Captures that arrive in a watched folder in every way they may: half-written, renamed, out of order, twice, bad.
 #include "core/workflows/incoming.h"
+#include "core/workflows/capture_check.h"
 #include "core/workflows/capture_intake.h"
 
 #include <gtest/gtest.h>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/imaging/fiducial_captures.h"
 #include "core/imaging/image.h"
 #include "core/scanning/scan_evaluation.h"
@@ -18,11 +20,13 @@
 namespace spindrift {
 namespace {
 
-std::string imageBytes(std::uint64_t seed, double blur_px = 1.0, double mark_level = 200.0) {
+/// Of a camera that is turned with the spindle by `turned_deg` and moved along X by `moved_um`.
+std::string imageBytes(std::uint64_t seed, double blur_px = 1.0, double mark_level = 200.0, double turned_deg = 0.0,
+                       double moved_um = 0.0) {
   MicroscopeScene scene;
   scene.width_px = 640;
   scene.height_px = 480;
-  scene.map = poseAt(640, 480, 2.0, 0.1, {0, 0}, {319.5, 239.5});
+  scene.map = poseAt(640, 480, 2.0, 0.1 + turned_deg * rad_per_deg, {moved_um, 0}, {319.5, 239.5});
   scene.blur_sigma_px = blur_px;
   scene.mark_level = mark_level;
   return encodePng(renderFiducial(standardPattern(), scene, seed));
@@ -160,7 +164,7 @@ TEST_F(Incoming, OutOfOrderFindsItsPlaceByNameAndByTime) {
   plan(PlannedKind::Image);
   const auto old = std::filesystem::file_time_type::clock::now() - std::chrono::minutes(20);
   put("m0_f1_x_axis_2.png", imageBytes(6));
-  put("cam_M0_F1_rotation_1_.png", imageBytes(7));
+  put("cam_M0_F1_rotation_1_.png", imageBytes(7, 1.0, 200.0, 90.0));
   pass(3.0);
   put("M0_F1_rotation_0.png", imageBytes(8));
   std::filesystem::last_write_time(folder_ / "watched/M0_F1_rotation_0.png", old);
@@ -198,6 +202,60 @@ TEST_F(Incoming, BadImagesAreAskedForAgainInOneSentence) {
   EXPECT_EQ(item("M0_F1_focus_0.png").state, IncomingState::Accepted) << item("M0_F1_focus_0.png").sentence;
   EXPECT_EQ(item("second/M0_F1_rotation_0.png").state, IncomingState::Accepted);
   EXPECT_EQ(images().size(), 2U);
+}
+
+TEST_F(Incoming, ImagesThatContradictThePlanAreAskedForAgain) {
+  plan(PlannedKind::Image);
+  put("M0_F1_rotation_0.png", imageBytes(20));
+  pass(3.0);
+  ASSERT_EQ(item("M0_F1_rotation_0.png").state, IncomingState::Accepted);
+  put("M0_F1_rotation_1.png", imageBytes(21, 1.0, 200.0, 8.0));
+  pass(3.0);
+  EXPECT_EQ(item("M0_F1_rotation_1.png").state, IncomingState::Retake);
+  EXPECT_NE(item("M0_F1_rotation_1.png").sentence.find("turned by 8 deg, the plan says 90 deg"), std::string::npos)
+      << item("M0_F1_rotation_1.png").sentence;
+  // A session opened again knows what it has seen, also without its journal.
+  session_.setSetting("incoming/" + std::to_string(id_), nlohmann::json::array());
+  intake_ = CaptureIntake();
+  put("again/M0_F1_rotation_1.png", imageBytes(22, 1.0, 200.0, -90.0));
+  pass(3.0);
+  EXPECT_EQ(item("again/M0_F1_rotation_1.png").state, IncomingState::Retake);
+  put("third/M0_F1_rotation_1.png", imageBytes(23, 1.0, 200.0, 90.0));
+  pass(3.0);
+  EXPECT_EQ(item("third/M0_F1_rotation_1.png").state, IncomingState::Accepted)
+      << item("third/M0_F1_rotation_1.png").sentence;
+  // Along X: the first one is believed, the second one did not move, the third one did.
+  put("M0_F1_x_axis_2.png", imageBytes(24));
+  pass(3.0);
+  put("M0_F1_x_axis_3.png", imageBytes(25));
+  put("M0_F1_x_axis_4.png", imageBytes(26, 1.0, 200.0, 0.0, 254.0));
+  pass(3.0);
+  EXPECT_EQ(item("M0_F1_x_axis_3.png").state, IncomingState::Retake) << item("M0_F1_x_axis_3.png").sentence;
+  EXPECT_NE(item("M0_F1_x_axis_3.png").sentence.find("the plan says 127 um"), std::string::npos);
+  EXPECT_EQ(item("M0_F1_x_axis_4.png").state, IncomingState::Accepted) << item("M0_F1_x_axis_4.png").sentence;
+  EXPECT_EQ(images().size(), 4U);
+  // Another fiducial, where only its place tells.
+  put("M0_F1_y_axis_2.png", imageBytes(27, 1.0, 200.0, 0.0, -180.0));
+  pass(3.0);
+  EXPECT_EQ(item("M0_F1_y_axis_2.png").state, IncomingState::Retake);
+  EXPECT_NE(item("M0_F1_y_axis_2.png").sentence.find("another fiducial"), std::string::npos);
+  // The check of all captures says the same of a list that was filled by other means.
+  const Campaign now = campaign();
+  std::string list = readFile(now.path("captures/fiducials.csv"));
+  const std::size_t at = list.find(",90,", list.find("rotation,1"));
+  ASSERT_NE(at, std::string::npos) << list;
+  writeFileAtomically(now.path("captures/fiducials.csv"), list.replace(at, 4, ",180,"));
+  JobContext job;
+  const std::vector<CheckedCapture> checked = checkFiducialCaptures(campaign(), job);
+  std::size_t bad = 0;
+  for (const CheckedCapture& c : checked) {
+    if (c.good) continue;
+    ++bad;
+    EXPECT_NE(c.image.find("rotation_1"), std::string::npos) << c.image;
+    EXPECT_NE(c.sentence.find("Take again: The image is turned by 90 deg, the list says 180 deg"), std::string::npos)
+        << c.sentence;
+  }
+  EXPECT_EQ(bad, 1U);
 }
 
 TEST_F(Incoming, ReopenedSessionsKnowWhatArrived) {

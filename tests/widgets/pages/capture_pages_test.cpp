@@ -4,6 +4,7 @@
 #include <QTableView>
 #include <filesystem>
 
+#include "core/base/units.h"
 #include "core/imaging/camera.h"
 #include "core/imaging/image.h"
 #include "core/probing/touch.h"
@@ -35,11 +36,12 @@ constexpr const char* mill_text =
 "points":[{"id":"F1","kind":"fiducial","x_mm":20,"y_mm":30,"z_mm":0},
 {"id":"A1","kind":"surface","x_mm":0,"y_mm":50,"z_mm":0}]})";
 
-GrayImage picture(std::uint64_t seed, double blur_px = 1.0) {
+/// `turned_deg`: of the spindle, and the camera with it.
+GrayImage picture(std::uint64_t seed, double blur_px = 1.0, double turned_deg = 0.0) {
   MicroscopeScene scene;
   scene.width_px = 640;
   scene.height_px = 480;
-  scene.map = poseAt(640, 480, 2.0, 0.1, {0, 0}, {319.5, 239.5});
+  scene.map = poseAt(640, 480, 2.0, 0.1 + turned_deg * rad_per_deg, {0, 0}, {319.5, 239.5});
   scene.blur_sigma_px = blur_px;
   return renderFiducial(standardPattern(), scene, seed);
 }
@@ -91,7 +93,7 @@ TEST_F(CapturePages, ANewFiducialMeasurementFillsFromAWatchedFolder) {
   EXPECT_TRUE(service().running());
   EXPECT_TRUE(service().retakes().isEmpty());
   window_->workflow().goTo(StepId::Machine);
-  put("b.png", encodePng(picture(3)));
+  put("b.png", encodePng(picture(3, 1.0, 90.0)));
   waitFor([&] { return stateOf("b.png") == IncomingState::Accepted; }, "while another page is shown");
   auto* captures = go<FiducialCapturePage>(StepId::Capture);
   auto* tabs = captures->findChild<QTabWidget*>(QStringLiteral("captureTabs"));
@@ -120,7 +122,7 @@ TEST_F(CapturePages, TheSentenceNamesABadCaptureAndItsButtonGoesThere) {
   std::string list = "time_s,state,fiducial,role,index,x_mm,y_mm,z_mm,spindle_deg,image\n";
   for (int i = 0; i < 3; ++i) {
     const std::string name = "captures/r" + std::to_string(i) + ".png";
-    folder_.write("kept/" + name, encodePng(picture(static_cast<std::uint64_t>(i), i == 1 ? 9.0 : 1.0)));
+    folder_.write("kept/" + name, encodePng(picture(static_cast<std::uint64_t>(i), i == 1 ? 9.0 : 1.0, 120.0 * i)));
     list += std::to_string(10 * i) + ",M0,F1,rotation," + std::to_string(i) + ",20,30,0," + std::to_string(120 * i) +
             "," + name + "\n";
   }

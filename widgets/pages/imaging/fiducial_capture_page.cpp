@@ -8,13 +8,13 @@
 #include <QSplitter>
 #include <QTableView>
 #include <QVBoxLayout>
-#include <mutex>
 #include <set>
 
 #include "core/base/csv.h"
 #include "core/base/error.h"
 #include "core/imaging/decoder.h"
 #include "core/imaging/image.h"
+#include "core/workflows/capture_check.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/image_view/image_view.h"
@@ -41,34 +41,6 @@ QString number(double value) {
 /// How many captures of a role the evaluation needs at least.
 int needed(const QString& role) {
   return role == QLatin1String("focus") ? 5 : 3;
-}
-
-struct Check {
-  bool good = false;
-  QString sentence;
-  int ellipses = 0;
-  double blur_px = 0;
-};
-
-/// The verdict over one image, as a sentence for the person at the machine.
-Check judge(const DecodeResult& result) {
-  Check check;
-  check.ellipses = static_cast<int>(result.subpatterns.size());
-  check.blur_px = result.exposure.blur_sigma_px;
-  check.good = result.usable();
-  if (!result.usable()) {
-    check.sentence = QString::fromStdString(result.message);
-    return check;
-  }
-  check.sentence = FiducialCapturePage::tr("Ellipses decoded: %1; blur %2 px, centres within %3 px rms of the pattern.")
-                       .arg(check.ellipses)
-                       .arg(check.blur_px, 0, 'f', 1)
-                       .arg(result.map_rms_px, 0, 'f', 3);
-  if (result.exposure.saturated_fraction > 0.02) {
-    check.sentence += QLatin1Char(' ') + FiducialCapturePage::tr("%1 % of the pixels are overexposed: take less light.")
-                                             .arg(100 * result.exposure.saturated_fraction, 0, 'f', 0);
-  }
-  return check;
 }
 
 }  // namespace
@@ -453,37 +425,16 @@ void FiducialCapturePage::toggleExcluded() {
 void FiducialCapturePage::checkAll() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr || captures_.empty()) return;
-  std::vector<std::string> images;
-  for (const CaptureVerdict& c : captures_) images.push_back(c.image.toStdString());
-  run(tr("Checking %1 captures").arg(images.size()),
-      [this, snapshot, images](JobContext& job) -> std::function<void()> {
-        std::vector<Check> checks(images.size());
-        std::mutex mutex;
-        std::size_t done = 0;
-        parallelFor(images.size(), job, [&](std::size_t i) {
-          try {
-            checks[i] = judge(decodeImage(readImage(snapshot.campaign->path(images[i]))));
-          } catch (const InputError& e) {
-            checks[i].sentence = QString::fromUtf8(e.what());
-          }
-          const std::lock_guard lock(mutex);
-          ++done;
-          job.report(static_cast<double>(done) / static_cast<double>(images.size()),
-                     std::to_string(done) + " / " + std::to_string(images.size()));
-        });
-        nlohmann::json payload = nlohmann::json::array();
-        for (std::size_t i = 0; i < images.size(); ++i) {
-          payload.push_back({{"image", images[i]},
-                             {"good", checks[i].good},
-                             {"sentence", checks[i].sentence.toStdString()},
-                             {"ellipses", checks[i].ellipses},
-                             {"blur_px", checks[i].blur_px}});
-        }
-        return [this, payload] {
-          session().storeResult("check", nlohmann::json::object(), {{"captures", payload}});
-          refresh();
-        };
-      });
+  run(tr("Checking %1 captures").arg(captures_.size()), [this, snapshot](JobContext& job) -> std::function<void()> {
+    Campaign campaign = *snapshot.campaign;
+    campaign.excluded_captures = snapshot.excluded;
+    nlohmann::json payload = nlohmann::json::array();
+    for (const CheckedCapture& c : checkFiducialCaptures(campaign, job)) payload.push_back(c.json());
+    return [this, payload] {
+      session().storeResult("check", nlohmann::json::object(), {{"captures", payload}});
+      refresh();
+    };
+  });
 }
 
 std::vector<Exportable> FiducialCapturePage::exportables() {
