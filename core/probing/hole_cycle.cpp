@@ -182,6 +182,7 @@ HoleCycleResult evaluateHoleCycles(const TouchList& list, const MachineDescripti
   CycleAssembly assembly;
   assembly.kind = FeatureKind::Hole;
   assembly.axis = setup.rotary_direction;
+  assembly.centre_mm = setup.centre_mm;
   assembly.names = setup.parameterNames(options.second_axis);
   assembly.unit = {um_per_m_per_unit, um_per_mm,    um_per_mm,    um_per_mm,        um_per_mm,
                    urad_per_rad,      urad_per_rad, urad_per_rad, um_per_m_per_unit};

@@ -12,11 +12,14 @@
 #include "core/base/units.h"
 #include "core/math/statistics.h"
 #include "core/probing/hole_cycle.h"
+#include "core/probing/surface_heights.h"
 
 namespace spindrift {
 namespace {
 
 constexpr double mm_per_inch = 25.4;
+/// Taken again within this distance, a touch shows what is there.
+constexpr double confirmed_mm = 0.01;
 
 template <typename List>
 std::string idsOf(const List& list) {
@@ -48,6 +51,7 @@ Disagreement disagreementOf(const Eigen::MatrixXd& rows, const Eigen::VectorXd& 
 void LiveTouchOptions::validate() const {
   if (!(misplaced_mm > 0.0)) throw InputError("the largest distance from the nominal place must be positive (mm).");
   if (!(largest_change_um > 0.0)) throw InputError("the largest change since the first cycle must be positive (um).");
+  if (!(surface_um > 0.0)) throw InputError("the largest distance from the plane of the surface must be positive (um).");
   if (!(spread_um > 0.0)) throw InputError("the largest spread within a feature must be positive (um).");
 }
 
@@ -229,6 +233,50 @@ void LiveTouches::judgeFeature(std::size_t last) {
   }
 }
 
+void LiveTouches::judgeSurface(const Touch& last) {
+  const Artefact* artefact = machine_.findArtefact(last.artefact);
+  if (artefact == nullptr || artefact->kind != "hole_bar") return;
+  const HoleBarSetup setup = HoleBarSetup::of(machine_, *artefact);
+  if (!isSurfaceTouch(last, setup.rotary_direction)) return;
+  const bool first = last.cycle == first_cycle_;
+  std::vector<std::size_t> of;
+  std::vector<PlacedHeight> heights;
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    const LiveTouch& live = touches_[i];
+    const Touch& t = live.touch;
+    if (live.replaced || !live.plausible || t.cycle != last.cycle || t.artefact != last.artefact ||
+        t.stylus != last.stylus || !isSurfaceTouch(t, setup.rotary_direction)) {
+      continue;
+    }
+    if (!first && !std::isfinite(live.change_um)) continue;
+    of.push_back(i);
+    heights.push_back({t.position_mm, t.c_deg,
+                       first ? setup.rotary_direction.dot(t.position_mm) * um_per_mm : -live.change_um});
+  }
+  SurfaceOptions options;
+  options.floor_um = first ? options_.surface_um : options_.spread_um;
+  const std::vector<SurfaceVerdict> verdicts =
+      judgeSurfaceHeights(heights, setup.centre_mm, setup.rotary_direction, options);
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    LiveTouch& live = touches_[of[k]];
+    live.surface_judged = live.surface_judged || verdicts[k].judged;
+    // What is in the campaign already is judged by the check of all touches.
+    if (!verdicts[k].suspect || live.given_out || live.confirmed) continue;
+    live.plausible = false;
+    live.reason = fmt::format("its height is {:.0f} um off what the {} other surface touches say", verdicts[k].off_um,
+                              verdicts[k].others);
+    if (first) first_.erase(keyOf(live.touch));
+  }
+}
+
+/// A surface touch whose cycle goes on and that cannot be compared yet.
+bool LiveTouches::waitsForOthers(const LiveTouch& live) const {
+  if (live.surface_judged || live.touch.cycle != touches_.back().touch.cycle) return false;
+  const Artefact* artefact = machine_.findArtefact(live.touch.artefact);
+  return artefact != nullptr && artefact->kind == "hole_bar" &&
+         isSurfaceTouch(live.touch, HoleBarSetup::of(machine_, *artefact).rotary_direction);
+}
+
 bool LiveTouches::add(const Touch& touch) {
   const std::string id = touch.cycle + "|" + keyOf(touch);
   const auto before = index_.find(id);
@@ -251,6 +299,7 @@ bool LiveTouches::add(const Touch& touch) {
       live.replaced = true;  // nothing to take again
     } else {
       old.replaced = true;
+      live.confirmed = old.surface_judged && (old.touch.position_mm - touch.position_mm).norm() < confirmed_mm;
     }
   }
   const bool first = touch.cycle == first_cycle_;
@@ -264,6 +313,7 @@ bool LiveTouches::add(const Touch& touch) {
   features_[featureKeyOf(touch)].push_back(touches_.size() - 1);
   if (!kept_old) index_[id] = touches_.size() - 1;
   if (live.plausible) judgeFeature(touches_.size() - 1);
+  judgeSurface(touch);
   return true;
 }
 
@@ -329,7 +379,7 @@ std::vector<Touch> LiveTouches::takeFinished(bool all) {
   const std::string open = featureKeyOf(touches_.back().touch);
   for (LiveTouch& live : touches_) {
     if (live.given_out || !live.plausible || live.replaced) continue;
-    if (!all && featureKeyOf(live.touch) == open) continue;
+    if (!all && (featureKeyOf(live.touch) == open || waitsForOthers(live))) continue;
     live.given_out = true;
     finished.push_back(live.touch);
   }

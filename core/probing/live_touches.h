@@ -9,6 +9,9 @@
 //   spread   when all touches of a feature are there: what a displacement of the feature leaves of the changes (first
 //            cycle: what a circle or sphere leaves of the positions); over `spread_um` the touches that disagree are
 //            named, and the feature is to be touched again
+//   surface  surface touches of a hole bar against those of all other holes and table angles of the cycle
+//            (surface_heights.h): their heights in the first cycle, beyond `surface_um`, later their changes, beyond
+//            `spread_um`. They are given out when that is known. Taken again with the same height, it is the bar.
 // A touch that was asked for again replaces the implausible one with the same number.
 #pragma once
 
@@ -27,6 +30,7 @@ struct LiveTouchOptions {
   double misplaced_mm = 1.0;
   double largest_change_um = 400.0;
   double spread_um = 15.0;
+  double surface_um = 30.0;  ///< a surface touch off the plane of the others, first cycle
   /// Throws InputError.
   void validate() const;
 };
@@ -40,6 +44,8 @@ struct LiveTouch {
   double feature_spread_um = std::numeric_limits<double>::quiet_NaN();  ///< NaN until the feature is complete
   bool replaced = false;                                                ///< by a touch that was taken again
   bool given_out = false;                                               ///< by takeFinished()
+  bool surface_judged = false;  ///< a surface touch: enough others are there to compare it with
+  bool confirmed = false;       ///< a surface touch that was taken again with the same height
 };
 
 struct LiveProgress {
@@ -76,6 +82,8 @@ class LiveTouches {
   void judgePlace(LiveTouch& live);
   void judgeChange(LiveTouch& live);
   void judgeFeature(std::size_t last);
+  void judgeSurface(const Touch& last);
+  [[nodiscard]] bool waitsForOthers(const LiveTouch& live) const;
   [[nodiscard]] std::optional<double> distance(const Touch& t, const Artefact& artefact, const std::string& feature,
                                                double radius_mm) const;
 

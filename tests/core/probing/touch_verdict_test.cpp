@@ -51,6 +51,38 @@ TEST(TouchVerdicts, TheFirstTwoCyclesAreJudgedAsWellAsMany) {
   }
 }
 
+TEST(TouchVerdicts, ASurfaceTouchOffThePlaneIsLeftOutInOneCycleAndInTwo) {
+  VirtualProbeOptions options;
+  options.form_error_um = 4.0;
+  for (const int cycles : {1, 2}) {
+    for (int bad_cycle = 0; bad_cycle < cycles; ++bad_cycle) {
+      VirtualRun run = runCycles(machineFrom(holeMachineText()), cycles, options, 62);
+      std::string bad;
+      for (Touch& t : run.list.touches) {
+        if (t.cycle != "M" + std::to_string(bad_cycle) || t.feature != "H6" || t.touch != 4) continue;
+        t.position_mm.z() -= 0.1;
+        bad = t.id();
+      }
+      const Judged judged = judge(run.list, {});
+      EXPECT_EQ(judged.count(TouchState::LeftOut), 1) << cycles << " cycles";
+      for (const TouchVerdict& v : judged.verdicts) {
+        if (v.touch.id() != bad) continue;
+        EXPECT_EQ(v.state, TouchState::LeftOut);
+        EXPECT_NE(v.reason.find("other surface touches"), std::string::npos) << v.reason;
+        EXPECT_NEAR(v.residual_um, -100.0, 25.0);
+      }
+    }
+  }
+}
+
+TEST(TouchVerdicts, AStepOfTheBarThatRepeatsIsKept) {
+  VirtualRun run = runCycles(machineFrom(holeMachineText()), 3, {}, 63);
+  for (Touch& t : run.list.touches) {
+    if (t.feature == "H6" && t.touch == 4) t.position_mm.z() -= 0.1;
+  }
+  EXPECT_EQ(judge(run.list, {}).count(TouchState::LeftOut), 0);
+}
+
 TEST(TouchVerdicts, BadMissingAndExcludedTouchesAreToldApart) {
   VirtualRun run = runCycles(machineFrom(holeMachineText()), 5, {}, 6);
   std::string bad, excluded;
