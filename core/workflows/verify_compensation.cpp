@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "core/base/count_text.h"
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
@@ -73,6 +74,26 @@ VerifyVerdict judgeLargest(const std::vector<const VerifyPoint*>& points, double
     if (v == VerifyVerdict::Undecided) verdict = v;
   }
   return verdict;
+}
+
+/// Fewer equal values than this can be equal by chance, when instruments round.
+constexpr std::size_t telling_values = 3;
+
+/// Two measurements never agree to the last digit: the same data twice is no proof.
+void rejectSameData(const ObservationSet& after, VerifyResult& result) {
+  std::size_t equal = 0;
+  for (const VerifyPoint& p : result.points) equal += p.before == p.after && p.before != 0.0 ? 1 : 0;
+  if (equal == 0) return;
+  const std::size_t all = result.points.size();
+  if (equal == all && equal >= telling_values) {
+    throw InputError({after.file, ""},
+                     fmt::format("all {} values are the same as before: it is the same measurement; allowed: the same "
+                                 "plan measured again with the compensation on.",
+                                 all));
+  }
+  if (equal < telling_values && equal < all) return;
+  result.notes.push_back(fmt::format("{} of {} {} the same as before to the last digit: is it the same measurement?",
+                                     equal, countOf(all, "value"), equal == 1 ? "is" : "are"));
 }
 
 nlohmann::json figuresJson(const VerifyFigures& f) {
@@ -161,6 +182,12 @@ VerifyFigures verifyFigures(const std::vector<const VerifyPoint*>& points, bool 
       spread += 2.0 * (2.0 * common * common + 4.0 * di * dj * common) / (n * n);
     }
   }
+  if (points.size() == 1) {
+    // Nothing to average: the value itself, with its uncertainty.
+    f.rms = std::sqrt(squares);
+    f.rms_sigma = std::sqrt(noise);
+    return f;
+  }
   const double left = std::max(0.0, squares - noise);
   f.rms = std::sqrt(left);
   const double u = std::sqrt(std::max(0.0, spread));
@@ -241,9 +268,10 @@ VerifyResult verifyCompensation(const ObservationSet& before, const ObservationS
   }
   if (missing > 0) {
     result.notes.push_back(fmt::format(
-        "{} series of points and components are not measured alike before and after; only what both have is compared.",
-        missing));
+        "{} of points and components {} not measured alike before and after; only what both have is compared.",
+        countOf(missing, "series", "series"), missing == 1 ? "is" : "are"));
   }
+  rejectSameData(after, result);
   for (int c = 0; c < 6; ++c) {
     const auto component = static_cast<Component>(c);
     std::vector<const VerifyPoint*> points;
@@ -293,8 +321,8 @@ VerifyResult verifyCampaigns(const Campaign& before, const ObservationSet& befor
                        "was measured with the compensation on.");
     }
     if (off > 0)
-      notes.push_back(
-          fmt::format("after: {} of {} observations were taken without compensation and are left out.", off, on + off));
+      notes.push_back(fmt::format("after: {} of {} {} taken without compensation and left out.", off,
+                                  countOf(on + off, "observation"), off == 1 ? "was" : "were"));
   } else {
     notes.push_back(
         "after: no column compensation_on in the log: nothing but the operator's word says that the control was "
@@ -338,12 +366,14 @@ std::string VerifyResult::summary() const {
   std::string text = reason + "\n";
   for (const VerifyComponent& c : components) {
     const std::string unit(unitOf(c.component));
-    text += fmt::format("  {}: rms {} before, {} after; largest {} before, {} after ({} values): {}\n",
-                        toString(c.component), withUncertainty(c.before.rms, c.before.rms_sigma, unit),
-                        withUncertainty(c.after.rms, c.after.rms_sigma, unit),
-                        withUncertainty(c.before.largest, c.before.largest_sigma, unit),
-                        withUncertainty(c.after.largest, c.after.largest_sigma, unit), c.values, toString(c.verdict));
+    text += fmt::format(
+        "  {}: rms {} before, {} after; largest {} before, {} after ({}): {}\n", toString(c.component),
+        withUncertainty(c.before.rms, c.before.rms_sigma, unit), withUncertainty(c.after.rms, c.after.rms_sigma, unit),
+        withUncertainty(c.before.largest, c.before.largest_sigma, unit),
+        withUncertainty(c.after.largest, c.after.largest_sigma, unit), countOf(c.values, "value"), toString(c.verdict));
   }
+  const bool averaged = std::any_of(components.begin(), components.end(), [](const auto& c) { return c.values > 1; });
+  if (averaged) text += "rms: without the measuring noise, so that it may be smaller than the values show\n";
   for (const std::string& n : notes) text += "note: " + n + "\n";
   return text;
 }

@@ -94,6 +94,34 @@ TEST(Verify, TheRmsIsFreeOfNoiseAndItsUncertaintyHolds) {
   EXPECT_LE(inside, 200);
 }
 
+TEST(Verify, TheSameDataTwiceIsNoProof) {
+  const ObservationSet before = measured(30.0, 0.2, 1);
+  try {
+    (void)verifyCompensation(before, before, {});
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("all 24 values are the same as before"), std::string::npos) << e.what();
+  }
+  // Some of them copied: said.
+  ObservationSet after = measured(2.0, 0.2, 2);
+  for (std::size_t i = 0; i < after.rows.size(); ++i)
+    if (after.rows[i].point == "P2") after.rows[i].value = before.rows[i].value;
+  const VerifyResult result = verifyCompensation(before, after, {});
+  ASSERT_EQ(result.notes.size(), 1U);
+  EXPECT_NE(result.notes[0].find("3 of 24 values are the same"), std::string::npos) << result.notes[0];
+}
+
+TEST(Verify, TheRmsOfOneValueIsThatValue) {
+  const VerifyPoint one{"F1", "M1", {0, 0, 0}, Component::EX, 8.0, 1.0, -2.0, 1.0};
+  const VerifyFigures f = verifyFigures({&one}, true);
+  EXPECT_DOUBLE_EQ(f.rms, 2.0);
+  EXPECT_DOUBLE_EQ(f.rms, f.largest);
+  EXPECT_DOUBLE_EQ(f.rms_sigma, f.largest_sigma);
+  const VerifyPoint two{"F2", "M1", {0, 0, 0}, Component::EX, 8.0, 1.0, 1.0, 1.0};
+  const VerifyFigures both = verifyFigures({&one, &two}, true);
+  EXPECT_LE(both.rms, both.largest);
+}
+
 TEST(Verify, OnlyWhatBothHaveIsComparedAndTheRestIsCounted) {
   ObservationSet after = measured(1.0, 0.2, 3);
   std::erase_if(after.rows, [](const Observation& o) { return o.point == "P3"; });
@@ -112,9 +140,10 @@ TEST(Verify, TheLogDecidesWhatBelongsToBeforeAndAfter) {
   const ObservationSet data = measured(10.0, 0.2, 5);
   EXPECT_THROW(static_cast<void>(verifyCampaigns(off, data, off, data, {})), InputError);
   EXPECT_THROW(static_cast<void>(verifyCampaigns(on, data, on, data, {})), InputError);
-  EXPECT_TRUE(verifyCampaigns(off, data, on, data, {}).notes.empty());
+  const ObservationSet again = measured(2.0, 0.2, 7);
+  EXPECT_TRUE(verifyCampaigns(off, data, on, again, {}).notes.empty());
   Campaign silent;
-  EXPECT_EQ(verifyCampaigns(silent, data, silent, data, {}).notes.size(), 1U);
+  EXPECT_EQ(verifyCampaigns(silent, data, silent, again, {}).notes.size(), 1U);
 }
 
 TEST(CompensatedData, NeverEntersAFitUnnoticed) {
