@@ -8,6 +8,7 @@
 
 #include "app/cli/command.h"
 #include "core/base/atomic_file.h"
+#include "core/base/count_text.h"
 #include "core/base/error.h"
 #include "core/workflows/capture_watch.h"
 
@@ -127,11 +128,12 @@ CommandResult watch(const WatchArguments& a, bool live, JobContext& job) {
   result.json["retakes"] = retakes;
   result.json["touches"] = watch.touches();
   result.json["session"] = session.folder().string();
-  result.summary = fmt::format("{} files, {} touches\n", result.json["items"].size(), watch.touches());
+  result.summary = fmt::format("{}, {}\n", countOf(result.json["items"].size(), "file"),
+                               countOf(watch.touches(), "touch", "touches"));
   if (!watch.plan().empty()) {
     const std::size_t done = watch.done().size();
     result.json["plan"] = {{"captured", done}, {"planned", watch.plan().items.size()}};
-    result.summary += fmt::format("{} of {} planned items captured\n", done, watch.plan().items.size());
+    result.summary += fmt::format("{} of {} captured\n", done, countOf(watch.plan().items.size(), "planned item"));
     if (done < watch.plan().items.size()) result.exit_status = NotGoodEnough;
   }
   for (const std::string& sentence : retakes) result.summary += sentence + "\n";

@@ -228,8 +228,8 @@ class Assembler {
     }
   }
 
-  /// Surface touches that their own cycle contradicts and that do not repeat in others. Without it nothing tells a bad one
-  /// in a single cycle, and with two nothing tells which of both is bad.
+  /// Surface touches that their own cycle contradicts and that do not repeat in others. Without it nothing tells a bad
+  /// one in a single cycle, and with two nothing tells which of both is bad.
   void rejectSurfaces() {
     if (assembly_.kind != FeatureKind::Hole) return;
     struct Member {

@@ -61,7 +61,7 @@ struct CycleEvaluation {
 /// How the touches of an artefact become rows.
 struct CycleAssembly {
   FeatureKind kind = FeatureKind::Sphere;
-  Eigen::Vector3d axis{0, 0, 1};  ///< of holes
+  Eigen::Vector3d axis{0, 0, 1};       ///< of holes
   Eigen::Vector3d centre_mm{0, 0, 0};  ///< of the rotary axis that turns them
   std::vector<std::string> names;
   std::vector<double> unit;

@@ -51,7 +51,8 @@ Disagreement disagreementOf(const Eigen::MatrixXd& rows, const Eigen::VectorXd& 
 void LiveTouchOptions::validate() const {
   if (!(misplaced_mm > 0.0)) throw InputError("the largest distance from the nominal place must be positive (mm).");
   if (!(largest_change_um > 0.0)) throw InputError("the largest change since the first cycle must be positive (um).");
-  if (!(surface_um > 0.0)) throw InputError("the largest distance from the plane of the surface must be positive (um).");
+  if (!(surface_um > 0.0))
+    throw InputError("the largest distance from the plane of the surface must be positive (um).");
   if (!(spread_um > 0.0)) throw InputError("the largest spread within a feature must be positive (um).");
 }
 
@@ -250,8 +251,8 @@ void LiveTouches::judgeSurface(const Touch& last) {
     }
     if (!first && !std::isfinite(live.change_um)) continue;
     of.push_back(i);
-    heights.push_back({t.position_mm, t.c_deg,
-                       first ? setup.rotary_direction.dot(t.position_mm) * um_per_mm : -live.change_um});
+    heights.push_back(
+        {t.position_mm, t.c_deg, first ? setup.rotary_direction.dot(t.position_mm) * um_per_mm : -live.change_um});
   }
   SurfaceOptions options;
   options.floor_um = first ? options_.surface_um : options_.spread_um;

@@ -48,7 +48,6 @@ Eigen::MatrixXd reduced(const Eigen::MatrixXd& design) {
   return design * svd.matrixV().leftCols(rank);
 }
 
-
 /// Least median of squares over subsets: the absolute residuals of the best.
 Eigen::VectorXd robustResiduals(const Eigen::MatrixXd& design, const Eigen::VectorXd& y) {
   const Eigen::Index n = design.rows();
@@ -112,8 +111,8 @@ std::vector<SurfaceVerdict> judgeSurfaceHeights(const std::vector<PlacedHeight>&
   for (Eigen::Index i = 0; i < n; ++i) y(i) = heights[static_cast<std::size_t>(i)].height_um;
   const Eigen::VectorXd residual = robustResiduals(design, y);
   // Small samples make the median of squares too small (Rousseeuw and Leroy 1987).
-  const double scale = 1.4826 * (1.0 + 5.0 / static_cast<double>(n - p)) *
-                       median(std::vector<double>(residual.begin(), residual.end()));
+  const double scale =
+      1.4826 * (1.0 + 5.0 / static_cast<double>(n - p)) * median(std::vector<double>(residual.begin(), residual.end()));
   const double apart = std::max(options.floor_um, options.factor * scale);
   Rows agreeing;
   for (Eigen::Index i = 0; i < n; ++i) {

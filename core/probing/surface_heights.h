@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface touches of one cycle of a hole bar against each other. A hole has one surface touch only, but those of all
-// holes and table angles lie on one plane, so one that is 0.1 mm off is told even in the first cycle.
+// The surface touches of one cycle of a hole bar against each other. A hole has one surface touch only, but those of
+// all holes and table angles lie on one plane, so one that is 0.1 mm off is told even in the first cycle.
 //
 //   h = h0 + a . (x, y) + b . (u, v),   x, y: place across the rotary axis in MCF, u, v: the same turned with the table
 // a: the axis leans against Z, b: the bar leans against the table; what the places do not determine is left open. The
 // plane is found robustly (least median of squares over small subsets, then least squares over those that agree), so
-// several bad touches do not hide each other. A touch is suspect beyond max(floor, factor * spread) * sqrt(1 + leverage),
-// spread = rms of the touches that agree, with its degrees of freedom; one whose place the others do not determine, or
-// with fewer than two degrees of freedom, is not judged. The same holds for changes of height since another cycle.
-// Source: Rousseeuw (1984), least median of squares. Units: mm, rad, um.
+// several bad touches do not hide each other. A touch is suspect beyond max(floor, factor * spread) * sqrt(1 +
+// leverage), spread = rms of the touches that agree, with its degrees of freedom; one whose place the others do not
+// determine, or with fewer than two degrees of freedom, is not judged. The same holds for changes of height since
+// another cycle. Source: Rousseeuw (1984), least median of squares. Units: mm, rad, um.
 #pragma once
 
 #include <Eigen/Core>

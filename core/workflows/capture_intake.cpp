@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/workflows/capture_intake.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
+#include "core/base/count_text.h"
 #include "core/base/error.h"
 
 namespace spindrift {
@@ -32,6 +35,24 @@ void CaptureIntake::expectTouches(const Campaign& campaign, std::optional<JsonNo
   const bool printed = pattern.has_value();
   feed_ = std::make_unique<TouchFeed>(campaign.machine, there ? &*there : nullptr, std::move(pattern));
   printed_ = printed;
+}
+
+std::string CaptureIntake::touchSentence() const {
+  std::size_t waiting = 0;
+  std::size_t again = 0;
+  if (feed_ != nullptr) {
+    for (const LiveTouch& live : feed_->live().touches()) {
+      if (live.given_out || live.replaced) continue;
+      ++(live.plausible ? waiting : again);
+    }
+  }
+  std::string sentence = countOf(touchCount(), "touch", "touches") + " so far";
+  if (waiting > 0) {
+    sentence += waiting == 1 ? "; 1 is taken over when its feature is complete"
+                             : fmt::format("; {} are taken over when their feature is complete", waiting);
+  }
+  if (again > 0) sentence += fmt::format("; {} to be taken again", again);
+  return sentence + ".";
 }
 
 std::size_t CaptureIntake::takeTouches(const ExaminedFile& examined) {

@@ -30,6 +30,8 @@ class CaptureIntake {
   /// Null before expectTouches.
   [[nodiscard]] const TouchFeed* touches() const { return feed_.get(); }
   [[nodiscard]] std::size_t touchCount() const { return feed_ == nullptr ? 0 : feed_->live().touches().size(); }
+  /// "74 touches so far; 4 are taken over when their feature is complete."
+  [[nodiscard]] std::string touchSentence() const;
   /// Takes in a file of touches as it is now; its time is that of its first sight. Returns how many are new. Throws
   /// InputError for an unusable header.
   std::size_t takeTouches(const ExaminedFile& examined);

@@ -45,7 +45,7 @@ std::vector<IncomingItem> CaptureWatch::turn(double now_s) {
     if (examined.item.kind == IncomingKind::Touches && !examined.text.empty()) {
       intake_.takeTouches(examined);
       storeTouches(false);
-      examined.item.sentence = fmt::format("{} touches so far.", touches());
+      examined.item.sentence = intake_.touchSentence();
     }
     ExaminedFile answer = examined;
     answer.item = folder_.finish(*task, std::move(examined), now_s);

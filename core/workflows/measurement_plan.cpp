@@ -8,9 +8,11 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/count_text.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/imaging/fiducial_captures.h"
+#include "core/probing/cycle_plan.h"
 #include "core/probing/touch.h"
 #include "core/scanning/scan_evaluation.h"
 
@@ -45,8 +47,35 @@ PlannedItem parseItem(const JsonNode& node) {
   } else {
     item.artefact = node.at("artefact").name();
     if (item.kind == PlannedKind::Scan) item.y_mm = node.at("y_mm").number();
+    if (item.kind == PlannedKind::Cycle)
+      item.touches = static_cast<int>(std::clamp(node.numberOr("touches", 0.0), 0.0, 1e6));
   }
   return item;
+}
+
+/// Touches of the measuring cycle as the program plans it; 0 if it cannot (no stylus, for example).
+int touchesOf(const MachineDescription& machine, const Artefact& artefact) {
+  CyclePlanOptions options;
+  // Where the balls stand does not change their number: in the middle of the travel they are within reach.
+  for (const LinearAxis& axis : machine.axes) {
+    const auto k = axis.name.empty() ? std::string::npos : std::string("XYZ").find(axis.name.front());
+    if (k != std::string::npos)
+      options.first_ball_mm(static_cast<int>(k)) = 0.5 * (axis.travel_mm[0] + axis.travel_mm[1]);
+  }
+  if (!artefact.balls.empty()) {
+    Eigen::Vector3d low = artefact.balls.front().certified_mm;
+    Eigen::Vector3d high = low;
+    for (const ArtefactBall& ball : artefact.balls) {
+      low = low.cwiseMin(ball.certified_mm);
+      high = high.cwiseMax(ball.certified_mm);
+    }
+    options.first_ball_mm -= 0.5 * (low + high);
+  }
+  try {
+    return planCycle(machine, artefact, options).touches;
+  } catch (const InputError&) {
+    return 0;
+  }
 }
 
 void addImages(MeasurementPlan& plan, const PlannedState& state, const MachinePoint& point,
@@ -108,6 +137,7 @@ nlohmann::json MeasurementPlan::json() const {
     } else {
       item["artefact"] = i.artefact;
       if (i.kind == PlannedKind::Scan) item["y_mm"] = i.y_mm;
+      if (i.touches > 0) item["touches"] = i.touches;
     }
     root["items"].push_back(std::move(item));
   }
@@ -169,7 +199,7 @@ MeasurementPlan makePlan(const MachineDescription& machine, const PlanOptions& o
   for (int k = 0; k < options.states; ++k) {
     PlannedState state{fmt::format("M{}", k), k * options.interval_s, k == 0 ? "reference" : ""};
     if (k > 0) state.what = clock(state.due_s) + " after the start";
-    const auto addOf = [&](const std::string& artefact, double y_mm) {
+    const auto addOf = [&](const std::string& artefact, double y_mm, int touches) {
       PlannedItem item;
       item.id = state.name + "_" + artefact;
       item.kind = options.kind;
@@ -177,14 +207,15 @@ MeasurementPlan makePlan(const MachineDescription& machine, const PlanOptions& o
       item.due_s = state.due_s;
       item.artefact = artefact;
       item.y_mm = y_mm;
+      item.touches = touches;
       plan.items.push_back(std::move(item));
     };
     if (options.kind == PlannedKind::Cycle) {
-      for (const Artefact& artefact : machine.artefacts) addOf(artefact.id, 0.0);
+      for (const Artefact& artefact : machine.artefacts) addOf(artefact.id, 0.0, touchesOf(machine, artefact));
     }
     for (const MachinePoint& point : machine.points) {
       if (options.kind == PlannedKind::Image && point.kind == "fiducial") addImages(plan, state, point, options);
-      if (options.kind == PlannedKind::Scan && point.kind == "surface") addOf(point.id, point.position_mm.y());
+      if (options.kind == PlannedKind::Scan && point.kind == "surface") addOf(point.id, point.position_mm.y(), 0);
     }
     plan.states.push_back(std::move(state));
   }
@@ -198,62 +229,111 @@ MeasurementPlan makePlan(const MachineDescription& machine, const PlanOptions& o
   return plan;
 }
 
-std::set<std::string> capturedItems(const MeasurementPlan& plan, const Campaign& campaign) {
+namespace {
+
+/// Touches of every cycle of an artefact, cycles in order of appearance.
+using CycleCounts = std::vector<std::pair<std::string, std::size_t>>;
+
+std::map<std::string, CycleCounts> cycleCounts(const TouchList& list) {
+  std::map<std::string, CycleCounts> counts;
+  for (const Touch& t : list.touches) {
+    CycleCounts& of = counts[t.artefact];
+    const auto found = std::find_if(of.begin(), of.end(), [&](const auto& c) { return c.first == t.cycle; });
+    if (found == of.end()) {
+      of.emplace_back(t.cycle, 1);
+    } else {
+      ++found->second;
+    }
+  }
+  return counts;
+}
+
+void judgeCycle(const PlannedItem& item, const CycleCounts& cycles, PlanCaptures& captures) {
+  const auto own = std::find_if(cycles.begin(), cycles.end(), [&](const auto& c) { return c.first == item.state; });
+  if (own == cycles.end()) return;
+  const bool first = own == cycles.begin();
+  const std::size_t needed = first ? static_cast<std::size_t>(item.touches) : cycles.front().second;
+  const bool complete = (needed > 0 && own->second >= needed) || (first && cycles.size() > 1);
+  if (complete) {
+    captures.done.insert(item.id);
+  } else {
+    captures.begun[item.id] = own->second;
+  }
+}
+
+}  // namespace
+
+PlanCaptures planCaptures(const MeasurementPlan& plan, const Campaign& campaign) {
   std::set<std::string> keys;
+  std::map<std::string, CycleCounts> cycles;
   try {
     if (const auto file = campaign.captureList("fiducials.csv")) {
       for (const FiducialCapture& c : readFiducialCaptures(*file).captures) {
         keys.insert(fmt::format("{}|{}|{}|{}", c.state, c.fiducial, toString(c.role), c.index));
       }
     }
-    if (const auto file = campaign.captureList("touches.csv")) {
-      const TouchList list = TouchList::read(*file);
-      std::map<std::string, std::size_t> touches;
-      for (const Touch& t : list.touches) ++touches[fmt::format("cycle|{}|{}", t.cycle, t.artefact)];
-      for (const auto& [key, count] : touches) {
-        const std::string artefact = key.substr(key.rfind('|') + 1);
-        if (count >= touches[fmt::format("cycle|{}|{}", list.cycles().front(), artefact)]) keys.insert(key);
-      }
-    }
+    if (const auto file = campaign.captureList("touches.csv")) cycles = cycleCounts(TouchList::read(*file));
     if (campaign.captureList("scans.csv")) {
       for (const ScanCapture& c : readScanList(campaign)) keys.insert(fmt::format("scan|{}|{}", c.cycle, c.artefact));
     }
   } catch (const InputError&) {
     // The page of the captures says what is wrong with the list.
   }
-  std::set<std::string> done;
+  PlanCaptures captures;
   for (const PlannedItem& i : plan.items) {
+    if (i.kind == PlannedKind::Cycle) {
+      judgeCycle(i, cycles[i.artefact], captures);
+      continue;
+    }
     const std::string key = i.kind == PlannedKind::Image
                                 ? fmt::format("{}|{}|{}|{}", i.state, i.fiducial, i.role, i.index)
-                                : fmt::format("{}|{}|{}", toString(i.kind), i.state, i.artefact);
-    if (keys.contains(key)) done.insert(i.id);
+                                : fmt::format("scan|{}|{}", i.state, i.artefact);
+    if (keys.contains(key)) captures.done.insert(i.id);
   }
-  return done;
+  return captures;
 }
 
-PlanProgress progressOf(const MeasurementPlan& plan, const std::set<std::string>& done, double now_s) {
+std::set<std::string> capturedItems(const MeasurementPlan& plan, const Campaign& campaign) {
+  return planCaptures(plan, campaign).done;
+}
+
+PlanProgress progressOf(const MeasurementPlan& plan, const std::set<std::string>& done, double now_s,
+                        const std::map<std::string, std::size_t>& begun) {
   PlanProgress progress;
+  std::set<std::string> running;
   for (std::size_t i = 0; i < plan.items.size(); ++i) {
-    if (done.contains(plan.items[i].id)) {
+    const PlannedItem& item = plan.items[i];
+    if (done.contains(item.id)) {
       ++progress.done;
     } else if (!progress.next) {
       progress.next = i;
     }
+    if (done.contains(item.id) || begun.contains(item.id)) running.insert(item.state);
   }
   if (plan.empty()) {
     progress.sentence = "There is no plan yet.";
-  } else if (!progress.next) {
-    progress.sentence = fmt::format("All {} captures of the plan are there.", plan.items.size());
-  } else {
-    const PlannedItem& item = plan.items[*progress.next];
-    progress.countdown_s = item.due_s - now_s;
-    if (progress.countdown_s > 0.0) {
-      progress.sentence =
-          fmt::format("{} begins in {}: {}.", item.state, clock(progress.countdown_s), item.instruction());
-    } else {
-      progress.sentence = fmt::format("Now {}: {}.", item.state, item.instruction());
-    }
+    return progress;
   }
+  if (!progress.next) {
+    progress.sentence = plan.items.size() == 1
+                            ? std::string("The one capture of the plan is there.")
+                            : fmt::format("All {} captures of the plan are there.", plan.items.size());
+    return progress;
+  }
+  const PlannedItem& item = plan.items[*progress.next];
+  progress.countdown_s = running.contains(item.state) ? std::min(0.0, item.due_s - now_s) : item.due_s - now_s;
+  if (progress.countdown_s > 0.0) {
+    progress.sentence =
+        fmt::format("{} begins in {}: {}.", item.state, clock(progress.countdown_s), item.instruction());
+    return progress;
+  }
+  progress.sentence = fmt::format("Now {}: {}", item.state, item.instruction());
+  if (const auto part = begun.find(item.id); part != begun.end()) {
+    progress.sentence +=
+        item.touches > 0 ? fmt::format(" ({} of {} are there)", part->second, countOf(item.touches, "touch", "touches"))
+                         : fmt::format(" ({} so far)", countOf(part->second, "touch", "touches"));
+  }
+  progress.sentence += ".";
   return progress;
 }
 

@@ -3,11 +3,12 @@
 //   {"format":"spindrift-plan","version":1,"states":[{"name":"M0","due_s":0,"what":"cold"}],
 //    "items":[{"id":"M0_F1_focus_2","kind":"image"|"cycle"|"scan","state":"M0","due_s":0,
 //              image: "fiducial","role","index","x_mm","y_mm","z_mm","spindle_deg"; cycle, scan: "artefact"; scan:
-//              "y_mm"}]}
+//              "y_mm", cycle: "touches" (how many make it complete; may be absent)}]}
 // Times in s since the campaign start, positions mm, spindle_deg as in captures/fiducials.csv.
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -33,6 +34,7 @@ struct PlannedItem {
   double spindle_deg = 0.0;
   std::string artefact;  ///< of cycles and scans
   double y_mm = 0.0;     ///< of scans
+  int touches = 0;       ///< of cycles: how many make it complete; 0: not known
   /// "F3, focus 2: x 20, y 40, z 0.127 mm, spindle 0 deg".
   [[nodiscard]] std::string instruction() const;
 };
@@ -71,9 +73,17 @@ struct PlanOptions {
 /// InputError if the machine has none.
 [[nodiscard]] MeasurementPlan makePlan(const MachineDescription& machine, const PlanOptions& options);
 
-/// Which items of the plan the capture lists of a campaign folder hold; a cycle counts when
-/// it has as many touches in touches.csv as the first one.
-/// Lists that cannot be read count as empty.
+/// What the capture lists of a campaign folder hold of a plan.
+struct PlanCaptures {
+  std::set<std::string> done;
+  std::map<std::string, std::size_t> begun;  ///< cycles that are not complete -> their touches so far
+};
+
+/// An image or a scan is captured when it is listed. A cycle is captured when it has as many touches as the first cycle
+/// of its artefact; the first one itself when it has as many as planned, or when another cycle has begun after it (a
+/// programme of its own may have fewer). Lists that cannot be read count as empty.
+[[nodiscard]] PlanCaptures planCaptures(const MeasurementPlan& plan, const Campaign& campaign);
+/// Only what is captured.
 [[nodiscard]] std::set<std::string> capturedItems(const MeasurementPlan& plan, const Campaign& campaign);
 
 struct PlanProgress {
@@ -82,6 +92,8 @@ struct PlanProgress {
   double countdown_s = 0.0;         ///< until it is due; negative: late
   std::string sentence;             ///< what to do now, or how long to wait
 };
-[[nodiscard]] PlanProgress progressOf(const MeasurementPlan& plan, const std::set<std::string>& done, double now_s);
+/// A state of which something is there has begun, whatever its time. `begun` as in PlanCaptures.
+[[nodiscard]] PlanProgress progressOf(const MeasurementPlan& plan, const std::set<std::string>& done, double now_s,
+                                      const std::map<std::string, std::size_t>& begun = {});
 
 }  // namespace spindrift

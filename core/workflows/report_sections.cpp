@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "core/base/count_text.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/imaging/fiducial_captures.h"
@@ -250,7 +251,9 @@ void addPlan(HtmlDocument& document, const nlohmann::json& plan_json, const Camp
   }
   document.table({"State", "Due / h", "Planned", "Captured"}, rows, "Planned and captured items per thermal state");
   if (missing > 0)
-    document.verdict("attention", fmt::format("{} of {} planned items were not captured.", missing, plan.items.size()));
+    document.verdict("attention",
+                     fmt::format("{} of {} {} not captured.", missing, countOf(plan.items.size(), "planned item"),
+                                 missing == 1 ? "was" : "were"));
 }
 
 void addCaptures(HtmlDocument& document, const Campaign& campaign, const JobContext& job) {

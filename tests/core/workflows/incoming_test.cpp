@@ -370,6 +370,79 @@ TEST(MeasurementPlan, ComesBackFromJsonAndCountsDown) {
   EXPECT_NE(progressOf(plan, done, 0.0).sentence.find("All 76"), std::string::npos);
 }
 
+TEST(MeasurementPlan, ACycleIsCapturedWhenItsTouchesAreThere) {
+  using namespace probing_test;
+  testing::TempFolder folder;
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 2, {}, 42);
+  PlanOptions options;
+  options.kind = PlannedKind::Cycle;
+  options.states = 3;
+  const MeasurementPlan plan = makePlan(m, options);
+  const std::size_t per_cycle = run.list.touches.size() / 2;
+  EXPECT_EQ(plan.items.front().touches, static_cast<int>(per_cycle));
+  Session session = Session::create(folder / "session");
+  const std::int64_t id = session.newCampaign("holes", "2026-01-31T08:00:00Z", holeMachineText());
+  const auto after = [&](std::size_t touches) {
+    TouchList list;
+    list.touches.assign(run.list.touches.begin(), run.list.touches.begin() + static_cast<std::ptrdiff_t>(touches));
+    writeFileAtomically(session.campaign(id).folder / "captures/touches.csv", list.csv());
+    return planCaptures(plan, Campaign::read(session.campaign(id).folder));
+  };
+  PlanCaptures captures = after(9);
+  EXPECT_TRUE(captures.done.empty());
+  PlanProgress progress = progressOf(plan, captures.done, 20.0, captures.begun);
+  EXPECT_NE(progress.sentence.find("Now M0"), std::string::npos) << progress.sentence;
+  EXPECT_NE(progress.sentence.find("(9 of 60 touches are there)"), std::string::npos) << progress.sentence;
+  captures = after(per_cycle);
+  EXPECT_EQ(captures.done.size(), 1U);
+  progress = progressOf(plan, captures.done, 60.0, captures.begun);
+  EXPECT_NE(progress.sentence.find("M1 begins in 29:00 min"), std::string::npos) << progress.sentence;
+  // M1 arrives early.
+  captures = after(per_cycle + 10);
+  EXPECT_EQ(captures.done.size(), 1U);
+  progress = progressOf(plan, captures.done, 60.0, captures.begun);
+  EXPECT_NE(progress.sentence.find("Now M1"), std::string::npos) << progress.sentence;
+  EXPECT_LE(progress.countdown_s, 0.0);
+  EXPECT_EQ(after(2 * per_cycle).done.size(), 2U);
+  // A plan that does not know the number: the first cycle is complete when the next one begins.
+  MeasurementPlan unknown = plan;
+  for (PlannedItem& item : unknown.items) item.touches = 0;
+  (void)after(9);
+  EXPECT_TRUE(capturedItems(unknown, Campaign::read(session.campaign(id).folder)).empty());
+  (void)after(per_cycle + 5);
+  EXPECT_EQ(capturedItems(unknown, Campaign::read(session.campaign(id).folder)).size(), 1U);
+  EXPECT_EQ(MeasurementPlan::parse(JsonNode::parse(plan.json().dump(), "plan.json")).json(), plan.json());
+  // Balls too, wherever they stand.
+  EXPECT_GT(makePlan(machineFrom(ballMachineText()), options).items.front().touches, 40);
+}
+
+TEST(CaptureIntakeTest, CountsOfTouchesAddUp) {
+  using namespace probing_test;
+  testing::TempFolder folder;
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 2, {}, 44);
+  Session session = Session::create(folder / "session");
+  const std::int64_t id = session.newCampaign("holes", "2026-01-31T08:00:00Z", holeMachineText());
+  CaptureIntake intake;
+  intake.expectTouches(Campaign::read(session.campaign(id).folder), std::nullopt);
+  TouchList list;
+  list.touches.assign(run.list.touches.begin(), run.list.touches.begin() + 74);
+  ExaminedFile file;
+  file.item.name = "touches.csv";
+  file.text = list.csv();
+  EXPECT_EQ(intake.takeTouches(file), 74U);
+  const std::size_t rows = intake.takeRows(false).size();
+  EXPECT_EQ(intake.touchSentence(),
+            "74 touches so far; " + std::to_string(74 - rows) + " are taken over when their feature is complete.");
+  list.touches.resize(1);
+  CaptureIntake one;
+  one.expectTouches(Campaign::read(session.campaign(id).folder), std::nullopt);
+  file.text = list.csv();
+  EXPECT_EQ(one.takeTouches(file), 1U);
+  EXPECT_EQ(one.touchSentence(), "1 touch so far; 1 is taken over when its feature is complete.");
+}
+
 TEST(MeasurementPlan, MistakesAreOneSentence) {
   const MachineDescription m = probing_test::machineFrom(probing_test::holeMachineText());
   EXPECT_THROW((void)makePlan(m, {}), InputError);  // no fiducials on it

@@ -190,7 +190,7 @@ void IncomingService::finished(const IncomingFolder::Task& task, ExaminedFile ex
   const ExaminedFile kept = examined;
   if (kept.item.kind == IncomingKind::Touches) {
     feed(kept);
-    examined.item.sentence = tr("%1 touches so far.").arg(intake_.touchCount()).toStdString();
+    examined.item.sentence = intake_.touchSentence();
   }
   const IncomingItem& item = folder_->finish(task, std::move(examined), now());
   intake_.show(item);
@@ -291,7 +291,10 @@ const MeasurementPlan& IncomingService::plan() {
 const std::set<std::string>& IncomingService::done() {
   if (!done_ || generation_ != session_.captureGeneration()) {
     generation_ = session_.captureGeneration();
-    done_ = session_.campaign() == nullptr ? std::set<std::string>() : capturedItems(plan(), *session_.campaign());
+    PlanCaptures captures;
+    if (session_.campaign() != nullptr) captures = planCaptures(plan(), *session_.campaign());
+    done_ = std::move(captures.done);
+    begun_ = std::move(captures.begun);
   }
   return *done_;
 }
@@ -303,7 +306,8 @@ double IncomingService::campaignTime() const {
 }
 
 PlanProgress IncomingService::progress() {
-  return progressOf(plan(), done(), campaignTime());
+  const std::set<std::string>& there = done();
+  return progressOf(plan(), there, campaignTime(), begun_);
 }
 
 void IncomingService::planChanged() {

@@ -91,6 +91,7 @@ class IncomingService : public QObject {
   QString failure_;
   std::optional<MeasurementPlan> plan_;
   std::optional<std::set<std::string>> done_;
+  std::map<std::string, std::size_t> begun_;  ///< as in PlanCaptures, with done_
 };
 
 }  // namespace spindrift::gui
