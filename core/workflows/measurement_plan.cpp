@@ -251,9 +251,13 @@ std::map<std::string, CycleCounts> cycleCounts(const TouchList& list) {
 void judgeCycle(const PlannedItem& item, const CycleCounts& cycles, PlanCaptures& captures) {
   const auto own = std::find_if(cycles.begin(), cycles.end(), [&](const auto& c) { return c.first == item.state; });
   if (own == cycles.end()) return;
-  const bool first = own == cycles.begin();
-  const std::size_t needed = first ? static_cast<std::size_t>(item.touches) : cycles.front().second;
-  const bool complete = (needed > 0 && own->second >= needed) || (first && cycles.size() > 1);
+  const auto planned = static_cast<std::size_t>(item.touches);
+  // A programme of its own may have fewer touches than planned: then all cycles have.
+  const bool usual =
+      std::any_of(cycles.begin(), cycles.end(), [&](const auto& c) { return &c != &*own && c.second == own->second; });
+  const bool complete = own != cycles.begin() ? own->second >= cycles.front().second
+                        : planned > 0         ? own->second >= planned || usual
+                                              : cycles.size() > 1;
   if (complete) {
     captures.done.insert(item.id);
   } else {
@@ -303,21 +307,25 @@ PlanProgress progressOf(const MeasurementPlan& plan, const std::set<std::string>
   std::set<std::string> running;
   for (std::size_t i = 0; i < plan.items.size(); ++i) {
     const PlannedItem& item = plan.items[i];
-    if (done.contains(item.id)) {
-      ++progress.done;
-    } else if (!progress.next) {
-      progress.next = i;
-    }
-    if (done.contains(item.id) || begun.contains(item.id)) running.insert(item.state);
+    const bool there = done.contains(item.id);
+    if (there) ++progress.done;
+    // A cycle that stayed short while a later one ran cannot be measured any more.
+    const bool behind = progress.next && item.kind == PlannedKind::Cycle &&
+                        item.artefact == plan.items[*progress.next].artefact && (there || begun.contains(item.id));
+    if (behind) progress.next.reset();
+    if (!there && !progress.next) progress.next = i;
+    if (there || begun.contains(item.id)) running.insert(item.state);
   }
   if (plan.empty()) {
     progress.sentence = "There is no plan yet.";
     return progress;
   }
   if (!progress.next) {
-    progress.sentence = plan.items.size() == 1
-                            ? std::string("The one capture of the plan is there.")
-                            : fmt::format("All {} captures of the plan are there.", plan.items.size());
+    const std::size_t all = plan.items.size();
+    progress.sentence = progress.done < all ? fmt::format("The plan is through; {} of {} complete.", progress.done,
+                                                          countOf(all, "capture is", "captures are"))
+                        : all == 1          ? std::string("The one capture of the plan is there.")
+                                            : fmt::format("All {} captures of the plan are there.", all);
     return progress;
   }
   const PlannedItem& item = plan.items[*progress.next];

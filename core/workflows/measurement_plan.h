@@ -80,15 +80,15 @@ struct PlanCaptures {
 };
 
 /// An image or a scan is captured when it is listed. A cycle is captured when it has as many touches as the first cycle
-/// of its artefact; the first one itself when it has as many as planned, or when another cycle has begun after it (a
-/// programme of its own may have fewer). Lists that cannot be read count as empty.
+/// of its artefact; the first one itself when it has as many as planned, or as another cycle (a programme of its own
+/// may have fewer); where no number is planned, when another cycle has begun. Lists that cannot be read count as empty.
 [[nodiscard]] PlanCaptures planCaptures(const MeasurementPlan& plan, const Campaign& campaign);
 /// Only what is captured.
 [[nodiscard]] std::set<std::string> capturedItems(const MeasurementPlan& plan, const Campaign& campaign);
 
 struct PlanProgress {
   std::size_t done = 0;
-  std::optional<std::size_t> next;  ///< first open item, in order
+  std::optional<std::size_t> next;  ///< first open item, in order; not a cycle that a later one has overtaken
   double countdown_s = 0.0;         ///< until it is due; negative: late
   std::string sentence;             ///< what to do now, or how long to wait
 };

@@ -405,6 +405,16 @@ TEST(MeasurementPlan, ACycleIsCapturedWhenItsTouchesAreThere) {
   EXPECT_NE(progress.sentence.find("Now M1"), std::string::npos) << progress.sentence;
   EXPECT_LE(progress.countdown_s, 0.0);
   EXPECT_EQ(after(2 * per_cycle).done.size(), 2U);
+  // One touch of M0 is missing when M1 runs: M0 stays open, and M1 is what is to be done.
+  TouchList shorter;
+  shorter.touches.assign(run.list.touches.begin() + 1,
+                         run.list.touches.begin() + static_cast<std::ptrdiff_t>(per_cycle + 10));
+  writeFileAtomically(session.campaign(id).folder / "captures/touches.csv", shorter.csv());
+  captures = planCaptures(plan, Campaign::read(session.campaign(id).folder));
+  EXPECT_TRUE(captures.done.empty());
+  EXPECT_EQ(captures.begun.size(), 2U);
+  progress = progressOf(plan, captures.done, 60.0, captures.begun);
+  EXPECT_NE(progress.sentence.find("Now M1"), std::string::npos) << progress.sentence;
   // A plan that does not know the number: the first cycle is complete when the next one begins.
   MeasurementPlan unknown = plan;
   for (PlannedItem& item : unknown.items) item.touches = 0;
