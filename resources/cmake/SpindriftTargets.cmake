@@ -18,6 +18,15 @@ if(SPINDRIFT_SANITIZE)
                                                      -fno-sanitize-recover=undefined)
   target_link_options(spindrift_options INTERFACE -fsanitize=${SPINDRIFT_SANITIZE})
 endif()
+# What every test runs with. Sanitized programs are slower, report leaks of our own, and end at the first report.
+set(SPINDRIFT_TEST_ENVIRONMENT QT_QPA_PLATFORM=offscreen LC_ALL=C.UTF-8)
+set(SPINDRIFT_TEST_SLOWNESS 1)
+if(SPINDRIFT_SANITIZE)
+  list(APPEND SPINDRIFT_TEST_ENVIRONMENT
+       ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1
+       UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1)
+  set(SPINDRIFT_TEST_SLOWNESS 8)
+endif()
 target_compile_definitions(spindrift_options INTERFACE SPINDRIFT_VERSION="${PROJECT_VERSION}")
 
 # spindrift_core_library(<folder> SOURCES a.cpp ... [LINK lib ...] [PRIVATE_LINK lib ...] [SYSTEM dir ...])
@@ -45,8 +54,9 @@ function(spindrift_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}" ENVIRONMENT
-                                          "QT_QPA_PLATFORM=offscreen;LC_ALL=C.UTF-8")
+  math(EXPR timeout "${ARG_TIMEOUT} * ${SPINDRIFT_TEST_SLOWNESS}")
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${timeout} LABELS "${ARG_LABELS}" ENVIRONMENT
+                                          "${SPINDRIFT_TEST_ENVIRONMENT}")
 endfunction()
 
 # spindrift_benchmark(<name> SOURCES a.cpp ... LINK lib ...): a program of its own in build/benchmarks, not run by ctest.

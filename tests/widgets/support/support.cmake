@@ -20,6 +20,7 @@ function(spindrift_widget_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS widgets ENVIRONMENT
-                                          "QT_QPA_PLATFORM=offscreen;LC_ALL=C.UTF-8")
+  math(EXPR timeout "${ARG_TIMEOUT} * ${SPINDRIFT_TEST_SLOWNESS}")
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${timeout} LABELS widgets ENVIRONMENT
+                                          "${SPINDRIFT_TEST_ENVIRONMENT}")
 endfunction()
