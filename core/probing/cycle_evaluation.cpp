@@ -8,14 +8,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <tuple>
 #include <unordered_map>
 
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/math/statistics.h"
-#include "core/probing/surface_heights.h"
+#include "core/probing/surface_rejection.h"
 
 namespace spindrift {
 
@@ -52,7 +51,12 @@ class Assembler {
   void run() {
     group();
     rejectMisplaced();
-    rejectSurfaces();
+    if (assembly_.kind == FeatureKind::Hole) {
+      for (RejectedTouch& r :
+           contradictedSurfaces(list_, artefact_.id, assembly_.centre_mm, assembly_.axis, result_.rejected)) {
+        result_.rejected.push_back(std::move(r));
+      }
+    }
     findRadii();
     std::vector<bool> excluded(list_.touches.size(), false);
     for (const RejectedTouch& r : result_.rejected) excluded[r.touch] = true;
@@ -225,55 +229,6 @@ class Assembler {
           reason += fmt::format("; it lies on {} (wrong or swapped feature?)", other);
         result_.rejected.push_back({i, reason + "; left out"});
       }
-    }
-  }
-
-  /// Surface touches that their own cycle contradicts and that do not repeat in others. Without it nothing tells a bad
-  /// one in a single cycle, and with two nothing tells which of both is bad.
-  void rejectSurfaces() {
-    if (assembly_.kind != FeatureKind::Hole) return;
-    struct Member {
-      std::size_t touch;
-      std::pair<int, int> key;  ///< setting, touch
-      SurfaceVerdict verdict;
-    };
-    std::set<std::size_t> gone;
-    for (const RejectedTouch& r : result_.rejected) gone.insert(r.touch);
-    std::vector<Member> members;
-    std::map<std::pair<int, int>, std::vector<double>> usual;
-    const Eigen::Vector3d centre = assembly_.centre_mm;
-    for (std::size_t k = 0; k < result_.cycles.size(); ++k) {
-      std::map<std::string, std::pair<std::vector<Member>, std::vector<PlacedHeight>>> of_stylus;
-      for (const Group& g : groups_) {
-        if (g.cycle != static_cast<int>(k)) continue;
-        for (const std::size_t i : g.touches) {
-          const Touch& t = list_.touches[i];
-          if (gone.contains(i) || !isSurfaceTouch(t, assembly_.axis)) continue;
-          auto& [of, heights] = of_stylus[t.stylus];
-          of.push_back({i, {g.setting, t.touch}, {}});
-          heights.push_back({t.position_mm, t.c_deg, assembly_.axis.dot(t.position_mm) * um_per_mm});
-        }
-      }
-      for (auto& [stylus, both] : of_stylus) {
-        const std::vector<SurfaceVerdict> verdicts = judgeSurfaceHeights(both.second, centre, assembly_.axis);
-        for (std::size_t m = 0; m < verdicts.size(); ++m) {
-          both.first[m].verdict = verdicts[m];
-          if (verdicts[m].judged) usual[both.first[m].key].push_back(verdicts[m].off_um);
-          members.push_back(both.first[m]);
-        }
-      }
-    }
-    for (const Member& m : members) {
-      if (!m.verdict.suspect) continue;
-      std::vector<double> others = usual[m.key];
-      others.erase(std::find(others.begin(), others.end(), m.verdict.off_um));
-      // The bar is like that there.
-      if (!others.empty() && std::abs(m.verdict.off_um - median(others)) < 0.5 * SurfaceOptions().floor_um) continue;
-      result_.rejected.push_back(
-          {m.touch,
-           fmt::format("its height is {:.0f} um off what the {} other surface touches of {} say; left out",
-                       m.verdict.off_um, m.verdict.others, list_.touches[m.touch].cycle),
-           m.verdict.off_um});
     }
   }
 
