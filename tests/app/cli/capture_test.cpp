@@ -19,6 +19,7 @@ TEST(Capture, APlannedCampaignIsTakenInFromAFolder) {
   options.height_px = 600;
   options.cor_px = {402.0, 305.0};
   options.pixel_length_um = 1.6;
+  options.rotations_deg = {0.0, 90.0, 180.0};  // as planned
   options.steps_mm = {-0.1016, 0.0, 0.1016};
   options.fiducials = {{"F1", {20.0, 15.0}, 0.02, {1400.0, 1400.0}}};
   options.states = {{"M0", 0.0, {{0, 0, 0}}}};
@@ -62,6 +63,14 @@ TEST(Capture, APlannedCampaignIsTakenInFromAFolder) {
   const nlohmann::json again = jsonOf(command, 1);
   EXPECT_EQ(again["plan"]["captured"], 3);
   EXPECT_TRUE(again["retakes"].empty());
+  // Rotation 3 is planned at 270 deg: another image of 180 deg contradicts it.
+  const std::string wrong = "in/M0_F1_rotation_3" + image(3).extension().string();
+  writeText(folder / wrong, textOf(image(3)) + " ");
+  const nlohmann::json contradicted = jsonOf(command, 1);
+  ASSERT_EQ(contradicted["retakes"].size(), 1U);
+  EXPECT_NE(contradicted["retakes"][0].get<std::string>().find("turned by 180 deg, the plan says 270 deg"),
+            std::string::npos)
+      << contradicted["retakes"][0];
   const Session session = Session::open(folder / "session");
   ASSERT_EQ(session.campaigns().size(), 1U);
   EXPECT_EQ(linesOf(session.campaigns()[0].folder / "captures/fiducials.csv").size(), 4U);

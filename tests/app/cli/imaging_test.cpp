@@ -87,6 +87,21 @@ TEST_F(Images, EvaluateListsBadImagesAndEvaluatesTheRest) {
   EXPECT_EQ(contentOf(c), before);
 }
 
+TEST_F(Images, CheckFindsWhatContradictsTheList) {
+  EXPECT_EQ(jsonOf({"check", campaign().string()})["to_take_again"], 0);
+  const auto c = copy();
+  // The spindle did not turn between the first two images.
+  const std::vector<std::string> lines = linesOf(c / "captures/fiducials.csv");
+  const auto image = [&](std::size_t line) { return lines[line].substr(lines[line].rfind(',') + 1); };
+  writeText(c / image(2), textOf(c / image(1)));
+  const nlohmann::json j = jsonOf({"check", c.string()}, 1);
+  EXPECT_EQ(j["to_take_again"], 1);
+  for (const auto& capture : j["captures"]) EXPECT_EQ(capture["good"], capture["image"] != image(2)) << capture;
+  const Outcome outcome = runCli({"check", c.string()});
+  EXPECT_NE(outcome.output.find("turned by 0 deg, the list says 8 deg"), std::string::npos) << outcome.output;
+  EXPECT_EQ(jsonOf({"check", c.string(), "--exclude", image(2)})["to_take_again"], 0);
+}
+
 TEST_F(Images, ObservationsOfAnotherMachineAreSaid) {
   const std::string out = (*folder() / "own.csv").string();
   ASSERT_EQ(runCli({"evaluate", campaign().string(), "--out", out}).status, 0);
