@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/count_text.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/math/statistics.h"
@@ -43,9 +44,9 @@ void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, co
     noise += fmt::format("{}{:.3f} um {}", g > 0 ? ", " : "", evaluation.fit.group_sigma_mm[g] * um_per_mm,
                          g == 0 ? "across" : "along the axis");
   }
-  out.summary +=
-      fmt::format("{}: {} cycles, {} touches, {} left out; touch noise {}\n", evaluation.artefact,
-                  evaluation.cycles.size(), evaluation.problem.rows.size(), evaluation.rejected.size(), noise);
+  out.summary += fmt::format(
+      "{}: {}, {}, {} left out; touch noise {}\n", evaluation.artefact, countOf(evaluation.cycles.size(), "cycle"),
+      countOf(evaluation.problem.rows.size(), "touch", "touches"), evaluation.rejected.size(), noise);
   const std::size_t all_touches = evaluation.problem.rows.size() + evaluation.rejected.size();
   if (2 * evaluation.rejected.size() > all_touches) {
     out.good_enough = false;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/count_text.h"
 #include "core/imaging/evaluate_fiducials.h"
 #include "core/imaging/fiducial_captures.h"
 #include "core/probing/evaluate_touches.h"
@@ -56,7 +57,7 @@ std::string CampaignEvaluation::summary() const {
       text += fmt::format("and {} more rejected; --json lists all\n", instrument.rejected.size() - most_rejected);
     for (const std::string& w : instrument.warnings) text += fmt::format("note: {}\n", w);
   }
-  text += fmt::format("{} observations\n", observations.rows.size());
+  text += countOf(observations.rows.size(), "observation") + "\n";
   return text;
 }
 

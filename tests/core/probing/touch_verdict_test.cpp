@@ -75,6 +75,12 @@ TEST(TouchVerdicts, ASurfaceTouchOffThePlaneIsLeftOutInOneCycleAndInTwo) {
   }
 }
 
+TEST(TouchVerdicts, OneCycleIsOneCycleInTheSummary) {
+  const VirtualRun run = runCycles(machineFrom(holeMachineText()), 1, {}, 64);
+  const std::string summary = describeTouches(judge(run.list, {}).evaluation, machineFrom(holeMachineText())).summary;
+  EXPECT_NE(summary.find("bar: 1 cycle, 60 touches, 0 left out"), std::string::npos) << summary;
+}
+
 TEST(TouchVerdicts, AStepOfTheBarThatRepeatsIsKept) {
   VirtualRun run = runCycles(machineFrom(holeMachineText()), 3, {}, 63);
   for (Touch& t : run.list.touches) {
