@@ -140,7 +140,7 @@ TEST_F(Report, TellsPlanChecksCompensationAndVerification) {
   const std::string text = html(options);
   EXPECT_THAT(text, HasSubstr("stated by the operator, not measured"));
   EXPECT_THAT(text, HasSubstr("EX returns within 4 µm only."));
-  EXPECT_THAT(text, HasSubstr("1 of 1 planned items were not captured."));
+  EXPECT_THAT(text, HasSubstr("1 of 1 planned item was not captured."));
   EXPECT_THAT(text, HasSubstr("12.30 µm"));
   EXPECT_THAT(text, HasSubstr("10.5 ± 0.3"));
   EXPECT_THAT(text, HasSubstr("added to the command"));
