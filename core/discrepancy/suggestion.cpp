@@ -291,6 +291,9 @@ std::optional<MeasurementSuggestion> suggestMeasurement(const DiscrepancyInput& 
   for (const std::size_t i : chosen) out.times_s.push_back(times[i]);
   for (std::size_t p = 0; p < best_places; ++p) out.points.push_back(places[values[p].place].name);
   out.expected_delta_bic = expected * repeats;
+  // A fit that the data at hand do not determine elsewhere promises anything.
+  constexpr double most_believable = 1e6;
+  if (!(out.expected_delta_bic < most_believable)) return std::nullopt;
   out.separates = separates;
   std::vector<std::string> conditions;
   if (input.log && !input.log->empty()) {

@@ -104,6 +104,23 @@ TEST(DiscrepancyInput, WorksWithOnePointAlone) {
   }
 }
 
+TEST(DiscrepancyInput, PromisesNothingFromWhereOnePointSaysNothing) {
+  for (std::uint64_t seed = 34; seed < 38; ++seed) {
+    const DiscrepancyInput whole = campaign(Hidden::Screw, seed, 8.0);
+    DiscrepancyInput input = whole;
+    input.observations.rows.clear();
+    input.predicted.clear();
+    for (std::size_t i = 0; i < whole.predicted.size(); ++i) {
+      if (whole.observations.rows[i].point != "F3") continue;
+      input.observations.rows.push_back(whole.observations.rows[i]);
+      input.predicted.push_back(whole.predicted[i]);
+    }
+    const DiscrepancyResult result = run(input);
+    const double promised = result.suggestion ? result.suggestion->expected_delta_bic : 0.0;
+    EXPECT_LT(promised, 1e6) << "seed " << seed;
+  }
+}
+
 TEST(DiscrepancyInput, SaysWhenTheLogIsShorterThanTheObservations) {
   DiscrepancyInput input = campaign(Hidden::SpindleDrift, 35);
   input.log = filtered(*input.log, {}, [](double t) { return t < 22000.0; });
