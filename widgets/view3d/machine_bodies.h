@@ -13,7 +13,7 @@ namespace spindrift::gui {
 
 enum class BodyKind { Bed, WorkpieceSide, Table, Column, ToolSide, Spindle };
 
-/// An axis-parallel box in MCF, mm, or the round body inside it.
+/// An axis-parallel box in MCF, mm, or the cylinder inside it (then as wide in both directions across its axis).
 struct Body {
   QString name;
   BodyKind kind = BodyKind::Bed;

@@ -2,17 +2,13 @@
 #include "widgets/view3d/scene_pieces.h"
 
 #include <vtkCellArray.h>
-#include <vtkFloatArray.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkProperty.h>
-#include <vtkUnsignedCharArray.h>
 
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include "widgets/theme/theme.h"
+#include "widgets/view3d/face_mesh.h"
 #include "widgets/view3d/overlay.h"
 
 namespace spindrift::gui {
@@ -39,45 +35,7 @@ QColor bodyColour(BodyKind kind) {
 
 using Line = std::pair<Eigen::Vector3d, Eigen::Vector3d>;
 
-/// Faces with normals and colours of many bodies.
-class BodyMesh {
- public:
-  BodyMesh() {
-    normals_->SetNumberOfComponents(3);
-    colours_->SetNumberOfComponents(3);
-  }
-  void setColour(const QColor& c) {
-    rgb_ = {static_cast<unsigned char>(c.red()), static_cast<unsigned char>(c.green()),
-            static_cast<unsigned char>(c.blue())};
-  }
-  vtkIdType point(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
-    normals_->InsertNextTuple3(normal.x(), normal.y(), normal.z());
-    colours_->InsertNextTypedTuple(rgb_.data());
-    return points_->InsertNextPoint(p.x(), p.y(), p.z());
-  }
-  void face(const std::vector<vtkIdType>& ids) {
-    faces_->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
-  }
-  void edge(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { edges_.emplace_back(a, b); }
-  void writeTo(vtkPolyData* data) const {
-    data->SetPoints(points_);
-    data->SetPolys(faces_);
-    data->GetPointData()->SetNormals(normals_);
-    data->GetPointData()->SetScalars(colours_);
-    data->Modified();
-  }
-  [[nodiscard]] const std::vector<Line>& edges() const { return edges_; }
-
- private:
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> faces_;
-  vtkNew<vtkFloatArray> normals_;
-  vtkNew<vtkUnsignedCharArray> colours_;
-  std::array<unsigned char, 3> rgb_{};
-  std::vector<Line> edges_;
-};
-
-void addBox(BodyMesh& mesh, const Body& body) {
+void addBox(FaceMesh& mesh, const Body& body, std::vector<Line>& edges) {
   const auto corner = [&](int k) {
     return Eigen::Vector3d((k & 1) != 0 ? body.high_mm.x() : body.low_mm.x(),
                            (k & 2) != 0 ? body.high_mm.y() : body.low_mm.y(),
@@ -93,41 +51,22 @@ void addBox(BodyMesh& mesh, const Body& body) {
   }
   for (int a = 0; a < 8; ++a) {
     for (const int bit : {1, 2, 4}) {
-      if ((a & bit) == 0) mesh.edge(corner(a), corner(a | bit));
+      if ((a & bit) == 0) edges.emplace_back(corner(a), corner(a | bit));
     }
   }
 }
 
-void addCylinder(BodyMesh& mesh, const Body& body) {
-  constexpr int around = 36;
-  const int axis = body.round_about;
-  const int u = (axis + 1) % 3;
-  const int v = (axis + 2) % 3;
-  const Eigen::Vector3d middle = 0.5 * (body.low_mm + body.high_mm);
-  const Eigen::Vector3d half = 0.5 * (body.high_mm - body.low_mm);
-  const auto normal = [&](int k) {
-    const double turn = 2.0 * std::numbers::pi * k / around;
-    Eigen::Vector3d n = Eigen::Vector3d::Zero();
-    n[u] = std::cos(turn);
-    n[v] = std::sin(turn);
-    return n;
-  };
-  const auto rim = [&](int k, double end) {
-    Eigen::Vector3d p = middle + half.cwiseProduct(normal(k));
-    p[axis] = middle[axis] + end * half[axis];
-    return p;
-  };
-  for (int k = 0; k < around; ++k) {
-    mesh.face({mesh.point(rim(k, -1), normal(k)), mesh.point(rim(k + 1, -1), normal(k + 1)),
-               mesh.point(rim(k + 1, 1), normal(k + 1)), mesh.point(rim(k, 1), normal(k))});
-  }
-  for (const double end : {-1.0, 1.0}) {
-    std::vector<vtkIdType> ids;
-    for (int k = 0; k < around; ++k) {
-      ids.push_back(mesh.point(rim(k, end), end * Eigen::Vector3d::Unit(axis)));
-      mesh.edge(rim(k, end), rim(k + 1, end));
-    }
-    mesh.face(ids);
+void addCylinder(FaceMesh& mesh, const Body& body, std::vector<Line>& edges) {
+  const int about = body.round_about;
+  Eigen::Vector3d from = 0.5 * (body.low_mm + body.high_mm);
+  Eigen::Vector3d to = from;
+  from[about] = body.low_mm[about];
+  to[about] = body.high_mm[about];
+  const double radius = 0.5 * (body.high_mm - body.low_mm)[(about + 1) % 3];
+  addRod(mesh, from, to, radius);
+  for (const Eigen::Vector3d& end : {from, to}) {
+    const std::vector<Eigen::Vector3d> rim = circle(end, Eigen::Vector3d::Unit(about), radius);
+    for (std::size_t k = 0; k < rim.size(); ++k) edges.emplace_back(rim[k], rim[(k + 1) % rim.size()]);
   }
 }
 
@@ -154,10 +93,11 @@ void makeLines(Piece& piece, const std::vector<std::pair<Eigen::Vector3d, Eigen:
 }
 
 void makeBodies(Piece& faces, Piece& edges, const std::vector<const Body*>& bodies) {
-  BodyMesh mesh;
+  FaceMesh mesh;
+  std::vector<Line> lines;
   for (const Body* body : bodies) {
     mesh.setColour(bodyColour(body->kind));
-    body->round_about < 0 ? addBox(mesh, *body) : addCylinder(mesh, *body);
+    body->round_about < 0 ? addBox(mesh, *body, lines) : addCylinder(mesh, *body, lines);
   }
   mesh.writeTo(faces.data);
   faces.mapper->SetColorModeToDirectScalars();
@@ -166,7 +106,7 @@ void makeBodies(Piece& faces, Piece& edges, const std::vector<const Body*>& bodi
   // Faces step back a little so that edges and grid lines stay in front of them.
   faces.mapper->SetResolveCoincidentTopologyToPolygonOffset();
   faces.mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(2, 2);
-  makeLines(edges, mesh.edges());
+  makeLines(edges, lines);
   setColour(edges, theme().body_edge);
 }
 
