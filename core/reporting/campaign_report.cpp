@@ -6,8 +6,8 @@
 #include <set>
 
 #include "core/base/text.h"
-#include "core/reporting/printed_text.h"
 #include "core/reporting/report_parts.h"
+#include "core/reporting/report_wording.h"
 #include "core/session/fingerprint.h"
 
 namespace spindrift {

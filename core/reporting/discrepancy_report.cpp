@@ -12,7 +12,7 @@
 #include "core/discrepancy/effect_titles.h"
 #include "core/machine/interpolated_field.h"
 #include "core/reporting/heatmap_picture.h"
-#include "core/reporting/printed_text.h"
+#include "core/reporting/report_wording.h"
 #include "core/reporting/svg_plot.h"
 
 namespace spindrift {

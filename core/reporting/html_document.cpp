@@ -7,7 +7,7 @@
 #include <cctype>
 
 #include "core/base/text.h"
-#include "core/reporting/printed_text.h"
+#include "core/reporting/report_wording.h"
 
 namespace spindrift {
 namespace {

@@ -8,8 +8,8 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/reporting/parameter_meanings.h"
-#include "core/reporting/printed_text.h"
 #include "core/reporting/report_parts.h"
+#include "core/reporting/report_wording.h"
 #include "core/reporting/svg_plot.h"
 
 namespace spindrift {

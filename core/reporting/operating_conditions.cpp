@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/base/text.h"
-#include "core/reporting/printed_text.h"
 #include "core/reporting/report_parts.h"
+#include "core/reporting/report_wording.h"
 #include "core/reporting/svg_plot.h"
 
 namespace spindrift {

@@ -15,7 +15,7 @@
 #include "core/imaging/fiducial_captures.h"
 #include "core/probing/touch.h"
 #include "core/reporting/contact_sheet.h"
-#include "core/reporting/printed_text.h"
+#include "core/reporting/report_wording.h"
 #include "core/reporting/svg_plot.h"
 #include "core/scanning/scan_picture.h"
 #include "core/workflows/log_campaign.h"

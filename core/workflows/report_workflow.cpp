@@ -11,7 +11,7 @@
 #include "core/reporting/discrepancy_report.h"
 #include "core/reporting/heatmap_picture.h"
 #include "core/reporting/parameter_meanings.h"
-#include "core/reporting/printed_text.h"
+#include "core/reporting/report_wording.h"
 #include "core/reporting/svg_plot.h"
 #include "core/session/session.h"
 #include "core/workflows/compensated_data.h"

@@ -19,7 +19,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/reporting/html_document.h"
-#include "core/reporting/printed_text.h"
+#include "core/reporting/report_wording.h"
 #include "core/reporting/svg_plot.h"
 #include "tests/support/temp_folder.h"
 #include "tests/widgets/pages/story_support.h"

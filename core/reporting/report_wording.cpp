@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/reporting/printed_text.h"
+#include "core/reporting/report_wording.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Units, effects, parameters and signals as a report prints them.
-#include "core/reporting/printed_text.h"
+#include "core/reporting/report_wording.h"
 
 #include <gmock/gmock.h>
 
