@@ -273,8 +273,13 @@ std::string probabilityInWords(double p) {
   if (!std::isfinite(p)) return "–";
   if (p < 1e-12) return "< 10" + superscript(-12);
   if (p >= 0.001) return fmt::format("{:.2g}", p);
-  const int exponent = static_cast<int>(std::floor(std::log10(p)));
-  return fmt::format("{:.0f} × 10", p / std::pow(10.0, exponent)) + superscript(exponent);
+  int exponent = static_cast<int>(std::floor(std::log10(p)));
+  double digit = std::round(p / std::pow(10.0, exponent));
+  if (digit >= 10.0) {  // 9.7e-4 is 1 × 10⁻³
+    digit = 1.0;
+    ++exponent;
+  }
+  return fmt::format("{:.0f} × 10", digit) + superscript(exponent);
 }
 
 std::string words(std::string_view key) {

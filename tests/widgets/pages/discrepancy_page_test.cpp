@@ -351,7 +351,7 @@ TEST(EffectTitles, EveryIdOfTheCatalogueHasWords) {
     EXPECT_FALSE(effectTitle(id).contains(QLatin1Char('%'))) << id;
   }
   EXPECT_EQ(effectTitle("ball_screw.expansion.y"), QStringLiteral("thermal expansion of the Y ball screw"));
-  EXPECT_EQ(probabilityText(3e-5), QString::fromUtf8("3×10⁻⁵"));
+  EXPECT_EQ(probabilityText(3e-5), QString::fromUtf8("3 × 10⁻⁵"));
 }
 
 }  // namespace

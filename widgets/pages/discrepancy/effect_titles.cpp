@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/discrepancy/effect_titles.h"
+#include "core/reporting/report_wording.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/theme.h"
 
@@ -16,13 +17,6 @@ namespace {
 
 QString translated(const char* text) {
   return QCoreApplication::translate("Effect", text);
-}
-
-QString superscript(int number) {
-  static const QString digits = QString::fromUtf8("⁰¹²³⁴⁵⁶⁷⁸⁹");
-  QString text = number < 0 ? QString(QChar(0x207B)) : QString();
-  for (const QChar c : QString::number(std::abs(number))) text += digits[c.digitValue()];
-  return text;
 }
 
 }  // namespace
@@ -57,11 +51,7 @@ QString sizeText(double value, const QString& unit) {
 }
 
 QString probabilityText(double p) {
-  if (!std::isfinite(p)) return QStringLiteral("–");
-  if (p < 1e-12) return QStringLiteral("< 10") + superscript(-12);
-  if (p >= 0.001) return QString::number(p, 'g', 2);
-  const int exponent = static_cast<int>(std::floor(std::log10(p)));
-  return QStringLiteral("%1×10").arg(QString::number(p / std::pow(10.0, exponent), 'f', 0)) + superscript(exponent);
+  return QString::fromStdString(probabilityInWords(p));
 }
 
 QString spanText(double from_s, double to_s, double whole_s) {
