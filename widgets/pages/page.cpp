@@ -58,7 +58,7 @@ void Page::addModelSwitch(bool over_time) {
   addAction(button);
 }
 
-bool Page::newCampaign() {
+bool Page::noticeCampaign() {
   if (seen_visit_ == context_.session.visit()) return false;
   seen_visit_ = context_.session.visit();
   for (auto* tabs : findChildren<QTabWidget*>()) tabs->setCurrentIndex(0);

@@ -62,9 +62,9 @@ class Page : public QWidget {
   /// A button that switches the step Model between the model of the instrument and the one over time.
   void addModelSwitch(bool over_time);
   /// Runs a job whose failure is shown in the page's callout.
-  /// True once for every campaign that is shown, also if it has the number of the one before: what belongs to the other
-  /// has to be taken away. Tabs go back to the first.
-  [[nodiscard]] bool newCampaign();
+  /// For the beginning of refresh(): when another campaign is shown than last time (SessionModel::visit, not its
+  /// number), tabs go back to the first and the answer is true, so that the page takes away what belongs to the other.
+  bool noticeCampaign();
   void run(const QString& title, std::function<std::function<void()>(JobContext&)> work);
   /// Wires a hover signal to the hint line.
   template <class View>

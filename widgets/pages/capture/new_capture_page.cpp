@@ -41,7 +41,7 @@ void NewCapturePage::setInstrument(Instrument instrument) {
 void NewCapturePage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  if (newCampaign()) {
+  if (noticeCampaign()) {
     const MachineDescription& machine = campaign->machine;
     const bool surfaces = std::any_of(machine.points.begin(), machine.points.end(),
                                       [](const MachinePoint& p) { return p.kind == "surface"; });

@@ -284,10 +284,7 @@ void CompensatePage::fillChoices() {
 
 void CompensatePage::refresh() {
   if (session().campaign() == nullptr) return;
-  if (newCampaign()) {
-    plan_.reset();
-    shown_result_ = 0;
-  }
+  noticeCampaign();
   callout()->setAction({}, {});
   const bool possible = session().observations().has_value() && (hasSource(CompensationSource::NineParameters) ||
                                                                  hasSource(CompensationSource::CompletedModel));

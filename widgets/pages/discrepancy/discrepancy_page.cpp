@@ -221,10 +221,7 @@ QString DiscrepancyPage::missing() const {
 
 void DiscrepancyPage::refresh() {
   if (session().campaign() == nullptr) return;
-  if (newCampaign()) {
-    story_.reset();
-    shown_result_ = 0;
-  }
+  noticeCampaign();
   const QString lacks = missing();
   callout()->setAction({}, {});
   if (!lacks.isEmpty()) {

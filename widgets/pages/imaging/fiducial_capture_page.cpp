@@ -152,7 +152,7 @@ void FiducialCapturePage::load() {
 
 void FiducialCapturePage::refresh() {
   if (session().campaign() == nullptr) return;
-  const bool other = newCampaign();
+  const bool other = noticeCampaign();
   if (other) {
     chooseCaptureTab(*this, session());
     verdict_filter_->setCurrentIndex(0);

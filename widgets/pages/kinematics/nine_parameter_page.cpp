@@ -211,7 +211,7 @@ void NineParameterPage::changeOptions(const QString& what, const nlohmann::json&
 void NineParameterPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  if (newCampaign()) result_.reset();
+  if (noticeCampaign()) result_.reset();
   filling_ = true;
   const auto set = session().observations();
   QString chosen = QString::fromStdString(options().state);

@@ -177,7 +177,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
 void MachinePage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  if (newCampaign()) edited_ = false;
+  if (noticeCampaign()) edited_ = false;
   if (edited_) {  // what was typed and not applied stays
     artefacts_->refresh();
     return;

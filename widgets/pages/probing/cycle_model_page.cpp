@@ -181,7 +181,7 @@ void CycleModelPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
   const auto list = results_.touches();
-  if (newCampaign()) {
+  if (noticeCampaign()) {
     clear();
   }
   const Artefact* artefact = artefactOf(*campaign, list.get());

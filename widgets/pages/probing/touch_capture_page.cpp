@@ -172,7 +172,7 @@ void TouchCapturePage::evaluate(bool store) {
 void TouchCapturePage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  const bool other = newCampaign();
+  const bool other = noticeCampaign();
   if (other) chooseCaptureTab(*this, session());
   const auto list = results_.touches();
   if (list == nullptr) {

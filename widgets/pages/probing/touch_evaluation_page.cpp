@@ -167,7 +167,7 @@ void TouchEvaluationPage::clear() {
 
 void TouchEvaluationPage::refresh() {
   if (session().campaign() == nullptr) return;
-  if (newCampaign()) {
+  if (noticeCampaign()) {
     details_ = {};
     clear();
   }

@@ -180,11 +180,7 @@ std::filesystem::path ReportPage::file() const {
 
 void ReportPage::refresh() {
   if (session().campaign() == nullptr) return;
-  if (newCampaign()) {
-    shown_result_ = 0;
-    opening_.reset();
-    showDocument(nullptr);
-  }
+  noticeCampaign();
   callout()->setAction({}, {});
   const bool possible = canReport(*session().campaign(), session().observations().has_value());
   write_->setEnabled(possible);

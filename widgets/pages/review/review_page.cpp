@@ -176,7 +176,7 @@ void ReviewPage::setHeatMaps(bool on) {
 
 void ReviewPage::refresh() {
   if (session().campaign() == nullptr) return;
-  static_cast<void>(newCampaign());
+  noticeCampaign();
   sources_.refresh();
   const std::string folder = session().campaign()->folder.string();
   const bool other = shown_folder_ != folder;

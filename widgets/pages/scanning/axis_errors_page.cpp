@@ -168,7 +168,7 @@ void AxisErrorsPage::clear() {
 
 void AxisErrorsPage::refresh() {
   if (session().campaign() == nullptr) return;
-  if (newCampaign()) {
+  if (noticeCampaign()) {
     clear();
   }
   model_->setCurrent(chosenModel() == models[1] ? 1 : 0);

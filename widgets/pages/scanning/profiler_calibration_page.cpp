@@ -95,7 +95,7 @@ void ProfilerCalibrationPage::clear() {
 
 void ProfilerCalibrationPage::refresh() {
   if (session().campaign() == nullptr) return;
-  if (newCampaign()) {
+  if (noticeCampaign()) {
     clear();
   }
   const auto stored = session().evaluation();

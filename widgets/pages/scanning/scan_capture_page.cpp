@@ -142,7 +142,7 @@ void ScanCapturePage::check() {
 
 void ScanCapturePage::refresh() {
   if (session().campaign() == nullptr) return;
-  const bool other = newCampaign();
+  const bool other = noticeCampaign();
   if (other) chooseCaptureTab(*this, session());
   if (other) {
     picture_ = before_picture_ = {};

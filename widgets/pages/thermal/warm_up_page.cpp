@@ -85,7 +85,7 @@ void WarmUpPage::confirm() {
 void WarmUpPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  static_cast<void>(newCampaign());
+  noticeCampaign();
   std::vector<Series> temperatures;
   if (campaign->log) {
     const OperatingLog& log = *campaign->log;
