@@ -13,7 +13,7 @@ void addDiscrepancyCommands(CLI::App& app, CommandLine& line) {
       "Find where measurement and simulation disagree and which physical effect the simulation lacks",
       [request](JobContext& job) {
         const DiscrepancyRun run = runDiscrepancy(*request, job);
-        return noted({run.result.json(), run.result.summary(), run.result.decided ? Done : NotGoodEnough}, run.notes);
+        return noted({run.json(), run.result.summary(), run.result.decided ? Done : NotGoodEnough}, run.notes);
       });
   command->add_option("CAMPAIGN", request->campaign, "Folder of the campaign")->required();
   command->add_option("--observations", request->observations, "Observations in place of the campaign's own (CSV)")

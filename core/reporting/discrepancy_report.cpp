@@ -111,16 +111,71 @@ void addMaps(HtmlDocument& document, const DiscrepancyReportData& data, const Fi
                               name, time_s / seconds_per_hour, heatmap_legend));
 }
 
-void addEffect(HtmlDocument& document, const FoundEffect& effect, bool user_adds) {
+bool anyHeldOut(const std::vector<DiscrepancyReportRow>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const DiscrepancyReportRow& row) { return row.held_out; });
+}
+
+/// rms, peak-to-peak and fit of the rows that were fitted and of those held out.
+void addGap(HtmlDocument& document, const DiscrepancyReportData& data) {
+  const std::string none = "\u2013";
+  const auto text = [&](double value, int digits) {
+    return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : none;
+  };
+  std::vector<std::vector<std::string>> table;
+  const auto addRms = [&](const char* what, double before, double after) {
+    table.push_back({what, text(before, 2), text(after, 2), text(data.gap.noise_um, 2)});
+  };
+  const auto addFigures = [&](const char* what, bool held_out) {
+    GapFigures figures = gapFigures(data.rows, held_out);
+    if (!std::isfinite(data.gap.rms_after_um)) figures.p2p_after = figures.fit_after_percent = std::nan("");
+    if (std::isfinite(figures.p2p_before)) {
+      table.push_back(
+          {fmt::format("largest peak-to-peak of one series, {} / {}", what, figures.rotations ? "urad" : "um"),
+           text(figures.p2p_before, 1), text(figures.p2p_after, 1), none});
+    }
+    if (std::isfinite(figures.fit_before_percent)) {
+      table.push_back({fmt::format("fit, {} / %", what), text(figures.fit_before_percent, 0),
+                       text(figures.fit_after_percent, 0), none});
+    }
+  };
+  const bool held_out = anyHeldOut(data.rows);
+  addRms("rms of the rows that were fitted / um", data.gap.rms_before_um, data.gap.rms_after_um);
+  addFigures("rows fitted", false);
+  addRms(held_out ? "rms of the rows held out / um" : "rms of blocks of rows left out in turn / um",
+         data.gap.heldout_rms_before_um, data.gap.heldout_rms_after_um);
+  if (held_out) addFigures("rows held out", true);
+  document.table({"", "before", "after", "noise"}, table,
+                 "The gap between measured and simulated; nobody can go below the noise");
+}
+
+void addSteps(HtmlDocument& document, const DiscrepancyReportData& data) {
+  if (data.steps.empty()) return;
+  std::vector<std::vector<std::string>> rows;
+  for (const DiscrepancyStep& step : data.steps) {
+    std::string decision = "added";
+    if (!step.accepted) {
+      decision = withEffectTitles("not added: " + step.reason);
+    } else if (takenOutAgain(step, data.effects)) {
+      decision = data.verdict == DiscrepancyVerdict::Unknown
+                     ? "added, then taken out again: with it too something is left that no effect explains"
+                     : "added, then taken out again";
+    }
+    rows.push_back({withEffectTitles(step.id), fmt::format("{:.0f}", step.delta_bic), decision});
+  }
+  document.table({"Effect", "Gain in BIC", "Decision"}, rows, "What was tried, in this order");
+}
+
+void addEffect(HtmlDocument& document, const FoundEffect& effect, bool user_adds, bool held_out) {
   document.subsection(effectHeading(effect.id) + (!user_adds      ? ""
                                                   : effect.forced ? " (added to the model)"
                                                                   : " (proposed)"));
   document.paragraph(effect.physics);
-  document.paragraph(
-      fmt::format("Driven by {}. Probability that the name is right {:.2f}; gain in BIC {:.0f}; rms on "
-                  "held-out data {:.2f} um before, {:.2f} um after.",
-                  driversInWords(effect.drivers), effect.confidence, effect.delta_bic, effect.heldout_rms_before_um,
-                  effect.heldout_rms_after_um));
+  document.paragraph(fmt::format(
+      "Driven by {}. Probability that {} {:.2f}; gain in BIC {:.0f}; rms on {} {:.2f} um before, {:.2f} um "
+      "after.",
+      driversInWords(effect.drivers), effect.rivals.empty() ? "the name is right" : "it or one of its rivals is right",
+      effect.confidence, effect.delta_bic, held_out ? "held-out data" : "blocks left out in turn",
+      effect.heldout_rms_before_um, effect.heldout_rms_after_um));
   if (!effect.rivals.empty()) {
     document.verdict("attention", withEffectTitles(fmt::format("These data cannot tell it from {}.",
                                                                joinedList(effect.rivals, "or"))));
@@ -160,25 +215,82 @@ DiscrepancyReportData discrepancyReportData(const DiscrepancyInput& input, const
   data.steps = result.steps;
   data.warnings = result.warnings;
   const auto& rows = input.observations.rows;
-  std::map<std::pair<std::string, Component>, std::pair<double, double>> means;
+  struct Sum {
+    double weight = 0.0;
+    double value = 0.0;
+  };
+  std::map<std::pair<std::string, Component>, Sum> sums;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!std::isfinite(result.simulated[i])) continue;
-    auto& [sum, count] = means[{rows[i].point, rows[i].component}];
-    sum += rows[i].value - result.simulated[i];
-    count += 1.0;
+    if (!std::isfinite(result.simulated[i]) || rows[i].use != ObservationUse::Fit) continue;
+    const double weight = 1.0 / (rows[i].sigma * rows[i].sigma);
+    Sum& sum = sums[{rows[i].point, rows[i].component}];
+    sum.weight += weight;
+    sum.value += weight * (rows[i].value - result.simulated[i]);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Observation& o = rows[i];
-    DiscrepancyReportRow row{o.time_s, o.point,      o.component,  o.position_mm,
-                             o.sigma,  std::nan(""), std::nan(""), o.use == ObservationUse::Holdout};
-    if (std::isfinite(result.simulated[i])) {
-      const auto& [sum, count] = means[{o.point, o.component}];
-      row.before = o.value - result.simulated[i] - sum / count;
+    if (o.use == ObservationUse::Exclude) continue;
+    const double none = std::nan("");
+    DiscrepancyReportRow row{
+        o.time_s, o.point, o.component, o.position_mm, o.sigma, none, none, o.use == ObservationUse::Holdout, o.value};
+    if (const auto sum = sums.find({o.point, o.component}); sum != sums.end() && std::isfinite(result.simulated[i])) {
+      row.before = o.value - result.simulated[i] - sum->second.value / sum->second.weight;
       if (std::isfinite(result.constant[i])) row.after = o.value - result.completed[i] - result.constant[i];
     }
     data.rows.push_back(std::move(row));
   }
   return data;
+}
+
+GapFigures gapFigures(const std::vector<DiscrepancyReportRow>& rows, bool held_out) {
+  struct Course {
+    std::vector<const DiscrepancyReportRow*> rows;
+    double weight = 0.0;
+    double measured = 0.0;
+  };
+  std::map<std::pair<std::string, Component>, Course> courses;
+  bool displacements = false;
+  for (const DiscrepancyReportRow& row : rows) {
+    if (row.held_out != held_out || !std::isfinite(row.before)) continue;
+    const double weight = 1.0 / (row.sigma * row.sigma);
+    Course& course = courses[{row.point, row.component}];
+    course.rows.push_back(&row);
+    course.weight += weight;
+    course.measured += weight * row.measured;
+    displacements = displacements || !isRotation(row.component);
+  }
+  const double none = std::nan("");
+  GapFigures figures{!displacements, none, none, none, none};
+  double moved = 0.0;
+  const auto look = [&](double DiscrepancyReportRow::*residual, double& p2p) {
+    double left = 0.0;
+    for (const auto& [key, course] : courses) {
+      double low = none;
+      double high = none;
+      for (const DiscrepancyReportRow* row : course.rows) {
+        const double r = row->*residual;
+        left += r * r / (row->sigma * row->sigma);
+        low = std::fmin(low, r);
+        high = std::fmax(high, r);
+      }
+      if (isRotation(key.second) == figures.rotations) p2p = std::fmax(p2p, high - low);
+    }
+    return moved > 0.0 ? 100.0 * (1.0 - std::sqrt(left / moved)) : none;
+  };
+  for (const auto& [key, course] : courses) {
+    for (const DiscrepancyReportRow* row : course.rows) {
+      const double d = row->measured - course.measured / course.weight;
+      moved += d * d / (row->sigma * row->sigma);
+    }
+  }
+  figures.fit_before_percent = look(&DiscrepancyReportRow::before, figures.p2p_before);
+  figures.fit_after_percent = look(&DiscrepancyReportRow::after, figures.p2p_after);
+  return figures;
+}
+
+bool takenOutAgain(const DiscrepancyStep& step, const std::vector<FoundEffect>& effects) {
+  return step.accepted &&
+         std::none_of(effects.begin(), effects.end(), [&](const FoundEffect& e) { return e.id == step.id; });
 }
 
 std::optional<std::array<Field, 2>> discrepancyMaps(const DiscrepancyReportData& data, FieldGrid table,
@@ -233,16 +345,9 @@ std::optional<std::array<Field, 2>> discrepancyMaps(const DiscrepancyReportData&
 void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& result,
                          const std::optional<FieldGrid>& table) {
   document.verdict(verdictKind(result.verdict), discrepancyHeadline(result));
-  const auto text = [](double value) {
-    return std::isfinite(value) ? fmt::format("{:.2f}", value) : std::string("\u2013");
-  };
-  document.table({"", "before", "after", "noise"},
-                 {{"rms of the rows that were fitted / um", text(result.gap.rms_before_um),
-                   text(result.gap.rms_after_um), text(result.gap.noise_um)},
-                  {"rms of the rows held out / um", text(result.gap.heldout_rms_before_um),
-                   text(result.gap.heldout_rms_after_um), text(result.gap.noise_um)}},
-                 "The gap between measured and simulated; nobody can go below the noise");
-  for (const FoundEffect& effect : result.effects) addEffect(document, effect, result.user_adds);
+  addGap(document, result);
+  const bool held_out = anyHeldOut(result.rows);
+  for (const FoundEffect& effect : result.effects) addEffect(document, effect, result.user_adds, held_out);
   if (!result.leftover.empty())
     document.verdict("bad", withEffectTitles(fmt::format("Left over: {}.", result.leftover)));
   if (result.suggestion) {
@@ -267,18 +372,12 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
   if (table && !result.effects.empty()) addMaps(document, result, *table);
   addTimeCourses(document, result.rows);
   addPoints(document, result.rows);
-  if (!result.steps.empty()) {
-    std::vector<std::vector<std::string>> rows;
-    for (const DiscrepancyStep& step : result.steps) {
-      rows.push_back({withEffectTitles(step.id), fmt::format("{:.0f}", step.delta_bic),
-                      step.accepted ? std::string("added") : withEffectTitles("not added: " + step.reason)});
-    }
-    document.table({"Effect", "Gain in BIC", "Decision"}, rows, "What was tried, in this order");
-  }
+  addSteps(document, result);
   for (const std::string& warning : result.warnings) document.paragraph(withEffectTitles("Note: " + warning));
   document.paragraph(
-      "rms: root mean square of what is left, each series about its own constant. BIC: Bayesian information criterion; "
-      "a gain above 10 is strong evidence for the effect. Held out: rows that took no part in the choice.");
+      "rms: root mean square of what is left, each series about its own constant, which is fitted anew with every "
+      "model. Fit: 100 % is perfect, 0 % no better than a constant for each series. BIC: Bayesian information "
+      "criterion; a gain above 10 is strong evidence for the effect. Held out: rows that took no part in the choice.");
 }
 
 std::string discrepancyHeadline(const DiscrepancyReportData& data) {

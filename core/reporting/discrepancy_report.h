@@ -15,7 +15,7 @@
 namespace spindrift {
 
 /// One observation: measured minus simulation, and minus the completed model, each relative to the constant of its
-/// series. NaN where there is none.
+/// series (from the rows that were fitted). NaN where there is none.
 struct DiscrepancyReportRow {
   double time_s = 0.0;
   std::string point;
@@ -25,7 +25,23 @@ struct DiscrepancyReportRow {
   double before = 0.0;
   double after = 0.0;
   bool held_out = false;
+  double measured = 0.0;  ///< as observed
 };
+
+/// How far the rows that were fitted, or those held out, move before and after. NaN where there is none.
+struct GapFigures {
+  bool rotations = false;   ///< `p2p` is in urad: no displacement was measured; else um
+  double p2p_before = 0.0;  ///< largest peak-to-peak of one series (point and component)
+  double p2p_after = 0.0;
+  /// 100 (1 - |residual| / |measured - its mean|), each series about its own mean and each row by its sigma: 100 is
+  /// perfect, 0 no better than a constant.
+  double fit_before_percent = 0.0;
+  double fit_after_percent = 0.0;
+};
+[[nodiscard]] GapFigures gapFigures(const std::vector<DiscrepancyReportRow>& rows, bool held_out);
+
+/// A step of the search that added an effect which the result does not hold.
+[[nodiscard]] bool takenOutAgain(const DiscrepancyStep& step, const std::vector<FoundEffect>& effects);
 
 /// Nodes of a map along the longer side of the table.
 inline constexpr int report_map_nodes = 40;

@@ -330,7 +330,8 @@ DiscrepancyReportData DiscrepancyStory::reportData() const {
   data.warnings = warnings;
   for (const DiscrepancySeries& s : series) {
     for (std::size_t i = 0; i < s.time_s.size(); ++i) {
-      DiscrepancyReportRow row{s.time_s[i], s.point, s.component, s.position_mm, s.noise, 0.0, 0.0, s.held_out[i]};
+      DiscrepancyReportRow row{s.time_s[i], s.point, s.component,   s.position_mm, s.noise,
+                               0.0,         0.0,     s.held_out[i], s.value[i]};
       row.before = s.value[i] - s.simulated[i] - s.constant_before;
       row.after = !s.completed.empty()   ? s.value[i] - s.completed[i] - s.constant_after
                   : !s.explained.empty() ? row.before - s.explained[i]

@@ -14,6 +14,22 @@
 
 namespace spindrift {
 
+nlohmann::json DiscrepancyRun::json() const {
+  nlohmann::json out = result.json();
+  nlohmann::json& gap = out["gap"];
+  const std::vector<DiscrepancyReportRow> rows = discrepancyReportData(input, result).rows;
+  for (const bool held_out : {false, true}) {
+    const GapFigures figures = gapFigures(rows, held_out);
+    const std::string prefix = held_out ? "heldout_" : "";
+    const std::string unit = figures.rotations ? "_urad" : "_um";
+    gap[prefix + "p2p_before" + unit] = jsonNumber(figures.p2p_before);
+    gap[prefix + "p2p_after" + unit] = jsonNumber(figures.p2p_after);
+    gap[prefix + "fit_before_percent"] = jsonNumber(figures.fit_before_percent);
+    gap[prefix + "fit_after_percent"] = jsonNumber(figures.fit_after_percent);
+  }
+  return out;
+}
+
 DiscrepancyRun searchDiscrepancy(const Campaign& campaign, ObservationSet observations,
                                  const DiscrepancyOptions& options, JobContext& job) {
   options.validate();

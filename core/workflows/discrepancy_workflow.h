@@ -22,6 +22,9 @@ struct DiscrepancyRun {
   DiscrepancyInput input;
   DiscrepancyResult result;
   std::vector<std::string> notes;  ///< what was left out and why
+
+  /// The JSON of FORMATS.md; `gap` also holds peak-to-peak and fit, as the report has them.
+  [[nodiscard]] nlohmann::json json() const;
 };
 
 /// The search on a campaign in memory, with the observations given in place of its own.

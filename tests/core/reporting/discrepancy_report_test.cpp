@@ -29,7 +29,8 @@ DiscrepancyReportData data() {
                           0.2,
                           before,
                           0.1 * before,
-                          moment == 2});
+                          moment == 2,
+                          2.0 * before + 7.0});
       }
   FoundEffect effect;
   effect.id = "ball_screw.expansion.y";
@@ -74,6 +75,51 @@ TEST(DiscrepancyReport, SaysWhatWasAddedAndWhatIsProposed) {
   EXPECT_THAT(html, HasSubstr("Missing in the simulation: thermal expansion of the Y ball screw <small>"));
   EXPECT_THAT(html, Not(HasSubstr(" um")));
   EXPECT_THAT(html, Not(HasSubstr("nan")));
+}
+
+TEST(DiscrepancyReport, GapSaysPeakToPeakAndFitOfFittedAndHeldOutRows) {
+  const GapFigures fitted = gapFigures(data().rows, false);
+  EXPECT_FALSE(fitted.rotations);
+  EXPECT_NEAR(fitted.p2p_before, 5.0, 1e-9) << "F2 and F4 move by 0 and 5";
+  EXPECT_NEAR(fitted.p2p_after, 0.5, 1e-9);
+  // Residuals 0 and 5, measured 7 and 17: about its mean -5 and 5.
+  EXPECT_NEAR(fitted.fit_before_percent, 100.0 * (1.0 - std::sqrt(25.0 / 50.0)), 1e-9);
+  EXPECT_NEAR(fitted.fit_after_percent, 100.0 * (1.0 - 0.1 * std::sqrt(25.0 / 50.0)), 1e-9);
+  // One moment is held out: nothing moves in it.
+  const GapFigures held_out = gapFigures(data().rows, true);
+  EXPECT_EQ(held_out.p2p_before, 0.0);
+  EXPECT_TRUE(std::isnan(held_out.fit_before_percent));
+  const std::string html = discrepancyReport("c", data(), std::nullopt);
+  EXPECT_THAT(html, HasSubstr("largest peak-to-peak of one series, rows fitted"));
+  EXPECT_THAT(html, HasSubstr("fit, rows fitted"));
+  EXPECT_THAT(html, HasSubstr("largest peak-to-peak of one series, rows held out"));
+}
+
+TEST(DiscrepancyReport, WithoutHeldOutRowsTheFiguresAreOfBlocksLeftOut) {
+  DiscrepancyReportData d = data();
+  for (DiscrepancyReportRow& row : d.rows) row.held_out = false;
+  const std::string html = discrepancyReport("c", d, std::nullopt);
+  EXPECT_THAT(html, HasSubstr("rms of blocks of rows left out in turn"));
+  EXPECT_THAT(html, HasSubstr("rms on blocks left out in turn"));
+  EXPECT_THAT(html, Not(HasSubstr("rows held out")));
+}
+
+TEST(DiscrepancyReport, WhatWasAddedAndTakenOutAgainIsNotSaidToBeIn) {
+  DiscrepancyReportData d = data();
+  d.steps = {{"ball_screw.expansion.y", true, 50.0, 60.0, "gains"}, {"spindle.drift.x", true, 25.0, 30.0, "gains"}};
+  EXPECT_FALSE(takenOutAgain(d.steps[0], d.effects));
+  EXPECT_TRUE(takenOutAgain(d.steps[1], d.effects));
+  EXPECT_THAT(discrepancyReport("c", d, std::nullopt), HasSubstr("added, then taken out again"));
+  d.verdict = DiscrepancyVerdict::Unknown;
+  d.effects.clear();
+  EXPECT_THAT(discrepancyReport("c", d, std::nullopt), HasSubstr("with it too something is left"));
+}
+
+TEST(DiscrepancyReport, TheProbabilityOfARivalIsThatOfTheWholeSet) {
+  DiscrepancyReportData d = data();
+  EXPECT_THAT(discrepancyReport("c", d, std::nullopt), HasSubstr("Probability that the name is right"));
+  d.effects[0].rivals = {"spindle.drift.y"};
+  EXPECT_THAT(discrepancyReport("c", d, std::nullopt), HasSubstr("Probability that it or one of its rivals is right"));
 }
 
 }  // namespace

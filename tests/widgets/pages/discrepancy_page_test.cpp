@@ -18,6 +18,7 @@
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/pages/discrepancy/gap_bars.h"
 #include "widgets/pages/discrepancy/gap_panel.h"
 #include "widgets/pages/discrepancy/what_panel.h"
 #include "widgets/pages/discrepancy/where_panel.h"
@@ -67,6 +68,12 @@ TEST_F(DiscrepancyPageTest, NamesTheHiddenEffectAddsItAndUndoes) {
   EXPECT_NEAR(page_->story()->gap.noise_um, 0.4, 0.08);
   const auto lines = page_->gap()->plot(true)->series();
   ASSERT_EQ(lines.size(), 2U);
+  // What was measured stays where it is; only the line moves.
+  EXPECT_EQ(lines[1].y, page_->gap()->plot(false)->series().at(1).y);
+  EXPECT_NE(lines[0].y, page_->gap()->plot(false)->series().at(0).y);
+  const QString figures = page_->gap()->bars()->accessibleDescription();
+  EXPECT_EQ(figures.count(QStringLiteral("p2p")), 2) << figures.toStdString();
+  EXPECT_EQ(figures.count(QStringLiteral("fit")), 2) << figures.toStdString();
   EXPECT_EQ(page_->gap()->view(false)->colourScale(), page_->gap()->view(true)->colourScale());
   // The second view follows a turn of the event loop later.
   EXPECT_TRUE(QTest::qWaitFor([this] { return page_->gap()->view(true)->points().size() == 6U; }, 2000));
@@ -93,6 +100,12 @@ TEST_F(DiscrepancyPageTest, NamesTheHiddenEffectAddsItAndUndoes) {
   window_->undoStack().redo();
   wait();
   EXPECT_EQ(page_->story()->added.size(), 1U);
+}
+
+TEST_F(DiscrepancyPageTest, SentencesNameEffectsByTheirTitles) {
+  EXPECT_EQ(titledSentence("not decided: heat_source.position.x and 3.5 of simulation.csv (spindle.growth.z)."),
+            QStringLiteral("not decided: %1 and 3.5 of simulation.csv (growth of the spindle along Z).")
+                .arg(effectTitle("heat_source.position.x")));
 }
 
 TEST_F(DiscrepancyPageTest, TableViewAndPlotShowTheSamePlace) {

@@ -56,12 +56,12 @@ Sentence verdictOf(const DiscrepancyStory& story) {
   const bool added = !story.added.empty();
   const QString names = effectTitles(story.added, DiscrepancyPage::tr("and"));
   if (!story.decided) {
-    return {DiscrepancyPage::tr("These data cannot decide what is missing."), QString::fromStdString(story.message),
+    return {DiscrepancyPage::tr("These data cannot decide what is missing."), titledSentence(story.message),
             Tone::Neutral};
   }
   const QString left = story.leftover.empty()
                            ? QString()
-                           : DiscrepancyPage::tr("What is left: %1. ").arg(QString::fromStdString(story.leftover));
+                           : DiscrepancyPage::tr("What is left: %1. ").arg(titledSentence(story.leftover));
   switch (story.verdict) {
     case DiscrepancyVerdict::None:
       return {DiscrepancyPage::tr("Measured and simulated agree within the noise."),
@@ -95,7 +95,9 @@ Sentence verdictOf(const DiscrepancyStory& story) {
     DiscrepancyGap gap = *story.proposed;
     s.note =
         DiscrepancyPage::tr("Confidence %1. Adding it takes the rms from %2 to %3; the noise alone is %4. %5")
-            .arg(QString::number(next->confidence, 'f', 2),
+            .arg(next->rivals.empty()
+                     ? QString::number(next->confidence, 'f', 2)
+                     : DiscrepancyPage::tr("%1 that it is one of these").arg(next->confidence, 0, 'f', 2),
                  sizeText(added ? story.gap.rms_after_um : gap.rms_before_um, QStringLiteral("um")),
                  sizeText(gap.rms_after_um, QStringLiteral("um")), sizeText(gap.noise_um, QStringLiteral("um")), left);
   }
@@ -266,7 +268,7 @@ void DiscrepancyPage::refresh() {
                     tr("Observations, exclusions, the machine or the model have changed since this was found."));
     callout()->setAction(tr("Search again"), [this] { search(); });
   } else if (!story_->warnings.empty()) {
-    QString text = QString::fromStdString(story_->warnings.front());
+    QString text = titledSentence(story_->warnings.front());
     if (story_->warnings.size() > 1) text += QLatin1Char(' ') + tr("And %1 more.").arg(story_->warnings.size() - 1);
     callout()->show(Tone::Attention, text);
   } else {

@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 #include <QHeaderView>
+#include <QRegularExpression>
 #include <QStringList>
 #include <QTableView>
 #include <cmath>
@@ -35,6 +36,19 @@ QString effectTitles(const std::vector<std::string>& ids, const QString& last_wo
     text += effectTitle(ids[i]);
   }
   return text;
+}
+
+QString titledSentence(const std::string& sentence) {
+  static const QRegularExpression id(QStringLiteral("[a-z_]+(?:\\.\\w+)+"));
+  const QString text = QString::fromStdString(sentence);
+  QString out;
+  qsizetype done = 0;
+  for (QRegularExpressionMatchIterator i = id.globalMatch(text); i.hasNext();) {
+    const QRegularExpressionMatch match = i.next();
+    out += text.mid(done, match.capturedStart() - done) + effectTitle(match.captured().toStdString());
+    done = match.capturedEnd();
+  }
+  return out + text.mid(done);
 }
 
 QString sentenceStart(QString text) {

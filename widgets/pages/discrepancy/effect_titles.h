@@ -17,6 +17,8 @@ namespace spindrift::gui {
 [[nodiscard]] QString effectTitle(const std::string& id);
 /// "head.tilt.a or frame.rotation.a" by their titles.
 [[nodiscard]] QString effectTitles(const std::vector<std::string>& ids, const QString& last_word);
+/// A sentence of the search with every id of the catalogue by its title.
+[[nodiscard]] QString titledSentence(const std::string& sentence);
 /// The first letter as a capital.
 [[nodiscard]] QString sentenceStart(QString text);
 

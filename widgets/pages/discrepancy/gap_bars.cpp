@@ -20,28 +20,58 @@ constexpr int group_gap = 8;
 constexpr int name_width = 56;
 constexpr int value_width = 72;
 constexpr int foot_height = 24;
+constexpr int more_height = 20;
+
+QString signedText(double value, int digits) {
+  return QString::number(value, 'f', digits).replace(QLatin1Char('-'), QChar(0x2212));
+}
+
+/// "p2p 12.4 → 2.6 um, fit 61 → 92 %"; empty where nothing is known.
+QString figuresText(const GapFigures& figures) {
+  const auto change = [](double before, double after, int digits) {
+    const QString first = signedText(before, digits);
+    return std::isfinite(after) ? GapBars::tr("%1 → %2").arg(first, signedText(after, digits)) : first;
+  };
+  QStringList parts;
+  if (std::isfinite(figures.p2p_before)) {
+    parts << GapBars::tr("p2p %1 %2")
+                 .arg(change(figures.p2p_before, figures.p2p_after, 1),
+                      figures.rotations ? QStringLiteral("urad") : QStringLiteral("um"));
+  }
+  if (std::isfinite(figures.fit_before_percent)) {
+    parts << GapBars::tr("fit %1 %").arg(change(figures.fit_before_percent, figures.fit_after_percent, 0));
+  }
+  return parts.join(QStringLiteral(", "));
+}
 
 }  // namespace
 
 GapBars::GapBars(QWidget* parent) : QWidget(parent) {
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   setAccessibleName(tr("rms before, after and noise floor"));
+  setToolTip(
+      tr("rms: of what is left in all observations. p2p: the largest peak-to-peak of what is left in one series. "
+         "fit: 100 % is perfect, 0 % no better than a constant for each series."));
   connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] { update(); });
 }
 
-void GapBars::set(const DiscrepancyGap& gap, bool holdout) {
+void GapBars::set(const DiscrepancyGap& gap, bool holdout, const GapFigures& fitted, const GapFigures& held_out) {
   groups_.clear();
-  const auto add = [this](const QString& title, double before, double after) {
-    Group group{title, {}};
+  const auto add = [this](const QString& title, double before, double after, const QString& more) {
+    Group group{title, {}, more};
     if (std::isfinite(before)) group.bars.push_back({tr("before"), before, 0});
     if (std::isfinite(after)) group.bars.push_back({tr("after"), after, 1});
     if (!group.bars.empty()) groups_.push_back(std::move(group));
   };
-  add(tr("Fitted observations, rms"), gap.rms_before_um, gap.rms_after_um);
+  add(tr("Fitted observations, rms"), gap.rms_before_um, gap.rms_after_um, figuresText(fitted));
   const bool known = gap.heldout_rms_before_um > 0.0;
   add(holdout ? tr("Held-out observations, rms") : tr("Blocks left out in turn, rms"),
-      known ? gap.heldout_rms_before_um : std::nan(""), known ? gap.heldout_rms_after_um : std::nan(""));
+      known ? gap.heldout_rms_before_um : std::nan(""), known ? gap.heldout_rms_after_um : std::nan(""),
+      holdout ? figuresText(held_out) : QString());
   noise_ = gap.noise_um;
+  QStringList words;
+  for (const Group& group : groups_) words << group.title + QStringLiteral(": ") + group.more;
+  setAccessibleDescription(words.join(QStringLiteral("; ")));
   updateGeometry();
   update();
 }
@@ -56,6 +86,7 @@ QSize GapBars::sizeHint() const {
   int height = foot_height;
   for (const Group& group : groups_) {
     height += title_height + bar_step * static_cast<int>(group.bars.size()) + group_gap;
+    if (!group.more.isEmpty()) height += more_height;
   }
   return {240, groups_.empty() ? 24 : height};
 }
@@ -77,6 +108,7 @@ void GapBars::draw(QPainter& painter, const QRect& area) const {
     painter.setPen(t.text);
     painter.drawText(QRect(area.left(), y, area.width(), title_height), Qt::AlignLeft | Qt::AlignVCenter, group.title);
     y += title_height;
+    const int bars_from = y - 4;
     for (const Bar& bar : group.bars) {
       painter.setPen(t.text_secondary);
       painter.drawText(QRect(area.left(), y, name_width - 8, bar_height), Qt::AlignLeft | Qt::AlignVCenter, bar.name);
@@ -89,10 +121,16 @@ void GapBars::draw(QPainter& painter, const QRect& area) const {
                        Qt::AlignLeft | Qt::AlignVCenter, sizeText(bar.value, QStringLiteral("um")));
       y += bar_step;
     }
+    painter.setPen(QPen(t.text, 1.2, Qt::DashLine));
+    painter.drawLine(QPointF(floor_x, bars_from), QPointF(floor_x, y - 4));
+    if (!group.more.isEmpty()) {
+      painter.setPen(t.text_secondary);
+      painter.drawText(QRect(area.left(), y - 4, area.width(), more_height), Qt::AlignLeft | Qt::AlignVCenter,
+                       group.more);
+      y += more_height;
+    }
     y += group_gap;
   }
-  painter.setPen(QPen(t.text, 1.2, Qt::DashLine));
-  painter.drawLine(QPointF(floor_x, area.top() + title_height - 4), QPointF(floor_x, y - group_gap));
   const QString text = tr("noise %1: nobody gets below").arg(sizeText(noise_, QStringLiteral("um")));
   const double text_width = painter.fontMetrics().horizontalAdvance(text);
   const double x = std::clamp(floor_x - text_width / 2, static_cast<double>(area.left()),

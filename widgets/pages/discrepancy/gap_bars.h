@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rms before and after beside the noise floor, on fitted and on held-out data: lying bars with their numbers.
+// rms before and after beside the noise floor, on fitted and on held-out data: lying bars with their numbers, and below
+// each pair peak-to-peak and fit.
 #pragma once
 
 #include <QPainter>
 #include <QWidget>
 #include <vector>
 
-#include "core/discrepancy/discrepancy.h"
+#include "core/reporting/discrepancy_report.h"
 
 namespace spindrift::gui {
 
@@ -14,9 +15,9 @@ class GapBars : public QWidget {
   Q_OBJECT
  public:
   explicit GapBars(QWidget* parent = nullptr);
-  /// `holdout`: the second group is of rows held out, else of blocks left out in turn. A value that is not finite has
-  /// no bar.
-  void set(const DiscrepancyGap& gap, bool holdout);
+  /// `holdout`: the second group is of rows held out, else of blocks left out in turn (`held_out` is not shown then). A
+  /// value that is not finite has no bar and no text.
+  void set(const DiscrepancyGap& gap, bool holdout, const GapFigures& fitted, const GapFigures& held_out);
   void clear();
   /// PNG or SVG by the ending; throws InputError.
   void exportTo(const QString& file) const;
@@ -35,6 +36,7 @@ class GapBars : public QWidget {
   struct Group {
     QString title;
     std::vector<Bar> bars;
+    QString more;  ///< below the bars; may be empty
   };
   void draw(QPainter& painter, const QRect& area) const;
   std::vector<Group> groups_;

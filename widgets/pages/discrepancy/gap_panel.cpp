@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
+#include <QScrollArea>
 #include <QSlider>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -31,11 +32,22 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   line->setSpacing(12);
   auto* left = new Card(tr("How large the gap is"));
   left->setFixedWidth(280);
+  // In a low window the bars scroll rather than being squeezed.
+  auto* inside = new QWidget;
+  auto* column = new QVBoxLayout(inside);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(left->body()->spacing());
+  auto* scroll = new QScrollArea;
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(inside);
+  left->body()->addWidget(scroll, 1);
   bars_ = new GapBars;
-  left->body()->addWidget(bars_);
+  column->addWidget(bars_);
   model_ = makeLabel({}, "secondaryText");
   model_->setWordWrap(true);
-  left->body()->addWidget(model_);
+  column->addWidget(model_);
+  column->addStretch(1);
   left->body()->addWidget(makeLine(Qt::Horizontal));
   auto* choice = new QHBoxLayout;
   component_ = new QComboBox;
@@ -56,7 +68,6 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   moment_->setAccessibleName(tr("Moment shown on the machine"));
   moment_->setToolTip(tr("Moment shown on the machine; the arrow keys go from one state to the next"));
   left->body()->addWidget(moment_);
-  left->body()->addStretch(1);
   line->addWidget(left);
 
   grid_ = new QGridLayout;
@@ -212,7 +223,12 @@ void GapPanel::show(const std::shared_ptr<const DiscrepancyStory>& story, const 
     moment_text_->clear();
     return;
   }
-  bars_->set(discrepancy_->gap, discrepancy_->has_holdout);
+  const std::vector<DiscrepancyReportRow> rows = discrepancy_->reportData().rows;
+  std::array<GapFigures, 2> figures{gapFigures(rows, false), gapFigures(rows, true)};
+  if (discrepancy_->added.empty()) {
+    for (GapFigures& f : figures) f.p2p_after = f.fit_after_percent = std::nan("");
+  }
+  bars_->set(discrepancy_->gap, discrepancy_->has_holdout, figures[0], figures[1]);
   if (discrepancy_->added.empty()) {
     model_->setText(discrepancy_->proposed
                         ? tr("Nothing has been added yet. With what is proposed the rms would fall to %1.")
@@ -229,8 +245,8 @@ void GapPanel::show(const std::shared_ptr<const DiscrepancyStory>& story, const 
                  .arg(discrepancy_->noise_correlation_time_s / unit.seconds, 0, 'f', 1)
                  .arg(unit.name);
   }
-  story_text_->setText(tr("Points: measured. Line: model, with ± 2 σ of the noise.") + QLatin1Char(' ') + noise +
-                       QLatin1Char('.'));
+  story_text_->setText(tr("Points: measured. Line: model with the free constant of the series, ± 2 σ of the noise.") +
+                       QLatin1Char(' ') + noise + QLatin1Char('.'));
   fillChoices();
   const QString how = discrepancy_->nextProposal() != nullptr
                           ? tr("Press Add to the model: what is then left appears here.")
@@ -279,7 +295,8 @@ void GapPanel::showPlots() {
   for (std::size_t side = 0; side < 2; ++side) {
     const std::vector<double>& model = side == 0 ? s->simulated : s->completed;
     if (model.empty()) continue;
-    const double constant = side == 0 ? s->constant_before : s->constant_after;
+    // The measured values stay where they are; the line takes what the fit makes of the free constant.
+    const double shift = side == 0 ? 0.0 : s->constant_after - s->constant_before;
     Series measured;
     measured.name = tr("measured");
     measured.style = SeriesStyle::Points;
@@ -291,12 +308,12 @@ void GapPanel::showPlots() {
     for (std::size_t i = 0; i < s->time_s.size(); ++i) {
       const double t = s->time_s[i] / unit.seconds;
       measured.x.push_back(t);
-      measured.y.push_back(s->value[i] - constant);
+      measured.y.push_back(s->value[i] - s->constant_before);
       line.x.push_back(t);
-      line.y.push_back(model[i]);
+      line.y.push_back(model[i] + shift);
       line.sigma.push_back(s->noise);
-      low = std::min({low, s->value[i] - constant, model[i] - 2 * s->noise});
-      high = std::max({high, s->value[i] - constant, model[i] + 2 * s->noise});
+      low = std::min({low, measured.y.back(), line.y.back() - 2 * s->noise});
+      high = std::max({high, measured.y.back(), line.y.back() + 2 * s->noise});
       if (side == 0 && s->held_out[i]) {
         if (std::isnan(held_from)) held_from = t;
         held_to = t;

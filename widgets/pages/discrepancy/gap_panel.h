@@ -38,6 +38,7 @@ class GapPanel : public QWidget {
   [[nodiscard]] std::vector<Exportable> exportables();
   [[nodiscard]] View3D* view(bool after) const { return views_[after ? 1 : 0]; }
   [[nodiscard]] QSlider* moment() const { return moment_; }
+  [[nodiscard]] GapBars* bars() const { return bars_; }
   [[nodiscard]] Plot* plot(bool after) const { return plots_[after ? 1 : 0]; }
 
  Q_SIGNALS:

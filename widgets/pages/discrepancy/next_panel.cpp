@@ -50,7 +50,7 @@ void NextPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
   leftover_->set(Tone::Neutral, {});
   if (story_ != nullptr) {
     if (!story_->leftover.empty()) {
-      leftover_->show(Tone::Attention, tr("Left over: %1.").arg(QString::fromStdString(story_->leftover)));
+      leftover_->show(Tone::Attention, tr("Left over: %1.").arg(titledSentence(story_->leftover)));
     } else {
       leftover_->show(Tone::Good, tr("Nothing is left over beyond the noise."));
     }
@@ -62,14 +62,19 @@ void NextPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
       name.tip = QString::fromStdString(s.id);
       Cell gain{QString::number(s.delta_bic, 'f', 0).replace(QLatin1Char('-'), QChar(0x2212))};
       gain.right = true;
-      Cell reason{QString::fromStdString(s.reason)};
+      const bool out_again = takenOutAgain(s, story_->effects);
+      Cell reason{titledSentence(s.reason)};
+      if (out_again && story_->verdict == DiscrepancyVerdict::Unknown) {
+        reason.text = tr("with it too something is left that no effect explains");
+      }
       reason.tip = reason.text;
-      row.cells = {name,
-                   s.accepted ? Cell{tr("in"), Tone::Good, "check-circle"} : Cell{tr("not"), Tone::Neutral, "exclude"},
-                   gain, reason};
+      const Cell decision = out_again    ? Cell{tr("out again"), Tone::Neutral, "undo"}
+                            : s.accepted ? Cell{tr("in"), Tone::Good, "check-circle"}
+                                         : Cell{tr("not"), Tone::Neutral, "exclude"};
+      row.cells = {name, decision, gain, reason};
       rows.push_back(std::move(row));
     }
-    for (const std::string& w : story_->warnings) notes << QString::fromStdString(w);
+    for (const std::string& w : story_->warnings) notes << titledSentence(w);
   }
   steps_->setRows(std::move(rows));
   warnings_->setText(notes.join(QLatin1Char('\n')));

@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "core/base/text.h"
+#include "core/reporting/report_wording.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
@@ -27,36 +28,6 @@ Cell number(const QString& text) {
   Cell cell{text};
   cell.right = true;
   return cell;
-}
-
-/// "gain_um_per_krpm2" -> "gain / (um/krpm²)", "tau_s" -> "time constant / s".
-QString parameterTitle(const std::string& name) {
-  QString text = QString::fromStdString(name);
-  static const std::vector<std::pair<QString, QString>> known{
-      {QStringLiteral("tau_on"), WhatPanel::tr("time constant, on")},
-      {QStringLiteral("tau_off"), WhatPanel::tr("time constant, off")},
-      {QStringLiteral("tau"), WhatPanel::tr("time constant")},
-      {QStringLiteral("onset"), WhatPanel::tr("onset")},
-      {QStringLiteral("length"), WhatPanel::tr("length")}};
-  if (text.startsWith(QLatin1String("gain_"))) {
-    const QString unit =
-        text.mid(5).replace(QLatin1String("_per_"), QLatin1String(" per ")).replace(QLatin1Char('_'), QLatin1Char(' '));
-    QString shown = unit;
-    shown.replace(QLatin1String("um per m per "), QLatin1String("um/m per "))
-        .replace(QLatin1String("m per min"), QLatin1String("m/min"));
-    return WhatPanel::tr("gain / (%1)").arg(shown);
-  }
-  for (const auto& [stem, title] : known) {
-    if (!text.startsWith(stem)) continue;
-    QString rest = text.mid(stem.size());
-    QString unit;
-    if (rest.endsWith(QLatin1String("_s"))) {
-      unit = QStringLiteral(" / s");
-      rest.chop(2);
-    }
-    return title + rest.replace(QLatin1Char('_'), QLatin1Char(' ')) + unit;
-  }
-  return text;
 }
 
 }  // namespace
@@ -199,16 +170,15 @@ void WhatPanel::showEffect() {
     rivals_->set(Tone::Neutral, {});
     drivers_->clear();
     physics_->setText(story_ == nullptr ? tr("The physics of the effect and the evidence for it will appear here.")
-                      : story_->leftover.empty()
-                          ? tr("Nothing is missing in the simulation.")
-                          : tr("What is left: %1.").arg(QString::fromStdString(story_->leftover)));
+                      : story_->leftover.empty() ? tr("Nothing is missing in the simulation.")
+                                                 : tr("What is left: %1.").arg(titledSentence(story_->leftover)));
     return;
   }
   for (NumberTile* tile : {confidence_, gain_, held_out_}) tile->show();
   const bool rival = id != e->id;
   detail_->setTitle(sentenceStart(effectTitle(id)));
   confidence_->set(QString::number(e->confidence, 'f', 2),
-                   rival ? tr("of %1").arg(effectTitle(e->id)) : tr("that the name is right"));
+                   e->rivals.empty() ? tr("that the name is right") : tr("that it is one of these"));
   gain_->set(QString::number(e->delta_bic, 'f', 0), tr("above 10 is very strong"));
   held_out_->set(tr("%1 → %2").arg(sizeText(e->heldout_rms_before_um, {}),
                                    sizeText(e->heldout_rms_after_um, QStringLiteral("um"))),
@@ -223,7 +193,7 @@ void WhatPanel::showEffect() {
                      "what the last tab proposes.")
                       .arg(effectTitles(all, tr("or"))));
   }
-  QString drivers = tr("Driven by %1.").arg(QString::fromStdString(e->drivers));
+  QString drivers = tr("Driven by %1.").arg(QString::fromStdString(driversInWords(e->drivers)));
   if (!e->containers.empty()) {
     drivers += QLatin1Char(' ') + tr("Also part of %1.").arg(effectTitles(e->containers, tr("and")));
   }
@@ -237,7 +207,7 @@ void WhatPanel::showEffect() {
     for (const FittedParameter& p : e->parameters) {
       Row row;
       row.id = QString::fromStdString(p.name);
-      Cell name{parameterTitle(p.name)};
+      Cell name{QString::fromStdString(parameterTitle(p.name))};
       name.tip = row.id;
       row.cells = {name, number(QString::fromStdString(withUncertainty(p.value, p.standard_uncertainty, "")))};
       rows.push_back(std::move(row));
