@@ -193,7 +193,7 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     const ComponentTable table = componentTable(problem, residual, c);
     const Index points = table.values.rows();
     const Index smaller = std::min(points, table.values.cols());
-    const int rank = smaller >= 9 ? (fitted ? 2 : 3) : smaller >= 6 ? 2 : smaller >= 3 ? 1 : 0;
+    const int rank = smaller >= 9 ? (fitted ? 2 : 3) : smaller >= 6 ? (fitted ? 1 : 2) : smaller >= 3 ? 1 : 0;
     if ((rank == 0 && !fitted) || table.known.count() < 24 || table.values.cols() < 6) continue;
     Estimate e;
     e.rank = rank;
@@ -210,7 +210,10 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
   // alike, so those that scatter least speak for it.
   double least = 1e300;
   for (const Estimate& e : estimates) least = std::min(least, e.scale2);
-  std::erase_if(estimates, [&](const Estimate& e) { return e.scale2 > 1.4 * least; });
+  std::erase_if(estimates, [&](const Estimate& e) {
+    const double by_chance = 4.0 * e.kinds->front().spread.power / e.kinds->front().mean.power;
+    return e.scale2 > least * (1.0 + std::max(0.4, by_chance));
+  });
   const auto scaleAs = [&](std::size_t k) {
     double scale2 = 0.0;
     for (const Estimate& e : estimates) {
