@@ -114,7 +114,8 @@ PlantEffectSetting randomSetting(Random& random, const std::string& id, double d
     s.parameters["origin_x_mm"] = random.uniform(0.0, machine.axes[0].travel_mm[1]);
     s.parameters["origin_y_mm"] = random.uniform(0.0, machine.axes[1].travel_mm[1]);
   } else if (id.starts_with("head.")) {
-    s.parameters["ram"] = 1.0;
+    // The position enters only through an axis between pivot and tool: Z as a ram, never as the table's axis.
+    s.parameters["ram"] = machine.chain.movesTool("Z") && random.uniform() < 0.7 ? 1.0 : 0.0;
     s.parameters["lever_z_mm"] = -random.uniform(300.0, 600.0);
     s.parameters["lever_y_mm"] = -random.uniform(80.0, 280.0);
     s.parameters["lever_x_mm"] = random.uniform(40.0, 160.0);

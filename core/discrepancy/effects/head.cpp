@@ -9,7 +9,7 @@ namespace spindrift {
 // displacement in proportion to z along.
 void addHeadEffects(const CatalogueContext& context, std::vector<Effect>& out) {
   const std::vector<std::string> heat = context.drivers->spindleHeat();
-  const bool ram = !context.machine->column_base_mm && context.machine->chain.movesTool("Z");
+  const bool ram = context.machine->chain.movesTool("Z");
   for (int axis = 0; axis < 2; ++axis) {
     Effect tilt;
     tilt.id = axis == 0 ? "head.tilt.a" : "head.tilt.b";
