@@ -168,7 +168,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   const bool unexplained = stacked_left || (clearly_left && outcome.explained_fraction < limits.least_explained) ||
                            (left && (outcome.unknown_course.advantage > limits.unknown_advantage ||
                                      outcome.unknown_course.smallest_part < limits.least_over_leftover)) ||
-                           outcome.crowded || !outcome.composite.empty();
+                           outcome.onset_imitates || outcome.crowded || !outcome.composite.empty();
   bool ambiguous = false;
   bool too_many = false;
   JointFit named = outcome.fit;

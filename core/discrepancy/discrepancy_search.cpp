@@ -209,22 +209,40 @@ void dropContained(EffectSearch& search, ResidualProblem& problem, const std::ve
   }
 }
 
+/// The component in which an effect has its main part, by its contribution over the units.
+Component mainComponent(const ResidualProblem& problem, const Eigen::VectorXd& contribution) {
+  std::map<Component, double> power;
+  for (Index u = 0; u < problem.size(); ++u) {
+    const double z = contribution[u] / problem.sigma[u];
+    power[problem.component[static_cast<std::size_t>(u)]] += z * z;
+  }
+  return std::max_element(power.begin(), power.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
 /// How many effects have their main part in one and the same component, at most.
 int mostInOneComponent(const ResidualProblem& problem, const JointFit& fit) {
   std::map<Component, int> count;
-  for (const Eigen::VectorXd& part : fit.contribution) {
-    std::map<Component, double> power;
-    for (Index u = 0; u < problem.size(); ++u) {
-      const double z = part[u] / problem.sigma[u];
-      power[problem.component[static_cast<std::size_t>(u)]] += z * z;
-    }
-    const auto largest =
-        std::max_element(power.begin(), power.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    ++count[largest->first];
-  }
+  for (const Eigen::VectorXd& part : fit.contribution) ++count[mainComponent(problem, part)];
   int most = 0;
   for (const auto& [component, effects] : count) most = std::max(most, effects);
   return most;
+}
+
+/// An onset can be put where it explains most of any course. One that leaves the like of itself is not the cause, nor
+/// are two in one and the same shape.
+bool onsetImitates(const EffectSearch& search, const ResidualProblem& problem, const JointFit& fit,
+                   const StructureTest& left, const SearchLimits& limits) {
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    if (!hasOnset(fit.terms[t])) continue;
+    if (left.p_value < limits.onset_leftover_p && mainComponent(problem, fit.contribution[t]) == left.component) {
+      return true;
+    }
+    for (std::size_t other = 0; other < t; ++other) {
+      if (hasOnset(fit.terms[other]) && sameShape(search, *fit.terms[t].effect, *fit.terms[other].effect)) return true;
+    }
+  }
+  return false;
 }
 
 struct Leftover {
@@ -343,6 +361,7 @@ SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem, cons
   out.unknown_course = left.unknown_course;
   out.significant_before =
       testStructure(problem, Eigen::VectorXd(problem.projectedResidual().head(problem.size()))).p_value < 0.01;
+  out.onset_imitates = onsetImitates(search, problem, fit, left.structure, limits);
   out.fit = std::move(fit);
   out.crowded = mostInOneComponent(problem, out.fit) > limits.most_in_one_component || out.unknown_course.cancelling;
   addUndrivenRivals(search, out);

@@ -26,6 +26,7 @@ struct SearchLimits {
   double least_explained = 0.95;              ///< part of the structured power below which nothing is named
   double least_explained_by_stacked = 0.985;  ///< the same, where two effects move the same readings
   double unknown_advantage = 0.0;    ///< in BIC, by which an unknown course may be better than the effects named
+  double onset_leftover_p = 1e-3;    ///< p-value of what an effect with an onset may leave in its own component
   double least_over_leftover = 0.8;  ///< an effect's power beside what is left in its component
   double start_part = 0.2;           ///< of the best effect's power that another start must have
   double start_margin = 0.004;       ///< part of the power that each name more must add when starts are compared
@@ -81,8 +82,9 @@ struct SearchOutcome {
   std::string leftover;           ///< sentence, if significant
   bool significant_before = false;
   UnknownCourse unknown_course;
-  bool crowded = false;   ///< more effects in one component than can be told from an unknown course
-  std::string composite;  ///< sentence: two of the effects together look like one whose driver is not logged
+  bool onset_imitates = false;  ///< effects that begin at times that nothing shows imitate another course
+  bool crowded = false;         ///< more effects in one component than can be told from an unknown course
+  std::string composite;        ///< sentence: two of the effects together look like one whose driver is not logged
 };
 
 [[nodiscard]] SearchOutcome searchEffects(EffectSearch& search, ResidualProblem& problem,

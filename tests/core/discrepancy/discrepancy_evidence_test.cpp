@@ -67,6 +67,68 @@ TEST(OnsetSignificance, SeesAPulseOfTwiceTheNoise) {
   }
 }
 
+/// Adds steps of `um` to EZ of all points at the times given.
+DiscrepancyInput withJumps(std::uint64_t seed, const std::vector<std::pair<double, double>>& jumps) {
+  DiscrepancyInput input = campaign(Hidden::Nothing, seed);
+  for (Observation& o : input.observations.rows) {
+    if (o.component != Component::EZ) continue;
+    for (const auto& [time_s, um] : jumps) o.value += o.time_s > time_s ? um : 0.0;
+  }
+  return input;
+}
+
+TEST(OnsetSignificance, NamesNothingThatLeavesTheLikeOfItself) {
+  int heat_from_outside = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    JobContext job;
+    DiscrepancyInput jumps = withJumps(700 + seed, {{8000.0, 4.0}, {17000.0, 2.0}, {25000.0, -4.4}});
+    const DiscrepancyResult by_two = findDiscrepancy(jumps, {}, job);
+    EXPECT_TRUE(by_two.effects.empty()) << "seed " << seed << ": " << by_two.effects.front().id;
+    // With a log of the coolant a second pulse of the same shape is none of the effects any more.
+    std::vector<double> coolant;
+    for (std::size_t i = 0; i < jumps.log->time_s().size(); ++i) coolant.push_back(i % 200 < 60 ? 1.0 : 0.0);
+    jumps.log->setSignal("coolant", coolant);
+    const DiscrepancyResult by_one = findDiscrepancy(jumps, {}, job);
+    EXPECT_TRUE(by_one.effects.empty()) << "seed " << seed << ": " << by_one.effects.front().id;
+    EXPECT_EQ(by_one.verdict, DiscrepancyVerdict::Unknown);
+    const DiscrepancyResult one = findDiscrepancy(withJumps(700 + seed, {{9000.0, 2.5}, {22000.0, -2.5}}), {}, job);
+    heat_from_outside += one.effects.size() == 1 && one.effects[0].id == "external_heat.z" ? 1 : 0;
+  }
+  EXPECT_GE(heat_from_outside, 3);
+}
+
+TEST(NoiseEstimate, FindsTheCorrelationFromStateToState) {
+  for (const double ar1 : {0.0, 0.3, 0.6, 0.9}) {
+    for (const bool fitted : {false, true}) {
+      double mean = 0.0;
+      double square = 0.0;
+      constexpr int trials = 24;
+      for (std::uint64_t seed = 0; seed < trials; ++seed) {
+        DiscrepancyInput input = campaign(Hidden::Nothing, 800 + seed);
+        Random random(1200 + seed);
+        std::vector<double> slow(18);
+        std::vector<std::size_t> rows;
+        for (std::size_t i = 0; i < input.predicted.size(); ++i) {
+          double& s = slow[i % 18];
+          s = i < 18 ? random.normal() : ar1 * s + std::sqrt(1.0 - ar1 * ar1) * random.normal();
+          input.observations.rows[i].value = input.predicted[i] + 0.5 * s;
+          if (input.observations.rows[i].use == ObservationUse::Fit) rows.push_back(i);
+        }
+        ResidualProblem problem(input, rows, 3000);
+        const NoiseModel noise = estimateNoise(problem, problem.y, fitted);
+        EXPECT_NEAR(noise.scale, 1.0, 0.35);
+        const double found = noise.correlated_part > 0.0
+                                 ? noise.correlated_part * std::exp(-44.0 * 30.0 / noise.correlation_time_s)
+                                 : 0.0;
+        mean += found / trials;
+        square += (found - ar1) * (found - ar1) / trials;
+      }
+      EXPECT_NEAR(mean, ar1, 0.15) << "fitted " << fitted;
+      EXPECT_LT(std::sqrt(square), 0.24) << "ar1 " << ar1 << " fitted " << fitted;
+    }
+  }
+}
+
 /// Spindle and coolant run together but for an hour and a half late in the programme, and only the first five hours are
 /// measured: a drift along X may come from either.
 struct TiedCampaign {
