@@ -245,23 +245,30 @@ DiscrepancyReportData discrepancyReportData(const DiscrepancyInput& input, const
 GapFigures gapFigures(const std::vector<DiscrepancyReportRow>& rows, bool held_out) {
   struct Course {
     std::vector<const DiscrepancyReportRow*> rows;
-    double weight = 0.0;
     double measured = 0.0;
   };
-  std::map<std::pair<std::string, Component>, Course> courses;
-  bool displacements = false;
+  const auto counts = [held_out](const DiscrepancyReportRow& row) {
+    return row.held_out == held_out && std::isfinite(row.before);
+  };
+  const double none = std::nan("");
+  GapFigures figures{true, none, none, none, none};
   for (const DiscrepancyReportRow& row : rows) {
-    if (row.held_out != held_out || !std::isfinite(row.before)) continue;
-    const double weight = 1.0 / (row.sigma * row.sigma);
+    if (counts(row) && !isRotation(row.component)) figures.rotations = false;
+  }
+  std::map<std::pair<std::string, Component>, Course> courses;
+  for (const DiscrepancyReportRow& row : rows) {
+    if (!counts(row) || isRotation(row.component) != figures.rotations) continue;
     Course& course = courses[{row.point, row.component}];
     course.rows.push_back(&row);
-    course.weight += weight;
-    course.measured += weight * row.measured;
-    displacements = displacements || !isRotation(row.component);
+    course.measured += row.measured;
   }
-  const double none = std::nan("");
-  GapFigures figures{!displacements, none, none, none, none};
   double moved = 0.0;
+  for (const auto& [key, course] : courses) {
+    for (const DiscrepancyReportRow* row : course.rows) {
+      const double d = row->measured - course.measured / static_cast<double>(course.rows.size());
+      moved += d * d;
+    }
+  }
   const auto look = [&](double DiscrepancyReportRow::*residual, double& p2p) {
     double left = 0.0;
     for (const auto& [key, course] : courses) {
@@ -269,20 +276,14 @@ GapFigures gapFigures(const std::vector<DiscrepancyReportRow>& rows, bool held_o
       double high = none;
       for (const DiscrepancyReportRow* row : course.rows) {
         const double r = row->*residual;
-        left += r * r / (row->sigma * row->sigma);
+        left += r * r;
         low = std::fmin(low, r);
         high = std::fmax(high, r);
       }
-      if (isRotation(key.second) == figures.rotations) p2p = std::fmax(p2p, high - low);
+      p2p = std::fmax(p2p, high - low);
     }
     return moved > 0.0 ? 100.0 * (1.0 - std::sqrt(left / moved)) : none;
   };
-  for (const auto& [key, course] : courses) {
-    for (const DiscrepancyReportRow* row : course.rows) {
-      const double d = row->measured - course.measured / course.weight;
-      moved += d * d / (row->sigma * row->sigma);
-    }
-  }
   figures.fit_before_percent = look(&DiscrepancyReportRow::before, figures.p2p_before);
   figures.fit_after_percent = look(&DiscrepancyReportRow::after, figures.p2p_after);
   return figures;

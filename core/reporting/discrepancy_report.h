@@ -30,11 +30,11 @@ struct DiscrepancyReportRow {
 
 /// How far the rows that were fitted, or those held out, move before and after. NaN where there is none.
 struct GapFigures {
-  bool rotations = false;   ///< `p2p` is in urad: no displacement was measured; else um
+  bool rotations = false;   ///< in urad: no displacement was measured; else displacements in um, rotations left aside
   double p2p_before = 0.0;  ///< largest peak-to-peak of one series (point and component)
   double p2p_after = 0.0;
-  /// 100 (1 - |residual| / |measured - its mean|), each series about its own mean and each row by its sigma: 100 is
-  /// perfect, 0 no better than a constant.
+  /// 100 (1 - |residual| / |measured - its mean|), each series about its own mean: 100 is perfect, 0 no better than a
+  /// constant.
   double fit_before_percent = 0.0;
   double fit_after_percent = 0.0;
 };
