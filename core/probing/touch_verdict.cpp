@@ -63,19 +63,35 @@ std::vector<TouchVerdict> touchVerdicts(const TouchEvaluation& evaluation, const
     v.reason = "excluded by the user";
     by_cycle[t.cycle].push_back(std::move(v));
   }
+  // Where few cycles are complete the fullest says what belongs to one; a touch beyond the usual number of a feature is
+  // one taken again.
+  std::string fullest;
+  std::map<int, std::size_t> features_with;  // touch number -> features of the fullest cycle that have it
+  std::set<std::tuple<std::string, std::string, double>> features;
+  for (const std::string& cycle : order) {
+    if (fullest.empty() || present[cycle].size() > present[fullest].size()) fullest = cycle;
+  }
+  for (const auto& [feature, stylus, c_deg, touch] : present[fullest]) {
+    features.insert({feature, stylus, c_deg});
+    ++features_with[touch];
+  }
+  const auto belongs = [&](const TouchKey& key, int cycles_with) {
+    if (2 * cycles_with > static_cast<int>(order.size())) return true;
+    return present[fullest].contains(key) && 2 * features_with[std::get<3>(key)] > features.size();
+  };
   std::vector<TouchVerdict> out;
   for (const std::string& cycle : order) {
     std::vector<TouchVerdict>& list = by_cycle[cycle];
     std::stable_sort(list.begin(), list.end(),
                      [](const TouchVerdict& a, const TouchVerdict& b) { return a.touch.time_s < b.touch.time_s; });
     for (const auto& [key, usual] : expected) {
-      if (2 * usual.second <= static_cast<int>(order.size()) || present[cycle].contains(key)) continue;
+      if (present[cycle].contains(key) || !belongs(key, usual.second)) continue;
       TouchVerdict v;
       v.touch = usual.first;
       v.touch.cycle = cycle;
       v.touch.line = 0;
       v.state = TouchState::Missing;
-      v.reason = "the other cycles have it; take it again";
+      v.reason = "other cycles have it; take it again";
       list.push_back(std::move(v));
     }
     std::move(list.begin(), list.end(), std::back_inserter(out));

@@ -23,7 +23,8 @@ struct TouchVerdict {
 };
 
 /// One verdict per touch of the artefact of `cycles`, by cycle in order of appearance, within it in order of time,
-/// missing ones at the end of their cycle. A touch is expected in every cycle if more than half of the cycles have it.
+/// missing ones at the end of their cycle. A touch is expected in every cycle if more than half of the cycles have it,
+/// or the one with the most touches has it and it is one that most features have (the others are short then).
 [[nodiscard]] std::vector<TouchVerdict> touchVerdicts(const TouchEvaluation& evaluation, const CycleEvaluation& cycles);
 
 }  // namespace spindrift

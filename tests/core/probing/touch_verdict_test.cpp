@@ -125,6 +125,32 @@ TEST(TouchVerdicts, BadMissingAndExcludedTouchesAreToldApart) {
   }
 }
 
+TEST(TouchVerdicts, CyclesThatAreShortAreSaidToBeEvenIfMostAre) {
+  for (const int cycles : {2, 4}) {
+    VirtualRun run = runCycles(machineFrom(holeMachineText()), cycles, {}, 9);
+    const auto full = static_cast<std::size_t>(std::count_if(run.list.touches.begin(), run.list.touches.end(),
+                                                             [](const Touch& t) { return t.cycle == "M0"; }));
+    removeTouches(run.list, [](const Touch& t) {
+      return t.cycle != "M0" && t.c_deg == 0.0 && (t.feature == "H5" || t.feature == "H6");
+    });
+    const std::size_t kept = run.list.touches.size();
+    const Judged judged = judge(run.list, {});
+    EXPECT_EQ(judged.count(TouchState::Missing), static_cast<int>(full * static_cast<std::size_t>(cycles) - kept));
+  }
+}
+
+TEST(TouchVerdicts, ATouchTakenOnceMoreIsNotMissingInTheOtherCycles) {
+  VirtualRun run = runCycles(machineFrom(holeMachineText()), 2, {}, 10);
+  Touch more;
+  for (const Touch& t : run.list.touches) {
+    if (t.cycle == "M1" && t.feature == "H3" && t.c_deg == 0.0) more = t;
+  }
+  more.touch += 1;
+  more.time_s += 1.0;
+  run.list.touches.push_back(more);
+  EXPECT_EQ(judge(run.list, {}).count(TouchState::Missing), 0);
+}
+
 // The constant of a touch is shared by all cycles: the innocent ones must not go with the bad one.
 TEST(TouchVerdicts, OneBadTouchTakesNoOtherWithIt) {
   for (const std::uint64_t seed : {21U, 22U, 23U}) {

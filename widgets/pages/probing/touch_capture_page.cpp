@@ -236,7 +236,11 @@ void TouchCapturePage::refresh() {
                                          .arg(count(TouchState::Missing))
                                          .arg(firstOf(bad)));
   } else {
-    callout()->show(Tone::Good, tr("All %1 touches are plausible and none is missing.").arg(verdicts_.size()));
+    callout()->show(Tone::Good, cycles_->rowCount() > 1
+                                    ? tr("All %1 touches are plausible and none is missing.").arg(verdicts_.size())
+                                    : tr("All %1 touches are plausible. Whether one is missing shows when a second "
+                                         "cycle is there to compare with.")
+                                          .arg(verdicts_.size()));
   }
   showScene();
 }
