@@ -5,6 +5,7 @@
 
 #include "core/workflows/report_workflow.h"
 #include "widgets/models/session_model.h"
+#include "widgets/workflow/report_inputs.h"
 
 namespace spindrift::gui {
 
@@ -280,7 +281,21 @@ StepStatus Workflow::evaluate(StepId step) const {
       return {StepState::Current, tr("Look at it whenever you like.")};
     case StepId::Report:
       if (!canReport(*campaign, observations)) return {StepState::Blocked, tr("There is nothing to report yet.")};
-      return withChoice(fromResult("report", tr("Write the report."), tr("The report is written.")), "report");
+      {
+        const StepStatus status =
+            withChoice(fromResult("report", tr("Write the report."), tr("The report is written.")), "report");
+        if (status.state != StepState::Current) return status;
+        // A report of an earlier version does not hold what it told.
+        const nlohmann::json then =
+            session_.latest("report")->provenance.options.value("depends", nlohmann::json::object());
+        const nlohmann::json now = reportedInputs(session_);
+        for (const auto& [key, value] : now.items()) {
+          if (then.contains(key) && then[key] != value) {
+            return {StepState::Outdated, tr("What the report tells has changed since it was written.")};
+          }
+        }
+        return status;
+      }
   }
   return {};
 }

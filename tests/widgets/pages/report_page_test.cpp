@@ -242,6 +242,16 @@ TEST_F(ReportPageTest, TurnsOutdatedWithExclusionsAndEffects) {
   EXPECT_EQ(state(), StepState::Outdated) << "the report tells another model";
 }
 
+TEST_F(ReportPageTest, TurnsOutdatedInTheListOfStepsWhenAStepBeforeHasAnotherResult) {
+  writeReport();
+  window_->session().storeResult("verify", nlohmann::json::object(), {{"reached", true}});
+  EXPECT_EQ(state(), StepState::Outdated);
+  EXPECT_FALSE(window_->workflow().status(StepId::Report).sentence.isEmpty());
+  window_->workflow().goTo(StepId::Discrepancy);
+  window_->workflow().goTo(StepId::Report);
+  EXPECT_EQ(page_->callout()->tone(), Tone::Outdated);
+}
+
 TEST_F(ReportPageTest, CancelKeepsTheReportOfBefore) {
   writeReport();
   const std::string before = readFile(page_->file());

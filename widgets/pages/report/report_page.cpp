@@ -25,6 +25,7 @@
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/report/page_view.h"
 #include "widgets/pages/report/report_pages.h"
+#include "widgets/workflow/report_inputs.h"
 
 namespace spindrift::gui {
 namespace {
@@ -157,18 +158,11 @@ StoredResults ReportPage::stored() const {
 
 nlohmann::json ReportPage::dependencies() const {
   auto& model = const_cast<ReportPage*>(this)->session();
-  nlohmann::json results = nlohmann::json::array();
-  for (const char* kind :
-       {"check-jogs", "check-repeatability", "thermal", "compensation", "log-compensation", "verify"}) {
-    const StoredResult* result = model.latest(kind);
-    results.push_back(result == nullptr ? 0 : result->id);
-  }
-  return {{"warm", model.warmStatement().value_or(nlohmann::json())},
-          {"fit", model.setting(fit_options_key, nlohmann::json::object())},
-          {"results", results},
-          {"discrepancy", DiscrepancyChoice::of(model).json()},
-          {"tells_discrepancy", discrepancy_->isChecked()},
-          {"operator", operator_->text().trimmed().toStdString()}};
+  nlohmann::json out = reportedInputs(model);
+  out.update({{"discrepancy", DiscrepancyChoice::of(model).json()},
+              {"tells_discrepancy", discrepancy_->isChecked()},
+              {"operator", operator_->text().trimmed().toStdString()}});
+  return out;
 }
 
 std::filesystem::path ReportPage::file() const {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/workflow/report_inputs.h"
+
+#include "widgets/models/session_model.h"
+
+namespace spindrift::gui {
+
+nlohmann::json reportedInputs(const SessionModel& session) {
+  nlohmann::json results = nlohmann::json::array();
+  for (const char* kind :
+       {"check-jogs", "check-repeatability", "thermal", "compensation", "log-compensation", "verify"}) {
+    const StoredResult* result = session.latest(kind);
+    results.push_back(result == nullptr ? 0 : result->id);
+  }
+  return {{"warm", session.warmStatement().value_or(nlohmann::json())},
+          {"fit", session.setting("nine-parameter", nlohmann::json::object())},
+          {"results", results}};
+}
+
+}  // namespace spindrift::gui
