@@ -106,7 +106,8 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
                    "nine-parameter: fitted to one state; completed: the simulation with the effects of --accept")
       ->check(CLI::IsMember({"nine-parameter", "completed"}))
       ->capture_default_str();
-  command->add_option("--state", a->request.state, "Thermal state; else the last one");
+  command->add_option("--state", a->request.state,
+                      "Thermal state; else the warmest one: largest rms of the measured deviations");
   command->add_option("--points", a->points, "Points that fit the nine parameters, such as F1,F2,F3");
   command->add_option("--accept", a->request.added, "Effect that completes the simulation (id, repeatable)")
       ->type_name("ID");

@@ -39,7 +39,7 @@ class SumModel final : public ErrorModel {
 std::string chosenState(const ObservationSet& observations, const std::string& asked) {
   const std::vector<std::string> states = observations.states();
   if (states.empty()) throw InputError({observations.file, ""}, "holds no observation; allowed: at least one state.");
-  if (asked.empty()) return states.back();
+  if (asked.empty()) return warmestState(observations);
   if (std::find(states.begin(), states.end(), asked) == states.end()) {
     throw InputError(fmt::format("state \"{}\" was not observed; allowed: {}.", asked, joinedList(states, "or")));
   }
@@ -252,6 +252,42 @@ void addNumbers(CompensationPlan& plan) {
 
 std::string_view toString(CompensationSource source) noexcept {
   return source == CompensationSource::NineParameters ? "nine-parameter" : "completed";
+}
+
+std::string warmestState(const ObservationSet& observations) {
+  const std::vector<std::string> states = observations.states();
+  if (states.empty()) return {};
+  struct Mean {
+    double sum = 0.0;
+    double count = 0.0;
+  };
+  std::map<std::string, std::map<std::pair<std::string, Component>, Mean>> means;
+  for (const Observation& o : observations.rows) {
+    // The first state only says what the others are compared with.
+    const bool counts = o.state == states.front() ? o.use != ObservationUse::Exclude : o.use == ObservationUse::Fit;
+    if (!counts || isRotation(o.component)) continue;
+    Mean& mean = means[o.state][{o.point, o.component}];
+    mean.sum += o.value;
+    mean.count += 1.0;
+  }
+  const auto& first = means[states.front()];
+  std::string warmest = states.back();
+  double largest = -1.0;
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    double squares = 0.0;
+    double count = 0.0;
+    for (const auto& [series, mean] : means[states[i]]) {
+      const auto reference = first.find(series);
+      if (reference == first.end()) continue;
+      const double change = mean.sum / mean.count - reference->second.sum / reference->second.count;
+      squares += change * change;
+      count += 1.0;
+    }
+    if (count == 0.0 || squares / count <= largest) continue;
+    largest = squares / count;
+    warmest = states[i];
+  }
+  return warmest;
 }
 
 void CompensationRequest::validate() const {

@@ -26,7 +26,7 @@ enum class CompensationSource { NineParameters, CompletedModel };
 
 struct CompensationRequest {
   CompensationSource source = CompensationSource::NineParameters;
-  std::string state;               ///< thermal state; empty: the last one
+  std::string state;               ///< thermal state; empty: the warmest, see warmestState
   NineParameterOptions fit;        ///< of the nine parameters; its state is set
   std::vector<std::string> added;  ///< effects of the completed model, at least one
   std::vector<std::string> reject;
@@ -75,6 +75,10 @@ struct CompensationPlan {
   [[nodiscard]] nlohmann::json json() const;  ///< without the content of the files
   [[nodiscard]] std::string summary() const;
 };
+
+/// The state whose displacements differ most (rms) from those of the first state, among the states with rows to fit; of
+/// one state alone, that. Empty without observations.
+[[nodiscard]] std::string warmestState(const ObservationSet& observations);
 
 /// Throws InputError: nothing to fit, a state that does not exist, no effect added, parameters that the points do not
 /// determine.

@@ -125,6 +125,49 @@ TEST_F(CompensatePageTest, NineParametersOfAStateCompensateToo) {
   EXPECT_EQ(page_->plan()->state, "M17") << "the state that was fitted";
 }
 
+TEST_F(CompensatePageTest, TheWarmestStateIsChosenFirst) {
+  open(writeStoryCampaign(folder_, Hidden::SpindleGrowth), StepId::Model);
+  window_->currentPage()->runAll();
+  wait();
+  window_->workflow().goTo(StepId::Compensate);
+  page_ = page<CompensatePage>();
+  page_->runAll();
+  wait();
+  ASSERT_NE(page_->plan(), nullptr) << page_->callout()->sentence().toStdString();
+  const std::string warmest = warmestState(*window_->session().observations());
+  EXPECT_EQ(page_->plan()->state, warmest);
+  EXPECT_NE(warmest, "M23") << "the spindle has cooled down by then";
+  bool shown = false;
+  for (const QComboBox* box : page_->findChildren<QComboBox*>()) shown |= box->currentText().toStdString() == warmest;
+  EXPECT_TRUE(shown);
+}
+
+TEST(WarmestState, IsTheOneFurthestFromTheFirst) {
+  ObservationSet set;
+  const auto add = [&](const char* state, const char* point, double value, ObservationUse use = ObservationUse::Fit) {
+    Observation o;
+    o.state = state;
+    o.point = point;
+    o.component = Component::EZ;
+    o.value = value;
+    o.sigma = 0.5;
+    o.use = use;
+    set.rows.push_back(o);
+  };
+  EXPECT_EQ(warmestState(set), "");
+  add("M0", "P1", 100.0);
+  EXPECT_EQ(warmestState(set), "M0");
+  add("M0", "P2", 0.0);
+  for (const char* point : {"P1", "P2"}) {
+    const double zero = std::string(point) == "P1" ? 100.0 : 0.0;
+    add("M1", point, zero - 9.0);
+    add("M2", point, zero + 3.0);
+    add("M3", point, zero + 20.0, ObservationUse::Exclude);
+    add("M4", point, zero + 30.0, ObservationUse::Holdout);
+  }
+  EXPECT_EQ(warmestState(set), "M1");
+}
+
 TEST(PlanCompensation, RefusesWhatCannotBe) {
   const testing::TempFolder folder;
   const Campaign campaign = Campaign::read(writeStoryCampaign(folder, Hidden::Nothing));

@@ -210,7 +210,9 @@ CompensationRequest CompensatePage::request() const {
   if (!hasSource(r.source)) r.source = first;
   r.state = json.value("state", std::string());
   if (r.state.empty() && r.source == CompensationSource::NineParameters) {
-    if (const auto fitted = model.result("fit")) r.state = fitted->payload.value("state", std::string());
+    // What the user chose in Model; else the warmest.
+    const nlohmann::json fit = model.setting(fit_options_key, nlohmann::json::object());
+    if (fit.is_object()) r.state = fit.value("state", std::string());
   }
   r.positions = json.value("positions", 11);
   if (json.contains("reference_mm")) {
@@ -266,7 +268,7 @@ void CompensatePage::fillChoices() {
       if (i == 0 && states.size() > 1) continue;  // the reference
       state_->addItem(QString::fromStdString(states[i]));
     }
-    const int index = state_->findText(QString::fromStdString(r.state));
+    const int index = state_->findText(QString::fromStdString(r.state.empty() ? warmestState(*set) : r.state));
     state_->setCurrentIndex(index >= 0 ? index : state_->count() - 1);
   }
   positions_->setValue(r.positions);
