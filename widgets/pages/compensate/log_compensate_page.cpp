@@ -158,17 +158,25 @@ void LogCompensatePage::refresh() {
   } else {
     const QString unit = fromCore(unitOfSignal(result_->output));
     const bool better = result_->after_rms < result_->before_rms;
-    callout()->show(better ? Tone::Good : Tone::Attention,
-                    better ? tr("In the test range %1 %3 rms are left of %2 %3. Export the thermal model for the "
-                                "control.")
-                                 .arg(result_->after_rms, 0, 'g', 3)
-                                 .arg(result_->before_rms, 0, 'g', 3)
-                                 .arg(unit)
-                           : tr("In the test range the compensator leaves %1 %3 rms of %2 %3: it would not help. "
-                                "Train on a longer or livelier part (Model).")
-                                 .arg(result_->after_rms, 0, 'g', 3)
-                                 .arg(result_->before_rms, 0, 'g', 3)
-                                 .arg(unit));
+    // What speaks against the model is said before what it achieves.
+    QString against;
+    for (const std::string& warning : result_->result.warnings) {
+      QString sentence = fromCore(warning);
+      if (!sentence.isEmpty()) sentence[0] = sentence[0].toUpper();
+      against += sentence + QLatin1Char(' ');
+    }
+    callout()->show(
+        better && against.isEmpty() ? Tone::Good : Tone::Attention,
+        against + (better ? tr("In the test range %1 %3 rms are left of %2 %3. Export the thermal model for the "
+                               "control.")
+                                .arg(result_->after_rms, 0, 'g', 3)
+                                .arg(result_->before_rms, 0, 'g', 3)
+                                .arg(unit)
+                          : tr("In the test range the compensator leaves %1 %3 rms of %2 %3: it would not help. "
+                               "Train on a longer or livelier part (Model).")
+                                .arg(result_->after_rms, 0, 'g', 3)
+                                .arg(result_->before_rms, 0, 'g', 3)
+                                .arg(unit)));
   }
   showResult();
 }

@@ -143,6 +143,27 @@ TEST_F(ThermalPages, AFileThatIsNoLogGivesOneSentence) {
   EXPECT_THROW(writeLogCampaign(folder_ / "nothing.csv", folder_ / "c"), InputError);
 }
 
+TEST_F(ThermalPages, ACompensatorWhoseModelIsNotGoodEnoughIsNotPraised) {
+  Random random(5);
+  std::string text = "time_s,spindle_rpm,ez_um\n";
+  for (int i = 0; i < 1200; ++i) {
+    text += std::to_string(30 * i) + "," + (i / 150 % 2 == 0 ? "0" : "3000") + "," +
+            exactNumber(random.normal(0, 1.0)) + "\n";
+  }
+  folder_.write("noise.csv", text);
+  open(folder_ / "noise.csv");
+  auto* model = go<ThermalModelPage>(StepId::Model);
+  press();
+  ASSERT_NE(model->result(), nullptr);
+  auto* page = go<LogCompensatePage>(StepId::Compensate);
+  press();
+  ASSERT_NE(page->result(), nullptr) << page->callout()->sentence().toStdString();
+  ASSERT_FALSE(page->result()->result.warnings.empty());
+  EXPECT_EQ(page->callout()->tone(), Tone::Attention);
+  EXPECT_TRUE(page->callout()->sentence().contains(QStringLiteral("do not use this compensation")))
+      << page->callout()->sentence().toStdString();
+}
+
 TEST_F(ThermalPages, TheCompensatorIsRunOverALog) {
   open(writeLog());
   Workflow& workflow = window_->workflow();
