@@ -22,6 +22,10 @@ std::filesystem::path plainPath(const std::filesystem::path& path) {
 
 }  // namespace
 
+CaptureIntake::CaptureIntake(std::vector<IncomingItem> journal) : items_(std::move(journal)) {
+  for (const IncomingItem& item : items_) answered_[item.name] = item;
+}
+
 bool CaptureIntake::liesInside(const std::filesystem::path& folder, const std::filesystem::path& session) {
   const std::filesystem::path inner = plainPath(folder);
   const std::filesystem::path own = plainPath(session);
@@ -71,14 +75,16 @@ IncomingContext CaptureIntake::context(const Campaign& campaign, const Measureme
   return context;
 }
 
-void CaptureIntake::show(const IncomingItem& item) {
+const IncomingItem& CaptureIntake::show(const IncomingItem& item) {
+  const auto answer = answered_.find(item.name);
+  const bool again = item.state == IncomingState::Twice && answer != answered_.end() && !item.hash.empty() &&
+                     answer->second.hash == item.hash;
+  const IncomingItem now = again ? answer->second : item;
+  if (now.state != IncomingState::Waiting) answered_[now.name] = now;
   const auto known =
-      std::find_if(items_.begin(), items_.end(), [&](const IncomingItem& other) { return other.name == item.name; });
-  if (known == items_.end()) {
-    items_.push_back(item);
-  } else {
-    *known = item;
-  }
+      std::find_if(items_.begin(), items_.end(), [&](const IncomingItem& other) { return other.name == now.name; });
+  if (known != items_.end()) return *known = now;
+  return items_.emplace_back(now);
 }
 
 void CaptureIntake::remember(const ExaminedFile& answer) {

@@ -19,7 +19,7 @@ class CaptureIntake {
  public:
   CaptureIntake() = default;
   /// `journal`: what arrived before.
-  explicit CaptureIntake(std::vector<IncomingItem> journal) : items_(std::move(journal)) {}
+  explicit CaptureIntake(std::vector<IncomingItem> journal);
 
   /// True for the folder of a session and all that lies in it: the program would watch what it writes itself.
   [[nodiscard]] static bool liesInside(const std::filesystem::path& folder, const std::filesystem::path& session);
@@ -42,8 +42,9 @@ class CaptureIntake {
   [[nodiscard]] IncomingContext context(const Campaign& campaign, const MeasurementPlan& plan) const;
 
   [[nodiscard]] const std::vector<IncomingItem>& items() const { return items_; }
-  /// Puts an item in the place of the one of that name, or at the end.
-  void show(const IncomingItem& item);
+  /// Puts an item in the place of the one of that name, or at the end. What was said about a file holds when it is
+  /// found again with the same content, after a restart for example. Returns what stands in the list now.
+  const IncomingItem& show(const IncomingItem& item);
   /// An answer that was stored.
   void remember(const ExaminedFile& answer);
 
@@ -58,6 +59,7 @@ class CaptureIntake {
 
  private:
   std::vector<IncomingItem> items_;
+  std::map<std::string, IncomingItem> answered_;  ///< by name, the last answer to each
   std::unique_ptr<TouchFeed> feed_;
   bool printed_ = false;
   std::map<std::string, double> first_seen_s_;

@@ -50,10 +50,10 @@ std::vector<IncomingItem> CaptureWatch::turn(double now_s) {
     ExaminedFile answer = examined;
     answer.item = folder_.finish(*task, std::move(examined), now_s);
     if (answer.item.state == IncomingState::Waiting) continue;
-    recordArrival(session_, campaign_, answer);
-    intake_.show(answer.item);
-    intake_.remember(answer);
     decided.push_back(answer.item);
+    answer.item = intake_.show(answer.item);
+    recordArrival(session_, campaign_, answer);
+    intake_.remember(answer);
   }
   return decided;
 }

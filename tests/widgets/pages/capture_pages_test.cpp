@@ -3,6 +3,7 @@
 #include <QTabWidget>
 #include <QTableView>
 #include <filesystem>
+#include <map>
 
 #include "core/base/units.h"
 #include "core/imaging/camera.h"
@@ -112,6 +113,34 @@ TEST_F(CapturePages, ANewFiducialMeasurementFillsFromAWatchedFolder) {
   EXPECT_EQ(service().items().size(), 3U);
   EXPECT_EQ(service().done().size(), 2U);
   EXPECT_EQ(service().folder(), watched());
+  // And when the program is started again; watching finds the same files and says of them what it said before.
+  const auto said = [this] {
+    std::map<std::string, std::pair<IncomingState, std::string>> all;
+    for (const IncomingItem& i : service().items()) all[i.name] = {i.state, i.plan_item};
+    return all;
+  };
+  const auto before = said();
+  EXPECT_EQ(before.at("M0_F1_rotation_0.png").first, IncomingState::Retake);
+  window_->closeSession();
+  window_ = std::make_unique<MainWindow>();
+  window_->resize(1280, 800);
+  window_->show();
+  window_->open(session);
+  ASSERT_TRUE(waitForJobs(*window_, 20));
+  go<FiducialCapturePage>(StepId::Capture)->findChild<QTabWidget*>(QStringLiteral("captureTabs"))->setCurrentIndex(1);
+  EXPECT_EQ(arriving()->arrived()->rowCount(), 3);
+  EXPECT_EQ(said(), before);
+  service().setPace(20, 0.1, 0.5);
+  arriving()->watch(watched());
+  QTest::qWait(100);
+  waitFor([&] { return service().idle(); }, "watched again");
+  EXPECT_EQ(said(), before);
+  if (qEnvironmentVariableIsSet("SPINDRIFT_PICTURES"))
+    window_->grab().save(qEnvironmentVariable("SPINDRIFT_PICTURES") + QStringLiteral("/arriving.png"));
+  window_->closeSession();
+  window_->open(session);
+  ASSERT_TRUE(waitForJobs(*window_, 20));
+  EXPECT_EQ(said(), before) << "the journal";
 }
 
 TEST_F(CapturePages, TheSentenceNamesABadCaptureAndItsButtonGoesThere) {
@@ -131,7 +160,7 @@ TEST_F(CapturePages, TheSentenceNamesABadCaptureAndItsButtonGoesThere) {
   auto* page = go<FiducialCapturePage>(StepId::Capture);
   ASSERT_NE(page, nullptr);
   press();
-  EXPECT_TRUE(page->callout()->sentence().contains(QStringLiteral("(F1 in state M0, rotation 2)")))
+  EXPECT_TRUE(page->callout()->sentence().contains(QStringLiteral("(F1 in state M0, rotation 1)")))
       << page->callout()->sentence().toStdString();
   page->select(QStringLiteral("captures/r2.png"));
   EXPECT_EQ(page->pickedItem(), QStringLiteral("captures/r2.png"));

@@ -4,6 +4,7 @@
 #include <QDateTime>
 #include <QDir>
 #include <QFileInfo>
+#include <algorithm>
 
 #include "core/base/error.h"
 #include "core/imaging/image.h"
@@ -30,6 +31,7 @@ IncomingService::IncomingService(SessionModel& session) : QObject(&session), ses
   timer_.setInterval(500);
   connect(&timer_, &QTimer::timeout, this, &IncomingService::look);
   connect(&session_, &SessionModel::campaignChanged, this, &IncomingService::follow);
+  follow();  // the campaign may be there already
 }
 
 IncomingService& IncomingService::of(SessionModel& session) {
@@ -193,10 +195,10 @@ void IncomingService::finished(const IncomingFolder::Task& task, ExaminedFile ex
     examined.item.sentence = intake_.touchSentence();
   }
   const IncomingItem& item = folder_->finish(task, std::move(examined), now());
-  intake_.show(item);
+  const IncomingItem shown = intake_.show(item);
   if (item.state != IncomingState::Waiting) {
     ExaminedFile answer = kept;
-    answer.item = item;
+    answer.item = shown;
     record(answer);
   }
   Q_EMIT changed();
@@ -253,7 +255,11 @@ void IncomingService::flushTouches(bool all) {
 void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage> image) {
   follow();
   if (session_.campaign() == nullptr || image == nullptr) return;
-  const std::string id = QStringLiteral("%1 %2").arg(name).arg(++pictures_).toStdString();
+  // A number that no picture has, of those before a restart either.
+  std::string id;
+  do {
+    id = QStringLiteral("%1 %2").arg(name).arg(++pictures_).toStdString();
+  } while (std::any_of(items().begin(), items().end(), [&](const IncomingItem& item) { return item.name == id; }));
   const std::int64_t written_ns = QDateTime::currentMSecsSinceEpoch() * 1'000'000;
   Job job;
   job.title = tr("Checking the picture");

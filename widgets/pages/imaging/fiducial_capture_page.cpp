@@ -228,7 +228,7 @@ void FiducialCapturePage::showComplete() {
 void FiducialCapturePage::showBad(const std::vector<const CaptureVerdict*>& bad) {
   QStringList names;
   for (const CaptureVerdict* c : bad) {
-    names << tr("%1 in state %2, %3 %4").arg(c->fiducial, c->state, roleName(c->role)).arg(c->index + 1);
+    names << tr("%1 in state %2, %3 %4").arg(c->fiducial, c->state, roleName(c->role)).arg(c->index);
   }
   callout()->setAction(tr("Show it"), [this, image = bad.front()->image] {
     state_filter_->setCurrentIndex(0);
@@ -270,7 +270,7 @@ void FiducialCapturePage::fillTable() {
     row.id = c.image;
     row.faded = excluded;
     row.cells = {
-        {QStringLiteral("%1 · %2").arg(c.fiducial).arg(c.index + 1), Tone::Neutral, nullptr, false, false, {}, c.image},
+        {QStringLiteral("%1 · %2").arg(c.fiducial).arg(c.index), Tone::Neutral, nullptr, false, false, {}, c.image},
         {c.state},
         {roleName(c.role)},
         {}};
@@ -367,7 +367,7 @@ void FiducialCapturePage::showImage(const QString& image) {
   }
   image_->setCaption(tr("%1, state %2, %3 %4, spindle %5°, z %6 mm")
                          .arg(capture->fiducial, capture->state, roleName(capture->role))
-                         .arg(capture->index + 1)
+                         .arg(capture->index)
                          .arg(number(capture->spindle_deg), number(capture->z_mm)));
   if (same) return;
   // Decoded in the background; only the last choice is shown.
