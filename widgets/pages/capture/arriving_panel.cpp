@@ -21,6 +21,10 @@
 namespace spindrift::gui {
 namespace {
 
+constexpr QSize thumbnail_size(64, 36);
+/// From this width on the table has room for which capture a file is; the tip of its name says it too.
+constexpr int width_for_capture = 640;
+
 /// A word with its sign. The sign is in the text: icons of this table are as large as the thumbnails.
 Cell stateCell(IncomingState state) {
   switch (state) {
@@ -66,9 +70,12 @@ ArrivingPanel::ArrivingPanel(PageContext page_context, Instrument instrument, QW
   arrived_ = new Card(tr("Arrived"));
   rows_ = new RowsModel({tr("File"), tr("State"), tr("Capture"), tr("What was found")}, this);
   table_ = makeTable(rows_, tr("Files that arrived"), tr("Files appear here as they arrive in the watched folder."));
-  table_->setIconSize(QSize(64, 36));
-  table_->verticalHeader()->setDefaultSectionSize(44);
+  table_->setIconSize(thumbnail_size);
+  table_->verticalHeader()->setDefaultSectionSize(56);
+  // Name and finding share what is left; a finding stands in up to three lines.
   stretchColumn(table_, 3);
+  table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+  table_->setWordWrap(true);
   arrived_->body()->addWidget(table_, 1);
   touch_card_ = new Card(tr("Touches as they come in"));
   touches_ = new LiveTouchPanel(context_.session);
@@ -136,10 +143,16 @@ void ArrivingPanel::refresh() {
     row.id = fromCore(item.name);
     row.cells = {nameCell(row.id), stateCell(item.state),
                  item.plan_item.empty() ? dashCell() : Cell{fromCore(item.plan_item)}, Cell{fromCore(item.sentence)}};
-    row.cells.front().picture = QPixmap::fromImage(service_.thumbnail(item.name));
+    const QImage picture = service_.thumbnail(item.name);
+    if (!picture.isNull()) {
+      row.cells.front().picture =
+          QPixmap::fromImage(picture.scaled(thumbnail_size, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+    }
+    row.cells.front().tip = item.plan_item.empty() ? row.id : row.id + QStringLiteral(": ") + fromCore(item.plan_item);
     row.cells.back().tip = fromCore(item.sentence);
     rows.push_back(std::move(row));
   }
+  table_->setColumnHidden(2, table_->width() < width_for_capture);
   rows_->setRows(std::move(rows));
   stop_->setEnabled(service_.running());
   const QString folder = service_.folder();
@@ -165,6 +178,11 @@ void ArrivingPanel::refresh() {
                               ? QString()
                               : again.mid(0, 2).join(QLatin1Char(' ')) +
                                     (again.size() > 2 ? tr(" And %1 more.").arg(again.size() - 2) : QString()));
+}
+
+void ArrivingPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  table_->setColumnHidden(2, table_->width() < width_for_capture);
 }
 
 void ArrivingPanel::showEvent(QShowEvent* event) {

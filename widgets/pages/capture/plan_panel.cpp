@@ -3,6 +3,7 @@
 
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
+#include <QHeaderView>
 #include <QLabel>
 #include <QSpinBox>
 #include <QTableView>
@@ -14,8 +15,21 @@
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/incoming_service.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
 
 namespace spindrift::gui {
+namespace {
+
+/// The name of an image says fiducial, role and number; what is to be done is where to move.
+Cell todoCell(const PlannedItem& item) {
+  const QString whole = fromCore(item.instruction());
+  const qsizetype colon = item.kind == PlannedKind::Image ? whole.indexOf(QLatin1String(": ")) : -1;
+  Cell cell{colon < 0 ? whole : whole.mid(colon + 2)};
+  cell.tip = whole;
+  return cell;
+}
+
+}  // namespace
 
 PlanPanel::PlanPanel(PageContext page_context, Instrument instrument, QWidget* parent)
     : QWidget(parent),
@@ -28,6 +42,10 @@ PlanPanel::PlanPanel(PageContext page_context, Instrument instrument, QWidget* p
   column->addWidget(next_);
   rows_ = new RowsModel({tr("Capture"), tr("Due / min"), tr("State"), tr("What to do")}, this);
   table_ = makeTable(rows_, tr("Measurement plan"), tr("Make a plan: it says what to measure next and when."));
+  // What to do stands in two lines where one is too narrow.
+  stretchColumn(table_, 3);
+  table_->setWordWrap(true);
+  table_->verticalHeader()->setDefaultSectionSize(44);
   column->addWidget(table_, 1);
   auto* line = new QHBoxLayout;
   states_ = new QSpinBox;
@@ -113,7 +131,7 @@ void PlanPanel::refresh() {
                  there                                  ? toneCell(tr("captured"), Tone::Good)
                  : progress.next && *progress.next == i ? toneCell(tr("next"), Tone::Accent)
                                                         : Cell{tr("open")},
-                 Cell{fromCore(item.instruction())}};
+                 todoCell(item)};
     rows.push_back(std::move(row));
   }
   rows_->setRows(std::move(rows));
