@@ -77,6 +77,7 @@ void addSimulationCommands(CLI::App& app, CommandLine& line) {
   command->add_option("SCENARIO", arguments->scenario, "Scenario (JSON, format spindrift-scenario)")->required();
   command->add_option("--out", arguments->out, "Folder of the campaign: new or empty")->required()->type_name("DIR");
   command->add_option("--seed", arguments->seed, "Seed of everything random, in place of the scenario's")
+      ->check(CLI::NonNegativeNumber)
       ->each([arguments](const std::string&) { arguments->has_seed = true; });
   command
       ->add_option("--truth", arguments->truth,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/atomic_file.h"
@@ -13,6 +14,22 @@
 #include "core/workflows/fit_campaign.h"
 
 namespace spindrift {
+namespace {
+
+/// Each id once; none both in and out.
+DiscrepancyOptions withoutContradictions(DiscrepancyOptions options) {
+  std::vector<std::string> once;
+  for (const std::string& id : options.accept) {
+    if (std::find(options.reject.begin(), options.reject.end(), id) != options.reject.end()) {
+      throw InputError(fmt::format("effect \"{}\" is accepted and rejected; allowed: one of the two.", id));
+    }
+    if (std::find(once.begin(), once.end(), id) == once.end()) once.push_back(id);
+  }
+  options.accept = std::move(once);
+  return options;
+}
+
+}  // namespace
 
 nlohmann::json DiscrepancyRun::json() const {
   nlohmann::json out = result.json();
@@ -33,9 +50,10 @@ nlohmann::json DiscrepancyRun::json() const {
 DiscrepancyRun searchDiscrepancy(const Campaign& campaign, ObservationSet observations,
                                  const DiscrepancyOptions& options, JobContext& job) {
   options.validate();
+  const DiscrepancyOptions asked = withoutContradictions(options);
   DiscrepancyRun run;
   run.input = discrepancyInput(campaign, std::move(observations));
-  run.result = findDiscrepancy(run.input, options, job);
+  run.result = findDiscrepancy(run.input, asked, job);
   return run;
 }
 

@@ -57,6 +57,7 @@ TEST_F(Simulated, SameSeedSameFilesAndNoFolderIsOverwritten) {
   expectBadInput({"simulate", scenario, "--out", campaign()}, {campaign(), "empty"});
   expectBadInput({"simulate", campaign() + "/machine.json", "--out", in("nothing")},
                  {"machine.json", "$.format", "spindrift-machine", "spindrift-scenario"});
+  expectBadInput({"simulate", scenario, "--out", in("nothing"), "--seed", "-1"}, {"--seed", "-1"});
   EXPECT_FALSE(std::filesystem::exists(in("nothing")));
 }
 
@@ -165,8 +166,9 @@ TEST_F(Simulated, DiscrepancyGivesTheKeysOfTheContract) {
     EXPECT_TRUE(w["component"].is_string() && w["points"].is_array());
     for (const char* key : {"from_s", "to_s", "excess_um", "p_value"}) EXPECT_TRUE(w[key].is_number()) << key;
   }
-  for (const char* key :
-       {"rms_before_um", "rms_after_um", "noise_um", "heldout_rms_before_um", "heldout_rms_after_um"}) {
+  for (const char* key : {"rms_before_um", "rms_after_um", "noise_um", "heldout_rms_before_um", "heldout_rms_after_um",
+                          "p2p_before_um", "p2p_after_um", "fit_before_percent", "fit_after_percent",
+                          "heldout_p2p_after_um", "heldout_fit_after_percent"}) {
     EXPECT_TRUE(j["gap"][key].is_number()) << key;
   }
   for (const char* key : {"suggestion", "leftover", "model"}) EXPECT_TRUE(j.contains(key)) << key;
@@ -226,6 +228,14 @@ TEST_F(Simulated, CompensateWritesTheTablesOfACompletedModel) {
   expectBadInput({"compensate", campaign(), "--model", "completed"}, {"at least one effect"});
   expectBadInput({"compensate", campaign(), "--reference", "1,2"}, {"--reference 1,2"});
   expectBadInput({"compensate", campaign(), "--state", "M99"}, {"M99"});
+}
+
+TEST_F(Simulated, AnEffectIsAcceptedOnceAndNotRejectedToo) {
+  const std::string id = "column.bending.a";
+  expectBadInput({"discrepancy", campaign(), "--accept", id, "--reject", id}, {id, "accepted and rejected"});
+  const Outcome once = runCli({"discrepancy", campaign(), "--accept", id});
+  const Outcome twice = runCli({"discrepancy", campaign(), "--accept", id, "--accept", id});
+  EXPECT_EQ(once.output, twice.output);
 }
 
 TEST_F(Simulated, NoResultGoesIntoTheCampaign) {
