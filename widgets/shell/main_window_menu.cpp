@@ -63,7 +63,8 @@ void MainWindow::buildMenu() {
   undo->setIcon(icon("undo"));
   edit->addAction(undo);
   QAction* redo = undo_.createRedoAction(this, tr("&Redo"));
-  redo->setShortcut(QKeySequence::Redo);
+  // Of the platform, and the other one that hands know.
+  redo->setShortcuts({QKeySequence(QKeySequence::Redo), QKeySequence(Qt::CTRL | Qt::Key_Y)});
   redo->setIcon(icon("redo"));
   edit->addAction(redo);
   edit->addSeparator();
