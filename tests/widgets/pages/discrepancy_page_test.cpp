@@ -108,6 +108,23 @@ TEST_F(DiscrepancyPageTest, SentencesNameEffectsByTheirTitles) {
                 .arg(effectTitle("heat_source.position.x")));
 }
 
+TEST_F(DiscrepancyPageTest, OfSeveralProposalsTheFirstIsMarked) {
+  auto story = std::make_shared<DiscrepancyStory>();
+  for (const char* id : {"ball_screw.expansion.z", "ball_screw.expansion.x", "spindle.drift.y"}) {
+    FoundEffect e;
+    e.id = id;
+    story->effects.push_back(e);
+  }
+  WhatPanel panel;
+  panel.show(story);
+  EXPECT_EQ(panel.chosen(), "ball_screw.expansion.z");
+  auto with_one = std::make_shared<DiscrepancyStory>(*story);
+  with_one->effects.front().forced = true;
+  WhatPanel other;
+  other.show(with_one);
+  EXPECT_EQ(other.chosen(), "ball_screw.expansion.x");
+}
+
 TEST_F(DiscrepancyPageTest, TableViewAndPlotShowTheSamePlace) {
   search(Hidden::SpindleGrowth);
   WherePanel* where = page_->where();

@@ -93,12 +93,18 @@ Sentence verdictOf(const DiscrepancyStory& story) {
                  : DiscrepancyPage::tr("The simulation lacks: %1.").arg(missingEffects(story));
   if (story.proposed) {
     DiscrepancyGap gap = *story.proposed;
+    const auto missing =
+        std::count_if(story.effects.begin(), story.effects.end(), [](const auto& e) { return !e.forced; });
+    QString sure = QString::number(next->confidence, 'f', 2);
+    if (!next->rivals.empty()) sure = DiscrepancyPage::tr("%1 that it is one of these").arg(sure);
+    const QString gain = missing > 1 ? DiscrepancyPage::tr(
+                                           "Confidence %1 for the first. Adding all of them takes the "
+                                           "rms from %2 to %3; the noise alone is %4. %5")
+                                     : DiscrepancyPage::tr(
+                                           "Confidence %1. Adding it takes the rms from %2 to %3; the "
+                                           "noise alone is %4. %5");
     s.note =
-        DiscrepancyPage::tr("Confidence %1. Adding it takes the rms from %2 to %3; the noise alone is %4. %5")
-            .arg(next->rivals.empty()
-                     ? QString::number(next->confidence, 'f', 2)
-                     : DiscrepancyPage::tr("%1 that it is one of these").arg(next->confidence, 0, 'f', 2),
-                 sizeText(added ? story.gap.rms_after_um : gap.rms_before_um, QStringLiteral("um")),
+        gain.arg(sure, sizeText(added ? story.gap.rms_after_um : gap.rms_before_um, QStringLiteral("um")),
                  sizeText(gap.rms_after_um, QStringLiteral("um")), sizeText(gap.noise_um, QStringLiteral("um")), left);
   }
   return s;
@@ -329,6 +335,10 @@ void DiscrepancyPage::choiceChanged() {
   context().workflow.refresh();
   refresh();
   search();
+  if (context().jobs.busy()) {
+    callout()->setAction({}, {});
+    callout()->show(Tone::Accent, tr("Fitting again with the effects as they are now. What is shown is of before."));
+  }
 }
 
 void DiscrepancyPage::add() {

@@ -23,6 +23,7 @@ namespace {
 
 /// From this height on plots and views fit below one another.
 constexpr int height_for_both = 500;
+constexpr std::size_t most_single_dots = 300;
 
 }  // namespace
 
@@ -319,7 +320,12 @@ void GapPanel::showPlots() {
         held_to = t;
       }
     }
-    content[side] = {line, measured};
+    // Where dots run together the line would vanish below them.
+    if (measured.x.size() <= most_single_dots) {
+      content[side] = {line, measured};
+    } else {
+      content[side] = {measured, line};
+    }
   }
   if (!std::isnan(held_from)) spans.push_back({held_from, held_to, tr("held out"), Tone::Accent});
   for (std::size_t side = 0; side < 2; ++side) {

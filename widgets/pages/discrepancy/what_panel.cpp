@@ -10,6 +10,7 @@
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <optional>
 
 #include "core/base/text.h"
 #include "core/reporting/report_wording.h"
@@ -103,7 +104,7 @@ void WhatPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
   const std::string before = chosen();
   story_ = story;
   std::vector<Row> rows;
-  int select = 0;
+  std::optional<int> first;  // that is proposed
   if (story_ != nullptr) {
     for (const FoundEffect& e : story_->effects) {
       Row row;
@@ -114,7 +115,7 @@ void WhatPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
       Cell state =
           e.forced ? Cell{tr("added"), Tone::Good, "check-circle"} : Cell{tr("proposed"), Tone::Accent, "discrepancy"};
       row.cells = {name, state, number(QString::number(e.delta_bic, 'f', 0))};
-      if (!e.forced && select == 0 && !rows.empty()) select = static_cast<int>(rows.size());
+      if (!e.forced && !first) first = static_cast<int>(rows.size());
       rows.push_back(std::move(row));
       for (const std::string& rival : e.rivals) {
         Row other;
@@ -135,7 +136,7 @@ void WhatPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
   }
   effects_->setRows(std::move(rows));
   const int again = before.empty() ? -1 : effects_->rowOf(QString::fromStdString(before));
-  if (effects_->rowCount() > 0) effect_table_->selectRow(again >= 0 ? again : select);
+  if (effects_->rowCount() > 0) effect_table_->selectRow(again >= 0 ? again : first.value_or(0));
   showEffect();
 }
 
