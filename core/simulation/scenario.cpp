@@ -231,8 +231,10 @@ std::vector<SensorOptions> parseSensors(const JsonNode& node) {
     s.place = item.at("place").name();
     (void)volumesAt(BodyIndex{}, s.place, item.at("place").place());
     s.noise_K = nonNegative(item, "noise_K", s.noise_K);
+    s.ar1 = partOf(item, "ar1", s.ar1);
     s.resolution_K = nonNegative(item, "resolution_K", s.resolution_K);
     s.bias_K = item.numberOr("bias_K", s.bias_K);
+    s.drift_K_per_h = item.numberOr("drift_K_per_h", s.drift_K_per_h);
     s.dead = item.booleanOr("dead", s.dead);
     s.dropout = partOf(item, "dropout", s.dropout);
     sensors.push_back(s);

@@ -21,7 +21,7 @@
 //                  "outlier_size"},
 //    "touches":{"artefact","first_s","every_s","cycles","touch_s","sigma_um","pretravel_um","origin_mm":[x,y,z]},
 //    "microscope":{...}, "profiler":{...} (scenario_instruments.h),
-//    "sensors":[{"name","place","noise_K","resolution_K","bias_K","dead","dropout"}],
+//    "sensors":[{"name","place","noise_K","ar1","resolution_K","bias_K","drift_K_per_h","dead","dropout"}],
 //    "log":{"omit":["coolant"]}}
 //
 // `size` multiplies what the physics gives; `strength` asks for the rms of the cause over the rows to be fitted, in its
@@ -50,10 +50,12 @@ struct SensorOptions {
   std::string name;   ///< "T_column_front_degC"
   std::string place;  ///< of volumesAt()
   double noise_K = 0.04;
+  double ar1 = 0.0;  ///< correlation of the noise from one row to the next (same variance), [0, 1)
   double resolution_K = 0.001;
   double bias_K = 0.0;
-  bool dead = false;     ///< repeats its first value
-  double dropout = 0.0;  ///< part of the rows in which the field is empty, [0, 1)
+  double drift_K_per_h = 0.0;  ///< linear in time
+  bool dead = false;           ///< repeats its first value
+  double dropout = 0.0;        ///< part of the rows in which the field is empty, [0, 1)
 };
 
 /// When and where the instrument measures.

@@ -171,8 +171,12 @@ OperatingLog logOf(const Scenario& s, const VirtualMachine& plant, Random& rando
     const std::vector<int> volumes = volumesAt(plant.thermal().bodies, sensor.place, {});
     std::vector<double> values;
     values.reserve(times.size());
+    double noise = 0.0;
     for (const double t : times) {
-      double value = plant.temperature_degC(volumes, t) + sensor.bias_K + sensor.noise_K * own.normal();
+      const double fresh = own.normal();
+      noise = values.empty() ? fresh : sensor.ar1 * noise + std::sqrt(1.0 - sensor.ar1 * sensor.ar1) * fresh;
+      const double off_K = sensor.bias_K + sensor.drift_K_per_h * t / 3600.0;
+      double value = plant.temperature_degC(volumes, t) + off_K + sensor.noise_K * noise;
       value = std::round(rounded(value, sensor.resolution_K) * 1e4) / 1e4;
       if (sensor.dead && !values.empty()) value = values.front();
       if (own.uniform() < sensor.dropout && !values.empty()) {

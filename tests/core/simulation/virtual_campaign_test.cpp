@@ -151,6 +151,34 @@ TEST(VirtualCampaign, SensorsMayBeMissingDeadOrDropOut) {
   EXPECT_NE(readFile(temp / "campaign" / "log.csv").find(",,"), std::string::npos);
 }
 
+TEST(VirtualCampaign, SensorsMayDriftAndHaveCorrelatedNoise) {
+  Scenario scenario = shipped("discrepancy_vertical.json");
+  for (SensorOptions& sensor : scenario.sensors) sensor.noise_K = 0.0;
+  const VirtualCampaign plain = simulateCampaign(scenario, 3, {});
+  scenario.sensors[0].drift_K_per_h = 0.1;
+  scenario.sensors[1].noise_K = 0.2;
+  scenario.sensors[1].ar1 = 0.9;
+  const VirtualCampaign made = simulateCampaign(scenario, 3, {});
+  const auto off = [&](std::size_t sensor) {
+    const auto& a = *made.campaign.log->signal(scenario.sensors[sensor].name);
+    const auto& b = *plain.campaign.log->signal(scenario.sensors[sensor].name);
+    std::vector<double> out;
+    for (std::size_t i = 0; i < a.size(); ++i) out.push_back(a[i] - b[i]);
+    return out;
+  };
+  EXPECT_NEAR(off(0).front(), 0.0, 0.002);
+  EXPECT_NEAR(off(0).back(), 1.2, 0.01);
+  const std::vector<double> noise = off(1);
+  double product = 0.0;
+  double square = 0.0;
+  for (std::size_t i = 1; i < noise.size(); ++i) {
+    product += noise[i] * noise[i - 1];
+    square += noise[i] * noise[i];
+  }
+  EXPECT_NEAR(product / square, 0.9, 0.04);
+  EXPECT_NEAR(std::sqrt(square / static_cast<double>(noise.size())), 0.2, 0.05);
+}
+
 TEST(VirtualCampaign, DroppedRowsAreGone) {
   Scenario scenario = shipped("discrepancy_vertical.json");
   const VirtualCampaign all = simulateCampaign(scenario, 3, {});
