@@ -33,12 +33,17 @@ NextPanel::NextPanel(QWidget* parent) : QWidget(parent) {
   steps_ = new RowsModel({tr("Effect tried"), tr("Decision"), tr("Gain in BIC"), tr("Why")}, this);
   QTableView* steps =
       makeTable(steps_, tr("Steps of the search"), tr("Every step of the search appears here with its evidence."));
+  // Names and reasons share the width and stand in as many lines as they need; there are few steps.
   stretchColumn(steps, 3);
+  steps->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+  steps->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  steps->verticalHeader()->setMinimumSectionSize(56);
+  steps->setWordWrap(true);
   right->body()->addWidget(steps, 1);
   warnings_ = makeLabel({}, "secondaryText");
   warnings_->setWordWrap(true);
   right->body()->addWidget(warnings_);
-  column->addWidget(makeSplitter(left, right, 5, 7), 1);
+  column->addWidget(makeSplitter(left, right, 4, 8), 1);
   show(nullptr);
 }
 

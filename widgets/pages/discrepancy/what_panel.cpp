@@ -67,7 +67,8 @@ WhatPanel::WhatPanel(QWidget* parent) : QWidget(parent) {
   auto* text_column = new QVBoxLayout(text);
   text_column->setContentsMargins(0, 0, 8, 0);
   text_column->addWidget(drivers_);
-  text_column->addWidget(makeLabel(tr("What happens"), "sectionTitle"));
+  physics_title_ = makeLabel(tr("What happens"), "sectionTitle");
+  text_column->addWidget(physics_title_);
   text_column->addWidget(physics_);
   text_column->addStretch(1);
   auto* scroll = new QScrollArea;
@@ -166,16 +167,19 @@ void WhatPanel::showEffect() {
   std::vector<Row> rows;
   if (e == nullptr) {
     parameters_->setRows({});
-    detail_->setTitle(tr("What happens in the machine"));
+    detail_->setTitle(story_ == nullptr || story_->leftover.empty() ? tr("What happens in the machine")
+                                                                    : tr("What is left"));
     for (NumberTile* tile : {confidence_, gain_, held_out_}) tile->hide();
     rivals_->set(Tone::Neutral, {});
     drivers_->clear();
     physics_->setText(story_ == nullptr ? tr("The physics of the effect and the evidence for it will appear here.")
                       : story_->leftover.empty() ? tr("Nothing is missing in the simulation.")
-                                                 : tr("What is left: %1.").arg(titledSentence(story_->leftover)));
+                                                 : sentenceStart(titledSentence(story_->leftover)) + QLatin1Char('.'));
+    physics_title_->hide();
     return;
   }
   for (NumberTile* tile : {confidence_, gain_, held_out_}) tile->show();
+  physics_title_->show();
   const bool rival = id != e->id;
   detail_->setTitle(sentenceStart(effectTitle(id)));
   confidence_->set(QString::number(e->confidence, 'f', 2),

@@ -53,6 +53,7 @@ class WhatPanel : public QWidget {
   RowsModel* parameters_;
   QTableView* effect_table_;
   Card* detail_;
+  QLabel* physics_title_;
   QLabel* physics_;
   QLabel* drivers_;
   Callout* rivals_;
