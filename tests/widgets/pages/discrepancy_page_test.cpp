@@ -20,6 +20,7 @@
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/discrepancy/gap_bars.h"
 #include "widgets/pages/discrepancy/gap_panel.h"
+#include "widgets/pages/discrepancy/next_panel.h"
 #include "widgets/pages/discrepancy/what_panel.h"
 #include "widgets/pages/discrepancy/where_panel.h"
 #include "widgets/plots/plot.h"
@@ -123,6 +124,19 @@ TEST_F(DiscrepancyPageTest, OfSeveralProposalsTheFirstIsMarked) {
   WhatPanel other;
   other.show(with_one);
   EXPECT_EQ(other.chosen(), "ball_screw.expansion.x");
+}
+
+TEST_F(DiscrepancyPageTest, UndecidedIsNotSaidToBeOutsideTheCatalogue) {
+  auto story = std::make_shared<DiscrepancyStory>();
+  story->verdict = DiscrepancyVerdict::Unknown;
+  story->decided = false;
+  story->message = "10 observations leave too little; measure more states.";
+  NextPanel panel;
+  panel.show(story);
+  QStringList texts;
+  for (const QLabel* label : panel.findChildren<QLabel*>()) texts << label->text();
+  EXPECT_TRUE(texts.join(QLatin1Char(' ')).contains(QStringLiteral("measure more states")));
+  EXPECT_FALSE(texts.join(QLatin1Char(' ')).contains(QStringLiteral("No effect of the catalogue fits")));
 }
 
 TEST_F(DiscrepancyPageTest, TableViewAndPlotShowTheSamePlace) {

@@ -120,6 +120,8 @@ void NextPanel::showSuggestion() {
                          item(tr("When, from the start of the programme"), times.join(QStringLiteral(", "))) +
                          item(tr("How"), QString::fromStdString(s.conditions)));
     gain_->set(QString::number(s.expected_delta_bic, 'f', 0), tr("above 10 decides between the two"));
+  } else if (!story_->decided) {
+    suggestion_->setText(sentenceStart(titledSentence(story_->message)));
   } else if (story_->verdict == DiscrepancyVerdict::Unknown) {
     suggestion_->setText(tr(
         "No effect of the catalogue fits, so there are no rivals to tell apart. Log what else happens at the machine "

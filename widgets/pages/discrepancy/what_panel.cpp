@@ -128,7 +128,9 @@ void WhatPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
       }
     }
     QString empty = tr("No effect is missing.");
-    if (story_->verdict == DiscrepancyVerdict::Unknown) {
+    if (!story_->decided) {
+      empty = tr("These data cannot decide what is missing.");
+    } else if (story_->verdict == DiscrepancyVerdict::Unknown) {
       empty = tr("No effect of the catalogue explains what is left. A wrong name would be worse than none.");
     }
     effect_table_->setProperty("emptyText", empty);
