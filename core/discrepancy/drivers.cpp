@@ -9,10 +9,14 @@
 
 #include "core/base/error.h"
 #include "core/discrepancy/log_gaps.h"
+#include "core/math/smoothing.h"
 #include "core/math/statistics.h"
 
 namespace spindrift {
 namespace {
+
+/// No part of a machine follows changes that are much quicker.
+constexpr double longest_noise_s = 600.0;
 
 std::string lowered(std::string_view text) {
   std::string out(text);
@@ -104,7 +108,8 @@ DriverTable::DriverTable(const MachineDescription& machine, const OperatingLog* 
   int fronts = 0;
   int rears = 0;
   for (const std::string& name : log->temperatureNames()) {
-    const std::vector<double>& values = *log->signal(name);
+    // The noise of a sensor is a cause of no deviation: left in, it makes a slow lag of any other sensor look better.
+    const std::vector<double> values = smoothWithinNoise(time_s_, *log->signal(name), longest_noise_s).values;
     std::string place;
     for (const TemperatureSensor& sensor : machine.temperature_sensors) {
       if (sensor.name == name) place = sensor.place;

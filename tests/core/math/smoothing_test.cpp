@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/math/smoothing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/math/statistics.h"
+
+namespace spindrift {
+namespace {
+
+struct Readings {
+  std::vector<double> time_s, truth, values;
+};
+
+/// A body that warms and cools at 40 min, read every 30 s; `resolution` 0: not rounded.
+Readings body(double noise, double resolution, std::uint64_t seed) {
+  Readings out;
+  Random random(seed);
+  double temperature = 20.0;
+  for (int i = 0; i < 1440; ++i) {
+    out.time_s.push_back(30.0 * i);
+    out.truth.push_back(temperature);
+    const double reading = temperature + random.normal(0.0, noise);
+    out.values.push_back(resolution > 0.0 ? resolution * std::round(reading / resolution) : reading);
+    temperature += 30.0 / 2400.0 * (20.0 + ((i / 180) % 2 == 1 ? 4.0 : 0.0) - temperature);
+  }
+  return out;
+}
+
+double errorOf(const Readings& r, const std::vector<double>& values) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += std::pow(values[i] - r.truth[i], 2);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+TEST(Smoothing, FindsTheNoiseOfReadings) {
+  for (const double noise : {0.02, 0.05, 0.2}) {
+    EXPECT_NEAR(noiseOfReadings(body(noise, 0.0, 3).values), noise, 0.1 * noise);
+  }
+  EXPECT_NEAR(noiseOfReadings(body(0.0, 0.1, 3).values), 0.1 / std::sqrt(12.0), 1e-6);
+  EXPECT_EQ(noiseOfReadings(std::vector<double>(50, 21.5)), 0.0);
+  EXPECT_EQ(noiseOfReadings(std::vector<double>{1.0, 2.0, 1.0}), 0.0);
+}
+
+TEST(Smoothing, TakesMostOfTheNoiseAndLittleOfTheSignal) {
+  double worst = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Readings r = body(0.05, 0.0, seed);
+    const SmoothedSignal smooth = smoothWithinNoise(r.time_s, r.values, 600.0);
+    EXPECT_GT(smooth.bandwidth_s, 100.0);
+    worst = std::max(worst, errorOf(r, smooth.values));
+  }
+  EXPECT_LT(worst, 0.55 * 0.05);
+  const Readings rounded = body(0.03, 0.1, 1);
+  EXPECT_LT(errorOf(rounded, smoothWithinNoise(rounded.time_s, rounded.values, 600.0).values),
+            0.5 * errorOf(rounded, rounded.values));
+}
+
+TEST(Smoothing, KeepsAJump) {
+  Readings r = body(0.05, 0.0, 5);
+  for (std::size_t i = 700; i < r.values.size(); ++i) {
+    r.values[i] -= 1.5;
+    r.truth[i] -= 1.5;
+  }
+  const SmoothedSignal smooth = smoothWithinNoise(r.time_s, r.values, 600.0);
+  EXPECT_NEAR(smooth.values[704] - smooth.values[695], r.truth[704] - r.truth[695], 0.15);
+  EXPECT_LT(errorOf(r, smooth.values), 0.06);
+}
+
+TEST(Smoothing, LeavesReadingsWithoutNoiseAndOddTimesAlone) {
+  const Readings clean = body(0.0, 0.0, 1);
+  EXPECT_LT(errorOf(clean, smoothWithinNoise(clean.time_s, clean.values, 600.0).values), 1e-4);
+  Readings twice = body(0.05, 0.0, 1);
+  twice.time_s[10] = twice.time_s[9];
+  EXPECT_EQ(smoothWithinNoise(twice.time_s, twice.values, 600.0).values, twice.values);
+  // A gap of two hours: both sides as good as without it.
+  Readings gap = body(0.05, 0.0, 2);
+  gap.time_s.erase(gap.time_s.begin() + 500, gap.time_s.begin() + 740);
+  gap.values.erase(gap.values.begin() + 500, gap.values.begin() + 740);
+  gap.truth.erase(gap.truth.begin() + 500, gap.truth.begin() + 740);
+  EXPECT_LT(errorOf(gap, smoothWithinNoise(gap.time_s, gap.values, 600.0).values), 0.4 * 0.05);
+}
+
+}  // namespace
+}  // namespace spindrift
