@@ -68,9 +68,11 @@ void addCorrections(const ModelTerm& term, const DriverTable& drivers, std::map<
   for (const EffectVariant& variant : term.effect->variants) {
     for (const EffectInput& input : variant.inputs) names.insert(input.driver);
   }
-  // Whatever is heated follows the room, too, a little.
+  // Whatever part of the machine is heated follows the room, too, a little.
   const std::set<std::string> own = names;
-  for (const std::string& room : drivers.room()) names.insert(room);
+  if (term.effect->of_machine) {
+    for (const std::string& room : drivers.room()) names.insert(room);
+  }
   // Friction rises less, or more, than in proportion to speed.
   for (const std::string& name : own) {
     if (drivers.has(name + "^2")) names.insert(name + "^2");

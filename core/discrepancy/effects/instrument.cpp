@@ -13,6 +13,7 @@ void addInstrumentEffects(const CatalogueContext& context, std::vector<Effect>& 
         "The measuring instrument warms itself after it was switched on and drifts to its steady state; the machine "
         "has no "
         "part in it.";
+    effect.of_machine = false;
     effect.shape = {constantShape(static_cast<Component>(axis))};
     // Not logged: taken as switched on when the log starts.
     if (logged) addLagVariants(effect, {"instrument_on"});
