@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "core/base/text.h"
+#include "core/discrepancy/comparable_rows.h"
 #include "core/discrepancy/discrepancy_numbers.h"
 #include "core/discrepancy/discrepancy_search.h"
 #include "core/discrepancy/distributed_dynamics.h"
 #include "core/discrepancy/effect_model.h"
-#include "core/discrepancy/log_gaps.h"
-#include "core/math/statistics.h"
+#include "core/discrepancy/verdict.h"
 
 namespace spindrift {
 namespace {
@@ -21,6 +21,228 @@ namespace {
 using Eigen::Index;
 
 constexpr std::size_t unit_limit = 3000;
+
+/// Every id of the user's lists is one that this machine can have.
+void checkIds(const DiscrepancyOptions& options, const std::vector<Effect>& catalogue) {
+  for (const auto* list : {&options.accept, &options.reject}) {
+    for (const std::string& id : *list) {
+      if (std::any_of(catalogue.begin(), catalogue.end(), [&](const Effect& e) { return e.id == id; })) continue;
+      std::vector<std::string> known;
+      for (const Effect& e : catalogue) known.push_back(e.id);
+      throw InputError(fmt::format("effect \"{}\" is not one that this machine can have; allowed: {}.", id,
+                                   joinedList(known, "or")));
+    }
+  }
+}
+
+/// Searches, and once more where the noise looks different without the signal that was found.
+SearchOutcome searchTwice(EffectSearch& search, ResidualProblem& problem, const std::vector<NuisanceColumn>& base,
+                          const DiscrepancyOptions& options, const SearchLimits& limits, const JobContext& job) {
+  SearchOutcome outcome = searchEffects(search, problem, base, options, limits, job);
+  if (outcome.fit.terms.empty() || outcome.explained_fraction < 0.9) return outcome;
+  Eigen::VectorXd left = problem.y;
+  for (const Eigen::VectorXd& part : outcome.fit.contribution) left -= part;
+  const NoiseModel again = estimateNoise(problem, left, true);
+  const double change = std::abs(again.correlated_part - problem.noise.correlated_part);
+  if (!(change > 0.25) && !(again.scale < 0.8 * problem.noise.scale)) return outcome;
+  problem.setNoise(again);
+  return searchEffects(search, problem, base, options, limits, job);
+}
+
+/// Everything that the numbers of a result are made of.
+struct Solution {
+  const DiscrepancyInput& input;
+  const ComparableRows& rows;
+  const EffectSearch& search;
+  ResidualProblem& problem;
+  std::shared_ptr<const DriverTable> drivers;
+  const SearchOutcome& outcome;
+  const SearchLimits& limits;
+  JudgedOutcome judged;
+  std::vector<ModelEffect> effects;   ///< gains of the joint fit
+  std::vector<ModelEffect> averaged;  ///< the same, over all dynamics that the data allow: what predicts
+};
+
+/// Gains with their covariance, and the model that predicts.
+void fitModel(Solution& solution) {
+  const auto& [input, rows, search, problem, drivers, outcome, limits, judged, effects, averaged] = solution;
+  const double chi2_scale = std::max(1.0, outcome.chi2_after / std::max(1.0, static_cast<double>(outcome.dof_before)));
+  constexpr const char* source = "fit of the residual";
+  solution.effects = modelEffects(search, problem, judged.named, source, chi2_scale);
+  std::vector<std::vector<ModelEffect>> versions;
+  std::vector<double> weights;
+  for (const WeightedDynamics& w : alternativeDynamics(search, problem, *drivers, judged.named)) {
+    versions.push_back(modelEffects(search, problem, w.distributed.fit, source, chi2_scale, w.distributed.prior_sigma));
+    weights.push_back(w.weight);
+  }
+  solution.averaged = averagedEffects(versions, weights);
+}
+
+/// What the first `count` effects make of every row, with their own gains as they were when the last of them entered.
+std::vector<double> partOfFirst(const Solution& solution, std::size_t count) {
+  const auto& observations = solution.input.observations.rows;
+  std::vector<ModelEffect> effects = solution.averaged;
+  if (count < effects.size()) {
+    effects.assign(solution.effects.begin(), solution.effects.begin() + static_cast<std::ptrdiff_t>(count));
+    const auto& terms = solution.judged.named.terms;
+    const std::vector<ModelTerm> first(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(count));
+    const JointFit fit =
+        distributedDynamics(solution.search, solution.problem, *solution.drivers, solution.search.solve(first)).fit;
+    for (std::size_t k = 0; k < count; ++k) {
+      effects[k].variant = fit.terms[k].variant;
+      effects[k].parameters = fit.terms[k].parameters;
+      effects[k].gains = fit.gains[k];
+    }
+  }
+  std::vector<double> part(observations.size(), 0.0);
+  for (const ModelEffect& effect : effects) {
+    const std::vector<double> one = EffectModel::contribution(*solution.drivers, effect, observations);
+    for (std::size_t r = 0; r < part.size(); ++r) part[r] += one[r];
+  }
+  return part;
+}
+
+/// rms of a contribution over the units in the displacement in which it is largest, um.
+double largestRms(const ResidualProblem& problem, const Eigen::VectorXd& contribution) {
+  double largest = 0.0;
+  for (const Component c : all_components) {
+    double power = 0.0;
+    double count = 0.0;
+    for (Index u = 0; u < problem.size(); ++u) {
+      if (problem.component[static_cast<std::size_t>(u)] != c) continue;
+      power += contribution[u] * contribution[u];
+      count += 1.0;
+    }
+    if (count > 0.0 && !isRotation(c)) largest = std::max(largest, std::sqrt(power / count));
+  }
+  return largest;
+}
+
+/// Effect `t` as it is told, but for its held-out rows.
+FoundEffect describedEffect(const Solution& solution, std::size_t t) {
+  const ModelEffect& e = solution.effects[t];
+  const TermEvidence& evidence = solution.judged.evidence[t];
+  FoundEffect found;
+  found.id = e.effect.id;
+  found.physics = e.effect.physics;
+  found.drivers = driversText(e);
+  found.delta_bic = evidence.delta_bic;
+  found.delta_chi2 = evidence.delta_chi2;
+  found.margin = std::min(evidence.margin, 1e6);
+  found.forced = solution.judged.forced[t];
+  found.crossvalidated_rms_before_um = evidence.crossvalidation.before_um;
+  found.crossvalidated_rms_after_um = evidence.crossvalidation.after_um;
+  const auto gain_names = e.gainNames(*solution.drivers);
+  for (std::size_t g = 0; g < gain_names.size(); ++g) {
+    const auto at = static_cast<Index>(g);
+    found.parameters.push_back({gain_names[g], e.gains[at], e.gain_uncertainty[at]});
+  }
+  const auto names = parameterNames(e.variant);
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    found.parameters.push_back({names[p], e.parameters[p], e.parameter_uncertainty[p]});
+  }
+  for (const RivalFit& r : evidence.rivals) {
+    (r.container && !r.undecided ? found.containers : found.rivals).push_back(r.id);
+  }
+  found.rms_um = largestRms(solution.problem, solution.judged.named.contribution[t]);
+  found.confidence = confidenceOf(solution.outcome, evidence, solution.judged.named, t, solution.limits);
+  return found;
+}
+
+/// rms of the stated sigma over the fitted displacements, times the scale of the noise, um.
+double noiseFloor(const DiscrepancyInput& input, const std::vector<std::size_t>& fit_rows, double noise_scale) {
+  double power = 0.0;
+  double count = 0.0;
+  for (const std::size_t row : fit_rows) {
+    const Observation& o = input.observations.rows[row];
+    if (isRotation(o.component)) continue;
+    power += o.sigma * o.sigma;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(power / count) * noise_scale : 0.0;
+}
+
+/// Effects, and the gap as it shrinks with each; simulation and completed model per row.
+void tellEffects(const Solution& solution, DiscrepancyResult& result) {
+  const DiscrepancyInput& input = solution.input;
+  std::vector<double> part(input.predicted.size(), 0.0);
+  const RowResult before = evaluateRows(input, solution.rows.fit, solution.rows.held_out, part);
+  const bool has_holdout = before.holdout_rows > 0;
+  RowResult last = before;
+  for (std::size_t t = 0; t < solution.effects.size(); ++t) {
+    part = partOfFirst(solution, t + 1);
+    const RowResult now = evaluateRows(input, solution.rows.fit, solution.rows.held_out, part);
+    FoundEffect found = describedEffect(solution, t);
+    found.heldout_rms_before_um = has_holdout ? last.holdout_rms : found.crossvalidated_rms_before_um;
+    found.heldout_rms_after_um = has_holdout ? now.holdout_rms : found.crossvalidated_rms_after_um;
+    for (const RivalFit& r : solution.judged.evidence[t].rivals) {
+      if (!r.undriven) continue;
+      result.warnings.push_back(
+          fmt::format("{} cannot be told from {}, because the log lacks what drives the latter: log it next time.",
+                      found.id, r.id));
+    }
+    result.effects.push_back(std::move(found));
+    last = now;
+  }
+  result.gap.rms_before_um = before.fit_rms;
+  result.gap.rms_after_um = last.fit_rms;
+  result.gap.heldout_rms_before_um = before.holdout_rms;
+  result.gap.heldout_rms_after_um = last.holdout_rms;
+  if (!has_holdout && !result.effects.empty()) {
+    result.gap.heldout_rms_before_um = result.effects.front().heldout_rms_before_um;
+    result.gap.heldout_rms_after_um = result.effects.back().heldout_rms_after_um;
+  }
+  result.gap.noise_um = noiseFloor(input, solution.rows.fit, result.noise_scale);
+  result.constant = last.constant;
+  result.simulated = input.predicted;
+  result.completed.resize(part.size());
+  for (std::size_t r = 0; r < part.size(); ++r) result.completed[r] = input.predicted[r] + part[r];
+  result.effect_part = std::move(part);
+}
+
+/// For the first effect with a rival that a measurement can separate.
+std::optional<MeasurementSuggestion> suggestionFor(const Solution& solution) {
+  const JudgedOutcome& judged = solution.judged;
+  for (std::size_t t = 0; t < judged.evidence.size(); ++t) {
+    for (const RivalFit& rival : judged.evidence[t].rivals) {
+      if ((rival.container && !rival.undecided) || rival.undriven) continue;
+      auto suggestion = suggestMeasurement(
+          solution.input, *solution.drivers, solution.search, solution.problem, judged.named, rival.joint,
+          judged.named.terms[t].effect->id + " from " + rival.id, solution.search.logN());
+      if (suggestion) return suggestion;
+      break;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string sentenceOf(const DiscrepancyResult& result) {
+  switch (result.verdict) {
+    case DiscrepancyVerdict::None:
+      return "Measurement and simulation agree within the noise.";
+    case DiscrepancyVerdict::Unknown:
+      return "Something disagrees that no effect of the catalogue explains.";
+    case DiscrepancyVerdict::Named:
+    case DiscrepancyVerdict::Ambiguous:
+      break;
+  }
+  std::vector<std::string> names;
+  for (const FoundEffect& e : result.effects) names.push_back(e.id);
+  const bool ambiguous = result.verdict == DiscrepancyVerdict::Ambiguous;
+  return fmt::format("Missing in the simulation: {}{}.", joinedList(names),
+                     ambiguous ? "; these data cannot tell at least one of them from its rivals" : "");
+}
+
+/// What too few observations leave to say.
+void tellUndecided(const Solution& solution, DiscrepancyResult& result) {
+  result.message = fmt::format(
+      "{} observations in {} states leave too little beyond the free constant of each of {} series: which effect is "
+      "missing, its lag and whether it is one at all cannot be decided; measure at least 4 states and several "
+      "points.",
+      solution.rows.fit.size(), solution.problem.epoch_count, solution.problem.seriesCount());
+  if (solution.outcome.leftover_p_value >= 1e-3) result.verdict = DiscrepancyVerdict::Unknown;
+  if (result.leftover.empty()) result.leftover = "too few observations to decide";
+}
 
 }  // namespace
 
@@ -50,336 +272,59 @@ void DiscrepancyOptions::validate() const {
 
 DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const DiscrepancyOptions& options, JobContext& job) {
   options.validate();
-  const auto& rows = input.observations.rows;
-  SPINDRIFT_ASSERT(input.predicted.size() == rows.size(), "one prediction for every observation");
+  SPINDRIFT_ASSERT(input.predicted.size() == input.observations.rows.size(), "one prediction for every observation");
   DiscrepancyResult result;
-  std::vector<std::size_t> fit_rows;
-  std::size_t usable = 0;
-  std::size_t beyond_log = 0;
-  double log_end = std::numeric_limits<double>::infinity();
-  std::vector<LogGap> gaps;
-  if (input.log && input.log->time_s().size() > 1) {
-    const auto& t = input.log->time_s();
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
-    log_end = t.back() + std::max(300.0, 2.0 * median(steps));
-    gaps = logGaps(t);
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].use == ObservationUse::Exclude) continue;
-    if (!(rows[i].sigma > 0.0)) {
-      throw InputError({input.observations.file, fmt::format("row {}", i + 1)},
-                       fmt::format("sigma {} is not allowed; allowed: greater than zero.", rows[i].sigma));
-    }
-    ++usable;
-    if (!std::isfinite(input.predicted[i])) {
-      ++result.unmatched;
-      continue;
-    }
-    if (rows[i].use != ObservationUse::Fit) continue;
-    if (rows[i].time_s > log_end) {
-      ++beyond_log;
-      continue;
-    }
-    if (inGap(gaps, rows[i].time_s)) continue;
-    fit_rows.push_back(i);
-  }
-  if (usable == 0)
-    throw InputError({input.observations.file, ""}, "holds no observation to be used; allowed: at least one.");
-  if (2 * (usable - result.unmatched) < usable) {
-    throw InputError(
-        {input.base_table.empty() ? input.observations.file : input.observations.file.parent_path() / input.base_table,
-         ""},
-        fmt::format("only {} of {} observations have a prediction in the simulation; allowed: at least half.",
-                    usable - result.unmatched, usable));
-  }
-  if (result.unmatched > 0) {
-    result.warnings.push_back(fmt::format(
-        "{} of {} observations have no prediction in the simulation and are left out.", result.unmatched, usable));
-  }
-  if (beyond_log > 0) {
-    result.warnings.push_back(
-        fmt::format("{} observations are later than the end of the log and are not fitted.", beyond_log));
-  }
-  if (fit_rows.empty()) {
-    throw InputError({input.observations.file, ""},
-                     "holds no row to be fitted; allowed: at least one with use fit, at a time that the log covers.");
-  }
-  checkUnits(input, fit_rows);
+  const ComparableRows rows = comparableRows(input, result.warnings);
+  result.unmatched = rows.unmatched;
+  checkUnits(input, rows.fit);
 
   job.report(0.0, "preparing");
-  auto drivers = std::make_shared<DriverTable>(input.machine, input.log ? &*input.log : nullptr);
+  const auto drivers = std::make_shared<const DriverTable>(input.machine, input.log ? &*input.log : nullptr);
   warnAboutLog(input, *drivers, result.warnings);
-  ResidualProblem problem(input, fit_rows, unit_limit);
+  ResidualProblem problem(input, rows.fit, unit_limit);
   const std::vector<Effect> catalogue = effectCatalogue(catalogueContext(input, *drivers, problem));
   warnAboutUndecidable(input, catalogue, result.warnings);
-  for (const auto* list : {&options.accept, &options.reject}) {
-    for (const std::string& id : *list) {
-      if (std::none_of(catalogue.begin(), catalogue.end(), [&](const Effect& e) { return e.id == id; })) {
-        std::vector<std::string> known;
-        for (const Effect& e : catalogue) known.push_back(e.id);
-        throw InputError(fmt::format("effect \"{}\" is not one that this machine can have; allowed: {}.", id,
-                                     joinedList(known, "or")));
-      }
-    }
-  }
+  checkIds(options, catalogue);
   EffectSearch search(problem, *drivers, catalogue);
   const std::vector<NuisanceColumn> base = problem.simulationNuisances(input.simulation_gain_uncertainty);
   problem.setNuisances(base);
   problem.setNoise(estimateNoise(problem, problem.y, false));
 
-  const int epochs = problem.epoch_count;
-  const bool enough = problem.degreesOfFreedom() >= 12 && epochs >= 4;
+  const bool enough = problem.degreesOfFreedom() >= 12 && problem.epoch_count >= 4;
   DiscrepancyOptions effective = options;
   if (!enough) effective.max_effects = 0;
   const SearchLimits limits;
-  SearchOutcome outcome = searchEffects(search, problem, base, effective, limits, job);
-  if (enough && !outcome.fit.terms.empty()) {
-    // The noise again, now without the signal; if it looks different the search is run once more.
-    Eigen::VectorXd left = problem.y;
-    for (const Eigen::VectorXd& part : outcome.fit.contribution) left -= part;
-    const NoiseModel again = estimateNoise(problem, left, true);
-    const NoiseModel& used = problem.noise;
-    const bool much_left = outcome.explained_fraction < 0.9;
-    const double change = std::abs(again.correlated_part - used.correlated_part);
-    if (!much_left && (change > 0.25 || again.scale < 0.8 * used.scale)) {
-      problem.setNoise(again);
-      outcome = searchEffects(search, problem, base, effective, limits, job);
-    }
-  }
+  const SearchOutcome outcome = enough ? searchTwice(search, problem, base, effective, limits, job)
+                                       : searchEffects(search, problem, base, effective, limits, job);
   result.noise_scale = problem.noise.scale;
   result.noise_correlated_part = problem.noise.correlated_part;
   result.noise_correlation_time_s = problem.noise.correlation_time_s;
+  if (result.noise_scale < 0.88 || result.noise_scale > 1.12) {
+    result.warnings.push_back(
+        fmt::format("The scatter is {:.2f} times the stated sigma; it is used as found.", result.noise_scale));
+  }
   result.steps = outcome.steps;
   result.explained_fraction = outcome.explained_fraction;
   result.leftover_p_value = outcome.leftover_p_value;
   if (!outcome.fit.terms.empty()) result.unknown_advantage = outcome.unknown_course.advantage;
 
-  // Verdict.
-  // A noise model a little off makes everything scatter more than it should: that alone takes no name away.
-  const bool left = outcome.leftover_p_value < 1e-3;
-  const bool clearly_left = outcome.leftover_p_value < 1e-5;
-  // Two effects on top of each other follow many courses nearly: then what they leave counts sooner.
-  bool stacked = false;
-  for (std::size_t t = 0; t < outcome.fit.terms.size(); ++t) stacked = stacked || overlaps(outcome.fit, t);
-  const bool stacked_left =
-      stacked &&
-      (left || (outcome.leftover_p_value < 0.01 && outcome.explained_fraction < limits.least_explained_by_stacked));
-  const bool unexplained = stacked_left || (clearly_left && outcome.explained_fraction < limits.least_explained) ||
-                           (left && (outcome.unknown_course.advantage > limits.unknown_advantage ||
-                                     outcome.unknown_course.smallest_part < limits.least_over_leftover)) ||
-                           outcome.onset_imitates || outcome.crowded || !outcome.composite.empty();
-  bool ambiguous = false;
-  bool too_many = false;
-  JointFit named = outcome.fit;
-  std::vector<TermEvidence> evidence = outcome.evidence;
-  std::vector<bool> forced = outcome.forced;
-  std::vector<std::string> alike;
-  std::size_t alike_term = 0;
-  for (const TermEvidence& e : evidence) {
-    int rivals = 0;
-    for (const RivalFit& r : e.rivals) {
-      rivals += r.container ? 0 : 1;
-      ambiguous = ambiguous || !r.container || r.undecided;
-    }
-    if (rivals > 2 && !too_many) {
-      alike.push_back(outcome.fit.terms[alike_term].effect->id);
-      for (const RivalFit& r : e.rivals) {
-        if (!r.container) alike.push_back(r.id);
-      }
-    }
-    too_many = too_many || rivals > 2;
-    ++alike_term;
-  }
-  if (outcome.leftover.empty()) outcome.leftover = outcome.composite;
-  result.leftover =
-      unexplained || outcome.fit.terms.empty() || outcome.explained_fraction < 0.98 ? outcome.leftover : "";
-  if (outcome.fit.terms.empty()) {
-    result.verdict = outcome.leftover_p_value < 1e-3 ? DiscrepancyVerdict::Unknown : DiscrepancyVerdict::None;
-    if (result.verdict == DiscrepancyVerdict::None) result.leftover.clear();
-  } else if (unexplained || too_many) {
-    result.verdict = DiscrepancyVerdict::Unknown;
-  } else {
-    result.verdict = ambiguous ? DiscrepancyVerdict::Ambiguous : DiscrepancyVerdict::Named;
-  }
-  if (result.verdict == DiscrepancyVerdict::Unknown) {
-    // A name beside something that nothing explains is worse than none, unless the user put it there.
-    if (result.leftover.empty()) {
-      result.leftover = too_many ? "more effects fit equally well than could be named: " + joinedList(alike, "or")
-                        : outcome.crowded ? "several effects together imitate what is left, none of them alone"
-                                          : "a part that no effect explains";
-    }
-    JointFit kept;
-    std::vector<TermEvidence> kept_evidence;
-    std::vector<bool> kept_forced;
-    std::vector<ModelTerm> terms;
-    for (std::size_t t = 0; t < named.terms.size(); ++t) {
-      if (!forced[t]) continue;
-      terms.push_back(named.terms[t]);
-      kept_evidence.push_back(evidence[t]);
-      kept_forced.push_back(true);
-    }
-    problem.setNuisances(base);
-    named = terms.empty() ? kept : search.refine(terms, 1);
-    evidence = kept_evidence;
-    forced = kept_forced;
-  }
-
-  // Numbers of the model.
+  Solution solution{input, rows, search, problem, drivers, outcome, limits, {}, {}, {}};
+  solution.judged = judgeOutcome(search, problem, base, outcome, limits);
+  result.verdict = solution.judged.verdict;
+  result.leftover = solution.judged.leftover;
   problem.setNuisances(base);
-  const double chi2_scale = std::max(1.0, outcome.chi2_after / std::max(1.0, static_cast<double>(outcome.dof_before)));
-  std::vector<ModelEffect> effects = modelEffects(search, problem, named, "fit of the residual", chi2_scale);
-  std::vector<std::vector<ModelEffect>> versions;
-  std::vector<double> weights;
-  for (const WeightedDynamics& w : alternativeDynamics(search, problem, *drivers, named)) {
-    versions.push_back(
-        modelEffects(search, problem, w.distributed.fit, "fit of the residual", chi2_scale, w.distributed.prior_sigma));
-    weights.push_back(w.weight);
-  }
-  const std::vector<ModelEffect> model_effects = averagedEffects(versions, weights);
-  result.model = std::make_shared<EffectModel>(drivers, model_effects, nullptr, input.base_table);
-
-  // Rows: simulated, completed, gap, held-out.
-  std::vector<std::size_t> held_rows;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool known = rows[i].time_s <= log_end && !inGap(gaps, rows[i].time_s);
-    if (known && rows[i].use == ObservationUse::Holdout) held_rows.push_back(i);
-  }
-  std::vector<double> sum(rows.size(), 0.0);
-  RowResult before = evaluateRows(input, fit_rows, held_rows, sum);
-  result.gap.rms_before_um = before.fit_rms;
-  const bool has_holdout = before.holdout_rows > 0;
-  result.gap.heldout_rms_before_um = before.holdout_rms;
-  RowResult last = before;
-  for (std::size_t t = 0; t < effects.size(); ++t) {
-    // Each prefix with its own gains, as it was when the effect entered.
-    const bool whole = t + 1 == effects.size();
-    const std::vector<ModelTerm> first(named.terms.begin(), named.terms.begin() + static_cast<std::ptrdiff_t>(t) + 1);
-    const JointFit prefix =
-        whole ? JointFit{} : distributedDynamics(search, problem, *drivers, search.solve(first)).fit;
-    std::vector<double> part(rows.size(), 0.0);
-    for (std::size_t k = 0; k <= t; ++k) {
-      ModelEffect e = whole ? model_effects[k] : effects[k];
-      if (!whole) {
-        e.variant = prefix.terms[k].variant;
-        e.parameters = prefix.terms[k].parameters;
-        e.gains = prefix.gains[k];
-      }
-      const std::vector<double> one = EffectModel::contribution(*drivers, e, rows);
-      for (std::size_t r = 0; r < rows.size(); ++r) part[r] += one[r];
-    }
-    const RowResult now = evaluateRows(input, fit_rows, held_rows, part);
-    FoundEffect found;
-    const ModelEffect& e = effects[t];
-    found.id = e.effect.id;
-    found.physics = e.effect.physics;
-    found.drivers = driversText(e);
-    found.delta_bic = evidence[t].delta_bic;
-    found.delta_chi2 = evidence[t].delta_chi2;
-    found.margin = std::min(evidence[t].margin, 1e6);
-    found.forced = forced[t];
-    const auto& cv = evidence[t].crossvalidation;
-    found.crossvalidated_rms_before_um = cv.before_um;
-    found.crossvalidated_rms_after_um = cv.after_um;
-    found.heldout_rms_before_um = has_holdout ? last.holdout_rms : cv.before_um;
-    found.heldout_rms_after_um = has_holdout ? now.holdout_rms : cv.after_um;
-    const auto gain_names = e.gainNames(*drivers);
-    for (std::size_t g = 0; g < gain_names.size(); ++g) {
-      found.parameters.push_back(
-          {gain_names[g], e.gains[static_cast<Index>(g)], e.gain_uncertainty[static_cast<Index>(g)]});
-    }
-    const auto names = parameterNames(e.variant);
-    for (std::size_t p = 0; p < names.size(); ++p) {
-      found.parameters.push_back({names[p], e.parameters[p], e.parameter_uncertainty[p]});
-    }
-    for (const RivalFit& r : evidence[t].rivals) {
-      (r.container && !r.undecided ? found.containers : found.rivals).push_back(r.id);
-      if (r.undriven) {
-        result.warnings.push_back(
-            fmt::format("{} cannot be told from {}, because the log lacks what drives the latter: log it next time.",
-                        found.id, r.id));
-      }
-    }
-    for (const Component c : all_components) {
-      double power = 0.0;
-      double count = 0.0;
-      for (Index u = 0; u < problem.size(); ++u) {
-        if (problem.component[static_cast<std::size_t>(u)] != c) continue;
-        power += named.contribution[t][u] * named.contribution[t][u];
-        count += 1.0;
-      }
-      if (count > 0.0 && !isRotation(c)) found.rms_um = std::max(found.rms_um, std::sqrt(power / count));
-    }
-    found.confidence = confidenceOf(outcome, evidence[t], named, t, limits);
-    result.effects.push_back(std::move(found));
-    last = now;
-    if (t + 1 == effects.size()) sum = part;
-  }
-  result.gap.rms_after_um = last.fit_rms;
-  result.gap.heldout_rms_after_um = last.holdout_rms;
-  if (!has_holdout && !result.effects.empty()) {
-    result.gap.heldout_rms_before_um = result.effects.front().heldout_rms_before_um;
-    result.gap.heldout_rms_after_um = result.effects.back().heldout_rms_after_um;
-  }
-  double noise = 0.0;
-  double noise_count = 0.0;
-  for (const std::size_t row : fit_rows) {
-    if (isRotation(rows[row].component)) continue;
-    noise += rows[row].sigma * rows[row].sigma;
-    noise_count += 1.0;
-  }
-  result.gap.noise_um = noise_count > 0.0 ? std::sqrt(noise / noise_count) * result.noise_scale : 0.0;
-  if (result.noise_scale < 0.88 || result.noise_scale > 1.12) {
-    result.warnings.push_back(
-        fmt::format("The scatter is {:.2f} times the stated sigma; it is used as found.", result.noise_scale));
-  }
-  result.constant = last.constant;
-  result.effect_part = sum;
-  result.simulated = input.predicted;
-  result.completed.resize(rows.size());
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    result.completed[r] = input.predicted[r] + sum[r];
-  }
+  fitModel(solution);
+  result.model = std::make_shared<EffectModel>(drivers, solution.averaged, nullptr, input.base_table);
+  tellEffects(solution, result);
   result.where = findPlaces(problem, *drivers, problem.projectedResidual().head(problem.size()));
+  if (options.suggest && enough) result.suggestion = suggestionFor(solution);
 
-  if (options.suggest && enough) {
-    for (std::size_t t = 0; t < evidence.size() && !result.suggestion; ++t) {
-      for (const RivalFit& rival : evidence[t].rivals) {
-        if ((rival.container && !rival.undecided) || rival.undriven) continue;
-        result.suggestion = suggestMeasurement(input, *drivers, search, problem, named, rival.joint,
-                                               named.terms[t].effect->id + " from " + rival.id, search.logN());
-        break;
-      }
-    }
-  }
-
-  result.status = enough ? FitStatus::Converged : FitStatus::Degenerate;
   result.decided = enough;
-  if (!enough) {
-    result.message = fmt::format(
-        "{} observations in {} states leave too little beyond the free constant of each of {} series: which effect is "
-        "missing, its lag and whether it is one at all cannot be decided; measure at least 4 states and several "
-        "points.",
-        fit_rows.size(), epochs, problem.seriesCount());
-    if (outcome.leftover_p_value >= 1e-3) result.verdict = DiscrepancyVerdict::Unknown;
-    if (result.leftover.empty()) result.leftover = "too few observations to decide";
+  result.status = enough ? FitStatus::Converged : FitStatus::Degenerate;
+  if (enough) {
+    result.message = sentenceOf(result);
   } else {
-    switch (result.verdict) {
-      case DiscrepancyVerdict::None:
-        result.message = "Measurement and simulation agree within the noise.";
-        break;
-      case DiscrepancyVerdict::Unknown:
-        result.message = "Something disagrees that no effect of the catalogue explains.";
-        break;
-      default: {
-        std::vector<std::string> names;
-        for (const FoundEffect& e : result.effects) names.push_back(e.id);
-        result.message = fmt::format("Missing in the simulation: {}{}.", joinedList(names),
-                                     result.verdict == DiscrepancyVerdict::Ambiguous
-                                         ? "; these data cannot tell at least one of them from its rivals"
-                                         : "");
-      }
-    }
+    tellUndecided(solution, result);
   }
   job.report(1.0, "done");
   return result;

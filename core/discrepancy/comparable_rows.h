@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which observations can be compared with the simulation. Internal to core/discrepancy.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/discrepancy/discrepancy.h"
+
+namespace spindrift {
+
+/// Rows of the observations.
+struct ComparableRows {
+  std::vector<std::size_t> fit;       ///< marked fit, with a prediction, while the log knows what the machine did
+  std::vector<std::size_t> held_out;  ///< marked holdout, at such times
+  std::size_t unmatched = 0;          ///< used, but without a prediction
+};
+
+/// Adds a warning for what is left out. Throws InputError: a sigma that is not positive, nothing to be used or fitted,
+/// fewer than half of the observations with a prediction.
+[[nodiscard]] ComparableRows comparableRows(const DiscrepancyInput& input, std::vector<std::string>& warnings);
+
+}  // namespace spindrift
