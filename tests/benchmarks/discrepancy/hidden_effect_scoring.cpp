@@ -91,9 +91,19 @@ std::vector<double> orZero(const std::vector<double>& values, std::size_t count)
 
 }  // namespace
 
-double explainedFraction(const VirtualCampaign& campaign, const std::vector<double>& effect_part) {
+HeldOutSignal heldOutSignal(const VirtualCampaign& campaign, const std::vector<double>& effect_part) {
   const std::vector<double> hidden = heldOutMotion(campaign, campaign.truth.hidden_signal);
-  return 1.0 - relativePower(heldOutMotion(campaign, orZero(effect_part, hidden.size())), hidden, hidden);
+  const std::vector<double> estimate = heldOutMotion(campaign, orZero(effect_part, hidden.size()));
+  HeldOutSignal out;
+  for (std::size_t i = 0; i < hidden.size(); ++i) {
+    out.hidden += hidden[i] * hidden[i];
+    out.missed += (estimate[i] - hidden[i]) * (estimate[i] - hidden[i]);
+  }
+  return out;
+}
+
+double explainedFraction(const VirtualCampaign& campaign, const std::vector<double>& effect_part) {
+  return heldOutSignal(campaign, effect_part).explained();
 }
 
 namespace {

@@ -34,8 +34,16 @@ struct Answer {
 /// What the search is given: machine, log, observations and the simulation's rows, and nothing of the truth.
 [[nodiscard]] DiscrepancyInput inputOf(const VirtualCampaign& campaign);
 
-/// 1 - sum (estimate - hidden)^2 / sum hidden^2 over the held-out rows, both relative to their mean over the fitted
-/// rows of the same point and component. NaN if nothing is hidden.
+/// Sums of squares over the held-out rows in units of sigma, of values relative to their mean over the fitted rows of
+/// the same point and component.
+struct HeldOutSignal {
+  double hidden = 0.0;
+  double missed = 0.0;  ///< estimate - hidden
+  /// NaN if nothing is hidden.
+  [[nodiscard]] double explained() const { return 1.0 - missed / hidden; }
+};
+[[nodiscard]] HeldOutSignal heldOutSignal(const VirtualCampaign& campaign, const std::vector<double>& effect_part);
+/// The part of the hidden signal that is explained on held-out rows.
 [[nodiscard]] double explainedFraction(const VirtualCampaign& campaign, const std::vector<double>& effect_part);
 
 /// What the best fit explains that knows which effects are hidden: the same catalogue, data, choice of drivers and

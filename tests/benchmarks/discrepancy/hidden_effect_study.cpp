@@ -76,6 +76,7 @@ struct Outcomes {
   std::vector<Tally> stepwise = std::vector<Tally>(cells().size());
   std::vector<Tally> lasso = std::vector<Tally>(cells().size());
   std::vector<std::vector<double>> explained = std::vector<std::vector<double>>(cells().size());
+  std::vector<HeldOutSignal> held_out = std::vector<HeldOutSignal>(cells().size());  ///< of all campaigns together
   std::vector<std::vector<OracleFit>> oracle = std::vector<std::vector<OracleFit>>(cells().size());
   std::vector<std::pair<double, bool>> confidences;
   int unknowable = 0;  ///< campaigns whose held-out states cannot be known
@@ -189,11 +190,14 @@ void runOne(const Assignment& which, const Wanted& wanted, Outcomes& all, std::m
   all.search[which.cell].add(answer, outcome);
   all.search_ms.push_back(ms);
   if (!made.hidden.empty() && cell.kind != StudyKind::Outside) {
-    const double explained = explainedFraction(campaign, result.effect_part);
+    const HeldOutSignal held_out = heldOutSignal(campaign, result.effect_part);
+    const double explained = held_out.explained();
     if (endsInHeldOut(made)) {
       ++all.unknowable;
     } else if (std::isfinite(explained)) {
       all.explained[which.cell].push_back(explained);
+      all.held_out[which.cell].hidden += held_out.hidden;
+      all.held_out[which.cell].missed += held_out.missed;
       if (oracle) all.oracle[which.cell].push_back(*oracle);
     }
     if (outcome == Outcome::Named && cell.strength >= 4.0 && explained < 0.95) {
@@ -355,8 +359,8 @@ int run(int argc, char** argv) {
     if (all.explained[c].empty()) continue;
     const auto& e = all.explained[c];
     const auto good = static_cast<int>(std::count_if(e.begin(), e.end(), [](double v) { return v >= 0.95; }));
-    fmt::print("{:22} median {:5.1f} %, at least 95 % explained in {}\n", cells()[c].name, 100.0 * median(e),
-               rate(good, static_cast<int>(e.size())));
+    fmt::print("{:22} median {:5.1f} %, at least 95 % explained in {}, of all together {:5.1f} %\n", cells()[c].name,
+               100.0 * median(e), rate(good, static_cast<int>(e.size())), 100.0 * all.held_out[c].explained());
     if (!all.oracle[c].empty()) printOracle(all.oracle[c]);
   }
   if (all.unknowable > 0) {
