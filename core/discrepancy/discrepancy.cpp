@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "core/base/text.h"
@@ -45,8 +46,15 @@ SearchOutcome searchTwice(EffectSearch& search, ResidualProblem& problem, const 
   const NoiseModel again = estimateNoise(problem, left, true);
   const double change = std::abs(again.correlated_part - problem.noise.correlated_part);
   if (!(change > 0.25) && !(again.scale < 0.8 * problem.noise.scale)) return outcome;
+  const NoiseModel before = problem.noise;
   problem.setNoise(again);
-  return searchEffects(search, problem, base, options, limits, job);
+  SearchOutcome second = searchEffects(search, problem, base, options, limits, job);
+  // A noise under which effects leave something that left nothing before is not the better one.
+  if (second.leftover_p_value < 1e-3 && outcome.leftover_p_value > 1e-3) {
+    problem.setNoise(before);
+    return outcome;
+  }
+  return second;
 }
 
 /// Everything that the numbers of a result are made of.
@@ -216,12 +224,13 @@ std::optional<MeasurementSuggestion> suggestionFor(const Solution& solution) {
   return std::nullopt;
 }
 
-std::string sentenceOf(const DiscrepancyResult& result) {
+std::string sentenceOf(const DiscrepancyResult& result, const DiscrepancyOptions& options) {
   switch (result.verdict) {
     case DiscrepancyVerdict::None:
       return "Measurement and simulation agree within the noise.";
     case DiscrepancyVerdict::Unknown:
-      return "Something disagrees that no effect of the catalogue explains.";
+      return options.max_effects == 0 ? "Something disagrees; no effect was tried."
+                                      : "Something disagrees that no effect of the catalogue explains.";
     case DiscrepancyVerdict::Named:
     case DiscrepancyVerdict::Ambiguous:
       break;
@@ -235,11 +244,17 @@ std::string sentenceOf(const DiscrepancyResult& result) {
 
 /// What too few observations leave to say.
 void tellUndecided(const Solution& solution, DiscrepancyResult& result) {
+  std::set<std::string> states;
+  for (const std::size_t row : solution.rows.fit) states.insert(solution.input.observations.rows[row].state);
+  const auto counted = [](std::size_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+  };
+  const int series = solution.problem.seriesCount();
   result.message = fmt::format(
-      "{} observations in {} states leave too little beyond the free constant of each of {} series: which effect is "
-      "missing, its lag and whether it is one at all cannot be decided; measure at least 4 states and several "
-      "points.",
-      solution.rows.fit.size(), solution.problem.epoch_count, solution.problem.seriesCount());
+      "{} in {} leave too little beyond the free constant of each of {} series: which effect is missing, its lag and "
+      "whether it is one at all cannot be decided; measure {}.",
+      counted(solution.rows.fit.size(), "observation", "observations"), counted(states.size(), "state", "states"),
+      series, states.size() < 4 ? "at least 4 states and several points" : "more states or more points");
   if (solution.outcome.leftover_p_value >= 1e-3) result.verdict = DiscrepancyVerdict::Unknown;
   if (result.leftover.empty()) result.leftover = "too few observations to decide";
 }
@@ -322,7 +337,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.decided = enough;
   result.status = enough ? FitStatus::Converged : FitStatus::Degenerate;
   if (enough) {
-    result.message = sentenceOf(result);
+    result.message = sentenceOf(result, options);
   } else {
     tellUndecided(solution, result);
   }

@@ -40,13 +40,15 @@ void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& r
   if (correlation > 0.6 && ratio > 300.0) {
     throw InputError({file, ""},
                      fmt::format("the deviations move {:.0f} times as much as the simulation predicts, in the "
-                                 "same way: the simulation looks as if it were in mm; allowed: um and urad.",
+                                 "same way: one of them is not in um (the simulation in mm, or the observations in "
+                                 "nm); allowed: um and urad.",
                                  ratio));
   }
   if (correlation > 0.6 && ratio < 1.0 / 300.0) {
     throw InputError({file, ""},
                      fmt::format("the deviations move {:.0f} times less than the simulation predicts, in the "
-                                 "same way: they look as if they were in mm; allowed: um and urad.",
+                                 "same way: one of them is not in um (the observations in mm, or the simulation in "
+                                 "nm); allowed: um and urad.",
                                  1.0 / ratio));
   }
 }

@@ -97,9 +97,10 @@ std::string DiscrepancyResult::summary() const {
     }
   }
   for (const DisagreementPlace& p : where) {
-    text += fmt::format("  where: {} {} from {:.0f} s to {:.0f} s{}: {:.2f} {} beyond the noise (p {:.1e})\n",
+    text += fmt::format("  where: {} {} from {:.0f} s to {:.0f} s{}: {:.2f} {} beyond the noise (p {})\n",
                         toString(p.component), joinedList(p.points), p.from_s, p.to_s,
-                        p.condition.empty() ? "" : ", " + p.condition, p.excess_um, unitOf(p.component), p.p_value);
+                        p.condition.empty() ? "" : ", " + p.condition, p.excess_um, unitOf(p.component),
+                        p.p_value < 1e-12 ? std::string("< 1e-12") : fmt::format("{:.1e}", p.p_value));
   }
   text += fmt::format("  gap: {:.2f} um before, {:.2f} um after, noise {:.2f} um\n", gap.rms_before_um,
                       gap.rms_after_um, gap.noise_um);

@@ -277,9 +277,15 @@ std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path
         if (found) break;
       }
       if (!found) {
-        parameters.reject(
-            "the gains and time constants of one way in which this effect is driven by the signals in "
-            "log.csv");
+        std::vector<std::string> ways;
+        for (const EffectVariant& variant : e.effect.variants) {
+          e.variant = variant;
+          std::vector<std::string> names = e.gainNames(*drivers);
+          for (std::string& name : parameterNames(variant)) names.push_back(std::move(name));
+          if (ways.size() < 3) ways.push_back(joinedList(names));
+        }
+        parameters.reject("the gains and time constants of one way in which the signals in log.csv drive " +
+                          e.effect.id + ", such as " + joinedList(ways, "or"));
       }
     }
     const auto gains = e.gainNames(*drivers);
@@ -294,7 +300,8 @@ std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path
       e.gain_uncertainty[static_cast<Eigen::Index>(g)] = uncertaintyOf(gains[g]);
     }
     for (const std::string& name : parameterNames(e.variant)) {
-      e.parameters.push_back(parameters.at(name).number());
+      const bool lag = name.starts_with("tau");
+      e.parameters.push_back(lag ? parameters.at(name).nonNegativeNumber() : parameters.at(name).number());
       e.parameter_uncertainty.push_back(uncertaintyOf(name));
     }
     Eigen::VectorXd sd(e.gains.size() + static_cast<Eigen::Index>(e.parameters.size()));

@@ -48,7 +48,7 @@ TableMoments freedMoments(Eigen::MatrixXd table, const Mask& known, int rank) {
   Eigen::MatrixXd left = table;
   if (rank > 0) {
     Eigen::MatrixXd filled = known.select(table.array(), 0.0).matrix();
-    for (int pass = 0; pass < (complete ? 1 : 12); ++pass) {
+    for (int pass = 0; pass < (complete ? 1 : 5); ++pass) {
       const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(
           filled.transpose(), Eigen::ComputeThinU | Eigen::ComputeThinV);
       const Eigen::MatrixXd low = svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).asDiagonal() *
@@ -60,17 +60,27 @@ TableMoments freedMoments(Eigen::MatrixXd table, const Mask& known, int rank) {
   TableMoments m;
   double c1 = 0.0;
   double c2 = 0.0;
+  double pairs1 = 0.0;
+  double pairs2 = 0.0;
   for (Index p = 0; p < left.rows(); ++p) {
     for (Index e = 0; e < left.cols(); ++e) {
       if (!known(p, e)) continue;
       m.power += left(p, e) * left(p, e);
-      if (e + 1 < left.cols() && known(p, e + 1)) c1 += left(p, e) * left(p, e + 1);
-      if (e + 2 < left.cols() && known(p, e + 2)) c2 += left(p, e) * left(p, e + 2);
+      if (e + 1 < left.cols() && known(p, e + 1)) {
+        c1 += left(p, e) * left(p, e + 1);
+        pairs1 += 1.0;
+      }
+      if (e + 2 < left.cols() && known(p, e + 2)) {
+        c2 += left(p, e) * left(p, e + 2);
+        pairs2 += 1.0;
+      }
     }
   }
-  if (m.power > 0.0) {
-    m.r1 = c1 / m.power;
-    m.r2 = c2 / m.power;
+  // By the pairs that are there: cells that are missing make no correlation smaller.
+  const double variance = m.power / std::max(1.0, static_cast<double>(known.count()));
+  if (variance > 0.0 && pairs1 > 0.0 && pairs2 > 0.0) {
+    m.r1 = c1 / pairs1 / variance;
+    m.r2 = c2 / pairs2 / variance;
   }
   return m;
 }
@@ -92,11 +102,8 @@ std::vector<SimulatedKind> simulatedKinds(const Mask& known, int rank) {
   for (const double part : {0.5, 1.0}) {
     for (const double phi : {0.2, 0.4, 0.6, 0.75, 0.85, 0.9, 0.95}) kinds.push_back({part, phi});
   }
-  constexpr int repeats = 16;
+  const int repeats = known.all() ? 16 : 8;
   std::vector<SimulatedKind> out;
-  const Mask complete = Mask::Constant(known.rows(), known.cols(), true);
-  const auto size = static_cast<double>(known.size());
-  const auto count = static_cast<double>(known.count());
   for (const NoiseKind& kind : kinds) {
     Random random(4711);
     std::array<std::vector<double>, 3> values;
@@ -109,9 +116,7 @@ std::vector<SimulatedKind> simulatedKinds(const Mask& known, int rank) {
           table(p, e) = std::sqrt(kind.part) * slow + std::sqrt(1.0 - kind.part) * random.normal(0.0, 1.0);
         }
       }
-      // Gaps matter little for the correlations; for the power see below. Simulating them would cost an imputation
-      // each.
-      const TableMoments m = freedMoments(std::move(table), complete, rank);
+      const TableMoments m = freedMoments(std::move(table), known, rank);
       values[0].push_back(m.power);
       values[1].push_back(m.r1);
       values[2].push_back(m.r2);
@@ -129,13 +134,6 @@ std::vector<SimulatedKind> simulatedKinds(const Mask& known, int rank) {
     std::tie(simulated.mean.r1, simulated.spread.r1) = moments(values[1]);
     std::tie(simulated.mean.r2, simulated.spread.r2) = moments(values[2]);
     out.push_back(simulated);
-  }
-  // Means and singular components take as many degrees of freedom from a table with gaps as from a complete one.
-  const double taken = size - out.front().mean.power;
-  const double part = std::clamp((count - taken) / std::max(1.0, size - taken), 0.05, 1.0);
-  for (SimulatedKind& s : out) {
-    s.mean.power *= part;
-    s.spread.power *= part;
   }
   return out;
 }
@@ -187,7 +185,8 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     int rank = 0;
     const std::vector<SimulatedKind>* kinds = nullptr;
   };
-  std::map<std::tuple<Index, Index, int>, std::vector<SimulatedKind>> simulated;
+  // Tables of one size that lack about as many cells are simulated once.
+  std::map<std::tuple<Index, Index, int, Index>, std::vector<SimulatedKind>> simulated;
   std::vector<Estimate> estimates;
   for (const Component c : all_components) {
     const ComponentTable table = componentTable(problem, residual, c);
@@ -198,7 +197,8 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     Estimate e;
     e.rank = rank;
     e.moments = freedMoments(table.values, table.known, rank);
-    auto& kinds = simulated[{points, table.values.cols(), rank}];
+    const Index lacking = (20 * (table.known.size() - table.known.count())) / table.known.size();
+    auto& kinds = simulated[{points, table.values.cols(), rank, table.known.all() ? -1 : lacking}];
     if (kinds.empty()) kinds = simulatedKinds(table.known, rank);
     e.kinds = &kinds;
     e.scale2 = e.moments.power / std::max(1e-9, kinds.front().mean.power);

@@ -13,15 +13,25 @@ namespace {
 
 using Eigen::Index;
 
+/// - ln of the p-value of chi-squared, far out in the tail, where it is too small for a double.
+double farTail(double chi2, double dof) {
+  const double x = 0.5 * std::max(chi2, dof);
+  return x - (0.5 * dof - 1.0) * std::log(x) + std::lgamma(0.5 * dof);
+}
+
 }  // namespace
 
 StructureTest testStructure(const ResidualProblem& problem, const Eigen::VectorXd& z) {
   struct Candidate {
     double p = 1.0;
+    double far_tail = 0.0;
     std::string text;
     Component component = Component::EX;
   };
   std::vector<Candidate> tests;
+  const auto add = [&](double statistic, double dof, std::string text, Component c) {
+    tests.push_back({chiSquaredTail(statistic, dof), farTail(statistic, dof), std::move(text), c});
+  };
   const int epochs = problem.epoch_count;
   const double dof_part = std::max(
       0.3, static_cast<double>(problem.degreesOfFreedom()) / std::max<double>(1.0, static_cast<double>(z.size())));
@@ -40,8 +50,7 @@ StructureTest testStructure(const ResidualProblem& problem, const Eigen::VectorX
       rows += 1.0;
     }
     if (rows < 4.0) continue;
-    tests.push_back({chiSquaredTail(sum, std::max(1.0, rows * dof_part)),
-                     fmt::format("{} scatters more than its noise", toString(c)), c});
+    add(sum, std::max(1.0, rows * dof_part), fmt::format("{} scatters more than its noise", toString(c)), c);
     // A course in time common to all points (kind 0) or growing along x, y, z (1..3): dof = epochs - 1.
     for (int kind = 0; kind < 4; ++kind) {
       if (kind > 0 && !(high[kind - 1] - low[kind - 1] > 1.0)) continue;
@@ -104,7 +113,7 @@ StructureTest testStructure(const ResidualProblem& problem, const Eigen::VectorX
         }
         if (total > 0.0 && best > 0.6 * total) text += fmt::format(", with a period of about {:.0f} s", period);
       }
-      tests.push_back({chiSquaredTail(statistic, std::max(1.0, (used - 1) * std::max(dof_part, 0.8))), text, c});
+      add(statistic, std::max(1.0, (used - 1) * std::max(dof_part, 0.8)), text, c);
     }
   }
   for (int s = 0; s < problem.seriesCount(); ++s) {
@@ -112,16 +121,18 @@ StructureTest testStructure(const ResidualProblem& problem, const Eigen::VectorX
     const Index count = problem.series_begin[static_cast<std::size_t>(s) + 1] - from;
     if (count < 4) continue;
     const Component c = problem.component[static_cast<std::size_t>(from)];
-    tests.push_back({chiSquaredTail(z.segment(from, count).squaredNorm(), static_cast<double>(count - 1)),
-                     fmt::format("{} of point {} deviates by itself", toString(c),
-                                 problem.series_point[static_cast<std::size_t>(s)]),
-                     c});
+    add(z.segment(from, count).squaredNorm(), static_cast<double>(count - 1),
+        fmt::format("{} of point {} deviates by itself", toString(c),
+                    problem.series_point[static_cast<std::size_t>(s)]),
+        c);
   }
   StructureTest out;
+  double farthest = -1e300;
   for (const Candidate& test : tests) {
     const double p = std::min(1.0, test.p * static_cast<double>(tests.size()));
-    if (p < out.p_value) {
+    if (p < out.p_value || (p == 0.0 && test.far_tail > farthest)) {
       out.p_value = p;
+      farthest = test.far_tail;
       out.description = test.text;
       out.component = test.component;
     }

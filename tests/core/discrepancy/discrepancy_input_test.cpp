@@ -199,7 +199,7 @@ TEST(DiscrepancyInput, SaysThatTenObservationsDecideNothing) {
   const DiscrepancyResult result = run(input);
   EXPECT_FALSE(result.decided);
   EXPECT_TRUE(result.effects.empty());
-  EXPECT_THAT(result.message, HasSubstr("10 observations"));
+  EXPECT_THAT(result.message, HasSubstr("10 observations in 1 state leave"));
   EXPECT_THAT(result.message, HasSubstr("cannot be decided"));
 }
 
@@ -257,13 +257,13 @@ TEST(DiscrepancyInput, SaysWhichEffectsTheLogCannotDecide) {
 TEST(DiscrepancyInput, TellsWhichSideIsInMillimetres) {
   DiscrepancyInput simulation = campaign(Hidden::Nothing, 40);
   for (double& p : simulation.predicted) p *= 1e-3;
-  EXPECT_THAT(refusal(simulation), HasSubstr("the simulation looks as if it were in mm"));
+  EXPECT_THAT(refusal(simulation), HasSubstr("the simulation in mm, or the observations in nm"));
   DiscrepancyInput measured = campaign(Hidden::Nothing, 40);
   for (Observation& o : measured.observations.rows) {
     o.value *= 1e-3;
     o.sigma *= 1e-3;
   }
-  EXPECT_THAT(refusal(measured), HasSubstr("they look as if they were in mm"));
+  EXPECT_THAT(refusal(measured), HasSubstr("the observations in mm, or the simulation in nm"));
 }
 
 TEST(DiscrepancyInput, ReadsASimulationTableOnlyWhole) {

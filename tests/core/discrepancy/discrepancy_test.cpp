@@ -51,6 +51,23 @@ TEST(Discrepancy, AbstainsOutsideTheCatalogue) {
   }
 }
 
+TEST(Discrepancy, DescribesAnUnknownCauseHoweverLargeItIs) {
+  for (const double strength : {5.0, 60.0}) {  // p-values too small for a double at the end
+    const DiscrepancyResult result = run(campaign(Hidden::Wave, 24, strength));
+    EXPECT_EQ(result.verdict, DiscrepancyVerdict::Unknown);
+    EXPECT_EQ(result.leftover.rfind("EX of all points follows a common course in time", 0), 0U)
+        << result.leftover << " at strength " << strength;
+  }
+}
+
+TEST(Discrepancy, SaysThatNothingWasTried) {
+  DiscrepancyOptions options;
+  options.max_effects = 0;
+  JobContext job;
+  const DiscrepancyResult result = findDiscrepancy(campaign(Hidden::Wave, 24), options, job);
+  EXPECT_NE(result.message.find("no effect was tried"), std::string::npos) << result.message;
+}
+
 TEST(Discrepancy, RefusesASimulationThatMatchesTooLittle) {
   DiscrepancyInput input = campaign(Hidden::Nothing, 5);
   for (std::size_t i = 0; i < input.predicted.size() * 6 / 10; ++i) {

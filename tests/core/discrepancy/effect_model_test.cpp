@@ -141,6 +141,27 @@ TEST(EffectModel, EveryVariantOfEveryFamilySurvivesSavingAndLoading) {
   }
 }
 
+TEST(EffectModel, SaysWhichParametersItNeeds) {
+  const testing::TempFolder folder;
+  const MachineDescription machine = everyMachine();
+  const OperatingLog log = everyLog();
+  const auto file = folder.path() / "model.json";
+  const auto refusal = [&](const std::string& parameters) -> std::string {
+    std::ofstream(file) << R"({"format":"spindrift-error-model","version":1,"effects":[{"id":"ambient.drift.x",
+      "parameters":)" << parameters
+                        << "}]}";
+    try {
+      (void)EffectModel::read(file, machine, &log, {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(R"({"gain_um_per_K":1.0,"tau_s":600})"), "");
+  EXPECT_NE(refusal(R"({"gain_um_per_K":1.0,"tau":600})").find("gain_um_per_K and tau_s"), std::string::npos);
+  EXPECT_NE(refusal(R"({"gain_um_per_K":1.0,"tau_s":-5})").find("tau_s"), std::string::npos);
+}
+
 TEST(EffectModel, RefusesADriverThatTheLogDoesNotHold) {
   const testing::TempFolder folder;
   const MachineDescription machine = everyMachine();
