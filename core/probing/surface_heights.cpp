@@ -48,12 +48,14 @@ Eigen::MatrixXd reduced(const Eigen::MatrixXd& design) {
   return design * svd.matrixV().leftCols(rank);
 }
 
-/// Least median of squares over subsets: the absolute residuals of the best.
-Eigen::VectorXd robustResiduals(const Eigen::MatrixXd& design, const Eigen::VectorXd& y) {
+/// The absolute residuals of the best plane over subsets: that with which most heights agree, then least median of
+/// squares. The median alone may be all on one side of the bar, where a drift during the cycle looks like a tilt.
+Eigen::VectorXd robustResiduals(const Eigen::MatrixXd& design, const Eigen::VectorXd& y, double floor_um) {
   const Eigen::Index n = design.rows();
   const Eigen::Index p = design.cols();
   Eigen::VectorXd best = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
   double least = std::numeric_limits<double>::infinity();
+  Eigen::Index fewest = n + 1;  // that disagree
   Random random(1);
   Rows all(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) all[static_cast<std::size_t>(i)] = i;
@@ -62,8 +64,10 @@ Eigen::VectorXd robustResiduals(const Eigen::MatrixXd& design, const Eigen::Vect
     if (!lu.isInvertible() || lu.rcond() < 1e-4) return;
     const Eigen::VectorXd residual = (y - design * lu.solve(y(rows))).cwiseAbs();
     const double middle = median(std::vector<double>(residual.begin(), residual.end()));
-    if (middle >= least) return;
+    const Eigen::Index apart = (residual.array() > floor_um).count();
+    if (apart > fewest || (apart == fewest && middle >= least)) return;
     least = middle;
+    fewest = apart;
     best = residual;
   };
   double subsets = 1.0;
@@ -109,7 +113,7 @@ std::vector<SurfaceVerdict> judgeSurfaceHeights(const std::vector<PlacedHeight>&
   if (n < p + 3) return verdicts;
   Eigen::VectorXd y(n);
   for (Eigen::Index i = 0; i < n; ++i) y(i) = heights[static_cast<std::size_t>(i)].height_um;
-  const Eigen::VectorXd residual = robustResiduals(design, y);
+  const Eigen::VectorXd residual = robustResiduals(design, y, options.floor_um);
   // Small samples make the median of squares too small (Rousseeuw and Leroy 1987).
   const double scale =
       1.4826 * (1.0 + 5.0 / static_cast<double>(n - p)) * median(std::vector<double>(residual.begin(), residual.end()));

@@ -4,7 +4,8 @@
 //
 //   h = h0 + a . (x, y) + b . (u, v),   x, y: place across the rotary axis in MCF, u, v: the same turned with the table
 // a: the axis leans against Z, b: the bar leans against the table; what the places do not determine is left open. The
-// plane is found robustly (least median of squares over small subsets, then least squares over those that agree), so
+// plane is found robustly (over small subsets, the one with which most agree within the floor, then with the least
+// median of squares; then least squares over those that agree), so
 // several bad touches do not hide each other. A touch is suspect beyond max(floor, factor * spread) * sqrt(1 +
 // leverage), spread = rms of the touches that agree, with its degrees of freedom; one whose place the others do not
 // determine, or with fewer than two degrees of freedom, is not judged. The same holds for changes of height since
