@@ -14,6 +14,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/math/statistics.h"
+#include "core/probing/cycle_drift.h"
 #include "core/probing/surface_rejection.h"
 
 namespace spindrift {
@@ -63,7 +64,9 @@ class Assembler {
     for (int pass = 0; pass < 2; ++pass) {
       centre(excluded);
       build(excluded);
-      result_.fit = fitCycles(result_.problem, assembly_.fit);
+      std::vector<double> time_s;
+      for (const std::size_t i : result_.row_touch) time_s.push_back(list_.touches[i].time_s);
+      result_.fit = fitDriftingCycles(result_.problem, time_s, assembly_.fit);
       bool changed = false;
       // A bad touch spoils the centre about which the others of its feature were linearised: once more without it.
       std::vector<bool> next = excluded;

@@ -300,7 +300,7 @@ class Solver {
         const double other = std::abs(residual_[r]) / std::sqrt(std::max(freedom_[r], 1e-3));
         const double own = std::abs(residual_[static_cast<std::size_t>(worst)]) /
                            std::sqrt(std::max(freedom_[static_cast<std::size_t>(worst)], 1e-3));
-        if (other > own * (1.0 + 1e-6) || (other > own * (1.0 - 1e-6) && k == problem_.reference_cycle)) {
+        if (other > own * (1.0 + 1e-6) || (other > own * (1.0 - 1e-6) && problem_.rows[r].cycle > k)) {
           largest = false;
         }
       }
