@@ -12,6 +12,29 @@
 #include "core/math/statistics.h"
 
 namespace spindrift {
+namespace {
+
+/// Takes out of `fit` what was measured between two rows of the log of different spindle speed: nobody knows when it
+/// changed, and what follows speed at once is wrong by all of it. A log so coarse that more than a tenth of the rows
+/// would go is taken as it is. Returns how many went.
+std::size_t leaveOutChanges(const OperatingLog& log, const std::vector<Observation>& rows,
+                            std::vector<std::size_t>& fit) {
+  const std::vector<double>* rpm = log.signal("spindle_rpm");
+  if (rpm == nullptr) return 0;
+  const std::vector<double>& t = log.time_s();
+  const auto changes = [&](std::size_t row) {
+    const auto after = std::upper_bound(t.begin(), t.end(), rows[row].time_s);
+    if (after == t.begin() || after == t.end() || *(after - 1) == rows[row].time_s) return false;
+    const auto k = static_cast<std::size_t>(after - t.begin());
+    return (*rpm)[k] != (*rpm)[k - 1];
+  };
+  const auto count = static_cast<std::size_t>(std::count_if(fit.begin(), fit.end(), changes));
+  if (count == 0 || 10 * count > fit.size()) return 0;
+  std::erase_if(fit, changes);
+  return count;
+}
+
+}  // namespace
 
 ComparableRows comparableRows(const DiscrepancyInput& input, std::vector<std::string>& warnings) {
   const auto& rows = input.observations.rows;
@@ -63,6 +86,12 @@ ComparableRows comparableRows(const DiscrepancyInput& input, std::vector<std::st
   if (beyond_log > 0) {
     warnings.push_back(
         fmt::format("{} observations are later than the end of the log and are not fitted.", beyond_log));
+  }
+  if (const std::size_t count = input.log ? leaveOutChanges(*input.log, rows, out.fit) : 0; count > 0) {
+    warnings.push_back(fmt::format(
+        "{} observations lie between two rows of the log of different spindle speed and are not fitted: when it "
+        "changed is not known.",
+        count));
   }
   if (out.fit.empty()) {
     throw InputError({input.observations.file, ""},

@@ -21,12 +21,11 @@ struct SearchLimits {
   double undecided_margin = 2.0;   ///< in BIC: "not worth more than a bare mention" (Kass and Raftery 1995)
   double rival_margin = 0.01;      ///< part of an effect's power within which another effect is a rival
   double smallest_part = 0.01;     ///< part of the power explained so far that a further effect must have
-  double smallest_in_component = 0.03;        ///< the same, of the power in the component in which it mainly acts
-  double smallest_with_onset = 0.075;         ///< the same, where a free onset can follow what another effect misses
-  double least_explained = 0.95;              ///< part of the structured power below which nothing is named
-  double least_explained_by_stacked = 0.985;  ///< the same, where two effects move the same readings
-  double unknown_advantage = 0.0;    ///< in BIC, by which an unknown course may be better than the effects named
-  double onset_leftover_p = 1e-3;    ///< p-value of what an effect with an onset may leave in its own component
+  double smallest_in_component = 0.03;  ///< the same, of the power in the component in which it mainly acts
+  double smallest_with_onset = 0.075;   ///< the same, where a free onset can follow what another effect misses
+  double least_explained = 0.985;  ///< part of the structured power below which nothing is named that leaves structure
+  double unknown_advantage = 0.0;  ///< in BIC, by which an unknown course may be better than the effects named
+  double onset_leftover_p = 1e-3;  ///< p-value of what an effect with an onset may leave in its own component
   double least_over_leftover = 0.8;  ///< an effect's power beside what is left in its component
   double start_part = 0.2;           ///< of the best effect's power that another start must have
   double start_margin = 0.004;       ///< part of the power that each name more must add when starts are compared

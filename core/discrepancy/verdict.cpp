@@ -12,14 +12,12 @@ namespace {
 bool unexplained(const SearchOutcome& outcome, const SearchLimits& limits) {
   // A noise model a little off makes everything scatter more than it should: that alone takes no name away.
   const bool left = outcome.leftover_p_value < 1e-3;
-  const bool clearly_left = outcome.leftover_p_value < 1e-5;
+  const bool part_left = outcome.explained_fraction < limits.least_explained;
   // Two effects on top of each other follow many courses nearly: then what they leave counts sooner.
   bool stacked = false;
   for (std::size_t t = 0; t < outcome.fit.terms.size(); ++t) stacked = stacked || overlaps(outcome.fit, t);
-  const bool stacked_left =
-      stacked &&
-      (left || (outcome.leftover_p_value < 0.01 && outcome.explained_fraction < limits.least_explained_by_stacked));
-  return stacked_left || (clearly_left && outcome.explained_fraction < limits.least_explained) ||
+  const bool stacked_left = stacked && (left || (outcome.leftover_p_value < 0.01 && part_left));
+  return stacked_left || (left && part_left) ||
          (left && (outcome.unknown_course.advantage > limits.unknown_advantage ||
                    outcome.unknown_course.smallest_part < limits.least_over_leftover)) ||
          outcome.onset_imitates || outcome.crowded || !outcome.composite.empty();

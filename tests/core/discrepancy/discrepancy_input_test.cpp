@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/discrepancy/comparable_rows.h"
 #include "core/discrepancy/drivers.h"
 #include "core/discrepancy/log_gaps.h"
 #include "tests/core/discrepancy/small_plant.h"
@@ -201,6 +202,30 @@ TEST(DiscrepancyInput, SaysThatTenObservationsDecideNothing) {
   EXPECT_TRUE(result.effects.empty());
   EXPECT_THAT(result.message, HasSubstr("10 observations in 1 state leave"));
   EXPECT_THAT(result.message, HasSubstr("cannot be decided"));
+}
+
+TEST(DiscrepancyInput, FitsNothingFromWhereTheSpindleSpeedChangedUnseen) {
+  DiscrepancyInput input = campaign(Hidden::Nothing, 46);
+  const std::vector<double>& t = input.log->time_s();
+  const std::vector<double>& rpm = *input.log->signal("spindle_rpm");
+  std::size_t change = 1;
+  while (rpm[change] == rpm[change - 1]) ++change;
+  std::vector<std::string> warnings;
+  const std::size_t all = comparableRows(input, warnings).fit.size();
+  EXPECT_TRUE(warnings.empty());
+  // Three readings ten seconds before the row with the other speed, one at this row.
+  for (std::size_t i = 0; i < 3; ++i) input.observations.rows[i].time_s = t[change] - 10.0;
+  input.observations.rows[3].time_s = t[change];
+  const ComparableRows left = comparableRows(input, warnings);
+  EXPECT_EQ(left.fit.size(), all - 3);
+  EXPECT_EQ(left.fit.front(), 3U);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings.front(), HasSubstr("3 observations lie between two rows"));
+  // A log that is as coarse everywhere is what there is.
+  warnings.clear();
+  for (Observation& o : input.observations.rows) o.time_s = t[change] - 10.0;
+  EXPECT_EQ(comparableRows(input, warnings).fit.size(), all);
+  EXPECT_TRUE(warnings.empty());
 }
 
 TEST(DiscrepancyInput, LeavesADeadSensorOut) {
