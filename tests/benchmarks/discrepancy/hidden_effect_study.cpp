@@ -81,6 +81,7 @@ struct Outcomes {
   std::vector<std::pair<double, bool>> confidences;
   int unknowable = 0;  ///< campaigns whose held-out states cannot be known
   std::vector<double> search_ms;
+  std::pair<double, std::string> longest_search;         ///< ms, which campaign
   std::map<std::string, std::pair<int, int>> by_effect;  // right, count
   std::vector<std::string> misses;
   std::vector<std::string> poorly_explained;
@@ -189,6 +190,10 @@ void runOne(const Assignment& which, const Wanted& wanted, Outcomes& all, std::m
   const std::scoped_lock lock(mutex);
   all.search[which.cell].add(answer, outcome);
   all.search_ms.push_back(ms);
+  if (ms > all.longest_search.first) {
+    all.longest_search = {ms, fmt::format("seed {}, {}, {} observations, hidden {}", which.seed, cell.name,
+                                          input.observations.rows.size(), joinedList(made.hidden))};
+  }
   if (!made.hidden.empty() && cell.kind != StudyKind::Outside) {
     const HeldOutSignal held_out = heldOutSignal(campaign, result.effect_part);
     const double explained = held_out.explained();
@@ -392,8 +397,8 @@ int run(int argc, char** argv) {
                  std::min(1.0, edges[b + 1]), stated / count, hits, count, rate(hits, count));
     }
   }
-  fmt::print("search time on one core: median {:.0f} ms, 95 % below {:.0f} ms, longest {:.0f} ms\n",
-             median(all.search_ms), quantile(all.search_ms, 0.95), quantile(all.search_ms, 1.0));
+  fmt::print("search time on one core: median {:.0f} ms, 95 % below {:.0f} ms, longest {:.0f} ms ({})\n",
+             median(all.search_ms), quantile(all.search_ms, 0.95), all.longest_search.first, all.longest_search.second);
   if (list) {
     fmt::print("\nnot named rightly\n");
     std::sort(all.misses.begin(), all.misses.end());
