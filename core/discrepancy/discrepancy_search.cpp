@@ -209,26 +209,6 @@ void dropContained(EffectSearch& search, ResidualProblem& problem, const std::ve
   }
 }
 
-/// The component in which an effect has its main part, by its contribution over the units.
-Component mainComponent(const ResidualProblem& problem, const Eigen::VectorXd& contribution) {
-  std::map<Component, double> power;
-  for (Index u = 0; u < problem.size(); ++u) {
-    const double z = contribution[u] / problem.sigma[u];
-    power[problem.component[static_cast<std::size_t>(u)]] += z * z;
-  }
-  return std::max_element(power.begin(), power.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
-      ->first;
-}
-
-/// How many effects have their main part in one and the same component, at most.
-int mostInOneComponent(const ResidualProblem& problem, const JointFit& fit) {
-  std::map<Component, int> count;
-  for (const Eigen::VectorXd& part : fit.contribution) ++count[mainComponent(problem, part)];
-  int most = 0;
-  for (const auto& [component, effects] : count) most = std::max(most, effects);
-  return most;
-}
-
 /// An onset can be put where it explains most of any course. One that leaves the like of itself is not the cause, nor
 /// are two in one and the same shape.
 bool onsetImitates(const EffectSearch& search, const ResidualProblem& problem, const JointFit& fit,

@@ -113,6 +113,24 @@ bool hasOnset(const ModelTerm& term) {
   return dynamics == Dynamics::Step || dynamics == Dynamics::Pulse;
 }
 
+Component mainComponent(const ResidualProblem& problem, const Eigen::VectorXd& contribution) {
+  std::map<Component, double> power;
+  for (Eigen::Index u = 0; u < problem.size(); ++u) {
+    const double z = contribution[u] / problem.sigma[u];
+    power[problem.component[static_cast<std::size_t>(u)]] += z * z;
+  }
+  return std::max_element(power.begin(), power.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+int mostInOneComponent(const ResidualProblem& problem, const JointFit& fit) {
+  std::map<Component, int> count;
+  for (const Eigen::VectorXd& part : fit.contribution) ++count[mainComponent(problem, part)];
+  int most = 0;
+  for (const auto& [component, effects] : count) most = std::max(most, effects);
+  return most;
+}
+
 std::vector<CandidateFit> ForwardSearch::candidatesFor(const JointFit& current, bool refined) {
   // Every path begins with the same sweep.
   const bool at_start = current.terms.size() == forced_count_;
@@ -195,7 +213,10 @@ JointFit ForwardSearch::extend(JointFit current, bool refined, std::vector<Discr
   while (static_cast<int>(current.terms.size()) < options_->max_effects) {
     job_->throwIfCancelled();
     job_->report(0.1 + 0.1 * static_cast<double>(current.terms.size()), "trying every effect");
-    if (!addBest(current, refined, steps)) break;
+    // With so many in one component nothing is named in the end, whatever else is added.
+    const bool crowded =
+        current.terms.size() > forced_count_ && mostInOneComponent(*problem_, current) > limits_->most_in_one_component;
+    if (crowded || !addBest(current, refined, steps)) break;
   }
   return current;
 }

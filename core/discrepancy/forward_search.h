@@ -48,6 +48,11 @@ namespace spindrift {
 /// hypothesis as a further effect: a name that takes its place costs little.
 [[nodiscard]] double priceOfNames(const JointFit& larger, const JointFit& smaller, const SearchLimits& limits);
 
+/// The component in which an effect has its main part, by its contribution over the units.
+[[nodiscard]] Component mainComponent(const ResidualProblem& problem, const Eigen::VectorXd& contribution);
+/// How many effects have their main part in one and the same component, at most.
+[[nodiscard]] int mostInOneComponent(const ResidualProblem& problem, const JointFit& fit);
+
 class ForwardSearch {
  public:
   ForwardSearch(EffectSearch& search, ResidualProblem& problem, const std::vector<NuisanceColumn>& base,
