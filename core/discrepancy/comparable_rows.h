@@ -12,8 +12,8 @@ namespace spindrift {
 
 /// Rows of the observations.
 struct ComparableRows {
-  std::vector<std::size_t>
-      fit;  ///< marked fit, with a prediction, at times at which the log knows what the machine did
+  std::vector<std::size_t> fit;  ///< marked fit, with a prediction, where the log tells what the machine did: neither
+                                 ///< in nor soon after a gap, nor between rows of different spindle speed
   std::vector<std::size_t> held_out;  ///< marked holdout, at such times
   std::size_t unmatched = 0;          ///< used, but without a prediction
 };

@@ -50,7 +50,7 @@ SearchOutcome searchTwice(EffectSearch& search, ResidualProblem& problem, const 
   problem.setNoise(again);
   SearchOutcome second = searchEffects(search, problem, base, options, limits, job);
   // A noise under which effects leave something that left nothing before is not the better one.
-  if (second.leftover_p_value < 1e-3 && outcome.leftover_p_value > 1e-3) {
+  if (second.leftover_p_value < limits.leftover_p && outcome.leftover_p_value >= limits.leftover_p) {
     problem.setNoise(before);
     return outcome;
   }
@@ -73,14 +73,17 @@ struct Solution {
 
 /// Gains with their covariance, and the model that predicts.
 void fitModel(Solution& solution) {
-  const auto& [input, rows, search, problem, drivers, outcome, limits, judged, effects, averaged] = solution;
+  const SearchOutcome& outcome = solution.outcome;
   const double chi2_scale = std::max(1.0, outcome.chi2_after / std::max(1.0, static_cast<double>(outcome.dof_before)));
-  constexpr const char* source = "fit of the residual";
-  solution.effects = modelEffects(search, problem, judged.named, source, chi2_scale);
+  const auto withCovariance = [&](const JointFit& fit, const std::vector<Eigen::VectorXd>& prior_sigma) {
+    return modelEffects(solution.search, solution.problem, fit, "fit of the residual", chi2_scale, prior_sigma);
+  };
+  solution.effects = withCovariance(solution.judged.named, {});
   std::vector<std::vector<ModelEffect>> versions;
   std::vector<double> weights;
-  for (const WeightedDynamics& w : alternativeDynamics(search, problem, *drivers, judged.named)) {
-    versions.push_back(modelEffects(search, problem, w.distributed.fit, source, chi2_scale, w.distributed.prior_sigma));
+  for (const WeightedDynamics& w :
+       alternativeDynamics(solution.search, solution.problem, *solution.drivers, solution.judged.named)) {
+    versions.push_back(withCovariance(w.distributed.fit, w.distributed.prior_sigma));
     weights.push_back(w.weight);
   }
   solution.averaged = averagedEffects(versions, weights);
@@ -255,7 +258,7 @@ void tellUndecided(const Solution& solution, DiscrepancyResult& result) {
       "whether it is one at all cannot be decided; measure {}.",
       counted(solution.rows.fit.size(), "observation", "observations"), counted(states.size(), "state", "states"),
       series, states.size() < 4 ? "at least 4 states and several points" : "more states or more points");
-  if (solution.outcome.leftover_p_value >= 1e-3) result.verdict = DiscrepancyVerdict::Unknown;
+  if (solution.outcome.leftover_p_value >= solution.limits.leftover_p) result.verdict = DiscrepancyVerdict::Unknown;
   if (result.leftover.empty()) result.leftover = "too few observations to decide";
 }
 

@@ -215,7 +215,7 @@ bool onsetImitates(const EffectSearch& search, const ResidualProblem& problem, c
                    const StructureTest& left, const SearchLimits& limits) {
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     if (!hasOnset(fit.terms[t])) continue;
-    if (left.p_value < limits.onset_leftover_p && mainComponent(problem, fit.contribution[t]) == left.component) {
+    if (left.p_value < limits.leftover_p && mainComponent(problem, fit.contribution[t]) == left.component) {
       return true;
     }
     for (std::size_t other = 0; other < t; ++other) {

@@ -25,7 +25,7 @@ struct SearchLimits {
   double smallest_with_onset = 0.075;   ///< the same, where a free onset can follow what another effect misses
   double least_explained = 0.985;  ///< part of the structured power below which nothing is named that leaves structure
   double unknown_advantage = 0.0;  ///< in BIC, by which an unknown course may be better than the effects named
-  double onset_leftover_p = 1e-3;  ///< p-value of what an effect with an onset may leave in its own component
+  double leftover_p = 1e-3;        ///< p-value below which what is left is structured, not chance
   double least_over_leftover = 0.8;  ///< an effect's power beside what is left in its component
   double start_part = 0.2;           ///< of the best effect's power that another start must have
   double start_margin = 0.004;       ///< part of the power that each name more must add when starts are compared

@@ -231,7 +231,7 @@ bool ForwardSearch::worthOtherStarts(const JointFit& fit) const {
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     residual -= problem_->projected(search_->columns(fit.terms[t])) * fit.gains[t];
   }
-  return testStructure(*problem_, residual.head(problem_->size())).p_value < 1e-3;
+  return testStructure(*problem_, residual.head(problem_->size())).p_value < limits_->leftover_p;
 }
 
 bool ForwardSearch::better(const JointFit& challenger, const JointFit& champion) const {

@@ -11,7 +11,7 @@ namespace {
 /// What is left speaks for a cause that is not among the effects.
 bool unexplained(const SearchOutcome& outcome, const SearchLimits& limits) {
   // A noise model a little off makes everything scatter more than it should: that alone takes no name away.
-  const bool left = outcome.leftover_p_value < 1e-3;
+  const bool left = outcome.leftover_p_value < limits.leftover_p;
   const bool part_left = outcome.explained_fraction < limits.least_explained;
   // Two effects on top of each other follow many courses nearly: then what they leave counts sooner.
   bool stacked = false;
@@ -25,7 +25,7 @@ bool unexplained(const SearchOutcome& outcome, const SearchLimits& limits) {
 
 struct Alikes {
   bool any = false;              ///< an effect has a rival
-  std::vector<std::string> ids;  ///< sets of more than three effects that fit alike; empty: none
+  std::vector<std::string> ids;  ///< the first set of more than three effects that fit alike; empty: none
 };
 
 Alikes alikesOf(const SearchOutcome& outcome) {
@@ -74,7 +74,7 @@ JudgedOutcome judgeOutcome(const EffectSearch& search, ResidualProblem& problem,
     out.leftover = outcome.leftover.empty() ? outcome.composite : outcome.leftover;
   }
   if (nothing_fits) {
-    const bool structured = outcome.leftover_p_value < 1e-3;
+    const bool structured = outcome.leftover_p_value < limits.leftover_p;
     out.verdict = structured ? DiscrepancyVerdict::Unknown : DiscrepancyVerdict::None;
     if (!structured) out.leftover.clear();
   } else if (something_left || !alikes.ids.empty()) {

@@ -63,7 +63,7 @@ struct Effect {
   double origin_high_mm = 0.0;
   bool refinement = false;      ///< refines another effect of the same cause (ball_screw.nonuniform)
   bool follows_room = false;    ///< what the driver heats also follows the room, a little
-  bool of_machine = true;       ///< a part of the machine moves, not the instrument or what is clamped
+  bool of_machine = true;       ///< a part of the machine moves, which follows the room; false: the instrument does
   bool driver_missing = false;  ///< the driver that matters most for this effect is not in the log
 };
 

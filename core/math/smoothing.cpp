@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Index;
 
-/// Integral of the squared second derivative of the broken line through the knots, as a quadratic form; times in units
-/// of `step`.
+/// Sum of squared second divided differences, each times the time it stands for: a quadratic form of the readings;
+/// times in units of `step`.
 Eigen::SparseMatrix<double> roughness(std::span<const double> time_s, double step) {
   const auto n = static_cast<Index>(time_s.size());
   Eigen::SparseMatrix<double> d(n - 2, n);

@@ -14,15 +14,18 @@ struct SmoothedSignal {
   double bandwidth_s = 0.0;  ///< what is much shorter is taken for noise; 0: the readings as they are
 };
 
-/// Standard deviation of white noise on a signal that is smooth over four readings, from the median of its third
-/// differences; at least that of the rounding to the readings' resolution. 0 for fewer than eight readings.
+/// Standard deviation of white noise on a signal that is smooth over four readings, in their unit, from the median of
+/// its third differences; where most of these are zero, that of rounding to the readings' resolution. 0 for fewer than
+/// eight readings, and for readings that never change.
 [[nodiscard]] double noiseOfReadings(std::span<const double> readings);
 
-/// Cubic smoothing spline through readings of a slow signal, as smooth as the noise of the readings allows: the largest
-/// bandwidth, up to `most_bandwidth_s`, at which what is taken away is no larger than that noise, in all and over every
-/// stretch of time; where the signal jumps, less is taken away. Times increase, s; a gap in them is bridged by the
-/// spline. Errors stay near noise / sqrt(2.8 bandwidth / step) where the signal is smooth.
-/// Sources: Reinsch 1967 (spline within the noise); Whittaker 1923.
+/// Whittaker's smoother (the discrete smoothing spline: sum of squared distances plus bandwidth^4 times that of second
+/// derivatives), as smooth as the noise of the readings allows: the largest bandwidth, up to `most_bandwidth_s`, at
+/// which what is taken away is no larger than that noise, in all and over every two dozen readings; where the signal
+/// jumps, less is taken away. Times increase, s; a gap in them is bridged smoothly. Times that do not increase, or
+/// readings without noise, come back as they are. Where the signal is smooth the error is noise / sqrt(3.8 bandwidth /
+/// step), the variance of the equivalent kernel (Silverman 1984).
+/// Sources: Whittaker 1923; Reinsch 1967 (as smooth as the noise allows).
 [[nodiscard]] SmoothedSignal smoothWithinNoise(std::span<const double> time_s, std::span<const double> readings,
                                                double most_bandwidth_s);
 

@@ -59,6 +59,24 @@ TEST(Smoothing, TakesMostOfTheNoiseAndLittleOfTheSignal) {
             0.5 * errorOf(rounded, rounded.values));
 }
 
+TEST(Smoothing, LeavesTheErrorOfItsKernelOnASlowSignal) {
+  double square = 0.0;
+  constexpr int trials = 20;
+  for (std::uint64_t seed = 1; seed <= trials; ++seed) {
+    Readings r;
+    Random random(40 + seed);
+    for (int i = 0; i < 1440; ++i) {
+      r.time_s.push_back(30.0 * i);
+      r.truth.push_back(20.0 + std::sin(r.time_s.back() / 20000.0));
+      r.values.push_back(r.truth.back() + random.normal(0.0, 0.05));
+    }
+    const SmoothedSignal smooth = smoothWithinNoise(r.time_s, r.values, 600.0);
+    const double expected = 0.05 / std::sqrt(3.8 * smooth.bandwidth_s / 30.0);
+    square += std::pow(errorOf(r, smooth.values) / expected, 2) / trials;
+  }
+  EXPECT_NEAR(std::sqrt(square), 1.0, 0.07);
+}
+
 TEST(Smoothing, KeepsAJump) {
   Readings r = body(0.05, 0.0, 5);
   for (std::size_t i = 700; i < r.values.size(); ++i) {
