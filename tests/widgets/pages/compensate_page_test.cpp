@@ -35,6 +35,14 @@ class CompensatePageTest : public StoryTest {
     page_ = page<CompensatePage>();
     ASSERT_NE(page_, nullptr);
   }
+  /// Goes to the page and lets it work out the corrections.
+  void workOut() {
+    window_->workflow().goTo(StepId::Compensate);
+    page_ = page<CompensatePage>();
+    page_->runAll();
+    wait();
+    ASSERT_NE(page_->plan(), nullptr) << page_->callout()->sentence().toStdString();
+  }
   CompensatePage* page_ = nullptr;
 };
 
@@ -115,11 +123,7 @@ TEST_F(CompensatePageTest, NineParametersOfAStateCompensateToo) {
   window_->session().setSetting("nine-parameter", {{"state", "M17"}});
   window_->currentPage()->runAll();
   wait();
-  window_->workflow().goTo(StepId::Compensate);
-  page_ = page<CompensatePage>();
-  page_->runAll();
-  wait();
-  ASSERT_NE(page_->plan(), nullptr) << page_->callout()->sentence().toStdString();
+  ASSERT_NO_FATAL_FAILURE(workOut());
   EXPECT_TRUE(page_->plan()->limitation.empty());
   EXPECT_EQ(page_->plan()->reference, "state M0");
   EXPECT_EQ(page_->plan()->state, "M17") << "the state that was fitted";
@@ -129,11 +133,7 @@ TEST_F(CompensatePageTest, TheWarmestStateIsChosenFirst) {
   open(writeStoryCampaign(folder_, Hidden::SpindleGrowth), StepId::Model);
   window_->currentPage()->runAll();
   wait();
-  window_->workflow().goTo(StepId::Compensate);
-  page_ = page<CompensatePage>();
-  page_->runAll();
-  wait();
-  ASSERT_NE(page_->plan(), nullptr) << page_->callout()->sentence().toStdString();
+  ASSERT_NO_FATAL_FAILURE(workOut());
   const std::string warmest = warmestState(*window_->session().observations());
   EXPECT_EQ(page_->plan()->state, warmest);
   EXPECT_NE(warmest, "M23") << "the spindle has cooled down by then";
