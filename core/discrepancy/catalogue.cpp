@@ -17,6 +17,8 @@ std::string_view toString(Dynamics dynamics) noexcept {
       return "step";
     case Dynamics::Pulse:
       return "pulse";
+    case Dynamics::Start:
+      return "start";
   }
   return "none";
 }

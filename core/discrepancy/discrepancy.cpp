@@ -5,16 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <array>
+#include <map>
 #include <set>
 #include <utility>
 
 #include "core/base/text.h"
 #include "core/discrepancy/comparable_rows.h"
 #include "core/discrepancy/discrepancy_numbers.h"
-#include "core/discrepancy/discrepancy_search.h"
 #include "core/discrepancy/distributed_dynamics.h"
 #include "core/discrepancy/effect_model.h"
-#include "core/discrepancy/verdict.h"
+#include "core/discrepancy/effect_posterior.h"
+#include "core/discrepancy/judgement.h"
+#include "core/discrepancy/places.h"
+#include "core/discrepancy/suggestion.h"
 
 namespace spindrift {
 namespace {
@@ -36,53 +40,144 @@ void checkIds(const DiscrepancyOptions& options, const std::vector<Effect>& cata
   }
 }
 
-/// Searches, and once more where the noise looks different without the signal that was found.
-SearchOutcome searchTwice(EffectSearch& search, ResidualProblem& problem, const std::vector<NuisanceColumn>& base,
-                          const DiscrepancyOptions& options, const SearchLimits& limits, const JobContext& job) {
-  SearchOutcome outcome = searchEffects(search, problem, base, options, limits, job);
-  if (outcome.fit.terms.empty() || outcome.explained_fraction < 0.9) return outcome;
-  Eigen::VectorXd left = problem.y;
-  for (const Eigen::VectorXd& part : outcome.fit.contribution) left -= part;
-  const NoiseModel again = estimateNoise(problem, left, true);
-  const double change = std::abs(again.correlated_part - problem.noise.correlated_part);
-  if (!(change > 0.25) && !(again.scale < 0.8 * problem.noise.scale)) return outcome;
-  const NoiseModel before = problem.noise;
-  problem.setNoise(again);
-  SearchOutcome second = searchEffects(search, problem, base, options, limits, job);
-  // A noise under which effects leave something that left nothing before is not the better one.
-  if (second.leftover_p_value < limits.leftover_p && outcome.leftover_p_value >= limits.leftover_p) {
-    problem.setNoise(before);
-    return outcome;
+/// Everything that is estimated together: noise, clock and effects.
+struct Analysis {
+  std::shared_ptr<DriverTable> drivers;
+  std::vector<Effect> catalogue;
+  std::unique_ptr<EffectSearch> search;
+  EffectPosterior posterior;
+  Remainder remainder;
+  double clock_offset_s = 0.0;
+  double clock_uncertainty_s = 0.0;
+};
+
+/// True if the noise is another one, so that effects have to be weighed again.
+bool differs(const NoiseModel& a, const NoiseModel& b) {
+  const auto ratio = [](double x, double y) { return std::abs(std::log(std::max(1e-9, x) / std::max(1e-9, y))); };
+  if ((a.tail_dof > 0.0) != (b.tail_dof > 0.0)) return true;
+  for (std::size_t c = 0; c < a.component.size(); ++c) {
+    const ComponentNoise& x = a.component[c];
+    const ComponentNoise& y = b.component[c];
+    if (ratio(x.scale, y.scale) > 0.1 || std::abs(x.correlated_part - y.correlated_part) > 0.2) return true;
+    if ((x.common > 0.0 || y.common > 0.0) && ratio(x.common + 0.02, y.common + 0.02) > 0.25) return true;
   }
-  return second;
+  return false;
+}
+
+/// The residual without the effects.
+Eigen::VectorXd withoutEffects(const ResidualProblem& problem, const JointFit& fit) {
+  Eigen::VectorXd left = problem.y;
+  for (const Eigen::VectorXd& part : fit.contribution) left -= part;
+  return left;
+}
+
+/// The offset of the clock at which the effects found fit best, if it is worth its price: a parabola through -2 ln of
+/// the posterior on a grid.
+void estimateClock(const DiscrepancyInput& input, const ResidualProblem& problem, const DiscrepancyPriors& priors,
+                   Analysis& a) {
+  const bool driven = std::any_of(a.posterior.fit.terms.begin(), a.posterior.fit.terms.end(), [](const ModelTerm& term) {
+    return std::any_of(term.variant.inputs.begin(), term.variant.inputs.end(),
+                       [](const EffectInput& i) { return !i.driver.empty(); });
+  });
+  if (!driven || !input.log) return;
+  const double before = a.clock_offset_s;
+  const auto valueAt = [&](double offset) {
+    DriverTable shifted = *a.drivers;
+    shifted.shiftClock(offset - before);
+    const Eigen::VectorXd& y = problem.projectedResidual();
+    // Lags follow the clock: each may change by the offset.
+    std::vector<ModelTerm> terms = a.posterior.fit.terms;
+    EffectSearch search(const_cast<ResidualProblem&>(problem), shifted, a.catalogue);
+    for (const ModelTerm& term : terms) search.prepare(*term.effect);
+    (void)y;
+    return search.refine(terms, 1).chi2 + std::pow(offset / priors.clock_s, 2);
+  };
+  constexpr double step_s = 60.0;
+  std::map<int, double> values;
+  const auto at = [&](int k) {
+    const auto found = values.find(k);
+    if (found != values.end()) return found->second;
+    return values.emplace(k, valueAt(k * step_s)).first->second;
+  };
+  int best = static_cast<int>(std::lround(before / step_s));
+  const double start = at(best);
+  for (const int stride : {4, 2, 1}) {
+    for (int guard = 0; guard < 8; ++guard) {
+      const int from = best;
+      for (const int k : {best - stride, best + stride}) {
+        if (std::abs(k) <= 10 && at(k) < at(best)) best = k;
+      }
+      if (best == from) break;
+    }
+  }
+  const double low = at(best - 1);
+  const double high = at(best + 1);
+  const double curvature = low + high - 2.0 * at(best);
+  if (!(curvature > 0.0) || !(start - at(best) > 8.0)) return;
+  a.clock_offset_s = step_s * (best + 0.5 * (low - high) / curvature);
+  a.clock_uncertainty_s = step_s * std::sqrt(2.0 / curvature);
+  a.drivers->shiftClock(a.clock_offset_s - before);
+}
+
+Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
+                 const DiscrepancyPriors& priors, std::shared_ptr<DriverTable> drivers, std::vector<Effect> catalogue,
+                 JobContext& job) {
+  Analysis a;
+  a.drivers = std::move(drivers);
+  a.catalogue = std::move(catalogue);
+  problem.setNuisances(problem.simulationNuisances(std::max(input.simulation_gain_uncertainty, priors.simulation_error),
+                                                   priors.clock_s));
+  problem.setNoise(estimateNoise(problem, problem.y - problem.nuisancePart(problem.y).values, false));
+  constexpr int most_rounds = 3;
+  for (int round = 0; round < most_rounds; ++round) {
+    job.report(0.1 + 0.25 * round, "weighing effects");
+    a.search = std::make_unique<EffectSearch>(problem, *a.drivers, a.catalogue);
+    const CandidateLibrary library(*a.search, problem, job);
+    const PosteriorSearch posterior(*a.search, problem, library, options, priors);
+    a.posterior = posterior.run(job);
+    a.remainder = remainderOf(problem, posterior.given(a.posterior.fit));
+    const auto finish = [&] { posterior.weighAgainstUnknown(a.posterior); };
+    if (round + 1 == most_rounds) {
+      finish();
+      break;
+    }
+    const double clock_before = a.clock_offset_s;
+    estimateClock(input, problem, priors, a);
+    Eigen::VectorXd left = withoutEffects(problem, a.posterior.fit);
+    left -= problem.nuisancePart(left).values;
+    const NoiseModel again = estimateNoise(problem, left, true);
+    const bool other_clock = std::abs(a.clock_offset_s - clock_before) > 20.0;
+    if (!differs(problem.noise, again) && !other_clock) {
+      finish();
+      break;
+    }
+    problem.setNoise(again);
+  }
+  return a;
 }
 
 /// Everything that the numbers of a result are made of.
 struct Solution {
   const DiscrepancyInput& input;
   const ComparableRows& rows;
-  const EffectSearch& search;
   ResidualProblem& problem;
-  std::shared_ptr<const DriverTable> drivers;
-  const SearchOutcome& outcome;
-  const SearchLimits& limits;
-  JudgedOutcome judged;
+  const Analysis& analysis;
+  Judgement judged;
   std::vector<ModelEffect> effects;   ///< gains of the joint fit
   std::vector<ModelEffect> averaged;  ///< the same, over all dynamics that the data allow: what predicts
 };
 
 /// Gains with their covariance, and the model that predicts.
 void fitModel(Solution& solution) {
-  const SearchOutcome& outcome = solution.outcome;
-  const double chi2_scale = std::max(1.0, outcome.chi2_after / std::max(1.0, static_cast<double>(outcome.dof_before)));
+  const EffectSearch& search = *solution.analysis.search;
+  const JointFit& named = solution.judged.named;
   const auto withCovariance = [&](const JointFit& fit, const std::vector<Eigen::VectorXd>& prior_sigma) {
-    return modelEffects(solution.search, solution.problem, fit, "fit of the residual", chi2_scale, prior_sigma);
+    return modelEffects(search, solution.problem, fit, "fit of the residual", 1.0, prior_sigma);
   };
-  solution.effects = withCovariance(solution.judged.named, {});
+  solution.effects = withCovariance(named, {});
   std::vector<std::vector<ModelEffect>> versions;
   std::vector<double> weights;
-  for (const WeightedDynamics& w :
-       alternativeDynamics(solution.search, solution.problem, *solution.drivers, solution.judged.named)) {
+  for (const WeightedDynamics& w : alternativeDynamics(search, solution.problem, *solution.analysis.drivers, named)) {
     versions.push_back(withCovariance(w.distributed.fit, w.distributed.prior_sigma));
     weights.push_back(w.weight);
   }
@@ -98,7 +193,9 @@ std::vector<double> partOfFirst(const Solution& solution, std::size_t count) {
     const auto& terms = solution.judged.named.terms;
     const std::vector<ModelTerm> first(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(count));
     const JointFit fit =
-        distributedDynamics(solution.search, solution.problem, *solution.drivers, solution.search.solve(first)).fit;
+        distributedDynamics(*solution.analysis.search, solution.problem, *solution.analysis.drivers,
+                                             solution.analysis.search->solve(first))
+                             .fit;
     for (std::size_t k = 0; k < count; ++k) {
       effects[k].variant = fit.terms[k].variant;
       effects[k].parameters = fit.terms[k].parameters;
@@ -107,7 +204,7 @@ std::vector<double> partOfFirst(const Solution& solution, std::size_t count) {
   }
   std::vector<double> part(observations.size(), 0.0);
   for (const ModelEffect& effect : effects) {
-    const std::vector<double> one = EffectModel::contribution(*solution.drivers, effect, observations);
+    const std::vector<double> one = EffectModel::contribution(*solution.analysis.drivers, effect, observations);
     for (std::size_t r = 0; r < part.size(); ++r) part[r] += one[r];
   }
   return part;
@@ -132,18 +229,19 @@ double largestRms(const ResidualProblem& problem, const Eigen::VectorXd& contrib
 /// Effect `t` as it is told, but for its held-out rows.
 FoundEffect describedEffect(const Solution& solution, std::size_t t) {
   const ModelEffect& e = solution.effects[t];
-  const TermEvidence& evidence = solution.judged.evidence[t];
+  const NamedEffect& name = solution.judged.names[t];
   FoundEffect found;
   found.id = e.effect.id;
   found.physics = e.effect.physics;
   found.drivers = driversText(e);
-  found.delta_bic = evidence.delta_bic;
-  found.delta_chi2 = evidence.delta_chi2;
-  found.margin = std::min(evidence.margin, 1e6);
-  found.forced = solution.judged.forced[t];
-  found.crossvalidated_rms_before_um = evidence.crossvalidation.before_um;
-  found.crossvalidated_rms_after_um = evidence.crossvalidation.after_um;
-  const auto gain_names = e.gainNames(*solution.drivers);
+  found.delta_bic = name.delta_evidence;
+  found.delta_chi2 = name.delta_chi2;
+  found.margin = std::min(name.margin, 1e6);
+  found.forced = name.forced;
+  found.confidence = name.confidence;
+  found.rivals = name.rivals;
+  found.containers = name.containers;
+  const auto gain_names = e.gainNames(*solution.analysis.drivers);
   for (std::size_t g = 0; g < gain_names.size(); ++g) {
     const auto at = static_cast<Index>(g);
     found.parameters.push_back({gain_names[g], e.gains[at], e.gain_uncertainty[at]});
@@ -152,25 +250,37 @@ FoundEffect describedEffect(const Solution& solution, std::size_t t) {
   for (std::size_t p = 0; p < names.size(); ++p) {
     found.parameters.push_back({names[p], e.parameters[p], e.parameter_uncertainty[p]});
   }
-  for (const RivalFit& r : evidence.rivals) {
-    (r.container && !r.undecided ? found.containers : found.rivals).push_back(r.id);
-  }
   found.rms_um = largestRms(solution.problem, solution.judged.named.contribution[t]);
-  found.confidence = confidenceOf(solution.outcome, evidence, solution.judged.named, t, solution.limits);
   return found;
 }
 
-/// rms of the stated sigma over the fitted displacements, times the scale of the noise, um.
-double noiseFloor(const DiscrepancyInput& input, const std::vector<std::size_t>& fit_rows, double noise_scale) {
+/// Without rows that are held out: rms of states that were left out, before and after each effect.
+void crossValidate(const Solution& solution, DiscrepancyResult& result) {
+  const EffectSearch& search = *solution.analysis.search;
+  for (std::size_t t = 0; t < result.effects.size(); ++t) {
+    const auto& terms = solution.judged.named.terms;
+    const std::vector<ModelTerm> before(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(t));
+    const std::vector<ModelTerm> after(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(t + 1));
+    const auto cv = search.crossValidate(before, after, solution.problem.nuisances());
+    result.effects[t].crossvalidated_rms_before_um = cv.before_um;
+    result.effects[t].crossvalidated_rms_after_um = cv.after_um;
+  }
+}
+
+/// rms of the noise of single readings as found, over the fitted displacements, shifts of states included, um.
+double noiseFloor(const DiscrepancyInput& input, const ResidualProblem& problem,
+                  const std::vector<std::size_t>& fit_rows) {
   double power = 0.0;
   double count = 0.0;
+  const double tails = problem.noise.tail_dof > 2.0 ? problem.noise.tail_dof / (problem.noise.tail_dof - 2.0) : 1.0;
   for (const std::size_t row : fit_rows) {
     const Observation& o = input.observations.rows[row];
     if (isRotation(o.component)) continue;
-    power += o.sigma * o.sigma;
+    const ComponentNoise& n = problem.noise.of(o.component);
+    power += std::pow(o.sigma * n.scale, 2) * tails + n.common * n.common;
     count += 1.0;
   }
-  return count > 0.0 ? std::sqrt(power / count) * noise_scale : 0.0;
+  return count > 0.0 ? std::sqrt(power / count) : 0.0;
 }
 
 /// Effects, and the gap as it shrinks with each; simulation and completed model per row.
@@ -184,16 +294,17 @@ void tellEffects(const Solution& solution, DiscrepancyResult& result) {
     part = partOfFirst(solution, t + 1);
     const RowResult now = evaluateRows(input, solution.rows.fit, solution.rows.held_out, part);
     FoundEffect found = describedEffect(solution, t);
-    found.heldout_rms_before_um = has_holdout ? last.holdout_rms : found.crossvalidated_rms_before_um;
-    found.heldout_rms_after_um = has_holdout ? now.holdout_rms : found.crossvalidated_rms_after_um;
-    for (const RivalFit& r : solution.judged.evidence[t].rivals) {
-      if (!r.undriven) continue;
-      result.warnings.push_back(
-          fmt::format("{} cannot be told from {}, because the log lacks what drives the latter: log it next time.",
-                      found.id, r.id));
-    }
+    found.heldout_rms_before_um = last.holdout_rms;
+    found.heldout_rms_after_um = now.holdout_rms;
     result.effects.push_back(std::move(found));
     last = now;
+  }
+  crossValidate(solution, result);
+  if (!has_holdout) {
+    for (FoundEffect& found : result.effects) {
+      found.heldout_rms_before_um = found.crossvalidated_rms_before_um;
+      found.heldout_rms_after_um = found.crossvalidated_rms_after_um;
+    }
   }
   result.gap.rms_before_um = before.fit_rms;
   result.gap.rms_after_um = last.fit_rms;
@@ -203,7 +314,7 @@ void tellEffects(const Solution& solution, DiscrepancyResult& result) {
     result.gap.heldout_rms_before_um = result.effects.front().heldout_rms_before_um;
     result.gap.heldout_rms_after_um = result.effects.back().heldout_rms_after_um;
   }
-  result.gap.noise_um = noiseFloor(input, solution.rows.fit, result.noise_scale);
+  result.gap.noise_um = noiseFloor(input, solution.problem, solution.rows.fit);
   result.constant = last.constant;
   result.simulated = input.predicted;
   result.completed.resize(part.size());
@@ -213,16 +324,12 @@ void tellEffects(const Solution& solution, DiscrepancyResult& result) {
 
 /// For the first effect with a rival that a measurement can separate.
 std::optional<MeasurementSuggestion> suggestionFor(const Solution& solution) {
-  const JudgedOutcome& judged = solution.judged;
-  for (std::size_t t = 0; t < judged.evidence.size(); ++t) {
-    for (const RivalFit& rival : judged.evidence[t].rivals) {
-      if ((rival.container && !rival.undecided) || rival.undriven) continue;
-      auto suggestion = suggestMeasurement(
-          solution.input, *solution.drivers, solution.search, solution.problem, judged.named, rival.joint,
-          judged.named.terms[t].effect->id + " from " + rival.id, solution.search.logN());
-      if (suggestion) return suggestion;
-      break;
-    }
+  for (const NamedEffect& name : solution.judged.names) {
+    if (!name.closest) continue;
+    auto suggestion = suggestMeasurement(solution.input, *solution.analysis.drivers, *solution.analysis.search,
+                                         solution.problem, solution.judged.named, *name.closest,
+                                         name.id + " from " + name.rivals.front(), solution.analysis.search->logN());
+    if (suggestion) return suggestion;
   }
   return std::nullopt;
 }
@@ -258,8 +365,101 @@ void tellUndecided(const Solution& solution, DiscrepancyResult& result) {
       "whether it is one at all cannot be decided; measure {}.",
       counted(solution.rows.fit.size(), "observation", "observations"), counted(states.size(), "state", "states"),
       series, states.size() < 4 ? "at least 4 states and several points" : "more states or more points");
-  if (solution.outcome.leftover_p_value >= solution.limits.leftover_p) result.verdict = DiscrepancyVerdict::Unknown;
+  result.verdict = DiscrepancyVerdict::Unknown;
   if (result.leftover.empty()) result.leftover = "too few observations to decide";
+}
+
+/// Noise, shifts of states and outliers as they were found.
+void tellNoise(const Solution& solution, DiscrepancyResult& result) {
+  const ResidualProblem& problem = solution.problem;
+  const double tails = problem.noise.tail_dof > 2.0 ? std::sqrt(problem.noise.tail_dof / (problem.noise.tail_dof - 2.0)) : 1.0;
+  std::set<Component> observed(problem.component.begin(), problem.component.end());
+  for (const Component c : observed) {
+    const ComponentNoise& n = problem.noise.of(c);
+    result.noise.push_back({c, n.scale * tails, n.scale_uncertainty * tails, n.common, n.correlated_part, n.correlation_time_s});
+    if (n.scale * tails < 0.8 || n.scale * tails > 1.25) {
+      result.warnings.push_back(fmt::format("{} scatters {:.2f} times as much as its stated sigma; it is used as found.",
+                                            toString(c), n.scale * tails));
+    }
+  }
+  result.tail_dof = problem.noise.tail_dof;
+  const JointFit& fit = solution.analysis.posterior.fit;
+  Eigen::VectorXd left = withoutEffects(problem, fit) - solution.analysis.remainder.values;
+  left -= problem.nuisancePart(left).values;
+  // Constant of each series, then the shift of each state: weighted means, the latter shrunk to its prior.
+  const auto weightOf = [&](Index u) { return problem.noise.weight.size() == 0 ? 1.0 : problem.noise.weight[u]; };
+  for (int pass = 0; pass < 3; ++pass) {
+    for (int s = 0; s < problem.seriesCount(); ++s) {
+      const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+      const Index to = problem.series_begin[static_cast<std::size_t>(s) + 1];
+      double sum = 0.0;
+      double weight = 0.0;
+      for (Index u = from; u < to; ++u) {
+        const double w = weightOf(u) / std::pow(problem.ownSigma(u), 2);
+        sum += w * left[u];
+        weight += w;
+      }
+      if (problem.free_constants) left.segment(from, to - from).array() -= sum / weight;
+    }
+    std::map<std::pair<Component, int>, std::array<double, 2>> shift;
+    for (Index u = 0; u < problem.size(); ++u) {
+      const Component c = problem.component[static_cast<std::size_t>(u)];
+      if (!(problem.noise.of(c).common > 0.0)) continue;
+      auto& sums = shift[{c, problem.epoch[static_cast<std::size_t>(u)]}];
+      const double w = weightOf(u) / std::pow(problem.ownSigma(u), 2);
+      sums[0] += w * left[u];
+      sums[1] += w;
+    }
+    for (const auto& [key, sums] : shift) {
+      const double common = problem.noise.of(key.first).common;
+      const double precision = sums[1] + 1.0 / (common * common);
+      const double value = sums[0] / precision;
+      const auto found = std::find_if(result.shifts.begin(), result.shifts.end(), [&](const StateShift& s) {
+        return s.component == key.first && s.time_s == problem.epoch_time_s[static_cast<std::size_t>(key.second)];
+      });
+      if (found == result.shifts.end()) {
+        std::string state;
+        for (Index u = 0; u < problem.size() && state.empty(); ++u) {
+          if (problem.epoch[static_cast<std::size_t>(u)] == key.second) {
+            state = solution.input.observations.rows[problem.unit_rows[static_cast<std::size_t>(u)].front()].state;
+          }
+        }
+        result.shifts.push_back({state, key.first, problem.epoch_time_s[static_cast<std::size_t>(key.second)], value,
+                                 1.0 / std::sqrt(precision)});
+      } else {
+        found->shift_um += value;
+      }
+      for (Index u = 0; u < problem.size(); ++u) {
+        if (problem.component[static_cast<std::size_t>(u)] == key.first && problem.epoch[static_cast<std::size_t>(u)] == key.second) {
+          left[u] -= value;
+        }
+      }
+    }
+  }
+  constexpr double far = 5.0;
+  for (Index u = 0; u < problem.size(); ++u) {
+    const double z = left[u] / problem.ownSigma(u);
+    if (std::abs(z) < far || problem.unit_rows[static_cast<std::size_t>(u)].size() != 1) continue;
+    result.outliers.push_back({problem.unit_rows[static_cast<std::size_t>(u)].front(), z});
+  }
+  std::sort(result.outliers.begin(), result.outliers.end(),
+            [](const OutlyingReading& a, const OutlyingReading& b) { return a.row < b.row; });
+  if (!result.outliers.empty()) {
+    result.warnings.push_back(fmt::format("{} lie far from all others and have little weight: {}.",
+                                          result.outliers.size() == 1 ? "1 reading" : fmt::format("{} readings", result.outliers.size()),
+                                          result.outliers.size() <= 6 ? [&] {
+                                            std::vector<std::string> names;
+                                            for (const OutlyingReading& o : result.outliers) names.push_back(fmt::format("row {}", o.row + 1));
+                                            return joinedList(names);
+                                          }() : std::string("see the list of outliers")));
+  }
+  result.remaining.assign(solution.input.observations.rows.size(), 0.0);
+  for (Index u = 0; u < problem.size(); ++u) {
+    for (const std::size_t row : problem.unit_rows[static_cast<std::size_t>(u)]) result.remaining[row] = solution.analysis.remainder.values[u];
+  }
+  for (const Remainder::OfComponent& r : solution.analysis.remainder.components) {
+    result.remainder.push_back({r.component, r.rms_um, r.evidence});
+  }
 }
 
 }  // namespace
@@ -276,6 +476,17 @@ std::string_view toString(DiscrepancyVerdict verdict) noexcept {
       return "none";
   }
   return "none";
+}
+
+const NoiseEstimate* DiscrepancyResult::noiseOf(Component component) const {
+  const auto found =
+      std::find_if(noise.begin(), noise.end(), [&](const NoiseEstimate& n) { return n.component == component; });
+  return found == noise.end() ? nullptr : &*found;
+}
+
+double DiscrepancyResult::readingSigma(Component component, double sigma) const {
+  const NoiseEstimate* found = noiseOf(component);
+  return found == nullptr ? sigma : std::hypot(sigma * found->scale, found->common_um);
 }
 
 void DiscrepancyOptions::validate() const {
@@ -297,44 +508,40 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   checkUnits(input, rows.fit);
 
   job.report(0.0, "preparing");
-  const auto drivers = std::make_shared<const DriverTable>(input.machine, input.log ? &*input.log : nullptr);
+  const auto drivers = std::make_shared<DriverTable>(input.machine, input.log ? &*input.log : nullptr);
   warnAboutLog(input, *drivers, result.warnings);
   ResidualProblem problem(input, rows.fit, unit_limit);
-  const std::vector<Effect> catalogue = effectCatalogue(catalogueContext(input, *drivers, problem));
+  std::vector<Effect> catalogue = effectCatalogue(catalogueContext(input, *drivers, problem));
   warnAboutUndecidable(input, catalogue, result.warnings);
   checkIds(options, catalogue);
-  EffectSearch search(problem, *drivers, catalogue);
-  const std::vector<NuisanceColumn> base = problem.simulationNuisances(input.simulation_gain_uncertainty);
-  problem.setNuisances(base);
-  problem.setNoise(estimateNoise(problem, problem.y, false));
 
-  const bool enough = problem.degreesOfFreedom() >= 12 && problem.epoch_count >= 4;
+  const bool enough = problem.degreesOfFreedom() >= 12 && (input.absolute || problem.epoch_count >= 4);
   DiscrepancyOptions effective = options;
   if (!enough) effective.max_effects = 0;
-  const SearchLimits limits;
-  const SearchOutcome outcome = enough ? searchTwice(search, problem, base, effective, limits, job)
-                                       : searchEffects(search, problem, base, effective, limits, job);
-  result.noise_scale = problem.noise.scale;
-  result.noise_correlated_part = problem.noise.correlated_part;
-  result.noise_correlation_time_s = problem.noise.correlation_time_s;
-  if (result.noise_scale < 0.88 || result.noise_scale > 1.12) {
-    result.warnings.push_back(
-        fmt::format("The scatter is {:.2f} times the stated sigma; it is used as found.", result.noise_scale));
+  const DiscrepancyPriors priors;
+  const Analysis analysis = analyse(input, problem, effective, priors, drivers, std::move(catalogue), job);
+  result.clock_offset_s = analysis.clock_offset_s;
+  result.clock_offset_uncertainty_s = analysis.clock_uncertainty_s;
+  if (std::abs(result.clock_offset_s) > 30.0) {
+    result.warnings.push_back(fmt::format("The clock of the log is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s).",
+                                          std::abs(result.clock_offset_s), result.clock_offset_s > 0.0 ? "ahead of" : "behind",
+                                          result.clock_offset_uncertainty_s));
   }
-  result.steps = outcome.steps;
-  result.explained_fraction = outcome.explained_fraction;
-  result.leftover_p_value = outcome.leftover_p_value;
-  if (!outcome.fit.terms.empty()) result.unknown_advantage = outcome.unknown_course.advantage;
 
-  Solution solution{input, rows, search, problem, drivers, outcome, limits, {}, {}, {}};
-  solution.judged = judgeOutcome(search, problem, base, outcome, limits);
+  Solution solution{input, rows, problem, analysis, judge(problem, *analysis.search, analysis.posterior, analysis.remainder, priors, effective), {}, {}};
   result.verdict = solution.judged.verdict;
   result.leftover = solution.judged.leftover;
-  problem.setNuisances(base);
+  result.steps = solution.judged.steps;
+  result.explained_fraction = solution.judged.explained_fraction;
+  for (const std::string& warning : solution.judged.warnings) result.warnings.push_back(warning);
+  for (const auto& [id, probability] : analysis.posterior.candidates) {
+    if (result.candidates.size() < 10) result.candidates.push_back({id, probability});
+  }
   fitModel(solution);
-  result.model = std::make_shared<EffectModel>(drivers, solution.averaged, nullptr, input.base_table);
+  result.model = std::make_shared<EffectModel>(analysis.drivers, solution.averaged, nullptr, input.base_table);
   tellEffects(solution, result);
-  result.where = findPlaces(problem, *drivers, problem.projectedResidual().head(problem.size()));
+  tellNoise(solution, result);
+  result.where = findPlaces(problem, *analysis.drivers, problem.projectedResidual().head(problem.size()));
   if (options.suggest && enough) result.suggestion = suggestionFor(solution);
 
   result.decided = enough;

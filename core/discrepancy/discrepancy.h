@@ -2,18 +2,17 @@
 // Where measured and simulated deviations disagree, which effect of the catalogue is missing, and what its addition
 // gains.
 //
-//   observation = simulation * (1 + gain error of the component) + constant(point, component) + sum of effects + noise
+//   observation = (1 + gain error) simulation + constant(point, component) + sum of effects
+//               + shift(state, component) + own noise + what nobody knows
 //
-// Observations um / urad, places mm in MCF, times s. The constants are free; gain errors carry a Gaussian prior of the
-// stated uncertainty; noise is sigma as stated times a scale, part of it correlated in time within a series (point,
-// component) as exp(-dt/T); scale, part and T are estimated and whitened. Effects are fitted by variable projection.
-// Rows marked `holdout` only report, they never select and are never fitted.
-//
-// Which effects: forward search with joint refits; an effect enters when its gain in chi-squared passes a union bound
-// over every driver, lag and onset tried, beyond a model-error term proportional to what the accepted effects explain,
-// and when it predicts blocks of states that were left out. Effects that the data cannot separate are rivals. When
-// something stays that no effect explains, nothing is named.
-// Sources: Golub and Pereyra 1973 (variable projection); Kennedy and O'Hagan 2001 (model discrepancy); Schwarz 1978.
+// Observations um / urad, places mm in MCF, times s. One probabilistic model: constants are free; gain errors of the
+// simulation and the offset of its clock have priors; own noise of every component is the stated sigma times a scale,
+// part of it correlated in time, with heavy tails where the data have them; a state may be shifted as a whole; all of
+// their sizes are estimated from the data. What remains smooth in time and space and is none of these is told.
+// Which effects: a posterior over sets of effects (effect_posterior.h). An effect is named with the probability that its
+// name is right; others that may stand in its place are its rivals. A name that the data support stays, even if something
+// else remains. Rows marked `holdout` only report, they never select and are never fitted.
+// Sources: Kennedy and O'Hagan 2001 (model discrepancy); Golub and Pereyra 1973 (variable projection); Schwarz 1978.
 #pragma once
 
 #include <map>
@@ -53,6 +52,7 @@ struct DiscrepancyInput {
   ObservationSet observations;
   std::vector<double> predicted;
   double simulation_gain_uncertainty = 0.01;
+  bool absolute = false;  ///< values are absolute: no free constant for each point and component
   std::shared_ptr<const ErrorModel> base;  ///< the simulation as a model; may be null
   std::string base_table;                  ///< name of simulation.csv for model.json; may be empty
 };
@@ -76,13 +76,50 @@ struct FoundEffect {
   std::vector<FittedParameter> parameters;
   double delta_bic = 0.0;  ///< gain in BIC when the effect enters
   double delta_chi2 = 0.0;
-  double margin = 0.0;  ///< in score (chi-squared minus parameters x ln n) ahead of the best other effect
+  double margin = 0.0;  ///< in evidence ahead of the most probable other effect
   double rms_um = 0.0;  ///< of its contribution in the component where it is largest
   double crossvalidated_rms_before_um = 0.0;  ///< blocks of fit rows left out, predicted without this effect
   double crossvalidated_rms_after_um = 0.0;
   double heldout_rms_before_um = 0.0;  ///< rows marked holdout (the left-out blocks where there are none)
   double heldout_rms_after_um = 0.0;
   bool forced = false;  ///< put in by the user
+};
+
+/// Noise of one component as found.
+struct NoiseEstimate {
+  Component component = Component::EX;
+  double scale = 1.0;  ///< standard deviation of the own noise: actual / stated sigma, outliers left out
+  double scale_uncertainty = 0.0;
+  double common_um = 0.0;  ///< standard deviation of the shift common to all points of a state, um or urad
+  double correlated_part = 0.0;
+  double correlation_time_s = 0.0;
+};
+
+/// The shift of one state that re-referencing leaves.
+struct StateShift {
+  std::string state;
+  Component component = Component::EX;
+  double time_s = 0.0;
+  double shift_um = 0.0;  ///< um or urad
+  double standard_uncertainty = 0.0;
+};
+
+/// A reading far from all that the model allows; it was given little weight.
+struct OutlyingReading {
+  std::size_t row = 0;     ///< of the observations, from 0
+  double deviation = 0.0;  ///< in standard deviations of the own noise
+};
+
+struct EffectCandidate {
+  std::string id;
+  double probability = 0.0;  ///< that it is among what is missing, before rivals and what remains are weighed
+};
+
+/// What remains beside the effects, in one component.
+struct ComponentRemainder {
+  Component component = Component::EX;
+  double rms_um = 0.0;    ///< um or urad
+  double evidence = 0.0;  ///< 2 ln of the odds that it is more than noise
 };
 
 /// A place where residuals are larger than noise allows. p-values hold for all places looked at together.
@@ -143,15 +180,21 @@ struct DiscrepancyResult {
   std::vector<double> constant;        ///< the fitted constant of the row's series
   std::vector<double> effect_part;     ///< sum of the effects at the row
   std::size_t unmatched = 0;           ///< observations without a prediction
-  double noise_scale = 1.0;            ///< actual / stated sigma
-  double noise_correlated_part = 0.0;  ///< 0 ... 1
-  double noise_correlation_time_s = 0.0;
+  std::vector<EffectCandidate> candidates;  ///< the ten most probable, whatever is named
+  std::vector<NoiseEstimate> noise;         ///< of every component observed
+  std::vector<StateShift> shifts;           ///< where a component has a common shift
+  std::vector<OutlyingReading> outliers;
+  double tail_dof = 0.0;                    ///< Student degrees of freedom of the own noise; 0: normal
+  double clock_offset_s = 0.0;              ///< clock of the log minus clock of the observations
+  double clock_offset_uncertainty_s = 0.0;  ///< 0: not seen in these data
+  std::vector<ComponentRemainder> remainder;
+  std::vector<double> remaining;  ///< per row: what remains and is not noise, um or urad; 0 where nothing is known
   double explained_fraction = 0.0;  ///< of the structured part of the residual
-  /// In BIC, of an unknown cause (a free course in time, or a free pattern times a course) over the effects found, in
-  /// the component where it is largest; below zero the names are the better explanation.
-  double unknown_advantage = 0.0;
-  double leftover_p_value = 1.0;  ///< of the most structured part of what is left
 
+  /// Noise of a component as found; nothing where the component was not fitted.
+  [[nodiscard]] const NoiseEstimate* noiseOf(Component component) const;
+  /// Standard deviation of one reading of stated `sigma`: own noise and shift of its state, um or urad.
+  [[nodiscard]] double readingSigma(Component component, double sigma) const;
   /// The JSON of FORMATS.md.
   [[nodiscard]] nlohmann::json json() const;
   /// A few lines for people.

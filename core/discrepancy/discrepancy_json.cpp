@@ -77,12 +77,47 @@ nlohmann::json DiscrepancyResult::json() const {
   out["steps"] = steps_list;
   out["warnings"] = warnings;
   out["unmatched_observations"] = unmatched;
-  out["noise"] = {{"scale", jsonNumber(noise_scale)},
-                  {"correlated_part", jsonNumber(noise_correlated_part)},
-                  {"correlation_time_s", jsonNumber(noise_correlation_time_s)}};
+  json noise_json = json::object();
+  for (const NoiseEstimate& n : noise) {
+    noise_json[std::string(toString(n.component))] = {{"scale", jsonNumber(n.scale)},
+                                                      {"scale_uncertainty", jsonNumber(n.scale_uncertainty)},
+                                                      {"common_um", jsonNumber(n.common_um)},
+                                                      {"correlated_part", jsonNumber(n.correlated_part)},
+                                                      {"correlation_time_s", jsonNumber(n.correlation_time_s)}};
+  }
+  out["noise"] = noise_json;
+  out["tail_dof"] = tail_dof > 0.0 ? jsonNumber(tail_dof) : json();
+  json shift_list = json::array();
+  for (const StateShift& s : shifts) {
+    shift_list.push_back({{"state", s.state},
+                          {"component", std::string(toString(s.component))},
+                          {"time_s", jsonNumber(s.time_s)},
+                          {"shift_um", jsonNumber(s.shift_um)},
+                          {"standard_uncertainty", jsonNumber(s.standard_uncertainty)}});
+  }
+  out["state_shifts"] = shift_list;
+  json candidate_list = json::array();
+  for (const EffectCandidate& c : candidates) {
+    candidate_list.push_back({{"id", c.id}, {"probability", jsonNumber(c.probability)}});
+  }
+  out["candidates"] = candidate_list;
+  json outlier_rows = json::array();
+  json outlier_list = json::array();
+  for (const OutlyingReading& o : outliers) {
+    outlier_rows.push_back(o.row + 1);
+    outlier_list.push_back({{"row", o.row + 1}, {"deviation", jsonNumber(o.deviation)}});
+  }
+  out["outliers"] = outlier_rows;
+  out["outlying_readings"] = outlier_list;
+  out["clock_offset_s"] = jsonNumber(clock_offset_s);
+  out["clock_offset_uncertainty_s"] = clock_offset_uncertainty_s > 0.0 ? jsonNumber(clock_offset_uncertainty_s) : json();
+  json remainder_json = json::object();
+  for (const ComponentRemainder& r : remainder) {
+    remainder_json[std::string(toString(r.component))] = {{"rms_um", jsonNumber(r.rms_um)},
+                                                          {"evidence", jsonNumber(r.evidence)}};
+  }
+  out["remainder"] = remainder_json;
   out["explained_fraction"] = jsonNumber(explained_fraction);
-  out["unknown_advantage"] = jsonNumber(unknown_advantage);
-  out["leftover_p_value"] = jsonNumber(leftover_p_value);
   return out;
 }
 

@@ -156,6 +156,10 @@ std::string driversText(const ModelEffect& e) {
         text += tau > 0.0 ? fmt::format("{} (lag {:.0f} s)", input.driver, tau) : input.driver;
         break;
       }
+      case Dynamics::Start:
+        text += "warm at the start";
+        if (!e.variant.shared_lag) ++next;
+        break;
       case Dynamics::AsymmetricLag:
         text +=
             fmt::format("{} (lag {:.0f} s on, {:.0f} s off)", input.driver, e.parameters[next], e.parameters[next + 1]);

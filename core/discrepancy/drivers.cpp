@@ -180,6 +180,10 @@ void DriverTable::fillGaps() {
   }
 }
 
+void DriverTable::shiftClock(double offset_s) {
+  for (double& t : time_s_) t -= offset_s;
+}
+
 const Driver* DriverTable::find(std::string_view name) const {
   const auto found = std::find_if(drivers_.begin(), drivers_.end(), [&](const Driver& d) { return d.name == name; });
   return found == drivers_.end() ? nullptr : &*found;
@@ -282,6 +286,7 @@ int parameterCount(const EffectVariant& variant) {
       case Dynamics::None:
         break;
       case Dynamics::Lag:
+      case Dynamics::Start:
         if (!variant.shared_lag || !counted_shared) ++count;
         counted_shared = true;
         break;
@@ -308,6 +313,7 @@ std::vector<std::string> parameterNames(const EffectVariant& variant) {
       case Dynamics::None:
         break;
       case Dynamics::Lag:
+      case Dynamics::Start:
         if (!variant.shared_lag || lag == 0) names.push_back(lagName());
         break;
       case Dynamics::AsymmetricLag:
@@ -350,6 +356,17 @@ Eigen::MatrixXd inputResponses(const DriverTable& table, const EffectVariant& va
       case Dynamics::Lag: {
         const std::size_t at = variant.shared_lag ? 0 : next;
         column = table.response(*driver, parameters[at], -1.0, times_s);
+        if (!variant.shared_lag) ++next;
+        break;
+      }
+      case Dynamics::Start: {
+        const std::size_t at = variant.shared_lag ? 0 : next;
+        const double tau = parameters[at];
+        const double begin = table.empty() ? 0.0 : table.time_s().front();
+        for (Eigen::Index r = 0; r < rows; ++r) {
+          const double since = std::max(0.0, times_s[static_cast<std::size_t>(r)] - begin);
+          column[r] = tau > 0.0 ? std::exp(-since / tau) : 0.0;
+        }
         if (!variant.shared_lag) ++next;
         break;
       }

@@ -52,6 +52,8 @@ class DriverTable {
   [[nodiscard]] const std::vector<std::string>& dead() const noexcept { return dead_; }
   [[nodiscard]] const std::vector<double>& time_s() const noexcept { return time_s_; }
   [[nodiscard]] bool empty() const noexcept { return time_s_.empty(); }
+  /// Moves all signals: what the log says of time t is taken for t - offset_s of the observations.
+  void shiftClock(double offset_s);
 
   /// The driver after a lag at increasing `times_s`. `tau_on_s` = 0: no lag. `tau_off_s` < 0: the same as on.
   [[nodiscard]] Eigen::VectorXd response(const Driver& driver, double tau_on_s, double tau_off_s,

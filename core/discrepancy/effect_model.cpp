@@ -41,6 +41,7 @@ std::vector<std::string> ModelEffect::gainNames(const DriverTable& drivers) cons
     for (const ShapeColumn& column : effect.shape) {
       std::string name = "gain_" + column.gain_unit;
       if (driver != nullptr && driver->unit != "on") name += "_per_" + driver->unit;
+      if (variant.inputs[i].dynamics == Dynamics::Start) name += "_at_start";
       int twin = 1;
       std::string unique = name;
       while (std::find(names.begin(), names.end(), unique) != names.end()) unique = fmt::format("{}_{}", name, ++twin);
@@ -251,9 +252,10 @@ std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path
       for (const JsonNode& input : inputs->items()) {
         EffectInput parsed;
         parsed.driver = input.stringOr("driver", "");
-        const std::string dynamics = input.at("dynamics").oneOf({"none", "lag", "asymmetric_lag", "step", "pulse"});
+        const std::string dynamics = input.at("dynamics").oneOf({"none", "lag", "asymmetric_lag", "step", "pulse", "start"});
         for (const Dynamics d :
-             {Dynamics::None, Dynamics::Lag, Dynamics::AsymmetricLag, Dynamics::Step, Dynamics::Pulse}) {
+             {Dynamics::None, Dynamics::Lag, Dynamics::AsymmetricLag, Dynamics::Step, Dynamics::Pulse,
+              Dynamics::Start}) {
           if (toString(d) == dynamics) parsed.dynamics = d;
         }
         if (!parsed.driver.empty() && !drivers->has(parsed.driver)) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -18,15 +19,6 @@ struct ModelTerm {
   const Effect* effect = nullptr;
   EffectVariant variant;
   std::vector<double> parameters;
-};
-
-/// The best fit of one effect on top of the problem's nuisances.
-struct CandidateFit {
-  ModelTerm term;
-  double delta_chi2 = 0.0;
-  int parameter_count = 0;  ///< gains that the data see + non-linear parameters
-  double score = 0.0;       ///< delta_chi2 - parameter_count * ln(n)
-  double tried = 1.0;       ///< variants, lags and onsets looked at
 };
 
 /// A joint fit of several effects.
@@ -51,10 +43,15 @@ class EffectSearch {
   /// The grid of onsets, s.
   [[nodiscard]] const std::vector<double>& onsets() const noexcept { return onsets_; }
 
-  /// The best variant of one effect on the grid of lags and onsets, under the problem's present nuisances.
-  [[nodiscard]] CandidateFit best(const Effect& effect) const;
-  /// All effects but those named.
-  [[nodiscard]] std::vector<CandidateFit> sweep(const std::vector<std::string>& without, const JobContext& job) const;
+  /// The grid of lags, s.
+  [[nodiscard]] const std::vector<double>& lags() const noexcept { return lags_; }
+  [[nodiscard]] const std::vector<double>& pulseLags() const noexcept { return pulse_lags_; }
+  /// Length of a pulse that does not end, s.
+  [[nodiscard]] double endlessLength() const noexcept;
+  /// Fills what is kept of an effect; afterwards shape() may be asked by several threads.
+  void prepare(const Effect& effect) const;
+  /// Response of one input over the units: lag `a` (s), for steps and pulses onset `a` and lag `b`. Any thread.
+  [[nodiscard]] Eigen::VectorXd gridResponse(const EffectInput& input, double a, double b) const;
 
   /// Columns of a term over the units (not whitened).
   [[nodiscard]] Eigen::MatrixXd columns(const ModelTerm& term) const;
@@ -62,16 +59,10 @@ class EffectSearch {
   [[nodiscard]] JointFit solve(const std::vector<ModelTerm>& terms) const;
   /// Line searches over all non-linear parameters; `rounds` passes.
   [[nodiscard]] JointFit refine(const std::vector<ModelTerm>& terms, int rounds) const;
-  /// Another driver or lag, a second and a third one for term `t`, as long as the evidence grows and states that were
-  /// left out are predicted better. What is heated also follows the room a little: the room may come in as far as it
-  /// stays small beside the effect's own driver.
-  [[nodiscard]] JointFit refineDynamics(JointFit fit, std::size_t t, const std::vector<NuisanceColumn>& base) const;
-  /// Columns by which a fitted term may be wrong: other gains and lags (free), and a model error in time and space of
-  /// the given part of its size (prior).
-  [[nodiscard]] std::vector<NuisanceColumn> termNuisances(const ModelTerm& term, const Eigen::VectorXd& gains,
-                                                          double model_error) const;
-  /// rms of prediction of epochs left out (constants from the rest of the series): without and with terms. Blocks of
-  /// neighbours, or every fifth epoch (`interleaved`) for what happens within one block only.
+  /// d fitted / d (non-linear parameter p) over the units, um (or urad) per s.
+  [[nodiscard]] Eigen::VectorXd derivative(const ModelTerm& term, const Eigen::VectorXd& gains, std::size_t p) const;
+  /// rms of prediction of epochs left out (constants from the rest of the series): without and with terms. Five
+  /// blocks of neighbours.
   struct CrossValidation {
     double before_um = 0.0;
     double after_um = 0.0;
@@ -79,33 +70,24 @@ class EffectSearch {
     double after_chi2 = 0.0;
   };
   [[nodiscard]] CrossValidation crossValidate(const std::vector<ModelTerm>& before, const std::vector<ModelTerm>& after,
-                                              const std::vector<NuisanceColumn>& base, bool interleaved = false) const;
+                                              const std::vector<NuisanceColumn>& base) const;
 
   /// Shape columns over the units.
   [[nodiscard]] const Eigen::MatrixXd& shape(const Effect& effect) const;
-  /// The series on which an effect has any.
-  [[nodiscard]] const std::vector<int>& activeSeries(const Effect& effect) const;
   [[nodiscard]] bool parameterIsLag(const ModelTerm& term, std::size_t index) const;
   [[nodiscard]] std::pair<double, double> parameterBounds(const ModelTerm& term, std::size_t index) const;
 
  private:
-  [[nodiscard]] const Eigen::VectorXd& unitResponse(const std::string& driver, double tau_on, double tau_off) const;
-  /// True if a refinement of the same effects has the better score and predicts states left out better, too.
-  [[nodiscard]] bool predictsBetter(const JointFit& before, const JointFit& after,
-                                    const std::vector<NuisanceColumn>& base) const;
-  /// Another time constant while the driver is off, where that predicts better.
-  [[nodiscard]] JointFit withAsymmetricLag(JointFit fit, std::size_t t, const std::vector<NuisanceColumn>& base) const;
-  [[nodiscard]] CandidateFit bestOfVariant(const Effect& effect, const EffectVariant& variant) const;
-
   ResidualProblem* problem_;
   const DriverTable* drivers_;
   const std::vector<Effect>* catalogue_;
   double log_n_ = 1.0;
   std::vector<double> lags_;
+  std::vector<double> pulse_lags_;
   std::vector<double> onsets_;
-  mutable std::map<std::tuple<std::string, double, double>, Eigen::VectorXd> responses_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::tuple<std::string, int, double, double>, Eigen::VectorXd> responses_;
   mutable std::map<std::string, Eigen::MatrixXd> shapes_;
-  mutable std::map<std::string, std::vector<int>> active_;
 };
 
 }  // namespace spindrift

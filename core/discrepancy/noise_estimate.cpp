@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Noise from a residual that still holds signal. Effects of a machine are sums of few patterns over the points times
-// few courses in time, so per component the table (points x epochs) is freed of its largest singular components; what
-// is left is noise, and its variance and correlations from epoch to epoch are compared with those of simulated noise
-// that went through the same (indirect inference: Gourieroux, Monfort, Renault 1993), which takes account of what the
-// singular components and the means took away.
-#include <Eigen/SVD>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <mutex>
+#include <numbers>
 
-#include "core/base/random.h"
 #include "core/discrepancy/residual_problem.h"
 #include "core/math/statistics.h"
 
@@ -19,245 +15,446 @@ namespace {
 
 using Eigen::Index;
 
-/// What is left of a table: sum of squares and correlations from one epoch to the next and the one after.
-struct TableMoments {
-  double power = 0.0;
-  double r1 = 0.0;
-  double r2 = 0.0;
+/// Of the natural logarithm of actual / stated sigma: people are wrong by a factor of two, seldom by more.
+constexpr double scale_prior_sd = 1.0;
+/// Gain in 2 ln L that a common shift, a correlation in time, heavy tails must bring before they are believed.
+constexpr double shift_price = 4.0;
+constexpr double correlation_price = 8.0;
+constexpr double tail_price = 6.0;
+/// Common shift, in standard deviations of the own noise, while nothing is known of the signal.
+constexpr double careful_shift = 0.7;
+
+/// One component: its units in order of series and time, and the columns whose sizes are estimated.
+struct ComponentData {
+  std::vector<Index> units;
+  std::vector<std::pair<Index, Index>> series;  // ranges of `units`
+  Eigen::VectorXd residual;
+  Eigen::VectorXd sigma;
+  Eigen::VectorXd weight;
+  Eigen::MatrixXd shifts;  // indicator of the state
+  Eigen::MatrixXd smooth;  // patterns in space times hats in time, each of mean square 1 where it is not zero
+  double mean_sigma = 1.0;
 };
 
-using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
+struct Parameters {
+  double log_scale = 0.0;
+  double shift = 0.0;   // um
+  double smooth = 0.0;  // um
+  double part = 0.0;
+  double time_s = 0.0;
+};
 
-void removeRowMeans(Eigen::MatrixXd& table, const Mask& known) {
-  for (Index p = 0; p < table.rows(); ++p) {
-    double sum = 0.0;
-    double count = 0.0;
-    for (Index e = 0; e < table.cols(); ++e) {
-      if (!known(p, e)) continue;
-      sum += table(p, e);
-      count += 1.0;
+/// Products of all columns [shifts, smooth, constants, residual] through the inverse of the own noise at scale 1.
+struct Products {
+  Eigen::MatrixXd gram;
+  double log_det = 0.0;
+};
+
+Products productsOf(const ResidualProblem& problem, const ComponentData& data, double part, double time_s) {
+  const Index s = data.shifts.cols();
+  const Index m = data.smooth.cols();
+  const auto p = problem.free_constants ? static_cast<Index>(data.series.size()) : Index{0};
+  const Index total = s + m + p + 1;
+  Products out;
+  out.gram = Eigen::MatrixXd::Zero(total, total);
+  for (std::size_t k = 0; k < data.series.size(); ++k) {
+    const auto [from, to] = data.series[k];
+    const Index n = to - from;
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n, total);
+    columns.leftCols(s) = data.shifts.middleRows(from, n);
+    columns.middleCols(s, m) = data.smooth.middleRows(from, n);
+    if (p > 0) columns.col(s + m + static_cast<Index>(k)).setOnes();
+    columns.col(total - 1) = data.residual.segment(from, n);
+    if (part > 0.0) {
+      Eigen::MatrixXd c(n, n);
+      for (Index i = 0; i < n; ++i) {
+        for (Index j = 0; j <= i; ++j) {
+          const double dt = std::abs(problem.time_s[static_cast<std::size_t>(data.units[static_cast<std::size_t>(from + i)])] -
+                                     problem.time_s[static_cast<std::size_t>(data.units[static_cast<std::size_t>(from + j)])]);
+          c(i, j) = data.sigma[from + i] * data.sigma[from + j] * part * std::exp(-dt / time_s);
+          c(j, i) = c(i, j);
+        }
+        c(i, i) = data.sigma[from + i] * data.sigma[from + i] * (part + (1.0 - part) / data.weight[from + i]);
+      }
+      const Eigen::LLT<Eigen::MatrixXd> llt(c);
+      llt.matrixL().solveInPlace(columns);
+      out.log_det += 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+    } else {
+      const Eigen::ArrayXd inverse = data.weight.segment(from, n).array().sqrt() / data.sigma.segment(from, n).array();
+      columns = inverse.matrix().asDiagonal() * columns;
+      out.log_det -= 2.0 * inverse.log().sum();
     }
-    if (count > 0.0) table.row(p).array() -= sum / count;
+    out.gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
   }
+  out.gram.triangularView<Eigen::StrictlyUpper>() = out.gram.transpose();
+  return out;
 }
 
-/// Removes the mean of every row and `rank` singular components; cells that are not known take what these predict.
-TableMoments freedMoments(Eigen::MatrixXd table, const Mask& known, int rank) {
-  const bool complete = known.all();
-  removeRowMeans(table, known);
-  Eigen::MatrixXd left = table;
-  if (rank > 0) {
-    Eigen::MatrixXd filled = known.select(table.array(), 0.0).matrix();
-    for (int pass = 0; pass < (complete ? 1 : 5); ++pass) {
-      const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(
-          filled.transpose(), Eigen::ComputeThinU | Eigen::ComputeThinV);
-      const Eigen::MatrixXd low = svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).asDiagonal() *
-                                  svd.matrixU().leftCols(rank).transpose();
-      left = table - low;
-      if (!complete) filled = known.select(table.array(), low.array()).matrix();
-    }
-  }
-  TableMoments m;
-  double c1 = 0.0;
-  double c2 = 0.0;
-  double pairs1 = 0.0;
-  double pairs2 = 0.0;
-  for (Index p = 0; p < left.rows(); ++p) {
-    for (Index e = 0; e < left.cols(); ++e) {
-      if (!known(p, e)) continue;
-      m.power += left(p, e) * left(p, e);
-      if (e + 1 < left.cols() && known(p, e + 1)) {
-        c1 += left(p, e) * left(p, e + 1);
-        pairs1 += 1.0;
-      }
-      if (e + 2 < left.cols() && known(p, e + 2)) {
-        c2 += left(p, e) * left(p, e + 2);
-        pairs2 += 1.0;
-      }
-    }
-  }
-  // By the pairs that are there: cells that are missing make no correlation smaller.
-  const double variance = m.power / std::max(1.0, static_cast<double>(known.count()));
-  if (variance > 0.0 && pairs1 > 0.0 && pairs2 > 0.0) {
-    m.r1 = c1 / pairs1 / variance;
-    m.r2 = c2 / pairs2 / variance;
-  }
-  return m;
+/// -2 ln of the restricted likelihood, up to a constant; the Cholesky factor of the bordered matrix in `factor`.
+double objective(const ComponentData& data, const Products& products, const Parameters& p, bool constants,
+                 Eigen::LLT<Eigen::MatrixXd>* factor = nullptr) {
+  const Index s = data.shifts.cols();
+  const Index m = data.smooth.cols();
+  const Index total = products.gram.cols();
+  const double scale2 = std::exp(2.0 * p.log_scale);
+  Eigen::VectorXd d = Eigen::VectorXd::Ones(total);
+  d.head(s).setConstant(p.shift);
+  d.segment(s, m).setConstant(p.smooth);
+  Eigen::MatrixXd a = d.asDiagonal() * products.gram * d.asDiagonal() / scale2;
+  a.diagonal().head(s + m).array() += 1.0;
+  // Constants of the series: a prior so wide that it is none; it keeps a series without weight from stopping all.
+  if (constants) a.diagonal().segment(s + m, total - 1 - s - m).array() += 1e-12;
+  Eigen::LLT<Eigen::MatrixXd> llt(a);
+  if (llt.info() != Eigen::Success) return 1e300;
+  const auto diagonal = llt.matrixLLT().diagonal();
+  const double chi2 = diagonal[total - 1] * diagonal[total - 1];
+  const double log_det = 2.0 * diagonal.head(total - 1).array().log().sum();
+  const double n = static_cast<double>(data.residual.size());
+  if (factor != nullptr) *factor = std::move(llt);
+  return n * 2.0 * p.log_scale + products.log_det + log_det + chi2 + std::pow(p.log_scale / scale_prior_sd, 2);
 }
 
-struct NoiseKind {
-  double part = 0.0;  // of the variance that is correlated
-  double phi = 0.0;   // from one epoch to the next
-};
-
-struct SimulatedKind {
-  NoiseKind kind;
-  TableMoments mean;
-  TableMoments spread;
-};
-
-/// Moments of simulated noise of unit variance for every kind of noise on a small grid.
-std::vector<SimulatedKind> simulatedKinds(const Mask& known, int rank) {
-  std::vector<NoiseKind> kinds{{0.0, 0.0}};
-  for (const double part : {0.5, 1.0}) {
-    for (const double phi : {0.2, 0.4, 0.6, 0.75, 0.85, 0.9, 0.95}) kinds.push_back({part, phi});
-  }
-  const int repeats = known.all() ? 16 : 8;
-  std::vector<SimulatedKind> out;
-  for (const NoiseKind& kind : kinds) {
-    Random random(4711);
-    std::array<std::vector<double>, 3> values;
-    for (int repeat = 0; repeat < repeats; ++repeat) {
-      Eigen::MatrixXd table(known.rows(), known.cols());
-      for (Index p = 0; p < table.rows(); ++p) {
-        double slow = random.normal(0.0, 1.0);
-        for (Index e = 0; e < table.cols(); ++e) {
-          if (e > 0) slow = kind.phi * slow + std::sqrt(1.0 - kind.phi * kind.phi) * random.normal(0.0, 1.0);
-          table(p, e) = std::sqrt(kind.part) * slow + std::sqrt(1.0 - kind.part) * random.normal(0.0, 1.0);
+/// Pattern search over the logarithms of scale, shift and smooth part.
+double optimise(const ComponentData& data, const Products& products, bool constants, bool with_shift, Parameters& p,
+                int rounds) {
+  double best = objective(data, products, p, constants);
+  double step = rounds > 4 ? 0.8 : 0.3;
+  for (int round = 0; round < rounds; ++round, step *= 0.5) {
+    for (int which = 0; which < 3; ++which) {
+      if (which == 1 && !with_shift) continue;
+      if (which == 2 && data.smooth.cols() == 0) continue;
+      for (const double direction : {1.0, -1.0}) {
+        for (int guard = 0; guard < 5; ++guard) {
+          Parameters trial = p;
+          const double factor = std::exp(direction * step);
+          if (which == 0) trial.log_scale += direction * step;
+          if (which == 1) trial.shift *= factor;
+          if (which == 2) trial.smooth *= factor;
+          const double value = objective(data, products, trial, constants);
+          if (!(value < best - 1e-3)) break;
+          best = value;
+          p = trial;
         }
       }
-      const TableMoments m = freedMoments(std::move(table), known, rank);
-      values[0].push_back(m.power);
-      values[1].push_back(m.r1);
-      values[2].push_back(m.r2);
     }
-    SimulatedKind simulated;
-    simulated.kind = kind;
-    const auto moments = [](const std::vector<double>& v) {
-      double mean = 0.0;
-      double square = 0.0;
-      for (const double x : v) mean += x / static_cast<double>(v.size());
-      for (const double x : v) square += (x - mean) * (x - mean) / static_cast<double>(v.size() - 1);
-      return std::pair{mean, std::sqrt(square)};
-    };
-    std::tie(simulated.mean.power, simulated.spread.power) = moments(values[0]);
-    std::tie(simulated.mean.r1, simulated.spread.r1) = moments(values[1]);
-    std::tie(simulated.mean.r2, simulated.spread.r2) = moments(values[2]);
-    out.push_back(simulated);
   }
+  return best;
+}
+
+/// The own noise of every reading as found: residual without constants, shifts and smooth part, over scale and sigma.
+Eigen::VectorXd ownResidual(const ResidualProblem& problem, const ComponentData& data, const Products& products,
+                            const Parameters& p) {
+  Eigen::LLT<Eigen::MatrixXd> factor;
+  objective(data, products, p, problem.free_constants, &factor);
+  const Index s = data.shifts.cols();
+  const Index m = data.smooth.cols();
+  const Index total = products.gram.cols();
+  // The last row of the factor holds L^-1 [F X]' r; solving with the rest gives the coefficients.
+  const Eigen::MatrixXd l = factor.matrixL();
+  const Eigen::VectorXd z = l.row(total - 1).head(total - 1).transpose();
+  const Eigen::VectorXd b =
+      l.topLeftCorner(total - 1, total - 1).transpose().triangularView<Eigen::Upper>().solve(z);
+  Eigen::VectorXd left = data.residual;
+  if (s > 0) left -= p.shift * (data.shifts * b.head(s));
+  if (m > 0) left -= p.smooth * (data.smooth * b.segment(s, m));
+  if (problem.free_constants) {
+    for (std::size_t k = 0; k < data.series.size(); ++k) {
+      const auto [from, to] = data.series[k];
+      left.segment(from, to - from).array() -= b[s + m + static_cast<Index>(k)];
+    }
+  }
+  return left.cwiseQuotient(data.sigma) * std::exp(-p.log_scale);
+}
+
+/// 2 ln L of standardised residuals under a Student distribution of `dof`, scale at its maximum; 0: normal.
+double tailLikelihood(const std::vector<double>& e, double dof) {
+  const double n = static_cast<double>(e.size());
+  double s2 = 0.0;
+  for (const double x : e) s2 += x * x / n;
+  if (!(dof > 0.0)) return -n * std::log(std::max(1e-12, s2)) - n - n * std::log(2.0 * std::numbers::pi);
+  for (int i = 0; i < 30; ++i) {
+    double sum = 0.0;
+    for (const double x : e) sum += (dof + 1.0) / (dof + x * x / s2) * x * x / n;
+    s2 = std::max(1e-12, sum);
+  }
+  const double log_c = std::lgamma(0.5 * (dof + 1.0)) - std::lgamma(0.5 * dof) - 0.5 * std::log(dof * std::numbers::pi);
+  double out = 2.0 * n * log_c - n * std::log(s2);
+  for (const double x : e) out -= (dof + 1.0) * std::log1p(x * x / (s2 * dof));
   return out;
 }
 
-struct ComponentTable {
-  Eigen::MatrixXd values;
-  Mask known;
+ComponentData componentData(const ResidualProblem& problem, const Eigen::VectorXd& residual, Component c, bool fitted) {
+  ComponentData out;
+  for (int s = 0; s < problem.seriesCount(); ++s) {
+    const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+    const Index to = problem.series_begin[static_cast<std::size_t>(s) + 1];
+    if (problem.component[static_cast<std::size_t>(from)] != c) continue;
+    const auto first = static_cast<Index>(out.units.size());
+    for (Index u = from; u < to; ++u) out.units.push_back(u);
+    out.series.emplace_back(first, first + to - from);
+  }
+  const auto n = static_cast<Index>(out.units.size());
+  if (n == 0) return out;
+  out.residual.resize(n);
+  out.sigma.resize(n);
+  out.weight = Eigen::VectorXd::Ones(n);
+  std::map<int, Index> states;
+  for (Index i = 0; i < n; ++i) {
+    const Index u = out.units[static_cast<std::size_t>(i)];
+    out.residual[i] = residual[u];
+    out.sigma[i] = problem.sigma[u];
+    states.try_emplace(problem.epoch[static_cast<std::size_t>(u)], static_cast<Index>(states.size()));
+  }
+  out.mean_sigma = std::sqrt(out.sigma.squaredNorm() / static_cast<double>(n));
+  const double per_state = static_cast<double>(n) / static_cast<double>(states.size());
+  if (problem.epochs_are_states && per_state >= 2.5 && out.series.size() >= 3) {
+    out.shifts = Eigen::MatrixXd::Zero(n, static_cast<Index>(states.size()));
+    for (Index i = 0; i < n; ++i) {
+      out.shifts(i, states[problem.epoch[static_cast<std::size_t>(out.units[static_cast<std::size_t>(i)])]]) = 1.0;
+    }
+  } else {
+    out.shifts.resize(n, 0);
+  }
+  // Patterns in space that a few causes can have.
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
+  Eigen::Vector3d high = -low;
+  for (const Index u : out.units) {
+    low = low.cwiseMin(problem.place[static_cast<std::size_t>(u)].position_mm);
+    high = high.cwiseMax(problem.place[static_cast<std::size_t>(u)].position_mm);
+  }
+  const Eigen::Vector3d half = (0.5 * (high - low)).cwiseMax(1e-6);
+  std::vector<Eigen::VectorXd> patterns{Eigen::VectorXd::Ones(n)};
+  const auto add = [&](const auto& value) {
+    Eigen::VectorXd column(n);
+    for (Index i = 0; i < n; ++i) column[i] = value(problem.place[static_cast<std::size_t>(out.units[static_cast<std::size_t>(i)])]);
+    const double mean = column.mean();
+    if ((column.array() - mean).matrix().norm() > 1e-6 * std::sqrt(static_cast<double>(n))) patterns.push_back(column);
+  };
+  if (out.series.size() >= 6) {
+    for (int axis = 0; axis < 3; ++axis) {
+      add([&](const DeviationQuery& q) { return (q.position_mm[axis] - low[axis]) / half[axis] - 1.0; });
+    }
+    if (!fitted && out.series.size() >= 8) {
+      for (int axis = 0; axis < 3; ++axis) {
+        add([&](const DeviationQuery& q) {
+          const double x = (q.position_mm[axis] - low[axis]) / half[axis] - 1.0;
+          return x * x;
+        });
+      }
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    add([&](const DeviationQuery& q) { return q.approach[axis]; });
+  }
+  const double start = problem.node_time_s.front();
+  const double span = std::max(1.0, problem.node_time_s.back() - start);
+  const int hats = std::clamp(static_cast<int>(states.size()) / 4, 2, fitted ? 8 : 11);
+  out.smooth.resize(n, static_cast<Index>(patterns.size()) * hats);
+  Index at = 0;
+  for (const Eigen::VectorXd& pattern : patterns) {
+    for (int h = 0; h < hats; ++h, ++at) {
+      for (Index i = 0; i < n; ++i) {
+        const Index u = out.units[static_cast<std::size_t>(i)];
+        const double position = (problem.time_s[static_cast<std::size_t>(u)] - start) / span * (hats - 1);
+        out.smooth(i, at) = pattern[i] * std::max(0.0, 1.0 - std::abs(position - h));
+      }
+    }
+  }
+  if (n < 2 * static_cast<Index>(out.series.size()) + 8) out.smooth.resize(n, 0);
+  return out;
+}
+
+struct ComponentEstimate {
+  bool present = false;
+  Parameters p;
+  double uncertainty = 1.0;
+  double deviance = 0.0;  // -2 ln of the restricted likelihood
+  Eigen::VectorXd own;    // standardised own noise
+  ComponentData data;
 };
 
-/// Residual over sigma by point and epoch; series of fewer than four units are left out.
-ComponentTable componentTable(const ResidualProblem& problem, const Eigen::VectorXd& residual, Component c) {
-  std::vector<std::size_t> members;
-  for (std::size_t s = 0; s + 1 < problem.series_begin.size(); ++s) {
-    if (problem.component[static_cast<std::size_t>(problem.series_begin[s])] == c &&
-        problem.series_begin[s + 1] - problem.series_begin[s] >= 4) {
-      members.push_back(s);
+/// Scale, shift, smooth part and correlation at the weights of `data`. `careful`: nothing is known of the signal yet, so
+/// shifts are small and nothing is correlated, or the noise would take the signal.
+void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again, bool careful) {
+  const bool constants = problem.free_constants;
+  const bool shifts = e.data.shifts.cols() > 0;
+  Products products = productsOf(problem, e.data, 0.0, 0.0);
+  Parameters white = e.p;
+  white.part = 0.0;
+  if (!again) {
+    white.shift = shifts ? 0.5 * e.data.mean_sigma : 0.0;
+    white.smooth = e.data.mean_sigma;
+  }
+  if (shifts && !(white.shift > 0.0)) white.shift = 0.3 * e.data.mean_sigma;
+  double best = optimise(e.data, products, constants, shifts, white, again ? 3 : 6);
+  if (shifts) {
+    Parameters without = white;
+    without.shift = 0.0;
+    const double value = optimise(e.data, products, constants, false, without, 3);
+    if (value < best + shift_price) {
+      white = without;
+      best = value;
     }
   }
-  // Two dozen points say enough.
-  constexpr std::size_t most_points = 24;
-  if (members.size() > most_points) {
-    std::vector<std::size_t> thinned;
-    for (std::size_t i = 0; i < most_points; ++i) thinned.push_back(members[i * members.size() / most_points]);
-    members = std::move(thinned);
+  if (careful) white.shift = std::min(white.shift, careful_shift * std::exp(white.log_scale) * e.data.mean_sigma);
+  Parameters chosen = white;
+  Products chosen_products = products;
+  // Correlated in time: tried from what is common among slow instruments to slow rooms.
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < problem.epoch_time_s.size(); ++i) {
+    steps.push_back(problem.epoch_time_s[i] - problem.epoch_time_s[i - 1]);
   }
-  ComponentTable out;
-  const auto points = static_cast<Index>(members.size());
-  out.values = Eigen::MatrixXd::Zero(points, problem.epoch_count);
-  Eigen::MatrixXd weight = out.values;
-  for (Index p = 0; p < points; ++p) {
-    const std::size_t s = members[static_cast<std::size_t>(p)];
-    for (Index u = problem.series_begin[s]; u < problem.series_begin[s + 1]; ++u) {
-      const Index e = problem.epoch[static_cast<std::size_t>(u)];
-      out.values(p, e) += residual[u] / problem.sigma[u];
-      weight(p, e) += 1.0;
+  const double step = steps.empty() ? 0.0 : median(steps);
+  const bool enough = !careful && e.data.residual.size() >= 24 && steps.size() >= 7 && step > 0.0;
+  if (enough) {
+    double best_correlated = 1e300;
+    Parameters correlated;
+    Products correlated_products;
+    const auto consider = [&](double part, double time_s, int rounds) {
+      Products trial_products = productsOf(problem, e.data, part, time_s);
+      Parameters trial = best_correlated < 1e299 ? correlated : white;
+      trial.part = part;
+      trial.time_s = time_s;
+      const double value = optimise(e.data, trial_products, constants, trial.shift > 0.0, trial, rounds);
+      if (value < best_correlated) {
+        best_correlated = value;
+        correlated = trial;
+        correlated_products = std::move(trial_products);
+      }
+    };
+    if (again && e.p.part > 0.0) {
+      consider(e.p.part, e.p.time_s, 2);
+    } else {
+      for (const double k : {2.0, 9.0}) consider(0.6, k * step, 2);
+    }
+    if (best_correlated < best + 2.0 * correlation_price) {
+      for (int round = 0; round < 2; ++round) {
+        const Parameters at = correlated;
+        for (const double part : {0.6 * at.part, std::min(0.98, at.part + 0.5 * (1.0 - at.part))}) consider(part, at.time_s, 2);
+        const Parameters then = correlated;
+        for (const double factor : {0.55, 1.8}) consider(then.part, factor * then.time_s, 2);
+      }
+    }
+    if (best_correlated < best - correlation_price) {
+      chosen = correlated;
+      chosen_products = std::move(correlated_products);
+      best = best_correlated;
     }
   }
-  out.known = weight.array() > 0.0;
-  out.values = (out.values.array() / weight.array().max(1.0).sqrt()).matrix();
-  return out;
+  e.p = chosen;
+  e.deviance = best;
+  e.own = ownResidual(problem, e.data, chosen_products, e.p);
+  const double dof = std::max(1.0, static_cast<double>(e.data.residual.size()) - (constants ? e.data.series.size() : 0.0));
+  e.uncertainty = std::exp(e.p.log_scale) / std::sqrt(2.0 * dof);
 }
 
 }  // namespace
 
 NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted) {
-  struct Estimate {
-    TableMoments moments;
-    double scale2 = 1.0;  // as if it were white
-    int rank = 0;
-    const std::vector<SimulatedKind>* kinds = nullptr;
-  };
-  // Tables of one size that lack about as many cells are simulated once.
-  std::map<std::tuple<Index, Index, int, Index>, std::vector<SimulatedKind>> simulated;
-  std::vector<Estimate> estimates;
-  for (const Component c : all_components) {
-    const ComponentTable table = componentTable(problem, residual, c);
-    const Index points = table.values.rows();
-    const Index smaller = std::min(points, table.values.cols());
-    const int rank = smaller >= 9 ? (fitted ? 2 : 3) : smaller >= 6 ? (fitted ? 1 : 2) : smaller >= 3 ? 1 : 0;
-    if ((rank == 0 && !fitted) || table.known.count() < 24 || table.values.cols() < 6) continue;
-    Estimate e;
-    e.rank = rank;
-    e.moments = freedMoments(table.values, table.known, rank);
-    const Index lacking = (20 * (table.known.size() - table.known.count())) / table.known.size();
-    auto& kinds = simulated[{points, table.values.cols(), rank, table.known.all() ? -1 : lacking}];
-    if (kinds.empty()) kinds = simulatedKinds(table.known, rank);
-    e.kinds = &kinds;
-    e.scale2 = e.moments.power / std::max(1e-9, kinds.front().mean.power);
-    estimates.push_back(e);
-  }
-  NoiseModel best;
-  if (estimates.empty()) return best;
-  // What is not of low rank (backlash, whose sign changes from reading to reading) stays in; noise is in all components
-  // alike, so those that scatter least speak for it.
-  double least = 1e300;
-  for (const Estimate& e : estimates) least = std::min(least, e.scale2);
-  std::erase_if(estimates, [&](const Estimate& e) {
-    const double by_chance = 4.0 * e.kinds->front().spread.power / e.kinds->front().mean.power;
-    return e.scale2 > least * (1.0 + std::max(0.4, by_chance));
+  NoiseModel out;
+  std::array<ComponentEstimate, 6> estimates;
+  JobContext job;
+  parallelFor(estimates.size(), job, [&](std::size_t c) {
+    ComponentEstimate& e = estimates[c];
+    e.data = componentData(problem, residual, static_cast<Component>(c), fitted);
+    e.present = e.data.units.size() >= 6;
+    if (!e.present) return;
+    // A first look that outliers cannot spoil: those far from the median of their series' neighbours weigh little.
+    std::vector<double> all;
+    Eigen::VectorXd rough(e.data.residual.size());
+    for (const auto& [from, to] : e.data.series) {
+      for (Index i = from; i < to; ++i) {
+        std::vector<double> near;
+        for (Index j = std::max(from, i - 3); j <= std::min(to - 1, i + 3); ++j) {
+          if (j != i) near.push_back(e.data.residual[j]);
+        }
+        rough[i] = (e.data.residual[i] - (near.empty() ? 0.0 : median(near))) / e.data.sigma[i];
+        all.push_back(std::abs(rough[i]));
+      }
+    }
+    const double spread = std::max(1e-9, 1.4826 * median(all));
+    for (Index i = 0; i < rough.size(); ++i) {
+      const double z = std::abs(rough[i]) / spread;
+      if (z > 6.0) e.data.weight[i] = 25.0 / (z * z);
+    }
+    e.p.log_scale = std::log(spread);
+    estimateAt(problem, e, false, !fitted);
   });
-  const auto scaleAs = [&](std::size_t k) {
-    double scale2 = 0.0;
-    for (const Estimate& e : estimates) {
-      scale2 += e.moments.power / (*e.kinds)[k].mean.power / static_cast<double>(estimates.size());
+  // Heavy tails: one distribution for all components, each by its own scale.
+  const auto pooled = [&] {
+    std::vector<double> all;
+    for (const ComponentEstimate& e : estimates) {
+      if (!e.present) continue;
+      std::vector<double> magnitude;
+      for (Index i = 0; i < e.own.size(); ++i) magnitude.push_back(std::abs(e.own[i]));
+      const double scale = std::max(1e-9, 1.4826 * median(magnitude));
+      for (Index i = 0; i < e.own.size(); ++i) all.push_back(e.own[i] / scale);
     }
-    return scale2;
+    return all;
   };
-  const std::size_t kind_count = estimates.front().kinds->size();
-  std::size_t chosen = 0;
-  double chosen_distance = 1e300;
-  double white_distance = 0.0;
-  for (std::size_t k = 0; k < kind_count; ++k) {
-    double distance = 0.0;
-    for (const Estimate& e : estimates) {
-      const SimulatedKind& s = (*e.kinds)[k];
-      const double d1 = (e.moments.r1 - s.mean.r1) / std::max(1e-3, s.spread.r1);
-      const double d2 = (e.moments.r2 - s.mean.r2) / std::max(1e-3, s.spread.r2);
-      distance += d1 * d1 + d2 * d2;
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    const std::vector<double> own = pooled();
+    if (own.size() < 30) break;
+    double dof = 0.0;
+    double best = tailLikelihood(own, 0.0) + tail_price;
+    for (const double trial : {3.0, 4.0, 6.0, 10.0}) {
+      const double value = tailLikelihood(own, trial);
+      if (value > best) {
+        best = value;
+        dof = trial;
+      }
     }
-    // What is left of a slow noise looks much like a smaller, quicker one; the stated sigma tells them apart.
-    const double log_scale = 0.5 * std::log(std::max(1e-6, scaleAs(k))) / 0.15;
-    distance += log_scale * log_scale;
-    if (k == 0) white_distance = distance;
-    if (distance < chosen_distance) {
-      chosen_distance = distance;
-      chosen = k;
+    if (!(dof > 0.0) && !(out.tail_dof > 0.0) && iteration > 0) break;
+    out.tail_dof = dof;
+    parallelFor(estimates.size(), job, [&](std::size_t c) {
+      ComponentEstimate& e = estimates[c];
+      if (!e.present) return;
+      for (Index i = 0; i < e.own.size(); ++i) {
+        e.data.weight[i] = dof > 0.0 ? std::max(1e-4, (dof + 1.0) / (dof + e.own[i] * e.own[i])) : 1.0;
+      }
+      estimateAt(problem, e, true, !fitted);
+    });
+  }
+  out.weight = Eigen::VectorXd::Ones(problem.size());
+  bool any_weight = false;
+  for (std::size_t c = 0; c < estimates.size(); ++c) {
+    const ComponentEstimate& e = estimates[c];
+    if (!e.present) continue;
+    ComponentNoise& n = out.component[c];
+    n.scale = std::exp(e.p.log_scale);
+    n.scale_uncertainty = e.uncertainty;
+    n.common = e.p.shift;
+    n.correlated_part = e.p.part;
+    n.correlation_time_s = e.p.part > 0.0 ? e.p.time_s : 0.0;
+    for (std::size_t i = 0; i < e.data.units.size(); ++i) {
+      out.weight[e.data.units[i]] = e.data.weight[static_cast<Index>(i)];
+      any_weight = any_weight || e.data.weight[static_cast<Index>(i)] != 1.0;
     }
   }
-  // White noise unless the correlations say clearly that it is not.
-  const double moments_used = 2.0 * static_cast<double>(estimates.size());
-  if (white_distance < moments_used + 3.0 * std::sqrt(2.0 * moments_used)) chosen = 0;
-  const double scale2 = scaleAs(chosen);
-  const NoiseKind kind = (*estimates.front().kinds)[chosen].kind;
-  if (kind.part > 0.0) {
-    std::vector<double> steps;
-    for (std::size_t e = 1; e < problem.epoch_time_s.size(); ++e) {
-      steps.push_back(problem.epoch_time_s[e] - problem.epoch_time_s[e - 1]);
+  if (!any_weight) out.weight.resize(0);
+  return out;
+}
+
+std::array<double, 6> noiseDeviance(const ResidualProblem& problem, const Eigen::VectorXd& residual,
+                                    const std::array<bool, 6>& which) {
+  std::array<double, 6> out{};
+  JobContext job;
+  parallelFor(out.size(), job, [&](std::size_t c) {
+    if (!which[c]) return;
+    ComponentEstimate e;
+    e.data = componentData(problem, residual, static_cast<Component>(c), true);
+    if (e.data.units.size() < 6) return;
+    const ComponentNoise& n = problem.noise.component[c];
+    for (std::size_t i = 0; i < e.data.units.size() && problem.noise.weight.size() > 0; ++i) {
+      e.data.weight[static_cast<Index>(i)] = problem.noise.weight[e.data.units[i]];
     }
-    best.correlated_part = std::min(kind.part, 0.98);
-    best.correlation_time_s = -std::max(1e-3, median(steps)) / std::log(kind.phi);
-  }
-  const double scale = std::sqrt(scale2);
-  best.scale = scale > 0.75 && scale < 1.25 ? 1.0 : std::clamp(scale, 0.2, 20.0);
-  return best;
+    e.p.log_scale = std::log(n.scale);
+    e.p.part = n.correlated_part;
+    e.p.time_s = n.correlation_time_s;
+    estimateAt(problem, e, false, false);
+    out[c] = e.deviance;
+  });
+  return out;
 }
 
 }  // namespace spindrift

@@ -15,7 +15,8 @@
 #include <numbers>
 
 #include "core/base/random.h"
-#include "core/discrepancy/discrepancy_search.h"
+#include "core/discrepancy/drivers.h"
+#include "core/discrepancy/places.h"
 
 namespace spindrift {
 namespace {
@@ -161,7 +162,7 @@ class Scan {
   [[nodiscard]] double excess(const Eigen::VectorXd& z, const std::vector<Index>& units) const {
     double sum = 0.0;
     for (const Index u : units) {
-      const double s = problem_->sigma[u] * problem_->noise.scale;
+      const double s = problem_->sigma[u] * problem_->noise.of(problem_->component[static_cast<std::size_t>(u)]).scale;
       sum += (z[u] * z[u] - dof_part_) * s * s;
     }
     return units.empty() ? 0.0 : std::sqrt(std::max(0.0, sum / static_cast<double>(units.size())));

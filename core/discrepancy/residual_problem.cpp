@@ -2,12 +2,14 @@
 #include "core/discrepancy/residual_problem.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "core/math/statistics.h"
@@ -25,27 +27,58 @@ PlaceKey placeKey(const Observation& o) {
           o.tool_offset_mm.y(), o.tool_offset_mm.z()};
 }
 
+/// Points of one place each, more than this, may be merged with their neighbours.
+constexpr std::size_t many_points = 48;
+
+/// Splits points at the median of the longest side until no group has more than `size`; returns the group of each.
+void splitPoints(const std::vector<Eigen::Vector3d>& at, std::vector<std::size_t> members, std::size_t size,
+                 int& groups, std::vector<int>& group_of) {
+  if (members.size() <= size) {
+    for (const std::size_t m : members) group_of[m] = groups;
+    ++groups;
+    return;
+  }
+  Eigen::Vector3d low = at[members.front()];
+  Eigen::Vector3d high = low;
+  for (const std::size_t m : members) {
+    low = low.cwiseMin(at[m]);
+    high = high.cwiseMax(at[m]);
+  }
+  Index side = 0;
+  (high - low).maxCoeff(&side);
+  const auto middle = members.begin() + static_cast<std::ptrdiff_t>(members.size() / 2);
+  std::nth_element(members.begin(), middle, members.end(), [&](std::size_t a, std::size_t b) {
+    return std::make_pair(at[a][side], a) < std::make_pair(at[b][side], b);
+  });
+  splitPoints(at, {members.begin(), middle}, size, groups, group_of);
+  splitPoints(at, {middle, members.end()}, size, groups, group_of);
+}
+
 }  // namespace
 
 ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vector<std::size_t>& rows,
                                  std::size_t unit_limit) {
+  free_constants = !input.absolute;
   const auto& all = input.observations.rows;
-  std::map<std::pair<std::string, int>, int> series_index;
-  std::vector<std::pair<std::string, int>> series_names;
-  std::vector<int> row_series(rows.size());
+  // Points, and whether each stays at one place.
+  std::map<std::string, std::size_t> point_index;
+  std::vector<std::string> point_names;
+  std::vector<std::size_t> row_point(rows.size());
+  std::vector<PlaceKey> first_place;
+  std::vector<std::size_t> first_row;
+  bool places_stay = true;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Observation& o = all[rows[i]];
-    const auto [at, fresh] =
-        series_index.try_emplace({o.point, static_cast<int>(o.component)}, static_cast<int>(series_names.size()));
-    if (fresh) series_names.emplace_back(o.point, static_cast<int>(o.component));
-    row_series[i] = at->second;
+    const auto [at, fresh] = point_index.try_emplace(o.point, point_names.size());
+    if (fresh) {
+      point_names.push_back(o.point);
+      first_place.push_back(placeKey(o));
+      first_row.push_back(rows[i]);
+    } else if (places_stay && placeKey(o) != first_place[at->second]) {
+      places_stay = false;
+    }
+    row_point[i] = at->second;
   }
-  std::vector<std::size_t> order(rows.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    if (row_series[a] != row_series[b]) return row_series[a] < row_series[b];
-    return all[rows[a]].time_s < all[rows[b]].time_s;
-  });
   for (const std::size_t row : rows) node_time_s.push_back(all[row].time_s);
   std::sort(node_time_s.begin(), node_time_s.end());
   node_time_s.erase(std::unique(node_time_s.begin(), node_time_s.end()), node_time_s.end());
@@ -57,9 +90,9 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
   std::map<std::string, int> states;
   for (const std::size_t row : rows) states.try_emplace(all[row].state, 0);
   const double span = node_time_s.empty() ? 0.0 : node_time_s.back() - node_time_s.front();
-  const bool by_state = states.size() >= 3 && states.size() <= 400;
-  std::map<std::string, std::pair<double, int>> state_time;
-  if (by_state) {
+  epochs_are_states = states.size() >= 3 && states.size() <= 400;
+  if (epochs_are_states) {
+    std::map<std::string, std::pair<double, int>> state_time;
     for (const std::size_t row : rows) {
       auto& [sum, count] = state_time[all[row].state];
       sum += all[row].time_s;
@@ -74,63 +107,111 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
     epoch_count = static_cast<int>(std::clamp<std::size_t>(node_time_s.size(), 1, 96));
   }
   const auto epochOf = [&](const Observation& o) {
-    if (by_state) return states[o.state];
+    if (epochs_are_states) return states[o.state];
     if (!(span > 0.0)) return 0;
     return std::min(epoch_count - 1, static_cast<int>((o.time_s - node_time_s.front()) / span * epoch_count));
   };
 
+  // Neighbours that become one unit: points where places stay and states are named, else readings in time.
   const std::size_t bin = std::max<std::size_t>(1, (rows.size() + unit_limit - 1) / unit_limit);
+  const bool merge_points = bin > 1 && places_stay && epochs_are_states && point_names.size() > many_points;
+  std::vector<int> group_of(point_names.size());
+  if (merge_points) {
+    std::vector<Eigen::Vector3d> at;
+    for (const std::size_t row : first_row) at.push_back(all[row].position_mm);
+    std::vector<std::size_t> members(point_names.size());
+    std::iota(members.begin(), members.end(), 0);
+    int groups = 0;
+    splitPoints(at, members, bin, groups, group_of);
+  } else {
+    std::iota(group_of.begin(), group_of.end(), 0);
+  }
+  const int group_count = 1 + (group_of.empty() ? -1 : *std::max_element(group_of.begin(), group_of.end()));
+  std::vector<std::vector<std::size_t>> group_points(static_cast<std::size_t>(group_count));
+  for (std::size_t p = 0; p < group_of.size(); ++p) group_points[static_cast<std::size_t>(group_of[p])].push_back(p);
+
+  // Of merged points the level of each is taken out first, so that a reading that is missing moves no mean.
+  std::vector<double> level(merge_points ? point_names.size() * 6 : 0, 0.0);
+  if (merge_points && free_constants) {
+    std::vector<double> count(level.size(), 0.0);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const std::size_t at = row_point[i] * 6 + static_cast<std::size_t>(all[rows[i]].component);
+      level[at] += all[rows[i]].value - input.predicted[rows[i]];
+      count[at] += 1.0;
+    }
+    for (std::size_t i = 0; i < level.size(); ++i) level[i] = count[i] > 0.0 ? level[i] / count[i] : 0.0;
+  }
+
+  const auto seriesKey = [&](std::size_t i) {
+    return std::make_pair(static_cast<int>(all[rows[i]].component), group_of[row_point[i]]);
+  };
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const auto first = seriesKey(a);
+    const auto second = seriesKey(b);
+    return first != second ? first < second : all[rows[a]].time_s < all[rows[b]].time_s;
+  });
+
   std::vector<Index> unit_of_row(all.size(), -1);
   std::vector<double> values;
   std::vector<double> predictions;
   std::vector<double> sigmas;
   node_begin_.push_back(0);
-  std::vector<double> epoch_sum;
+  struct Bin {
+    double time = 0.0;
+    std::vector<std::size_t> members;
+  };
   std::size_t i = 0;
-  int current_series = -1;
   while (i < order.size()) {
-    const int s = row_series[order[i]];
-    // All rows of the series, grouped by place, each group cut into bins of neighbours in time.
+    const auto key = seriesKey(order[i]);
     std::size_t end = i;
-    std::map<PlaceKey, std::vector<std::size_t>> groups;
-    while (end < order.size() && row_series[order[end]] == s) {
-      groups[placeKey(all[rows[order[end]]])].push_back(order[end]);
-      ++end;
-    }
-    struct Bin {
-      double time;
-      std::vector<std::size_t> members;
-    };
+    while (end < order.size() && seriesKey(order[end]) == key) ++end;
     std::vector<Bin> bins;
-    for (const auto& [key, members] : groups) {
-      for (std::size_t from = 0; from < members.size(); from += bin) {
-        const std::size_t to = std::min(members.size(), from + bin);
-        Bin b{0.0,
-              {members.begin() + static_cast<std::ptrdiff_t>(from), members.begin() + static_cast<std::ptrdiff_t>(to)}};
-        for (const std::size_t m : b.members) b.time += all[rows[m]].time_s / static_cast<double>(b.members.size());
-        bins.push_back(std::move(b));
+    if (merge_points) {
+      std::map<int, std::vector<std::size_t>> by_epoch;
+      for (std::size_t m = i; m < end; ++m) by_epoch[epochOf(all[rows[order[m]]])].push_back(order[m]);
+      for (auto& [epoch_index, members] : by_epoch) bins.push_back({0.0, std::move(members)});
+    } else {
+      // Grouped by place, each group cut into bins of neighbours in time.
+      std::map<PlaceKey, std::vector<std::size_t>> groups;
+      for (std::size_t m = i; m < end; ++m) groups[placeKey(all[rows[order[m]]])].push_back(order[m]);
+      for (const auto& [place_key, members] : groups) {
+        for (std::size_t from = 0; from < members.size(); from += bin) {
+          const std::size_t to = std::min(members.size(), from + bin);
+          bins.push_back(
+              {0.0,
+               {members.begin() + static_cast<std::ptrdiff_t>(from), members.begin() + static_cast<std::ptrdiff_t>(to)}});
+        }
       }
     }
+    for (Bin& b : bins) {
+      for (const std::size_t m : b.members) b.time += all[rows[m]].time_s / static_cast<double>(b.members.size());
+    }
     std::stable_sort(bins.begin(), bins.end(), [](const Bin& a, const Bin& b) { return a.time < b.time; });
-    if (s != current_series) {
-      series_begin.push_back(static_cast<Index>(values.size()));
-      series_point.push_back(series_names[static_cast<std::size_t>(s)].first);
-      current_series = s;
+    series_begin.push_back(static_cast<Index>(values.size()));
+    series_point.push_back(point_names[row_point[order[i]]]);
+    members_.emplace_back();
+    if (merge_points) {
+      for (const std::size_t p : group_points[static_cast<std::size_t>(key.second)]) {
+        members_.back().push_back(DeviationQuery::of(all[first_row[p]]));
+      }
     }
     for (const Bin& b : bins) {
-      double weight = 0.0;
       double value = 0.0;
       double prediction = 0.0;
-      double mean_sigma = 0.0;
+      double power = 0.0;
       const double count = static_cast<double>(b.members.size());
+      std::vector<std::size_t> observations;
       for (const std::size_t m : b.members) {
         const std::size_t row = rows[m];
-        weight += 1.0;
         value += all[row].value - input.predicted[row];
+        if (!level.empty()) value -= level[row_point[m] * 6 + static_cast<std::size_t>(all[row].component)];
         prediction += input.predicted[row];
-        mean_sigma += all[row].sigma * all[row].sigma;
+        power += all[row].sigma * all[row].sigma;
         node_index_.push_back(nodeOf(all[row].time_s));
         unit_of_row[row] = static_cast<Index>(values.size());
+        observations.push_back(row);
       }
       const Observation& o = all[rows[b.members.front()]];
       DeviationQuery query = DeviationQuery::of(o);
@@ -140,10 +221,11 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
       series.push_back(static_cast<int>(series_begin.size()) - 1);
       time_s.push_back(b.time);
       epoch.push_back(epochOf(o));
-      values.push_back(value / weight);
-      predictions.push_back(prediction / weight);
-      sigmas.push_back(std::sqrt(mean_sigma) / count);
+      values.push_back(value / count);
+      predictions.push_back(prediction / count);
+      sigmas.push_back(std::sqrt(power) / count);
       node_begin_.push_back(node_index_.size());
+      unit_rows.push_back(std::move(observations));
     }
     i = end;
   }
@@ -159,19 +241,27 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
   }
   for (std::size_t e = 0; e < counts.size(); ++e) epoch_time_s[e] /= std::max(1, counts[e]);
 
-  if (bin == 1) {
-    for (const CovarianceEntry& entry : input.observations.covariance) {
-      const Index a = unit_of_row[entry.row];
-      const Index b = unit_of_row[entry.column];
-      if (a < 0 || b < 0) continue;
-      if (a == b) {
-        if (entry.covariance > 0.0) sigma[a] = std::sqrt(entry.covariance);
-      } else {
-        extra_covariance_.push_back({{std::min(a, b), std::max(a, b)}, entry.covariance});
-        if (series[static_cast<std::size_t>(a)] != series[static_cast<std::size_t>(b)]) coupled_ = true;
-      }
+  // Stated covariances of the readings, carried over to the means that the units are.
+  std::map<std::pair<Index, Index>, double> between;
+  for (const CovarianceEntry& entry : input.observations.covariance) {
+    const Index a = unit_of_row[entry.row];
+    const Index b = unit_of_row[entry.column];
+    if (a < 0 || b < 0) continue;
+    const double part =
+        entry.covariance / static_cast<double>(unit_rows[static_cast<std::size_t>(a)].size() *
+                                               unit_rows[static_cast<std::size_t>(b)].size());
+    if (a != b) {
+      between[{std::min(a, b), std::max(a, b)}] += part;
+    } else if (entry.row != entry.column) {
+      sigma[a] = std::sqrt(std::max(1e-12, sigma[a] * sigma[a] + 2.0 * part));
+    } else if (entry.covariance > 0.0) {
+      const double stated = all[entry.row].sigma * all[entry.row].sigma;
+      const double count = static_cast<double>(unit_rows[static_cast<std::size_t>(a)].size());
+      sigma[a] = std::sqrt(std::max(1e-12, sigma[a] * sigma[a] + part - stated / (count * count)));
     }
   }
+  for (const auto& [pair, value] : between) extra_covariance_.push_back({pair.first, pair.second, value});
+  makeDomains();
   setNoise({});
 }
 
@@ -187,103 +277,236 @@ Eigen::VectorXd ResidualProblem::toUnits(const Eigen::VectorXd& at_nodes) const 
   return out;
 }
 
-void ResidualProblem::setNoise(const NoiseModel& model) {
-  noise = model;
-  const Index n = size();
-  block_whitener_.clear();
-  blocks_.clear();
-  const bool correlated = model.correlated_part > 0.0 && model.correlation_time_s > 0.0;
-  diagonal_whitener_ = (sigma * model.scale).cwiseInverse();
-  if (correlated || !extra_covariance_.empty()) {
-    // One block per series; series that stated covariances couple share one block over all units between them.
-    if (coupled_) {
-      Index low = n;
-      Index high = 0;
-      for (const auto& [pair, value] : extra_covariance_) {
-        const int a = series[static_cast<std::size_t>(pair.first)];
-        const int b = series[static_cast<std::size_t>(pair.second)];
-        if (a == b) continue;
-        low = std::min(low, series_begin[static_cast<std::size_t>(std::min(a, b))]);
-        high = std::max(high, series_begin[static_cast<std::size_t>(std::max(a, b)) + 1]);
+Eigen::MatrixXd ResidualProblem::shapeAtUnits(const Effect& effect) const {
+  const auto columns = static_cast<Index>(effect.shape.size());
+  Eigen::MatrixXd s(size(), columns);
+  for (int i = 0; i < seriesCount(); ++i) {
+    const Index from = series_begin[static_cast<std::size_t>(i)];
+    const Index to = series_begin[static_cast<std::size_t>(i) + 1];
+    const auto& members = members_[static_cast<std::size_t>(i)];
+    const Component c = component[static_cast<std::size_t>(from)];
+    for (Index k = 0; k < columns; ++k) {
+      const ShapeFunction& value = effect.shape[static_cast<std::size_t>(k)].value;
+      if (!members.empty()) {
+        double sum = 0.0;
+        for (const DeviationQuery& q : members) sum += value(q, c);
+        s.col(k).segment(from, to - from).setConstant(sum / static_cast<double>(members.size()));
+      } else {
+        for (Index u = from; u < to; ++u) s(u, k) = value(place[static_cast<std::size_t>(u)], c);
       }
-      for (int s = 0; s < seriesCount(); ++s) {
-        const Index from = series_begin[static_cast<std::size_t>(s)];
-        const Index to = series_begin[static_cast<std::size_t>(s) + 1];
-        if (to <= low || from >= high) blocks_.emplace_back(from, to);
-      }
-      blocks_.emplace_back(low, high);
-      std::sort(blocks_.begin(), blocks_.end());
-    } else {
-      for (int s = 0; s < seriesCount(); ++s) {
-        blocks_.emplace_back(series_begin[static_cast<std::size_t>(s)], series_begin[static_cast<std::size_t>(s) + 1]);
-      }
-    }
-    for (const auto& [from, to] : blocks_) {
-      const Index m = to - from;
-      Eigen::MatrixXd c = Eigen::MatrixXd::Zero(m, m);
-      for (Index i = 0; i < m; ++i) {
-        const double si = sigma[from + i] * model.scale;
-        c(i, i) = si * si;
-        if (!correlated) continue;
-        for (Index j = 0; j < i; ++j) {
-          if (series[static_cast<std::size_t>(from + i)] != series[static_cast<std::size_t>(from + j)]) continue;
-          const double dt =
-              std::abs(time_s[static_cast<std::size_t>(from + i)] - time_s[static_cast<std::size_t>(from + j)]);
-          c(i, j) =
-              si * sigma[from + j] * model.scale * model.correlated_part * std::exp(-dt / model.correlation_time_s);
-          c(j, i) = c(i, j);
-        }
-      }
-      for (const auto& [pair, value] : extra_covariance_) {
-        if (pair.first < from || pair.second >= to) continue;
-        c(pair.first - from, pair.second - from) += value * model.scale * model.scale;
-        c(pair.second - from, pair.first - from) += value * model.scale * model.scale;
-      }
-      Eigen::LLT<Eigen::MatrixXd> llt(c);
-      double jitter = 1e-9;
-      while (llt.info() != Eigen::Success && jitter < 10.0) {
-        Eigen::MatrixXd raised = c;
-        raised.diagonal() *= 1.0 + jitter;
-        llt.compute(raised);
-        jitter *= 10.0;
-      }
-      block_whitener_.push_back(llt.matrixL().solve(Eigen::MatrixXd::Identity(m, m)));
     }
   }
-  // Whitened constants of the series.
-  constants_ = whitened(Eigen::VectorXd::Ones(n));
-  if (!coupled_) {
+  return s;
+}
+
+void ResidualProblem::makeDomains() {
+  // One domain for each component; stated covariances between components join all that lies between them.
+  std::set<int> joined;
+  for (const UnitCovariance& c : extra_covariance_) {
+    const int a = static_cast<int>(component[static_cast<std::size_t>(c.a)]);
+    const int b = static_cast<int>(component[static_cast<std::size_t>(c.b)]);
+    for (int k = std::min(a, b); k < std::max(a, b); ++k) joined.insert(k);
+  }
+  domains_.clear();
+  for (Index u = 0; u < size(); ++u) {
+    const auto c = component[static_cast<std::size_t>(u)];
+    const bool first = u == 0 || c != component[static_cast<std::size_t>(u - 1)];
+    if (first) {
+      bool join = u > 0;
+      if (join) {
+        const int before = static_cast<int>(component[static_cast<std::size_t>(u - 1)]);
+        for (int k = before; k < static_cast<int>(c); ++k) join = join && joined.contains(k);
+      }
+      if (!join) domains_.push_back({u, 0});
+    }
+    ++domains_.back().count;
+  }
+}
+
+void ResidualProblem::makeBlocks() {
+  blocks_.assign(domains_.size(), {});
+  const bool correlated = std::any_of(noise.component.begin(), noise.component.end(), [](const ComponentNoise& c) {
+    return c.correlated_part > 0.0 && c.correlation_time_s > 0.0;
+  });
+  diagonal_whitener_.resize(size());
+  const auto weightOf = [&](Index u) { return noise.weight.size() == 0 ? 1.0 : noise.weight[u]; };
+  for (Index u = 0; u < size(); ++u) diagonal_whitener_[u] = std::sqrt(weightOf(u)) / ownSigma(u);
+  if (!correlated && extra_covariance_.empty()) return;
+  // Series that stated covariances couple share one block.
+  std::vector<int> root(static_cast<std::size_t>(seriesCount()));
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int s) {
+    while (root[static_cast<std::size_t>(s)] != s) s = root[static_cast<std::size_t>(s)];
+    return s;
+  };
+  std::set<int> stated;
+  for (const UnitCovariance& c : extra_covariance_) {
+    const int a = find(series[static_cast<std::size_t>(c.a)]);
+    const int b = find(series[static_cast<std::size_t>(c.b)]);
+    root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  for (const UnitCovariance& c : extra_covariance_) stated.insert(find(series[static_cast<std::size_t>(c.a)]));
+  std::map<int, std::vector<Index>> members;
+  for (int s = 0; s < seriesCount(); ++s) {
+    const int r = find(s);
+    const ComponentNoise& n = noise.of(component[static_cast<std::size_t>(series_begin[static_cast<std::size_t>(s)])]);
+    const bool own = n.correlated_part > 0.0 && n.correlation_time_s > 0.0;
+    if (!own && !stated.contains(r)) continue;
+    for (Index u = series_begin[static_cast<std::size_t>(s)]; u < series_begin[static_cast<std::size_t>(s) + 1]; ++u) {
+      members[r].push_back(u);
+    }
+  }
+  std::vector<Index> at(static_cast<std::size_t>(size()), -1);
+  std::map<int, std::vector<const UnitCovariance*>> entries;
+  for (const UnitCovariance& c : extra_covariance_) {
+    entries[find(series[static_cast<std::size_t>(c.a)])].push_back(&c);
+  }
+  for (const auto& [r, units] : members) {
+    const auto m = static_cast<Index>(units.size());
+    for (Index i = 0; i < m; ++i) at[static_cast<std::size_t>(units[static_cast<std::size_t>(i)])] = i;
+    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(m, m);
+    for (Index i = 0; i < m; ++i) {
+      const Index u = units[static_cast<std::size_t>(i)];
+      const ComponentNoise& n = noise.of(component[static_cast<std::size_t>(u)]);
+      const double a = n.correlation_time_s > 0.0 ? n.correlated_part : 0.0;
+      const double si = ownSigma(u);
+      c(i, i) = si * si * (a + (1.0 - a) / weightOf(u));
+      if (!(a > 0.0)) continue;
+      for (Index j = i - 1; j >= 0; --j) {
+        const Index v = units[static_cast<std::size_t>(j)];
+        if (series[static_cast<std::size_t>(v)] != series[static_cast<std::size_t>(u)]) break;
+        const double dt = std::abs(time_s[static_cast<std::size_t>(u)] - time_s[static_cast<std::size_t>(v)]);
+        c(i, j) = c(j, i) = si * ownSigma(v) * a * std::exp(-dt / n.correlation_time_s);
+      }
+    }
+    for (const UnitCovariance* e : entries[r]) {
+      const Index i = at[static_cast<std::size_t>(e->a)];
+      const Index j = at[static_cast<std::size_t>(e->b)];
+      const double scale = noise.of(component[static_cast<std::size_t>(e->a)]).scale *
+                           noise.of(component[static_cast<std::size_t>(e->b)]).scale;
+      c(i, j) += e->value * scale;
+      c(j, i) = c(i, j);
+    }
+    Eigen::LLT<Eigen::MatrixXd> llt(c);
+    double jitter = 1e-9;
+    while (llt.info() != Eigen::Success && jitter < 10.0) {
+      Eigen::MatrixXd raised = c;
+      raised.diagonal() *= 1.0 + jitter;
+      llt.compute(raised);
+      jitter *= 10.0;
+    }
+    Block block{units, llt.matrixL().solve(Eigen::MatrixXd::Identity(m, m))};
+    for (std::size_t d = 0; d < domains_.size(); ++d) {
+      if (units.front() >= domains_[d].from && units.front() < domains_[d].from + domains_[d].count) {
+        blocks_[d].push_back(std::move(block));
+        break;
+      }
+    }
+  }
+}
+
+void ResidualProblem::setNoise(const NoiseModel& model) {
+  noise = model;
+  makeBlocks();
+  domain_noise_.assign(domains_.size(), {});
+  constant_count_ = 0;
+  for (std::size_t d = 0; d < domains_.size(); ++d) {
+    const Domain& domain = domains_[d];
+    DomainNoise& n = domain_noise_[d];
+    // Whitened shifts of the states, orthonormal.
+    std::map<std::pair<int, int>, Index> shifts;
+    for (Index u = domain.from; u < domain.from + domain.count; ++u) {
+      const Component c = component[static_cast<std::size_t>(u)];
+      if (!(noise.of(c).common > 0.0)) continue;
+      shifts.try_emplace({static_cast<int>(c), epoch[static_cast<std::size_t>(u)]}, static_cast<Index>(shifts.size()));
+    }
+    if (!shifts.empty()) {
+      Eigen::MatrixXd z = Eigen::MatrixXd::Zero(domain.count, static_cast<Index>(shifts.size()));
+      for (Index u = domain.from; u < domain.from + domain.count; ++u) {
+        const Component c = component[static_cast<std::size_t>(u)];
+        const auto at = shifts.find({static_cast<int>(c), epoch[static_cast<std::size_t>(u)]});
+        if (at != shifts.end()) z(u - domain.from, at->second) = noise.of(c).common;
+      }
+      whitenDomain(d, z);
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(z.transpose() * z);
+      Eigen::MatrixXd basis(domain.count, z.cols());
+      Eigen::VectorXd part(z.cols());
+      Index used = 0;
+      for (Index k = 0; k < z.cols(); ++k) {
+        const double lambda = eigen.eigenvalues()[k];
+        if (!(lambda > 1e-9)) continue;
+        basis.col(used) = z * eigen.eigenvectors().col(k) / std::sqrt(lambda);
+        part[used++] = 1.0 - 1.0 / std::sqrt(1.0 + lambda);
+      }
+      n.shift_basis = basis.leftCols(used);
+      n.shift_part = part.head(used);
+    }
+    if (!free_constants) continue;
+    Eigen::MatrixXd ones = Eigen::MatrixXd::Zero(domain.count, 0);
+    std::vector<std::pair<Index, Index>> ranges;
     for (int s = 0; s < seriesCount(); ++s) {
       const Index from = series_begin[static_cast<std::size_t>(s)];
-      auto part = constants_.block(from, 0, series_begin[static_cast<std::size_t>(s) + 1] - from, 1);
-      part /= part.norm();
+      if (from < domain.from || from >= domain.from + domain.count) continue;
+      ranges.emplace_back(from - domain.from, series_begin[static_cast<std::size_t>(s) + 1] - from);
     }
+    ones = Eigen::MatrixXd::Zero(domain.count, static_cast<Index>(ranges.size()));
+    for (std::size_t s = 0; s < ranges.size(); ++s) {
+      ones.col(static_cast<Index>(s)).segment(ranges[s].first, ranges[s].second).setOnes();
+    }
+    whitenDomain(d, ones);
+    const Eigen::VectorXd norm = ones.colwise().norm();
+    for (Index k = 0; k < ones.cols(); ++k) ones.col(k) /= norm[k];
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(ones);
+    n.constants = qr.householderQ() * Eigen::MatrixXd::Identity(domain.count, std::min(ones.cols(), domain.count));
+    constant_count_ += n.constants.cols();
   }
   setNuisances(nuisances_);
 }
 
-Eigen::MatrixXd ResidualProblem::whitened(const Eigen::MatrixXd& columns) const {
-  if (columns.cols() == 0) return columns;  // Eigen's triangular product reads the first element of nothing
-  if (blocks_.empty()) return diagonal_whitener_.asDiagonal() * columns;
-  Eigen::MatrixXd out(columns.rows(), columns.cols());
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const auto [from, to] = blocks_[b];
-    out.middleRows(from, to - from).noalias() =
-        block_whitener_[b].triangularView<Eigen::Lower>() * columns.middleRows(from, to - from);
+void ResidualProblem::whitenDomain(std::size_t d, Eigen::Ref<Eigen::MatrixXd> rows) const {
+  const Domain& domain = domains_[d];
+  const DomainNoise& n = domain_noise_[d];
+  Eigen::MatrixXd kept;
+  // Blocks first from the raw rows; everything else is diagonal.
+  std::vector<Eigen::MatrixXd> block_rows;
+  for (const Block& b : blocks_[d]) {
+    Eigen::MatrixXd part(static_cast<Index>(b.units.size()), rows.cols());
+    for (Index i = 0; i < part.rows(); ++i) part.row(i) = rows.row(b.units[static_cast<std::size_t>(i)] - domain.from);
+    block_rows.emplace_back(b.whitener.triangularView<Eigen::Lower>() * part);
+  }
+  rows = diagonal_whitener_.segment(domain.from, domain.count).asDiagonal() * rows;
+  for (std::size_t k = 0; k < block_rows.size(); ++k) {
+    const Block& b = blocks_[d][k];
+    for (Index i = 0; i < block_rows[k].rows(); ++i) {
+      rows.row(b.units[static_cast<std::size_t>(i)] - domain.from) = block_rows[k].row(i);
+    }
+  }
+  if (n.shift_basis.cols() > 0) {
+    Eigen::MatrixXd dots = n.shift_basis.transpose() * rows;
+    dots = n.shift_part.asDiagonal() * dots;
+    rows.noalias() -= n.shift_basis * dots;
+  }
+}
+
+Eigen::MatrixXd ResidualProblem::withoutConstants(std::size_t d, const Eigen::MatrixXd& columns) const {
+  Eigen::MatrixXd out = columns;
+  if (out.cols() == 0) return out;
+  whitenDomain(d, out);
+  const Eigen::MatrixXd& constants = domain_noise_[d].constants;
+  if (constants.cols() > 0) {
+    const Eigen::MatrixXd dots = constants.transpose() * out;
+    out.noalias() -= constants * dots;
   }
   return out;
 }
 
-void ResidualProblem::removeConstants(Eigen::MatrixXd& augmented) const {
-  if (coupled_) return;
-  for (int s = 0; s < seriesCount(); ++s) {
-    const Index from = series_begin[static_cast<std::size_t>(s)];
-    const Index count = series_begin[static_cast<std::size_t>(s) + 1] - from;
-    const auto unit = constants_.block(from, 0, count, 1);
-    auto part = augmented.middleRows(from, count);
-    const Eigen::RowVectorXd dot = unit.transpose() * part;
-    part.noalias() -= unit * dot;
+Eigen::MatrixXd ResidualProblem::whitened(const Eigen::MatrixXd& columns) const {
+  if (columns.cols() == 0) return columns;  // Eigen's triangular product reads the first element of nothing
+  Eigen::MatrixXd out = columns;
+  for (std::size_t d = 0; d < domains_.size(); ++d) {
+    whitenDomain(d, out.middleRows(domains_[d].from, domains_[d].count));
   }
+  return out;
 }
 
 void ResidualProblem::setNuisances(const std::vector<NuisanceColumn>& columns) {
@@ -291,25 +514,31 @@ void ResidualProblem::setNuisances(const std::vector<NuisanceColumn>& columns) {
   const Index n = size();
   prior_rows_ =
       std::count_if(columns.begin(), columns.end(), [](const NuisanceColumn& c) { return c.prior_sigma > 0.0; });
-  Index constants = coupled_ ? seriesCount() : 0;
-  Eigen::MatrixXd raw = Eigen::MatrixXd::Zero(n, static_cast<Index>(columns.size()) + constants);
+  Eigen::MatrixXd raw(n, static_cast<Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) raw.col(static_cast<Index>(c)) = columns[c].values;
-  for (Index s = 0; s < constants; ++s) {
-    const Index from = series_begin[static_cast<std::size_t>(s)];
-    raw.col(static_cast<Index>(columns.size()) + s)
-        .segment(from, series_begin[static_cast<std::size_t>(s) + 1] - from)
-        .setOnes();
-  }
   Eigen::MatrixXd augmented = Eigen::MatrixXd::Zero(n + prior_rows_, raw.cols());
-  augmented.topRows(n) = whitened(raw);
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(raw.cols());
+  if (raw.cols() > 0) {
+    const Eigen::MatrixXd white = whitened(raw);
+    before = white.colwise().norm();
+    for (std::size_t d = 0; d < domains_.size(); ++d) {
+      const Domain& domain = domains_[d];
+      auto part = augmented.middleRows(domain.from, domain.count);
+      part = white.middleRows(domain.from, domain.count);
+      const Eigen::MatrixXd& constants = domain_noise_[d].constants;
+      if (constants.cols() > 0) {
+        const Eigen::MatrixXd dots = constants.transpose() * part;
+        part.noalias() -= constants * dots;
+      }
+    }
+  }
   Index prior = 0;
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (columns[c].prior_sigma > 0.0) augmented(n + prior++, static_cast<Index>(c)) = 1.0 / columns[c].prior_sigma;
+    if (!(columns[c].prior_sigma > 0.0)) continue;
+    augmented(n + prior++, static_cast<Index>(c)) = 1.0 / columns[c].prior_sigma;
+    before[static_cast<Index>(c)] += 1.0 / columns[c].prior_sigma;
   }
-  Eigen::VectorXd before = augmented.colwise().norm();
-  removeConstants(augmented);
-  // Modified Gram-Schmidt, twice, dropping what depends on the columns before it.
-  q_.resize(augmented.rows(), 0);
+  // Gram-Schmidt, twice, dropping what depends on the columns before it.
   Eigen::MatrixXd basis(augmented.rows(), augmented.cols());
   Index used = 0;
   for (Index c = 0; c < augmented.cols(); ++c) {
@@ -327,8 +556,13 @@ void ResidualProblem::setNuisances(const std::vector<NuisanceColumn>& columns) {
 
 Eigen::MatrixXd ResidualProblem::projected(const Eigen::MatrixXd& columns) const {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size() + prior_rows_, columns.cols());
-  out.topRows(size()) = whitened(columns);
-  removeConstants(out);
+  if (columns.cols() == 0) return out;
+  for (std::size_t d = 0; d < domains_.size(); ++d) {
+    const Domain& domain = domains_[d];
+    const auto rows = columns.middleRows(domain.from, domain.count);
+    if (rows.isZero(0.0)) continue;
+    out.middleRows(domain.from, domain.count) = withoutConstants(d, rows);
+  }
   if (q_.cols() > 0) {
     const Eigen::MatrixXd dots = q_.transpose() * out;
     out.noalias() -= q_ * dots;
@@ -336,8 +570,30 @@ Eigen::MatrixXd ResidualProblem::projected(const Eigen::MatrixXd& columns) const
   return out;
 }
 
+ResidualProblem::NuisancePart ResidualProblem::nuisancePart(const Eigen::VectorXd& values) const {
+  const auto count = static_cast<Index>(nuisances_.size());
+  if (count == 0) return {Eigen::VectorXd::Zero(size()), 0.0};
+  Eigen::MatrixXd raw(size(), count + 1);
+  Eigen::VectorXd precision(count);
+  for (Index c = 0; c < count; ++c) {
+    const NuisanceColumn& column = nuisances_[static_cast<std::size_t>(c)];
+    raw.col(c) = column.values;
+    precision[c] = column.prior_sigma > 0.0 ? 1.0 / (column.prior_sigma * column.prior_sigma) : 1e-9;
+  }
+  raw.col(count) = values;
+  Eigen::MatrixXd x(size(), count + 1);
+  for (std::size_t d = 0; d < domains_.size(); ++d) {
+    x.middleRows(domains_[d].from, domains_[d].count) =
+        withoutConstants(d, raw.middleRows(domains_[d].from, domains_[d].count));
+  }
+  Eigen::MatrixXd gram = x.leftCols(count).transpose() * x.leftCols(count);
+  gram.diagonal() += precision;
+  const Eigen::VectorXd b = gram.ldlt().solve(x.leftCols(count).transpose() * x.col(count));
+  return {raw.leftCols(count) * b, b.cwiseAbs2().dot(precision)};
+}
+
 int ResidualProblem::degreesOfFreedom() const noexcept {
-  return static_cast<int>(size() + prior_rows_ - q_.cols()) - (coupled_ ? 0 : seriesCount());
+  return static_cast<int>(size() + prior_rows_ - q_.cols() - constant_count_);
 }
 
 }  // namespace spindrift

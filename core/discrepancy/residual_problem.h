@@ -1,45 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 // The residual observation - simulation as a whitened least-squares problem with its nuisances.
 //
-//   r = constant(series) + simulation * gain(component) + model error of the simulation + X beta + e
-//   cov(e) within a series = s^2 [(1 - a) I + a exp(-|dt| / T)] sigma_i sigma_j (+ covariances stated)
+//   r = constant(series) + nuisances + X beta + shift(component, state) + e
+//   cov(e) within a series = s^2 sigma_i sigma_j [(1 - a) delta_ij / w_i + a exp(-|dt| / T)] (+ covariances stated)
+//   shift(component, state) ~ N(0, common^2), the same for all points of a state: re-referencing, refocus, re-zeroing
 //
-// A unit is one observation, or, where there are very many, the mean of neighbours in time of one series at one place:
-// drivers are averaged over the same times, so this loses only what happens inside a bin. Units are ordered by series
-// and time. Vectors "projected" are whitened, have one extra row for each prior, and are orthogonal to all nuisances.
+// s, a, T and common are one set for each component; w_i <= 1 is the weight of a reading in a noise with heavy tails.
+//
+// A unit is one observation, or, where there are very many, the mean of neighbours: of points close to each other in one
+// state where places do not change, else of readings of one series that follow each other. Drivers are averaged over the
+// same times and shapes over the same points, so this loses only what differs inside a bin. Units are ordered by
+// component, series and time. Vectors "projected" are whitened, have one extra row for each prior, and are orthogonal to
+// all nuisances.
+// Sources: Sherman and Morrison 1950, Woodbury 1950 (covariance plus a part of low rank).
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/discrepancy/discrepancy.h"
+#include "core/machine/effect.h"
 
 namespace spindrift {
 
-struct NoiseModel {
-  double scale = 1.0;               ///< actual / stated sigma
-  double correlated_part = 0.0;     ///< a, 0 ... 1
+/// Noise of one component.
+struct ComponentNoise {
+  double scale = 1.0;              ///< own noise of a reading: actual / stated sigma
+  double scale_uncertainty = 0.0;  ///< standard uncertainty of the scale
+  double common = 0.0;             ///< standard deviation of the shift of a state, um or urad
+  double correlated_part = 0.0;    ///< a, 0 ... 1
   double correlation_time_s = 0.0;  ///< T
+};
+
+struct NoiseModel {
+  std::array<ComponentNoise, 6> component;
+  Eigen::VectorXd weight;  ///< of every unit, 0 < w <= 1; empty: 1
+  double tail_dof = 0.0;   ///< degrees of freedom of the Student distribution of the own noise; 0: normal
+
+  [[nodiscard]] const ComponentNoise& of(Component c) const { return component[static_cast<std::size_t>(c)]; }
+  [[nodiscard]] ComponentNoise& of(Component c) { return component[static_cast<std::size_t>(c)]; }
 };
 
 /// A nuisance column over the units; prior_sigma = 0: free, else standard deviation of its coefficient.
 struct NuisanceColumn {
   Eigen::VectorXd values;
   double prior_sigma = 0.0;
-};
-
-/// Columns "projected" through their inner products alone: only the rows on which they are not zero are kept.
-struct ProjectedColumns {
-  Eigen::MatrixXd rows;           ///< whitened, free of the constants, of the series that take part
-  Eigen::MatrixXd dots;           ///< products with the orthonormal basis of the nuisances
-  Eigen::VectorXd with_residual;  ///< products with the projected residual
-  Eigen::VectorXd whole;          ///< squared norms once whitened, before anything was removed
-
-  /// Gram matrix of `count` columns from `from` on.
-  [[nodiscard]] Eigen::MatrixXd gram(Eigen::Index from, Eigen::Index count) const;
-  [[nodiscard]] Eigen::MatrixXd gram() const { return gram(0, rows.cols()); }
 };
 
 class ResidualProblem {
@@ -54,17 +62,21 @@ class ResidualProblem {
   std::vector<Component> component;
   std::vector<int> series;                 ///< of each unit
   std::vector<Eigen::Index> series_begin;  ///< first unit of each series, and the end
-  std::vector<std::string> series_point;
-  std::vector<double> time_s;  ///< mean time
-  std::vector<int> epoch;      ///< index of the thermal state (or time bin)
+  std::vector<std::string> series_point;   ///< the point of a series; of several points that are one unit: the first
+  std::vector<double> time_s;              ///< mean time
+  std::vector<int> epoch;                  ///< index of the thermal state (or time bin)
   int epoch_count = 0;
+  bool epochs_are_states = false;
   std::vector<double> epoch_time_s;
-  Eigen::VectorXd y;                ///< residual, um or urad
-  Eigen::VectorXd simulated;        ///< um or urad
-  Eigen::VectorXd sigma;            ///< stated
-  std::vector<double> node_time_s;  ///< distinct times at which drivers are needed, increasing
+  Eigen::VectorXd y;                        ///< residual, um or urad
+  Eigen::VectorXd simulated;                ///< um or urad
+  Eigen::VectorXd sigma;                    ///< stated
+  std::vector<double> node_time_s;          ///< distinct times at which drivers are needed, increasing
+  std::vector<std::vector<std::size_t>> unit_rows;  ///< the observations that each unit is the mean of
   /// Mean of values at the nodes over the times of every unit.
   [[nodiscard]] Eigen::VectorXd toUnits(const Eigen::VectorXd& at_nodes) const;
+  /// Shape columns over the units, averaged over the points of each.
+  [[nodiscard]] Eigen::MatrixXd shapeAtUnits(const Effect& effect) const;
 
   NoiseModel noise;
   void setNoise(const NoiseModel& model);
@@ -76,35 +88,82 @@ class ResidualProblem {
   [[nodiscard]] Eigen::MatrixXd projected(const Eigen::MatrixXd& columns) const;
   [[nodiscard]] const Eigen::VectorXd& projectedResidual() const noexcept { return projected_y_; }
   [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& columns) const;
-  /// Columns courses(:, o) * shapes(:, c), o-major, over the series in `active`, on which the shapes are not zero;
-  /// `further`: an orthonormal basis, projected as well, that is removed in addition (no columns: none).
-  [[nodiscard]] ProjectedColumns projectedProducts(const Eigen::MatrixXd& courses, const Eigen::MatrixXd& shapes,
-                                                   const std::vector<int>& active,
-                                                   const Eigen::MatrixXd& further) const;
   [[nodiscard]] int degreesOfFreedom() const noexcept;
+  /// What the nuisances besides the constants take of `values` (um or urad, over the units), and what their priors
+  /// charge for it (chi-squared).
+  struct NuisancePart {
+    Eigen::VectorXd values;
+    double price = 0.0;
+  };
+  [[nodiscard]] NuisancePart nuisancePart(const Eigen::VectorXd& values) const;
+  /// Rows of priors in a projected vector.
+  [[nodiscard]] Eigen::Index priorRows() const noexcept { return prior_rows_; }
+  /// Own noise of every unit as one standard deviation, without the common shift and before weights.
+  [[nodiscard]] double ownSigma(Eigen::Index unit) const {
+    return sigma[unit] * noise.of(component[static_cast<std::size_t>(unit)]).scale;
+  }
 
-  /// The nuisances that belong to the simulation: its gain per component within the stated uncertainty, and as much for
-  /// the parts it is made of in space and time and for its lags.
-  [[nodiscard]] std::vector<NuisanceColumn> simulationNuisances(double gain_uncertainty) const;
+  /// Rows that are coupled by noise: contiguous, one component each unless a stated covariance joins several.
+  struct Domain {
+    Eigen::Index from = 0;
+    Eigen::Index count = 0;
+  };
+  [[nodiscard]] const std::vector<Domain>& domains() const noexcept { return domains_; }
+  /// Whitened columns of one domain without the free constants; `columns` has the domain's rows only.
+  [[nodiscard]] Eigen::MatrixXd withoutConstants(std::size_t domain, const Eigen::MatrixXd& columns) const;
+  /// Orthonormal basis of the nuisances besides the constants (all rows, then the priors).
+  [[nodiscard]] const Eigen::MatrixXd& nuisanceBasis() const noexcept { return q_; }
+  /// Stated covariances between units, um^2 (or urad^2, um urad).
+  struct UnitCovariance {
+    Eigen::Index a = 0;
+    Eigen::Index b = 0;
+    double value = 0.0;
+  };
+  [[nodiscard]] const std::vector<UnitCovariance>& statedCovariance() const noexcept { return extra_covariance_; }
+  /// What is not one of the free constants: observations stand for deviations from themselves (false: absolute).
+  bool free_constants = true;
+
+  /// The nuisances that belong to the simulation: its gain per component within `gain_uncertainty`, and as much for
+  /// the parts it is made of in space and time and for its lags; and an offset of its clock (s, prior `clock_s`).
+  [[nodiscard]] std::vector<NuisanceColumn> simulationNuisances(double gain_uncertainty, double clock_s) const;
 
  private:
-  void removeConstants(Eigen::MatrixXd& augmented) const;
+  struct Block {
+    std::vector<Eigen::Index> units;
+    Eigen::MatrixXd whitener;  ///< inverse of the lower Cholesky factor; empty: diagonal
+  };
+  struct DomainNoise {
+    Eigen::MatrixXd shift_basis;  ///< orthonormal, whitened shifts
+    Eigen::VectorXd shift_part;   ///< 1 - 1 / sqrt(1 + lambda)
+    Eigen::MatrixXd constants;    ///< orthonormal basis of the whitened constants
+  };
+  void makeDomains();
+  void makeBlocks();
+  void whitenDomain(std::size_t domain, Eigen::Ref<Eigen::MatrixXd> rows) const;
   std::vector<std::size_t> node_begin_;
   std::vector<int> node_index_;
-  std::vector<std::pair<std::pair<Eigen::Index, Eigen::Index>, double>> extra_covariance_;
-  std::vector<Eigen::MatrixXd> block_whitener_;  ///< per block of units that are correlated; empty: diagonal
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> blocks_;
+  std::vector<std::vector<DeviationQuery>> members_;  ///< of each series, where points were merged; else empty
+  std::vector<UnitCovariance> extra_covariance_;
+  std::vector<Domain> domains_;
+  std::vector<DomainNoise> domain_noise_;
+  std::vector<std::vector<Block>> blocks_;  ///< per domain
   Eigen::VectorXd diagonal_whitener_;
-  Eigen::MatrixXd constants_;  ///< whitened unit vector of each series, stored in place of its rows (n x 1)
-  bool coupled_ = false;
   std::vector<NuisanceColumn> nuisances_;
   Eigen::Index prior_rows_ = 0;
+  Eigen::Index constant_count_ = 0;
   Eigen::MatrixXd q_;  ///< orthonormal basis of the nuisances, augmented
   Eigen::VectorXd projected_y_;
 };
 
-/// Estimates scale and correlation in time from what is not of low rank in the tables points x epochs; `fitted`: the
-/// residual is that of a fitted model, so that less signal is in it. Deterministic.
+/// Maximum restricted likelihood of scale, common shift, correlation and tails of every component, while whatever
+/// `residual` (um or urad, over the units) still holds of smooth courses in time with simple patterns in space is free
+/// with a prior whose size is estimated as well. Deterministic.
+/// Sources: Patterson and Thompson 1971 (REML); Lange, Little and Taylor 1989 (Student-t weights).
 [[nodiscard]] NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted);
+
+/// -2 ln of that restricted likelihood for the components in `which`, at the weights of the problem's noise: how
+/// probable a residual is when noise and smooth remainder are made as large as it needs.
+[[nodiscard]] std::array<double, 6> noiseDeviance(const ResidualProblem& problem, const Eigen::VectorXd& residual,
+                                                  const std::array<bool, 6>& which);
 
 }  // namespace spindrift

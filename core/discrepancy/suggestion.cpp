@@ -8,7 +8,7 @@
 #include <set>
 
 #include "core/base/text.h"
-#include "core/discrepancy/discrepancy_search.h"
+#include "core/discrepancy/suggestion.h"
 
 namespace spindrift {
 namespace {
@@ -221,7 +221,7 @@ std::optional<MeasurementSuggestion> suggestMeasurement(const DiscrepancyInput& 
     std::vector<SuggestedSeries> out;
     for (auto& [component, sum] : sigmas) {
       SuggestedSeries s;
-      const double sigma = sum / counts[component] * problem.noise.scale;
+      const double sigma = sum / counts[component] * problem.noise.of(component).scale;
       s.difference.resize(static_cast<Index>(times.size()));
       s.tangent.resize(static_cast<Index>(times.size()), tangent.parameters());
       for (std::size_t t = 0; t < times.size(); ++t) {

@@ -25,6 +25,7 @@ enum class Dynamics {
   AsymmetricLag,  ///< a lag whose time constant differs while the driver is on and off
   Step,           ///< 0 before the onset, 1 after it; no driver
   Pulse,          ///< rises through a lag from the onset and falls after `length`; no driver
+  Start,          ///< what was warm when the log began and cools through the lag: exp(-t / tau); no driver
 };
 
 [[nodiscard]] std::string_view toString(Dynamics dynamics) noexcept;

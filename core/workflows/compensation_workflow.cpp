@@ -123,7 +123,7 @@ void addMeasuredRows(const DiscrepancyRun& run, CompensationPlan& plan, Deviatio
     Sum& s = sums[at->second][static_cast<std::size_t>(axisIndex(o.component))];
     s.count += 1.0;
     s.measured += o.value - run.result.constant[r];
-    s.sigma += o.sigma * o.sigma;
+    s.sigma += std::pow(run.result.readingSigma(o.component, o.sigma), 2);
     s.correction -= run.result.completed[r];
     s.model_sigma += std::hypot(run.result.model->predict(DeviationQuery::of(o), o.component).sigma,
                                 run.input.simulation_gain_uncertainty * run.input.predicted[r]);
@@ -140,7 +140,7 @@ void addMeasuredRows(const DiscrepancyRun& run, CompensationPlan& plan, Deviatio
       const Sum& s = sums[k][i];
       if (!(s.count > 0.0)) continue;
       p.measured_um[i] = s.measured / s.count;
-      p.measured_sigma_um[i] = std::sqrt(s.sigma) / s.count * run.result.noise_scale;
+      p.measured_sigma_um[i] = std::sqrt(s.sigma) / s.count;
       p.correction_um[static_cast<Eigen::Index>(i)] = 0.0 + s.correction / s.count;
       p.sigma_um[static_cast<Eigen::Index>(i)] = s.model_sigma / s.count;
     }

@@ -21,7 +21,8 @@ double excess(double rms, double noise) {
 }
 
 /// Constants and rms of one series from its rows with use `fit`.
-void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double noise_scale, double gain_uncertainty) {
+/// `sigma`: of every reading, shift of its state included.
+void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double gain_uncertainty) {
   double weights = 0.0;
   double sum = 0.0;
   for (std::size_t i = 0; i < s.value.size(); ++i) {
@@ -50,7 +51,7 @@ void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double
     after += a * a;
   }
   const double moved = std::max(0.0, simulated_square / count - simulated * simulated / (count * count));
-  s.noise = std::hypot(std::sqrt(variance / count) * noise_scale, gain_uncertainty * std::sqrt(moved));
+  s.noise = std::hypot(std::sqrt(variance / count), gain_uncertainty * std::sqrt(moved));
   s.rms_before = std::sqrt(before / count);
   s.rms_after = s.completed.empty() ? nan : std::sqrt(after / count);
   s.excess_before = excess(s.rms_before, s.noise);
@@ -69,8 +70,9 @@ void markSignificant(std::vector<DiscrepancySeries>& series, const DiscrepancyRe
     const auto count = static_cast<double>(std::count(s.held_out.begin(), s.held_out.end(), false));
     const double span = s.time_s.back() - s.time_s.front();
     const double spacing = s.time_s.size() > 1 ? span / static_cast<double>(s.time_s.size() - 1) : 0.0;
-    const double neighbour = spacing > 0.0 && search.noise_correlation_time_s > 0.0
-                                 ? search.noise_correlated_part * std::exp(-spacing / search.noise_correlation_time_s)
+    const NoiseEstimate* noise = search.noiseOf(s.component);
+    const double neighbour = noise != nullptr && spacing > 0.0 && noise->correlation_time_s > 0.0
+                                 ? noise->correlated_part * std::exp(-spacing / noise->correlation_time_s)
                                  : 0.0;
     const double independent = std::max(2.0, count * (1.0 - neighbour) / (1.0 + neighbour));
     const double statistic = s.rms_before * s.rms_before / (s.noise * s.noise) * independent;
@@ -107,7 +109,8 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
     s.simulated.push_back(search.simulated[i]);
     s.held_out.push_back(o.use == ObservationUse::Holdout);
     if (!search.effects.empty()) s.explained.push_back(search.effect_part[i] + search.constant[i]);
-    sigmas[at->second].push_back(o.sigma);
+    sigmas[at->second].push_back(search.readingSigma(o.component, o.sigma));
+    s.remaining.push_back(search.remaining[i]);
     if (model != nullptr) {
       s.completed.push_back(model->completed[i]);
       s.completed_sigma.push_back(std::hypot(sigma[i], input.simulation_gain_uncertainty * search.simulated[i]));
@@ -116,7 +119,7 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
   }
   for (std::size_t k = 0; k < out.size(); ++k) {
     out[k].position_mm /= static_cast<double>(out[k].value.size());
-    finishSeries(out[k], sigmas[k], search.noise_scale, input.simulation_gain_uncertainty);
+    finishSeries(out[k], sigmas[k], input.simulation_gain_uncertainty);
     for (double& e : out[k].explained) e -= out[k].constant_before;
   }
   markSignificant(out, search);
@@ -286,10 +289,33 @@ void parseRest(const nlohmann::json& result, DiscrepancyStory& story) {
                            numberOf(s, "delta_chi2"), s.at("reason").get<std::string>()});
   }
   story.warnings = result.at("warnings").get<std::vector<std::string>>();
-  const auto& noise = result.at("noise");
-  story.noise_scale = numberOf(noise, "scale");
-  story.noise_correlated_part = numberOf(noise, "correlated_part");
-  story.noise_correlation_time_s = numberOf(noise, "correlation_time_s");
+  const auto componentOf = [](const std::string& name) {
+    const auto parsed = componentFromString(name);
+    if (!parsed) throw InputError(fmt::format("component \"{}\" of a stored search is not known.", name));
+    return *parsed;
+  };
+  for (const auto& [name, n] : result.at("noise").items()) {
+    story.noise.push_back({componentOf(name), numberOf(n, "scale"), numberOf(n, "scale_uncertainty"),
+                           numberOf(n, "common_um"), numberOf(n, "correlated_part"), numberOf(n, "correlation_time_s")});
+  }
+  for (const auto& s : result.at("state_shifts")) {
+    story.shifts.push_back({s.at("state").get<std::string>(), componentOf(s.at("component").get<std::string>()),
+                            numberOf(s, "time_s"), numberOf(s, "shift_um"), numberOf(s, "standard_uncertainty")});
+  }
+  for (const auto& c : result.at("candidates")) {
+    story.candidates.push_back({c.at("id").get<std::string>(), numberOf(c, "probability")});
+  }
+  for (const auto& o : result.at("outlying_readings")) {
+    story.outliers.push_back({o.at("row").get<std::size_t>() - 1, numberOf(o, "deviation")});
+  }
+  for (const auto& [name, r] : result.at("remainder").items()) {
+    story.remainder.push_back({componentOf(name), numberOf(r, "rms_um"), numberOf(r, "evidence")});
+  }
+  if (result.at("tail_dof").is_number()) story.tail_dof = numberOf(result, "tail_dof");
+  story.clock_offset_s = numberOf(result, "clock_offset_s");
+  if (result.at("clock_offset_uncertainty_s").is_number()) {
+    story.clock_offset_uncertainty_s = numberOf(result, "clock_offset_uncertainty_s");
+  }
 }
 
 }  // namespace
@@ -393,9 +419,14 @@ DiscrepancyStory tellDiscrepancy(const Campaign& campaign, ObservationSet observ
   story.leftover = found.leftover;
   story.steps = found.steps;
   story.warnings = found.warnings;
-  story.noise_scale = found.noise_scale;
-  story.noise_correlated_part = found.noise_correlated_part;
-  story.noise_correlation_time_s = found.noise_correlation_time_s;
+  story.candidates = found.candidates;
+  story.noise = found.noise;
+  story.shifts = found.shifts;
+  story.outliers = found.outliers;
+  story.remainder = found.remainder;
+  story.tail_dof = found.tail_dof;
+  story.clock_offset_s = found.clock_offset_s;
+  story.clock_offset_uncertainty_s = found.clock_offset_uncertainty_s;
   story.result = found.json();
   const auto& rows = run.input.observations.rows;
   story.has_holdout =

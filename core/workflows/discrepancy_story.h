@@ -34,6 +34,7 @@ struct DiscrepancySeries {
   std::vector<double> completed_sigma;  ///< standard uncertainty of it, gain of the simulation included
   /// What all effects found, added or not, explain of value - simulated - constant_before; empty if there are none.
   std::vector<double> explained;
+  std::vector<double> remaining;  ///< what is neither effect nor noise
   std::vector<bool> held_out;
   double constant_before = 0.0;
   double constant_after = 0.0;
@@ -60,9 +61,14 @@ struct DiscrepancyStory {
   std::string leftover;
   std::vector<DiscrepancyStep> steps;
   std::vector<std::string> warnings;
-  double noise_scale = 1.0;
-  double noise_correlated_part = 0.0;
-  double noise_correlation_time_s = 0.0;
+  std::vector<EffectCandidate> candidates;  ///< the most probable first, named or not
+  std::vector<NoiseEstimate> noise;
+  std::vector<StateShift> shifts;
+  std::vector<OutlyingReading> outliers;
+  std::vector<ComponentRemainder> remainder;
+  double tail_dof = 0.0;  ///< Student degrees of freedom of the own noise; 0: normal
+  double clock_offset_s = 0.0;
+  double clock_offset_uncertainty_s = 0.0;  ///< 0: these data do not show it
   std::vector<DiscrepancySeries> series;
   nlohmann::json result;  ///< of the search, as FORMATS.md has it
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that one more effect can put into a fit: for every effect of the catalogue all its drivers, lags and onsets
+// on a grid, whitened once and shared by all questions. A question ("which effect explains what this fit leaves?") then
+// costs one product with the columns of the fit.
+//
+// One way in which an effect may act (driver, lag, start) is a "way": a few columns shape x response. Its gain in
+// chi-squared comes from the Gram matrix of these columns, free of all nuisances and of the fit that is given. Among the
+// ways of an effect the prior is uniform, over effects as well, so that an effect with many drivers has no advantage:
+//
+//   evidence = delta chi-squared - gains ln n - 2 ln(number of ways)         (twice the logarithm of a probability)
+//
+// Sources: Schwarz 1978 (BIC); Golub and Pereyra 1973 (variable projection).
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/discrepancy/effect_search.h"
+
+namespace spindrift {
+
+/// The best way of one effect on the grid.
+struct CandidateFit {
+  ModelTerm term;
+  double delta_chi2 = 0.0;
+  int rank = 0;           ///< gains that the data see
+  double evidence = 0.0;  ///< as above
+};
+
+class CandidateLibrary {
+ public:
+  /// Under the noise and nuisances that the problem has now; later changes of them need another library.
+  CandidateLibrary(const EffectSearch& search, const ResidualProblem& problem, const JobContext& job);
+
+  /// Columns that are in the fit already: orthonormal, projected, rows as problem.projected() (and more rows, of priors,
+  /// below); `residual` is what they leave, as long.
+  struct Given {
+    Eigen::MatrixXd basis;
+    Eigen::VectorXd residual;
+  };
+  /// The best way of every effect that has one beside what is given, best first. `skip`: ids that are not tried.
+  [[nodiscard]] std::vector<CandidateFit> sweep(const Given& given, const std::vector<std::string>& skip,
+                                                const JobContext& job) const;
+  /// 2 ln(number of ways) of an effect: what its choice among them costs.
+  [[nodiscard]] double choicePrice(const Effect& effect) const;
+
+ private:
+  struct Way {
+    EffectVariant variant;
+    std::vector<double> parameters;
+    std::vector<Eigen::Index> columns;
+    Eigen::MatrixXd gram;  ///< free of the problem's nuisances
+    int minus = -1;        ///< pulses: index of the column that is subtracted (they are differences of two steps)
+  };
+  struct Entry {
+    const Effect* effect = nullptr;
+    std::vector<std::size_t> domains;
+    Eigen::MatrixXd columns;  ///< rows of the active domains
+    Eigen::VectorXd whole;    ///< squared norms before nuisances were removed
+    std::vector<Way> ways;
+    Eigen::MatrixXd steps_gram;  ///< of all columns, for pulses
+  };
+  [[nodiscard]] Entry entryOf(const Effect& effect) const;
+  [[nodiscard]] std::optional<CandidateFit> bestOf(const Entry& entry, const Given& given) const;
+
+  const EffectSearch* search_;
+  const ResidualProblem* problem_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace spindrift

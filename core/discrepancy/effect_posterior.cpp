@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/effect_posterior.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace spindrift {
+namespace {
+
+using Eigen::Index;
+
+/// Effects that are tried in earnest after a sweep, and sets that are followed.
+constexpr std::size_t most_tried = 5;
+constexpr std::size_t beam_width = 3;
+/// In evidence, behind the best of a sweep: what is further behind on the grid does not catch up when lags are refined.
+constexpr double sweep_window = 40.0;
+/// In evidence, behind the best set: less probable sets are not listed.
+constexpr double occam_window = 30.0;
+
+std::vector<std::string> idsOf(const std::vector<ModelTerm>& terms) {
+  std::vector<std::string> ids;
+  for (const ModelTerm& term : terms) ids.push_back(term.effect->id);
+  return ids;
+}
+
+std::string keyOf(const std::vector<ModelTerm>& terms) {
+  std::vector<std::string> ids = idsOf(terms);
+  std::sort(ids.begin(), ids.end());
+  std::string key;
+  for (const std::string& id : ids) key += id + "|";
+  return key;
+}
+
+}  // namespace
+
+bool holdsEffect(const Effect& container, const std::string& simple) {
+  return std::find(container.contains.begin(), container.contains.end(), simple) != container.contains.end();
+}
+
+PosteriorSearch::PosteriorSearch(const EffectSearch& search, const ResidualProblem& problem,
+                                 const CandidateLibrary& library, const DiscrepancyOptions& options,
+                                 const DiscrepancyPriors& priors)
+    : search_(&search), problem_(&problem), library_(&library), options_(&options), priors_(priors) {}
+
+Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
+  std::vector<Eigen::VectorXd> columns;
+  const double start = problem_->node_time_s.front();
+  const double span = std::max(1.0, problem_->node_time_s.back() - start);
+  const int hats = std::clamp(problem_->epoch_count / 3, 2, 12);
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    const Eigen::VectorXd& f = fit.contribution[t];
+    // Another size at every point.
+    for (int s = 0; s < problem_->seriesCount(); ++s) {
+      const Index from = problem_->series_begin[static_cast<std::size_t>(s)];
+      const Index count = problem_->series_begin[static_cast<std::size_t>(s) + 1] - from;
+      if (f.segment(from, count).isZero(0.0)) continue;
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(f.size());
+      column.segment(from, count) = priors_.model_error * f.segment(from, count);
+      columns.push_back(std::move(column));
+    }
+    // Another size in every span of time.
+    const EffectInput& first = fit.terms[t].variant.inputs[0];
+    if (first.driver.empty() && first.dynamics != Dynamics::Pulse) continue;
+    for (int h = 0; h < hats; ++h) {
+      Eigen::VectorXd column(f.size());
+      for (Index u = 0; u < f.size(); ++u) {
+        const double position = (problem_->time_s[static_cast<std::size_t>(u)] - start) / span * (hats - 1);
+        column[u] = priors_.model_error * f[u] * std::max(0.0, 1.0 - std::abs(position - h));
+      }
+      if (!column.isZero(0.0)) columns.push_back(std::move(column));
+    }
+  }
+  Eigen::MatrixXd out(problem_->size(), static_cast<Index>(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) out.col(static_cast<Index>(c)) = columns[c];
+  return out;
+}
+
+double PosteriorSearch::priceOf(const JointFit& fit) const {
+  const double effects = std::max<double>(2.0, static_cast<double>(search_->catalogue().size()));
+  double price = 0.0;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    if (!fit.terms[t].effect->contains.empty()) price += 2.0 * std::log(1.0 / priors_.wider);
+    price += library_->choicePrice(*fit.terms[t].effect) + 2.0 * std::log(effects) +
+             2.0 * std::log((1.0 - priors_.one_more) / priors_.one_more);
+  }
+  return price;
+}
+
+double PosteriorSearch::evidenceOf(const JointFit& fit) const {
+  const Eigen::VectorXd& y = problem_->projectedResidual();
+  if (fit.terms.empty()) return -y.squaredNorm();
+  Index total = 0;
+  std::vector<Eigen::MatrixXd> parts;
+  for (const ModelTerm& term : fit.terms) {
+    parts.push_back(search_->columns(term));
+    total += parts.back().cols();
+  }
+  Eigen::MatrixXd raw(problem_->size(), total);
+  Index at = 0;
+  for (const Eigen::MatrixXd& part : parts) {
+    raw.middleCols(at, part.cols()) = part;
+    at += part.cols();
+  }
+  Eigen::MatrixXd x = problem_->projected(raw);
+  for (Index c = 0; c < total; ++c) {
+    const double norm = x.col(c).norm();
+    if (norm > 0.0) x.col(c) /= norm;
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
+  qr.setThreshold(3e-4);
+  const auto rank = qr.rank();
+  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(x.rows(), rank);
+  const Eigen::VectorXd left = y - basis * (basis.transpose() * y);
+  Eigen::MatrixXd m = problem_->projected(modelErrorColumns(fit));
+  m -= basis * (basis.transpose() * m);
+  Eigen::MatrixXd a = m.transpose() * m;
+  a.diagonal().array() += 1.0;
+  const Eigen::LLT<Eigen::MatrixXd> llt(a);
+  const Eigen::VectorXd z = llt.matrixL().solve(m.transpose() * left);
+  const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+  return -(left.squaredNorm() - z.squaredNorm()) - log_det - static_cast<double>(rank) * search_->logN() - priceOf(fit);
+}
+
+CandidateLibrary::Given PosteriorSearch::given(const JointFit& fit) const {
+  CandidateLibrary::Given out;
+  const Eigen::VectorXd& y = problem_->projectedResidual();
+  std::vector<Eigen::MatrixXd> parts;
+  Index free = 0;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    const Eigen::MatrixXd x = search_->columns(fit.terms[t]);
+    const auto parameters = static_cast<Index>(fit.terms[t].parameters.size());
+    Eigen::MatrixXd part(x.rows(), x.cols() + parameters);
+    part.leftCols(x.cols()) = x;
+    for (Index p = 0; p < parameters; ++p) {
+      part.col(x.cols() + p) = search_->derivative(fit.terms[t], fit.gains[t], static_cast<std::size_t>(p));
+    }
+    free += part.cols();
+    parts.push_back(std::move(part));
+  }
+  const Eigen::MatrixXd m = modelErrorColumns(fit);
+  Eigen::MatrixXd raw(problem_->size(), free + m.cols());
+  Index at = 0;
+  for (const Eigen::MatrixXd& part : parts) {
+    raw.middleCols(at, part.cols()) = part;
+    at += part.cols();
+  }
+  raw.rightCols(m.cols()) = m;
+  const Eigen::MatrixXd projected = problem_->projected(raw);
+  const Index rows = projected.rows();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows + m.cols(), raw.cols());
+  all.topRows(rows) = projected;
+  all.bottomRightCorner(m.cols(), m.cols()).setIdentity();
+  out.basis.resize(all.rows(), all.cols());
+  Index used = 0;
+  for (Index c = 0; c < all.cols(); ++c) {
+    Eigen::VectorXd v = all.col(c);
+    const double before = v.norm();
+    for (int pass = 0; pass < 2; ++pass) {
+      v.noalias() -= out.basis.leftCols(used) * (out.basis.leftCols(used).transpose() * v);
+    }
+    const double norm = v.norm();
+    if (!(norm > 1e-6 * before) || !(norm > 0.0)) continue;
+    out.basis.col(used++) = v / norm;
+  }
+  out.basis.conservativeResize(Eigen::NoChange, used);
+  out.residual = Eigen::VectorXd::Zero(all.rows());
+  out.residual.head(rows) = y;
+  if (used > 0) out.residual -= out.basis * (out.basis.transpose() * out.residual);
+  return out;
+}
+
+PosteriorSearch::State PosteriorSearch::stateOf(const std::vector<ModelTerm>& terms, int rounds) const {
+  State out;
+  out.fit = rounds > 0 ? search_->refine(terms, rounds) : search_->solve(terms);
+  out.evidence = evidenceOf(out.fit);
+  return out;
+}
+
+std::vector<PosteriorSearch::State> PosteriorSearch::extend(const State& state, std::size_t most,
+                                                            const JobContext& job) const {
+  std::vector<std::string> skip = idsOf(state.fit.terms);
+  skip.insert(skip.end(), options_->reject.begin(), options_->reject.end());
+  const std::vector<CandidateFit> found = library_->sweep(given(state.fit), skip, job);
+  std::vector<const CandidateFit*> tried;
+  for (const CandidateFit& c : found) {
+    if (tried.size() >= most || c.evidence < found.front().evidence - sweep_window || !(c.delta_chi2 > 4.0)) break;
+    tried.push_back(&c);
+  }
+  std::vector<State> out(tried.size());
+  parallelFor(tried.size(), job, [&](std::size_t i) {
+    std::vector<ModelTerm> terms = state.fit.terms;
+    terms.push_back(tried[i]->term);
+    out[i] = stateOf(terms, 1);
+  });
+  return out;
+}
+
+PosteriorSearch::State PosteriorSearch::exchanged(State best, const JobContext& job, std::vector<State>& visited) const {
+  for (int round = 0; round < 2; ++round) {
+    bool better = false;
+    for (std::size_t t = 0; t < best.fit.terms.size(); ++t) {
+      const std::string& id = best.fit.terms[t].effect->id;
+      if (std::find(options_->accept.begin(), options_->accept.end(), id) != options_->accept.end()) continue;
+      std::vector<ModelTerm> others = best.fit.terms;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
+      State without = stateOf(others, 1);
+      std::vector<State> tried = extend(without, most_tried, job);
+      tried.push_back(without);
+      for (State& s : tried) {
+        const bool improves = s.evidence > best.evidence + 1e-3;
+        visited.push_back(s);
+        if (improves) {
+          best = std::move(s);
+          better = true;
+        }
+      }
+      if (better) break;
+    }
+    if (!better) break;
+  }
+  return best;
+}
+
+SlotEvidence PosteriorSearch::slotOf(const State& best, std::size_t t, const JobContext& job,
+                                     std::vector<State>& visited) const {
+  SlotEvidence out;
+  const Effect& own = *best.fit.terms[t].effect;
+  std::vector<ModelTerm> others = best.fit.terms;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
+  const State without = stateOf(others, 1);
+  visited.push_back(without);
+  out.delta_chi2 = without.fit.chi2 - best.fit.chi2;
+  out.delta_evidence = best.evidence - without.evidence;
+  // Everything that could stand in its place, what the user rejected as well: it is told, not named.
+  const std::vector<CandidateFit> found = library_->sweep(given(without.fit), idsOf(best.fit.terms), job);
+  std::vector<const CandidateFit*> tried;
+  for (const CandidateFit& c : found) {
+    if (tried.size() >= 2 * most_tried || c.evidence < out.delta_evidence - sweep_window - occam_window) break;
+    tried.push_back(&c);
+  }
+  std::vector<State> states(tried.size());
+  parallelFor(tried.size(), job, [&](std::size_t i) {
+    std::vector<ModelTerm> terms = others;
+    terms.push_back(tried[i]->term);
+    states[i] = stateOf(terms, 2);
+  });
+  const auto rejected = [&](const std::string& id) {
+    return std::find(options_->reject.begin(), options_->reject.end(), id) != options_->reject.end();
+  };
+  double sum = 1.0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    Alternative a;
+    a.id = tried[i]->term.effect->id;
+    a.evidence = states[i].evidence;
+    a.container = holdsEffect(*tried[i]->term.effect, own.id);
+    a.contained = holdsEffect(own, a.id);
+    a.rejected = rejected(a.id);
+    a.probability = std::exp(std::min(50.0, 0.5 * (a.evidence - best.evidence)));
+    a.joint = states[i].fit;
+    if (!a.rejected) visited.push_back(states[i]);
+    sum += a.probability;
+    out.others.push_back(std::move(a));
+  }
+  for (Alternative& a : out.others) a.probability /= sum;
+  out.probability = 1.0 / sum;
+  std::stable_sort(out.others.begin(), out.others.end(),
+                   [](const Alternative& a, const Alternative& b) { return a.evidence > b.evidence; });
+  return out;
+}
+
+void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior) const {
+  const JointFit& fit = posterior.fit;
+  if (fit.terms.empty()) return;
+  Eigen::VectorXd left = problem_->y;
+  for (const Eigen::VectorXd& part : fit.contribution) left -= part;
+  const ResidualProblem::NuisancePart taken = problem_->nuisancePart(left);
+  left -= taken.values;
+  std::array<bool, 6> all{};
+  for (const Component c : problem_->component) all[static_cast<std::size_t>(c)] = true;
+  const std::array<double, 6> with = noiseDeviance(*problem_, left, all);
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    std::vector<ModelTerm> others = fit.terms;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
+    const JointFit without = search_->solve(others);
+    Eigen::VectorXd more = problem_->y;
+    for (const Eigen::VectorXd& part : without.contribution) more -= part;
+    const ResidualProblem::NuisancePart taken_more = problem_->nuisancePart(more);
+    more -= taken_more.values;
+    std::array<bool, 6> changed{};
+    for (Index u = 0; u < problem_->size(); ++u) {
+      if (std::abs(more[u] - left[u]) > 1e-3 * problem_->ownSigma(u)) changed[static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)])] = true;
+    }
+    const std::array<double, 6> deviance = noiseDeviance(*problem_, more, changed);
+    double gain = taken_more.price - taken.price;
+    for (std::size_t c = 0; c < changed.size(); ++c) gain += changed[c] ? deviance[c] - with[c] : 0.0;
+    const double gains = static_cast<double>(fit.parameter_count - without.parameter_count) - static_cast<double>(fit.terms[t].parameters.size());
+    posterior.slots[t].over_unknown = gain - gains * search_->logN() - (priceOf(fit) - priceOf(without));
+  }
+}
+
+EffectPosterior PosteriorSearch::run(const JobContext& job) const {
+  EffectPosterior out;
+  std::vector<State> visited;
+  State start = stateOf({}, 0);
+  out.evidence_of_nothing = start.evidence;
+  // What the user puts in, each at its best.
+  for (const std::string& id : options_->accept) {
+    std::vector<std::string> skip;
+    for (const Effect& effect : search_->catalogue()) {
+      if (effect.id != id) skip.push_back(effect.id);
+    }
+    const std::vector<CandidateFit> found = library_->sweep(given(start.fit), skip, job);
+    if (found.empty()) {
+      throw InputError(fmt::format("{} cannot be accepted: nothing in the log drives it, or these data do not show it.", id));
+    }
+    std::vector<ModelTerm> terms = start.fit.terms;
+    terms.push_back(found.front().term);
+    start = stateOf(terms, 1);
+  }
+  visited.push_back(start);
+  State best = start;
+  std::vector<State> beam{start};
+  const auto most = static_cast<std::size_t>(options_->max_effects) + options_->accept.size();
+  while (!beam.empty() && beam.front().fit.terms.size() < most) {
+    std::map<std::string, State> next;
+    for (const State& state : beam) {
+      job.throwIfCancelled();
+      for (State& s : extend(state, most_tried, job)) {
+        const std::string key = keyOf(s.fit.terms);
+        const auto found = next.find(key);
+        if (found == next.end() || s.evidence > found->second.evidence) next[key] = std::move(s);
+      }
+    }
+    beam.clear();
+    for (auto& [key, state] : next) beam.push_back(std::move(state));
+    std::stable_sort(beam.begin(), beam.end(), [](const State& a, const State& b) { return a.evidence > b.evidence; });
+    if (beam.size() > 2 * beam_width) beam.resize(2 * beam_width);
+    for (const State& s : beam) visited.push_back(s);
+    if (beam.size() > beam_width) beam.resize(beam_width);
+    if (beam.empty()) break;
+    const bool better = beam.front().evidence > best.evidence;
+    if (better) best = beam.front();
+    // Two that only together explain something: one step more is looked at, no further.
+    if (beam.front().evidence < best.evidence - 12.0) break;
+  }
+  if (best.fit.terms.size() > options_->accept.size()) best = exchanged(best, job, visited);
+  best = stateOf(best.fit.terms, 2);
+  visited.push_back(best);
+  // In the order of what each brings, the user's first.
+  std::vector<SlotEvidence> slots;
+  for (std::size_t t = 0; t < best.fit.terms.size(); ++t) slots.push_back(slotOf(best, t, job, visited));
+  std::vector<std::size_t> order(slots.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto accepted = [&](std::size_t i) {
+    const auto& ids = options_->accept;
+    return std::find(ids.begin(), ids.end(), best.fit.terms[i].effect->id) != ids.end();
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (accepted(a) != accepted(b)) return accepted(a);
+    return slots[a].delta_chi2 > slots[b].delta_chi2;
+  });
+  std::vector<ModelTerm> terms;
+  for (const std::size_t i : order) {
+    terms.push_back(best.fit.terms[i]);
+    out.slots.push_back(std::move(slots[i]));
+    out.forced.push_back(accepted(i));
+  }
+  out.fit = search_->solve(terms);
+  out.evidence = best.evidence;
+  // Probability of every effect over all sets visited.
+  std::map<std::string, std::pair<double, std::set<std::string>>> sets;
+  for (const State& s : visited) {
+    const std::vector<std::string> ids = idsOf(s.fit.terms);
+    const auto [at, fresh] = sets.try_emplace(keyOf(s.fit.terms), s.evidence, std::set<std::string>(ids.begin(), ids.end()));
+    if (!fresh) at->second.first = std::max(at->second.first, s.evidence);
+  }
+  double highest = -1e300;
+  for (const auto& [key, set] : sets) highest = std::max(highest, set.first);
+  double total = 0.0;
+  std::map<std::string, double> probability;
+  for (const auto& [key, set] : sets) {
+    const double weight = std::exp(0.5 * (set.first - highest));
+    total += weight;
+    for (const std::string& id : set.second) probability[id] += weight;
+  }
+  for (const auto& [id, weight] : probability) out.candidates.emplace_back(id, weight / total);
+  std::stable_sort(out.candidates.begin(), out.candidates.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  return out;
+}
+
+}  // namespace spindrift

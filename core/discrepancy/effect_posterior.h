@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which effects are missing: a posterior over sets of effects. Internal to core/discrepancy.
+//
+// A set is scored by its evidence, twice the logarithm of its probability up to a constant:
+//
+//   evidence = - chi-squared - ln det(I + kappa^2 M'PM) - sum over effects of
+//              [gains ln n + 2 ln(ways of the effect) + 2 ln(effects of the catalogue) + 2 ln(odds against one more)]
+//
+// chi-squared is what remains under the noise as found, marginal over all nuisances and over M, by which every effect may
+// differ from the machine's own behaviour: another size at every point and in every span of time, a part kappa of it.
+// Sets are found by a beam search with joint refits of all lags and onsets and by exchanging every effect for every
+// other; the probabilities of all sets that were visited are compared. For every effect of the best set the alternatives
+// in its place are its rivals, their share of the probability is the confidence.
+// Sources: Schwarz 1978; Kennedy and O'Hagan 2001 (model discrepancy); Madigan and Raftery 1994 (Occam's window);
+// Wang, Sarkar, Carbonetto and Stephens 2020 (credible sets of single effects).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/discrepancy/candidate_library.h"
+#include "core/discrepancy/discrepancy.h"
+
+namespace spindrift {
+
+/// What is believed before any data are seen.
+struct DiscrepancyPriors {
+  /// kappa: how far an effect of the catalogue is from what a machine does, as a part of its amplitude.
+  double model_error = 0.06;
+  /// Probability that one more effect is missing, whatever is found already.
+  double one_more = 0.2;
+  /// Standard deviation of the relative error of a part of the simulation that is not worth a name.
+  double simulation_error = 0.035;
+  /// Odds of an effect that holds a simpler one as a special case, beside that one.
+  double wider = 0.1;
+  /// Standard deviation of the offset between the clocks of log and observations, s.
+  double clock_s = 120.0;
+  /// An unknown cause leaves of an effect that imitates it this part of its amplitude, or more.
+  double imitation = 0.3;
+};
+
+/// An effect in the place of another.
+struct Alternative {
+  std::string id;
+  double evidence = 0.0;     ///< of the set that has it
+  double probability = 0.0;  ///< among all alternatives for this place, itself included
+  bool container = false;    ///< holds the effect that it would replace as a special case
+  bool contained = false;    ///< is held by it
+  bool rejected = false;     ///< the user does not want it
+  bool undriven = false;     ///< nothing that drives it is in the log: it cannot be fitted, nor told apart
+  JointFit joint;
+};
+
+/// One effect of the best set.
+struct SlotEvidence {
+  double delta_chi2 = 0.0;         ///< loss when it is taken out, the others refitted
+  double delta_evidence = 0.0;     ///< the same in evidence
+  double probability = 0.0;        ///< of this effect among the alternatives
+  /// 2 ln of the odds that there is an effect here, not noise and a smooth remainder made as large as needed.
+  double over_unknown = 0.0;
+  std::vector<Alternative> others; ///< most probable first
+};
+
+struct EffectPosterior {
+  JointFit fit;
+  std::vector<SlotEvidence> slots;
+  std::vector<bool> forced;
+  double evidence = 0.0;
+  double evidence_of_nothing = 0.0;
+  /// Probability that an effect is in the set, of all that were looked at, most probable first.
+  std::vector<std::pair<std::string, double>> candidates;
+  std::vector<DiscrepancyStep> steps;
+};
+
+class PosteriorSearch {
+ public:
+  PosteriorSearch(const EffectSearch& search, const ResidualProblem& problem, const CandidateLibrary& library,
+                  const DiscrepancyOptions& options, const DiscrepancyPriors& priors);
+
+  [[nodiscard]] EffectPosterior run(const JobContext& job) const;
+  /// Fills over_unknown of every effect.
+  void weighAgainstUnknown(EffectPosterior& posterior) const;
+  /// As above.
+  [[nodiscard]] double evidenceOf(const JointFit& fit) const;
+  /// What a fit leaves, and the columns that it has, its model error included.
+  [[nodiscard]] CandidateLibrary::Given given(const JointFit& fit) const;
+
+ private:
+  struct State {
+    JointFit fit;
+    double evidence = 0.0;
+  };
+  [[nodiscard]] State stateOf(const std::vector<ModelTerm>& terms, int rounds) const;
+  [[nodiscard]] std::vector<State> extend(const State& state, std::size_t most, const JobContext& job) const;
+  [[nodiscard]] State exchanged(State best, const JobContext& job, std::vector<State>& visited) const;
+  [[nodiscard]] Eigen::MatrixXd modelErrorColumns(const JointFit& fit) const;
+  [[nodiscard]] double priceOf(const JointFit& fit) const;
+  [[nodiscard]] SlotEvidence slotOf(const State& best, std::size_t t, const JobContext& job,
+                                    std::vector<State>& visited) const;
+
+  const EffectSearch* search_;
+  const ResidualProblem* problem_;
+  const CandidateLibrary* library_;
+  const DiscrepancyOptions* options_;
+  DiscrepancyPriors priors_;
+};
+
+/// True if `container` holds `simple` as a special case.
+[[nodiscard]] bool holdsEffect(const Effect& container, const std::string& simple);
+
+/// What the effects leave that is neither noise nor nothing: smooth courses in time with a simple pattern in space.
+struct Remainder {
+  struct OfComponent {
+    Component component = Component::EX;
+    double rms_um = 0.0;    ///< um or urad
+    double evidence = 0.0;  ///< 2 ln of how much more probable it is than no remainder
+    double power = 0.0;     ///< whitened squared norm
+  };
+  std::vector<OfComponent> components;
+  Eigen::VectorXd values;  ///< posterior mean over the units, um or urad
+};
+
+[[nodiscard]] Remainder remainderOf(const ResidualProblem& problem, const CandidateLibrary::Given& given);
+
+}  // namespace spindrift

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the posterior over sets of effects to the answer: which are named, with which rivals, how sure, what remains.
+// Internal to core/discrepancy.
+//
+// Probability that a name is right =
+//   share of the effect among all that could stand in its place
+//   x probability that there is an effect in this place at all
+//   x probability that it does not merely imitate a cause outside the catalogue, from what it leaves in the components
+//     in which it acts: with r = rms of the remainder / rms of the effect, 1 / (1 + (r / imitation)^4).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/discrepancy/effect_posterior.h"
+
+namespace spindrift {
+
+/// One effect that is named.
+struct NamedEffect {
+  std::string id;
+  std::vector<std::string> rivals;
+  std::vector<std::string> containers;
+  double confidence = 0.0;
+  double delta_chi2 = 0.0;
+  double delta_evidence = 0.0;
+  double margin = 1e9;  ///< in evidence ahead of the most probable other
+  bool forced = false;
+  std::optional<JointFit> closest;  ///< the set with the closest rival that can be fitted, in the place of this one
+};
+
+struct Judgement {
+  DiscrepancyVerdict verdict = DiscrepancyVerdict::None;
+  JointFit named;  ///< the named effects, fitted together
+  std::vector<NamedEffect> names;
+  std::string leftover;
+  std::vector<DiscrepancyStep> steps;
+  std::vector<std::string> warnings;
+  double explained_fraction = 0.0;
+};
+
+[[nodiscard]] Judgement judge(const ResidualProblem& problem, const EffectSearch& search,
+                              const EffectPosterior& posterior, const Remainder& remainder,
+                              const DiscrepancyPriors& priors, const DiscrepancyOptions& options);
+
+}  // namespace spindrift
