@@ -15,6 +15,8 @@ using Eigen::Index;
 constexpr std::size_t most_columns = 8;
 /// Directions of which nuisances leave less than this part of the power are not seen.
 constexpr double least_seen = 1e-5;
+/// Of ln(number of ways): 2 if all of them were independent. Neighbours on the grid of lags are nearly the same.
+constexpr double way_price = 1.0;
 
 /// Gain in chi-squared of columns from their Gram matrix and products with the residual, by Cholesky; columns that
 /// depend on those before them are left out.
@@ -59,24 +61,6 @@ GramGain gramGain(const Eigen::MatrixXd& gram, const std::array<double, most_col
     out.gain[kept[at]] = value / l[at][at];
   }
   return out;
-}
-
-/// Signs and origins of EFFECTS.md; `inputs` with k columns each.
-bool admissible(const Effect& effect, const GramGain& gain, std::size_t inputs, std::size_t k) {
-  if (effect.sign != 0) {
-    for (std::size_t i = 0; i < inputs; ++i) {
-      if (gain.gain[i * k] * effect.sign < 0.0) return false;
-    }
-  }
-  if (effect.free_origin && k == 2) {
-    for (std::size_t i = 0; i < inputs; ++i) {
-      const double slope = gain.gain[2 * i];
-      const double constant = gain.gain[2 * i + 1];
-      const double origin = slope != 0.0 ? -1000.0 * constant / slope : effect.origin_low_mm - 1.0;
-      if (origin < effect.origin_low_mm || origin > effect.origin_high_mm) return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace
@@ -154,9 +138,16 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
           }
         }
         break;
-      case Dynamics::Lag:
+      case Dynamics::AsymmetricLag:
+        for (std::size_t a = 0; a < lags.size(); a += 2) {
+          for (std::size_t b = 0; b < lags.size(); b += 2) {
+            if (a != b) addWay(variant, {lags[a], lags[b]}, {responseOf(first, lags[a], lags[b])});
+          }
+        }
+        break;
       case Dynamics::Start:
-      case Dynamics::AsymmetricLag: {
+        break;
+      case Dynamics::Lag: {
         if (variant.inputs.size() == 1 || variant.shared_lag) {
           const bool at_once = std::all_of(variant.inputs.begin(), variant.inputs.end(),
                                            [&](const EffectInput& i) { return linear(i.driver); });
@@ -174,7 +165,7 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
             addWay(warm, {tau}, which);
           }
           // The same through two lags: bearings and housing, screw and nut.
-          if (variant.inputs.size() == 1 && effect.of_machine && k == 1) {
+          if (variant.inputs.size() == 1 && effect.two_lags && k == 1) {
             const EffectVariant twice{{first, first}, false};
             for (std::size_t a = at_once ? 0 : 1; a + 2 <= lags.size(); ++a) {
               for (std::size_t b = a + 2; b <= lags.size(); ++b) {
@@ -245,7 +236,7 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
 
 double CandidateLibrary::choicePrice(const Effect& effect) const {
   for (const Entry& entry : entries_) {
-    if (entry.effect == &effect) return 2.0 * std::log(std::max<double>(1.0, static_cast<double>(entry.ways.size())));
+    if (entry.effect == &effect) return way_price * std::log(std::max<double>(1.0, static_cast<double>(entry.ways.size())));
   }
   return 0.0;
 }
@@ -266,8 +257,7 @@ std::optional<CandidateFit> CandidateLibrary::bestOf(const Entry& entry, const G
     at += domain.count;
   }
   const double log_n = search_->logN();
-  const double price = 2.0 * std::log(static_cast<double>(entry.ways.size()));
-  const auto k = static_cast<std::size_t>(search_->shape(*entry.effect).cols());
+  const double price = choicePrice(*entry.effect);
   std::optional<CandidateFit> best;
   Eigen::MatrixXd gram;
   std::array<double, most_columns> product{};
@@ -301,12 +291,11 @@ std::optional<CandidateFit> CandidateLibrary::bestOf(const Entry& entry, const G
     }
     const GramGain gain = gramGain(gram, product, whole);
     if (gain.rank == 0 || !std::isfinite(gain.delta)) continue;
-    const std::size_t driven = way.variant.inputs.back().dynamics == Dynamics::Start ? way.variant.inputs.size() - 1
-                                                                                     : way.variant.inputs.size();
-    if (!admissible(*entry.effect, gain, driven, k)) continue;
-    const double evidence = gain.delta - gain.rank * log_n - price;
+    const double evidence = gain.delta - gain.rank * log_n - price - (warmStart(way.variant) ? warm_price : 0.0);
     if (best && !(evidence > best->evidence)) continue;
-    best = CandidateFit{{entry.effect, way.variant, way.parameters}, gain.delta, gain.rank, evidence};
+    ModelTerm term{entry.effect, way.variant, way.parameters};
+    if (!search_->admissible(term, Eigen::Map<const Eigen::VectorXd>(gain.gain.data(), m))) continue;
+    best = CandidateFit{std::move(term), gain.delta, gain.rank, evidence};
   }
   return best;
 }

@@ -7,7 +7,7 @@
 // chi-squared comes from the Gram matrix of these columns, free of all nuisances and of the fit that is given. Among the
 // ways of an effect the prior is uniform, over effects as well, so that an effect with many drivers has no advantage:
 //
-//   evidence = delta chi-squared - gains ln n - 2 ln(number of ways)         (twice the logarithm of a probability)
+//   evidence = delta chi-squared - gains ln n - ln(number of ways)           (twice the logarithm of a probability)
 //
 // Sources: Schwarz 1978 (BIC); Golub and Pereyra 1973 (variable projection).
 #pragma once
@@ -18,6 +18,12 @@
 #include "core/discrepancy/effect_search.h"
 
 namespace spindrift {
+
+/// A machine that was warm when the log began: odds 1 to 4.
+constexpr double warm_price = 2.8;
+[[nodiscard]] inline bool warmStart(const EffectVariant& variant) {
+  return !variant.inputs.empty() && variant.inputs.back().dynamics == Dynamics::Start;
+}
 
 /// The best way of one effect on the grid.
 struct CandidateFit {
@@ -41,7 +47,7 @@ class CandidateLibrary {
   /// The best way of every effect that has one beside what is given, best first. `skip`: ids that are not tried.
   [[nodiscard]] std::vector<CandidateFit> sweep(const Given& given, const std::vector<std::string>& skip,
                                                 const JobContext& job) const;
-  /// 2 ln(number of ways) of an effect: what its choice among them costs.
+  /// What the choice among the ways of an effect costs.
   [[nodiscard]] double choicePrice(const Effect& effect) const;
 
  private:

@@ -114,9 +114,31 @@ void estimateClock(const DiscrepancyInput& input, const ResidualProblem& problem
   const double high = at(best + 1);
   const double curvature = low + high - 2.0 * at(best);
   if (!(curvature > 0.0) || !(start - at(best) > 8.0)) return;
-  a.clock_offset_s = step_s * (best + 0.5 * (low - high) / curvature);
+  a.clock_offset_s = step_s * (best + std::clamp(0.5 * (low - high) / curvature, -1.0, 1.0));
   a.clock_uncertainty_s = step_s * std::sqrt(2.0 / curvature);
   a.drivers->shiftClock(a.clock_offset_s - before);
+}
+
+/// While nothing is known of it.
+constexpr double usual_simulation_error = 0.015;
+
+/// How wrong the parts of the simulation are, from those that its nuisances can follow: the median of what they come
+/// to, the most deviating left out, within what is plausible.
+double simulationError(const ResidualProblem& problem, const ResidualProblem::NuisancePart& taken, double stated) {
+  std::vector<double> sizes;
+  for (std::size_t c = 0; c < taken.coefficients.size(); ++c) {
+    const NuisanceColumn& column = problem.nuisances()[c];
+    // What the data do not see says nothing.
+    if (!column.relative || taken.variances[c] > 0.5 * column.prior_sigma * column.prior_sigma) continue;
+    sizes.push_back(std::max(0.0, taken.coefficients[c] * taken.coefficients[c] - taken.variances[c]));
+  }
+  if (sizes.size() < 2) return stated;
+  std::sort(sizes.begin(), sizes.end());
+  sizes.pop_back();
+  double sum = 0.0;
+  for (const double s : sizes) sum += s;
+  constexpr double largest = 0.04;
+  return std::clamp(std::sqrt(sum / static_cast<double>(sizes.size())), 0.5 * stated, largest);
 }
 
 Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
@@ -127,13 +149,15 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
   a.catalogue = std::move(catalogue);
   problem.setNuisances(problem.simulationNuisances(std::max(input.simulation_gain_uncertainty, priors.simulation_error),
                                                    priors.clock_s));
-  problem.setNoise(estimateNoise(problem, problem.y - problem.nuisancePart(problem.y).values, false));
+  const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);
+  problem.setNoise(estimateNoise(problem, problem.y - first.values, false));
+  double simulation_error = std::max(input.simulation_gain_uncertainty, usual_simulation_error);
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
     job.report(0.1 + 0.25 * round, "weighing effects");
     a.search = std::make_unique<EffectSearch>(problem, *a.drivers, a.catalogue);
     const CandidateLibrary library(*a.search, problem, job);
-    const PosteriorSearch posterior(*a.search, problem, library, options, priors);
+    const PosteriorSearch posterior(*a.search, problem, library, options, priors, simulation_error);
     a.posterior = posterior.run(job);
     a.remainder = remainderOf(problem, posterior.given(a.posterior.fit));
     const auto finish = [&] { posterior.weighAgainstUnknown(a.posterior); };
@@ -144,10 +168,14 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
     const double clock_before = a.clock_offset_s;
     estimateClock(input, problem, priors, a);
     Eigen::VectorXd left = withoutEffects(problem, a.posterior.fit);
-    left -= problem.nuisancePart(left).values;
+    const ResidualProblem::NuisancePart taken = problem.nuisancePart(left);
+    left -= taken.values;
+    const double error_before = simulation_error;
+    simulation_error = simulationError(problem, taken, input.simulation_gain_uncertainty);
+    const bool other_error = std::abs(simulation_error - error_before) > 0.01;
     const NoiseModel again = estimateNoise(problem, left, true);
     const bool other_clock = std::abs(a.clock_offset_s - clock_before) > 20.0;
-    if (!differs(problem.noise, again) && !other_clock) {
+    if (!differs(problem.noise, again) && !other_clock && !other_error) {
       finish();
       break;
     }

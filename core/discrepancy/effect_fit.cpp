@@ -72,7 +72,7 @@ std::pair<double, double> EffectSearch::parameterBounds(const ModelTerm& term, s
   if (name.starts_with("onset")) return {start, end};
   if (name.starts_with("length")) return {1.0, 11.0 * (end - start + 1.0)};
   // A lag much longer than the campaign is an integrator: it fits a drift and predicts nonsense.
-  return {60.0, std::clamp(0.5 * (end - start), 3600.0, 36000.0)};
+  return {60.0, std::clamp(0.45 * (end - start), 3600.0, 36000.0)};
 }
 
 JointFit EffectSearch::refine(const std::vector<ModelTerm>& terms, int rounds) const {

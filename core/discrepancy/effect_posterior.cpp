@@ -23,6 +23,8 @@ constexpr std::size_t beam_width = 3;
 constexpr double sweep_window = 40.0;
 /// In evidence, behind the best set: less probable sets are not listed.
 constexpr double occam_window = 30.0;
+/// A set in which signs or bounds are broken is out.
+constexpr double inadmissible_price = 1e6;
 
 std::vector<std::string> idsOf(const std::vector<ModelTerm>& terms) {
   std::vector<std::string> ids;
@@ -46,8 +48,51 @@ bool holdsEffect(const Effect& container, const std::string& simple) {
 
 PosteriorSearch::PosteriorSearch(const EffectSearch& search, const ResidualProblem& problem,
                                  const CandidateLibrary& library, const DiscrepancyOptions& options,
-                                 const DiscrepancyPriors& priors)
-    : search_(&search), problem_(&problem), library_(&library), options_(&options), priors_(priors) {}
+                                 const DiscrepancyPriors& priors, double simulation_error)
+    : search_(&search), problem_(&problem), library_(&library), options_(&options), priors_(priors) {
+  for (std::size_t d = 0; d < problem.domains().size(); ++d) {
+    const auto& domain = problem.domains()[d];
+    const Eigen::VectorXd white = problem.withoutConstants(d, problem.simulated.segment(domain.from, domain.count)).col(0);
+    for (Index i = 0; i < domain.count; ++i) {
+      simulation_power_[static_cast<std::size_t>(problem.component[static_cast<std::size_t>(domain.from + i)])] +=
+          std::pow(simulation_error * white[i], 2);
+    }
+  }
+}
+
+double PosteriorSearch::imitationPrice(const JointFit& fit) const {
+  // Power of every term and of all together, per component.
+  std::vector<std::array<double, 6>> power(fit.terms.size());
+  Eigen::MatrixXd parts(problem_->size(), static_cast<Index>(fit.terms.size()));
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) parts.col(static_cast<Index>(t)) = fit.contribution[t];
+  const Eigen::MatrixXd white = problem_->projected(parts);
+  double price = 0.0;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    std::array<double, 6> own{};
+    std::array<double, 6> others{};
+    double total = 0.0;
+    for (Index u = 0; u < problem_->size(); ++u) {
+      const auto c = static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)]);
+      const double z = white(u, static_cast<Index>(t));
+      const double rest = white.row(u).sum() - z;
+      own[c] += z * z;
+      others[c] += rest * rest;
+      total += z * z;
+    }
+    const EffectInput& first = fit.terms[t].variant.inputs[0];
+    const bool onset = first.dynamics == Dynamics::Step || first.dynamics == Dynamics::Pulse;
+    const double part = onset ? priors_.further_onset_error : priors_.further_error;
+    for (std::size_t c = 0; c < own.size(); ++c) {
+      if (own[c] < 0.05 * total) continue;
+      // As far as it acts there: a slip of one point imitates nothing of the others.
+      const double share = std::min(1.0, own[c] / std::max(1e-9, others[c]));
+      price += share * part * part * others[c] + simulation_power_[c];
+    }
+    const double wider = fit.terms[t].effect->refinement ? priors_.refinement_error : priors_.wider_error;
+    if (!fit.terms[t].effect->contains.empty()) price += wider * wider * total;
+  }
+  return price;
+}
 
 Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
   std::vector<Eigen::VectorXd> columns;
@@ -87,6 +132,7 @@ double PosteriorSearch::priceOf(const JointFit& fit) const {
   double price = 0.0;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     if (!fit.terms[t].effect->contains.empty()) price += 2.0 * std::log(1.0 / priors_.wider);
+    if (warmStart(fit.terms[t].variant)) price += warm_price;
     price += library_->choicePrice(*fit.terms[t].effect) + 2.0 * std::log(effects) +
              2.0 * std::log((1.0 - priors_.one_more) / priors_.one_more);
   }
@@ -125,7 +171,8 @@ double PosteriorSearch::evidenceOf(const JointFit& fit) const {
   const Eigen::LLT<Eigen::MatrixXd> llt(a);
   const Eigen::VectorXd z = llt.matrixL().solve(m.transpose() * left);
   const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  return -(left.squaredNorm() - z.squaredNorm()) - log_det - static_cast<double>(rank) * search_->logN() - priceOf(fit);
+  return -(left.squaredNorm() - z.squaredNorm()) - log_det - static_cast<double>(rank) * search_->logN() - priceOf(fit) -
+         imitationPrice(fit);
 }
 
 CandidateLibrary::Given PosteriorSearch::given(const JointFit& fit) const {
@@ -180,6 +227,9 @@ PosteriorSearch::State PosteriorSearch::stateOf(const std::vector<ModelTerm>& te
   State out;
   out.fit = rounds > 0 ? search_->refine(terms, rounds) : search_->solve(terms);
   out.evidence = evidenceOf(out.fit);
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    if (!search_->admissible(out.fit.terms[t], out.fit.gains[t])) out.evidence -= inadmissible_price;
+  }
   return out;
 }
 

@@ -4,7 +4,8 @@
 // A set is scored by its evidence, twice the logarithm of its probability up to a constant:
 //
 //   evidence = - chi-squared - ln det(I + kappa^2 M'PM) - sum over effects of
-//              [gains ln n + 2 ln(ways of the effect) + 2 ln(effects of the catalogue) + 2 ln(odds against one more)]
+//              [gains ln n + ln(ways of the effect) + 2 ln(effects of the catalogue) + 2 ln(odds against one more)
+//               + chi-squared of what the simulation, or the other effects, may be off by where it acts]
 //
 // chi-squared is what remains under the noise as found, marginal over all nuisances and over M, by which every effect may
 // differ from the machine's own behaviour: another size at every point and in every span of time, a part kappa of it.
@@ -15,6 +16,7 @@
 // Wang, Sarkar, Carbonetto and Stephens 2020 (credible sets of single effects).
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -28,15 +30,24 @@ struct DiscrepancyPriors {
   /// kappa: how far an effect of the catalogue is from what a machine does, as a part of its amplitude.
   double model_error = 0.06;
   /// Probability that one more effect is missing, whatever is found already.
-  double one_more = 0.2;
+  double one_more = 0.4;
   /// Standard deviation of the relative error of a part of the simulation that is not worth a name.
   double simulation_error = 0.035;
-  /// Odds of an effect that holds a simpler one as a special case, beside that one.
+  /// Odds of an effect that holds a simpler one as a special case, beside that one; and the part of its amplitude by
+  /// which the simpler one may be off in just the way that the wider one can follow.
   double wider = 0.1;
+  double wider_error = 0.06;
+  double refinement_error = 0.14;  ///< the same of a refinement (a screw that is warmer in one place)
+  /// The same of two effects: part of the amplitude of the others in its components that a further effect may imitate;
+  /// of one that chooses its own onset.
+  double further_error = 0.07;
+  double further_onset_error = 0.12;
   /// Standard deviation of the offset between the clocks of log and observations, s.
   double clock_s = 120.0;
   /// An unknown cause leaves of an effect that imitates it this part of its amplitude, or more.
-  double imitation = 0.3;
+  double imitation = 0.25;
+  /// Of all names, however clear, so many are wrong: causes that look exactly like others.
+  double unforeseen = 0.02;
 };
 
 /// An effect in the place of another.
@@ -75,7 +86,7 @@ struct EffectPosterior {
 class PosteriorSearch {
  public:
   PosteriorSearch(const EffectSearch& search, const ResidualProblem& problem, const CandidateLibrary& library,
-                  const DiscrepancyOptions& options, const DiscrepancyPriors& priors);
+                  const DiscrepancyOptions& options, const DiscrepancyPriors& priors, double simulation_error);
 
   [[nodiscard]] EffectPosterior run(const JobContext& job) const;
   /// Fills over_unknown of every effect.
@@ -95,6 +106,8 @@ class PosteriorSearch {
   [[nodiscard]] State exchanged(State best, const JobContext& job, std::vector<State>& visited) const;
   [[nodiscard]] Eigen::MatrixXd modelErrorColumns(const JointFit& fit) const;
   [[nodiscard]] double priceOf(const JointFit& fit) const;
+  /// What others may be off by, in just the way that each effect follows: chi-squared that it must bring beyond.
+  [[nodiscard]] double imitationPrice(const JointFit& fit) const;
   [[nodiscard]] SlotEvidence slotOf(const State& best, std::size_t t, const JobContext& job,
                                     std::vector<State>& visited) const;
 
@@ -103,12 +116,14 @@ class PosteriorSearch {
   const CandidateLibrary* library_;
   const DiscrepancyOptions* options_;
   DiscrepancyPriors priors_;
+  std::array<double, 6> simulation_power_{};  ///< of its error as estimated, whitened, per component
 };
 
 /// True if `container` holds `simple` as a special case.
 [[nodiscard]] bool holdsEffect(const Effect& container, const std::string& simple);
 
-/// What the effects leave that is neither noise nor nothing: smooth courses in time with a simple pattern in space.
+/// What the effects leave that is neither noise nor nothing: smooth courses in time, of all points together and
+/// of each for itself.
 struct Remainder {
   struct OfComponent {
     Component component = Component::EX;
@@ -117,6 +132,7 @@ struct Remainder {
     double power = 0.0;     ///< whitened squared norm
   };
   std::vector<OfComponent> components;
+  std::vector<double> series_evidence;  ///< the same of a course that one series has beside the others
   Eigen::VectorXd values;  ///< posterior mean over the units, um or urad
 };
 

@@ -11,7 +11,10 @@ using Eigen::Index;
 EffectSearch::EffectSearch(ResidualProblem& problem, const DriverTable& drivers, const std::vector<Effect>& catalogue)
     : problem_(&problem), drivers_(&drivers), catalogue_(&catalogue) {
   log_n_ = std::log(std::max(8.0, static_cast<double>(problem.size())));
-  for (int i = 0; i < 10; ++i) lags_.push_back(120.0 * std::pow(180.0, i / 9.0));  // 2 min ... 6 h
+  // From 2 min to what the span of the observations can tell from an integrator.
+  const double span = problem.node_time_s.empty() ? 0.0 : problem.node_time_s.back() - problem.node_time_s.front();
+  const double longest = std::clamp(0.4 * span, 3600.0, 36000.0);
+  for (int i = 0; i < 10; ++i) lags_.push_back(120.0 * std::pow(longest / 120.0, i / 9.0));
   pulse_lags_ = {0.0, 600.0, 1800.0, 5400.0};
   // Onsets halfway between epochs, after the second and before the last but one, thinned to 48.
   std::vector<double> times = problem.epoch_time_s;
@@ -46,7 +49,8 @@ Eigen::VectorXd EffectSearch::gridResponse(const EffectInput& input, double a, d
     }
   } else {
     const EffectVariant alone{{input}, false};
-    const std::vector<double> parameters(static_cast<std::size_t>(parameterCount(alone)), a);
+    std::vector<double> parameters(static_cast<std::size_t>(parameterCount(alone)), a);
+    if (input.dynamics == Dynamics::AsymmetricLag) parameters[1] = b;
     q = inputResponses(*drivers_, alone, parameters, problem_->node_time_s).col(0);
   }
   Eigen::VectorXd units = problem_->toUnits(q);
@@ -80,6 +84,62 @@ Eigen::MatrixXd EffectSearch::columns(const ModelTerm& term) const {
     out.middleCols(i * k, k) = on_units.asDiagonal() * s;
   }
   return out;
+}
+
+bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gains) const {
+  const Effect& effect = *term.effect;
+  const auto k = static_cast<Index>(effect.shape.size());
+  const auto& inputs = term.variant.inputs;
+  const bool warm = inputs.back().dynamics == Dynamics::Start;
+  const Index driven = static_cast<Index>(inputs.size()) - (warm ? 1 : 0);
+  for (Index i = 0; i < driven; ++i) {
+    const auto own = gains.segment(i * k, k);
+    if (effect.sign != 0 && own[0] * effect.sign < 0.0) return false;
+    if (effect.free_origin && k == 2) {
+      const double origin = own[0] != 0.0 ? -1000.0 * own[1] / own[0] : effect.origin_low_mm - 1.0;
+      if (origin < effect.origin_low_mm || origin > effect.origin_high_mm) return false;
+    }
+    for (std::size_t c = 0; c < effect.largest_ratio.size(); ++c) {
+      const double most = effect.largest_ratio[c];
+      if (most > 0.0 && std::abs(own[static_cast<Index>(c)]) > most * std::abs(own[0])) return false;
+    }
+  }
+  // Two lags of one driver add up; they do not cancel.
+  if (driven == 2 && inputs[0].driver == inputs[1].driver && inputs[0].dynamics == Dynamics::Lag) {
+    const double a = gains[0];
+    const double b = gains[k];
+    constexpr double most_opposed = 0.5;
+    if (a * b < 0.0 && std::min(std::abs(a), std::abs(b)) > most_opposed * std::max(std::abs(a), std::abs(b))) return false;
+  }
+  if (!warm) return true;
+  // What was warm at the start is what the same driver had made, in the same pattern and no larger than it can make.
+  const Eigen::MatrixXd& s = shape(effect);
+  const auto start = gains.segment(driven * k, k);
+  double dot = 0.0;
+  double own_power = 0.0;
+  double start_power = 0.0;
+  double most = 0.0;
+  bool signed_driver = false;
+  const auto own = gains.segment(0, k);
+  for (Index c = 0; c < k; ++c) {
+    const double w = s.col(c).squaredNorm();
+    dot += w * own[c] * start[c];
+    own_power += w * own[c] * own[c];
+    start_power += w * start[c] * start[c];
+  }
+  for (Index i = 0; i < driven; ++i) {
+    const Driver* driver = drivers_->find(inputs[static_cast<std::size_t>(i)].driver);
+    if (driver == nullptr) continue;
+    const double sum = gains.segment(i * k, k).norm();
+    double largest = 0.0;
+    for (const double v : driver->values) largest = std::max(largest, std::abs(v));
+    most += sum * largest / std::max(1e-12, own.norm());
+    signed_driver = signed_driver || driver->linear;
+  }
+  const double size = std::sqrt(own_power * start_power);
+  if (k > 1 && std::abs(dot) < 0.9 * size) return false;
+  if (!signed_driver && dot < 0.0) return false;
+  return std::sqrt(start_power) <= 1.2 * most * std::sqrt(own_power);
 }
 
 Eigen::VectorXd EffectSearch::derivative(const ModelTerm& term, const Eigen::VectorXd& gains, std::size_t p) const {

@@ -50,7 +50,8 @@ class EffectSearch {
   [[nodiscard]] double endlessLength() const noexcept;
   /// Fills what is kept of an effect; afterwards shape() may be asked by several threads.
   void prepare(const Effect& effect) const;
-  /// Response of one input over the units: lag `a` (s), for steps and pulses onset `a` and lag `b`. Any thread.
+  /// Response of one input over the units: lag `a` (s), `a` on and `b` off where they differ; for steps and pulses onset
+  /// `a` and lag `b`. Any thread.
   [[nodiscard]] Eigen::VectorXd gridResponse(const EffectInput& input, double a, double b) const;
 
   /// Columns of a term over the units (not whitened).
@@ -59,6 +60,8 @@ class EffectSearch {
   [[nodiscard]] JointFit solve(const std::vector<ModelTerm>& terms) const;
   /// Line searches over all non-linear parameters; `rounds` passes.
   [[nodiscard]] JointFit refine(const std::vector<ModelTerm>& terms, int rounds) const;
+  /// Signs, origins, ratios and what was warm at the start are within what EFFECTS.md and physics allow.
+  [[nodiscard]] bool admissible(const ModelTerm& term, const Eigen::VectorXd& gains) const;
   /// d fitted / d (non-linear parameter p) over the units, um (or urad) per s.
   [[nodiscard]] Eigen::VectorXd derivative(const ModelTerm& term, const Eigen::VectorXd& gains, std::size_t p) const;
   /// rms of prediction of epochs left out (constants from the rest of the series): without and with terms. Five

@@ -5,6 +5,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -17,28 +18,56 @@ using Eigen::Index;
 
 /// A rival is listed when its probability is at least this part of that of the effect named.
 constexpr double least_rival = 0.05;
-/// An effect is named when it is more probable than not that something like it is there.
-constexpr double least_confidence = 0.5;
+/// An effect is named when it is clearly more probable than not that something like it is there.
+constexpr double least_confidence = 0.6;
 /// 2 ln of the odds beyond which a remainder is told: "very strong" (Kass and Raftery 1995).
 constexpr double remainder_evidence = 10.0;
+/// An effect of the catalogue is more probable, before any data, than a cause that nobody thought of: odds 10 to 1.
+constexpr double unknown_price = 4.6;
 /// Rivals beside the effect; more is no answer.
 constexpr std::size_t most_rivals = 2;
 
-/// rms of the remainder over that of an effect, in the components in which the effect acts, both whitened.
-double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::size_t t, const Remainder& remainder) {
-  const Eigen::VectorXd white = problem.projected(fit.contribution[t]).col(0).head(problem.size());
-  std::map<Component, double> power;
-  double total = 0.0;
-  for (Index u = 0; u < white.size(); ++u) {
-    power[problem.component[static_cast<std::size_t>(u)]] += white[u] * white[u];
-    total += white[u] * white[u];
+/// Deviations from the mean of each series.
+Eigen::VectorXd centred(const ResidualProblem& problem, Eigen::VectorXd values) {
+  for (int s = 0; s < problem.seriesCount() && problem.free_constants; ++s) {
+    const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+    const Index count = problem.series_begin[static_cast<std::size_t>(s) + 1] - from;
+    values.segment(from, count).array() -= values.segment(from, count).mean();
+  }
+  return values;
+}
+
+/// rms of what is left over that of an effect, over the readings that the effect moves, in standard deviations of the
+/// noise. Left is the remainder, what other effects explain that are not named, and of the shifts of states what is larger than shifts are. Effects that cancel each
+/// other count as what they are together.
+double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::size_t t, const Remainder& remainder,
+                      const std::vector<bool>& unnamed) {
+  const Eigen::VectorXd own = centred(problem, fit.contribution[t]);
+  Eigen::VectorXd together = Eigen::VectorXd::Zero(problem.size());
+  Eigen::VectorXd rest = Eigen::VectorXd::Zero(problem.size());
+  for (std::size_t k = 0; k < fit.terms.size(); ++k) (unnamed[k] && k != t ? rest : together) += fit.contribution[k];
+  together = centred(problem, together);
+  rest = centred(problem, rest);
+  std::array<bool, 6> told{};
+  for (const Remainder::OfComponent& r : remainder.components) {
+    told[static_cast<std::size_t>(r.component)] = r.evidence >= remainder_evidence;
   }
   double left = 0.0;
-  for (const Remainder::OfComponent& r : remainder.components) {
-    if (r.evidence < remainder_evidence) continue;
-    if (power[r.component] > 0.1 * total) left += r.power;
+  double own_power = 0.0;
+  double together_power = 0.0;
+  const double largest = own.cwiseAbs().maxCoeff();
+  for (Index u = 0; u < problem.size(); ++u) {
+    const Component c = problem.component[static_cast<std::size_t>(u)];
+    if (std::abs(fit.contribution[t][u]) < 1e-6 * largest) continue;
+    const double sigma = problem.ownSigma(u);
+    own_power += std::pow(own[u] / sigma, 2);
+    together_power += std::pow(together[u] / sigma, 2);
+    left += std::pow(rest[u] / sigma, 2);
+    if (told[static_cast<std::size_t>(c)]) left += std::pow(remainder.values[u] / sigma, 2);
+    left += std::max(0.0, std::pow(problem.noise.of(c).common / sigma, 2) - 1.0);
   }
-  return total > 0.0 ? std::sqrt(left / total) : 1e9;
+  const double power = std::min(own_power, together_power);
+  return power > 0.0 ? std::sqrt(left / power) : 1e9;
 }
 
 /// True if an effect that cannot be fitted (nothing in the log drives it) has the pattern of this one.
@@ -84,6 +113,25 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
   std::vector<ModelTerm> terms;
   bool ambiguous = false;
   std::vector<std::string> unnamed;
+  // Effects that may imitate: the weakest claim goes first, and what it explained counts as left for the others.
+  std::vector<bool> imitates(fit.terms.size(), false);
+  std::vector<double> ratios(fit.terms.size(), 0.0);
+  std::vector<double> claim(fit.terms.size(), 0.0);
+  for (std::size_t round = 0; round <= fit.terms.size(); ++round) {
+    std::size_t weakest = fit.terms.size();
+    for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+      if (imitates[t]) continue;
+      const SlotEvidence& slot = posterior.slots[t];
+      ratios[t] = imitationRatio(problem, fit, t, remainder, imitates);
+      const double known = 1.0 / (1.0 + std::pow(ratios[t] / priors.imitation, 4));
+      const double there = 1.0 / (1.0 + std::exp(-0.5 * std::min(slot.delta_evidence, slot.over_unknown + unknown_price)));
+      claim[t] = known * there;
+      if (posterior.forced[t] || claim[t] >= least_confidence) continue;
+      if (weakest == fit.terms.size() || claim[t] < claim[weakest]) weakest = t;
+    }
+    if (weakest == fit.terms.size()) break;
+    imitates[weakest] = true;
+  }
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     const SlotEvidence& slot = posterior.slots[t];
     const Effect& effect = *fit.terms[t].effect;
@@ -122,25 +170,22 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       out.warnings.push_back(fmt::format("{} cannot be told from {}, because the log lacks what drives the latter: log it next time.",
                                          effect.id, other.id));
     }
-    const double ratio = imitationRatio(problem, fit, t, remainder);
-    const double known = 1.0 / (1.0 + std::pow(ratio / priors.imitation, 4));
-    const double there = 1.0 / (1.0 + std::exp(-0.5 * std::min(slot.delta_evidence, slot.over_unknown)));
     const double undriven = 1.0 / (1.0 + static_cast<double>(std::count_if(
         search.catalogue().begin(), search.catalogue().end(), [&](const Effect& e) {
           return e.variants.empty() && std::find(name.rivals.begin(), name.rivals.end(), e.id) != name.rivals.end();
         })));
     (void)rejected;
-    name.confidence = std::clamp(slot.probability * known * there * undriven, 0.01, 0.995);
+    name.confidence = std::clamp(slot.probability * claim[t] * undriven, 0.01, 1.0 - priors.unforeseen);
     DiscrepancyStep step{effect.id, true, slot.delta_evidence, slot.delta_chi2, ""};
     if (name.forced) {
       step.reason = slot.delta_evidence > 0.0 ? "put in by you" : "put in by you; the data do not support it";
       if (!(slot.delta_evidence > 0.0)) {
         out.warnings.push_back(fmt::format("{} was accepted by hand; the data do not support it.", effect.id));
       }
-    } else if (known * there < least_confidence) {
+    } else if (imitates[t]) {
       step.accepted = false;
       step.reason = fmt::format("what it leaves is too large beside it ({:.2f}), or noise would do ({:.0f}): it may imitate a cause outside the catalogue",
-                                ratio, slot.over_unknown);
+                                ratios[t], slot.over_unknown);
       unnamed.push_back(effect.id);
     } else if (name.rivals.size() > most_rivals) {
       step.accepted = false;

@@ -21,6 +21,8 @@ constexpr double scale_prior_sd = 1.0;
 constexpr double shift_price = 4.0;
 constexpr double correlation_price = 8.0;
 constexpr double tail_price = 6.0;
+/// Of noise that is correlated in time, actual / stated sigma.
+constexpr double largest_slow_noise = 2.0;
 /// Common shift, in standard deviations of the own noise, while nothing is known of the signal.
 constexpr double careful_shift = 0.7;
 
@@ -335,7 +337,8 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
         for (const double factor : {0.55, 1.8}) consider(then.part, factor * then.time_s, 2);
       }
     }
-    if (best_correlated < best - correlation_price) {
+    // Slow noise much larger than stated is no noise but something that nobody explains yet.
+    if (best_correlated < best - correlation_price && correlated.log_scale < std::log(largest_slow_noise)) {
       chosen = correlated;
       chosen_products = std::move(correlated_products);
       best = best_correlated;

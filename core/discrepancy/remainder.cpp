@@ -10,45 +10,66 @@ namespace {
 
 using Eigen::Index;
 
-/// Patterns (constant, slopes along the axes where there are points enough) times hats in time, of one component.
-Eigen::MatrixXd smoothColumns(const ResidualProblem& problem, Component c) {
-  std::vector<Index> units;
-  int series = 0;
-  for (Index u = 0; u < problem.size(); ++u) {
-    if (problem.component[static_cast<std::size_t>(u)] != c) continue;
-    if (units.empty() || problem.series[static_cast<std::size_t>(u)] != problem.series[static_cast<std::size_t>(u - 1)]) ++series;
-    units.push_back(u);
-  }
-  if (units.empty()) return {};
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300);
-  Eigen::Vector3d high = -low;
-  for (const Index u : units) {
-    low = low.cwiseMin(problem.place[static_cast<std::size_t>(u)].position_mm);
-    high = high.cwiseMax(problem.place[static_cast<std::size_t>(u)].position_mm);
-  }
-  std::vector<Eigen::VectorXd> patterns{Eigen::VectorXd::Ones(static_cast<Index>(units.size()))};
-  for (int axis = 0; axis < 3 && series >= 6; ++axis) {
-    if (!(high[axis] - low[axis] > 1e-6)) continue;
-    Eigen::VectorXd p(static_cast<Index>(units.size()));
-    for (Index i = 0; i < p.size(); ++i) {
-      const auto& q = problem.place[static_cast<std::size_t>(units[static_cast<std::size_t>(i)])];
-      p[i] = 2.0 * (q.position_mm[axis] - low[axis]) / (high[axis] - low[axis]) - 1.0;
-    }
-    patterns.push_back(std::move(p));
-  }
-  const int hats = std::clamp(problem.epoch_count / 2, 2, 20);
+/// Hats in time over the units of `series`.
+Eigen::MatrixXd smoothColumns(const ResidualProblem& problem, const std::vector<int>& series) {
+  const int hats = std::clamp(problem.epoch_count / 3, 2, 14);
   const double start = problem.node_time_s.front();
   const double span = std::max(1.0, problem.node_time_s.back() - start);
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(problem.size(), static_cast<Index>(patterns.size()) * hats);
-  Index at = 0;
-  for (const Eigen::VectorXd& pattern : patterns) {
-    for (int h = 0; h < hats; ++h, ++at) {
-      for (Index i = 0; i < pattern.size(); ++i) {
-        const Index u = units[static_cast<std::size_t>(i)];
-        const double position = (problem.time_s[static_cast<std::size_t>(u)] - start) / span * (hats - 1);
-        out(u, at) = pattern[i] * std::max(0.0, 1.0 - std::abs(position - h));
-      }
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(problem.size(), hats);
+  for (const int s : series) {
+    const auto at = static_cast<std::size_t>(s);
+    for (Index u = problem.series_begin[at]; u < problem.series_begin[at + 1]; ++u) {
+      const double position = (problem.time_s[static_cast<std::size_t>(u)] - start) / span * (hats - 1);
+      for (int h = 0; h < hats; ++h) out(u, h) = std::max(0.0, 1.0 - std::abs(position - h));
     }
+  }
+  return out;
+}
+
+struct Course {
+  Eigen::VectorXd values;  // um or urad
+  double evidence = 0.0;
+  double power = 0.0;
+};
+
+/// The smooth course of `series` together, its size at the maximum of the marginal likelihood.
+Course courseOf(const ResidualProblem& problem, const CandidateLibrary::Given& given, const Eigen::VectorXd& residual,
+                const std::vector<int>& series) {
+  Course out;
+  out.values = Eigen::VectorXd::Zero(problem.size());
+  const Eigen::MatrixXd raw = smoothColumns(problem, series);
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(residual.size(), raw.cols());
+  const Eigen::MatrixXd projected = problem.projected(raw);
+  u.topRows(projected.rows()) = projected;
+  if (given.basis.cols() > 0) u -= given.basis * (given.basis.transpose() * u);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(u.transpose() * u);
+  const Eigen::VectorXd lambda = eigen.eigenvalues().cwiseMax(0.0);
+  const Eigen::VectorXd beta = eigen.eigenvectors().transpose() * (u.transpose() * residual);
+  double width = 0.0;
+  for (int step = 0; step < 28; ++step) {
+    const double w = 0.02 * std::pow(1.35, step);  // um: from far below any noise to 100 times it
+    double value = 0.0;
+    for (Index i = 0; i < lambda.size(); ++i) {
+      const double v = 1.0 + lambda[i] * w * w;
+      value += beta[i] * beta[i] * w * w / v - std::log(v);
+    }
+    if (value > out.evidence) {
+      out.evidence = value;
+      width = w;
+    }
+  }
+  if (!(out.evidence > 0.0)) return out;
+  const Eigen::VectorXd coefficient =
+      (beta.array() * width * width / (1.0 + lambda.array() * width * width)).matrix();
+  const Eigen::VectorXd weights = eigen.eigenvectors() * coefficient;
+  out.values = raw * weights;
+  out.power = (u * weights).squaredNorm();
+  // Deviation from the constant of the series, which is free.
+  for (const int s : series) {
+    if (!problem.free_constants) continue;
+    const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+    const Index count = problem.series_begin[static_cast<std::size_t>(s) + 1] - from;
+    out.values.segment(from, count).array() -= out.values.segment(from, count).mean();
   }
   return out;
 }
@@ -58,47 +79,37 @@ Eigen::MatrixXd smoothColumns(const ResidualProblem& problem, Component c) {
 Remainder remainderOf(const ResidualProblem& problem, const CandidateLibrary::Given& given) {
   Remainder out;
   out.values = Eigen::VectorXd::Zero(problem.size());
+  out.series_evidence.assign(static_cast<std::size_t>(problem.seriesCount()), 0.0);
   for (const Component c : all_components) {
-    const Eigen::MatrixXd raw = smoothColumns(problem, c);
-    if (raw.cols() == 0) continue;
-    Eigen::MatrixXd u = Eigen::MatrixXd::Zero(given.residual.size(), raw.cols());
-    const Eigen::MatrixXd projected = problem.projected(raw);
-    u.topRows(projected.rows()) = projected;
-    if (given.basis.cols() > 0) u -= given.basis * (given.basis.transpose() * u);
-    const Eigen::MatrixXd gram = u.transpose() * u;
-    const Eigen::VectorXd b = u.transpose() * given.residual;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-    const Eigen::VectorXd lambda = eigen.eigenvalues().cwiseMax(0.0);
-    const Eigen::VectorXd beta = eigen.eigenvectors().transpose() * b;
-    double best = 0.0;
-    double width = 0.0;
-    for (int step = 0; step < 28; ++step) {
-      const double w = 0.02 * std::pow(1.35, step);  // um: from far below any noise to 100 times it
-      double value = 0.0;
-      for (Index i = 0; i < lambda.size(); ++i) {
-        const double v = 1.0 + lambda[i] * w * w;
-        value += beta[i] * beta[i] * w * w / v - std::log(v);
-      }
-      if (value > best) {
-        best = value;
-        width = w;
-      }
-    }
-    if (!(best > 0.0)) continue;
-    Eigen::VectorXd coefficient(lambda.size());
-    for (Index i = 0; i < lambda.size(); ++i) coefficient[i] = beta[i] * width * width / (1.0 + lambda[i] * width * width);
-    const Eigen::VectorXd weights = eigen.eigenvectors() * coefficient;
-    Eigen::VectorXd values = raw * weights;
-    // Deviation from the constant of the series, which is free.
-    for (int s = 0; s < problem.seriesCount() && problem.free_constants; ++s) {
-      const Index from = problem.series_begin[static_cast<std::size_t>(s)];
-      const Index count = problem.series_begin[static_cast<std::size_t>(s) + 1] - from;
-      if (problem.component[static_cast<std::size_t>(from)] != c) continue;
-      values.segment(from, count).array() -= values.segment(from, count).mean();
-    }
+    std::vector<int> series;
     double count = 0.0;
-    for (Index i = 0; i < problem.size(); ++i) count += problem.component[static_cast<std::size_t>(i)] == c ? 1.0 : 0.0;
-    out.components.push_back({c, std::sqrt(values.squaredNorm() / count), best, (u * weights).squaredNorm()});
+    for (int s = 0; s < problem.seriesCount(); ++s) {
+      const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+      if (problem.component[static_cast<std::size_t>(from)] != c) continue;
+      series.push_back(s);
+      count += static_cast<double>(problem.series_begin[static_cast<std::size_t>(s) + 1] - from);
+    }
+    if (series.empty()) continue;
+    const Course together = courseOf(problem, given, given.residual, series);
+    Eigen::VectorXd values = together.values;
+    double evidence = together.evidence;
+    double power = together.power;
+    // A point that was measured a few times has no course of its own.
+    const bool alone = series.size() > 1 && problem.epoch_count >= 6 && series.size() <= 60;
+    for (const int s : alone ? series : std::vector<int>{}) {
+      const Course own = courseOf(problem, given, given.residual, {s});
+      // The best of so many series.
+      const double told = own.evidence - 2.0 * std::log(static_cast<double>(series.size()));
+      out.series_evidence[static_cast<std::size_t>(s)] = told;
+      if (!(told > std::max(10.0, together.evidence))) continue;
+      const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+      const Index size = problem.series_begin[static_cast<std::size_t>(s) + 1] - from;
+      values.segment(from, size) = own.values.segment(from, size);
+      power += own.power;
+      evidence = std::max(evidence, told);
+    }
+    if (!(evidence > 0.0)) continue;
+    out.components.push_back({c, std::sqrt(values.squaredNorm() / count), evidence, power});
     out.values += values;
   }
   return out;

@@ -572,7 +572,7 @@ Eigen::MatrixXd ResidualProblem::projected(const Eigen::MatrixXd& columns) const
 
 ResidualProblem::NuisancePart ResidualProblem::nuisancePart(const Eigen::VectorXd& values) const {
   const auto count = static_cast<Index>(nuisances_.size());
-  if (count == 0) return {Eigen::VectorXd::Zero(size()), 0.0};
+  if (count == 0) return {Eigen::VectorXd::Zero(size()), 0.0, {}, {}};
   Eigen::MatrixXd raw(size(), count + 1);
   Eigen::VectorXd precision(count);
   for (Index c = 0; c < count; ++c) {
@@ -588,8 +588,14 @@ ResidualProblem::NuisancePart ResidualProblem::nuisancePart(const Eigen::VectorX
   }
   Eigen::MatrixXd gram = x.leftCols(count).transpose() * x.leftCols(count);
   gram.diagonal() += precision;
-  const Eigen::VectorXd b = gram.ldlt().solve(x.leftCols(count).transpose() * x.col(count));
-  return {raw.leftCols(count) * b, b.cwiseAbs2().dot(precision)};
+  const Eigen::MatrixXd inverse = gram.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::VectorXd b = inverse * (x.leftCols(count).transpose() * x.col(count));
+  NuisancePart out{raw.leftCols(count) * b, b.cwiseAbs2().dot(precision), {}, {}};
+  for (Index c = 0; c < count; ++c) {
+    out.coefficients.push_back(b[c]);
+    out.variances.push_back(inverse(c, c));
+  }
+  return out;
 }
 
 int ResidualProblem::degreesOfFreedom() const noexcept {

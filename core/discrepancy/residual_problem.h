@@ -48,6 +48,7 @@ struct NoiseModel {
 struct NuisanceColumn {
   Eigen::VectorXd values;
   double prior_sigma = 0.0;
+  bool relative = false;  ///< its coefficient is a relative error of the simulation
 };
 
 class ResidualProblem {
@@ -94,6 +95,8 @@ class ResidualProblem {
   struct NuisancePart {
     Eigen::VectorXd values;
     double price = 0.0;
+    std::vector<double> coefficients;
+    std::vector<double> variances;  ///< of the coefficients, under their priors
   };
   [[nodiscard]] NuisancePart nuisancePart(const Eigen::VectorXd& values) const;
   /// Rows of priors in a projected vector.

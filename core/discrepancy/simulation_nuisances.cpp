@@ -27,7 +27,7 @@ std::vector<NuisanceColumn> ResidualProblem::simulationNuisances(double gain_unc
         if (dt > 0.0) rate[u] = (simulated[after] - simulated[before]) / dt;
       }
     }
-    if (rate.cwiseAbs().maxCoeff() > 1e-12) out.push_back({rate, clock_s});
+    if (rate.cwiseAbs().maxCoeff() > 1e-12) out.push_back({rate, clock_s, false});
   }
   if (!(gain_uncertainty > 0.0)) return out;
   const Index n = size();
@@ -46,7 +46,7 @@ std::vector<NuisanceColumn> ResidualProblem::simulationNuisances(double gain_unc
     }
     const double size_um = centred.cwiseAbs().maxCoeff();
     if (!(size_um > 1e-9)) continue;
-    out.push_back({centred, gain_uncertainty});
+    out.push_back({centred, gain_uncertainty, true});
     // Lags of the simulation a little off: the difference to itself after a lag.
     for (const double tau : {900.0, 3600.0}) {
       Eigen::VectorXd lagged = Eigen::VectorXd::Zero(n);
@@ -64,7 +64,7 @@ std::vector<NuisanceColumn> ResidualProblem::simulationNuisances(double gain_unc
           lagged[u] = centred[u] - state;
         }
       }
-      out.push_back({lagged, 2.0 * gain_uncertainty});
+      out.push_back({lagged, 2.0 * gain_uncertainty, false});
     }
     // The parts it is made of: every pair of a pattern in space and one in time.
     const auto points = static_cast<Index>(members.size());
@@ -101,7 +101,7 @@ std::vector<NuisanceColumn> ResidualProblem::simulationNuisances(double gain_unc
             column[u] = amplitude * svd.matrixU()(p, a) * svd.matrixV()(epoch[static_cast<std::size_t>(u)], b);
           }
         }
-        out.push_back({column, gain_uncertainty});
+        out.push_back({column, gain_uncertainty, true});
       }
     }
   }

@@ -62,6 +62,9 @@ struct Effect {
   bool free_origin = false;
   double origin_low_mm = 0.0;
   double origin_high_mm = 0.0;
+  /// |gain of shape column k| <= largest_ratio[k] x |gain of column 0|, 0: free. Empty: all free.
+  std::vector<double> largest_ratio;
+  bool two_lags = false;        ///< its heat may reach it through two lags
   bool refinement = false;      ///< refines another effect of the same cause (ball_screw.nonuniform)
   bool follows_room = false;    ///< what the driver heats also follows the room, a little
   bool of_machine = true;       ///< a part of the machine moves, which follows the room; false: the instrument does

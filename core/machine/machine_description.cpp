@@ -167,7 +167,14 @@ MachineDescription MachineDescription::parse(const JsonNode& root, const std::fi
       machine.table_centre_mm = Eigen::Vector2d(c[0], c[1]);
     }
   }
-  if (const auto column = root.find("column")) machine.column_base_mm = optionalNumber(*column, "base_mm");
+  if (const auto column = root.find("column")) {
+    machine.column_base_mm = optionalNumber(*column, "base_mm");
+    if (const auto overhang = column->find("overhang_mm")) {
+      const std::vector<double> r = overhang->numbers();
+      if (r.size() != 2 && r.size() != 3) overhang->reject("two numbers x, y (and z): spindle minus column");
+      machine.column_overhang_mm = Eigen::Vector2d(r[0], r[1]);
+    }
+  }
   if (const auto beam = root.find("crossbeam")) {
     Crossbeam parsed;
     parsed.axis = beam->stringOr("axis", "Y");

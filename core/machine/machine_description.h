@@ -111,6 +111,7 @@ struct MachineDescription {
   std::optional<ProfilerDescription> profiler;
   std::optional<Eigen::Vector2d> table_centre_mm;
   std::optional<double> column_base_mm;
+  std::optional<Eigen::Vector2d> column_overhang_mm;  ///< spindle minus column, X and Y
   std::optional<Crossbeam> crossbeam;
   double reference_temperature_degC = 20.0;
   nlohmann::json source;

@@ -66,6 +66,7 @@ void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& o
       addLagVariants(effect, screw);
       effect.driver_missing = !drivers.has(feed);
       effect.refinement = !uniform;
+      effect.two_lags = uniform;
       if (!uniform) effect.contains = {"ball_screw.expansion." + letter};
       out.push_back(std::move(effect));
     }

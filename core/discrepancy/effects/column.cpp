@@ -5,6 +5,31 @@ namespace spindrift {
 
 // A column that is warmer at the front than at the rear bends backwards like a beam clamped at its base z0: the head on
 // it turns in proportion to the height and moves with the square of it. A column that warms as a whole grows.
+void addBendingShape(const MachineDescription& machine, int axis, Effect& effect) {
+  const double base = *machine.column_base_mm;
+  const Component side = axis == 0 ? Component::EY : Component::EX;
+  const Component turn = axis == 0 ? Component::EA : Component::EB;
+  const double sign = axis == 0 ? -1.0 : 1.0;
+  // a: ez = EA r_y; b: ez = -EB r_x
+  std::optional<double> lever_m;
+  if (machine.column_overhang_mm) {
+    lever_m = (axis == 0 ? machine.column_overhang_mm->y() : -machine.column_overhang_mm->x()) * 1e-3;
+  }
+  // um for 1 K: gain in um/m^2.
+  effect.shape = {{"um_per_m2", [side, turn, sign, base, lever = lever_m.value_or(0.0)](const DeviationQuery& q, Component c) {
+                     const double h = (q.position_mm.z() - base) * 1e-3;
+                     if (c == side) return sign * 0.5 * h * h;
+                     if (c == Component::EZ) return h * lever;
+                     return c == turn ? h : 0.0;
+                   }}};
+  if (lever_m) return;
+  constexpr double longest_overhang_m = 1.0;
+  effect.shape.push_back({"um_per_m_lift", [base](const DeviationQuery& q, Component c) {
+                            return c == Component::EZ ? (q.position_mm.z() - base) * 1e-3 : 0.0;
+                          }});
+  effect.largest_ratio = {0.0, longest_overhang_m};
+}
+
 void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out) {
   if (!context.machine->column_base_mm) return;
   const DriverTable& drivers = *context.drivers;
@@ -30,15 +55,7 @@ void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out)
         "A temperature difference across the column bends it about its base: the deviation grows with the square of "
         "the "
         "height above the base, the rotation in proportion to it.";
-    const Component side = axis == 0 ? Component::EY : Component::EX;
-    const Component turn = axis == 0 ? Component::EA : Component::EB;
-    const double sign = axis == 0 ? -1.0 : 1.0;
-    // um for 1 K: gain in um/m^2.
-    bending.shape = {{"um_per_m2", [side, turn, sign, base](const DeviationQuery& q, Component c) {
-                        const double h = (q.position_mm.z() - base) * 1e-3;
-                        if (c == side) return sign * 0.5 * h * h;
-                        return c == turn ? h : 0.0;
-                      }}};
+    addBendingShape(*context.machine, axis, bending);
     addLagVariants(bending, bending_drivers);
     bending.follows_room = true;
     bending.driver_missing = !drivers.has("column_difference");

@@ -19,7 +19,7 @@ void addCoolantEffects(const CatalogueContext& context, std::vector<Effect>& out
       for (const std::string& room : context.drivers->room()) {
         const std::string product = "coolant*" + room;
         if (!context.drivers->has(product)) continue;
-        effect.variants.push_back({{{"coolant", Dynamics::Lag}, {product, Dynamics::Lag}}, false});
+        effect.variants.push_back({{{"coolant", Dynamics::Lag}, {product, Dynamics::Lag}}, true});
       }
       effect.variants.push_back({{{"coolant", Dynamics::AsymmetricLag}}, false});
     } else {

@@ -14,6 +14,7 @@ void addInstrumentEffects(const CatalogueContext& context, std::vector<Effect>& 
         "has no "
         "part in it.";
     effect.of_machine = false;
+    effect.two_lags = true;
     effect.shape = {constantShape(static_cast<Component>(axis))};
     // Not logged: taken as switched on when the log starts.
     if (logged) addLagVariants(effect, {"instrument_on"});

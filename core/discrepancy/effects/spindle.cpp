@@ -18,6 +18,7 @@ void addSpindleEffects(const CatalogueContext& context, std::vector<Effect>& out
   addLagVariants(growth, heat);
   growth.contains = {"spindle.centrifugal.z"};
   growth.follows_room = true;
+  growth.two_lags = true;
   growth.driver_missing = heat.empty();
   out.push_back(growth);
 
@@ -42,6 +43,7 @@ void addSpindleEffects(const CatalogueContext& context, std::vector<Effect>& out
     drift.shape = {constantShape(static_cast<Component>(axis))};
     addLagVariants(drift, heat);
     drift.follows_room = true;
+    drift.two_lags = true;
     drift.driver_missing = heat.empty();
     out.push_back(drift);
   }
