@@ -227,8 +227,19 @@ PosteriorSearch::State PosteriorSearch::stateOf(const std::vector<ModelTerm>& te
   State out;
   out.fit = rounds > 0 ? search_->refine(terms, rounds) : search_->solve(terms);
   out.evidence = evidenceOf(out.fit);
+  bool cold = false;  // something would have been warmer at the start than it can be: then it was not
+  std::vector<ModelTerm> without_start = out.fit.terms;
   for (std::size_t t = 0; t < terms.size(); ++t) {
-    if (!search_->admissible(out.fit.terms[t], out.fit.gains[t])) out.evidence -= inadmissible_price;
+    if (search_->admissible(out.fit.terms[t], out.fit.gains[t])) continue;
+    out.evidence -= inadmissible_price;
+    if (!warmStart(without_start[t].variant)) continue;
+    without_start[t].variant.inputs.pop_back();
+    without_start[t].variant.shared_lag = without_start[t].variant.inputs.size() > 1;
+    cold = true;
+  }
+  if (cold) {
+    State again = stateOf(without_start, rounds);
+    if (again.evidence > out.evidence) return again;
   }
   return out;
 }
@@ -401,11 +412,29 @@ EffectPosterior PosteriorSearch::run(const JobContext& job) const {
     if (beam.front().evidence < best.evidence - 12.0) break;
   }
   if (best.fit.terms.size() > options_->accept.size()) best = exchanged(best, job, visited);
-  best = stateOf(best.fit.terms, 2);
-  visited.push_back(best);
-  // In the order of what each brings, the user's first.
+  const auto refined = [&](State state) {
+    State again = stateOf(state.fit.terms, 2);
+    visited.push_back(again);
+    return again.evidence > state.evidence ? again : state;
+  };
+  best = refined(std::move(best));
+  // In the order of what each brings, the user's first. One that brings nothing any more leaves.
   std::vector<SlotEvidence> slots;
-  for (std::size_t t = 0; t < best.fit.terms.size(); ++t) slots.push_back(slotOf(best, t, job, visited));
+  for (;;) {
+    slots.clear();
+    std::size_t idle = best.fit.terms.size();
+    for (std::size_t t = 0; t < best.fit.terms.size(); ++t) {
+      slots.push_back(slotOf(best, t, job, visited));
+      const auto& ids = options_->accept;
+      const bool forced = std::find(ids.begin(), ids.end(), best.fit.terms[t].effect->id) != ids.end();
+      if (forced || slots[t].delta_evidence > 0.0) continue;
+      if (idle == best.fit.terms.size() || slots[t].delta_evidence < slots[idle].delta_evidence) idle = t;
+    }
+    if (idle == best.fit.terms.size()) break;
+    std::vector<ModelTerm> fewer = best.fit.terms;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(idle));
+    best = refined(stateOf(fewer, 1));
+  }
   std::vector<std::size_t> order(slots.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto accepted = [&](std::size_t i) {

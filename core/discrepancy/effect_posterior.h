@@ -32,7 +32,7 @@ struct DiscrepancyPriors {
   /// Probability that one more effect is missing, whatever is found already.
   double one_more = 0.4;
   /// Standard deviation of the relative error of a part of the simulation that is not worth a name.
-  double simulation_error = 0.035;
+  double simulation_error = 0.028;
   /// Odds of an effect that holds a simpler one as a special case, beside that one; and the part of its amplitude by
   /// which the simpler one may be off in just the way that the wider one can follow.
   double wider = 0.1;

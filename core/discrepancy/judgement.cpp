@@ -67,7 +67,9 @@ double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::
     left += std::max(0.0, std::pow(problem.noise.of(c).common / sigma, 2) - 1.0);
   }
   const double power = std::min(own_power, together_power);
-  return power > 0.0 ? std::sqrt(left / power) : 1e9;
+  // A step is a step: it has no dynamics that could be a little different.
+  const bool step = fit.terms[t].variant.inputs[0].dynamics == Dynamics::Step;
+  return power > 0.0 ? (step ? 3.0 : 1.0) * std::sqrt(left / power) : 1e9;
 }
 
 /// True if an effect that cannot be fitted (nothing in the log drives it) has the pattern of this one.

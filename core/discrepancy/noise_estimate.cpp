@@ -338,7 +338,12 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
       }
     }
     // Slow noise much larger than stated is no noise but something that nobody explains yet.
-    if (best_correlated < best - correlation_price && correlated.log_scale < std::log(largest_slow_noise)) {
+    if (best_correlated < best - correlation_price && !(correlated.log_scale < std::log(largest_slow_noise))) {
+      // Its quick part is the noise, the slow one remains to be explained.
+      const double kept = correlated.part * std::exp(-step / correlated.time_s);
+      chosen.log_scale = std::min(chosen.log_scale, correlated.log_scale + 0.5 * std::log(std::max(1e-3, 1.0 - kept)));
+      chosen.shift = std::min(chosen.shift, correlated.shift);
+    } else if (best_correlated < best - correlation_price) {
       chosen = correlated;
       chosen_products = std::move(correlated_products);
       best = best_correlated;
