@@ -156,6 +156,21 @@ HeldOutSignal heldOutSignal(const VirtualCampaign& campaign, const std::vector<d
   return out;
 }
 
+double heldOutStrength(const VirtualCampaign& campaign) {
+  const std::vector<double> hidden = heldOutMotion(campaign, campaign.truth.hidden_signal);
+  const auto& rows = campaign.campaign.observations->rows;
+  std::map<Component, std::pair<double, int>> sums;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].use != ObservationUse::Holdout) continue;
+    auto& [sum, count] = sums[rows[i].component];
+    sum += hidden[i] * hidden[i];
+    ++count;
+  }
+  double strength = 0.0;
+  for (const auto& [component, sum] : sums) strength = std::max(strength, std::sqrt(sum.first / sum.second));
+  return strength;
+}
+
 double explainedFraction(const VirtualCampaign& campaign, const std::vector<double>& effect_part) {
   return heldOutSignal(campaign, effect_part).explained();
 }

@@ -51,6 +51,9 @@ struct HeldOutSignal {
   /// NaN if nothing is hidden.
   [[nodiscard]] double explained() const { return 1.0 - missed / hidden; }
 };
+/// rms of the hidden signal over the held-out rows, about its mean over the fitted ones, in the component where it is
+/// largest, in sigma.
+[[nodiscard]] double heldOutStrength(const VirtualCampaign& campaign);
 [[nodiscard]] HeldOutSignal heldOutSignal(const VirtualCampaign& campaign, const std::vector<double>& effect_part);
 /// The part of the hidden signal that is explained on held-out rows.
 [[nodiscard]] double explainedFraction(const VirtualCampaign& campaign, const std::vector<double>& effect_part);

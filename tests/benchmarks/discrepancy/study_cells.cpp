@@ -39,7 +39,7 @@ std::vector<Cell> makeCells() {
   add("outside, clean", Row::Outside, StudyKind::Outside, 5.0, 4, 2);
   add("outside, together", Row::Outside, StudyKind::Outside, 5.0, 4, 2, together);
   add("slow noise, one, 4", Row::SlowNoise, StudyKind::One, 4.0, 4, 0, {}, 0.9);
-  add("two, 4", Row::Two, StudyKind::Two, 4.0, 5, 2);
+  add("two, 4", Row::Two, StudyKind::Two, 4.0, 5, 4);
   add("confounded log, 5", Row::Confounded, StudyKind::Confounded, 5.0, 3, 0);
   return list;
 }
@@ -52,7 +52,7 @@ const std::vector<Target>& targets() {
                                         {Row::Three, "three effects, clean and together", 0.75, 0.90, 0.04},
                                         {Row::Nothing, "nothing hidden, clean and together", 0.93, 0.0, 0.03},
                                         {Row::Outside, "outside the catalogue, nothing named", 0.93, 0.0, 1.0},
-                                        {Row::CleanStrong, "clean, one effect at 4-8", 1.0, 0.0, 0.01},
+                                        {Row::CleanStrong, "clean, one effect at 4-8", 0.995, 0.0, 0.01},
                                         {Row::Clean15, "clean, one effect at 1.5", 0.90, 0.0, 0.02},
                                         {Row::Clean08, "clean, one effect at 0.8", 0.68, 0.0, 0.03},
                                         {Row::SlowNoise, "slow noise, one effect at 4", 0.95, 0.0, 0.03},
