@@ -2,7 +2,7 @@
 // Study of the search for hidden effects on virtual campaigns, blind to what they hide.
 //
 //   hidden_effect_study [--campaigns N] [--seed S] [--seeds K] [--short] [--plain] [--kind K] [--cell PART]
-//                       [--dump DIR] [--oracle] [--list] [--require]
+//                       [--dump DIR] [--oracle] [--list] [--require] [--suggestion]
 //
 // N campaigns (default 400), for each of K seeds from S on (default 1; all rates pooled), are shared among the cases of
 // study_cells.cpp: clean data, each condition of a workshop alone, all together, with one, two, three effects hidden,
@@ -14,7 +14,7 @@
 // known to reach; --oracle also fits, at strength 4 and more, the effects that are hidden by their names, to the
 // observations and to the same without noise: what search, noise and the form of the model cost on held-out states.
 // --list prints every campaign that was not named rightly. --dump writes every campaign as a folder, with its truth
-// beside it, and runs no search.
+// beside it, and runs no search. --suggestion studies what to measure next instead (suggestion_study.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,6 +34,7 @@
 #include "tests/benchmarks/discrepancy/plain_methods.h"
 #include "tests/benchmarks/discrepancy/study_cells.h"
 #include "tests/benchmarks/discrepancy/study_report.h"
+#include "tests/benchmarks/discrepancy/suggestion_study.h"
 
 namespace spindrift::study {
 namespace {
@@ -229,6 +230,7 @@ int run(int argc, char** argv) {
   std::string only;
   std::string part;
   bool brief = false;
+  bool suggestion = false;
   for (int i = 1; i < argc; ++i) {
     const auto value = [&]() -> std::string { return i + 1 < argc ? argv[++i] : ""; };
     if (std::strcmp(argv[i], "--campaigns") == 0) {
@@ -251,15 +253,26 @@ int run(int argc, char** argv) {
       only = value();
     } else if (std::strcmp(argv[i], "--cell") == 0) {
       part = value();
+    } else if (std::strcmp(argv[i], "--suggestion") == 0) {
+      suggestion = true;
     } else if (std::strcmp(argv[i], "--dump") == 0) {
       wanted.dump = value();
     } else {
       fmt::print(
           "usage: {} [--campaigns N] [--seed S] [--seeds K] [--short] [--plain] [--oracle] [--list] [--require] "
-          "[--kind one|two|three|nothing|outside|confounded] [--cell PART] [--dump DIR]\n",
+          "[--kind one|two|three|nothing|outside|confounded] [--cell PART] [--dump DIR] [--suggestion]\n",
           argv[0]);
       return 2;
     }
+  }
+  const std::uint64_t first_seed = seed.value_or(required ? first_judging_seed : 1);
+  if (suggestion) {
+    SuggestionStudyOptions options;
+    options.seed = first_seed;
+    options.campaigns = campaigns;
+    options.list = list;
+    options.required = required;
+    return runSuggestionStudy(options);
   }
   const auto chosen = [&](const Cell& cell) {
     return (only.empty() || only == toString(cell.kind)) && cell.name.find(part) != std::string::npos;
@@ -272,7 +285,6 @@ int run(int argc, char** argv) {
     return 2;
   }
   std::vector<Assignment> work;
-  const std::uint64_t first_seed = seed.value_or(required ? first_judging_seed : 1);
   for (std::uint64_t k = first_seed; k < first_seed + seeds; ++k) {
     for (std::size_t c = 0; c < cells().size(); ++c) {
       const Cell& cell = cells()[c];
