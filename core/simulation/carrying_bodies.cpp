@@ -127,7 +127,7 @@ PlantEffectFunction turningGuideway(const VirtualMachine& plant, double origin_y
   const Span y = spanOf(plant.machine(), "Y", 40.0);
   constexpr int cells = 8;
   std::vector<Follower> volumes{{1.0, 300.0}};  // the saddle, then one flank of the guideway
-  for (int i = 0; i < cells; ++i) volumes.push_back({0.10 * std::exp(-i / 3.0), 400.0 + 150.0 * i});
+  for (int i = 0; i < cells; ++i) volumes.push_back({0.25 * std::exp(-i / 6.0), 400.0 + 100.0 * i});
   const Signals rise = shared(followers(drive, volumes, plant.duration_s()));
   const double alpha = steel_per_K * plant.parameters().expansion;
   const RodIndex guideway{0, cells, y.from_mm, y.to_mm};

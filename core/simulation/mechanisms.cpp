@@ -40,10 +40,10 @@ PlantEffectFunction sun(const VirtualMachine& plant, const std::string& id, cons
   }
   const bool about_x = id.back() == 'a';
   const RodIndex column = plant.thermal().bodies.column[0];
-  // The sun shines on the rear or the right side, a little more on one half of its height than on the other.
+  // The sun shines on the rear or the right side, more on one half of its height than on the other.
   Random random(plant.seed() ^ 0x50a7ULL);
-  const double more = random.uniform(-0.1, 0.1);
-  const double middle = random.uniform(-0.06, 0.06);
+  const double more = random.uniform(-0.4, 0.4);
+  const double middle = random.uniform(-0.25, 0.25);
   std::vector<double> part;
   for (int i = 0; i < column.count; ++i) {
     const double h = (i + 0.5) / column.count - 0.5;
