@@ -144,6 +144,9 @@ void runOne(const Assignment& which, const Wanted& wanted, Outcomes& all, std::m
   // A cause outside the catalogue can be in no list, so that naming anything is wrong.
   const std::vector<std::string> nameable = cell.kind == StudyKind::Outside ? std::vector<std::string>{} : made.hidden;
   const auto judged = [&](const Answer& answer) {
+    // Where the log lacks what drives the effect, "unknown" is right as well as a set with the truth in it.
+    const bool unknown = answer.effects.empty() && answer.verdict == "unknown";
+    if (cell.kind == StudyKind::Confounded && unknown) return Verdict{Outcome::Named, 0};
     if (!nameable.empty()) return judge(answer, nameable);
     if (!answer.effects.empty()) return Verdict{Outcome::Wrong, 0};
     const bool right = answer.verdict == (cell.kind == StudyKind::Outside ? "unknown" : "none");
@@ -182,7 +185,7 @@ void runOne(const Assignment& which, const Wanted& wanted, Outcomes& all, std::m
       all.held_out[which.cell].missed += held_out.missed;
       if (oracle) all.oracle[which.cell].push_back(*oracle);
     }
-    if (outcome == Outcome::Named && cell.strength >= 4.0 && explained < 0.95) {
+    if (outcome == Outcome::Named && !result.effects.empty() && cell.strength >= 4.0 && explained < 0.95) {
       std::string beside;
       if (oracle) {
         beside = fmt::format(

@@ -21,12 +21,14 @@ constexpr double acting_part = 0.5;
 /// Stated probability against how often it is right, in every fifth of the range.
 constexpr double calibration_tolerance = 0.05;
 
-/// Fewer campaigns of one case say nothing by themselves about a rate of 95 %: one miss in twelve has an interval up to
-/// 98.5 %, one in two only up to 90.5 %.
-constexpr int fewest_for_one_case = 12;
-
 RateInterval interval(int k, int n) {
   return wilsonInterval(static_cast<std::size_t>(k), static_cast<std::size_t>(n));
+}
+
+/// Campaigns from which on one case of a row is judged by itself: one miss among them must not be a target missed.
+bool enoughForOneCase(int n, double target) {
+  constexpr int fewest = 12;
+  return n >= fewest && interval(n - 1, n).high >= target;
 }
 
 void printTable(const char* method, const std::vector<Tally>& tallies) {
@@ -167,7 +169,7 @@ void requireRates(const Outcomes& all, Requirements& required) {
     }
     demand(target.name, whole, false);
     for (std::size_t c = 0; c < cells().size() && with_campaigns > 1; ++c) {
-      if (cells()[c].row == target.row && all.search[c].count >= fewest_for_one_case) {
+      if (cells()[c].row == target.row && enoughForOneCase(all.search[c].count, target.right)) {
         demand("  " + cells()[c].name, all.search[c], true);
       }
     }
@@ -253,8 +255,11 @@ std::string rate(int k, int n) {
 }
 
 void printReport(const Outcomes& all, const ReportOptions& options) {
-  printTable("search (\"right name\" is \"unknown\" outside the catalogue and \"none\" where nothing is hidden)",
-             all.search);
+  printTable(
+      "search (\"right name\" is \"unknown\" outside the catalogue, also with a confounded log, and \"none\" where "
+      "nothing is "
+      "hidden)",
+      all.search);
   if (options.plain) {
     printTable("forward stepwise BIC over the same candidates", all.stepwise);
     printTable("LASSO (BIC along the path) over the same candidates", all.lasso);
