@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Causes with a mechanism of their own, and those that no catalogue knows.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
 #include "core/base/random.h"
 #include "core/base/units.h"
+#include "core/simulation/carrying_bodies.h"
 #include "core/simulation/plant_effects.h"
 #include "core/simulation/small_bodies.h"
+#include "core/simulation/structure.h"
 
 namespace spindrift {
 namespace {
@@ -36,19 +39,31 @@ PlantEffectFunction sun(const VirtualMachine& plant, const std::string& id, cons
     return [wall, alpha](const PlantQuery& q) { return translation(2, alpha * 500.0 * wall->at(q.time_s)); };
   }
   const bool about_x = id.back() == 'a';
-  const double base = plant.machine().column_base_mm.value_or(0.0);
-  return [wall, alpha, about_x, base](const PlantQuery& q) {
-    // A wall that is evenly warmer over the height of the column; the sun shines on its rear or its right side.
-    const double curvature = -alpha * wall->at(q.time_s) / 380.0;
-    const double z = q.position_mm.z() - q.tool_offset_mm.z() - base;
+  const RodIndex column = plant.thermal().bodies.column[0];
+  // The sun shines on the rear or the right side, more on one half of its height than on the other.
+  Random random(plant.seed() ^ 0x50a7ULL);
+  const double more = random.uniform(-0.4, 0.4);
+  const double middle = random.uniform(-0.25, 0.25);
+  std::vector<double> part;
+  for (int i = 0; i < column.count; ++i) {
+    const double h = (i + 0.5) / column.count - 0.5;
+    part.push_back(1.0 + 2.0 * more * h + middle * (1.0 - 6.0 * h * h));
+  }
+  const Eigen::Vector2d overhang = columnOverhang_mm(plant.machine(), s);
+  return [wall, alpha, about_x, column, part, overhang](const PlantQuery& q) {
+    std::vector<double> lit = part;
+    for (double& value : lit) value *= wall->at(q.time_s);
+    const std::vector<double> shade(lit.size(), 0.0);
+    const Bending bend = cantilever(column, shade, lit, alpha, 380.0, q.position_mm.z() - q.tool_offset_mm.z());
     SmallError e;
     if (about_x) {
-      e.translation_mm.y() = 0.5 * curvature * z * z;
-      e.rotation_rad.x() = -curvature * z;
+      e.translation_mm.y() = bend.deflection_mm;
+      e.rotation_rad.x() = -bend.slope_rad;
     } else {
-      e.translation_mm.x() = 0.5 * curvature * z * z;
-      e.rotation_rad.y() = curvature * z;
+      e.translation_mm.x() = bend.deflection_mm;
+      e.rotation_rad.y() = bend.slope_rad;
     }
+    liftOverhang(e, overhang);
     return e.at(q.tool_offset_mm);
   };
 }
@@ -172,9 +187,11 @@ PlantEffectFunction makeMechanismEffect(const VirtualMachine& plant, const std::
     const TemperatureHistory& heated = plant.thermal().heated;
     const RodIndex& screw = plant.thermal().bodies.screw[static_cast<std::size_t>(axis)];
     return [&heated, &screw, axis, pitch, phase, steady_mm](const PlantQuery& q) {
-      // A warm screw runs out of true in its bearings: 1 um for a kelvin.
-      const double amplitude = steady_mm + 0.001 * heated.meanRise(screw, q.time_s);
+      // A warm screw runs out of true in its bearings: 1 um for a kelvin, a little of it from where the nut stands.
       const double place = q.position_mm[axis] - q.tool_offset_mm[axis];
+      const int cell = std::clamp(static_cast<int>((place - screw.from_mm) / screw.cell_mm()), 0, screw.count - 1);
+      const double rise = 0.92 * heated.meanRise(screw, q.time_s) + 0.08 * heated.rise(screw.first + cell, q.time_s);
+      const double amplitude = steady_mm + 0.001 * rise;
       return translation(axis, amplitude * std::sin(2.0 * std::numbers::pi * place / pitch + phase));
     };
   }
@@ -188,8 +205,12 @@ PlantEffectFunction makeMechanismEffect(const VirtualMachine& plant, const std::
     const int axis = lastAxis(id);
     const auto splash = std::make_shared<SampledSignal>(
         coolantSplash(plant.programme(), plant.environment(), plant.parameters(), plant.duration_s()));
-    const double length = (axis == 1 ? -350.0 : 350.0) * steel_per_K * plant.parameters().expansion;
-    return [splash, axis, length](const PlantQuery& q) { return translation(axis, length * splash->at(q.time_s)); };
+    const double alpha = steel_per_K * plant.parameters().expansion;
+    return [splash, axis, alpha, &machine](const PlantQuery& q) {
+      // 350 mm of casting, and a little of what lies along the travel.
+      const double along = 40.0 * travelPart(machine, axis, q.position_mm[axis] - q.tool_offset_mm[axis]);
+      return translation(axis, alpha * ((axis == 1 ? -350.0 : 350.0) + along) * splash->at(q.time_s));
+    };
   }
   if (id.starts_with("heat_source.position.")) {
     const auto heat = std::make_shared<SampledSignal>(

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/units.h"
+#include "core/simulation/carrying_bodies.h"
 #include "core/simulation/structure.h"
 
 namespace spindrift {
@@ -107,7 +108,7 @@ PlantEffectFunction headTilt(const View& v, const std::string& id, const PlantEf
   };
 }
 
-PlantEffectFunction columnEffect(const View& v, const std::string& id) {
+PlantEffectFunction columnEffect(const View& v, const std::string& id, const PlantEffectSetting& s) {
   if (id == "column.expansion.z") {
     return [v](const PlantQuery& q) {
       std::vector<double> mean(static_cast<std::size_t>(v.b->column[0].count), 0.0);
@@ -120,7 +121,8 @@ PlantEffectFunction columnEffect(const View& v, const std::string& id) {
     };
   }
   const bool about_x = id.back() == 'a';
-  return [v, about_x](const PlantQuery& q) {
+  const Eigen::Vector2d overhang = columnOverhang_mm(v.plant->machine(), s);
+  return [v, about_x, overhang](const PlantQuery& q) {
     const RodIndex& hot = v.b->column[about_x ? 0 : 2];
     const RodIndex& cold = v.b->column[about_x ? 1 : 3];
     const Bending bend = cantilever(hot, rises(v.run->heated, hot, q.time_s), rises(v.run->heated, cold, q.time_s),
@@ -133,6 +135,7 @@ PlantEffectFunction columnEffect(const View& v, const std::string& id) {
       e.translation_mm.x() = bend.deflection_mm;
       e.rotation_rad.y() = bend.slope_rad;
     }
+    liftOverhang(e, overhang);
     return statedAtReference(e, q);
   };
 }
@@ -211,18 +214,8 @@ PlantEffectFunction frameEffect(const View& v, const std::string& id, const Plan
   const auto driver = chosenDriver(v, s.driver);
   const Eigen::Vector3d origin(s.parameter("origin_x_mm", 0.0), s.parameter("origin_y_mm", 0.0),
                                s.parameter("origin_z_mm", 0.0));
-  if (id.starts_with("squareness")) {
-    return [v, driver, origin](const PlantQuery& q) {
-      return translation(0, -0.8 * v.alpha * driver(q.time_s) * (reference(q).y() - origin.y()));
-    };
-  }
-  const int axis = lastAxis(id);
-  return [v, driver, origin, axis](const PlantQuery& q) {
-    SmallError e;  // one foot of the bed grows by 600 mm * alpha * rise over a base of 900 mm
-    e.rotation_rad[axis] = v.alpha * driver(q.time_s) * 600.0 / 900.0;
-    e.translation_mm = e.rotation_rad.cross(q.position_mm - origin);
-    return e;
-  };
+  if (id.starts_with("squareness")) return turningGuideway(*v.plant, origin.y(), driver);
+  return turningFrame(*v.plant, lastAxis(id), origin, driver);
 }
 
 PlantEffectFunction beamEffect(const View& v) {
@@ -239,29 +232,11 @@ PlantEffectFunction beamEffect(const View& v) {
 }
 
 PlantEffectFunction rotaryEffect(const View& v, const std::string& id) {
-  const Eigen::Vector3d centre = v.plant->machine().rotary.front().centre_mm;
+  const auto drive = [v](double t) { return v.own(v.b->rotary_drive, t); };
   if (id == "rotary.expansion.r0t") {
-    return [v, centre](const PlantQuery& q) {
-      SmallError e;
-      const Eigen::Vector2d r = q.position_mm.head<2>() - centre.head<2>();
-      e.translation_mm.head<2>() = -v.alpha * v.rise(v.b->rotary_hub, q.time_s) * r;
-      return e;
-    };
+    return rotaryHub(*v.plant, id, drive, [v](double t) { return v.rise(v.b->rotary_hub, t); });
   }
-  const bool tilt = id.starts_with("rotary.tilt");
-  const std::string which = id.substr(id.rfind('.') + 1);
-  const int axis = tilt ? which.front() - 'a' : which.front() - 'x';
-  return [v, centre, tilt, axis](const PlantQuery& q) {
-    SmallError table;  // movement of the table in MCF at its centre
-    const double drive = v.own(v.b->rotary_drive, q.time_s);
-    const double hub = v.own(v.b->rotary_hub, q.time_s);
-    if (tilt) {
-      table.rotation_rad[axis] = v.alpha * 0.5 * drive;
-    } else {
-      table.translation_mm[axis] = axis == 2 ? v.alpha * 160.0 * hub : v.alpha * 90.0 * drive;
-    }
-    return -table.at(q.position_mm - centre);
-  };
+  return rotaryHub(*v.plant, id, drive, [v](double t) { return v.own(v.b->rotary_hub, t); });
 }
 
 PlantEffectFunction artefactEffect(const View& v) {
@@ -316,7 +291,7 @@ PlantEffectFunction makePlantEffect(const VirtualMachine& plant, const std::stri
   const View v(plant);
   if (id.starts_with("spindle.")) return spindleEffect(v, id);
   if (id.starts_with("head.tilt")) return headTilt(v, id, setting);
-  if (id.starts_with("column.")) return columnEffect(v, id);
+  if (id.starts_with("column.")) return columnEffect(v, id, setting);
   if (id.starts_with("ball_screw.")) return screwEffect(v, id);
   if (id.starts_with("scale.")) return scaleEffect(v, id);
   if (id == "table.expansion.xy") return tableEffect(v);
@@ -324,10 +299,13 @@ PlantEffectFunction makePlantEffect(const VirtualMachine& plant, const std::stri
   if (id == "crossbeam.sag.z") return beamEffect(v);
   if (id.starts_with("rotary.")) return rotaryEffect(v, id);
   if (id == "artefact.expansion") return artefactEffect(v);
-  if (id.starts_with("ambient.drift")) {  // the bed follows the room, a length of 500 mm of it stays uncompensated
+  if (id.starts_with("ambient.drift")) {
+    // The bed follows the room; 500 mm of it stay uncompensated, and a tenth of what lies along the travel.
     const int axis = lastAxis(id);
-    return [v, axis](const PlantQuery& q) {
-      const double length = axis == 1 ? -500.0 : 500.0;
+    const LinearAxis* linear = plant.machine().findAxis(std::string(1, "XYZ"[axis]));
+    const double middle = 0.5 * (linear->travel_mm[0] + linear->travel_mm[1]);
+    return [v, axis, middle](const PlantQuery& q) {
+      const double length = (axis == 1 ? -500.0 : 500.0) + 0.1 * (reference(q)[axis] - middle);
       return translation(axis, v.alpha * length * v.run->passive.meanRise(v.b->pedestal, q.time_s));
     };
   }

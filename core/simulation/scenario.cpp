@@ -178,6 +178,7 @@ MeasurementOptions parseMeasurement(const JsonNode& node, const MachineDescripti
   m.c_deg = numbersOr(node, "c_deg", m.c_deg);
   if (const auto offset = node.find("tool_offset_mm")) m.tool_offset_mm = offset->vector3();
   m.random_approach = node.booleanOr("random_approach", m.random_approach);
+  m.clock_offset_s = node.numberOr("clock_offset_s", m.clock_offset_s);
   if (const auto holdout = node.find("holdout")) {
     for (const std::string& state : words(*holdout)) m.holdout.insert(state);
   }
@@ -235,6 +236,7 @@ std::vector<SensorOptions> parseSensors(const JsonNode& node) {
     s.resolution_K = nonNegative(item, "resolution_K", s.resolution_K);
     s.bias_K = item.numberOr("bias_K", s.bias_K);
     s.drift_K_per_h = item.numberOr("drift_K_per_h", s.drift_K_per_h);
+    s.time_constant_s = nonNegative(item, "time_constant_s", s.time_constant_s);
     s.dead = item.booleanOr("dead", s.dead);
     s.dropout = partOf(item, "dropout", s.dropout);
     sensors.push_back(s);
@@ -328,6 +330,14 @@ Scenario Scenario::parse(const JsonNode& root, const std::filesystem::path& file
     base.parameter_error = partOf(*simulation, "parameter_error", base.parameter_error);
     base.gain_uncertainty = nonNegative(*simulation, "gain_uncertainty", base.gain_uncertainty);
     base.missing_rows = partOf(*simulation, "missing_rows", base.missing_rows);
+    if (const auto errors = simulation->find("size_errors")) {
+      for (const auto& [id, node] : errors->members()) {
+        if (std::find(base.effects.begin(), base.effects.end(), id) == base.effects.end()) {
+          node.reject("an error of an effect of the simulation");
+        }
+        base.size_errors[id] = node.number();
+      }
+    }
     s.simulation = base;
   }
   if (const auto node = root.find("measurement")) s.measurement = parseMeasurement(*node, s.machine, s.duration_s);

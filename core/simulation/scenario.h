@@ -13,15 +13,17 @@
 //    "physics":{"friction":1,"screw_friction":1,"convection":1,"spindle_mass":1,...} (multipliers),
 //    "effects":{"spindle.growth.z":{"on":true,"size":1},"column.bending.a":{"strength":4},
 //               "fixture.slip.F3":{"time_s":20000,...}},
-//    "simulation":{"effects":["spindle.growth.z"],"parameter_error":0.01,"gain_uncertainty":0.01,"missing_rows":0},
+//    "simulation":{"effects":["spindle.growth.z"],"parameter_error":0.01,"gain_uncertainty":0.01,"missing_rows":0,
+//                  "size_errors":{"spindle.growth.z":0.1}},
 //    "measurement":{"first_s":0,"every_s":1200,"states":36 or "times_s":[],"per_point_s":8,"points":["F1"],
 //                   "components":["EX","EY","EZ"],"c_deg":[0],"tool_offset_mm":[0,0,0],"holdout_last":10 or
-//                   "holdout":["M4"],"random_approach":true},
+//                   "holdout":["M4"],"random_approach":true,"clock_offset_s":0},
 //    "instrument":{"name","sigma_um","sigma_urad","resolution_um","drift_um_per_h","ar1","dropped","outliers",
 //                  "outlier_size"},
 //    "touches":{"artefact","first_s","every_s","cycles","touch_s","sigma_um","pretravel_um","origin_mm":[x,y,z]},
 //    "microscope":{...}, "profiler":{...} (scenario_instruments.h),
-//    "sensors":[{"name","place","noise_K","ar1","resolution_K","bias_K","drift_K_per_h","dead","dropout"}],
+//    "sensors":[{"name","place","noise_K","ar1","resolution_K","bias_K","drift_K_per_h","time_constant_s","dead",
+//                "dropout"}],
 //    "log":{"omit":["coolant"]}}
 //
 // `size` multiplies what the physics gives; `strength` asks for the rms of the cause over the rows to be fitted, in its
@@ -31,6 +33,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -53,9 +56,10 @@ struct SensorOptions {
   double ar1 = 0.0;  ///< correlation of the noise from one row to the next (same variance), [0, 1)
   double resolution_K = 0.001;
   double bias_K = 0.0;
-  double drift_K_per_h = 0.0;  ///< linear in time
-  bool dead = false;           ///< repeats its first value
-  double dropout = 0.0;        ///< part of the rows in which the field is empty, [0, 1)
+  double drift_K_per_h = 0.0;    ///< linear in time
+  double time_constant_s = 0.0;  ///< first-order lag between the body and the sensor, >= 0
+  bool dead = false;             ///< repeats its first value
+  double dropout = 0.0;          ///< part of the rows in which the field is empty, [0, 1)
 };
 
 /// When and where the instrument measures.
@@ -68,6 +72,7 @@ struct MeasurementOptions {
   Eigen::Vector3d tool_offset_mm = Eigen::Vector3d::Zero();
   std::set<std::string> holdout;  ///< names of states
   bool random_approach = true;
+  double clock_offset_s = 0.0;  ///< the clock of the observations (and of the simulation table) minus that of the log
 };
 
 /// What the instrument adds to the truth. Noise is normal; `ar1` is its correlation from one state to the next, per
@@ -87,9 +92,10 @@ struct InstrumentOptions {
 /// The simulation that the campaign comes with: the same machine with fewer causes and slightly wrong numbers.
 struct BaseSimulationOptions {
   std::vector<std::string> effects;
-  double parameter_error = 0.01;   ///< every size and physical parameter is off by at most this part
-  double gain_uncertainty = 0.01;  ///< stated in campaign.json
-  double missing_rows = 0.0;       ///< part of the rows that the table lacks
+  double parameter_error = 0.01;              ///< every size and physical parameter is off by at most this part
+  double gain_uncertainty = 0.01;             ///< stated in campaign.json
+  double missing_rows = 0.0;                  ///< part of the rows that the table lacks
+  std::map<std::string, double> size_errors;  ///< of single effects, relative, beside parameter_error
 };
 
 /// Probing of a hole bar or of balls.

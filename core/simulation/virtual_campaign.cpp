@@ -172,11 +172,14 @@ OperatingLog logOf(const Scenario& s, const VirtualMachine& plant, Random& rando
     std::vector<double> values;
     values.reserve(times.size());
     double noise = 0.0;
+    double follows = plant.temperature_degC(volumes, 0.0);
+    const double take = sensor.time_constant_s > 0.0 ? 1.0 - std::exp(-s.log_period_s / sensor.time_constant_s) : 1.0;
     for (const double t : times) {
+      follows += take * (plant.temperature_degC(volumes, t) - follows);
       const double fresh = own.normal();
       noise = values.empty() ? fresh : sensor.ar1 * noise + std::sqrt(1.0 - sensor.ar1 * sensor.ar1) * fresh;
       const double off_K = sensor.bias_K + sensor.drift_K_per_h * t / 3600.0;
-      double value = plant.temperature_degC(volumes, t) + off_K + sensor.noise_K * noise;
+      double value = (take < 1.0 ? follows : plant.temperature_degC(volumes, t)) + off_K + sensor.noise_K * noise;
       value = std::round(rounded(value, sensor.resolution_K) * 1e4) / 1e4;
       if (sensor.dead && !values.empty()) value = values.front();
       if (own.uniform() < sensor.dropout && !values.empty()) {
@@ -337,6 +340,7 @@ VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t>
       truth.total[i] += signal[i];
       (in_base(id) ? truth.base_error[i] : truth.hidden_signal[i]) += signal[i];
     }
+    truth.signals[id] = signal;
     if (!in_base(id)) {
       truth.hidden.push_back(id);
       if (!rows.empty()) truth.sizes[id] = sizeOf(signal, rows, false);
@@ -354,13 +358,18 @@ VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t>
       if (found == truth.settings.end()) continue;
       settings[id] = found->second;
       settings[id].size = wrong(base_random, found->second.size, error);
+      const auto further = s.simulation->size_errors.find(id);
+      if (further != s.simulation->size_errors.end()) settings[id].size *= 1.0 + further->second;
     }
-    const std::vector<double> predicted = signalOf(simplified.deviations(settings, queries), rows);
+    // The simulation runs on the log, and is asked at the times that the observations state.
+    std::vector<PlantQuery> stated = queries;
+    for (PlantQuery& query : stated) query.time_s += s.measurement->clock_offset_s;
+    const std::vector<double> predicted = signalOf(simplified.deviations(settings, stated), rows);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       truth.base_error[i] -= predicted[i];
       if (base_random.uniform() < s.simulation->missing_rows) continue;
-      result.simulation.push_back(
-          {rows[i].time_s, rows[i].point, rows[i].component, std::round(predicted[i] * 1e4) / 1e4});
+      result.simulation.push_back({rows[i].time_s + s.measurement->clock_offset_s, rows[i].point, rows[i].component,
+                                   std::round(predicted[i] * 1e4) / 1e4});
     }
     campaign.simulation = "simulation.csv";
     campaign.simulation_gain_uncertainty = s.simulation->gain_uncertainty;
@@ -378,12 +387,17 @@ VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t>
       truth.total[kept] = truth.total[i];
       truth.hidden_signal[kept] = truth.hidden_signal[i];
       truth.base_error[kept] = truth.base_error[i];
+      for (auto& [id, signal] : truth.signals) signal[kept] = signal[i];
       rows[kept++] = rows[i];
     }
     rows.resize(kept);
     truth.total.resize(kept);
     truth.hidden_signal.resize(kept);
     truth.base_error.resize(kept);
+    for (auto& [id, signal] : truth.signals) signal.resize(kept);
+    if (s.measurement->clock_offset_s != 0.0) {
+      for (Observation& row : rows) row.time_s += s.measurement->clock_offset_s;
+    }
     campaign.observations = ObservationSet{};
     campaign.observations->rows = std::move(rows);
   }

@@ -44,8 +44,9 @@ struct CampaignTruth {
   std::vector<std::string> base;    ///< causes in the given simulation
   PlantEffectSettings settings;     ///< of everything that is on, sizes resolved
   std::vector<double> total;
-  std::vector<double> hidden_signal;  ///< of the hidden causes together
-  std::vector<double> base_error;     ///< plant minus given simulation, of the causes that both have
+  std::vector<double> hidden_signal;                   ///< of the hidden causes together
+  std::vector<double> base_error;                      ///< plant minus given simulation, of the causes that both have
+  std::map<std::string, std::vector<double>> signals;  ///< of every cause that is on, hidden or not
   struct Size {
     double rms = 0.0;  ///< over the rows to be fitted, in the main component
     Component component = Component::EX;

@@ -95,7 +95,8 @@ std::vector<std::string> catalogueOf(const MachineDescription& machine) {
 
 std::vector<std::string> effectParameters(std::string_view id) {
   if (id.starts_with("fixture.slip.")) return {"time_s", "step_x_um", "step_y_um", "step_z_um"};
-  if (id.starts_with("external_heat.")) return {"onset_s", "length_s", "flux_W"};
+  if (id.starts_with("external_heat.")) return {"onset_s", "length_s", "flux_W", "overhang_x_mm", "overhang_y_mm"};
+  if (id.starts_with("column.bending.")) return {"overhang_x_mm", "overhang_y_mm"};
   if (id.starts_with("head.tilt.")) return {"lever_x_mm", "lever_y_mm", "lever_z_mm", "ram"};
   if (id.starts_with("frame.rotation.") || id.starts_with("squareness.")) {
     return {"origin_x_mm", "origin_y_mm", "origin_z_mm"};

@@ -16,25 +16,79 @@ bool sameEffect(const std::string& a, const std::string& b) {
   return a == b || either("rotary.expansion.r0t", "table.expansion.xy");
 }
 
-Outcome judge(const Answer& answer, const std::vector<std::string>& hidden) {
-  if (answer.effects.empty()) return Outcome::Abstained;
-  std::vector<bool> found(hidden.size(), false);
-  bool as_rival = false;
-  for (const Answer::Listed& listed : answer.effects) {
-    bool matched = false;
-    for (std::size_t i = 0; i < hidden.size() && !matched; ++i) {
-      if (!found[i] && sameEffect(listed.id, hidden[i])) found[i] = matched = true;
-    }
-    for (std::size_t i = 0; i < hidden.size() && !matched && listed.rivals.size() <= 2; ++i) {
-      const bool among = std::any_of(listed.rivals.begin(), listed.rivals.end(),
-                                     [&](const std::string& rival) { return sameEffect(rival, hidden[i]); });
-      if (!found[i] && among) found[i] = matched = as_rival = true;
-    }
-    if (!matched) return Outcome::Wrong;
+bool containsEffect(const std::string& container, const std::string& simple) {
+  const auto starts = [](const std::string& id, std::string_view stem) { return id.starts_with(stem); };
+  if (starts(container, "head.tilt.")) {
+    return starts(simple, "spindle.") || starts(simple, "ambient.drift.");
   }
-  // One of two named and the rest said to be unknown is an abstention about the other.
-  if (!std::all_of(found.begin(), found.end(), [](bool f) { return f; })) return Outcome::Abstained;
-  return as_rival ? Outcome::Rival : Outcome::Named;
+  if (container == "column.expansion.z") {
+    return simple == "spindle.growth.z" || simple == "spindle.centrifugal.z" || simple == "ambient.drift.z" ||
+           simple == "scale.expansion.z";
+  }
+  if (container == "spindle.growth.z") return simple == "spindle.centrifugal.z";
+  return starts(container, "ball_screw.nonuniform.") && simple == "ball_screw.expansion." + container.substr(22);
+}
+
+namespace {
+
+/// The name and its rivals; a set of more than three, containers not counted, is no answer and comes back empty.
+std::vector<std::string> setOf(const Answer::Listed& listed) {
+  std::vector<std::string> set{listed.id};
+  set.insert(set.end(), listed.rivals.begin(), listed.rivals.end());
+  const auto counted = std::count_if(set.begin(), set.end(), [&](const std::string& id) {
+    return std::none_of(set.begin(), set.end(), [&](const std::string& other) { return containsEffect(id, other); });
+  });
+  if (counted > 3) set.clear();
+  return set;
+}
+
+/// Gives each hidden effect a listed one of its own if that can be (augmenting paths).
+bool assign(std::size_t hidden, const std::vector<std::vector<bool>>& fits, std::vector<bool>& tried,
+            std::vector<int>& owner) {
+  for (std::size_t k = 0; k < owner.size(); ++k) {
+    if (!fits[hidden][k] || tried[k]) continue;
+    tried[k] = true;
+    if (owner[k] < 0 || assign(static_cast<std::size_t>(owner[k]), fits, tried, owner)) {
+      owner[k] = static_cast<int>(hidden);
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+Verdict judge(const Answer& answer, const std::vector<std::string>& hidden) {
+  Verdict verdict;
+  const std::size_t count = answer.effects.size();
+  std::vector<std::vector<bool>> fits(hidden.size(), std::vector<bool>(count, false));
+  for (std::size_t k = 0; k < count; ++k) {
+    const Answer::Listed& listed = answer.effects[k];
+    const std::vector<std::string> set = setOf(listed);
+    bool near_truth = false;
+    for (std::size_t h = 0; h < hidden.size(); ++h) {
+      fits[h][k] = std::any_of(set.begin(), set.end(), [&](const auto& id) { return sameEffect(id, hidden[h]); });
+      const bool among =
+          sameEffect(listed.id, hidden[h]) || std::any_of(listed.rivals.begin(), listed.rivals.end(),
+                                                          [&](const auto& id) { return sameEffect(id, hidden[h]); });
+      near_truth = near_truth || among;
+    }
+    if (!near_truth) verdict.outcome = Outcome::Wrong;
+  }
+  std::vector<int> owner(count, -1);
+  for (std::size_t h = 0; h < hidden.size(); ++h) {
+    std::vector<bool> tried(count, false);
+    if (assign(h, fits, tried, owner)) ++verdict.found;
+  }
+  if (verdict.outcome == Outcome::Wrong) return verdict;
+  const bool all = !hidden.empty() && verdict.found == static_cast<int>(hidden.size()) && count == hidden.size();
+  if (!all) return verdict;
+  const bool by_name = std::all_of(hidden.begin(), hidden.end(), [&](const std::string& id) {
+    return std::any_of(answer.effects.begin(), answer.effects.end(),
+                       [&](const Answer::Listed& listed) { return sameEffect(listed.id, id); });
+  });
+  verdict.outcome = by_name ? Outcome::Named : Outcome::Rival;
+  return verdict;
 }
 
 DiscrepancyInput inputOf(const VirtualCampaign& campaign) {
@@ -100,6 +154,21 @@ HeldOutSignal heldOutSignal(const VirtualCampaign& campaign, const std::vector<d
     out.missed += (estimate[i] - hidden[i]) * (estimate[i] - hidden[i]);
   }
   return out;
+}
+
+double heldOutStrength(const VirtualCampaign& campaign) {
+  const std::vector<double> hidden = heldOutMotion(campaign, campaign.truth.hidden_signal);
+  const auto& rows = campaign.campaign.observations->rows;
+  std::map<Component, std::pair<double, int>> sums;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].use != ObservationUse::Holdout) continue;
+    auto& [sum, count] = sums[rows[i].component];
+    sum += hidden[i] * hidden[i];
+    ++count;
+  }
+  double strength = 0.0;
+  for (const auto& [component, sum] : sums) strength = std::max(strength, std::sqrt(sum.first / sum.second));
+  return strength;
 }
 
 double explainedFraction(const VirtualCampaign& campaign, const std::vector<double>& effect_part) {

@@ -11,10 +11,15 @@
 
 namespace spindrift::study {
 
-/// Right: every hidden effect is the name of a listed effect, or among its at most two rivals, and nothing else is
-/// listed. Abstained: nothing is named (unknown, or none). Wrong: an effect is listed that is not hidden, also beside
-/// the right one.
+/// Right (Named, or Rival if a hidden effect is only among the rivals of a listed one): every hidden effect is listed
+/// or a rival of a listed one, in sets of at most three, and nothing else is listed. Wrong: an effect is listed that is
+/// not hidden and has no hidden one among its rivals. Abstained: neither.
 enum class Outcome { Named, Rival, Abstained, Wrong };
+
+struct Verdict {
+  Outcome outcome = Outcome::Abstained;
+  int found = 0;  ///< hidden effects that are listed or rivals of a listed one, each by a listed effect of its own
+};
 
 struct Answer {
   std::string verdict;  ///< "named", "ambiguous", "unknown", "none"
@@ -29,7 +34,11 @@ struct Answer {
 /// Effects that are one and the same on the machine at hand (EFFECTS.md).
 [[nodiscard]] bool sameEffect(const std::string& a, const std::string& b);
 
-[[nodiscard]] Outcome judge(const Answer& answer, const std::vector<std::string>& hidden);
+/// True if `simple` is a special case of `container` (EFFECTS.md): such a container in a set of rivals is allowed and
+/// not counted.
+[[nodiscard]] bool containsEffect(const std::string& container, const std::string& simple);
+
+[[nodiscard]] Verdict judge(const Answer& answer, const std::vector<std::string>& hidden);
 
 /// What the search is given: machine, log, observations and the simulation's rows, and nothing of the truth.
 [[nodiscard]] DiscrepancyInput inputOf(const VirtualCampaign& campaign);
@@ -42,6 +51,9 @@ struct HeldOutSignal {
   /// NaN if nothing is hidden.
   [[nodiscard]] double explained() const { return 1.0 - missed / hidden; }
 };
+/// rms of the hidden signal over the held-out rows, about its mean over the fitted ones, in the component where it is
+/// largest, in sigma.
+[[nodiscard]] double heldOutStrength(const VirtualCampaign& campaign);
 [[nodiscard]] HeldOutSignal heldOutSignal(const VirtualCampaign& campaign, const std::vector<double>& effect_part);
 /// The part of the hidden signal that is explained on held-out rows.
 [[nodiscard]] double explainedFraction(const VirtualCampaign& campaign, const std::vector<double>& effect_part);
