@@ -25,6 +25,8 @@ constexpr double sweep_window = 40.0;
 constexpr double occam_window = 30.0;
 /// A set in which signs or bounds are broken is out.
 constexpr double inadmissible_price = 1e6;
+/// What an effect must bring beyond errors of the simulation, at most: larger ones are nuisances of their own.
+constexpr double most_simulation_price = 30.0;
 
 std::vector<std::string> idsOf(const std::vector<ModelTerm>& terms) {
   std::vector<std::string> ids;
@@ -86,7 +88,7 @@ double PosteriorSearch::imitationPrice(const JointFit& fit) const {
       if (own[c] < 0.05 * total) continue;
       // As far as it acts there: a slip of one point imitates nothing of the others.
       const double share = std::min(1.0, own[c] / std::max(1e-9, others[c]));
-      price += share * part * part * others[c] + simulation_power_[c];
+      price += share * part * part * others[c] + std::min(most_simulation_price, simulation_power_[c]);
     }
     const double wider = fit.terms[t].effect->refinement ? priors_.refinement_error : priors_.wider_error;
     if (!fit.terms[t].effect->contains.empty()) price += wider * wider * total;

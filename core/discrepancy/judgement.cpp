@@ -69,7 +69,10 @@ double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::
   const double power = std::min(own_power, together_power);
   // A step is a step: it has no dynamics that could be a little different.
   const bool step = fit.terms[t].variant.inputs[0].dynamics == Dynamics::Step;
-  return power > 0.0 ? (step ? 3.0 : 1.0) * std::sqrt(left / power) : 1e9;
+  if (!(power > 0.0) || !(together_power > 0.0)) return 1e9;
+  // Effects that cancel each other follow much that they do not cause.
+  const double cancelling = 0.1 * std::sqrt(own_power / together_power);
+  return std::hypot((step ? 3.0 : 1.0) * std::sqrt(left / power), cancelling > 0.2 ? cancelling : 0.0);
 }
 
 /// True if an effect that cannot be fitted (nothing in the log drives it) has the pattern of this one.

@@ -22,7 +22,7 @@ constexpr double shift_price = 4.0;
 constexpr double correlation_price = 8.0;
 constexpr double tail_price = 6.0;
 /// Of noise that is correlated in time, actual / stated sigma.
-constexpr double largest_slow_noise = 2.0;
+constexpr double largest_slow_noise = 1.5;
 /// Common shift, in standard deviations of the own noise, while nothing is known of the signal.
 constexpr double careful_shift = 0.7;
 
