@@ -99,7 +99,8 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
     response_index.emplace(key, index);
     return index;
   };
-  const auto addWay = [&](const EffectVariant& variant, std::vector<double> parameters, const std::vector<Index>& which) {
+  const auto addWay = [&](const EffectVariant& variant, std::vector<double> parameters,
+                          const std::vector<Index>& which) {
     if (which.size() * static_cast<std::size_t>(k) > most_columns) return;
     Way way;
     way.variant = variant;
@@ -170,7 +171,8 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
             for (std::size_t a = at_once ? 0 : 1; a + 2 <= lags.size(); ++a) {
               for (std::size_t b = a + 2; b <= lags.size(); ++b) {
                 const double tau_a = a == 0 ? 0.0 : lags[a - 1];
-                addWay(twice, {tau_a, lags[b - 1]}, {responseOf(first, tau_a, tau_a), responseOf(first, lags[b - 1], lags[b - 1])});
+                addWay(twice, {tau_a, lags[b - 1]},
+                       {responseOf(first, tau_a, tau_a), responseOf(first, lags[b - 1], lags[b - 1])});
               }
             }
           }
@@ -226,8 +228,7 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
       const Index a = way.columns[static_cast<std::size_t>(i)];
       for (Index j = 0; j <= i; ++j) {
         const Index b = way.columns[static_cast<std::size_t>(j)];
-        way.gram(i, j) = way.gram(j, i) =
-            entry.columns.col(a).dot(entry.columns.col(b)) - dots.col(a).dot(dots.col(b));
+        way.gram(i, j) = way.gram(j, i) = entry.columns.col(a).dot(entry.columns.col(b)) - dots.col(a).dot(dots.col(b));
       }
     }
   }
@@ -236,7 +237,8 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
 
 double CandidateLibrary::choicePrice(const Effect& effect) const {
   for (const Entry& entry : entries_) {
-    if (entry.effect == &effect) return way_price * std::log(std::max<double>(1.0, static_cast<double>(entry.ways.size())));
+    if (entry.effect == &effect)
+      return way_price * std::log(std::max<double>(1.0, static_cast<double>(entry.ways.size())));
   }
   return 0.0;
 }

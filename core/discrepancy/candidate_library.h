@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that one more effect can put into a fit: for every effect of the catalogue all its drivers, lags and onsets
-// on a grid, whitened once and shared by all questions. A question ("which effect explains what this fit leaves?") then
-// costs one product with the columns of the fit.
+// Everything that one more effect can put into a fit: for every effect of the catalogue all its drivers, lags and
+// onsets on a grid, whitened once and shared by all questions. A question ("which effect explains what this fit
+// leaves?") then costs one product with the columns of the fit.
 //
 // One way in which an effect may act (driver, lag, start) is a "way": a few columns shape x response. Its gain in
-// chi-squared comes from the Gram matrix of these columns, free of all nuisances and of the fit that is given. Among the
-// ways of an effect the prior is uniform, over effects as well, so that an effect with many drivers has no advantage:
+// chi-squared comes from the Gram matrix of these columns, free of all nuisances and of the fit that is given. Among
+// the ways of an effect the prior is uniform, over effects as well, so that an effect with many drivers has no
+// advantage:
 //
 //   evidence = delta chi-squared - gains ln n - ln(number of ways)           (twice the logarithm of a probability)
 //
@@ -38,8 +39,8 @@ class CandidateLibrary {
   /// Under the noise and nuisances that the problem has now; later changes of them need another library.
   CandidateLibrary(const EffectSearch& search, const ResidualProblem& problem, const JobContext& job);
 
-  /// Columns that are in the fit already: orthonormal, projected, rows as problem.projected() (and more rows, of priors,
-  /// below); `residual` is what they leave, as long.
+  /// Columns that are in the fit already: orthonormal, projected, rows as problem.projected() (and more rows, of
+  /// priors, below); `residual` is what they leave, as long.
   struct Given {
     Eigen::MatrixXd basis;
     Eigen::VectorXd residual;

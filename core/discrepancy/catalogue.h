@@ -16,7 +16,8 @@ namespace spindrift {
 struct CatalogueContext {
   const MachineDescription* machine = nullptr;
   const DriverTable* drivers = nullptr;
-  std::vector<std::string> points;         ///< points of the observations
+  std::vector<std::string> points;         ///< points of the observations that may slip alone
+  std::size_t point_count = 0;             ///< all points
   std::set<std::string> varying_approach;  ///< "x", "y", "z": axes approached from both sides
   bool c_varies = false;                   ///< the table turns
   bool position_varies = false;            ///< positions change within a series
@@ -50,8 +51,8 @@ void addArtefactEffects(const CatalogueContext& context, std::vector<Effect>& ou
 inline constexpr const char* axis_letters[3] = {"x", "y", "z"};
 /// 1 in one component, 0 elsewhere.
 [[nodiscard]] ShapeColumn constantShape(Component component, double sign = 1.0);
-/// Bending of a column about its base by a turn about X (`axis` 0) or Y (1), um for 1 um/m^2: sideways with the square of
-/// the height, the turn in proportion to it, and where the head overhangs its lift (EFFECTS.md, column.bending). An
+/// Bending of a column about its base by a turn about X (`axis` 0) or Y (1), um for 1 um/m^2: sideways with the square
+/// of the height, the turn in proportion to it, and where the head overhangs its lift (EFFECTS.md, column.bending). An
 /// overhang that is not known is a column of its own, at most 1 m.
 void addBendingShape(const MachineDescription& machine, int axis, Effect& effect);
 /// One single-input variant per driver through a lag.

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -75,10 +75,11 @@ Eigen::VectorXd withoutEffects(const ResidualProblem& problem, const JointFit& f
 /// the posterior on a grid.
 void estimateClock(const DiscrepancyInput& input, const ResidualProblem& problem, const DiscrepancyPriors& priors,
                    Analysis& a) {
-  const bool driven = std::any_of(a.posterior.fit.terms.begin(), a.posterior.fit.terms.end(), [](const ModelTerm& term) {
-    return std::any_of(term.variant.inputs.begin(), term.variant.inputs.end(),
-                       [](const EffectInput& i) { return !i.driver.empty(); });
-  });
+  const bool driven =
+      std::any_of(a.posterior.fit.terms.begin(), a.posterior.fit.terms.end(), [](const ModelTerm& term) {
+        return std::any_of(term.variant.inputs.begin(), term.variant.inputs.end(),
+                           [](const EffectInput& i) { return !i.driver.empty(); });
+      });
   if (!driven || !input.log) return;
   const double before = a.clock_offset_s;
   const auto valueAt = [&](double offset) {
@@ -220,8 +221,7 @@ std::vector<double> partOfFirst(const Solution& solution, std::size_t count) {
     effects.assign(solution.effects.begin(), solution.effects.begin() + static_cast<std::ptrdiff_t>(count));
     const auto& terms = solution.judged.named.terms;
     const std::vector<ModelTerm> first(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(count));
-    const JointFit fit =
-        distributedDynamics(*solution.analysis.search, solution.problem, *solution.analysis.drivers,
+    const JointFit fit = distributedDynamics(*solution.analysis.search, solution.problem, *solution.analysis.drivers,
                                              solution.analysis.search->solve(first))
                              .fit;
     for (std::size_t k = 0; k < count; ++k) {
@@ -400,14 +400,16 @@ void tellUndecided(const Solution& solution, DiscrepancyResult& result) {
 /// Noise, shifts of states and outliers as they were found.
 void tellNoise(const Solution& solution, DiscrepancyResult& result) {
   const ResidualProblem& problem = solution.problem;
-  const double tails = problem.noise.tail_dof > 2.0 ? std::sqrt(problem.noise.tail_dof / (problem.noise.tail_dof - 2.0)) : 1.0;
+  const double tails =
+      problem.noise.tail_dof > 2.0 ? std::sqrt(problem.noise.tail_dof / (problem.noise.tail_dof - 2.0)) : 1.0;
   std::set<Component> observed(problem.component.begin(), problem.component.end());
   for (const Component c : observed) {
     const ComponentNoise& n = problem.noise.of(c);
-    result.noise.push_back({c, n.scale * tails, n.scale_uncertainty * tails, n.common, n.correlated_part, n.correlation_time_s});
+    result.noise.push_back(
+        {c, n.scale * tails, n.scale_uncertainty * tails, n.common, n.correlated_part, n.correlation_time_s});
     if (n.scale * tails < 0.8 || n.scale * tails > 1.25) {
-      result.warnings.push_back(fmt::format("{} scatters {:.2f} times as much as its stated sigma; it is used as found.",
-                                            toString(c), n.scale * tails));
+      result.warnings.push_back(fmt::format(
+          "{} scatters {:.2f} times as much as its stated sigma; it is used as found.", toString(c), n.scale * tails));
     }
   }
   result.tail_dof = problem.noise.tail_dof;
@@ -458,7 +460,8 @@ void tellNoise(const Solution& solution, DiscrepancyResult& result) {
         found->shift_um += value;
       }
       for (Index u = 0; u < problem.size(); ++u) {
-        if (problem.component[static_cast<std::size_t>(u)] == key.first && problem.epoch[static_cast<std::size_t>(u)] == key.second) {
+        if (problem.component[static_cast<std::size_t>(u)] == key.first &&
+            problem.epoch[static_cast<std::size_t>(u)] == key.second) {
           left[u] -= value;
         }
       }
@@ -483,7 +486,8 @@ void tellNoise(const Solution& solution, DiscrepancyResult& result) {
   }
   result.remaining.assign(solution.input.observations.rows.size(), 0.0);
   for (Index u = 0; u < problem.size(); ++u) {
-    for (const std::size_t row : problem.unit_rows[static_cast<std::size_t>(u)]) result.remaining[row] = solution.analysis.remainder.values[u];
+    for (const std::size_t row : problem.unit_rows[static_cast<std::size_t>(u)])
+      result.remaining[row] = solution.analysis.remainder.values[u];
   }
   for (const Remainder::OfComponent& r : solution.analysis.remainder.components) {
     result.remainder.push_back({r.component, r.rms_um, r.evidence});
@@ -551,12 +555,19 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.clock_offset_s = analysis.clock_offset_s;
   result.clock_offset_uncertainty_s = analysis.clock_uncertainty_s;
   if (std::abs(result.clock_offset_s) > 30.0) {
-    result.warnings.push_back(fmt::format("The clock of the log is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s).",
-                                          std::abs(result.clock_offset_s), result.clock_offset_s > 0.0 ? "ahead of" : "behind",
-                                          result.clock_offset_uncertainty_s));
+    result.warnings.push_back(fmt::format(
+        "The clock of the log is {:.0f} s {} that of the observations, as far as the data show it (± {:.0f} s).",
+        std::abs(result.clock_offset_s), result.clock_offset_s > 0.0 ? "ahead of" : "behind",
+        result.clock_offset_uncertainty_s));
   }
 
-  Solution solution{input, rows, problem, analysis, judge(problem, *analysis.search, analysis.posterior, analysis.remainder, priors, effective), {}, {}};
+  Solution solution{input,
+                    rows,
+                    problem,
+                    analysis,
+                    judge(problem, *analysis.search, analysis.posterior, analysis.remainder, priors, effective),
+                    {},
+                    {}};
   result.verdict = solution.judged.verdict;
   result.leftover = solution.judged.leftover;
   result.steps = solution.judged.steps;

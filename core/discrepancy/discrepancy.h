@@ -9,10 +9,10 @@
 // simulation and the offset of its clock have priors; own noise of every component is the stated sigma times a scale,
 // part of it correlated in time, with heavy tails where the data have them; a state may be shifted as a whole; all of
 // their sizes are estimated from the data. What remains smooth in time and space and is none of these is told.
-// Which effects: a posterior over sets of effects (effect_posterior.h). An effect is named with the probability that its
-// name is right; others that may stand in its place are its rivals. A name that the data support stays, even if something
-// else remains. Rows marked `holdout` only report, they never select and are never fitted.
-// Sources: Kennedy and O'Hagan 2001 (model discrepancy); Golub and Pereyra 1973 (variable projection); Schwarz 1978.
+// Which effects: a posterior over sets of effects (effect_posterior.h). An effect is named with the probability that
+// its name is right; others that may stand in its place are its rivals. A name that the data support stays, even if
+// something else remains. Rows marked `holdout` only report, they never select and are never fitted. Sources: Kennedy
+// and O'Hagan 2001 (model discrepancy); Golub and Pereyra 1973 (variable projection); Schwarz 1978.
 #pragma once
 
 #include <map>
@@ -52,7 +52,7 @@ struct DiscrepancyInput {
   ObservationSet observations;
   std::vector<double> predicted;
   double simulation_gain_uncertainty = 0.01;
-  bool absolute = false;  ///< values are absolute: no free constant for each point and component
+  bool absolute = false;                   ///< values are absolute: no free constant for each point and component
   std::shared_ptr<const ErrorModel> base;  ///< the simulation as a model; may be null
   std::string base_table;                  ///< name of simulation.csv for model.json; may be empty
 };
@@ -76,8 +76,8 @@ struct FoundEffect {
   std::vector<FittedParameter> parameters;
   double delta_bic = 0.0;  ///< gain in BIC when the effect enters
   double delta_chi2 = 0.0;
-  double margin = 0.0;  ///< in evidence ahead of the most probable other effect
-  double rms_um = 0.0;  ///< of its contribution in the component where it is largest
+  double margin = 0.0;                        ///< in evidence ahead of the most probable other effect
+  double rms_um = 0.0;                        ///< of its contribution in the component where it is largest
   double crossvalidated_rms_before_um = 0.0;  ///< blocks of fit rows left out, predicted without this effect
   double crossvalidated_rms_after_um = 0.0;
   double heldout_rms_before_um = 0.0;  ///< rows marked holdout (the left-out blocks where there are none)
@@ -177,9 +177,9 @@ struct DiscrepancyResult {
   /// compares with the value); NaN where there is no simulation.
   std::vector<double> simulated;
   std::vector<double> completed;
-  std::vector<double> constant;        ///< the fitted constant of the row's series
-  std::vector<double> effect_part;     ///< sum of the effects at the row
-  std::size_t unmatched = 0;           ///< observations without a prediction
+  std::vector<double> constant;             ///< the fitted constant of the row's series
+  std::vector<double> effect_part;          ///< sum of the effects at the row
+  std::size_t unmatched = 0;                ///< observations without a prediction
   std::vector<EffectCandidate> candidates;  ///< the ten most probable, whatever is named
   std::vector<NoiseEstimate> noise;         ///< of every component observed
   std::vector<StateShift> shifts;           ///< where a component has a common shift
@@ -188,7 +188,7 @@ struct DiscrepancyResult {
   double clock_offset_s = 0.0;              ///< clock of the log minus clock of the observations
   double clock_offset_uncertainty_s = 0.0;  ///< 0: not seen in these data
   std::vector<ComponentRemainder> remainder;
-  std::vector<double> remaining;  ///< per row: what remains and is not noise, um or urad; 0 where nothing is known
+  std::vector<double> remaining;    ///< per row: what remains and is not noise, um or urad; 0 where nothing is known
   double explained_fraction = 0.0;  ///< of the structured part of the residual
 
   /// Noise of a component as found; nothing where the component was not fitted.

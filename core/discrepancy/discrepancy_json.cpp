@@ -110,7 +110,8 @@ nlohmann::json DiscrepancyResult::json() const {
   out["outliers"] = outlier_rows;
   out["outlying_readings"] = outlier_list;
   out["clock_offset_s"] = jsonNumber(clock_offset_s);
-  out["clock_offset_uncertainty_s"] = clock_offset_uncertainty_s > 0.0 ? jsonNumber(clock_offset_uncertainty_s) : json();
+  out["clock_offset_uncertainty_s"] =
+      clock_offset_uncertainty_s > 0.0 ? jsonNumber(clock_offset_uncertainty_s) : json();
   json remainder_json = json::object();
   for (const ComponentRemainder& r : remainder) {
     remainder_json[std::string(toString(r.component))] = {{"rms_um", jsonNumber(r.rms_um)},

@@ -23,8 +23,9 @@ CatalogueContext catalogueContext(const DiscrepancyInput& input, const DriverTab
   CatalogueContext context;
   context.machine = &input.machine;
   context.drivers = &drivers;
-  std::set<std::string> points(problem.series_point.begin(), problem.series_point.end());
+  std::set<std::string> points(problem.own_points.begin(), problem.own_points.end());
   context.points.assign(points.begin(), points.end());
+  context.point_count = std::set<std::string>(problem.series_point.begin(), problem.series_point.end()).size();
   Eigen::Vector3d low = Eigen::Vector3d::Constant(2.0);
   Eigen::Vector3d high = -low;
   double c_low = 1e300;

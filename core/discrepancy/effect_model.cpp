@@ -239,6 +239,7 @@ std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path
   context.machine = &machine;
   context.drivers = drivers.get();
   context.points = points;
+  context.point_count = points.size();
   context.varying_approach = {"x", "y", "z"};
   context.c_varies = true;
   context.position_varies = true;
@@ -252,10 +253,10 @@ std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path
       for (const JsonNode& input : inputs->items()) {
         EffectInput parsed;
         parsed.driver = input.stringOr("driver", "");
-        const std::string dynamics = input.at("dynamics").oneOf({"none", "lag", "asymmetric_lag", "step", "pulse", "start"});
-        for (const Dynamics d :
-             {Dynamics::None, Dynamics::Lag, Dynamics::AsymmetricLag, Dynamics::Step, Dynamics::Pulse,
-              Dynamics::Start}) {
+        const std::string dynamics =
+            input.at("dynamics").oneOf({"none", "lag", "asymmetric_lag", "step", "pulse", "start"});
+        for (const Dynamics d : {Dynamics::None, Dynamics::Lag, Dynamics::AsymmetricLag, Dynamics::Step,
+                                 Dynamics::Pulse, Dynamics::Start}) {
           if (toString(d) == dynamics) parsed.dynamics = d;
         }
         if (!parsed.driver.empty() && !drivers->has(parsed.driver)) {

@@ -42,6 +42,19 @@ std::string keyOf(const std::vector<ModelTerm>& terms) {
   return key;
 }
 
+bool driverless(const Effect& effect) {
+  return !effect.variants.empty() &&
+         std::all_of(effect.variants.begin(), effect.variants.end(), [](const EffectVariant& variant) {
+           return variant.inputs[0].driver.empty() && variant.inputs[0].dynamics == Dynamics::Pulse;
+         });
+}
+
+bool sameShape(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  if (a.cols() != 1 || b.cols() != 1) return false;
+  const double dot = a.col(0).dot(b.col(0));
+  return dot != 0.0 && std::abs(dot) > 0.999 * a.col(0).norm() * b.col(0).norm();
+}
+
 }  // namespace
 
 bool holdsEffect(const Effect& container, const std::string& simple) {
@@ -54,7 +67,8 @@ PosteriorSearch::PosteriorSearch(const EffectSearch& search, const ResidualProbl
     : search_(&search), problem_(&problem), library_(&library), options_(&options), priors_(priors) {
   for (std::size_t d = 0; d < problem.domains().size(); ++d) {
     const auto& domain = problem.domains()[d];
-    const Eigen::VectorXd white = problem.withoutConstants(d, problem.simulated.segment(domain.from, domain.count)).col(0);
+    const Eigen::VectorXd white =
+        problem.withoutConstants(d, problem.simulated.segment(domain.from, domain.count)).col(0);
     for (Index i = 0; i < domain.count; ++i) {
       simulation_power_[static_cast<std::size_t>(problem.component[static_cast<std::size_t>(domain.from + i)])] +=
           std::pow(simulation_error * white[i], 2);
@@ -135,6 +149,7 @@ double PosteriorSearch::priceOf(const JointFit& fit) const {
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     if (!fit.terms[t].effect->contains.empty()) price += 2.0 * std::log(1.0 / priors_.wider);
     if (warmStart(fit.terms[t].variant)) price += warm_price;
+    if (fit.terms[t].effect->driver_missing) price += 2.0 * std::log(1.0 / priors_.without_driver);
     price += library_->choicePrice(*fit.terms[t].effect) + 2.0 * std::log(effects) +
              2.0 * std::log((1.0 - priors_.one_more) / priors_.one_more);
   }
@@ -173,8 +188,8 @@ double PosteriorSearch::evidenceOf(const JointFit& fit) const {
   const Eigen::LLT<Eigen::MatrixXd> llt(a);
   const Eigen::VectorXd z = llt.matrixL().solve(m.transpose() * left);
   const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  return -(left.squaredNorm() - z.squaredNorm()) - log_det - static_cast<double>(rank) * search_->logN() - priceOf(fit) -
-         imitationPrice(fit);
+  return -(left.squaredNorm() - z.squaredNorm()) - log_det - static_cast<double>(rank) * search_->logN() -
+         priceOf(fit) - imitationPrice(fit);
 }
 
 CandidateLibrary::Given PosteriorSearch::given(const JointFit& fit) const {
@@ -250,6 +265,14 @@ std::vector<PosteriorSearch::State> PosteriorSearch::extend(const State& state, 
                                                             const JobContext& job) const {
   std::vector<std::string> skip = idsOf(state.fit.terms);
   skip.insert(skip.end(), options_->reject.begin(), options_->reject.end());
+  // Another name of one that is in: the same pattern, and nothing drives either.
+  for (const ModelTerm& term : state.fit.terms) {
+    if (!driverless(*term.effect)) continue;
+    for (const Effect& effect : search_->catalogue()) {
+      if (driverless(effect) && sameShape(search_->shape(effect), search_->shape(*term.effect)))
+        skip.push_back(effect.id);
+    }
+  }
   const std::vector<CandidateFit> found = library_->sweep(given(state.fit), skip, job);
   std::vector<const CandidateFit*> tried;
   for (const CandidateFit& c : found) {
@@ -265,7 +288,8 @@ std::vector<PosteriorSearch::State> PosteriorSearch::extend(const State& state, 
   return out;
 }
 
-PosteriorSearch::State PosteriorSearch::exchanged(State best, const JobContext& job, std::vector<State>& visited) const {
+PosteriorSearch::State PosteriorSearch::exchanged(State best, const JobContext& job,
+                                                  std::vector<State>& visited) const {
   for (int round = 0; round < 2; ++round) {
     bool better = false;
     for (std::size_t t = 0; t < best.fit.terms.size(); ++t) {
@@ -358,12 +382,14 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior) const {
     more -= taken_more.values;
     std::array<bool, 6> changed{};
     for (Index u = 0; u < problem_->size(); ++u) {
-      if (std::abs(more[u] - left[u]) > 1e-3 * problem_->ownSigma(u)) changed[static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)])] = true;
+      if (std::abs(more[u] - left[u]) > 1e-3 * problem_->ownSigma(u))
+        changed[static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)])] = true;
     }
     const std::array<double, 6> deviance = noiseDeviance(*problem_, more, changed);
     double gain = taken_more.price - taken.price;
     for (std::size_t c = 0; c < changed.size(); ++c) gain += changed[c] ? deviance[c] - with[c] : 0.0;
-    const double gains = static_cast<double>(fit.parameter_count - without.parameter_count) - static_cast<double>(fit.terms[t].parameters.size());
+    const double gains = static_cast<double>(fit.parameter_count - without.parameter_count) -
+                         static_cast<double>(fit.terms[t].parameters.size());
     posterior.slots[t].over_unknown = gain - gains * search_->logN() - (priceOf(fit) - priceOf(without));
   }
 }
@@ -381,7 +407,8 @@ EffectPosterior PosteriorSearch::run(const JobContext& job) const {
     }
     const std::vector<CandidateFit> found = library_->sweep(given(start.fit), skip, job);
     if (found.empty()) {
-      throw InputError(fmt::format("{} cannot be accepted: nothing in the log drives it, or these data do not show it.", id));
+      throw InputError(
+          fmt::format("{} cannot be accepted: nothing in the log drives it, or these data do not show it.", id));
     }
     std::vector<ModelTerm> terms = start.fit.terms;
     terms.push_back(found.front().term);
@@ -459,7 +486,8 @@ EffectPosterior PosteriorSearch::run(const JobContext& job) const {
   std::map<std::string, std::pair<double, std::set<std::string>>> sets;
   for (const State& s : visited) {
     const std::vector<std::string> ids = idsOf(s.fit.terms);
-    const auto [at, fresh] = sets.try_emplace(keyOf(s.fit.terms), s.evidence, std::set<std::string>(ids.begin(), ids.end()));
+    const auto [at, fresh] =
+        sets.try_emplace(keyOf(s.fit.terms), s.evidence, std::set<std::string>(ids.begin(), ids.end()));
     if (!fresh) at->second.first = std::max(at->second.first, s.evidence);
   }
   double highest = -1e300;

@@ -7,13 +7,13 @@
 //              [gains ln n + ln(ways of the effect) + 2 ln(effects of the catalogue) + 2 ln(odds against one more)
 //               + chi-squared of what the simulation, or the other effects, may be off by where it acts]
 //
-// chi-squared is what remains under the noise as found, marginal over all nuisances and over M, by which every effect may
-// differ from the machine's own behaviour: another size at every point and in every span of time, a part kappa of it.
-// Sets are found by a beam search with joint refits of all lags and onsets and by exchanging every effect for every
-// other; the probabilities of all sets that were visited are compared. For every effect of the best set the alternatives
-// in its place are its rivals, their share of the probability is the confidence.
-// Sources: Schwarz 1978; Kennedy and O'Hagan 2001 (model discrepancy); Madigan and Raftery 1994 (Occam's window);
-// Wang, Sarkar, Carbonetto and Stephens 2020 (credible sets of single effects).
+// chi-squared is what remains under the noise as found, marginal over all nuisances and over M, by which every effect
+// may differ from the machine's own behaviour: another size at every point and in every span of time, a part kappa of
+// it. Sets are found by a beam search with joint refits of all lags and onsets and by exchanging every effect for every
+// other; the probabilities of all sets that were visited are compared. For every effect of the best set the
+// alternatives in its place are its rivals, their share of the probability is the confidence. Sources: Schwarz 1978;
+// Kennedy and O'Hagan 2001 (model discrepancy); Madigan and Raftery 1994 (Occam's window); Wang, Sarkar, Carbonetto and
+// Stephens 2020 (credible sets of single effects).
 #pragma once
 
 #include <array>
@@ -31,6 +31,8 @@ struct DiscrepancyPriors {
   double model_error = 0.06;
   /// Probability that one more effect is missing, whatever is found already.
   double one_more = 0.4;
+  /// Odds of an effect whose main driver is not in the log, beside one that shows what drives it.
+  double without_driver = 0.5;
   /// Standard deviation of the relative error of a part of the simulation that is not worth a name.
   double simulation_error = 0.028;
   /// Odds of an effect that holds a simpler one as a special case, beside that one; and the part of its amplitude by
@@ -64,12 +66,12 @@ struct Alternative {
 
 /// One effect of the best set.
 struct SlotEvidence {
-  double delta_chi2 = 0.0;         ///< loss when it is taken out, the others refitted
-  double delta_evidence = 0.0;     ///< the same in evidence
-  double probability = 0.0;        ///< of this effect among the alternatives
+  double delta_chi2 = 0.0;      ///< loss when it is taken out, the others refitted
+  double delta_evidence = 0.0;  ///< the same in evidence
+  double probability = 0.0;     ///< of this effect among the alternatives
   /// 2 ln of the odds that there is an effect here, not noise and a smooth remainder made as large as needed.
   double over_unknown = 0.0;
-  std::vector<Alternative> others; ///< most probable first
+  std::vector<Alternative> others;  ///< most probable first
 };
 
 struct EffectPosterior {
@@ -133,7 +135,7 @@ struct Remainder {
   };
   std::vector<OfComponent> components;
   std::vector<double> series_evidence;  ///< the same of a course that one series has beside the others
-  Eigen::VectorXd values;  ///< posterior mean over the units, um or urad
+  Eigen::VectorXd values;               ///< posterior mean over the units, um or urad
 };
 
 [[nodiscard]] Remainder remainderOf(const ResidualProblem& problem, const CandidateLibrary::Given& given);

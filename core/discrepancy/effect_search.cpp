@@ -109,7 +109,8 @@ bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gain
     const double a = gains[0];
     const double b = gains[k];
     constexpr double most_opposed = 0.5;
-    if (a * b < 0.0 && std::min(std::abs(a), std::abs(b)) > most_opposed * std::max(std::abs(a), std::abs(b))) return false;
+    if (a * b < 0.0 && std::min(std::abs(a), std::abs(b)) > most_opposed * std::max(std::abs(a), std::abs(b)))
+      return false;
   }
   if (!warm) return true;
   // What was warm at the start is what the same driver had made, in the same pattern and no larger than it can make.

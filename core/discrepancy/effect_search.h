@@ -50,8 +50,8 @@ class EffectSearch {
   [[nodiscard]] double endlessLength() const noexcept;
   /// Fills what is kept of an effect; afterwards shape() may be asked by several threads.
   void prepare(const Effect& effect) const;
-  /// Response of one input over the units: lag `a` (s), `a` on and `b` off where they differ; for steps and pulses onset
-  /// `a` and lag `b`. Any thread.
+  /// Response of one input over the units: lag `a` (s), `a` on and `b` off where they differ; for steps and pulses
+  /// onset `a` and lag `b`. Any thread.
   [[nodiscard]] Eigen::VectorXd gridResponse(const EffectInput& input, double a, double b) const;
 
   /// Columns of a term over the units (not whitened).

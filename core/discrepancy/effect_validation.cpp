@@ -58,7 +58,8 @@ EffectSearch::CrossValidation EffectSearch::crossValidate(const std::vector<Mode
         Eigen::RowVectorXd mean_x = Eigen::RowVectorXd::Zero(x.cols());
         for (Index u = from; u < to; ++u) {
           if (left_out(u)) continue;
-          const double w = (problem_->noise.weight.size() == 0 ? 1.0 : problem_->noise.weight[u]) / std::pow(problem_->ownSigma(u), 2);
+          const double w = (problem_->noise.weight.size() == 0 ? 1.0 : problem_->noise.weight[u]) /
+                           std::pow(problem_->ownSigma(u), 2);
           sum_w += w;
           mean_y += w * r[u];
           mean_x += w * x.row(u);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "core/base/text.h"
 
@@ -17,7 +18,7 @@ namespace {
 using Eigen::Index;
 
 /// A rival is listed when its probability is at least this part of that of the effect named.
-constexpr double least_rival = 0.05;
+constexpr double least_rival = 0.1;
 /// An effect is named when it is clearly more probable than not that something like it is there.
 constexpr double least_confidence = 0.6;
 /// 2 ln of the odds beyond which a remainder is told: "very strong" (Kass and Raftery 1995).
@@ -38,8 +39,8 @@ Eigen::VectorXd centred(const ResidualProblem& problem, Eigen::VectorXd values) 
 }
 
 /// rms of what is left over that of an effect, over the readings that the effect moves, in standard deviations of the
-/// noise. Left is the remainder, what other effects explain that are not named, and of the shifts of states what is larger than shifts are. Effects that cancel each
-/// other count as what they are together.
+/// noise. Left is the remainder, what other effects explain that are not named, and of the shifts of states what is
+/// larger than shifts are. Effects that cancel each other count as what they are together.
 double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::size_t t, const Remainder& remainder,
                       const std::vector<bool>& unnamed) {
   const Eigen::VectorXd own = centred(problem, fit.contribution[t]);
@@ -68,43 +69,130 @@ double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::
   }
   const double power = std::min(own_power, together_power);
   // A step is a step: it has no dynamics that could be a little different.
-  const bool step = fit.terms[t].variant.inputs[0].dynamics == Dynamics::Step;
+  const Dynamics dynamics = fit.terms[t].variant.inputs[0].dynamics;
+  // One that chooses its own onset and length follows half of anything.
+  const double strict = dynamics == Dynamics::Step ? 3.0 : dynamics == Dynamics::Pulse ? 1.5 : 1.0;
   if (!(power > 0.0) || !(together_power > 0.0)) return 1e9;
   // Effects that cancel each other follow much that they do not cause.
   const double cancelling = 0.1 * std::sqrt(own_power / together_power);
-  return std::hypot((step ? 3.0 : 1.0) * std::sqrt(left / power), cancelling > 0.2 ? cancelling : 0.0);
+  return std::hypot(strict * std::sqrt(left / power), cancelling > 0.2 ? cancelling : 0.0);
 }
 
-/// True if an effect that cannot be fitted (nothing in the log drives it) has the pattern of this one.
+/// True if an effect that cannot be fitted (nothing in the log drives it) has the pattern of this one: with any course
+/// in time it would have moved the same readings as this one does.
 bool hasPatternOf(const ResidualProblem& problem, const EffectSearch& search, const Effect& other, const JointFit& fit,
                   std::size_t t) {
-  const ModelTerm& term = fit.terms[t];
   const Eigen::MatrixXd& s = search.shape(other);
-  const Eigen::MatrixXd& own = search.shape(*term.effect);
   if (s.isZero(0.0)) return false;
-  // The course in time of the named effect, with its own pattern taken out where it has one.
-  const Eigen::MatrixXd x = search.columns(term);
-  const Index k = own.cols();
-  Eigen::VectorXd course = Eigen::VectorXd::Zero(problem.size());
-  for (Index i = 0; i < x.cols() / k; ++i) {
-    const double weight = fit.gains[t].segment(i * k, k).norm();
-    course += weight * problem.toUnits(inputResponses(search.drivers(), {{term.variant.inputs[static_cast<std::size_t>(i)]}, false},
-                                                      std::vector<double>(static_cast<std::size_t>(parameterCount({{term.variant.inputs[static_cast<std::size_t>(i)]}, false})),
-                                                                          term.parameters.empty() ? 0.0 : term.parameters[0]),
-                                                      problem.node_time_s).col(0));
+  const Eigen::VectorXd& target = fit.contribution[t];
+  std::vector<std::vector<Index>> by_epoch(static_cast<std::size_t>(problem.epoch_count));
+  for (Index u = 0; u < problem.size(); ++u)
+    by_epoch[static_cast<std::size_t>(problem.epoch[static_cast<std::size_t>(u)])].push_back(u);
+  double left = 0.0;
+  double whole = 0.0;
+  for (const std::vector<Index>& units : by_epoch) {
+    Eigen::MatrixXd x(static_cast<Index>(units.size()), s.cols());
+    Eigen::VectorXd f(x.rows());
+    for (Index i = 0; i < x.rows(); ++i) {
+      const Index u = units[static_cast<std::size_t>(i)];
+      const double weight = 1.0 / problem.ownSigma(u);
+      x.row(i) = weight * s.row(u);
+      f[i] = weight * target[u];
+    }
+    if (x.rows() == 0) continue;
+    left += (f - x * x.completeOrthogonalDecomposition().solve(f)).squaredNorm();
+    whole += f.squaredNorm();
   }
-  const Eigen::MatrixXd columns = problem.projected(course.asDiagonal() * s);
-  const Eigen::VectorXd target = problem.projected(fit.contribution[t]);
-  const Eigen::VectorXd left = target - columns * columns.colPivHouseholderQr().solve(target);
-  return left.squaredNorm() < 0.03 * target.squaredNorm();
+  constexpr double alike = 0.03;
+  return left < alike * whole;
 }
 
-std::string describedRemainder(const Remainder& remainder) {
-  std::vector<std::string> parts;
-  for (const Remainder::OfComponent& r : remainder.components) {
-    if (r.evidence >= remainder_evidence) {
-      parts.push_back(fmt::format("{:.2f} {} rms in {}", r.rms_um, unitOf(r.component), toString(r.component)));
+/// Components in which states are shifted by clearly more than readings scatter: re-referencing does not do that.
+constexpr double largest_shift = 1.2;
+std::vector<Component> movedTogether(const ResidualProblem& problem) {
+  std::vector<Component> out;
+  for (const Component c : all_components) {
+    double own = 0.0;
+    double count = 0.0;
+    for (Index u = 0; u < problem.size(); ++u) {
+      if (problem.component[static_cast<std::size_t>(u)] != c) continue;
+      own += std::pow(problem.ownSigma(u), 2);
+      count += 1.0;
     }
+    if (count > 0.0 && problem.noise.of(c).common > largest_shift * std::sqrt(own / count)) out.push_back(c);
+  }
+  return out;
+}
+
+/// Mean of what is left over the points of each state in one component; and the period of the sine that explains most
+/// of it, if it explains more than half.
+std::optional<double> commonPeriod(const ResidualProblem& problem, const JointFit& fit, Component c) {
+  Eigen::VectorXd left = problem.y;
+  for (const Eigen::VectorXd& part : fit.contribution) left -= part;
+  left = centred(problem, left);
+  std::vector<double> sum(static_cast<std::size_t>(problem.epoch_count), 0.0);
+  std::vector<double> count(sum.size(), 0.0);
+  for (Index u = 0; u < problem.size(); ++u) {
+    if (problem.component[static_cast<std::size_t>(u)] != c) continue;
+    sum[static_cast<std::size_t>(problem.epoch[static_cast<std::size_t>(u)])] += left[u];
+    count[static_cast<std::size_t>(problem.epoch[static_cast<std::size_t>(u)])] += 1.0;
+  }
+  std::vector<double> t;
+  std::vector<double> v;
+  for (std::size_t e = 0; e < sum.size(); ++e) {
+    if (!(count[e] > 0.0)) continue;
+    t.push_back(problem.epoch_time_s[e]);
+    v.push_back(sum[e] / count[e]);
+  }
+  if (t.size() < 10) return std::nullopt;
+  const auto n = static_cast<Index>(t.size());
+  const Eigen::Map<const Eigen::VectorXd> values(v.data(), n);
+  const double span = t.back() - t.front();
+  double best = 0.0;
+  double period = 0.0;
+  for (int k = 4; k <= static_cast<int>(t.size()) * 2; ++k) {
+    const double trial = 2.0 * span / k;
+    Eigen::MatrixXd x(n, 3);
+    for (Index i = 0; i < n; ++i) {
+      const double phase = 2.0 * std::numbers::pi * t[static_cast<std::size_t>(i)] / trial;
+      x.row(i) << 1.0, std::sin(phase), std::cos(phase);
+    }
+    const Eigen::VectorXd fitted = x * x.colPivHouseholderQr().solve(values);
+    const double whole = (values.array() - values.mean()).matrix().squaredNorm();
+    const double explained = whole > 0.0 ? 1.0 - (values - fitted).squaredNorm() / whole : 0.0;
+    if (explained > best) {
+      best = explained;
+      period = trial;
+    }
+  }
+  if (best > 0.6) return period;
+  return std::nullopt;
+}
+
+std::string describedRemainder(const ResidualProblem& problem, const JointFit& fit, const Remainder& remainder) {
+  std::vector<std::string> parts;
+  const std::vector<Component> together = movedTogether(problem);
+  for (const Component c : together) {
+    const auto period = commonPeriod(problem, fit, c);
+    parts.push_back(fmt::format("{} of all points follows a common course in time{}, {:.2f} {} rms", toString(c),
+                                period ? fmt::format(" with a period of about {:.0f} s", *period) : "",
+                                problem.noise.of(c).common, unitOf(c)));
+  }
+  for (const Remainder::OfComponent& r : remainder.components) {
+    if (r.evidence < remainder_evidence || std::find(together.begin(), together.end(), r.component) != together.end())
+      continue;
+    std::vector<std::string> points;
+    for (std::size_t s = 0; s < remainder.series_evidence.size(); ++s) {
+      const auto from = static_cast<std::size_t>(problem.series_begin[s]);
+      if (problem.component[from] == r.component && remainder.series_evidence[s] >= remainder_evidence)
+        points.push_back(problem.series_point[s]);
+    }
+    const bool some = !points.empty() && points.size() <= 3;
+    const auto period = some ? std::nullopt : commonPeriod(problem, fit, r.component);
+    parts.push_back(fmt::format(
+        "{} of {} follows {} in time{}, {:.2f} {} rms", toString(r.component), some ? joinedList(points) : "all points",
+        some ? "a course of its own" : "a common course",
+        period ? fmt::format(" with a period of about {:.0f} s", *period) : "", r.rms_um, unitOf(r.component)));
   }
   return joinedList(parts);
 }
@@ -129,7 +217,8 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       const SlotEvidence& slot = posterior.slots[t];
       ratios[t] = imitationRatio(problem, fit, t, remainder, imitates);
       const double known = 1.0 / (1.0 + std::pow(ratios[t] / priors.imitation, 4));
-      const double there = 1.0 / (1.0 + std::exp(-0.5 * std::min(slot.delta_evidence, slot.over_unknown + unknown_price)));
+      const double there =
+          1.0 / (1.0 + std::exp(-0.5 * std::min(slot.delta_evidence, slot.over_unknown + unknown_price)));
       claim[t] = known * there;
       if (posterior.forced[t] || claim[t] >= least_confidence) continue;
       if (weakest == fit.terms.size() || claim[t] < claim[weakest]) weakest = t;
@@ -172,15 +261,24 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       if (seen) continue;
       if (!hasPatternOf(problem, search, other, fit, t)) continue;
       name.rivals.push_back(other.id);
-      out.warnings.push_back(fmt::format("{} cannot be told from {}, because the log lacks what drives the latter: log it next time.",
-                                         effect.id, other.id));
+      out.warnings.push_back(
+          fmt::format("{} cannot be told from {}, because the log lacks what drives the latter: log it next time.",
+                      effect.id, other.id));
     }
-    const double undriven = 1.0 / (1.0 + static_cast<double>(std::count_if(
-        search.catalogue().begin(), search.catalogue().end(), [&](const Effect& e) {
-          return e.variants.empty() && std::find(name.rivals.begin(), name.rivals.end(), e.id) != name.rivals.end();
-        })));
+    const double undriven =
+        1.0 /
+        (1.0 +
+         static_cast<double>(std::count_if(search.catalogue().begin(), search.catalogue().end(), [&](const Effect& e) {
+           return e.variants.empty() && std::find(name.rivals.begin(), name.rivals.end(), e.id) != name.rivals.end();
+         })));
     (void)rejected;
     name.confidence = std::clamp(slot.probability * claim[t] * undriven, 0.01, 1.0 - priors.unforeseen);
+    if (name.forced && !(slot.delta_evidence > 0.0)) {
+      // What is not there has no rivals either.
+      name.rivals.clear();
+      name.containers.clear();
+      name.closest.reset();
+    }
     DiscrepancyStep step{effect.id, true, slot.delta_evidence, slot.delta_chi2, ""};
     if (name.forced) {
       step.reason = slot.delta_evidence > 0.0 ? "put in by you" : "put in by you; the data do not support it";
@@ -189,41 +287,67 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       }
     } else if (imitates[t]) {
       step.accepted = false;
-      step.reason = fmt::format("what it leaves is too large beside it ({:.2f}), or noise would do ({:.0f}): it may imitate a cause outside the catalogue",
-                                ratios[t], slot.over_unknown);
+      step.reason = fmt::format(
+          "what it leaves is too large beside it ({:.2f}), or noise would do ({:.0f}): it may imitate a cause outside "
+          "the catalogue",
+          ratios[t], slot.over_unknown);
       unnamed.push_back(effect.id);
     } else if (name.rivals.size() > most_rivals) {
       step.accepted = false;
       step.reason = fmt::format("{} others explain the same as well", name.rivals.size());
       unnamed.push_back(effect.id);
     } else {
-      step.reason = "more probable than all sets without it";
+      step.reason =
+          fmt::format("more probable than all sets without it (left beside it: {:.2f} of its size)", ratios[t]);
     }
     out.steps.push_back(step);
     if (!step.accepted) continue;
-    ambiguous = ambiguous || !name.rivals.empty();
     terms.push_back(fit.terms[t]);
     out.names.push_back(std::move(name));
   }
+  // Two that share a rival which nothing in the log drives: together they look like that one.
+  for (const Effect& other : search.catalogue()) {
+    if (!other.variants.empty()) continue;
+    std::vector<std::size_t> sharing;
+    for (std::size_t k = 0; k < out.names.size(); ++k) {
+      const auto& rivals = out.names[k].rivals;
+      if (!out.names[k].forced && std::find(rivals.begin(), rivals.end(), other.id) != rivals.end())
+        sharing.push_back(k);
+    }
+    if (sharing.size() < 2) continue;
+    for (auto k = sharing.rbegin(); k != sharing.rend(); ++k) {
+      unnamed.push_back(out.names[*k].id);
+      for (DiscrepancyStep& step : out.steps) {
+        if (step.id != out.names[*k].id) continue;
+        step.accepted = false;
+        step.reason = fmt::format("together with another it looks like {}, whose driver the log lacks", other.id);
+      }
+      terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(*k));
+      out.names.erase(out.names.begin() + static_cast<std::ptrdiff_t>(*k));
+    }
+  }
+  ambiguous = std::any_of(out.names.begin(), out.names.end(), [](const NamedEffect& n) { return !n.rivals.empty(); });
   out.named = terms.size() == fit.terms.size() ? fit : search.solve(terms);
-  const std::string left = describedRemainder(remainder);
+  const std::string left = describedRemainder(problem, fit, remainder);
   if (!unnamed.empty()) {
     out.leftover = fmt::format("what {} would explain, but cannot be named{}", joinedList(unnamed),
                                left.empty() ? "" : ", and " + left);
   } else if (!left.empty()) {
-    out.leftover = left + " that no effect of the catalogue explains";
+    out.leftover = left;
   }
   // What is explained of all that is structured: chi-squared beyond that of noise.
   const double before = problem.projectedResidual().squaredNorm();
   double remaining = 0.0;
-  for (const Remainder::OfComponent& r : remainder.components) remaining += r.evidence >= remainder_evidence ? r.power : 0.0;
+  for (const Remainder::OfComponent& r : remainder.components)
+    remaining += r.evidence >= remainder_evidence ? r.power : 0.0;
   const double structured = std::max(1e-9, before - fit.chi2 + remaining);
   out.explained_fraction = std::clamp((before - out.named.chi2) / structured, 0.0, 1.0);
   if (fit.terms.empty()) out.explained_fraction = 0.0;
   const bool by_hand = std::all_of(out.names.begin(), out.names.end(), [](const NamedEffect& n) { return n.forced; });
   if (out.names.empty() || (by_hand && !out.leftover.empty() && options.max_effects > 0)) {
     out.verdict = out.leftover.empty() && out.names.empty() ? DiscrepancyVerdict::None : DiscrepancyVerdict::Unknown;
-    if (!out.names.empty() && by_hand) out.verdict = ambiguous ? DiscrepancyVerdict::Ambiguous : DiscrepancyVerdict::Named;
+    if (!out.names.empty() && by_hand)
+      out.verdict = ambiguous ? DiscrepancyVerdict::Ambiguous : DiscrepancyVerdict::Named;
   } else {
     out.verdict = ambiguous ? DiscrepancyVerdict::Ambiguous : DiscrepancyVerdict::Named;
   }

@@ -71,8 +71,9 @@ Products productsOf(const ResidualProblem& problem, const ComponentData& data, d
       Eigen::MatrixXd c(n, n);
       for (Index i = 0; i < n; ++i) {
         for (Index j = 0; j <= i; ++j) {
-          const double dt = std::abs(problem.time_s[static_cast<std::size_t>(data.units[static_cast<std::size_t>(from + i)])] -
-                                     problem.time_s[static_cast<std::size_t>(data.units[static_cast<std::size_t>(from + j)])]);
+          const double dt =
+              std::abs(problem.time_s[static_cast<std::size_t>(data.units[static_cast<std::size_t>(from + i)])] -
+                       problem.time_s[static_cast<std::size_t>(data.units[static_cast<std::size_t>(from + j)])]);
           c(i, j) = data.sigma[from + i] * data.sigma[from + j] * part * std::exp(-dt / time_s);
           c(j, i) = c(i, j);
         }
@@ -154,8 +155,7 @@ Eigen::VectorXd ownResidual(const ResidualProblem& problem, const ComponentData&
   // The last row of the factor holds L^-1 [F X]' r; solving with the rest gives the coefficients.
   const Eigen::MatrixXd l = factor.matrixL();
   const Eigen::VectorXd z = l.row(total - 1).head(total - 1).transpose();
-  const Eigen::VectorXd b =
-      l.topLeftCorner(total - 1, total - 1).transpose().triangularView<Eigen::Upper>().solve(z);
+  const Eigen::VectorXd b = l.topLeftCorner(total - 1, total - 1).transpose().triangularView<Eigen::Upper>().solve(z);
   Eigen::VectorXd left = data.residual;
   if (s > 0) left -= p.shift * (data.shifts * b.head(s));
   if (m > 0) left -= p.smooth * (data.smooth * b.segment(s, m));
@@ -228,7 +228,8 @@ ComponentData componentData(const ResidualProblem& problem, const Eigen::VectorX
   std::vector<Eigen::VectorXd> patterns{Eigen::VectorXd::Ones(n)};
   const auto add = [&](const auto& value) {
     Eigen::VectorXd column(n);
-    for (Index i = 0; i < n; ++i) column[i] = value(problem.place[static_cast<std::size_t>(out.units[static_cast<std::size_t>(i)])]);
+    for (Index i = 0; i < n; ++i)
+      column[i] = value(problem.place[static_cast<std::size_t>(out.units[static_cast<std::size_t>(i)])]);
     const double mean = column.mean();
     if ((column.array() - mean).matrix().norm() > 1e-6 * std::sqrt(static_cast<double>(n))) patterns.push_back(column);
   };
@@ -275,8 +276,8 @@ struct ComponentEstimate {
   ComponentData data;
 };
 
-/// Scale, shift, smooth part and correlation at the weights of `data`. `careful`: nothing is known of the signal yet, so
-/// shifts are small and nothing is correlated, or the noise would take the signal.
+/// Scale, shift, smooth part and correlation at the weights of `data`. `careful`: nothing is known of the signal yet,
+/// so shifts are small and nothing is correlated, or the noise would take the signal.
 void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again, bool careful) {
   const bool constants = problem.free_constants;
   const bool shifts = e.data.shifts.cols() > 0;
@@ -332,7 +333,8 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
     if (best_correlated < best + 2.0 * correlation_price) {
       for (int round = 0; round < 2; ++round) {
         const Parameters at = correlated;
-        for (const double part : {0.6 * at.part, std::min(0.98, at.part + 0.5 * (1.0 - at.part))}) consider(part, at.time_s, 2);
+        for (const double part : {0.6 * at.part, std::min(0.98, at.part + 0.5 * (1.0 - at.part))})
+          consider(part, at.time_s, 2);
         const Parameters then = correlated;
         for (const double factor : {0.55, 1.8}) consider(then.part, factor * then.time_s, 2);
       }
@@ -352,7 +354,8 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
   e.p = chosen;
   e.deviance = best;
   e.own = ownResidual(problem, e.data, chosen_products, e.p);
-  const double dof = std::max(1.0, static_cast<double>(e.data.residual.size()) - (constants ? e.data.series.size() : 0.0));
+  const double dof =
+      std::max(1.0, static_cast<double>(e.data.residual.size()) - (constants ? e.data.series.size() : 0.0));
   e.uncertainty = std::exp(e.p.log_scale) / std::sqrt(2.0 * dof);
 }
 

@@ -59,8 +59,7 @@ Course courseOf(const ResidualProblem& problem, const CandidateLibrary::Given& g
     }
   }
   if (!(out.evidence > 0.0)) return out;
-  const Eigen::VectorXd coefficient =
-      (beta.array() * width * width / (1.0 + lambda.array() * width * width)).matrix();
+  const Eigen::VectorXd coefficient = (beta.array() * width * width / (1.0 + lambda.array() * width * width)).matrix();
   const Eigen::VectorXd weights = eigen.eigenvectors() * coefficient;
   out.values = raw * weights;
   out.power = (u * weights).squaredNorm();

@@ -56,6 +56,31 @@ void splitPoints(const std::vector<Eigen::Vector3d>& at, std::vector<std::size_t
 
 }  // namespace
 
+namespace {
+
+/// Readings of one point in one component: epoch and deviation from its neighbours.
+using PointCourse = std::vector<std::pair<int, double>>;
+
+/// Largest |difference of the means before and after| over all onsets, in standard uncertainties.
+double largestStep(PointCourse course, double sigma) {
+  std::sort(course.begin(), course.end());
+  double total = 0.0;
+  for (const auto& [epoch_index, value] : course) total += value;
+  const auto n = static_cast<double>(course.size());
+  double largest = 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 1 < course.size(); ++i) {
+    sum += course[i].second;
+    const double k = static_cast<double>(i + 1);
+    if (k < 2.0 || n - k < 2.0) continue;
+    largest =
+        std::max(largest, std::abs(sum / k - (total - sum) / (n - k)) / (sigma * std::sqrt(1.0 / k + 1.0 / (n - k))));
+  }
+  return largest;
+}
+
+}  // namespace
+
 ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vector<std::size_t>& rows,
                                  std::size_t unit_limit) {
   free_constants = !input.absolute;
@@ -126,6 +151,59 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
   } else {
     std::iota(group_of.begin(), group_of.end(), 0);
   }
+  if (merge_points) {
+    // A point that moves against its neighbours is no part of their mean.
+    const int groups = 1 + *std::max_element(group_of.begin(), group_of.end());
+    std::map<std::tuple<int, int, int>, std::pair<double, double>> mean;
+    std::vector<double> level(point_names.size() * 6, 0.0);
+    std::vector<double> count(level.size(), 0.0);
+    const auto seriesOf = [&](std::size_t i) {
+      return row_point[i] * 6 + static_cast<std::size_t>(all[rows[i]].component);
+    };
+    const auto residualOf = [&](std::size_t i) { return all[rows[i]].value - input.predicted[rows[i]]; };
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      level[seriesOf(i)] += residualOf(i);
+      count[seriesOf(i)] += 1.0;
+    }
+    for (std::size_t i = 0; i < level.size(); ++i) level[i] /= std::max(1.0, count[i]);
+    const auto keyOf = [&](std::size_t i) {
+      return std::make_tuple(group_of[row_point[i]], static_cast<int>(all[rows[i]].component), epochOf(all[rows[i]]));
+    };
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      auto& [sum, weight] = mean[keyOf(i)];
+      sum += residualOf(i) - level[seriesOf(i)];
+      weight += 1.0;
+    }
+    std::vector<PointCourse> course(level.size());
+    std::vector<double> magnitudes;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto& [sum, weight] = mean[keyOf(i)];
+      const double apart = residualOf(i) - level[seriesOf(i)] - sum / weight;
+      course[seriesOf(i)].emplace_back(epochOf(all[rows[i]]), apart / all[rows[i]].sigma);
+      magnitudes.push_back(std::abs(apart) / all[rows[i]].sigma);
+    }
+    const double scale = std::max(1e-9, 1.4826 * median(magnitudes));
+    constexpr double clear_step = 9.0;
+    constexpr std::size_t most_alone = 24;
+    std::vector<std::pair<double, std::size_t>> alone;
+    for (std::size_t p = 0; p < point_names.size(); ++p) {
+      double step = 0.0;
+      for (std::size_t c = 0; c < 6; ++c) step = std::max(step, largestStep(course[p * 6 + c], scale));
+      if (step > clear_step) alone.emplace_back(-step, p);
+    }
+    std::sort(alone.begin(), alone.end());
+    if (alone.size() > most_alone) alone.resize(most_alone);
+    int next = groups;
+    for (const auto& [step, p] : alone) {
+      group_of[p] = next++;
+      own_points.push_back(point_names[p]);
+    }
+    // Groups that lost all their points are closed up.
+    std::map<int, int> renumbered;
+    for (int& g : group_of) g = renumbered.try_emplace(g, static_cast<int>(renumbered.size())).first->second;
+  } else {
+    own_points = point_names;
+  }
   const int group_count = 1 + (group_of.empty() ? -1 : *std::max_element(group_of.begin(), group_of.end()));
   std::vector<std::vector<std::size_t>> group_points(static_cast<std::size_t>(group_count));
   for (std::size_t p = 0; p < group_of.size(); ++p) group_points[static_cast<std::size_t>(group_of[p])].push_back(p);
@@ -179,9 +257,9 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
       for (const auto& [place_key, members] : groups) {
         for (std::size_t from = 0; from < members.size(); from += bin) {
           const std::size_t to = std::min(members.size(), from + bin);
-          bins.push_back(
-              {0.0,
-               {members.begin() + static_cast<std::ptrdiff_t>(from), members.begin() + static_cast<std::ptrdiff_t>(to)}});
+          bins.push_back({0.0,
+                          {members.begin() + static_cast<std::ptrdiff_t>(from),
+                           members.begin() + static_cast<std::ptrdiff_t>(to)}});
         }
       }
     }
@@ -247,9 +325,8 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
     const Index a = unit_of_row[entry.row];
     const Index b = unit_of_row[entry.column];
     if (a < 0 || b < 0) continue;
-    const double part =
-        entry.covariance / static_cast<double>(unit_rows[static_cast<std::size_t>(a)].size() *
-                                               unit_rows[static_cast<std::size_t>(b)].size());
+    const double part = entry.covariance / static_cast<double>(unit_rows[static_cast<std::size_t>(a)].size() *
+                                                               unit_rows[static_cast<std::size_t>(b)].size());
     if (a != b) {
       between[{std::min(a, b), std::max(a, b)}] += part;
     } else if (entry.row != entry.column) {

@@ -7,12 +7,11 @@
 //
 // s, a, T and common are one set for each component; w_i <= 1 is the weight of a reading in a noise with heavy tails.
 //
-// A unit is one observation, or, where there are very many, the mean of neighbours: of points close to each other in one
-// state where places do not change, else of readings of one series that follow each other. Drivers are averaged over the
-// same times and shapes over the same points, so this loses only what differs inside a bin. Units are ordered by
-// component, series and time. Vectors "projected" are whitened, have one extra row for each prior, and are orthogonal to
-// all nuisances.
-// Sources: Sherman and Morrison 1950, Woodbury 1950 (covariance plus a part of low rank).
+// A unit is one observation, or, where there are very many, the mean of neighbours: of points close to each other in
+// one state where places do not change, else of readings of one series that follow each other. Drivers are averaged
+// over the same times and shapes over the same points, so this loses only what differs inside a bin. Units are ordered
+// by component, series and time. Vectors "projected" are whitened, have one extra row for each prior, and are
+// orthogonal to all nuisances. Sources: Sherman and Morrison 1950, Woodbury 1950 (covariance plus a part of low rank).
 #pragma once
 
 #include <Eigen/Core>
@@ -28,10 +27,10 @@ namespace spindrift {
 
 /// Noise of one component.
 struct ComponentNoise {
-  double scale = 1.0;              ///< own noise of a reading: actual / stated sigma
-  double scale_uncertainty = 0.0;  ///< standard uncertainty of the scale
-  double common = 0.0;             ///< standard deviation of the shift of a state, um or urad
-  double correlated_part = 0.0;    ///< a, 0 ... 1
+  double scale = 1.0;               ///< own noise of a reading: actual / stated sigma
+  double scale_uncertainty = 0.0;   ///< standard uncertainty of the scale
+  double common = 0.0;              ///< standard deviation of the shift of a state, um or urad
+  double correlated_part = 0.0;     ///< a, 0 ... 1
   double correlation_time_s = 0.0;  ///< T
 };
 
@@ -63,16 +62,18 @@ class ResidualProblem {
   std::vector<Component> component;
   std::vector<int> series;                 ///< of each unit
   std::vector<Eigen::Index> series_begin;  ///< first unit of each series, and the end
-  std::vector<std::string> series_point;   ///< the point of a series; of several points that are one unit: the first
-  std::vector<double> time_s;              ///< mean time
-  std::vector<int> epoch;                  ///< index of the thermal state (or time bin)
+  /// Points that can be told from their neighbours: all, or, where neighbours were merged, those that moved alone.
+  std::vector<std::string> own_points;
+  std::vector<std::string> series_point;  ///< the point of a series; of several points that are one unit: the first
+  std::vector<double> time_s;             ///< mean time
+  std::vector<int> epoch;                 ///< index of the thermal state (or time bin)
   int epoch_count = 0;
   bool epochs_are_states = false;
   std::vector<double> epoch_time_s;
-  Eigen::VectorXd y;                        ///< residual, um or urad
-  Eigen::VectorXd simulated;                ///< um or urad
-  Eigen::VectorXd sigma;                    ///< stated
-  std::vector<double> node_time_s;          ///< distinct times at which drivers are needed, increasing
+  Eigen::VectorXd y;                                ///< residual, um or urad
+  Eigen::VectorXd simulated;                        ///< um or urad
+  Eigen::VectorXd sigma;                            ///< stated
+  std::vector<double> node_time_s;                  ///< distinct times at which drivers are needed, increasing
   std::vector<std::vector<std::size_t>> unit_rows;  ///< the observations that each unit is the mean of
   /// Mean of values at the nodes over the times of every unit.
   [[nodiscard]] Eigen::VectorXd toUnits(const Eigen::VectorXd& at_nodes) const;

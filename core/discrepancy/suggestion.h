@@ -10,9 +10,11 @@
 
 namespace spindrift {
 
-[[nodiscard]] std::optional<MeasurementSuggestion> suggestMeasurement(
-    const DiscrepancyInput& input, const DriverTable& drivers, const EffectSearch& search,
-    const ResidualProblem& problem, const JointFit& first, const JointFit& second, const std::string& separates,
-    double log_n);
+[[nodiscard]] std::optional<MeasurementSuggestion> suggestMeasurement(const DiscrepancyInput& input,
+                                                                      const DriverTable& drivers,
+                                                                      const EffectSearch& search,
+                                                                      const ResidualProblem& problem,
+                                                                      const JointFit& first, const JointFit& second,
+                                                                      const std::string& separates, double log_n);
 
 }  // namespace spindrift

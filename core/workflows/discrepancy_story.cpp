@@ -296,7 +296,8 @@ void parseRest(const nlohmann::json& result, DiscrepancyStory& story) {
   };
   for (const auto& [name, n] : result.at("noise").items()) {
     story.noise.push_back({componentOf(name), numberOf(n, "scale"), numberOf(n, "scale_uncertainty"),
-                           numberOf(n, "common_um"), numberOf(n, "correlated_part"), numberOf(n, "correlation_time_s")});
+                           numberOf(n, "common_um"), numberOf(n, "correlated_part"),
+                           numberOf(n, "correlation_time_s")});
   }
   for (const auto& s : result.at("state_shifts")) {
     story.shifts.push_back({s.at("state").get<std::string>(), componentOf(s.at("component").get<std::string>()),

@@ -16,12 +16,13 @@ void addBendingShape(const MachineDescription& machine, int axis, Effect& effect
     lever_m = (axis == 0 ? machine.column_overhang_mm->y() : -machine.column_overhang_mm->x()) * 1e-3;
   }
   // um for 1 K: gain in um/m^2.
-  effect.shape = {{"um_per_m2", [side, turn, sign, base, lever = lever_m.value_or(0.0)](const DeviationQuery& q, Component c) {
-                     const double h = (q.position_mm.z() - base) * 1e-3;
-                     if (c == side) return sign * 0.5 * h * h;
-                     if (c == Component::EZ) return h * lever;
-                     return c == turn ? h : 0.0;
-                   }}};
+  effect.shape = {
+      {"um_per_m2", [side, turn, sign, base, lever = lever_m.value_or(0.0)](const DeviationQuery& q, Component c) {
+         const double h = (q.position_mm.z() - base) * 1e-3;
+         if (c == side) return sign * 0.5 * h * h;
+         if (c == Component::EZ) return h * lever;
+         return c == turn ? h : 0.0;
+       }}};
   if (lever_m) return;
   constexpr double longest_overhang_m = 1.0;
   effect.shape.push_back({"um_per_m_lift", [base](const DeviationQuery& q, Component c) {

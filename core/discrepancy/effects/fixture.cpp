@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "core/discrepancy/catalogue.h"
 
 namespace spindrift {
 
 // A clamped part or target slips once and stays where it went: one point, one time.
 void addFixtureEffects(const CatalogueContext& context, std::vector<Effect>& out) {
-  if (context.points.size() < 2) return;
+  if (std::max(context.point_count, context.points.size()) < 2) return;
   for (const std::string& point : context.points) {
     Effect effect;
     effect.id = "fixture.slip." + point;

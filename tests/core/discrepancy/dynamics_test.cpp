@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 
+#include "core/discrepancy/candidate_library.h"
 #include "core/discrepancy/catalogue.h"
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/distributed_dynamics.h"
@@ -135,14 +136,22 @@ TEST(Dynamics, TryEveryDriverThatTheDataAllow) {
   }
   const DriverTable drivers(input.machine, &*input.log);
   ResidualProblem problem(input, rows, 3000);
-  problem.setNuisances(problem.simulationNuisances(0.01));
+  problem.setNuisances(problem.simulationNuisances(0.01, 0.0));
   CatalogueContext context;
   context.machine = &input.machine;
   context.drivers = &drivers;
   const std::vector<Effect> catalogue = effectCatalogue(context);
   const EffectSearch search(problem, drivers, catalogue);
-  const CandidateFit candidate = search.best(*search.find("spindle.drift.y"));
-  const auto versions = alternativeDynamics(search, problem, drivers, search.refine({candidate.term}, 2));
+  JobContext job;
+  const CandidateLibrary library(search, problem, job);
+  std::vector<std::string> others;
+  for (const Effect& effect : catalogue) {
+    if (effect.id != "spindle.drift.y") others.push_back(effect.id);
+  }
+  CandidateLibrary::Given nothing{Eigen::MatrixXd(problem.projectedResidual().size(), 0), problem.projectedResidual()};
+  const std::vector<CandidateFit> candidates = library.sweep(nothing, others, job);
+  ASSERT_EQ(candidates.size(), 1u);
+  const auto versions = alternativeDynamics(search, problem, drivers, search.refine({candidates[0].term}, 2));
   ASSERT_GT(versions.size(), 1u) << "bearing temperature and powers of the speed fit alike at this strength";
   double sum = 0.0;
   for (std::size_t v = 0; v < versions.size(); ++v) {
@@ -150,58 +159,6 @@ TEST(Dynamics, TryEveryDriverThatTheDataAllow) {
     EXPECT_LE(versions[v].weight, versions[v == 0 ? 0 : v - 1].weight);
   }
   EXPECT_NEAR(sum, 1.0, 1e-12);
-}
-
-TEST(ProjectedProducts, AreThoseOfTheProjectedColumns) {
-  const DiscrepancyInput input = campaign(Hidden::SpindleDrift, 3);
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < input.observations.rows.size(); ++i) rows.push_back(i);
-  ResidualProblem problem(input, rows, 3000);
-  problem.setNuisances(problem.simulationNuisances(0.01));
-  Random random(9);
-  Eigen::MatrixXd courses(problem.size(), 3);
-  for (double& value : courses.reshaped()) value = random.normal();
-  // A shape over EY alone, as most effects have, and a basis to be removed besides.
-  Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(problem.size(), 2);
-  std::vector<int> active;
-  for (int s = 0; s < problem.seriesCount(); ++s) {
-    const auto from = static_cast<std::size_t>(problem.series_begin[static_cast<std::size_t>(s)]);
-    const auto to = static_cast<std::size_t>(problem.series_begin[static_cast<std::size_t>(s) + 1]);
-    if (problem.component[from] != Component::EY) continue;
-    active.push_back(s);
-    for (std::size_t u = from; u < to; ++u) {
-      shapes(static_cast<Eigen::Index>(u), 0) = 1.0;
-      shapes(static_cast<Eigen::Index>(u), 1) = problem.place[u].position_mm.z() * 1e-3;
-    }
-  }
-  for (const NoiseModel& noise : {NoiseModel{}, NoiseModel{1.2, 0.8, 2500.0}}) {
-    problem.setNoise(noise);
-    Eigen::MatrixXd further = problem.projected(Eigen::VectorXd(courses.col(2)));
-    further /= further.norm();
-    const ProjectedColumns products = problem.projectedProducts(courses.leftCols(2), shapes, active, further);
-    Eigen::MatrixXd raw(problem.size(), 4);
-    for (Eigen::Index o = 0; o < 2; ++o) raw.middleCols(2 * o, 2) = courses.col(o).asDiagonal() * shapes;
-    Eigen::MatrixXd x = problem.projected(raw);
-    x -= further * (further.transpose() * x);
-    const Eigen::MatrixXd gram = x.transpose() * x;
-    EXPECT_LT((products.gram() - gram).norm(), 1e-9 * gram.norm());
-    EXPECT_LT((products.with_residual - x.transpose() * problem.projectedResidual()).norm(),
-              1e-9 * x.norm() * problem.projectedResidual().norm());
-    const Eigen::VectorXd whole = problem.whitened(raw).colwise().squaredNorm();
-    EXPECT_LT((products.whole - whole).norm(), 1e-12 * whole.norm());
-  }
-}
-
-TEST(ProjectedProducts, OfAShapeThatIsZeroEverywhereAreZero) {
-  const DiscrepancyInput input = campaign(Hidden::Nothing, 3);
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < input.observations.rows.size(); ++i) rows.push_back(i);
-  ResidualProblem problem(input, rows, 3000);
-  problem.setNuisances(problem.simulationNuisances(0.01));
-  const ProjectedColumns products = problem.projectedProducts(
-      Eigen::MatrixXd::Ones(problem.size(), 4), Eigen::MatrixXd::Zero(problem.size(), 2), {}, Eigen::MatrixXd());
-  EXPECT_EQ(products.gram(), Eigen::MatrixXd::Zero(8, 8));
-  EXPECT_EQ(products.with_residual, Eigen::VectorXd::Zero(8));
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/discrepancy/discrepancy_search.h"
 #include "core/discrepancy/drivers.h"
+#include "core/discrepancy/places.h"
 #include "tests/core/discrepancy/small_plant.h"
 
 namespace spindrift {
@@ -12,6 +12,13 @@ namespace {
 using namespace small_plant;
 using ::testing::Contains;
 using ::testing::UnorderedElementsAre;
+
+/// The same noise in every component.
+NoiseModel noiseOf(double scale, double correlated_part, double correlation_time_s) {
+  NoiseModel out;
+  out.component.fill({scale, 0.0, 0.0, correlated_part, correlation_time_s});
+  return out;
+}
 
 /// Noise alone (part of it correlated in time) in place of the observations, with `added` on top.
 std::vector<DisagreementPlace> placesOf(std::uint64_t seed, const NoiseModel& noise, auto&& added) {
@@ -23,13 +30,13 @@ std::vector<DisagreementPlace> placesOf(std::uint64_t seed, const NoiseModel& no
     Observation& o = input.observations.rows[i];
     const auto [at, fresh] = last.try_emplace({o.point, o.component}, o.time_s, random.normal());
     auto& [time, slow] = at->second;
-    if (!fresh && noise.correlated_part > 0.0) {
-      const double phi = std::exp(-(o.time_s - time) / noise.correlation_time_s);
+    if (!fresh && noise.component[0].correlated_part > 0.0) {
+      const double phi = std::exp(-(o.time_s - time) / noise.component[0].correlation_time_s);
       slow = phi * slow + std::sqrt(1.0 - phi * phi) * random.normal();
     }
     time = o.time_s;
-    const double unit =
-        std::sqrt(noise.correlated_part) * slow + std::sqrt(1.0 - noise.correlated_part) * random.normal();
+    const double unit = std::sqrt(noise.component[0].correlated_part) * slow +
+                        std::sqrt(1.0 - noise.component[0].correlated_part) * random.normal();
     o.value = input.predicted[i] + o.sigma * unit + added(o);
     rows.push_back(i);
   }
@@ -43,7 +50,7 @@ TEST(Places, AreNoneInNoiseAlsoWhereItIsCorrelatedInTime) {
   int found = 0;
   constexpr int draws = 60;
   for (int seed = 0; seed < draws; ++seed) {
-    const NoiseModel noise = seed % 2 == 0 ? NoiseModel{} : NoiseModel{1.0, 0.9, 4000.0};
+    const NoiseModel noise = seed % 2 == 0 ? NoiseModel{} : noiseOf(1.0, 0.9, 4000.0);
     const auto places = placesOf(100 + static_cast<std::uint64_t>(seed), noise, [](const Observation&) { return 0.0; });
     found += places.empty() ? 0 : 1;
   }
