@@ -19,8 +19,10 @@ namespace spindrift {
 namespace {
 
 constexpr double seconds_per_hour = 3600.0;
+constexpr std::size_t most_states_in_table = 48;
+constexpr std::size_t most_outliers_in_table = 50;
 
-void addTimeCourses(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows) {
+void addTimeHistories(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows) {
   for (const Component component : all_components) {
     PlotSeries before{"measured minus simulation", {}, {}, {}, SeriesStyle::Points};
     PlotSeries after{"measured minus completed model", {}, {}, {}, SeriesStyle::Points};
@@ -145,7 +147,7 @@ void addGap(HtmlDocument& document, const DiscrepancyReportData& data) {
          data.gap.heldout_rms_before_um, data.gap.heldout_rms_after_um);
   if (held_out) addFigures("rows held out", true);
   document.table({"", "before", "after", "noise"}, table,
-                 "The gap between measured and simulated; nobody can go below the noise");
+                 "The gap between measured and simulated; the noise is the floor");
 }
 
 void addSteps(HtmlDocument& document, const DiscrepancyReportData& data) {
@@ -157,7 +159,7 @@ void addSteps(HtmlDocument& document, const DiscrepancyReportData& data) {
       decision = withEffectTitles("not added: " + step.reason);
     } else if (takenOutAgain(step, data.effects)) {
       decision = data.verdict == DiscrepancyVerdict::Unknown
-                     ? "added, then taken out again: with it too something is left that no effect explains"
+                     ? "added, then taken out again: with it too something remains that no effect explains"
                      : "added, then taken out again";
     }
     rows.push_back({withEffectTitles(step.id), fmt::format("{:.0f}", step.delta_bic), decision});
@@ -188,6 +190,173 @@ void addEffect(HtmlDocument& document, const FoundEffect& effect, bool user_adds
   document.table({"Parameter", "Value ± standard uncertainty"}, rows, "Parameters of the " + effectTitle(effect.id));
 }
 
+void addCandidates(HtmlDocument& document, const DiscrepancyReportData& data) {
+  if (data.candidates.empty()) return;
+  std::vector<std::vector<std::string>> rows;
+  for (const EffectCandidate& candidate : data.candidates) {
+    const char* answer = "";
+    switch (candidateRole(candidate.id, data.effects)) {
+      case CandidateRole::Named:
+        answer = "named";
+        break;
+      case CandidateRole::Rival:
+        answer = "rival of what is named";
+        break;
+      case CandidateRole::Container:
+        answer = "holds what is named as a special case";
+        break;
+      case CandidateRole::None:
+        break;
+    }
+    rows.push_back({withEffectTitles(candidate.id), percentText(candidate.probability), answer});
+  }
+  document.table({"Effect", "Probability", "Answer"}, rows,
+                 "The most probable effects: probability that each is among what is missing, before rivals and the "
+                 "remainder are weighed");
+}
+
+/// One figure for displacements and one for rotations, and a table of the states.
+void addShifts(HtmlDocument& document, const std::vector<StateShift>& shifts) {
+  if (shifts.empty()) return;
+  for (const bool rotations : {false, true}) {
+    std::vector<PlotSeries> series;
+    for (const Component component : all_components) {
+      if (isRotation(component) != rotations) continue;
+      PlotSeries s{std::string(toString(component)), {}, {}, {}, SeriesStyle::Points};
+      s.dress(componentLook(component));
+      for (const StateShift& shift : shifts) {
+        if (shift.component != component) continue;
+        s.x.push_back(shift.time_s / seconds_per_hour);
+        s.y.push_back(shift.shift_um);
+        s.sigma.push_back(shift.standard_uncertainty);
+      }
+      if (!s.x.empty()) series.push_back(std::move(s));
+    }
+    if (series.empty()) continue;
+    const PlotOptions options{.title = "Common shift",
+                              .x_label = "time / h",
+                              .y_label = rotations ? "shift / urad" : "shift / um",
+                              .width_px = 860,
+                              .height_px = 220};
+    document.figure(svgPlot(series, options),
+                    "Common shift of all points of a state (re-referencing, refocus), with its standard uncertainty");
+  }
+  std::vector<Component> components;
+  std::vector<std::string> header{"State", "Time / h"};
+  for (const Component component : all_components) {
+    if (std::none_of(shifts.begin(), shifts.end(), [&](const auto& s) { return s.component == component; })) continue;
+    components.push_back(component);
+    header.push_back(fmt::format("{} / {}", toString(component), unitOf(component)));
+  }
+  std::map<std::pair<double, std::string>, std::map<Component, const StateShift*>> states;
+  for (const StateShift& s : shifts) states[{s.time_s, s.state}][s.component] = &s;
+  if (states.size() > most_states_in_table) return;
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [key, of_state] : states) {
+    std::vector<std::string> row{key.second, fmt::format("{:.2f}", key.first / seconds_per_hour)};
+    for (const Component component : components) {
+      const auto found = of_state.find(component);
+      row.push_back(found == of_state.end()
+                        ? ""
+                        : withUncertainty(found->second->shift_um, found->second->standard_uncertainty, ""));
+    }
+    rows.push_back(std::move(row));
+  }
+  document.table(header, rows, "Common shift of every state ± standard uncertainty");
+}
+
+void addOutliers(HtmlDocument& document, std::vector<OutlyingObservation> outliers) {
+  if (outliers.empty()) return;
+  const std::size_t all = outliers.size();
+  std::string caption =
+      "Outlying readings: they were given little weight; deviation in standard deviations of the noise";
+  if (all > most_outliers_in_table) {
+    std::stable_sort(outliers.begin(), outliers.end(),
+                     [](const auto& a, const auto& b) { return std::abs(a.deviation) > std::abs(b.deviation); });
+    outliers.resize(most_outliers_in_table);
+    caption += fmt::format(" (the {} largest of {})", most_outliers_in_table, all);
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const OutlyingObservation& o : outliers) {
+    rows.push_back({fmt::format("{}", o.row + 1), o.state, o.point, std::string(toString(o.component)),
+                    fmt::format("{:.2f}", o.time_s / seconds_per_hour),
+                    fmt::format("{:.2f} {}", o.value, unitOf(o.component)), fmt::format("{:+.1f}", o.deviation)});
+  }
+  document.table({"Row", "State", "Point", "Component", "Time / h", "Value", "Deviation"}, rows, caption);
+}
+
+void addNoise(HtmlDocument& document, const DiscrepancyReportData& data) {
+  if (data.noise.empty()) return;
+  document.subsection("What was taken as noise");
+  const std::string none = "\u2013";
+  std::vector<std::vector<std::string>> rows;
+  for (const NoiseEstimate& n : data.noise) {
+    const std::string correlated = n.correlated_part > 0.0 ? fmt::format("{:.0f} % over {}", 100.0 * n.correlated_part,
+                                                                         spanOfTime(n.correlation_time_s))
+                                                           : none;
+    rows.push_back({std::string(toString(n.component)), withUncertainty(n.scale, n.scale_uncertainty, ""),
+                    n.common_um > 0.0 ? fmt::format("{:.2f} {}", n.common_um, unitOf(n.component)) : none, correlated});
+  }
+  document.table({"Component", "Noise scale", "Common shift", "Correlated in time"}, rows,
+                 "Noise found in the data. Noise scale: actual over stated standard uncertainty of a reading; common "
+                 "shift: its standard deviation from state to state");
+  std::string text = data.tail_dof > 0.0
+                         ? fmt::format("Tails: Student t with {:.0f} degrees of freedom. ", data.tail_dof)
+                         : std::string("Tails: normal distribution. ");
+  if (data.clock_offset_uncertainty_s > 0.0) {
+    text += fmt::format("The clock of the log is {} {} that of the observations.",
+                        withUncertainty(std::abs(data.clock_offset_s), data.clock_offset_uncertainty_s, "s"),
+                        data.clock_offset_s >= 0.0 ? "ahead of" : "behind");
+  } else {
+    text += "These data show no offset between the clocks of log and observations.";
+  }
+  if (data.outliers.empty()) text += " No reading is an outlier.";
+  document.paragraph(text);
+  addShifts(document, data.shifts);
+  addOutliers(document, data.outliers);
+}
+
+/// What remains of each component, and its time history beside what is named.
+void addRemainder(HtmlDocument& document, const DiscrepancyReportData& data) {
+  if (data.remainder.empty()) return;
+  std::vector<std::vector<std::string>> rows;
+  for (const ComponentRemainder& r : data.remainder) {
+    rows.push_back({std::string(toString(r.component)), fmt::format("{:.2f} {}", r.rms_um, unitOf(r.component)),
+                    fmt::format("{:.0f}", r.evidence),
+                    r.evidence >= clear_evidence ? "there beside the noise" : "may be noise"});
+  }
+  document.table({"Component", "rms", "Evidence", "It is"}, rows,
+                 "The remainder: what is smooth in time and space and neither effect nor noise; evidence: 2 ln of the "
+                 "odds that it is more than noise, clear from 10 on");
+  for (const ComponentRemainder& r : data.remainder) {
+    if (r.evidence < clear_evidence) continue;
+    PlotSeries effects{"effects", {}, {}, {}, SeriesStyle::Points};
+    PlotSeries remaining{"remainder", {}, {}, {}, SeriesStyle::Points};
+    remaining.marker = PlotMarker::Triangle;
+    for (const DiscrepancyReportRow& row : data.rows) {
+      if (row.component != r.component || !std::isfinite(row.remaining)) continue;
+      if (std::isfinite(row.before - row.after)) {
+        effects.x.push_back(row.time_s / seconds_per_hour);
+        effects.y.push_back(row.before - row.after);
+      }
+      remaining.x.push_back(row.time_s / seconds_per_hour);
+      remaining.y.push_back(row.remaining);
+    }
+    if (remaining.x.empty()) continue;
+    std::vector<PlotSeries> series;
+    if (!data.effects.empty()) series.push_back(std::move(effects));
+    series.push_back(std::move(remaining));
+    const PlotOptions options{.title = fmt::format("Remainder of {}", toString(r.component)),
+                              .x_label = "time / h",
+                              .y_label = fmt::format("{} / {}", toString(r.component), unitOf(r.component)),
+                              .width_px = 860,
+                              .height_px = 220};
+    document.figure(svgPlot(series, options),
+                    fmt::format("What remains in {} at all points over time{}", toString(r.component),
+                                data.effects.empty() ? "" : ", beside what the effects explain"));
+  }
+}
+
 const char* verdictKind(DiscrepancyVerdict verdict) {
   switch (verdict) {
     case DiscrepancyVerdict::Named:
@@ -214,6 +383,14 @@ DiscrepancyReportData discrepancyReportData(const DiscrepancyInput& input, const
   data.leftover = result.leftover;
   data.steps = result.steps;
   data.warnings = result.warnings;
+  data.candidates = result.candidates;
+  data.noise = result.noise;
+  data.shifts = result.shifts;
+  data.outliers = outlyingObservations(input.observations, result.outliers);
+  data.remainder = result.remainder;
+  data.tail_dof = result.tail_dof;
+  data.clock_offset_s = result.clock_offset_s;
+  data.clock_offset_uncertainty_s = result.clock_offset_uncertainty_s;
   const auto& rows = input.observations.rows;
   struct Sum {
     double weight = 0.0;
@@ -236,6 +413,7 @@ DiscrepancyReportData discrepancyReportData(const DiscrepancyInput& input, const
     if (const auto sum = sums.find({o.point, o.component}); sum != sums.end() && std::isfinite(result.simulated[i])) {
       row.before = o.value - result.simulated[i] - sum->second.value / sum->second.weight;
       if (std::isfinite(result.constant[i])) row.after = o.value - result.completed[i] - result.constant[i];
+      if (i < result.remaining.size()) row.remaining = result.remaining[i];
     }
     data.rows.push_back(std::move(row));
   }
@@ -287,6 +465,36 @@ GapFigures gapFigures(const std::vector<DiscrepancyReportRow>& rows, bool held_o
   figures.fit_before_percent = look(&DiscrepancyReportRow::before, figures.p2p_before);
   figures.fit_after_percent = look(&DiscrepancyReportRow::after, figures.p2p_after);
   return figures;
+}
+
+std::vector<OutlyingObservation> outlyingObservations(const ObservationSet& observations,
+                                                      const std::vector<OutlyingReading>& outliers) {
+  std::vector<OutlyingObservation> out;
+  for (const OutlyingReading& reading : outliers) {
+    const Observation& o = observations.rows.at(reading.row);
+    out.push_back({reading.row, o.time_s, o.state, o.point, o.component, o.value, reading.deviation});
+  }
+  return out;
+}
+
+CandidateRole candidateRole(const std::string& id, const std::vector<FoundEffect>& effects) {
+  const auto holds = [&](const std::vector<std::string>& ids) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+  };
+  CandidateRole role = CandidateRole::None;
+  for (const FoundEffect& e : effects) {
+    if (e.id == id) return CandidateRole::Named;
+    if (holds(e.rivals)) role = CandidateRole::Rival;
+    if (holds(e.containers) && role == CandidateRole::None) role = CandidateRole::Container;
+  }
+  return role;
+}
+
+std::string percentText(double probability) {
+  if (!std::isfinite(probability)) return "\u2013";
+  if (probability < 0.005) return "< 1 %";
+  if (probability > 0.995) return "> 99 %";
+  return fmt::format("{:.0f} %", 100.0 * probability);
 }
 
 bool takenOutAgain(const DiscrepancyStep& step, const std::vector<FoundEffect>& effects) {
@@ -349,8 +557,12 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
   addGap(document, result);
   const bool held_out = anyHeldOut(result.rows);
   for (const FoundEffect& effect : result.effects) addEffect(document, effect, result.user_adds, held_out);
-  if (!result.leftover.empty())
-    document.verdict("bad", withEffectTitles(fmt::format("Left over: {}.", result.leftover)));
+  addCandidates(document, result);
+  if (!result.leftover.empty()) {
+    document.verdict(result.effects.empty() ? "bad" : "attention",
+                     withEffectTitles(fmt::format("Remainder: {}.", result.leftover)));
+  }
+  addRemainder(document, result);
   if (result.suggestion) {
     const MeasurementSuggestion& next = *result.suggestion;
     document.subsection("Measure next");
@@ -370,13 +582,14 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
                    "Where measured and simulated disagree; p: probability of so much by chance, for all places looked "
                    "at together");
   }
+  addNoise(document, result);
   if (table && !result.effects.empty()) addMaps(document, result, *table);
-  addTimeCourses(document, result.rows);
+  addTimeHistories(document, result.rows);
   addPoints(document, result.rows);
   addSteps(document, result);
   for (const std::string& warning : result.warnings) document.paragraph(withEffectTitles("Note: " + warning));
   document.paragraph(
-      "rms: root mean square of what is left, each series about its own constant, which is fitted anew with every "
+      "rms: root mean square of the residual, each series about its own constant, which is fitted anew with every "
       "model. Fit: 100 % is perfect, 0 % no better than a constant for each series. BIC: Bayesian information "
       "criterion; a gain above 10 is strong evidence for the effect. Held out: rows that took no part in the choice.");
 }

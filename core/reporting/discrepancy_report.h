@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The story of a discrepancy for people: verdict, effects with evidence, time courses before and after, points, places
-// and steps. Deviations um or urad, times h. One self-contained file, or the same parts inside a larger report.
+// The story of a discrepancy for people: verdict, effects with evidence, candidates with their probabilities, what was
+// taken as noise, what remains, time histories before and after, points, places and steps. Deviations um or urad, times
+// h. One self-contained file, or the same parts inside a larger report.
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,8 +27,32 @@ struct DiscrepancyReportRow {
   double before = 0.0;
   double after = 0.0;
   bool held_out = false;
-  double measured = 0.0;  ///< as observed
+  double measured = 0.0;                                        ///< as observed
+  double remaining = std::numeric_limits<double>::quiet_NaN();  ///< what is neither effect nor noise
 };
+
+/// A reading far from all that the model allows, with what people find it by.
+struct OutlyingObservation {
+  std::size_t row = 0;  ///< of the observations, from 0
+  double time_s = 0.0;
+  std::string state;
+  std::string point;
+  Component component = Component::EX;
+  double value = 0.0;      ///< as observed, um or urad
+  double deviation = 0.0;  ///< in standard deviations of the own noise
+};
+[[nodiscard]] std::vector<OutlyingObservation> outlyingObservations(const ObservationSet& observations,
+                                                                    const std::vector<OutlyingReading>& outliers);
+
+/// What the answer makes of a candidate: a name, what may stand in its place, what holds it as a special case.
+enum class CandidateRole { Named, Rival, Container, None };
+[[nodiscard]] CandidateRole candidateRole(const std::string& id, const std::vector<FoundEffect>& effects);
+
+/// "97 %", "< 1 %", "> 99 %" of a probability in 0 ... 1.
+[[nodiscard]] std::string percentText(double probability);
+
+/// 2 ln of the odds from which on a remainder is said to be there: "very strong" (Kass and Raftery 1995).
+inline constexpr double clear_evidence = 10.0;
 
 /// How far the rows that were fitted, or those held out, move before and after. NaN where there is none.
 struct GapFigures {
@@ -59,6 +85,14 @@ struct DiscrepancyReportData {
   std::vector<DiscrepancyStep> steps;
   std::vector<std::string> warnings;
   std::vector<DiscrepancyReportRow> rows;
+  std::vector<EffectCandidate> candidates;  ///< the most probable first
+  std::vector<NoiseEstimate> noise;
+  std::vector<StateShift> shifts;
+  std::vector<OutlyingObservation> outliers;
+  std::vector<ComponentRemainder> remainder;
+  double tail_dof = 0.0;  ///< Student degrees of freedom of the own noise; 0: normal
+  double clock_offset_s = 0.0;
+  double clock_offset_uncertainty_s = 0.0;  ///< 0: these data do not show it
 };
 [[nodiscard]] DiscrepancyReportData discrepancyReportData(const DiscrepancyInput& input,
                                                           const DiscrepancyResult& result);

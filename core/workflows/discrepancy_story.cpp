@@ -201,6 +201,26 @@ FoundEffect effectOf(const nlohmann::json& json) {
   return e;
 }
 
+nlohmann::json outlierJson(const OutlyingObservation& o) {
+  return {{"row", o.row + 1},
+          {"time_s", jsonNumber(o.time_s)},
+          {"state", o.state},
+          {"point", o.point},
+          {"component", std::string(toString(o.component))},
+          {"value", jsonNumber(o.value)},
+          {"deviation", jsonNumber(o.deviation)}};
+}
+
+OutlyingObservation outlierOf(const nlohmann::json& json) {
+  return {json.at("row").get<std::size_t>() - 1,
+          numberOf(json, "time_s"),
+          json.at("state").get<std::string>(),
+          json.at("point").get<std::string>(),
+          componentOf(json.at("component")),
+          numberOf(json, "value"),
+          numberOf(json, "deviation")};
+}
+
 nlohmann::json seriesJson(const DiscrepancySeries& s) {
   const auto numbers = [](const std::vector<double>& values) {
     nlohmann::json out = nlohmann::json::array();
@@ -216,6 +236,7 @@ nlohmann::json seriesJson(const DiscrepancySeries& s) {
           {"completed", numbers(s.completed)},
           {"completed_sigma", numbers(s.completed_sigma)},
           {"explained", numbers(s.explained)},
+          {"remaining", numbers(s.remaining)},
           {"held_out", s.held_out},
           {"constants", {jsonNumber(s.constant_before), jsonNumber(s.constant_after)}},
           {"noise", jsonNumber(s.noise)},
@@ -237,6 +258,7 @@ DiscrepancySeries seriesOf(const nlohmann::json& json) {
   s.completed_sigma = json.contains("completed_sigma") ? numbersOf(json.at("completed_sigma"))
                                                        : std::vector<double>(s.completed.size(), nan);
   s.explained = numbersOf(json.at("explained"));
+  if (json.contains("remaining")) s.remaining = numbersOf(json.at("remaining"));
   s.held_out = json.at("held_out").get<std::vector<bool>>();
   const std::vector<double> constants = numbersOf(json.at("constants"));
   s.constant_before = constants.at(0);
@@ -289,29 +311,25 @@ void parseRest(const nlohmann::json& result, DiscrepancyStory& story) {
                            numberOf(s, "delta_chi2"), s.at("reason").get<std::string>()});
   }
   story.warnings = result.at("warnings").get<std::vector<std::string>>();
-  const auto componentOf = [](const std::string& name) {
-    const auto parsed = componentFromString(name);
-    if (!parsed) throw InputError(fmt::format("component \"{}\" of a stored search is not known.", name));
-    return *parsed;
-  };
   for (const auto& [name, n] : result.at("noise").items()) {
     story.noise.push_back({componentOf(name), numberOf(n, "scale"), numberOf(n, "scale_uncertainty"),
                            numberOf(n, "common_um"), numberOf(n, "correlated_part"),
                            numberOf(n, "correlation_time_s")});
   }
   for (const auto& s : result.at("state_shifts")) {
-    story.shifts.push_back({s.at("state").get<std::string>(), componentOf(s.at("component").get<std::string>()),
-                            numberOf(s, "time_s"), numberOf(s, "shift_um"), numberOf(s, "standard_uncertainty")});
+    story.shifts.push_back({s.at("state").get<std::string>(), componentOf(s.at("component")), numberOf(s, "time_s"),
+                            numberOf(s, "shift_um"), numberOf(s, "standard_uncertainty")});
   }
   for (const auto& c : result.at("candidates")) {
     story.candidates.push_back({c.at("id").get<std::string>(), numberOf(c, "probability")});
   }
-  for (const auto& o : result.at("outlying_readings")) {
-    story.outliers.push_back({o.at("row").get<std::size_t>() - 1, numberOf(o, "deviation")});
-  }
   for (const auto& [name, r] : result.at("remainder").items()) {
     story.remainder.push_back({componentOf(name), numberOf(r, "rms_um"), numberOf(r, "evidence")});
   }
+  // The keys of an object are in the order of the alphabet.
+  const auto by_component = [](const auto& a, const auto& b) { return a.component < b.component; };
+  std::sort(story.noise.begin(), story.noise.end(), by_component);
+  std::sort(story.remainder.begin(), story.remainder.end(), by_component);
   if (result.at("tail_dof").is_number()) story.tail_dof = numberOf(result, "tail_dof");
   story.clock_offset_s = numberOf(result, "clock_offset_s");
   if (result.at("clock_offset_uncertainty_s").is_number()) {
@@ -355,6 +373,14 @@ DiscrepancyReportData DiscrepancyStory::reportData() const {
   data.leftover = leftover;
   data.steps = steps;
   data.warnings = warnings;
+  data.candidates = candidates;
+  data.noise = noise;
+  data.shifts = shifts;
+  data.outliers = outliers;
+  data.remainder = remainder;
+  data.tail_dof = tail_dof;
+  data.clock_offset_s = clock_offset_s;
+  data.clock_offset_uncertainty_s = clock_offset_uncertainty_s;
   for (const DiscrepancySeries& s : series) {
     for (std::size_t i = 0; i < s.time_s.size(); ++i) {
       DiscrepancyReportRow row{s.time_s[i], s.point, s.component,   s.position_mm, s.noise,
@@ -363,6 +389,7 @@ DiscrepancyReportData DiscrepancyStory::reportData() const {
       row.after = !s.completed.empty()   ? s.value[i] - s.completed[i] - s.constant_after
                   : !s.explained.empty() ? row.before - s.explained[i]
                                          : row.before;
+      if (!s.remaining.empty()) row.remaining = s.remaining[i];
       data.rows.push_back(std::move(row));
     }
   }
@@ -374,6 +401,8 @@ nlohmann::json DiscrepancyStory::json() const {
   for (const FoundEffect& e : effects) found.push_back(effectJson(e));
   nlohmann::json lines = nlohmann::json::array();
   for (const DiscrepancySeries& s : series) lines.push_back(seriesJson(s));
+  nlohmann::json outlying = nlohmann::json::array();
+  for (const OutlyingObservation& o : outliers) outlying.push_back(outlierJson(o));
   return {{"format", "spindrift-discrepancy-story"},
           {"version", 1},
           {"added", added},
@@ -381,6 +410,7 @@ nlohmann::json DiscrepancyStory::json() const {
           {"gap", gapJson(gap)},
           {"proposed", proposed ? gapJson(*proposed) : nlohmann::json()},
           {"has_holdout", has_holdout},
+          {"outliers", outlying},
           {"series", lines},
           {"result", result}};
 }
@@ -392,12 +422,20 @@ DiscrepancyStory DiscrepancyStory::parse(const nlohmann::json& json) {
     }
     DiscrepancyStory story;
     story.result = json.at("result");
+    // Searches of earlier versions knew neither candidates nor shifts; their verdicts meant something else.
+    if (!story.result.contains("candidates")) {
+      throw InputError("the stored discrepancy is of an earlier version; search again.");
+    }
     parseRest(story.result, story);
     story.added = json.at("added").get<std::vector<std::string>>();
     for (const auto& e : json.at("effects")) story.effects.push_back(effectOf(e));
     story.gap = gapOf(json.at("gap"));
     if (json.at("proposed").is_object()) story.proposed = gapOf(json.at("proposed"));
     story.has_holdout = json.at("has_holdout").get<bool>();
+    // Stories of earlier versions do not hold them.
+    if (json.contains("outliers")) {
+      for (const auto& o : json.at("outliers")) story.outliers.push_back(outlierOf(o));
+    }
     for (const auto& s : json.at("series")) story.series.push_back(seriesOf(s));
     return story;
   } catch (const nlohmann::json::exception& e) {
@@ -423,7 +461,7 @@ DiscrepancyStory tellDiscrepancy(const Campaign& campaign, ObservationSet observ
   story.candidates = found.candidates;
   story.noise = found.noise;
   story.shifts = found.shifts;
-  story.outliers = found.outliers;
+  story.outliers = outlyingObservations(run.input.observations, found.outliers);
   story.remainder = found.remainder;
   story.tail_dof = found.tail_dof;
   story.clock_offset_s = found.clock_offset_s;

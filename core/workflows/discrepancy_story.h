@@ -34,7 +34,8 @@ struct DiscrepancySeries {
   std::vector<double> completed_sigma;  ///< standard uncertainty of it, gain of the simulation included
   /// What all effects found, added or not, explain of value - simulated - constant_before; empty if there are none.
   std::vector<double> explained;
-  std::vector<double> remaining;  ///< what is neither effect nor noise
+  /// What is neither an effect found nor noise, um or urad; empty in stories that did not keep it.
+  std::vector<double> remaining;
   std::vector<bool> held_out;
   double constant_before = 0.0;
   double constant_after = 0.0;
@@ -64,7 +65,7 @@ struct DiscrepancyStory {
   std::vector<EffectCandidate> candidates;  ///< the most probable first, named or not
   std::vector<NoiseEstimate> noise;
   std::vector<StateShift> shifts;
-  std::vector<OutlyingReading> outliers;
+  std::vector<OutlyingObservation> outliers;
   std::vector<ComponentRemainder> remainder;
   double tail_dof = 0.0;  ///< Student degrees of freedom of the own noise; 0: normal
   double clock_offset_s = 0.0;

@@ -17,6 +17,12 @@
 #include "widgets/pages/capture/incoming_service.h"
 #include "widgets/pages/capture/new_capture_page.h"
 #include "widgets/pages/capture/plan_panel.h"
+#include "widgets/pages/discrepancy/discrepancy_page.h"
+#include "widgets/pages/discrepancy/gap_panel.h"
+#include "widgets/pages/discrepancy/next_panel.h"
+#include "widgets/pages/discrepancy/noise_panel.h"
+#include "widgets/pages/discrepancy/remainder_panel.h"
+#include "widgets/pages/discrepancy/what_panel.h"
 #include "widgets/pages/probing/reference_panel.h"
 #include "widgets/pages/verify/verify_page.h"
 #include "widgets/shell/main_window.h"
@@ -27,6 +33,7 @@ namespace spindrift::gui {
 namespace {
 
 constexpr double left_after_compensation = 0.2;
+constexpr int search_seconds = 120;
 
 /// The tab of the page that holds `panel` to the front.
 void bringToFront(const QWidget* panel) {
@@ -100,6 +107,54 @@ QWidget* showVerify(MainWindow& window, const QString& scratch) {
   return nullptr;
 }
 
+/// Puts all effects that the search proposes into the model, one after the other, or takes them out again.
+void setEffectsAdded(MainWindow& window, const DiscrepancyPage& page, bool added) {
+  constexpr int most_presses = 6;
+  for (int press = 0; press < most_presses && page.story() != nullptr; ++press) {
+    const bool done = added ? page.story()->nextProposal() == nullptr : page.story()->added.empty();
+    if (done) return;
+    (added ? page.addButton() : page.removeButton())->click();
+    (void)waitForJobs(window, search_seconds);
+  }
+}
+
+/// A tab of the page Discrepancy, with the effects found added to the model or not.
+TourDetail discrepancyTab(const char* name, QWidget* (*tab)(const DiscrepancyPage&), bool added) {
+  const auto show = [tab, added](MainWindow& window) -> QWidget* {
+    auto* page = qobject_cast<DiscrepancyPage*>(window.currentPage());
+    if (page == nullptr) return nullptr;
+    setEffectsAdded(window, *page, added);
+    page->tabs()->setCurrentWidget(tab(*page));
+    if (page->story() != nullptr && !page->story()->outliers.empty()) page->noise()->showReadings(true);
+    return nullptr;
+  };
+  return {StepId::Discrepancy, name, show, {}};
+}
+
+/// Every tab behind the first; the gap before and after the effects found are added. The page is left as it was.
+std::vector<TourDetail> discrepancyTabs() {
+  std::vector<TourDetail> tabs{
+      discrepancyTab(
+          "what", [](const DiscrepancyPage& page) -> QWidget* { return page.what(); }, false),
+      discrepancyTab(
+          "noise", [](const DiscrepancyPage& page) -> QWidget* { return page.noise(); }, false),
+      discrepancyTab(
+          "remains", [](const DiscrepancyPage& page) -> QWidget* { return page.remainder(); }, false),
+      discrepancyTab(
+          "gap-before", [](const DiscrepancyPage& page) -> QWidget* { return page.gap(); }, false),
+      discrepancyTab(
+          "gap-after", [](const DiscrepancyPage& page) -> QWidget* { return page.gap(); }, true),
+      discrepancyTab(
+          "next", [](const DiscrepancyPage& page) -> QWidget* { return page.next(); }, true)};
+  tabs.back().leave = [](MainWindow& window) {
+    if (const auto* page = qobject_cast<DiscrepancyPage*>(window.currentPage())) {
+      setEffectsAdded(window, *page, false);
+      page->tabs()->setCurrentIndex(0);
+    }
+  };
+  return tabs;
+}
+
 QWidget* showNotes(MainWindow& window) {
   if (window.session().notes().empty()) {
     window.session().addNote(QStringLiteral("Model"), QStringLiteral("Coolant was off while M1 was measured."));
@@ -143,7 +198,10 @@ std::vector<TourDetail> tourDetails(const QString& demo, const QString& scratch)
              }}};
   }
   if (demo == QLatin1String("discrepancy")) {
-    return {{StepId::Verify, "compared", [scratch](MainWindow& window) { return showVerify(window, scratch); }, {}}};
+    std::vector<TourDetail> details = discrepancyTabs();
+    details.push_back(
+        {StepId::Verify, "compared", [scratch](MainWindow& window) { return showVerify(window, scratch); }, {}});
+    return details;
   }
   return {};
 }

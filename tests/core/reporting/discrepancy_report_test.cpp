@@ -112,7 +112,56 @@ TEST(DiscrepancyReport, WhatWasAddedAndTakenOutAgainIsNotSaidToBeIn) {
   EXPECT_THAT(discrepancyReport("c", d, std::nullopt), HasSubstr("added, then taken out again"));
   d.verdict = DiscrepancyVerdict::Unknown;
   d.effects.clear();
-  EXPECT_THAT(discrepancyReport("c", d, std::nullopt), HasSubstr("with it too something is left"));
+  EXPECT_THAT(discrepancyReport("c", d, std::nullopt), HasSubstr("with it too something remains"));
+}
+
+TEST(DiscrepancyReport, TellsCandidatesNoiseShiftsOutliersAndRemainder) {
+  DiscrepancyReportData d = data();
+  d.effects[0].rivals = {"spindle.drift.y"};
+  d.candidates = {{"ball_screw.expansion.y", 0.71}, {"spindle.drift.y", 0.26}, {"head.tilt.a", 0.001}};
+  d.noise = {{Component::EX, 1.32, 0.05, 0.0, 0.0, 0.0}, {Component::EY, 0.87, 0.04, 0.8, 0.4, 7200.0}};
+  d.shifts = {{"M0", Component::EY, 0.0, -0.52, 0.21}, {"M1", Component::EY, 3600.0, 1.13, 0.21}};
+  d.outliers = {{7, 3660.0, "M1", "F2", Component::EY, 14.2, -6.3}};
+  d.remainder = {{Component::EX, 0.04, 1.5}, {Component::EY, 0.8, 41.0}};
+  d.leftover = "0.80 um rms in EY that no effect of the catalogue explains";
+  d.tail_dof = 4.0;
+  d.clock_offset_s = -312.0;
+  d.clock_offset_uncertainty_s = 40.0;
+  for (DiscrepancyReportRow& row : d.rows) row.remaining = row.component == Component::EY ? 0.8 : 0.0;
+  const std::string html = discrepancyReport("c", d, std::nullopt);
+  EXPECT_THAT(html, HasSubstr("71 %"));
+  EXPECT_THAT(html, HasSubstr("&lt; 1 %"));
+  EXPECT_THAT(html, HasSubstr("rival of what is named"));
+  EXPECT_THAT(html, HasSubstr("What was taken as noise"));
+  EXPECT_THAT(html, HasSubstr("Student t with 4 degrees of freedom"));
+  EXPECT_THAT(html, HasSubstr("behind that of the observations"));
+  EXPECT_THAT(html, HasSubstr("Common shift of every state"));
+  EXPECT_THAT(html, HasSubstr("Outlying readings"));
+  EXPECT_THAT(html, HasSubstr("What remains in EY at all points over time, beside what the effects explain"));
+  EXPECT_THAT(html, Not(HasSubstr("What remains in EX"))) << "it may be noise";
+  EXPECT_THAT(html, HasSubstr("Remainder: 0.80"));
+  EXPECT_THAT(html, Not(HasSubstr("nan")));
+  // Nothing of it is said where nothing of it is known.
+  EXPECT_THAT(discrepancyReport("c", data(), std::nullopt), Not(HasSubstr("What was taken as noise")));
+}
+
+TEST(DiscrepancyReport, ProbabilitiesInPercentNeverSayCertain) {
+  EXPECT_EQ(percentText(0.714), "71 %");
+  EXPECT_EQ(percentText(0.001), "< 1 %");
+  EXPECT_EQ(percentText(1.0), "> 99 %");
+}
+
+TEST(DiscrepancyReport, ACandidateIsNamedBeforeItIsARival) {
+  FoundEffect first;
+  first.id = "head.tilt.a";
+  first.rivals = {"spindle.drift.y"};
+  first.containers = {"ambient.drift.y"};
+  FoundEffect second;
+  second.id = "spindle.drift.y";
+  EXPECT_EQ(candidateRole("spindle.drift.y", {first, second}), CandidateRole::Named);
+  EXPECT_EQ(candidateRole("spindle.drift.y", {first}), CandidateRole::Rival);
+  EXPECT_EQ(candidateRole("ambient.drift.y", {first}), CandidateRole::Container);
+  EXPECT_EQ(candidateRole("backlash.y", {first}), CandidateRole::None);
 }
 
 TEST(DiscrepancyReport, TheProbabilityOfARivalIsThatOfTheWholeSet) {

@@ -10,6 +10,7 @@
 #include <QTabWidget>
 #include <QTableView>
 #include <QTest>
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/atomic_file.h"
@@ -21,6 +22,8 @@
 #include "widgets/pages/discrepancy/gap_bars.h"
 #include "widgets/pages/discrepancy/gap_panel.h"
 #include "widgets/pages/discrepancy/next_panel.h"
+#include "widgets/pages/discrepancy/noise_panel.h"
+#include "widgets/pages/discrepancy/remainder_panel.h"
 #include "widgets/pages/discrepancy/what_panel.h"
 #include "widgets/pages/discrepancy/where_panel.h"
 #include "widgets/plots/plot.h"
@@ -227,6 +230,67 @@ TEST_F(DiscrepancyPageTest, TurnsOutdatedAndComesBackAfterReopening) {
   EXPECT_FALSE(page_->gap()->plot(true)->empty());
 }
 
+TEST_F(DiscrepancyPageTest, AnOutlyingReadingIsLookedAtExcludedAndBroughtBack) {
+  const std::filesystem::path campaign = writeStoryCampaign(folder_, Hidden::SpindleGrowth);
+  ObservationSet set = ObservationSet::read(campaign / "observations.csv");
+  const auto spoiled = std::find_if(set.rows.begin(), set.rows.end(), [](const Observation& o) {
+    return o.state == "M9" && o.point == "P4" && o.component == Component::EY;
+  });
+  ASSERT_NE(spoiled, set.rows.end());
+  spoiled->value += 8.0;  // 20 sigma
+  set.write(campaign / "observations.csv");
+  open(campaign, StepId::Discrepancy);
+  page_ = page<DiscrepancyPage>();
+  page_->runAll();
+  wait();
+  ASSERT_NE(page_->story(), nullptr) << page_->callout()->sentence().toStdString();
+  ASSERT_EQ(page_->story()->outliers.size(), 1U);
+  const OutlyingObservation& outlier = page_->story()->outliers.front();
+  EXPECT_EQ(outlier.row, static_cast<std::size_t>(spoiled - set.rows.begin()));
+  EXPECT_EQ(outlier.state, "M9");
+  EXPECT_EQ(outlier.point, "P4");
+  EXPECT_EQ(outlier.component, Component::EY);
+  EXPECT_GT(outlier.deviation, 5.0);
+
+  NoisePanel* noise = page_->noise();
+  page_->tabs()->setCurrentWidget(noise);
+  noise->showReadings(true);
+  ASSERT_EQ(noise->readingTable()->model()->rowCount(), 1);
+  EXPECT_EQ(noise->chosenItems(), QStringList{QStringLiteral("M9/P4/EY")});
+  EXPECT_FALSE(noise->readingPlot()->empty());
+  EXPECT_TRUE(noise->readingPlot()->moment().has_value());
+  EXPECT_EQ(page_->where()->point(), "P4") << "the other tabs show its series";
+  EXPECT_EQ(page_->remainder()->component(), Component::EY);
+
+  page_->excludeReadings(QStringLiteral("chip on the ball"));
+  EXPECT_EQ(state(), StepState::Outdated);
+  QTest::qWait(20);
+  EXPECT_TRUE(noise->chosenAreExcluded());
+  EXPECT_TRUE(noise->excludeButton()->text().contains(QStringLiteral("Bring back")));
+  page_->runAll();
+  wait();
+  EXPECT_TRUE(page_->story()->outliers.empty());
+  ASSERT_EQ(noise->readingTable()->model()->rowCount(), 1) << "it is listed still, or nobody could bring it back";
+  noise->readingTable()->selectRow(0);
+  QTest::mouseClick(noise->excludeButton(), Qt::LeftButton);
+  EXPECT_TRUE(window_->session().excluded().empty());
+  window_->undoStack().undo();
+  EXPECT_EQ(window_->session().excluded().size(), 1U);
+}
+
+TEST_F(DiscrepancyPageTest, NoiseAndRemainderAreShownForEveryComponent) {
+  search(Hidden::SpindleGrowth);
+  ASSERT_EQ(page_->noise()->noiseTable()->model()->rowCount(), 3);
+  EXPECT_TRUE(page_->noise()->facts()->text().contains(QStringLiteral("Clock")));
+  ASSERT_EQ(page_->remainder()->componentTable()->model()->rowCount(), 3);
+  EXPECT_FALSE(page_->remainder()->plot()->empty());
+  const QAbstractItemModel* candidates = page_->what()->candidateTable()->model();
+  ASSERT_GT(candidates->rowCount(), 0);
+  EXPECT_LE(candidates->rowCount(), 10);
+  EXPECT_EQ(candidates->index(0, 0).data().toString(), QStringLiteral("Growth of the spindle along Z"));
+  EXPECT_EQ(candidates->index(0, 2).data().toString(), QStringLiteral("named"));
+}
+
 TEST_F(DiscrepancyPageTest, AnotherSessionShowsItsOwnStory) {
   search(Hidden::SpindleGrowth);
   const QString before = verdict();
@@ -355,6 +419,103 @@ TEST(DiscrepancyStoryTest, ReadsBackWhatItWrote) {
   }
   EXPECT_NEAR(before, 0.0, 1e-9);
   EXPECT_NEAR(after / 18.0, 0.0, 1e-6);
+}
+
+TEST(DiscrepancyStoryTest, ReadsStoriesThatDidNotKeepTheRemainder) {
+  const testing::TempFolder folder;
+  const Campaign campaign = Campaign::read(writeStoryCampaign(folder, Hidden::Oscillation));
+  JobContext job;
+  const DiscrepancyStory story = tellDiscrepancy(campaign, *campaign.observations, {}, job);
+  ASSERT_FALSE(story.series.front().remaining.empty());
+  nlohmann::json json = story.json();
+  EXPECT_EQ(DiscrepancyStory::parse(json).series.front().remaining, story.series.front().remaining);
+  json.erase("outliers");
+  for (nlohmann::json& s : json["series"]) s.erase("remaining");
+  const DiscrepancyStory old = DiscrepancyStory::parse(json);
+  EXPECT_TRUE(old.series.front().remaining.empty());
+  auto shared = std::make_shared<DiscrepancyStory>(old);
+  RemainderPanel panel;
+  panel.show(shared);
+  EXPECT_FALSE(panel.plot()->empty()) << "what was measured is shown all the same";
+  json["result"].erase("candidates");
+  EXPECT_THROW((void)DiscrepancyStory::parse(json), InputError);
+}
+
+TEST(NoisePanelTest, ShowsShiftsWithTheirUncertainty) {
+  auto story = std::make_shared<DiscrepancyStory>();
+  story->noise = {{Component::EX, 1.32, 0.05, 0.8, 0.4, 7200.0}, {Component::EY, 0.87, 0.04, 0.0, 0.0, 0.0}};
+  for (int state = 0; state < 5; ++state) {
+    story->shifts.push_back({"M" + std::to_string(state), Component::EX, 3600.0 * state, 0.5 * state - 1.0, 0.2});
+  }
+  story->tail_dof = 4.0;
+  story->clock_offset_s = 312.0;
+  story->clock_offset_uncertainty_s = 40.0;
+  NoisePanel panel;
+  panel.show(story);
+  EXPECT_EQ(panel.noiseTable()->model()->index(0, 1).data().toString(), QString::fromUtf8("1.32 ± 0.05"));
+  EXPECT_EQ(panel.noiseTable()->model()->index(0, 3).data().toString(), QStringLiteral("40 % over 2.0 h"));
+  EXPECT_EQ(panel.noiseTable()->model()->index(1, 2).data().toString(), QString::fromUtf8("–"));
+  ASSERT_EQ(panel.shiftTable()->model()->rowCount(), 5);
+  EXPECT_EQ(panel.shiftTable()->model()->index(0, 2).data().toString(), QString::fromUtf8("−1.00 ± 0.20"));
+  ASSERT_EQ(panel.shiftPlot()->series().size(), 1U);
+  EXPECT_EQ(panel.shiftPlot()->series().front().sigma.size(), 5U);
+  EXPECT_TRUE(panel.facts()->text().contains(QString::fromUtf8("310 ± 40 s ahead")))
+      << panel.facts()->text().toStdString();
+  EXPECT_FALSE(panel.excludeButton()->isVisibleTo(&panel)) << "there is no reading";
+}
+
+TEST(RemainderPanelTest, SaysWhatRemainsBesideWhatIsNamed) {
+  auto story = std::make_shared<DiscrepancyStory>();
+  story->verdict = DiscrepancyVerdict::Unknown;
+  story->remainder = {{Component::EX, 0.8, 44.0}, {Component::EY, 0.05, 2.0}};
+  for (const Component c : {Component::EX, Component::EY}) {
+    for (const char* point : {"P1", "P2"}) {
+      DiscrepancySeries s;
+      s.point = point;
+      s.component = c;
+      s.noise = 0.4;
+      for (int i = 0; i < 8; ++i) {
+        s.time_s.push_back(3600.0 * i);
+        s.value.push_back(0.1 * i);
+        s.simulated.push_back(0.0);
+        s.remaining.push_back((point[1] == '2' ? 0.2 : 0.1) * i);
+        s.held_out.push_back(false);
+      }
+      story->series.push_back(s);
+    }
+  }
+  RemainderPanel panel;
+  panel.show(story);
+  EXPECT_EQ(panel.sentence()->text(), QString::fromUtf8("Nothing can be named: the remainder is 0.80 µm rms in EX."));
+  EXPECT_EQ(panel.component(), Component::EX);
+  EXPECT_EQ(panel.point(), "P2") << "where most remains";
+  EXPECT_EQ(panel.plot()->series().size(), 2U) << "remainder and measured; nothing is named";
+  const QAbstractItemModel* rows = panel.componentTable()->model();
+  EXPECT_EQ(rows->index(0, 5).data().toString(), QStringLiteral("remainder"));
+  EXPECT_EQ(rows->index(1, 5).data().toString(), QStringLiteral("noise"));
+  FoundEffect e;
+  e.id = "spindle.growth.z";
+  story->effects = {e};
+  panel.show(story);
+  EXPECT_EQ(panel.sentence()->text(),
+            QString::fromUtf8("Beside growth of the spindle along Z the remainder is 0.80 µm rms in EX."));
+}
+
+TEST(WhatPanelTest, MarksTheNamedAmongTheCandidatesAndSaysWhatRemains) {
+  auto story = std::make_shared<DiscrepancyStory>();
+  story->verdict = DiscrepancyVerdict::Unknown;
+  story->candidates = {{"head.tilt.a", 0.31}, {"backlash.y", 0.003}};
+  story->remainder = {{Component::EX, 0.8, 44.0}};
+  WhatPanel panel;
+  panel.show(story);
+  const QString empty = panel.effectTable()->property("emptyText").toString();
+  EXPECT_TRUE(empty.startsWith(QString::fromUtf8("Nothing can be named: the remainder is 0.80 µm rms in EX")))
+      << empty.toStdString();
+  const QAbstractItemModel* rows = panel.candidateTable()->model();
+  ASSERT_EQ(rows->rowCount(), 2);
+  EXPECT_EQ(rows->index(0, 1).data().toString(), QStringLiteral("31 %"));
+  EXPECT_EQ(rows->index(1, 1).data().toString(), QStringLiteral("< 1 %"));
+  EXPECT_FALSE(rows->index(0, 1).data(Qt::DecorationRole).isNull()) << "a bar";
 }
 
 TEST(WhatPanelTest, ShowsRivalsAndLetsTheUserChooseOne) {

@@ -2,7 +2,9 @@
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 
 #include <QHBoxLayout>
+#include <QInputDialog>
 #include <QLabel>
+#include <QLineEdit>
 #include <QStackedWidget>
 #include <QTabWidget>
 #include <QVBoxLayout>
@@ -16,6 +18,8 @@
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/discrepancy/gap_panel.h"
 #include "widgets/pages/discrepancy/next_panel.h"
+#include "widgets/pages/discrepancy/noise_panel.h"
+#include "widgets/pages/discrepancy/remainder_panel.h"
 #include "widgets/pages/discrepancy/what_panel.h"
 #include "widgets/pages/discrepancy/where_panel.h"
 
@@ -59,9 +63,8 @@ Sentence verdictOf(const DiscrepancyStory& story) {
     return {DiscrepancyPage::tr("These data cannot decide what is missing."), titledSentence(story.message),
             Tone::Neutral};
   }
-  const QString left = story.leftover.empty()
-                           ? QString()
-                           : DiscrepancyPage::tr("What is left: %1. ").arg(titledSentence(story.leftover));
+  const QString left =
+      story.leftover.empty() ? QString() : DiscrepancyPage::tr("Remainder: %1. ").arg(titledSentence(story.leftover));
   switch (story.verdict) {
     case DiscrepancyVerdict::None:
       return {DiscrepancyPage::tr("Measured and simulated agree within the noise."),
@@ -84,6 +87,10 @@ Sentence verdictOf(const DiscrepancyStory& story) {
   }
   const FoundEffect* next = story.nextProposal();
   if (next == nullptr) {
+    if (!story.leftover.empty()) {
+      return {DiscrepancyPage::tr("With %1 something remains that cannot be named.").arg(names),
+              gapSentence(story.gap) + QLatin1Char(' ') + left, Tone::Attention};
+    }
     return {DiscrepancyPage::tr("With %1 the simulation agrees with the measurement.").arg(names),
             gapSentence(story.gap) + QLatin1Char(' ') + left, Tone::Good};
   }
@@ -169,10 +176,14 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   tabs_ = makeTabs();
   where_ = new WherePanel;
   what_ = new WhatPanel;
+  noise_ = new NoisePanel;
+  remainder_ = new RemainderPanel;
   gap_ = new GapPanel;
   next_ = new NextPanel;
   tabs_->addTab(where_, tr("Where"));
   tabs_->addTab(what_, tr("What is missing"));
+  tabs_->addTab(noise_, tr("Noise"));
+  tabs_->addTab(remainder_, tr("What remains"));
   tabs_->addTab(gap_, tr("Gap before and after"));
   tabs_->addTab(next_, tr("What to measure next"));
   column->addWidget(tabs_, 1);
@@ -180,6 +191,8 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   content()->addWidget(stack_, 1);
   showHints(where_);
   showHints(what_);
+  showHints(noise_);
+  showHints(remainder_);
   showHints(gap_);
 
   connect(search_, &QPushButton::clicked, this, &DiscrepancyPage::search);
@@ -194,12 +207,23 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   connect(gap_, &GapPanel::chosen, this, [this] {
     where_->choose(gap_->point(), gap_->component());
     what_->choose(gap_->point(), gap_->component());
+    remainder_->choose(gap_->point(), gap_->component());
   });
+  connect(remainder_, &RemainderPanel::chosen, this, [this] { choose(remainder_->point(), remainder_->component()); });
+  connect(noise_, &NoisePanel::readingChosen, this,
+          [this](const std::string& point, Component component, double time_s) {
+            choose(point, component);
+            remainder_->choose(point, component);
+            gap_->chooseTime(time_s);
+            where_->markTime(time_s);
+          });
+  connect(noise_, &NoisePanel::excludeAsked, this, &DiscrepancyPage::toggleExcluded);
   connect(gap_, &GapPanel::timeChosen, where_, &WherePanel::markTime);
   connect(where_, &WherePanel::timeChosen, gap_, &GapPanel::chooseTime);
   connect(where_, &WherePanel::chosen, this, [this] {
     gap_->choose(where_->point(), where_->component());
     what_->choose(where_->point(), where_->component());
+    remainder_->choose(where_->point(), where_->component());
   });
   // Ids of results start again in every session.
   connect(&session(), &SessionModel::campaignChanged, this, [this] {
@@ -266,6 +290,7 @@ void DiscrepancyPage::refresh() {
     }
     show();
   }
+  showExcluded();
   stack_->setCurrentIndex(1);
   const bool same =
       stored->provenance.options.value(option_name, nlohmann::json()) == DiscrepancyChoice::of(session()).json();
@@ -382,10 +407,54 @@ void DiscrepancyPage::show() {
   where_->show(story_, &campaign->machine);
   what_->show(story_);
   gap_->show(story_, &campaign->machine);
+  noise_->show(story_);
+  remainder_->show(story_);
   gap_->choose(where_->point(), where_->component());
   what_->choose(where_->point(), where_->component());
   next_->show(story_);
   showVerdict();
+}
+
+void DiscrepancyPage::choose(const std::string& point, Component component) {
+  where_->choose(point, component);
+  what_->choose(point, component);
+  gap_->choose(point, component);
+}
+
+void DiscrepancyPage::showExcluded() {
+  std::vector<ExcludedReading> excluded;
+  const std::map<QString, QString>& items = session().excluded();
+  if (const auto observations = items.empty() ? std::nullopt : session().observations()) {
+    for (std::size_t i = 0; i < observations->rows.size(); ++i) {
+      const Observation& o = observations->rows[i];
+      const auto found = items.find(itemOf(o.state, o.point, o.component));
+      if (found == items.end()) continue;
+      excluded.push_back({{i, o.time_s, o.state, o.point, o.component, o.value, std::nan("")}, found->second});
+    }
+  }
+  noise_->setExcluded(std::move(excluded));
+}
+
+void DiscrepancyPage::toggleExcluded() {
+  if (noise_->chosenAreExcluded()) {
+    excludeReadings({});
+    return;
+  }
+  const QStringList items = noise_->chosenItems();
+  if (items.isEmpty()) return;
+  bool given = false;
+  const QString reason =
+      QInputDialog::getText(this, tr("Exclude readings"),
+                            tr("Why are the readings %1 (state/point/component) left out? The report will say so.")
+                                .arg(items.mid(0, 4).join(QStringLiteral(", ")) +
+                                     (items.size() > 4 ? tr(" and %1 more").arg(items.size() - 4) : QString())),
+                            QLineEdit::Normal, tr("outlier"), &given);
+  if (given && !reason.trimmed().isEmpty()) excludeReadings(reason.trimmed());
+}
+
+void DiscrepancyPage::excludeReadings(const QString& reason) {
+  const QStringList items = noise_->chosenItems();
+  if (!items.isEmpty()) context().undo.push(new ExcludeCommand(session(), items, reason));
 }
 
 void DiscrepancyPage::showVerdict() {
@@ -401,7 +470,8 @@ void DiscrepancyPage::showVerdict() {
 std::vector<Exportable> DiscrepancyPage::exportables() {
   std::vector<Exportable> items;
   if (story_ == nullptr) return items;
-  for (auto&& list : {where_->exportables(), what_->exportables(), gap_->exportables(), next_->exportables()}) {
+  for (auto&& list : {where_->exportables(), what_->exportables(), noise_->exportables(), remainder_->exportables(),
+                      gap_->exportables(), next_->exportables()}) {
     items.insert(items.end(), list.begin(), list.end());
   }
   const auto story = story_;

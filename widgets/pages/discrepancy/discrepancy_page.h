@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Step Discrepancy: the story of what the simulation lacks. Where it disagrees, what is missing, add it, see the gap
-// close, know what to measure next. Which effects are in the model is an option of the session and can be undone.
+// Step Discrepancy: the story of what the simulation lacks. Where it disagrees, what is missing, what was taken as
+// noise, what remains; add the effect, see the gap close, know what to measure next. Which effects are in the model is
+// an option of the session and can be undone.
 #pragma once
 
 #include <memory>
@@ -20,6 +21,8 @@ class EmptyState;
 class GapPanel;
 class IconLabel;
 class NextPanel;
+class NoisePanel;
+class RemainderPanel;
 class WhatPanel;
 class WherePanel;
 
@@ -47,8 +50,13 @@ class DiscrepancyPage : public Page {
   [[nodiscard]] QTabWidget* tabs() const { return tabs_; }
   [[nodiscard]] WherePanel* where() const { return where_; }
   [[nodiscard]] WhatPanel* what() const { return what_; }
+  [[nodiscard]] NoisePanel* noise() const { return noise_; }
+  [[nodiscard]] RemainderPanel* remainder() const { return remainder_; }
   [[nodiscard]] GapPanel* gap() const { return gap_; }
+  [[nodiscard]] NextPanel* next() const { return next_; }
   [[nodiscard]] const DiscrepancyStory* story() const { return story_.get(); }
+  /// Takes the readings marked in the list of outliers out, or, without a reason, brings them back.
+  void excludeReadings(const QString& reason);
 
  private:
   void search();
@@ -58,6 +66,9 @@ class DiscrepancyPage : public Page {
   void add();
   void removeLast();
   void show();
+  void showExcluded();
+  void toggleExcluded();
+  void choose(const std::string& point, Component component);
   void showVerdict();
   void updateButtons();
   [[nodiscard]] QString missing() const;  ///< what the campaign lacks for this step; empty: nothing
@@ -73,6 +84,8 @@ class DiscrepancyPage : public Page {
   QTabWidget* tabs_;
   WherePanel* where_;
   WhatPanel* what_;
+  NoisePanel* noise_;
+  RemainderPanel* remainder_;
   GapPanel* gap_;
   NextPanel* next_;
   std::shared_ptr<const DiscrepancyStory> story_;

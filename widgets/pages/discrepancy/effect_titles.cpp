@@ -3,12 +3,16 @@
 
 #include <QCoreApplication>
 #include <QHeaderView>
+#include <QPainter>
 #include <QRegularExpression>
 #include <QStringList>
 #include <QTableView>
+#include <algorithm>
 #include <cmath>
 
+#include "core/base/text.h"
 #include "core/discrepancy/effect_titles.h"
+#include "core/reporting/discrepancy_report.h"
 #include "core/reporting/report_wording.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/theme.h"
@@ -48,7 +52,7 @@ QString titledSentence(const std::string& sentence) {
     out += text.mid(done, match.capturedStart() - done) + effectTitle(match.captured().toStdString());
     done = match.capturedEnd();
   }
-  return out + text.mid(done);
+  return QString::fromStdString(printedUnits((out + text.mid(done)).toStdString()));
 }
 
 QString sentenceStart(QString text) {
@@ -61,11 +65,48 @@ QString sizeText(double value, const QString& unit) {
   const double magnitude = std::abs(value);
   QString text = QString::number(value, 'f', magnitude < 9.95 ? 2 : magnitude < 99.5 ? 1 : 0);
   text.replace(QLatin1Char('-'), QChar(0x2212));
-  return unit.isEmpty() ? text : text + QLatin1Char(' ') + unit;
+  return unit.isEmpty() ? text : text + QLatin1Char(' ') + QString::fromStdString(printedUnits(unit.toStdString()));
 }
 
 QString probabilityText(double p) {
   return QString::fromStdString(probabilityInWords(p));
+}
+
+QString percentOf(double probability) {
+  return QString::fromStdString(percentText(probability));
+}
+
+QPixmap probabilityBar(double probability, double device_pixel_ratio) {
+  constexpr QSize size(64, 8);
+  QPixmap picture(size * device_pixel_ratio);
+  picture.setDevicePixelRatio(device_pixel_ratio);
+  picture.fill(Qt::transparent);
+  QPainter painter(&picture);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(theme().border);
+  painter.drawRoundedRect(QRectF(QPointF(0, 0), QSizeF(size)), 3, 3);
+  const double width = std::isfinite(probability) ? std::clamp(probability, 0.0, 1.0) * size.width() : 0.0;
+  painter.setBrush(theme().series[0]);
+  if (width >= 1.0) painter.drawRoundedRect(QRectF(0, 0, width, size.height()), std::min(3.0, width / 2), 3);
+  return picture;
+}
+
+QString withError(double value, double standard_uncertainty, const QString& unit) {
+  return QString::fromStdString(
+      withUncertainty(value, standard_uncertainty, unit.isEmpty() ? std::string() : printedUnits(unit.toStdString())));
+}
+
+QString remainderText(const std::vector<ComponentRemainder>& remainder) {
+  QStringList parts;
+  for (const ComponentRemainder& r : remainder) {
+    if (r.evidence < clear_evidence) continue;
+    parts << QCoreApplication::translate("Effect", "%1 rms in %2")
+                 .arg(sizeText(r.rms_um, componentUnit(r.component)), componentName(r.component));
+  }
+  if (parts.size() < 2) return parts.join(QString());
+  const QString last = parts.takeLast();
+  return QCoreApplication::translate("Effect", "%1 and %2").arg(parts.join(QStringLiteral(", ")), last);
 }
 
 QString spanText(double from_s, double to_s, double whole_s) {
@@ -97,7 +138,7 @@ QString componentName(Component component) {
 }
 
 QString componentUnit(Component component) {
-  return QString::fromStdString(std::string(unitOf(component)));
+  return QString::fromStdString(printedUnits(unitOf(component)));
 }
 
 QString legendText(const std::vector<std::pair<int, QString>>& names) {

@@ -2,11 +2,13 @@
 // What people call the effects of the catalogue, and the numbers of a discrepancy as they are written on the pages.
 #pragma once
 
+#include <QPixmap>
 #include <QString>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/discrepancy/discrepancy.h"
 #include "core/machine/component.h"
 
 class QTableView;
@@ -22,10 +24,18 @@ namespace spindrift::gui {
 /// The first letter as a capital.
 [[nodiscard]] QString sentenceStart(QString text);
 
-/// A size with two or three digits and its unit; "–" if it is not finite.
+/// A size with two or three digits and its unit as people write it (um as µm); "–" if it is not finite.
 [[nodiscard]] QString sizeText(double value, const QString& unit);
 /// "3×10⁻⁵", "< 10⁻¹²", "0.004".
 [[nodiscard]] QString probabilityText(double p);
+/// "97 %", "< 1 %".
+[[nodiscard]] QString percentOf(double probability);
+/// A lying bar, 64 x 8 px, filled up to a probability: for a cell of a table.
+[[nodiscard]] QPixmap probabilityBar(double probability, double device_pixel_ratio);
+/// "1.24 ± 0.05 µm"; without a usable uncertainty the value alone.
+[[nodiscard]] QString withError(double value, double standard_uncertainty, const QString& unit);
+/// "0.80 µm rms in EX and 0.31 µm rms in EZ": where something clearly remains; empty if nowhere.
+[[nodiscard]] QString remainderText(const std::vector<ComponentRemainder>& remainder);
 /// "0.0–6.0 h", in the unit that suits the whole of it.
 [[nodiscard]] QString spanText(double from_s, double to_s, double whole_s);
 /// "1 h 37 min".

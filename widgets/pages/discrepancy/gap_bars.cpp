@@ -36,7 +36,7 @@ QString figuresText(const GapFigures& figures) {
   if (std::isfinite(figures.p2p_before)) {
     parts << GapBars::tr("p2p %1 %2")
                  .arg(change(figures.p2p_before, figures.p2p_after, 1),
-                      figures.rotations ? QStringLiteral("urad") : QStringLiteral("um"));
+                      componentUnit(figures.rotations ? Component::EA : Component::EX));
   }
   if (std::isfinite(figures.fit_before_percent)) {
     parts << GapBars::tr("fit %1 %").arg(change(figures.fit_before_percent, figures.fit_after_percent, 0));
@@ -50,7 +50,7 @@ GapBars::GapBars(QWidget* parent) : QWidget(parent) {
   setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   setAccessibleName(tr("rms before, after and noise floor"));
   setToolTip(
-      tr("rms: of what is left in all observations. p2p: the largest peak-to-peak of what is left in one series. "
+      tr("rms: of the residuals of all observations. p2p: the largest peak-to-peak of the residual of one series. "
          "fit: 100 % is perfect, 0 % no better than a constant for each series."));
   connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] { update(); });
 }
@@ -131,7 +131,7 @@ void GapBars::draw(QPainter& painter, const QRect& area) const {
     }
     y += group_gap;
   }
-  const QString text = tr("noise %1: nobody gets below").arg(sizeText(noise_, QStringLiteral("um")));
+  const QString text = tr("noise floor %1").arg(sizeText(noise_, QStringLiteral("um")));
   const double text_width = painter.fontMetrics().horizontalAdvance(text);
   const double x = std::clamp(floor_x - text_width / 2, static_cast<double>(area.left()),
                               std::max<double>(area.left(), area.right() - text_width));

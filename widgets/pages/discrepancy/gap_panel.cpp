@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/reporting/report_wording.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/discrepancy/gap_bars.h"
@@ -238,19 +239,9 @@ void GapPanel::show(const std::shared_ptr<const DiscrepancyStory>& story, const 
   } else {
     model_->setText(tr("After: simulation plus %1, fitted jointly.").arg(effectTitles(discrepancy_->added, tr("and"))));
   }
-  QString noise = tr("Noise: %1 times the stated sigma").arg(discrepancy_->noise_scale, 0, 'f', 2);
-  if (discrepancy_->noise_correlated_part > 0.05) {
-    const TimeUnit unit = timeUnit(discrepancy_->noise_correlation_time_s * 3);
-    noise += tr(", %1 % of it correlated over %2 %3")
-                 .arg(100 * discrepancy_->noise_correlated_part, 0, 'f', 0)
-                 .arg(discrepancy_->noise_correlation_time_s / unit.seconds, 0, 'f', 1)
-                 .arg(unit.name);
-  }
-  story_text_->setText(tr("Points: measured. Line: model with the free constant of the series, ± 2 σ of the noise.") +
-                       QLatin1Char(' ') + noise + QLatin1Char('.'));
   fillChoices();
   const QString how = discrepancy_->nextProposal() != nullptr
-                          ? tr("Press Add to the model: what is then left appears here.")
+                          ? tr("Press Add to the model: what then remains appears here.")
                           : tr("The search proposes no effect to add.");
   plots_[1]->setEmptyText(tr("Nothing has been added yet"), how);
   views_[1]->setEmptyText(tr("Nothing has been added yet"), how);
@@ -278,12 +269,33 @@ void GapPanel::choose(const std::string& point, Component component) {
   showViews();
 }
 
+/// What was taken as noise in the component that is shown.
+void GapPanel::showNoise() {
+  QString noise = tr("Points: measured. Line: model with the free constant of the series, ± 2 σ of the noise.");
+  const Component c = component();
+  const auto found = std::find_if(discrepancy_->noise.begin(), discrepancy_->noise.end(),
+                                  [c](const NoiseEstimate& n) { return n.component == c; });
+  if (found != discrepancy_->noise.end()) {
+    noise += QLatin1Char(' ') + tr("Noise scale of %1: %2 times the stated σ")
+                                    .arg(componentName(c), withError(found->scale, found->scale_uncertainty, {}));
+    if (found->common_um > 0.0) noise += tr(", common shift %1").arg(sizeText(found->common_um, componentUnit(c)));
+    if (found->correlated_part > 0.05) {
+      noise += tr(", %1 % of it correlated over %2")
+                   .arg(100 * found->correlated_part, 0, 'f', 0)
+                   .arg(QString::fromStdString(spanOfTime(found->correlation_time_s)));
+    }
+    noise += QLatin1Char('.');
+  }
+  story_text_->setText(noise);
+}
+
 void GapPanel::showPlots() {
   const DiscrepancySeries* s = series();
   if (s == nullptr || s->time_s.empty()) {
     for (Plot* plot : plots_) plot->setContent({});
     return;
   }
+  showNoise();
   const TimeUnit unit = timeUnit(s->time_s.back());
   plot_second_ = 1.0 / unit.seconds;
   const QString y_title = QStringLiteral("%1 / %2").arg(componentName(s->component), componentUnit(s->component));

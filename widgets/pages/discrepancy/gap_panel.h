@@ -61,6 +61,7 @@ class GapPanel : public QWidget {
   void userChose();
   void markMoment();
   void showSide(std::size_t side, Component component, double time_s, bool field);
+  void showNoise();
   [[nodiscard]] const DiscrepancySeries* series() const;
 
   GapBars* bars_;

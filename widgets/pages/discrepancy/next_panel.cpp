@@ -55,9 +55,9 @@ void NextPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
   leftover_->set(Tone::Neutral, {});
   if (story_ != nullptr) {
     if (!story_->leftover.empty()) {
-      leftover_->show(Tone::Attention, tr("Left over: %1.").arg(titledSentence(story_->leftover)));
+      leftover_->show(Tone::Attention, tr("Remainder: %1.").arg(titledSentence(story_->leftover)));
     } else {
-      leftover_->show(Tone::Good, tr("Nothing is left over beyond the noise."));
+      leftover_->show(Tone::Good, tr("Nothing remains beyond the noise."));
     }
     int index = 0;
     for (const DiscrepancyStep& s : story_->steps) {
@@ -70,7 +70,7 @@ void NextPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
       const bool out_again = takenOutAgain(s, story_->effects);
       Cell reason{titledSentence(s.reason)};
       if (out_again && story_->verdict == DiscrepancyVerdict::Unknown) {
-        reason.text = tr("with it too something is left that no effect explains");
+        reason.text = tr("with it too something remains that no effect explains");
       }
       reason.tip = reason.text;
       const Cell decision = out_again    ? Cell{tr("out again"), Tone::Neutral, "undo"}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What to measure next, what is left over, and every step of the search with its evidence.
+// What to measure next, what remains, and every step of the search with its evidence.
 #pragma once
 
 #include <QWidget>

@@ -7,6 +7,7 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSplitter>
+#include <QStackedWidget>
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -41,9 +42,17 @@ WhatPanel::WhatPanel(QWidget* parent) : QWidget(parent) {
   effect_table_ = makeTable(effects_, tr("Effects found"), tr("Effects appear after the search."));
   stretchColumn(effect_table_, 0);
   left->body()->addWidget(effect_table_, 4);
-  left->body()->addWidget(makeLabel(tr("Parameters, jointly fitted"), "sectionTitle"));
-  parameters_ = new RowsModel({tr("Parameter"), tr("Value ± standard uncertainty")}, this);
-  left->body()->addWidget(makeTable(parameters_, tr("Parameters of the effect"), tr("No effect is chosen.")), 4);
+  which_ = new Segments({tr("Most probable"), tr("Parameters")}, tr("What is listed"));
+  left->body()->addWidget(which_);
+  candidates_ = new RowsModel({tr("Effect"), tr("Probability"), tr("Answer")}, this);
+  candidate_table_ =
+      makeTable(candidates_, tr("Most probable effects"), tr("The ten most probable effects appear after the search."));
+  stretchColumn(candidate_table_, 0);
+  parameters_ = new RowsModel({tr("Parameter, jointly fitted"), tr("Value ± standard uncertainty")}, this);
+  below_ = new QStackedWidget;
+  below_->addWidget(candidate_table_);
+  below_->addWidget(makeTable(parameters_, tr("Parameters of the effect"), tr("No effect is chosen.")));
+  left->body()->addWidget(below_, 5);
 
   detail_ = new Card;
   reject_ = makeButton(tr("Do not consider"), "exclude");
@@ -95,6 +104,14 @@ WhatPanel::WhatPanel(QWidget* parent) : QWidget(parent) {
     showEffect();
     Q_EMIT choiceChanged();
   });
+  connect(which_, &Segments::chosen, below_, &QStackedWidget::setCurrentIndex);
+  // A candidate that is an effect of the list is shown there.
+  connect(candidate_table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+          [this](const QModelIndex& now) {
+            const int row = now.isValid() ? effects_->rowOf(candidates_->idAt(now.row())) : -1;
+            if (row >= 0) effect_table_->selectRow(row);
+          });
+  connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, &WhatPanel::fillCandidates);
   connect(reject_, &QPushButton::clicked, this, [this] {
     if (const std::string id = chosen(); !id.empty()) Q_EMIT rejectAsked(id);
   });
@@ -131,16 +148,57 @@ void WhatPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
     if (!story_->decided) {
       empty = tr("These data cannot decide what is missing.");
     } else if (story_->verdict == DiscrepancyVerdict::Unknown) {
-      empty = tr("No effect of the catalogue explains what is left. A wrong name would be worse than none.");
+      const QString remains = remainderText(story_->remainder);
+      empty = remains.isEmpty()
+                  ? tr("Nothing can be named: no effect of the catalogue explains the residual.")
+                  : tr("Nothing can be named: the remainder is %1, which no effect of the catalogue explains.")
+                        .arg(remains);
     }
     effect_table_->setProperty("emptyText", empty);
   } else {
     effect_table_->setProperty("emptyText", tr("Effects appear after the search."));
   }
   effects_->setRows(std::move(rows));
+  fillCandidates();
   const int again = before.empty() ? -1 : effects_->rowOf(QString::fromStdString(before));
   if (effects_->rowCount() > 0) effect_table_->selectRow(again >= 0 ? again : first.value_or(0));
   showEffect();
+}
+
+void WhatPanel::fillCandidates() {
+  std::vector<Row> rows;
+  const std::vector<EffectCandidate> none;
+  for (const EffectCandidate& c : story_ != nullptr ? story_->candidates : none) {
+    Row row;
+    row.id = QString::fromStdString(c.id);
+    Cell name{sentenceStart(effectTitle(c.id))};
+    name.tip = row.id;
+    Cell probability = number(percentOf(c.probability));
+    probability.picture = probabilityBar(c.probability, devicePixelRatioF());
+    probability.tip = tr("Probability that it is among what is missing, before rivals and the remainder are weighed");
+    Cell answer{QStringLiteral("–")};
+    switch (candidateRole(c.id, story_->effects)) {
+      case CandidateRole::Named:
+        answer = {tr("named"), Tone::Good, "check-circle"};
+        name.bold = true;
+        break;
+      case CandidateRole::Rival:
+        answer = {tr("rival"), Tone::Attention, "compare"};
+        break;
+      case CandidateRole::Container:
+        answer.text = tr("nested model");
+        answer.tip = tr("Holds what is named as a special case");
+        break;
+      case CandidateRole::None:
+        break;
+    }
+    row.cells = {name, probability, answer};
+    rows.push_back(std::move(row));
+  }
+  candidate_table_->setProperty("emptyText", story_ == nullptr
+                                                 ? tr("The ten most probable effects appear after the search.")
+                                                 : tr("No effect of the catalogue is probable."));
+  candidates_->setRows(std::move(rows));
 }
 
 std::string WhatPanel::chosen() const {
@@ -170,7 +228,7 @@ void WhatPanel::showEffect() {
   if (e == nullptr) {
     parameters_->setRows({});
     detail_->setTitle(story_ == nullptr || story_->leftover.empty() ? tr("What happens in the machine")
-                                                                    : tr("What is left"));
+                                                                    : tr("What remains"));
     for (NumberTile* tile : {confidence_, gain_, held_out_}) tile->hide();
     rivals_->set(Tone::Neutral, {});
     drivers_->clear();
@@ -276,7 +334,9 @@ void WhatPanel::choose(const std::string& point, Component component) {
 
 std::vector<Exportable> WhatPanel::exportables() {
   std::vector<Exportable> items;
-  if (story_ == nullptr || story_->effects.empty()) return items;
+  if (story_ == nullptr) return items;
+  if (candidates_->rowCount() > 0) items.push_back(exportableOf(tr("Most probable effects"), candidates_));
+  if (story_->effects.empty()) return items;
   items.push_back(exportableOf(tr("Effects"), effects_));
   items.push_back(exportableOf(tr("Parameters of the effect"), parameters_));
   if (!plot_->empty()) items.push_back(exportableOf(tr("What the effects explain"), plot_));

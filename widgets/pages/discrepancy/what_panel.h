@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which effects are missing: each with its rivals, evidence, parameters and physics.
+// Which effects are missing: each with its rivals, evidence, parameters and physics; and the most probable of all,
+// named or not, with their probabilities.
 #pragma once
 
 #include <QWidget>
@@ -11,6 +12,7 @@
 
 class QLabel;
 class QPushButton;
+class QStackedWidget;
 class QTableView;
 
 namespace spindrift::gui {
@@ -20,6 +22,7 @@ class Card;
 class NumberTile;
 class Plot;
 class RowsModel;
+class Segments;
 
 class WhatPanel : public QWidget {
   Q_OBJECT
@@ -34,6 +37,7 @@ class WhatPanel : public QWidget {
   /// True if that one is in the model already.
   [[nodiscard]] bool chosenIsAdded() const;
   [[nodiscard]] QTableView* effectTable() const { return effect_table_; }
+  [[nodiscard]] QTableView* candidateTable() const { return candidate_table_; }
   [[nodiscard]] QPushButton* rejectButton() const { return reject_; }
 
  Q_SIGNALS:
@@ -47,11 +51,16 @@ class WhatPanel : public QWidget {
  private:
   void arrange();
   void showEffect();
+  void fillCandidates();
   [[nodiscard]] const FoundEffect* effectOf(const std::string& id) const;
 
   RowsModel* effects_;
+  RowsModel* candidates_;
   RowsModel* parameters_;
   QTableView* effect_table_;
+  QTableView* candidate_table_;
+  Segments* which_;
+  QStackedWidget* below_;
   Card* detail_;
   QLabel* physics_title_;
   QLabel* physics_;
