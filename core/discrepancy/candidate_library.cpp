@@ -15,8 +15,10 @@ using Eigen::Index;
 constexpr std::size_t most_columns = 8;
 /// Directions of which nuisances leave less than this part of the power are not seen.
 constexpr double least_seen = 1e-5;
-/// Of ln(number of ways): 2 if all of them were independent. Neighbours on the grid of lags are nearly the same.
+/// Of ln(number of ways): 2 if all of them were independent, as onsets are. Neighbours on the grid of lags are nearly
+/// the same.
 constexpr double way_price = 1.0;
+constexpr double onset_way_price = 2.0;
 
 /// Gain in chi-squared of columns from their Gram matrix and products with the residual, by Cholesky; columns that
 /// depend on those before them are left out.
@@ -237,8 +239,10 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
 
 double CandidateLibrary::choicePrice(const Effect& effect) const {
   for (const Entry& entry : entries_) {
-    if (entry.effect == &effect)
-      return way_price * std::log(std::max<double>(1.0, static_cast<double>(entry.ways.size())));
+    if (entry.effect != &effect || entry.ways.empty()) continue;
+    const Dynamics dynamics = entry.ways.front().variant.inputs[0].dynamics;
+    const bool onset = dynamics == Dynamics::Step || dynamics == Dynamics::Pulse;
+    return (onset ? onset_way_price : way_price) * std::log(static_cast<double>(entry.ways.size()));
   }
   return 0.0;
 }
