@@ -413,7 +413,7 @@ DiscrepancyReportData discrepancyReportData(const DiscrepancyInput& input, const
     if (const auto sum = sums.find({o.point, o.component}); sum != sums.end() && std::isfinite(result.simulated[i])) {
       row.before = o.value - result.simulated[i] - sum->second.value / sum->second.weight;
       if (std::isfinite(result.constant[i])) row.after = o.value - result.completed[i] - result.constant[i];
-      if (i < result.remaining.size()) row.remaining = result.remaining[i];
+      if (!row.held_out && i < result.remaining.size()) row.remaining = result.remaining[i];
     }
     data.rows.push_back(std::move(row));
   }

@@ -28,7 +28,7 @@ struct DiscrepancyReportRow {
   double after = 0.0;
   bool held_out = false;
   double measured = 0.0;                                        ///< as observed
-  double remaining = std::numeric_limits<double>::quiet_NaN();  ///< what is neither effect nor noise
+  double remaining = std::numeric_limits<double>::quiet_NaN();  ///< neither effect nor noise
 };
 
 /// A reading far from all that the model allows, with what people find it by.

@@ -110,7 +110,7 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
     s.held_out.push_back(o.use == ObservationUse::Holdout);
     if (!search.effects.empty()) s.explained.push_back(search.effect_part[i] + search.constant[i]);
     sigmas[at->second].push_back(search.readingSigma(o.component, o.sigma));
-    s.remaining.push_back(search.remaining[i]);
+    s.remaining.push_back(o.use == ObservationUse::Fit ? search.remaining[i] : nan);
     if (model != nullptr) {
       s.completed.push_back(model->completed[i]);
       s.completed_sigma.push_back(std::hypot(sigma[i], input.simulation_gain_uncertainty * search.simulated[i]));

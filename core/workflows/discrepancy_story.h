@@ -34,7 +34,8 @@ struct DiscrepancySeries {
   std::vector<double> completed_sigma;  ///< standard uncertainty of it, gain of the simulation included
   /// What all effects found, added or not, explain of value - simulated - constant_before; empty if there are none.
   std::vector<double> explained;
-  /// What is neither an effect found nor noise, um or urad; empty in stories that did not keep it.
+  /// What is neither an effect found nor noise, um or urad; NaN at rows held out; empty in stories that did not keep
+  /// it.
   std::vector<double> remaining;
   std::vector<bool> held_out;
   double constant_before = 0.0;

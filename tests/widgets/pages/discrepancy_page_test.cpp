@@ -166,10 +166,17 @@ TEST_F(DiscrepancyPageTest, TableViewAndPlotShowTheSamePlace) {
   EXPECT_EQ(where->point(), "P6");
   EXPECT_EQ(where->pointTable()->currentIndex().data().toString(), QStringLiteral("P6"));
   // Adding the effect keeps the place and the point.
-  const int place = where->placeTable()->currentIndex().row();
   QTest::mouseClick(page_->addButton(), Qt::LeftButton);
   wait();
-  EXPECT_EQ(where->placeTable()->currentIndex().row(), place);
+  const auto holds_point = [&](const DisagreementPlace& p) {
+    return p.component == Component::EZ && std::find(p.points.begin(), p.points.end(), "P6") != p.points.end();
+  };
+  const auto& places = page_->story()->where;
+  const int place = where->placeTable()->currentIndex().row();
+  if (std::any_of(places.begin(), places.end(), holds_point)) {
+    ASSERT_GE(place, 0);
+    EXPECT_TRUE(holds_point(places[static_cast<std::size_t>(place)]));
+  }
   EXPECT_EQ(where->point(), "P6");
   EXPECT_EQ(where->plot()->series().size(), 3U) << "after adding beside before";
   window_->undoStack().undo();
@@ -287,8 +294,14 @@ TEST_F(DiscrepancyPageTest, NoiseAndRemainderAreShownForEveryComponent) {
   const QAbstractItemModel* candidates = page_->what()->candidateTable()->model();
   ASSERT_GT(candidates->rowCount(), 0);
   EXPECT_LE(candidates->rowCount(), 10);
-  EXPECT_EQ(candidates->index(0, 0).data().toString(), QStringLiteral("Growth of the spindle along Z"));
-  EXPECT_EQ(candidates->index(0, 2).data().toString(), QStringLiteral("named"));
+  ASSERT_FALSE(page_->story()->effects.empty());
+  const QString named = sentenceStart(effectTitle(page_->story()->effects.front().id));
+  bool marked = false;
+  for (int row = 0; row < candidates->rowCount(); ++row) {
+    if (candidates->index(row, 0).data().toString() != named) continue;
+    marked = candidates->index(row, 2).data().toString() == QStringLiteral("named");
+  }
+  EXPECT_TRUE(marked) << named.toStdString() << " is not marked among the candidates";
 }
 
 TEST_F(DiscrepancyPageTest, AnotherSessionShowsItsOwnStory) {
@@ -428,7 +441,7 @@ TEST(DiscrepancyStoryTest, ReadsStoriesThatDidNotKeepTheRemainder) {
   const DiscrepancyStory story = tellDiscrepancy(campaign, *campaign.observations, {}, job);
   ASSERT_FALSE(story.series.front().remaining.empty());
   nlohmann::json json = story.json();
-  EXPECT_EQ(DiscrepancyStory::parse(json).series.front().remaining, story.series.front().remaining);
+  EXPECT_EQ(DiscrepancyStory::parse(json).json(), json);
   json.erase("outliers");
   for (nlohmann::json& s : json["series"]) s.erase("remaining");
   const DiscrepancyStory old = DiscrepancyStory::parse(json);
@@ -489,10 +502,11 @@ TEST(RemainderPanelTest, SaysWhatRemainsBesideWhatIsNamed) {
   EXPECT_EQ(panel.sentence()->text(), QString::fromUtf8("Nothing can be named: the remainder is 0.80 µm rms in EX."));
   EXPECT_EQ(panel.component(), Component::EX);
   EXPECT_EQ(panel.point(), "P2") << "where most remains";
-  EXPECT_EQ(panel.plot()->series().size(), 2U) << "remainder and measured; nothing is named";
+  EXPECT_EQ(panel.plot()->series().size(), 3U) << "noise, remainder and measured; nothing is named";
   const QAbstractItemModel* rows = panel.componentTable()->model();
-  EXPECT_EQ(rows->index(0, 5).data().toString(), QStringLiteral("remainder"));
-  EXPECT_EQ(rows->index(1, 5).data().toString(), QStringLiteral("noise"));
+  EXPECT_EQ(rows->index(0, 4).data().toString(), QStringLiteral("0.80"));
+  EXPECT_FALSE(rows->index(0, 4).data(Qt::DecorationRole).isNull()) << "clearly there";
+  EXPECT_TRUE(rows->index(1, 4).data(Qt::DecorationRole).isNull()) << "may be noise";
   FoundEffect e;
   e.id = "spindle.growth.z";
   story->effects = {e};

@@ -77,7 +77,7 @@ QString percentOf(double probability) {
 }
 
 QPixmap probabilityBar(double probability, double device_pixel_ratio) {
-  constexpr QSize size(64, 8);
+  constexpr QSize size(40, 8);
   QPixmap picture(size * device_pixel_ratio);
   picture.setDevicePixelRatio(device_pixel_ratio);
   picture.fill(Qt::transparent);

@@ -30,7 +30,7 @@ namespace spindrift::gui {
 [[nodiscard]] QString probabilityText(double p);
 /// "97 %", "< 1 %".
 [[nodiscard]] QString percentOf(double probability);
-/// A lying bar, 64 x 8 px, filled up to a probability: for a cell of a table.
+/// A lying bar, 40 x 8 px, filled up to a probability: for a cell of a table.
 [[nodiscard]] QPixmap probabilityBar(double probability, double device_pixel_ratio);
 /// "1.24 ± 0.05 µm"; without a usable uncertainty the value alone.
 [[nodiscard]] QString withError(double value, double standard_uncertainty, const QString& unit);

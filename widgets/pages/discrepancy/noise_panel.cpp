@@ -55,7 +55,7 @@ NoisePanel::NoisePanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);
   auto* left = new Card(tr("Noise of a reading"));
-  noise_ = new RowsModel({tr("Component"), tr("Noise scale"), tr("Common shift"), tr("Correlated")}, this);
+  noise_ = new RowsModel({tr("What"), tr("Noise scale"), tr("Common shift"), tr("Correlated")}, this);
   noise_table_ = makeTable(noise_, tr("Noise of every component"), tr("The noise found appears after the search."));
   noise_table_->setMinimumHeight(148);
   left->body()->addWidget(noise_table_, 1);
@@ -91,8 +91,7 @@ NoisePanel::NoisePanel(QWidget* parent) : QWidget(parent) {
   shift_table_ = makeTable(shifts_, tr("Common shift of every state"), tr("No state is shifted as a whole."));
   stack_->addWidget(scrolled(makeSplitter(shift_plot_, shift_table_, 6, 5, Qt::Vertical)));
   readings_ = new RowsModel(
-      {tr("Row"), tr("Point"), tr("State"), tr("What"), tr("Time"), tr("Value"), tr("Deviation / σ"), tr("Status")},
-      this);
+      {tr("Row"), tr("Point"), tr("State"), tr("What"), tr("Time"), tr("Deviation / σ"), tr("Status")}, this);
   reading_table_ = makeTable(readings_, tr("Outlying readings"), tr("No reading lies far from all others."));
   reading_table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   auto* look = new QWidget;
@@ -107,7 +106,7 @@ NoisePanel::NoisePanel(QWidget* parent) : QWidget(parent) {
   look_column->addWidget(reading_plot_, 1);
   stack_->addWidget(scrolled(makeSplitter(reading_table_, look, 5, 6, Qt::Vertical)));
   right->body()->addWidget(stack_, 1);
-  column->addWidget(makeSplitter(left, right, 5, 7), 1);
+  column->addWidget(makeSplitter(left, right, 6, 7), 1);
 
   connect(which_, &Segments::chosen, this, [this](int) { arrange(); });
   connect(exclude_, &QPushButton::clicked, this, &NoisePanel::excludeAsked);
@@ -196,11 +195,12 @@ void NoisePanel::fillFacts() {
   lines << (count == 0   ? tr("No reading lies far from all others.")
             : count == 1 ? tr("One reading lies far from all others; it has little weight.")
                          : tr("%1 readings lie far from all others; they have little weight.").arg(count));
-  facts_->setText(lines.join(QStringLiteral("\n\n")));
+  facts_->setText(lines.join(QLatin1Char('\n')));
 }
 
 void NoisePanel::fillShifts() {
-  if (story_ == nullptr || story_->shifts.empty()) {
+  shift_table_->setVisible(story_ != nullptr && !story_->shifts.empty());
+  if (!shift_table_->isVisibleTo(shift_table_->parentWidget())) {
     shifts_->setRows({});
     shift_plot_->setContent({});
     return;
@@ -297,9 +297,9 @@ void NoisePanel::fillReadings() {
                  {QString::fromStdString(o.state)},
                  {componentName(o.component)},
                  number(tr("%1 %2").arg(o.time_s / unit.seconds, 0, 'f', 2).arg(unit.name)),
-                 number(sizeText(o.value, componentUnit(o.component))),
                  number(l.outlying ? signedSize(o.deviation, 1) : QStringLiteral("–")),
                  status};
+    row.cells[5].tip = tr("Measured: %1").arg(sizeText(o.value, componentUnit(o.component)));
     rows.push_back(std::move(row));
   }
   const int now = reading_table_->currentIndex().row();

@@ -18,7 +18,8 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr std::size_t most_lines = 12;  ///< of all points together
+constexpr int least_table_height = 108;  ///< headers and two rows
+constexpr std::size_t most_lines = 12;   ///< of all points together
 
 Cell number(const QString& text) {
   Cell cell{text};
@@ -57,11 +58,16 @@ ComponentSizes sizesOf(const DiscrepancyStory& story, Component component) {
   return sum;
 }
 
+/// Of the values that are known.
 double rms(const std::vector<double>& values) {
-  if (values.empty()) return std::nan("");
   double sum = 0.0;
-  for (const double v : values) sum += v * v;
-  return std::sqrt(sum / static_cast<double>(values.size()));
+  double count = 0.0;
+  for (const double v : values) {
+    if (!std::isfinite(v)) continue;
+    sum += v * v;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : std::nan("");
 }
 
 }  // namespace
@@ -69,20 +75,21 @@ double rms(const std::vector<double>& values) {
 RemainderPanel::RemainderPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);
-  auto* left = new Card(tr("What remains"));
+  auto* left = new Card;
   sentence_ = makeLabel({}, "instruction");
   sentence_->setWordWrap(true);
   left->body()->addWidget(sentence_);
-  components_ =
-      new RowsModel({tr("rms"), tr("Residual"), tr("Effects"), tr("Remainder"), tr("Noise"), tr("It is")}, this);
+  components_ = new RowsModel({tr("rms"), tr("Residual"), tr("Effects"), tr("Noise"), tr("Remainder")}, this);
   component_table_ =
       makeTable(components_, tr("Remainder of every component"), tr("Components appear after the search."));
-  component_table_->setMinimumHeight(144);
+  component_table_->setMinimumHeight(least_table_height);
+  stretchColumn(component_table_, 0);
   left->body()->addWidget(component_table_, 4);
   points_title_ = makeLabel({}, "sectionTitle");
   left->body()->addWidget(points_title_);
   points_ = new RowsModel({tr("Point"), tr("rms"), tr("Largest"), tr("When")}, this);
   point_table_ = makeTable(points_, tr("Remainder at every point"), tr("Nothing remains in this component."));
+  point_table_->setMinimumHeight(least_table_height);
   left->body()->addWidget(point_table_, 5);
 
   plot_card_ = new Card;
@@ -98,7 +105,7 @@ RemainderPanel::RemainderPanel(QWidget* parent) : QWidget(parent) {
   plot_->setEmptyText(tr("The remainder over time"),
                       tr("Search: what neither effects nor noise explain appears here."));
   plot_card_->body()->addWidget(plot_, 1);
-  column->addWidget(makeSplitter(left, plot_card_, 6, 7), 1);
+  column->addWidget(makeSplitter(left, plot_card_, 7, 6), 1);
 
   connect(component_table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& now) {
@@ -168,22 +175,22 @@ void RemainderPanel::fillComponents() {
     row.id = componentName(c);
     Cell name{tr("%1 / %2").arg(componentName(c), componentUnit(c))};
     name.bold = true;
-    Cell answer =
-        remains ? Cell{tr("remainder"), Tone::Attention, "alert"} : Cell{tr("noise"), Tone::Good, "check-circle"};
-    answer.tip = found == story_->remainder.end()
-                     ? tr("Nothing smooth in time and space remains")
-                     : tr("Evidence that it is more than noise: %1 (2 ln of the odds, clear from %2 on)")
-                           .arg(found->evidence, 0, 'f', 0)
-                           .arg(clear_evidence, 0, 'f', 0);
-    row.cells = {name,
-                 number(sizeText(sizes.residual, {})),
-                 number(sizeText(sizes.effects, {})),
-                 number(found == story_->remainder.end() ? QStringLiteral("–") : sizeText(found->rms_um, {})),
-                 number(sizeText(sizes.noise, {})),
-                 answer};
+    Cell size = number(found == story_->remainder.end() ? QStringLiteral("–") : sizeText(found->rms_um, {}));
+    if (remains) {
+      size.tone = Tone::Attention;
+      size.icon = "alert";
+    }
+    size.tip =
+        found == story_->remainder.end()
+            ? tr("Nothing smooth in time and space remains")
+            : tr("rms of what is smooth in time and space and neither effect nor noise. Evidence that it is more "
+                 "than noise: %1 (2 ln of the odds, clear from %2 on)")
+                  .arg(found->evidence, 0, 'f', 0)
+                  .arg(clear_evidence, 0, 'f', 0);
+    row.cells = {name, number(sizeText(sizes.residual, {})), number(sizeText(sizes.effects, {})),
+                 number(sizeText(sizes.noise, {})), size};
     row.cells[1].tip = tr("rms of measured − simulated");
     row.cells[2].tip = tr("rms of what the effects found explain");
-    row.cells[3].tip = tr("rms of what is smooth in time and space and neither effect nor noise");
     rows.push_back(std::move(row));
   }
   following_ = true;
@@ -213,8 +220,9 @@ void RemainderPanel::fillPoints() {
     name.bold = true;
     row.cells = {name, number(sizeText(size, {})), number(QStringLiteral("–")), number(QStringLiteral("–"))};
     if (size > 0.0) {
+      const auto size_of = [](double v) { return std::isfinite(v) ? std::abs(v) : -1.0; };
       const auto most = std::max_element(s.remaining.begin(), s.remaining.end(),
-                                         [](double a, double b) { return std::abs(a) < std::abs(b); });
+                                         [&](double a, double b) { return size_of(a) < size_of(b); });
       row.cells[2] = number(sizeText(*most, {}));
       row.cells[3] =
           number(tr("%1 %2")
@@ -274,8 +282,11 @@ void RemainderPanel::showPlot() {
       line.style = SeriesStyle::Line;
       // The chosen point stands out; names of the others are shown where the pointer is.
       line.colour = other.point == point_ ? 3 : 4;
-      for (const double t : other.time_s) line.x.push_back(t / unit.seconds);
-      line.y = other.remaining;
+      for (std::size_t i = 0; i < other.time_s.size(); ++i) {
+        if (!std::isfinite(other.remaining[i])) continue;
+        line.x.push_back(other.time_s[i] / unit.seconds);
+        line.y.push_back(other.remaining[i]);
+      }
       series.push_back(std::move(line));
     }
     std::stable_partition(series.begin(), series.end(),
@@ -289,12 +300,21 @@ void RemainderPanel::showPlot() {
   measured.name = tr("measured − simulated");
   measured.style = SeriesStyle::Points;
   measured.colour = 1;
+  Series noise;
+  noise.name = tr("noise, ± 2 σ");
+  noise.style = SeriesStyle::Line;
+  noise.colour = 2;
+  for (const double time_s : {s->time_s.front(), s->time_s.back()}) {
+    noise.x.push_back(time_s / unit.seconds);
+    noise.y.push_back(0.0);
+    noise.sigma.push_back(s->noise);
+  }
   Series effects;
   effects.name = tr("effects");
   effects.style = SeriesStyle::Line;
   effects.colour = 0;
   Series remaining;
-  remaining.name = tr("remainder, ± 2 σ noise");
+  remaining.name = tr("remainder");
   remaining.style = SeriesStyle::Line;
   remaining.colour = 3;
   for (std::size_t i = 0; i < s->time_s.size(); ++i) {
@@ -305,14 +325,13 @@ void RemainderPanel::showPlot() {
       effects.x.push_back(t);
       effects.y.push_back(s->explained[i]);
     }
-    if (!s->remaining.empty()) {
+    if (!s->remaining.empty() && std::isfinite(s->remaining[i])) {
       remaining.x.push_back(t);
       remaining.y.push_back(s->remaining[i]);
-      remaining.sigma.push_back(s->noise);
     }
   }
   std::vector<std::pair<int, QString>> names{{1, measured.name}};
-  for (Series* line : {&effects, &remaining}) {
+  for (Series* line : {&noise, &effects, &remaining}) {
     if (line->x.empty()) continue;
     names.emplace_back(line->colour, line->name);
     series.push_back(*line);

@@ -143,13 +143,18 @@ void WherePanel::show(const std::shared_ptr<const DiscrepancyStory>& story, cons
   }
   view_->setMachine(*machine);
   const bool keeps = story_->find(point_, component_) != nullptr;
-  const int place = place_;
   fillPlaces();
-  if (keeps && place >= 0 && place < static_cast<int>(story_->where.size())) {
-    following_ = true;
-    place_table_->selectRow(place);
-    following_ = false;
-    place_ = place;
+  if (keeps) {
+    // The noise found, and with it the places, may be others than before.
+    const auto holds = std::find_if(story_->where.begin(), story_->where.end(), [this](const DisagreementPlace& p) {
+      return p.component == component_ && std::find(p.points.begin(), p.points.end(), point_) != p.points.end();
+    });
+    if (holds != story_->where.end()) {
+      place_ = static_cast<int>(holds - story_->where.begin());
+      following_ = true;
+      place_table_->selectRow(place_);
+      following_ = false;
+    }
   }
   if (!keeps && !components_.empty()) {
     component_ = story_->where.empty() ? components_.front() : story_->where.front().component;
