@@ -7,6 +7,7 @@
 #include <QLineEdit>
 #include <QStackedWidget>
 #include <QTabWidget>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -176,14 +177,10 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   tabs_ = makeTabs();
   where_ = new WherePanel;
   what_ = new WhatPanel;
-  noise_ = new NoisePanel;
-  remainder_ = new RemainderPanel;
   gap_ = new GapPanel;
   next_ = new NextPanel;
   tabs_->addTab(where_, tr("Where"));
   tabs_->addTab(what_, tr("What is missing"));
-  tabs_->addTab(noise_, tr("Noise"));
-  tabs_->addTab(remainder_, tr("What remains"));
   tabs_->addTab(gap_, tr("Gap before and after"));
   tabs_->addTab(next_, tr("What to measure next"));
   column->addWidget(tabs_, 1);
@@ -191,8 +188,6 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   content()->addWidget(stack_, 1);
   showHints(where_);
   showHints(what_);
-  showHints(noise_);
-  showHints(remainder_);
   showHints(gap_);
 
   connect(search_, &QPushButton::clicked, this, &DiscrepancyPage::search);
@@ -207,22 +202,19 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   connect(gap_, &GapPanel::chosen, this, [this] {
     where_->choose(gap_->point(), gap_->component());
     what_->choose(gap_->point(), gap_->component());
+    makeRemainder();
     remainder_->choose(gap_->point(), gap_->component());
   });
-  connect(remainder_, &RemainderPanel::chosen, this, [this] { choose(remainder_->point(), remainder_->component()); });
-  connect(noise_, &NoisePanel::readingChosen, this,
-          [this](const std::string& point, Component component, double time_s) {
-            choose(point, component);
-            remainder_->choose(point, component);
-            gap_->chooseTime(time_s);
-            where_->markTime(time_s);
-          });
-  connect(noise_, &NoisePanel::excludeAsked, this, &DiscrepancyPage::toggleExcluded);
+  QTimer::singleShot(40, this, [this] {
+    makeNoise();
+    QTimer::singleShot(40, this, &DiscrepancyPage::makeRemainder);
+  });
   connect(gap_, &GapPanel::timeChosen, where_, &WherePanel::markTime);
   connect(where_, &WherePanel::timeChosen, gap_, &GapPanel::chooseTime);
   connect(where_, &WherePanel::chosen, this, [this] {
     gap_->choose(where_->point(), where_->component());
     what_->choose(where_->point(), where_->component());
+    makeRemainder();
     remainder_->choose(where_->point(), where_->component());
   });
   // Ids of results start again in every session.
@@ -402,7 +394,34 @@ void DiscrepancyPage::updateButtons() {
   add_->setToolTip(id.empty() ? QString() : tr("Add %1 and fit all parameters again").arg(effectTitle(id)));
 }
 
+void DiscrepancyPage::makeNoise() {
+  if (noise_ != nullptr) return;
+  noise_ = new NoisePanel;
+  tabs_->insertTab(tabs_->indexOf(what_) + 1, noise_, tr("Noise"));
+  showHints(noise_);
+  connect(noise_, &NoisePanel::readingChosen, this,
+          [this](const std::string& point, Component component, double time_s) {
+            choose(point, component);
+            makeRemainder();
+            remainder_->choose(point, component);
+            gap_->chooseTime(time_s);
+            where_->markTime(time_s);
+          });
+  connect(noise_, &NoisePanel::excludeAsked, this, &DiscrepancyPage::toggleExcluded);
+  showExcluded();
+}
+
+void DiscrepancyPage::makeRemainder() {
+  if (remainder_ != nullptr) return;
+  remainder_ = new RemainderPanel;
+  tabs_->insertTab(tabs_->indexOf(gap_), remainder_, tr("What remains"));
+  showHints(remainder_);
+  connect(remainder_, &RemainderPanel::chosen, this, [this] { choose(remainder_->point(), remainder_->component()); });
+}
+
 void DiscrepancyPage::show() {
+  makeNoise();
+  makeRemainder();
   const auto campaign = session().campaign();
   where_->show(story_, &campaign->machine);
   what_->show(story_);
@@ -422,6 +441,7 @@ void DiscrepancyPage::choose(const std::string& point, Component component) {
 }
 
 void DiscrepancyPage::showExcluded() {
+  if (noise_ == nullptr) return;  // show() fills it
   std::vector<ExcludedReading> excluded;
   const std::map<QString, QString>& items = session().excluded();
   if (const auto observations = items.empty() ? std::nullopt : session().observations()) {
@@ -453,6 +473,7 @@ void DiscrepancyPage::toggleExcluded() {
 }
 
 void DiscrepancyPage::excludeReadings(const QString& reason) {
+  makeNoise();
   const QStringList items = noise_->chosenItems();
   if (!items.isEmpty()) context().undo.push(new ExcludeCommand(session(), items, reason));
 }
@@ -468,6 +489,8 @@ void DiscrepancyPage::showVerdict() {
 }
 
 std::vector<Exportable> DiscrepancyPage::exportables() {
+  makeNoise();
+  makeRemainder();
   std::vector<Exportable> items;
   if (story_ == nullptr) return items;
   for (auto&& list : {where_->exportables(), what_->exportables(), noise_->exportables(), remainder_->exportables(),

@@ -66,6 +66,9 @@ class DiscrepancyPage : public Page {
   void add();
   void removeLast();
   void show();
+  /// Tabs that nobody sees first are made when the page stands already, or when they are needed: a page opens at once.
+  void makeNoise();
+  void makeRemainder();
   void showExcluded();
   void toggleExcluded();
   void choose(const std::string& point, Component component);
@@ -84,8 +87,8 @@ class DiscrepancyPage : public Page {
   QTabWidget* tabs_;
   WherePanel* where_;
   WhatPanel* what_;
-  NoisePanel* noise_;
-  RemainderPanel* remainder_;
+  NoisePanel* noise_ = nullptr;          ///< made soon after the page, see makeNoise
+  RemainderPanel* remainder_ = nullptr;  ///< the same
   GapPanel* gap_;
   NextPanel* next_;
   std::shared_ptr<const DiscrepancyStory> story_;
