@@ -85,12 +85,10 @@ void estimateClock(const DiscrepancyInput& input, const ResidualProblem& problem
   const auto valueAt = [&](double offset) {
     DriverTable shifted = *a.drivers;
     shifted.shiftClock(offset - before);
-    const Eigen::VectorXd& y = problem.projectedResidual();
     // Lags follow the clock: each may change by the offset.
     std::vector<ModelTerm> terms = a.posterior.fit.terms;
     EffectSearch search(const_cast<ResidualProblem&>(problem), shifted, a.catalogue);
     for (const ModelTerm& term : terms) search.prepare(*term.effect);
-    (void)y;
     return search.refine(terms, 1).chi2 + std::pow(offset / priors.clock_s, 2);
   };
   constexpr double step_s = 60.0;

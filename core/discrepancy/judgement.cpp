@@ -234,12 +234,10 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     name.delta_chi2 = slot.delta_chi2;
     name.delta_evidence = slot.delta_evidence;
     name.forced = posterior.forced[t];
-    double rejected = 0.0;
     for (const Alternative& a : slot.others) {
       name.margin = std::min(name.margin, posterior.evidence - a.evidence);
       if (a.probability < least_rival * slot.probability) continue;
       if (a.rejected) {
-        rejected += a.probability;
         out.warnings.push_back(fmt::format("{}, which was rejected, explains the same {}.", a.id,
                                            a.probability > slot.probability ? "better" : "about as well"));
         continue;
@@ -271,7 +269,6 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
          static_cast<double>(std::count_if(search.catalogue().begin(), search.catalogue().end(), [&](const Effect& e) {
            return e.variants.empty() && std::find(name.rivals.begin(), name.rivals.end(), e.id) != name.rivals.end();
          })));
-    (void)rejected;
     name.confidence = std::clamp(slot.probability * claim[t] * undriven, 0.01, 1.0 - priors.unforeseen);
     if (name.forced && !(slot.delta_evidence > 0.0)) {
       // What is not there has no rivals either.

@@ -543,7 +543,6 @@ void ResidualProblem::setNoise(const NoiseModel& model) {
 void ResidualProblem::whitenDomain(std::size_t d, Eigen::Ref<Eigen::MatrixXd> rows) const {
   const Domain& domain = domains_[d];
   const DomainNoise& n = domain_noise_[d];
-  Eigen::MatrixXd kept;
   // Blocks first from the raw rows; everything else is diagonal.
   std::vector<Eigen::MatrixXd> block_rows;
   for (const Block& b : blocks_[d]) {
