@@ -27,7 +27,7 @@ std::string whatIsWide(const QWidget& widget, int depth = 0) {
   std::string text;
   for (const QWidget* child : widget.findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
     const int width = std::max(child->minimumSizeHint().width(), child->minimumWidth());
-    if (child->isHidden() || width < 280) continue;
+    if (width < 280) continue;  // hidden ones too: the pages of a stack count whether shown or not
     text += "\n" + std::string(static_cast<std::size_t>(2 * depth + 2), ' ') + std::to_string(width) + " " +
             child->metaObject()->className() + " " + child->accessibleName().toStdString();
     text += whatIsWide(*child, depth + 1);

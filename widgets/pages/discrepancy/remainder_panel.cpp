@@ -96,9 +96,10 @@ RemainderPanel::RemainderPanel(QWidget* parent) : QWidget(parent) {
   which_ = new Segments({tr("This point"), tr("All points")}, tr("What is drawn"));
   auto* head = new QHBoxLayout;
   head->addWidget(which_);
-  head->addStretch(1);
   legend_ = makeLabel({}, "secondaryText");
-  head->addWidget(legend_);
+  legend_->setWordWrap(true);
+  legend_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  head->addWidget(legend_, 1);
   plot_card_->body()->addLayout(head);
   plot_ = new Plot;
   plot_->setLegendVisible(false);
