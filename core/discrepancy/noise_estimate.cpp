@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,6 +24,8 @@ constexpr double correlation_price = 8.0;
 constexpr double tail_price = 6.0;
 /// Of noise that is correlated in time, actual / stated sigma.
 constexpr double largest_slow_noise = 1.5;
+/// Gain in 2 ln L, beside 2 ln of the number of series, that a course of its own must bring a series.
+constexpr double course_price = 8.0;
 /// Common shift, in standard deviations of the own noise, while nothing is known of the signal.
 constexpr double careful_shift = 0.7;
 
@@ -36,6 +39,8 @@ struct ComponentData {
   Eigen::MatrixXd shifts;  // indicator of the state
   Eigen::MatrixXd smooth;  // patterns in space times hats in time, each of mean square 1 where it is not zero
   double mean_sigma = 1.0;
+  Eigen::MatrixXd hats;            // of a course in time that one series has for itself
+  std::vector<double> own_course;  // size of it over the own noise, of each series; 0: none
 };
 
 struct Parameters {
@@ -46,11 +51,40 @@ struct Parameters {
   double time_s = 0.0;
 };
 
-/// Products of all columns [shifts, smooth, constants, residual] through the inverse of the own noise at scale 1.
+/// Products of all columns [shifts, smooth, constants, residual] through the inverse of the own noise at scale 1, which
+/// here includes the courses that series have for themselves.
 struct Products {
   Eigen::MatrixXd gram;
   double log_det = 0.0;
 };
+
+/// Inverse of the lower Cholesky factor of the own noise of one series at scale 1, times `columns` (its rows only);
+/// 2 ln of the determinant of the factor is added to `log_det`.
+void whitenOwn(const ResidualProblem& problem, const ComponentData& data, std::size_t series, double part,
+               double time_s, Eigen::MatrixXd& columns, double& log_det) {
+  const auto [from, to] = data.series[series];
+  const Index n = to - from;
+  if (!(part > 0.0)) {
+    const Eigen::ArrayXd inverse = data.weight.segment(from, n).array().sqrt() / data.sigma.segment(from, n).array();
+    columns = inverse.matrix().asDiagonal() * columns;
+    log_det -= 2.0 * inverse.log().sum();
+    return;
+  }
+  Eigen::MatrixXd c(n, n);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j <= i; ++j) {
+      const double dt =
+          std::abs(problem.time_s[static_cast<std::size_t>(data.units[static_cast<std::size_t>(from + i)])] -
+                   problem.time_s[static_cast<std::size_t>(data.units[static_cast<std::size_t>(from + j)])]);
+      c(i, j) = data.sigma[from + i] * data.sigma[from + j] * part * std::exp(-dt / time_s);
+      c(j, i) = c(i, j);
+    }
+    c(i, i) = data.sigma[from + i] * data.sigma[from + i] * (part + (1.0 - part) / data.weight[from + i]);
+  }
+  const Eigen::LLT<Eigen::MatrixXd> llt(c);
+  llt.matrixL().solveInPlace(columns);
+  log_det += 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+}
 
 Products productsOf(const ResidualProblem& problem, const ComponentData& data, double part, double time_s) {
   const Index s = data.shifts.cols();
@@ -67,25 +101,18 @@ Products productsOf(const ResidualProblem& problem, const ComponentData& data, d
     columns.middleCols(s, m) = data.smooth.middleRows(from, n);
     if (p > 0) columns.col(s + m + static_cast<Index>(k)).setOnes();
     columns.col(total - 1) = data.residual.segment(from, n);
-    if (part > 0.0) {
-      Eigen::MatrixXd c(n, n);
-      for (Index i = 0; i < n; ++i) {
-        for (Index j = 0; j <= i; ++j) {
-          const double dt =
-              std::abs(problem.time_s[static_cast<std::size_t>(data.units[static_cast<std::size_t>(from + i)])] -
-                       problem.time_s[static_cast<std::size_t>(data.units[static_cast<std::size_t>(from + j)])]);
-          c(i, j) = data.sigma[from + i] * data.sigma[from + j] * part * std::exp(-dt / time_s);
-          c(j, i) = c(i, j);
-        }
-        c(i, i) = data.sigma[from + i] * data.sigma[from + i] * (part + (1.0 - part) / data.weight[from + i]);
-      }
-      const Eigen::LLT<Eigen::MatrixXd> llt(c);
-      llt.matrixL().solveInPlace(columns);
+    const double own = data.own_course[k];
+    const Index hats = own > 0.0 ? data.hats.cols() : 0;
+    columns.conservativeResize(n, total + hats);
+    if (hats > 0) columns.rightCols(hats) = own * data.hats.middleRows(from, n);
+    whitenOwn(problem, data, k, part, time_s, columns, out.log_det);
+    if (hats > 0) {
+      const Eigen::MatrixXd b = columns.rightCols(hats);
+      columns.conservativeResize(n, total);
+      const Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd::Identity(hats, hats) + b.transpose() * b);
+      const Eigen::MatrixXd taken = llt.matrixL().solve(b.transpose() * columns);
       out.log_det += 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-    } else {
-      const Eigen::ArrayXd inverse = data.weight.segment(from, n).array().sqrt() / data.sigma.segment(from, n).array();
-      columns = inverse.matrix().asDiagonal() * columns;
-      out.log_det -= 2.0 * inverse.log().sum();
+      out.gram.selfadjointView<Eigen::Lower>().rankUpdate(taken.transpose(), -1.0);
     }
     out.gram.selfadjointView<Eigen::Lower>().rankUpdate(columns.transpose());
   }
@@ -144,9 +171,9 @@ double optimise(const ComponentData& data, const Products& products, bool consta
   return best;
 }
 
-/// The own noise of every reading as found: residual without constants, shifts and smooth part, over scale and sigma.
-Eigen::VectorXd ownResidual(const ResidualProblem& problem, const ComponentData& data, const Products& products,
-                            const Parameters& p) {
+/// The residual without constants, shifts and common smooth part, um or urad.
+Eigen::VectorXd withoutCommon(const ResidualProblem& problem, const ComponentData& data, const Products& products,
+                              const Parameters& p) {
   Eigen::LLT<Eigen::MatrixXd> factor;
   objective(data, products, p, problem.free_constants, &factor);
   const Index s = data.shifts.cols();
@@ -165,7 +192,71 @@ Eigen::VectorXd ownResidual(const ResidualProblem& problem, const ComponentData&
       left.segment(from, to - from).array() -= b[s + m + static_cast<Index>(k)];
     }
   }
+  return left;
+}
+
+/// The own noise of every reading as found: residual without constants, shifts and smooth parts, over scale and sigma.
+Eigen::VectorXd ownResidual(const ResidualProblem& problem, const ComponentData& data, const Products& products,
+                            const Parameters& p) {
+  Eigen::VectorXd left = withoutCommon(problem, data, products, p);
+  for (std::size_t k = 0; k < data.series.size(); ++k) {
+    if (!(data.own_course[k] > 0.0)) continue;
+    const auto [from, to] = data.series[k];
+    const Index n = to - from;
+    const Eigen::MatrixXd raw = data.own_course[k] * data.hats.middleRows(from, n);
+    Eigen::MatrixXd columns(n, raw.cols() + 1);
+    columns << raw, left.segment(from, n);
+    double log_det = 0.0;
+    whitenOwn(problem, data, k, p.part, p.time_s, columns, log_det);
+    const Eigen::MatrixXd b = columns.leftCols(raw.cols());
+    const Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(b.cols(), b.cols()) + b.transpose() * b;
+    left.segment(from, n) -= raw * normal.llt().solve(b.transpose() * columns.col(raw.cols()));
+  }
   return left.cwiseQuotient(data.sigma) * std::exp(-p.log_scale);
+}
+
+/// Courses that series have for themselves, each of the size that makes it most probable. True if they changed.
+bool findOwnCourses(const ResidualProblem& problem, ComponentData& data, const Parameters& p) {
+  if (data.series.size() < 2 || data.hats.cols() == 0) return false;
+  const Products products = productsOf(problem, data, p.part, p.time_s);
+  const Eigen::VectorXd left = withoutCommon(problem, data, products, p);
+  const double price = course_price + 2.0 * std::log(static_cast<double>(data.series.size()));
+  const double scale2 = std::exp(2.0 * p.log_scale);
+  bool changed = false;
+  for (std::size_t k = 0; k < data.series.size(); ++k) {
+    const auto [from, to] = data.series[k];
+    const Index n = to - from;
+    if (n < 6) continue;
+    const Index hats = data.hats.cols();
+    Eigen::MatrixXd columns(n, hats + 2);
+    columns << data.hats.middleRows(from, n), Eigen::VectorXd::Ones(n), left.segment(from, n);
+    double log_det = 0.0;
+    whitenOwn(problem, data, k, p.part, p.time_s, columns, log_det);
+    if (problem.free_constants) {
+      const Eigen::VectorXd one = columns.col(hats).normalized();
+      columns -= one * (one.transpose() * columns);
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(columns.leftCols(hats).transpose() *
+                                                               columns.leftCols(hats));
+    const Eigen::ArrayXd lambda = eigen.eigenvalues().array().max(0.0);
+    const Eigen::ArrayXd beta =
+        (eigen.eigenvectors().transpose() * (columns.leftCols(hats).transpose() * columns.col(hats + 1))).array();
+    double best = 0.0;
+    double size = 0.0;
+    for (int step = 0; step < 24; ++step) {
+      const double c = 0.1 * data.mean_sigma * std::pow(1.35, step);
+      const double gain =
+          (beta.square() * c * c / (1.0 + lambda * c * c)).sum() / scale2 - (1.0 + lambda * c * c).log().sum();
+      if (gain > best) {
+        best = gain;
+        size = c;
+      }
+    }
+    if (best < price) size = 0.0;
+    changed = changed || std::abs(size - data.own_course[k]) > 0.3 * std::max(size, data.own_course[k]);
+    data.own_course[k] = size;
+  }
+  return changed;
 }
 
 /// 2 ln L of standardised residuals under a Student distribution of `dof`, scale at its maximum; 0: normal.
@@ -208,6 +299,7 @@ ComponentData componentData(const ResidualProblem& problem, const Eigen::VectorX
     states.try_emplace(problem.epoch[static_cast<std::size_t>(u)], static_cast<Index>(states.size()));
   }
   out.mean_sigma = std::sqrt(out.sigma.squaredNorm() / static_cast<double>(n));
+  out.own_course.assign(out.series.size(), 0.0);
   const double per_state = static_cast<double>(n) / static_cast<double>(states.size());
   if (problem.epochs_are_states && per_state >= 2.5 && out.series.size() >= 3) {
     out.shifts = Eigen::MatrixXd::Zero(n, static_cast<Index>(states.size()));
@@ -264,6 +356,15 @@ ComponentData componentData(const ResidualProblem& problem, const Eigen::VectorX
     }
   }
   if (n < 2 * static_cast<Index>(out.series.size()) + 8) out.smooth.resize(n, 0);
+  const int own_hats = std::clamp(static_cast<int>(states.size()) / 3, 2, 12);
+  out.hats = Eigen::MatrixXd::Zero(n, states.size() >= 6 ? own_hats : 0);
+  for (Index h = 0; h < out.hats.cols(); ++h) {
+    for (Index i = 0; i < n; ++i) {
+      const Index u = out.units[static_cast<std::size_t>(i)];
+      const double position = (problem.time_s[static_cast<std::size_t>(u)] - start) / span * (own_hats - 1);
+      out.hats(i, h) = std::max(0.0, 1.0 - std::abs(position - static_cast<double>(h)));
+    }
+  }
   return out;
 }
 
@@ -359,6 +460,16 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
   e.uncertainty = std::exp(e.p.log_scale) / std::sqrt(2.0 * dof);
 }
 
+/// The same with courses that single series have for themselves: what they follow is no noise of the others.
+void estimateWithCourses(const ResidualProblem& problem, ComponentEstimate& e, bool again, bool careful) {
+  estimateAt(problem, e, again, careful);
+  if (careful) return;
+  constexpr int most_rounds = 4;
+  for (int round = 0; round < most_rounds && findOwnCourses(problem, e.data, e.p); ++round) {
+    estimateAt(problem, e, true, careful);
+  }
+}
+
 }  // namespace
 
 NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& residual, bool fitted) {
@@ -389,7 +500,7 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
       if (z > 6.0) e.data.weight[i] = 25.0 / (z * z);
     }
     e.p.log_scale = std::log(spread);
-    estimateAt(problem, e, false, !fitted);
+    estimateWithCourses(problem, e, false, !fitted);
   });
   // Heavy tails: one distribution for all components, each by its own scale.
   const auto pooled = [&] {
@@ -423,7 +534,7 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
       for (Index i = 0; i < e.own.size(); ++i) {
         e.data.weight[i] = dof > 0.0 ? std::max(1e-4, (dof + 1.0) / (dof + e.own[i] * e.own[i])) : 1.0;
       }
-      estimateAt(problem, e, true, !fitted);
+      estimateWithCourses(problem, e, true, !fitted);
     });
   }
   out.weight = Eigen::VectorXd::Ones(problem.size());
@@ -462,7 +573,7 @@ std::array<double, 6> noiseDeviance(const ResidualProblem& problem, const Eigen:
     e.p.log_scale = std::log(n.scale);
     e.p.part = n.correlated_part;
     e.p.time_s = n.correlation_time_s;
-    estimateAt(problem, e, false, false);
+    estimateWithCourses(problem, e, false, false);
     out[c] = e.deviance;
   });
   return out;
