@@ -47,6 +47,7 @@ double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::
   Eigen::VectorXd together = Eigen::VectorXd::Zero(problem.size());
   Eigen::VectorXd rest = Eigen::VectorXd::Zero(problem.size());
   for (std::size_t k = 0; k < fit.terms.size(); ++k) (unnamed[k] && k != t ? rest : together) += fit.contribution[k];
+  const Eigen::VectorXd all = together;
   together = centred(problem, together);
   rest = centred(problem, rest);
   std::array<bool, 6> told{};
@@ -56,11 +57,15 @@ double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::
   double left = 0.0;
   double own_power = 0.0;
   double together_power = 0.0;
+  double own_since = 0.0;
+  double together_since = 0.0;
   const double largest = own.cwiseAbs().maxCoeff();
   for (Index u = 0; u < problem.size(); ++u) {
     const Component c = problem.component[static_cast<std::size_t>(u)];
     if (std::abs(fit.contribution[t][u]) < 1e-6 * largest) continue;
     const double sigma = problem.ownSigma(u);
+    own_since += std::pow(fit.contribution[t][u] / sigma, 2);
+    together_since += std::pow(all[u] / sigma, 2);
     own_power += std::pow(own[u] / sigma, 2);
     together_power += std::pow(together[u] / sigma, 2);
     left += std::pow(rest[u] / sigma, 2);
@@ -72,9 +77,9 @@ double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::
   const Dynamics dynamics = fit.terms[t].variant.inputs[0].dynamics;
   // One that chooses its own onset and length follows half of anything.
   const double strict = dynamics == Dynamics::Step ? 3.0 : dynamics == Dynamics::Pulse ? 1.5 : 1.0;
-  if (!(power > 0.0) || !(together_power > 0.0)) return 1e9;
-  // Effects that cancel each other follow much that they do not cause.
-  const double cancelling = 0.1 * std::sqrt(own_power / together_power);
+  if (!(power > 0.0) || !(together_power > 0.0) || !(together_since > 0.0)) return 1e9;
+  // Effects that cancel each other follow much that they do not cause: about their means, or since the log began.
+  const double cancelling = 0.1 * std::sqrt(std::max(own_power / together_power, own_since / together_since));
   return std::hypot(strict * std::sqrt(left / power), cancelling > 0.2 ? cancelling : 0.0);
 }
 

@@ -24,6 +24,9 @@ constexpr double correlation_price = 8.0;
 constexpr double tail_price = 6.0;
 /// Of noise that is correlated in time, actual / stated sigma.
 constexpr double largest_slow_noise = 1.5;
+/// The same where it is as slow as what is measured: its correlation time over the time of all observations.
+constexpr double longest_slow_noise = 0.4;
+constexpr double largest_drift = 1.2;
 /// Gain in 2 ln L, beside 2 ln of the number of series, that a course of its own must bring a series.
 constexpr double course_price = 8.0;
 /// Common shift, in standard deviations of the own noise, while nothing is known of the signal.
@@ -215,6 +218,22 @@ Eigen::VectorXd ownResidual(const ResidualProblem& problem, const ComponentData&
   return left.cwiseQuotient(data.sigma) * std::exp(-p.log_scale);
 }
 
+/// `values` of one series, each at most three standard deviations from the median of its neighbourhood: a reading far
+/// out is no course.
+Eigen::VectorXd withoutOutliers(const Eigen::VectorXd& values, const Eigen::VectorXd& sigma) {
+  constexpr Index reach = 2;
+  constexpr double most = 3.0;
+  Eigen::VectorXd out = values;
+  for (Index i = 0; i < values.size(); ++i) {
+    std::vector<double> near;
+    for (Index j = std::max<Index>(0, i - reach); j <= std::min(values.size() - 1, i + reach); ++j)
+      near.push_back(values[j]);
+    const double middle = median(near);
+    out[i] = std::clamp(values[i], middle - most * sigma[i], middle + most * sigma[i]);
+  }
+  return out;
+}
+
 /// Courses that series have for themselves, each of the size that makes it most probable. True if they changed.
 bool findOwnCourses(const ResidualProblem& problem, ComponentData& data, const Parameters& p) {
   if (data.series.size() < 2 || data.hats.cols() == 0) return false;
@@ -229,7 +248,8 @@ bool findOwnCourses(const ResidualProblem& problem, ComponentData& data, const P
     if (n < 6) continue;
     const Index hats = data.hats.cols();
     Eigen::MatrixXd columns(n, hats + 2);
-    columns << data.hats.middleRows(from, n), Eigen::VectorXd::Ones(n), left.segment(from, n);
+    columns << data.hats.middleRows(from, n), Eigen::VectorXd::Ones(n),
+        withoutOutliers(left.segment(from, n), std::exp(p.log_scale) * data.sigma.segment(from, n));
     double log_det = 0.0;
     whitenOwn(problem, data, k, p.part, p.time_s, columns, log_det);
     if (problem.free_constants) {
@@ -440,8 +460,12 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
         for (const double factor : {0.55, 1.8}) consider(then.part, factor * then.time_s, 2);
       }
     }
-    // Slow noise much larger than stated is no noise but something that nobody explains yet.
-    if (best_correlated < best - correlation_price && !(correlated.log_scale < std::log(largest_slow_noise))) {
+    // Slow noise much larger than stated, or as slow as what is measured, is no noise but something that nobody
+    // explains yet.
+    const bool slow =
+        correlated.time_s > longest_slow_noise * (problem.epoch_time_s.back() - problem.epoch_time_s.front());
+    const bool noise = correlated.log_scale < std::log(slow ? largest_drift : largest_slow_noise);
+    if (best_correlated < best - correlation_price && !noise) {
       // Its quick part is the noise, the slow one remains to be explained.
       const double kept = correlated.part * std::exp(-step / correlated.time_s);
       chosen.log_scale = std::min(chosen.log_scale, correlated.log_scale + 0.5 * std::log(std::max(1e-3, 1.0 - kept)));
@@ -460,10 +484,31 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
   e.uncertainty = std::exp(e.p.log_scale) / std::sqrt(2.0 * dof);
 }
 
+/// Scale of what changes from one reading of a series to the next: actual / stated sigma.
+double quickScale(const ResidualProblem& problem, const ComponentData& data, const Parameters& p) {
+  const Eigen::VectorXd left = withoutCommon(problem, data, productsOf(problem, data, p.part, p.time_s), p);
+  std::vector<double> all;
+  for (const auto& [from, to] : data.series) {
+    for (Index i = from + 1; i + 1 < to; ++i) {
+      const double spread = std::sqrt(std::pow(data.sigma[i], 2) + 0.25 * std::pow(data.sigma[i - 1], 2) +
+                                      0.25 * std::pow(data.sigma[i + 1], 2));
+      all.push_back(std::abs(left[i] - 0.5 * (left[i - 1] + left[i + 1])) / spread);
+    }
+  }
+  constexpr std::size_t enough = 20;
+  return all.size() < enough ? std::exp(p.log_scale) : 1.4826 * median(all);
+}
+
 /// The same with courses that single series have for themselves: what they follow is no noise of the others.
 void estimateWithCourses(const ResidualProblem& problem, ComponentEstimate& e, bool again, bool careful) {
   estimateAt(problem, e, again, careful);
   if (careful) return;
+  if (!again && !(e.p.part > 0.0)) {
+    // Many courses hide each other: begin with what is noise without doubt.
+    Parameters quick = e.p;
+    quick.log_scale = std::min(e.p.log_scale, std::log(std::max(1e-6, quickScale(problem, e.data, e.p))));
+    if (findOwnCourses(problem, e.data, quick)) estimateAt(problem, e, true, careful);
+  }
   constexpr int most_rounds = 4;
   for (int round = 0; round < most_rounds && findOwnCourses(problem, e.data, e.p); ++round) {
     estimateAt(problem, e, true, careful);
