@@ -372,9 +372,16 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior) const {
   std::array<bool, 6> all{};
   for (const Component c : problem_->component) all[static_cast<std::size_t>(c)] = true;
   const std::array<double, 6> with = noiseDeviance(*problem_, left, all);
-  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
-    std::vector<ModelTerm> others = fit.terms;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
+  const auto over = [&](const std::vector<std::size_t>& taken_out) {
+    std::vector<ModelTerm> others;
+    double own_parameters = 0.0;
+    for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+      if (std::find(taken_out.begin(), taken_out.end(), t) == taken_out.end()) {
+        others.push_back(fit.terms[t]);
+      } else {
+        own_parameters += static_cast<double>(fit.terms[t].parameters.size());
+      }
+    }
     const JointFit without = search_->solve(others);
     Eigen::VectorXd more = problem_->y;
     for (const Eigen::VectorXd& part : without.contribution) more -= part;
@@ -388,9 +395,31 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior) const {
     const std::array<double, 6> deviance = noiseDeviance(*problem_, more, changed);
     double gain = taken_more.price - taken.price;
     for (std::size_t c = 0; c < changed.size(); ++c) gain += changed[c] ? deviance[c] - with[c] : 0.0;
-    const double gains = static_cast<double>(fit.parameter_count - without.parameter_count) -
-                         static_cast<double>(fit.terms[t].parameters.size());
-    posterior.slots[t].over_unknown = gain - gains * search_->logN() - (priceOf(fit) - priceOf(without));
+    const double gains = static_cast<double>(fit.parameter_count - without.parameter_count) - own_parameters;
+    return gain - gains * search_->logN() - (priceOf(fit) - priceOf(without));
+  };
+  // The component in which each effect is largest: those that share it are weighed together as well.
+  std::vector<std::size_t> main(fit.terms.size(), 0);
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    std::array<double, 6> power{};
+    for (Index u = 0; u < problem_->size(); ++u) {
+      power[static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)])] +=
+          std::pow(fit.contribution[t][u] / problem_->ownSigma(u), 2);
+    }
+    main[t] = static_cast<std::size_t>(std::max_element(power.begin(), power.end()) - power.begin());
+  }
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    SlotEvidence& slot = posterior.slots[t];
+    slot.over_unknown = over({t});
+    slot.together_over_unknown = slot.over_unknown;
+    std::vector<std::size_t> together;
+    for (std::size_t k = 0; k < fit.terms.size(); ++k) {
+      if (main[k] == main[t]) together.push_back(k);
+    }
+    if (together.size() < 2) continue;
+    slot.together_over_unknown =
+        together.front() == t ? over(together) : posterior.slots[together.front()].together_over_unknown;
+    slot.together = together.size();
   }
 }
 

@@ -71,6 +71,9 @@ struct SlotEvidence {
   double probability = 0.0;     ///< of this effect among the alternatives
   /// 2 ln of the odds that there is an effect here, not noise and a smooth remainder made as large as needed.
   double over_unknown = 0.0;
+  /// The same of all effects together that act mainly on the same component as this one; and how many these are.
+  double together_over_unknown = 0.0;
+  std::size_t together = 1;
   std::vector<Alternative> others;  ///< most probable first
 };
 

@@ -25,6 +25,8 @@ constexpr double least_confidence = 0.6;
 constexpr double remainder_evidence = 10.0;
 /// An effect of the catalogue is more probable, before any data, than a cause that nobody thought of: odds 10 to 1.
 constexpr double unknown_price = 4.6;
+/// In 2 ln: every further effect in one component is so much less probable than one cause that nobody thought of.
+constexpr double further_price = 20.0;
 /// Rivals beside the effect; more is no answer.
 constexpr std::size_t most_rivals = 2;
 
@@ -224,7 +226,11 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       const double known = 1.0 / (1.0 + std::pow(ratios[t] / priors.imitation, 4));
       const double there =
           1.0 / (1.0 + std::exp(-0.5 * std::min(slot.delta_evidence, slot.over_unknown + unknown_price)));
-      claim[t] = known * there;
+      // One unknown cause in place of several effects that share a component: they must be far better than it.
+      const double instead =
+          slot.together_over_unknown + unknown_price - further_price * (static_cast<double>(slot.together) - 1.0);
+      const double jointly = slot.together > 1 ? 1.0 / (1.0 + std::exp(-0.5 * instead)) : 1.0;
+      claim[t] = known * there * jointly;
       if (posterior.forced[t] || claim[t] >= least_confidence) continue;
       if (weakest == fit.terms.size() || claim[t] < claim[weakest]) weakest = t;
     }
@@ -328,8 +334,26 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       out.names.erase(out.names.begin() + static_cast<std::ptrdiff_t>(*k));
     }
   }
-  ambiguous = std::any_of(out.names.begin(), out.names.end(), [](const NamedEffect& n) { return !n.rivals.empty(); });
   out.named = terms.size() == fit.terms.size() ? fit : search.solve(terms);
+  // What stands only beside those that were taken out has nothing to stand on.
+  while (terms.size() < fit.terms.size()) {
+    std::size_t worst = terms.size();
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      if (out.names[k].forced || search.admissible(terms[k], out.named.gains[k])) continue;
+      if (worst == terms.size() || out.names[k].confidence < out.names[worst].confidence) worst = k;
+    }
+    if (worst == terms.size()) break;
+    unnamed.push_back(out.names[worst].id);
+    for (DiscrepancyStep& step : out.steps) {
+      if (step.id != out.names[worst].id) continue;
+      step.accepted = false;
+      step.reason = "without the effects that cannot be named it breaks its sign or its bounds";
+    }
+    terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(worst));
+    out.names.erase(out.names.begin() + static_cast<std::ptrdiff_t>(worst));
+    out.named = search.solve(terms);
+  }
+  ambiguous = std::any_of(out.names.begin(), out.names.end(), [](const NamedEffect& n) { return !n.rivals.empty(); });
   const std::string left = describedRemainder(problem, fit, remainder);
   if (!unnamed.empty()) {
     out.leftover = fmt::format("what {} would explain, but cannot be named{}", joinedList(unnamed),
