@@ -82,16 +82,19 @@ double PosteriorSearch::imitationPrice(const JointFit& fit) const {
   Eigen::MatrixXd parts(problem_->size(), static_cast<Index>(fit.terms.size()));
   for (std::size_t t = 0; t < fit.terms.size(); ++t) parts.col(static_cast<Index>(t)) = fit.contribution[t];
   const Eigen::MatrixXd white = problem_->projected(parts);
+  const Eigen::MatrixXd whole = problem_->whitened(parts);
   double price = 0.0;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     std::array<double, 6> own{};
     std::array<double, 6> others{};
+    std::array<double, 6> before{};
     double total = 0.0;
     for (Index u = 0; u < problem_->size(); ++u) {
       const auto c = static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)]);
       const double z = white(u, static_cast<Index>(t));
       const double rest = white.row(u).sum() - z;
       own[c] += z * z;
+      before[c] += std::pow(whole(u, static_cast<Index>(t)), 2);
       others[c] += rest * rest;
       total += z * z;
     }
@@ -102,7 +105,10 @@ double PosteriorSearch::imitationPrice(const JointFit& fit) const {
       if (own[c] < 0.05 * total) continue;
       // As far as it acts there: a slip of one point imitates nothing of the others.
       const double share = std::min(1.0, own[c] / std::max(1e-9, others[c]));
-      price += share * part * part * others[c] + std::min(most_simulation_price, simulation_power_[c]);
+      price += share * part * part * others[c];
+      // What the nuisances of the simulation can follow has paid for its error already.
+      const double beyond = std::min(1.0, own[c] / std::max(1e-9, before[c]));
+      price += beyond * std::min(most_simulation_price, simulation_power_[c]);
     }
     const double wider = fit.terms[t].effect->refinement ? priors_.refinement_error : priors_.wider_error;
     if (!fit.terms[t].effect->contains.empty()) price += wider * wider * total;
