@@ -118,6 +118,46 @@ void estimateClock(const DiscrepancyInput& input, const ResidualProblem& problem
   a.drivers->shiftClock(a.clock_offset_s - before);
 }
 
+/// An offset of the clocks far beyond what is estimated, at which the effects named would fit much better: a sentence,
+/// or none.
+std::string farClock(const ResidualProblem& problem, const Analysis& a, const JointFit& named) {
+  const bool driven = std::any_of(named.terms.begin(), named.terms.end(),
+                                  [](const ModelTerm& term) { return !term.variant.inputs[0].driver.empty(); });
+  if (!driven) return {};
+  constexpr double step_s = 1200.0;
+  constexpr int most_steps = 12;
+  const auto valueAt = [&](double offset_s) {
+    DriverTable shifted = *a.drivers;
+    shifted.shiftClock(offset_s);
+    EffectSearch search(const_cast<ResidualProblem&>(problem), shifted, a.catalogue);
+    for (const ModelTerm& term : named.terms) search.prepare(*term.effect);
+    return search.refine(named.terms, 2).chi2;
+  };
+  const double now = valueAt(0.0);
+  double best = now;
+  int best_step = 0;
+  for (int k = -most_steps; k <= most_steps; ++k) {
+    if (k == 0) continue;
+    const double value = valueAt(k * step_s);
+    if (value < best) {
+      best = value;
+      best_step = k;
+    }
+  }
+  // In 2 ln of the likelihood, the best of so many offsets.
+  constexpr double beyond_doubt = 20.0;
+  if (now - best < beyond_doubt) return {};
+  return fmt::format(
+      "{} would fit far better if the clock of the log were {:.0f} min {} that of the observations: compare the "
+      "clocks.",
+      joinedList([&] {
+        std::vector<std::string> ids;
+        for (const ModelTerm& term : named.terms) ids.push_back(term.effect->id);
+        return ids;
+      }()),
+      std::abs(best_step) * step_s / 60.0, best_step > 0 ? "ahead of" : "behind");
+}
+
 /// While nothing is known of it.
 constexpr double usual_simulation_error = 0.015;
 
@@ -395,6 +435,30 @@ void tellUndecided(const Solution& solution, DiscrepancyResult& result) {
   if (result.leftover.empty()) result.leftover = "too few observations to decide";
 }
 
+/// Components of which so many readings lie far from the others that no weighting helps. The scatter of the others is
+/// taken from the smallest quarter of what is left, which even half a component of outliers does not reach.
+void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& left,
+                       std::vector<std::string>& warnings) {
+  constexpr double far = 5.0;
+  constexpr double too_many = 0.25;
+  for (const Component c : all_components) {
+    std::vector<double> sizes;
+    for (Index u = 0; u < problem.size(); ++u) {
+      if (problem.component[static_cast<std::size_t>(u)] == c) sizes.push_back(std::abs(left[u]) / problem.sigma[u]);
+    }
+    if (sizes.size() < 20) continue;
+    std::sort(sizes.begin(), sizes.end());
+    const double limit = far * sizes[sizes.size() / 4] / 0.6745;
+    const auto outside = sizes.end() - std::upper_bound(sizes.begin(), sizes.end(), limit);
+    const double part = static_cast<double>(outside) / static_cast<double>(sizes.size());
+    if (part < too_many) continue;
+    warnings.push_back(
+        fmt::format("{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the rest: too many to be "
+                    "weighted away; look at how they were taken before you rely on a name.",
+                    100.0 * part, toString(c), far));
+  }
+}
+
 /// Noise, shifts of states and outliers as they were found.
 void tellNoise(const Solution& solution, DiscrepancyResult& result) {
   const ResidualProblem& problem = solution.problem;
@@ -465,6 +529,7 @@ void tellNoise(const Solution& solution, DiscrepancyResult& result) {
       }
     }
   }
+  warnAboutOutliers(problem, left, result.warnings);
   constexpr double far = 5.0;
   for (Index u = 0; u < problem.size(); ++u) {
     const double z = left[u] / problem.ownSigma(u);
@@ -540,6 +605,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   job.report(0.0, "preparing");
   const auto drivers = std::make_shared<DriverTable>(input.machine, input.log ? &*input.log : nullptr);
   warnAboutLog(input, *drivers, result.warnings);
+  warnAboutData(input, rows.fit, result.warnings);
   ResidualProblem problem(input, rows.fit, unit_limit);
   std::vector<Effect> catalogue = effectCatalogue(catalogueContext(input, *drivers, problem));
   warnAboutUndecidable(input, catalogue, result.warnings);
@@ -571,6 +637,8 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.steps = solution.judged.steps;
   result.explained_fraction = solution.judged.explained_fraction;
   for (const std::string& warning : solution.judged.warnings) result.warnings.push_back(warning);
+  if (const std::string far = farClock(problem, analysis, solution.judged.named); !far.empty())
+    result.warnings.push_back(far);
   for (const auto& [id, probability] : analysis.posterior.candidates) {
     if (result.candidates.size() < 10) result.candidates.push_back({id, probability});
   }
