@@ -234,6 +234,20 @@ struct Solution {
   std::vector<ModelEffect> averaged;  ///< the same, over all dynamics that the data allow: what predicts
 };
 
+/// rms of the held-out displacements under a fit, um; NaN where there are too few to judge by.
+double heldOutRms(const DiscrepancyInput& input, const ComparableRows& rows, const ResidualProblem& problem,
+                  const Analysis& analysis, const JointFit& fit) {
+  constexpr std::size_t enough = 20;
+  if (rows.held_out.size() < enough) return std::nan("");
+  std::vector<double> part(input.predicted.size(), 0.0);
+  for (const ModelEffect& effect : modelEffects(*analysis.search, problem, fit, {}, 1.0)) {
+    const std::vector<double> one = EffectModel::contribution(*analysis.drivers, effect, input.observations.rows);
+    for (std::size_t r = 0; r < part.size(); ++r) part[r] += one[r];
+  }
+  const RowResult result = evaluateRows(input, rows.fit, rows.held_out, part);
+  return result.holdout_rows < enough ? std::nan("") : result.holdout_rms;
+}
+
 /// Gains with their covariance, and the model that predicts.
 void fitModel(Solution& solution) {
   const EffectSearch& search = *solution.analysis.search;
@@ -629,7 +643,8 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
                     rows,
                     problem,
                     analysis,
-                    judge(problem, *analysis.search, analysis.posterior, analysis.remainder, priors, effective),
+                    judge(problem, *analysis.search, analysis.posterior, analysis.remainder, priors, effective,
+                          [&](const JointFit& fit) { return heldOutRms(input, rows, problem, analysis, fit); }),
                     {},
                     {}};
   result.verdict = solution.judged.verdict;

@@ -27,6 +27,10 @@ constexpr double remainder_evidence = 10.0;
 constexpr double unknown_price = 4.6;
 /// In 2 ln: every further effect in one component is so much less probable than one cause that nobody thought of.
 constexpr double further_price = 20.0;
+/// rms of what is held out with an effect over that without it, from which on it is taken back.
+constexpr double worse_held_out = 1.05;
+/// In evidence: what is there without doubt is told, even where its course cannot be foretold.
+constexpr double beyond_held_out = 200.0;
 /// Rivals beside the effect; more is no answer.
 constexpr std::size_t most_rivals = 2;
 
@@ -207,7 +211,8 @@ std::string describedRemainder(const ResidualProblem& problem, const JointFit& f
 }  // namespace
 
 Judgement judge(const ResidualProblem& problem, const EffectSearch& search, const EffectPosterior& posterior,
-                const Remainder& remainder, const DiscrepancyPriors& priors, const DiscrepancyOptions& options) {
+                const Remainder& remainder, const DiscrepancyPriors& priors, const DiscrepancyOptions& options,
+                const HeldOutRms& held_out) {
   Judgement out;
   const JointFit& fit = posterior.fit;
   std::vector<ModelTerm> terms;
@@ -335,6 +340,17 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     }
   }
   out.named = terms.size() == fit.terms.size() ? fit : search.solve(terms);
+  const auto takeBack = [&](std::size_t k, const std::string& why) {
+    unnamed.push_back(out.names[k].id);
+    for (DiscrepancyStep& step : out.steps) {
+      if (step.id != out.names[k].id) continue;
+      step.accepted = false;
+      step.reason = why;
+    }
+    terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(k));
+    out.names.erase(out.names.begin() + static_cast<std::ptrdiff_t>(k));
+    out.named = search.solve(terms);
+  };
   // What stands only beside those that were taken out has nothing to stand on.
   while (terms.size() < fit.terms.size()) {
     std::size_t worst = terms.size();
@@ -343,15 +359,25 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       if (worst == terms.size() || out.names[k].confidence < out.names[worst].confidence) worst = k;
     }
     if (worst == terms.size()) break;
-    unnamed.push_back(out.names[worst].id);
-    for (DiscrepancyStep& step : out.steps) {
-      if (step.id != out.names[worst].id) continue;
-      step.accepted = false;
-      step.reason = "without the effects that cannot be named it breaks its sign or its bounds";
+    takeBack(worst, "without the effects that cannot be named it breaks its sign or its bounds");
+  }
+  // What predicts the held-out states worse than the others do without it.
+  while (!terms.empty()) {
+    const double with = held_out(out.named);
+    std::size_t worst = terms.size();
+    double least = with / worse_held_out;
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      if (out.names[k].forced || out.names[k].delta_evidence > beyond_held_out) continue;
+      std::vector<ModelTerm> others = terms;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+      const double without = held_out(search.solve(others));
+      if (!(without < least)) continue;
+      least = without;
+      worst = k;
     }
-    terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(worst));
-    out.names.erase(out.names.begin() + static_cast<std::ptrdiff_t>(worst));
-    out.named = search.solve(terms);
+    if (worst == terms.size()) break;
+    takeBack(worst, fmt::format("with it the held-out states are predicted worse ({:.2f} um rms, without it {:.2f})",
+                                with, least));
   }
   ambiguous = std::any_of(out.names.begin(), out.names.end(), [](const NamedEffect& n) { return !n.rivals.empty(); });
   const std::string left = describedRemainder(problem, fit, remainder);

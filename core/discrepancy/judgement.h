@@ -9,6 +9,7 @@
 //     in which it acts: with r = rms of the remainder / rms of the effect, 1 / (1 + (r / imitation)^4).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,8 +41,13 @@ struct Judgement {
   double explained_fraction = 0.0;
 };
 
+/// rms of the readings that were held out under a fit, um; NaN where there are too few.
+using HeldOutRms = std::function<double(const JointFit&)>;
+
+/// A name that makes the prediction of what was held out worse is taken back: `held_out` may only refuse.
 [[nodiscard]] Judgement judge(const ResidualProblem& problem, const EffectSearch& search,
                               const EffectPosterior& posterior, const Remainder& remainder,
-                              const DiscrepancyPriors& priors, const DiscrepancyOptions& options);
+                              const DiscrepancyPriors& priors, const DiscrepancyOptions& options,
+                              const HeldOutRms& held_out);
 
 }  // namespace spindrift
