@@ -534,12 +534,15 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   SPINDRIFT_ASSERT(input.predicted.size() == input.observations.rows.size(), "one prediction for every observation");
   DiscrepancyResult result;
   const ComparableRows rows = comparableRows(input, result.warnings);
+  result.warnings.insert(result.warnings.end(), input.notes.begin(), input.notes.end());
   result.unmatched = rows.unmatched;
   checkUnits(input, rows.fit);
 
   job.report(0.0, "preparing");
   const auto drivers = std::make_shared<DriverTable>(input.machine, input.log ? &*input.log : nullptr);
   warnAboutLog(input, *drivers, result.warnings);
+  result.sensors = drivers->sensors();
+  warnAboutSensors(result.sensors, result.warnings);
   ResidualProblem problem(input, rows.fit, unit_limit);
   std::vector<Effect> catalogue = effectCatalogue(catalogueContext(input, *drivers, problem));
   warnAboutUndecidable(input, catalogue, result.warnings);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/machine/simulation_row.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "core/base/csv.h"
+
+namespace spindrift {
+
+std::string simulationCsv(const std::vector<SimulationRow>& rows, bool by_place) {
+  std::string text = by_place ? "time_s,x_mm,y_mm,z_mm,component,predicted\n" : "time_s,point,component,predicted\n";
+  auto out = std::back_inserter(text);
+  for (const SimulationRow& row : rows) {
+    if (by_place) {
+      fmt::format_to(out, "{},{},{},{},{},{:.6g}\n", row.time_s, row.position_mm.x(), row.position_mm.y(),
+                     row.position_mm.z(), toString(row.component), row.predicted);
+    } else {
+      fmt::format_to(out, "{},{},{},{:.6g}\n", row.time_s, csvField(row.point), toString(row.component), row.predicted);
+    }
+  }
+  return text;
+}
+
+}  // namespace spindrift
