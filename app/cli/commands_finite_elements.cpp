@@ -48,7 +48,8 @@ void takeNodes(const ImportArguments& arguments, FeMap& map) {
   map.each_table_node.reset();
   if (arguments.each_table_node) {
     if (arguments.tools.size() != 1 || arguments.tables.size() != 1) {
-      throw InputError("several tools or tables are named; allowed with --each-table-node: one --tool and one --table.");
+      throw InputError(
+          "several tools or tables are named; allowed with --each-table-node: one --tool and one --table.");
     }
     map.each_table_node = FePoint{"", FeNodes::parse(pointAndNodes(arguments.tools[0]).second),
                                   FeNodes::parse(pointAndNodes(arguments.tables[0]).second)};
@@ -111,7 +112,8 @@ FeMap mapOf(const ImportArguments& arguments) {
     }
   }
   if (!arguments.tools.empty() || !arguments.tables.empty()) {
-    if (!arguments.observe.empty()) throw InputError("--observe and --tool or --table are given; allowed: one of them.");
+    if (!arguments.observe.empty())
+      throw InputError("--observe and --tool or --table are given; allowed: one of them.");
     map.observe.clear();
   }
   takeNodes(arguments, map);
@@ -159,15 +161,17 @@ void addFiniteElementCommands(CLI::App& app, CommandLine& line, const ReaderOfMa
                       "CalculiX .frd (ASCII) or .dat, VTK .vtu or .pvd (read by spindrift-fe, which stands beside this "
                       "program); may stand in the map");
   command->add_option("--out", arguments->out, "simulation.csv to write")->required()->type_name("FILE");
-  command->add_option("--map", arguments->map, "fe.json: unit, nodes of tool and table, times, frame; options go before")
+  command
+      ->add_option("--map", arguments->map, "fe.json: unit, nodes of tool and table, times, frame; options go before")
       ->type_name("FILE");
   command->add_option("--unit", arguments->unit, "Unit of the displacements, mm or m")->type_name("UNIT");
   command->add_option("--unit-of-length", arguments->length_unit, "Unit of coordinates, if it is another one")
       ->type_name("UNIT");
   command->add_option("--mesh", arguments->mesh, "Mesh with node sets (.inp of CalculiX or Abaqus)")->type_name("FILE");
   command
-      ->add_option("--tool", arguments->tools,
-                   "Nodes of the tool at a point, P1=NODES (repeatable); NODES: a set, nodes:1,2,3 or near:x,y,z[,count]")
+      ->add_option(
+          "--tool", arguments->tools,
+          "Nodes of the tool at a point, P1=NODES (repeatable); NODES: a set, nodes:1,2,3 or near:x,y,z[,count]")
       ->type_name("[POINT=]NODES");
   command->add_option("--table", arguments->tables, "Nodes of the table, for all points or P1=NODES (repeatable)")
       ->type_name("[POINT=]NODES");

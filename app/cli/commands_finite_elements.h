@@ -13,8 +13,7 @@
 namespace spindrift::cli {
 
 /// Opens a result; the map says which array of a VTK file holds displacements.
-using ReaderOfMap =
-    std::function<std::unique_ptr<FeResultReader>(const std::filesystem::path& file, const FeMap& map)>;
+using ReaderOfMap = std::function<std::unique_ptr<FeResultReader>(const std::filesystem::path& file, const FeMap& map)>;
 
 void addFiniteElementCommands(CLI::App& app, CommandLine& line, const ReaderOfMap& open);
 

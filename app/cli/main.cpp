@@ -51,11 +51,12 @@ int main(int argc, char** argv) {
   spindrift::cli::addSimulationCommands(app, line);
   spindrift::cli::addCompensationCommands(app, line);
   spindrift::cli::addDiscrepancyCommands(app, line);
-  spindrift::cli::addFiniteElementCommands(
-      app, line, [argv](const std::filesystem::path& file, const spindrift::FeMap&) {
-        if (file.extension() == ".vtu" || file.extension() == ".pvd") goOnInFe(argv);
-        return spindrift::openFeResult(file);
-      });
+  spindrift::cli::addFiniteElementCommands(app, line,
+                                           [argv](const std::filesystem::path& file, const spindrift::FeMap&) {
+                                             if (file.extension() == ".vtu" || file.extension() == ".pvd")
+                                               goOnInFe(argv);
+                                             return spindrift::openFeResult(file);
+                                           });
   spindrift::cli::addReportingCommands(app, line);
   try {
     app.parse(argc, argv);

@@ -8,18 +8,19 @@
 
 int main(int argc, char** argv) {
   std::setlocale(LC_ALL, "C");
-  CLI::App app("Spindrift reads results of finite elements: CalculiX .frd and .dat, VTK .vtu and .pvd.", "spindrift-fe");
+  CLI::App app("Spindrift reads results of finite elements: CalculiX .frd and .dat, VTK .vtu and .pvd.",
+               "spindrift-fe");
   app.set_version_flag("--version", SPINDRIFT_VERSION);
   app.require_subcommand(1);
   app.get_formatter()->column_width(36);
   spindrift::cli::CommandLine line;
-  spindrift::cli::addFiniteElementCommands(
-      app, line, [](const std::filesystem::path& file, const spindrift::FeMap& map) {
-        if (file.extension() == ".vtu" || file.extension() == ".pvd") {
-          return spindrift::openVtkResult(file, map.displacement_array);
-        }
-        return spindrift::openFeResult(file);
-      });
+  spindrift::cli::addFiniteElementCommands(app, line,
+                                           [](const std::filesystem::path& file, const spindrift::FeMap& map) {
+                                             if (file.extension() == ".vtu" || file.extension() == ".pvd") {
+                                               return spindrift::openVtkResult(file, map.displacement_array);
+                                             }
+                                             return spindrift::openFeResult(file);
+                                           });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -99,7 +99,8 @@ class VtkReader : public FeResultReader {
     }
     for (int a = 0; a < data->GetNumberOfArrays(); ++a) {
       vtkDataArray* array = data->GetArray(a);
-      if (array == nullptr || array == ids || array->GetName() == nullptr || array->GetNumberOfComponents() != 1) continue;
+      if (array == nullptr || array == ids || array->GetName() == nullptr || array->GetNumberOfComponents() != 1)
+        continue;
       if (array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE) continue;
       const double* range = array->GetRange();
       if (range[0] < 0.0 || range[1] != 1.0) continue;
@@ -142,7 +143,8 @@ class VtkReader : public FeResultReader {
 
   [[nodiscard]] vtkDataArray* displacements(const std::filesystem::path& file, vtkPointData* data) const {
     std::vector<std::string> names{array_};
-    if (array_.empty()) names = {"U", "u", "DISP", "Displacement", "displacement", "DISPLACEMENT", "displacements", "disp"};
+    if (array_.empty())
+      names = {"U", "u", "DISP", "Displacement", "displacement", "DISPLACEMENT", "displacements", "disp"};
     for (const std::string& name : names) {
       vtkDataArray* found = data->GetArray(name.c_str());
       if (found == nullptr) continue;
@@ -152,24 +154,25 @@ class VtkReader : public FeResultReader {
       }
       return found;
     }
-    throw InputError({file, ""},
-                     fmt::format("has no point array {}; allowed: \"displacement\" (--displacement) with the name of one of "
-                                 "its arrays: {}.",
-                                 array_.empty() ? "of displacements (U, DISP, displacement)" : "\"" + array_ + "\"",
-                                 joinedNames(data)));
+    throw InputError(
+        {file, ""},
+        fmt::format("has no point array {}; allowed: \"displacement\" (--displacement) with the name of one of "
+                    "its arrays: {}.",
+                    array_.empty() ? "of displacements (U, DISP, displacement)" : "\"" + array_ + "\"",
+                    joinedNames(data)));
   }
 
   void readSeries() {
     // A .pvd is XML: <VTKFile><Collection><DataSet timestep="900" file="a.vtu"/>...
-    if (!std::filesystem::is_regular_file(file_)) throw InputError({file_, ""}, "cannot be read; allowed: a .pvd of VTK.");
+    if (!std::filesystem::is_regular_file(file_))
+      throw InputError({file_, ""}, "cannot be read; allowed: a .pvd of VTK.");
     vtkNew<vtkXMLDataParser> parser;
     vtkNew<ErrorCatcher> errors;
     parser->AddObserver(vtkCommand::ErrorEvent, errors);
     parser->AddObserver(vtkCommand::WarningEvent, errors);
     parser->SetFileName(file_.c_str());
     const bool read = parser->Parse() != 0 && !errors->seen && parser->GetRootElement() != nullptr;
-    vtkXMLDataElement* collection =
-        read ? parser->GetRootElement()->FindNestedElementWithName("Collection") : nullptr;
+    vtkXMLDataElement* collection = read ? parser->GetRootElement()->FindNestedElementWithName("Collection") : nullptr;
     if (collection == nullptr) {
       throw InputError({file_, ""}, "is no collection of VTK files; allowed: a .pvd with <Collection> and <DataSet>.");
     }
@@ -200,7 +203,8 @@ class VtkReader : public FeResultReader {
 
 }  // namespace
 
-std::unique_ptr<FeResultReader> openVtkResult(const std::filesystem::path& file, const std::string& displacement_array) {
+std::unique_ptr<FeResultReader> openVtkResult(const std::filesystem::path& file,
+                                              const std::string& displacement_array) {
   return std::make_unique<VtkReader>(file, displacement_array);
 }
 

@@ -34,9 +34,9 @@ DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet obser
     }
   }
   if (name.empty()) {
-    throw InputError(
-        {campaign.path("campaign.json"), ""},
-        "names no simulation to compare with; allowed: \"simulation\": \"simulation.csv\", \"model.json\" or \"fe.json\".");
+    throw InputError({campaign.path("campaign.json"), ""},
+                     "names no simulation to compare with; allowed: \"simulation\": \"simulation.csv\", \"model.json\" "
+                     "or \"fe.json\".");
   }
   const std::filesystem::path file = campaign.path(name);
   if (file.extension() == ".json") {
@@ -55,8 +55,9 @@ DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet obser
   }
   if (file.extension() != ".csv") {
     throw InputError({campaign.path("campaign.json"), "$.simulation"},
-                     "\"" + name + "\" is no simulation by its ending; allowed: .csv, a model (.json), or a map of "
-                                   "finite-element results (.json).");
+                     "\"" + name +
+                         "\" is no simulation by its ending; allowed: .csv, a model (.json), or a map of "
+                         "finite-element results (.json).");
   }
   match(SimulationTable::read(file), campaign, name, input);
   return input;

@@ -198,7 +198,8 @@ std::vector<std::string> DriverTable::spindleHeat() const {
   for (const char* name : {"spindle_rpm^1", "spindle_rpm^1.5", "spindle_rpm^2"}) {
     if (has(name)) names.emplace_back(name);
   }
-  for (const std::string& name : temperatures({SensorRole::SpindleBearing, SensorRole::SpindleHousing})) names.push_back(name);
+  for (const std::string& name : temperatures({SensorRole::SpindleBearing, SensorRole::SpindleHousing}))
+    names.push_back(name);
   return names;
 }
 

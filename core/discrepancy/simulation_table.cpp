@@ -272,8 +272,8 @@ SimulationMatch matchSimulation(const SimulationTable& table, const ObservationS
       if (!known.contains(point)) strange.insert(point);
     }
     if (!strange.empty()) {
-      match.notes.push_back(fmt::format("{} predicts {} {}, which neither machine.json nor the observations know.", name,
-                                        strange.size() == 1 ? "point" : "points", someOf(strange)));
+      match.notes.push_back(fmt::format("{} predicts {} {}, which neither machine.json nor the observations know.",
+                                        name, strange.size() == 1 ? "point" : "points", someOf(strange)));
     }
   }
   return match;

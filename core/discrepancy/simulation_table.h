@@ -6,8 +6,8 @@
 // is allowed, for times that were written with few digits).
 //
 // In place (scattered_interpolation.h): exact at the simulated places, exact for every field that is linear in x, y, z,
-// smooth between them; outside their convex hull continued linearly from its nearest point, which is told. A place whose
-// rows do not reach the time asked for is not used at that time.
+// smooth between them; outside their convex hull continued linearly from its nearest point, which is told. A place
+// whose rows do not reach the time asked for is not used at that time.
 #pragma once
 
 #include <Eigen/Core>

@@ -104,10 +104,11 @@ class Import {
   [[nodiscard]] Eigen::Vector3d placeOf(NodeId id) const {
     const auto found = mesh_.nodes.find(id);
     if (found == mesh_.nodes.end()) {
-      throw InputError(mapPlace(),
-                       fmt::format("the place of node {} is not known from {}; add the mesh that it comes from (\"mesh\" "
-                                   "or --mesh).",
-                                   id, fileName(map_.result)));
+      throw InputError(
+          mapPlace(),
+          fmt::format("the place of node {} is not known from {}; add the mesh that it comes from (\"mesh\" "
+                      "or --mesh).",
+                      id, fileName(map_.result)));
     }
     return map_.mcf_from_mesh * (found->second * length_to_mm_);
   }
@@ -119,11 +120,12 @@ class Import {
     for (const auto& [id, place] : mesh_.nodes) {
       const auto other = given.nodes.find(id);
       if (other == given.nodes.end() || (other->second - place).norm() <= 1e-4 * size) continue;
-      throw InputError({map_.mesh, ""},
-                       fmt::format("has node {} at ({:.6g}, {:.6g}, {:.6g}), {} at ({:.6g}, {:.6g}, {:.6g}); allowed: the "
-                                   "mesh of this result, in the same unit.",
-                                   id, other->second.x(), other->second.y(), other->second.z(), fileName(map_.result),
-                                   place.x(), place.y(), place.z()));
+      throw InputError(
+          {map_.mesh, ""},
+          fmt::format("has node {} at ({:.6g}, {:.6g}, {:.6g}), {} at ({:.6g}, {:.6g}, {:.6g}); allowed: the "
+                      "mesh of this result, in the same unit.",
+                      id, other->second.x(), other->second.y(), other->second.z(), fileName(map_.result), place.x(),
+                      place.y(), place.z()));
     }
   }
 
@@ -133,13 +135,13 @@ class Import {
       if (found == mesh_.sets.end()) {
         std::vector<std::string> names;
         for (const auto& [name, list] : mesh_.sets) names.push_back(name);
-        throw InputError(mapPlace(),
-                         names.empty()
-                             ? fmt::format("there is no set of nodes \"{}\", nor any other, in {}; add the mesh with its "
-                                           "sets (\"mesh\" or --mesh), or list nodes.",
-                                           which.set, fileName(map_.result))
-                             : fmt::format("there is no set of nodes \"{}\"; allowed: {}.", which.set,
-                                           joinedList(names, "or")));
+        throw InputError(
+            mapPlace(),
+            names.empty()
+                ? fmt::format("there is no set of nodes \"{}\", nor any other, in {}; add the mesh with its "
+                              "sets (\"mesh\" or --mesh), or list nodes.",
+                              which.set, fileName(map_.result))
+                : fmt::format("there is no set of nodes \"{}\"; allowed: {}.", which.set, joinedList(names, "or")));
       }
       if (found->second.empty()) {
         throw InputError(mapPlace(), fmt::format("the set \"{}\" holds no node; allowed: at least one.", which.set));
@@ -168,14 +170,15 @@ class Import {
     std::vector<std::pair<double, NodeId>> order;
     order.reserve(mesh_.nodes.size());
     for (const auto& [id, place] : mesh_.nodes) order.emplace_back((placeOf(id) - place_mm).norm(), id);
-    const auto wanted = static_cast<std::ptrdiff_t>(std::min<std::size_t>(order.size(), static_cast<std::size_t>(count)));
+    const auto wanted =
+        static_cast<std::ptrdiff_t>(std::min<std::size_t>(order.size(), static_cast<std::size_t>(count)));
     std::partial_sort(order.begin(), order.begin() + wanted, order.end());
     std::vector<NodeId> out;
     for (std::ptrdiff_t i = 0; i < wanted; ++i) out.push_back(order[static_cast<std::size_t>(i)].second);
     const double distance = order.front().first;
     if (distance > 0.02 * extent_mm()) {
-      notes_.push_back(fmt::format("The node nearest to ({:.6g}, {:.6g}, {:.6g}) mm is {}, {:.3g} mm away.", place_mm.x(),
-                                   place_mm.y(), place_mm.z(), order.front().second, distance));
+      notes_.push_back(fmt::format("The node nearest to ({:.6g}, {:.6g}, {:.6g}) mm is {}, {:.3g} mm away.",
+                                   place_mm.x(), place_mm.y(), place_mm.z(), order.front().second, distance));
     }
     return out;
   }
@@ -195,12 +198,12 @@ class Import {
     Body body;
     body.nodes = nodesOf(which);
     needs_rotation = needs_rotation || which.at_mm.has_value();
-    const bool placed = std::all_of(body.nodes.begin(), body.nodes.end(),
-                                    [&](NodeId id) { return mesh_.nodes.contains(id); });
+    const bool placed =
+        std::all_of(body.nodes.begin(), body.nodes.end(), [&](NodeId id) { return mesh_.nodes.contains(id); });
     if (!placed) {
-      if (needs_rotation) (void)placeOf(*std::find_if(body.nodes.begin(), body.nodes.end(), [&](NodeId id) {
-                            return !mesh_.nodes.contains(id);
-                          }));
+      if (needs_rotation)
+        (void)placeOf(
+            *std::find_if(body.nodes.begin(), body.nodes.end(), [&](NodeId id) { return !mesh_.nodes.contains(id); }));
       return body;
     }
     for (const NodeId id : body.nodes) body.mean_mm += placeOf(id) / static_cast<double>(body.nodes.size());
@@ -216,17 +219,18 @@ class Import {
     if (needs_rotation && !body.turns) {
       throw InputError(
           mapPlace(),
-          fmt::format("the {} nodes of {} lie on one line, so that their rotation is not known; allowed: at least three "
-                      "that do not.",
-                      body.nodes.size(), what));
+          fmt::format(
+              "the {} nodes of {} lie on one line, so that their rotation is not known; allowed: at least three "
+              "that do not.",
+              body.nodes.size(), what));
     }
     if (which.at_mm) body.lever_mm = *which.at_mm - body.mean_mm;
     return body;
   }
 
   void readPoints(std::set<NodeId>& wanted) {
-    const bool rotations = std::any_of(map_.components.begin(), map_.components.end(),
-                                       [](Component c) { return isRotation(c); });
+    const bool rotations =
+        std::any_of(map_.components.begin(), map_.components.end(), [](Component c) { return isRotation(c); });
     if (map_.each_table_node) {
       tools_.push_back(bodyOf(map_.each_table_node->tool, "the tool", false));
       std::size_t doubled = 0;
@@ -272,9 +276,9 @@ class Import {
     for (std::size_t i = 0; i < table.rowCount(); ++i) {
       const auto parsed = componentFromString(table.text(i, component));
       if (!parsed) {
-        throw InputError(table.place(i, component),
-                         fmt::format("component \"{}\" is not known; allowed: EX, EY, EZ, EA, EB or EC.",
-                                     table.text(i, component)));
+        throw InputError(
+            table.place(i, component),
+            fmt::format("component \"{}\" is not known; allowed: EX, EY, EZ, EA, EB or EC.", table.text(i, component)));
       }
       const double direction = table.number(i, dof);
       if (direction != 1.0 && direction != 2.0 && direction != 3.0) {
@@ -282,8 +286,8 @@ class Import {
       }
       const double id = table.number(i, node);
       if (!mesh_.nodes.empty() && !mesh_.nodes.contains(static_cast<NodeId>(id))) {
-        throw InputError(table.place(i, node), fmt::format("there is no node {} in {}; allowed: the {} nodes it has.", id,
-                                                           fileName(map_.result), mesh_.nodes.size()));
+        throw InputError(table.place(i, node), fmt::format("there is no node {} in {}; allowed: the {} nodes it has.",
+                                                           id, fileName(map_.result), mesh_.nodes.size()));
       }
       weights_[{table.requiredText(i, point), *parsed}].push_back(
           {static_cast<NodeId>(id), static_cast<int>(direction) - 1, table.number(i, weight)});
@@ -314,10 +318,10 @@ class Import {
       times.push_back(t);
     }
     if (steps) {
-      notes.push_back(
-          fmt::format("The times of the {} states are 1, 2, ... {}: these look like numbers of steps, and are taken for "
-                      "seconds; \"first_state_s\" and \"state_interval_s\" (--first, --interval) give the true ones.",
-                      states.size(), states.size()));
+      notes.push_back(fmt::format(
+          "The times of the {} states are 1, 2, ... {}: these look like numbers of steps, and are taken for "
+          "seconds; \"first_state_s\" and \"state_interval_s\" (--first, --interval) give the true ones.",
+          states.size(), states.size()));
     }
     if (map_.first_state_s && !(*map_.first_state_s < times.front())) {
       throw InputError(mapPlace(), fmt::format("first_state_s {} is not before the first state of {} at {} s; allowed: "
@@ -334,16 +338,16 @@ class Import {
         if (found == states[k].displacement.end()) {
           std::vector<std::string> names;
           for (const auto& [name, list] : mesh_.sets) names.push_back(name);
-          throw InputError({map_.result, ""},
-                           fmt::format("has no displacement of node {} in state {} (time {}); allowed: results of all nodes "
-                                       "that are used{}.",
-                                       id, k + 1, states[k].time,
-                                       names.empty() ? "" : "; the sets known are " + joinedList(names)));
+          throw InputError(
+              {map_.result, ""},
+              fmt::format("has no displacement of node {} in state {} (time {}); allowed: results of all nodes "
+                          "that are used{}.",
+                          id, k + 1, states[k].time, names.empty() ? "" : "; the sets known are " + joinedList(names)));
         }
         if (!found->second.allFinite()) {
-          throw InputError({map_.result, ""},
-                           fmt::format("the displacement of node {} in state {} is no finite number; allowed: numbers.",
-                                       id, k + 1));
+          throw InputError(
+              {map_.result, ""},
+              fmt::format("the displacement of node {} in state {} is no finite number; allowed: numbers.", id, k + 1));
         }
       }
     }
@@ -401,20 +405,24 @@ class Import {
     const double extent = extent_mm();
     const std::string length_unit = map_.unit_of_length.empty() ? map_.unit_of_displacement : map_.unit_of_length;
     if (extent > 0.0 && extent < 20.0) {
-      doubt(fmt::format("The mesh is {:.3g} mm large if its unit is {}, which is implausible for a machine: is it in {}?",
-                        extent, length_unit, length_unit == "mm" ? "m" : "another unit"));
+      doubt(
+          fmt::format("The mesh is {:.3g} mm large if its unit is {}, which is implausible for a machine: is it in {}?",
+                      extent, length_unit, length_unit == "mm" ? "m" : "another unit"));
     } else if (extent > 50'000.0) {
-      doubt(fmt::format("The mesh is {:.3g} m large if its unit is {}, which is implausible for a machine: is it in {}?",
-                        extent * 1e-3, length_unit, length_unit == "m" ? "mm" : "another unit"));
+      doubt(
+          fmt::format("The mesh is {:.3g} m large if its unit is {}, which is implausible for a machine: is it in {}?",
+                      extent * 1e-3, length_unit, length_unit == "m" ? "mm" : "another unit"));
     }
     // Heat moves machines by some micrometres to some hundred; strains of heat are below a per cent.
     if (largest_mm > 0.0 && largest_mm < 1e-3) {
-      doubt(fmt::format("The largest displacement is {:.3g} um if its unit is {}, which is implausibly small: is it in {}?",
-                        out.largest_displacement_um, map_.unit_of_displacement,
-                        map_.unit_of_displacement == "mm" ? "m" : "another unit"));
+      doubt(fmt::format(
+          "The largest displacement is {:.3g} um if its unit is {}, which is implausibly small: is it in {}?",
+          out.largest_displacement_um, map_.unit_of_displacement,
+          map_.unit_of_displacement == "mm" ? "m" : "another unit"));
     } else if (largest_mm > 5.0 || (extent > 0.0 && largest_mm > 0.01 * extent)) {
-      doubt(fmt::format("The largest displacement is {:.3g} mm if its unit is {}, which is implausibly large: is it in {}?",
-                        largest_mm, map_.unit_of_displacement, map_.unit_of_displacement == "m" ? "mm" : "um"));
+      doubt(fmt::format(
+          "The largest displacement is {:.3g} mm if its unit is {}, which is implausibly large: is it in {}?",
+          largest_mm, map_.unit_of_displacement, map_.unit_of_displacement == "m" ? "mm" : "um"));
     } else if (largest_mm == 0.0) {
       doubt("All displacements are zero: the result holds no load, or only its first state.");
     }

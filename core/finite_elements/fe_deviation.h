@@ -33,8 +33,8 @@ struct FeDeviation {
   std::vector<std::string> notes;        ///< sentences for the user
 };
 
-/// Throws InputError: see FeMap::validate and FeResultReader; a set or node that does not exist (with the sets that do),
-/// a node without displacement, a rotation of nodes that do not determine it, times that run backwards.
+/// Throws InputError: see FeMap::validate and FeResultReader; a set or node that does not exist (with the sets that
+/// do), a node without displacement, a rotation of nodes that do not determine it, times that run backwards.
 [[nodiscard]] FeDeviation feDeviation(const FeMap& map, const FeReaderFactory& open, JobContext& job);
 
 }  // namespace spindrift

@@ -145,12 +145,11 @@ FeMap FeMap::read(const std::filesystem::path& file) {
 
 void FeMap::validate() const {
   const std::string place = file.empty() ? "" : "$";
-  const auto refuse = [&](const std::string& sentence) {
-    throw InputError({file, place}, sentence);
-  };
+  const auto refuse = [&](const std::string& sentence) { throw InputError({file, place}, sentence); };
   if (unit_of_displacement.empty()) {
-    refuse(file.empty() ? "the unit of the displacements is not stated; add --unit mm or --unit m."
-                        : "the unit of the displacements is not stated; add \"unit_of_displacement\": \"mm\" or \"m\".");
+    refuse(file.empty()
+               ? "the unit of the displacements is not stated; add --unit mm or --unit m."
+               : "the unit of the displacements is not stated; add \"unit_of_displacement\": \"mm\" or \"m\".");
   }
   for (const std::string& unit : {unit_of_displacement, unit_of_length}) {
     if (!unit.empty() && unit != "mm" && unit != "m") {
@@ -165,8 +164,7 @@ void FeMap::validate() const {
                         : "which nodes are tool and table is not said once; allowed: one of \"points\", "
                           "\"each_table_node\" and \"observe\".");
   }
-  if (each_table_node &&
-      std::any_of(components.begin(), components.end(), [](Component c) { return isRotation(c); })) {
+  if (each_table_node && std::any_of(components.begin(), components.end(), [](Component c) { return isRotation(c); })) {
     refuse("the rotation of a single table node is not known; allowed with each_table_node: EX, EY and EZ.");
   }
 }

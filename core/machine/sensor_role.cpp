@@ -96,34 +96,33 @@ const std::map<std::string, Word, std::less<>>& vocabulary() {
     add(Word::Table, {"table", "tabletop", "worktable", "pallet", "rotary", "tisch", "maschinentisch", "rundtisch",
                       "drehtisch", "aufspanntisch", "schwenktisch", "kreuztisch", "tischplatte", "palette"});
     add(Word::Bed, {"bed", "bett", "maschinenbett"});
-    add(Word::Crossbeam,
-        {"crossbeam", "crossrail", "beam", "gantry", "bridge", "querbalken", "quertraeger", "traverse", "portal",
-         "portalbalken", "bruecke"});
-    add(Word::Scale, {"scale", "scales", "massstab", "glasmassstab", "linearmassstab", "laengenmassstab",
-                      "messstab", "wegmesssystem", "laengenmesssystem"});
-    add(Word::Screw,
-        {"screw", "ballscrew", "leadscrew", "nut", "ballnut", "kugelgewindetrieb", "kgt", "gewindetrieb",
-         "kugelgewindespindel", "gewindespindel", "kugelrollspindel", "kugelumlaufspindel", "vorschubspindel",
-         "kugelgewindemutter", "spindelmutter", "mutter"});
+    add(Word::Crossbeam, {"crossbeam", "crossrail", "beam", "gantry", "bridge", "querbalken", "quertraeger", "traverse",
+                          "portal", "portalbalken", "bruecke"});
+    add(Word::Scale, {"scale", "scales", "massstab", "glasmassstab", "linearmassstab", "laengenmassstab", "messstab",
+                      "wegmesssystem", "laengenmesssystem"});
+    add(Word::Screw, {"screw", "ballscrew", "leadscrew", "nut", "ballnut", "kugelgewindetrieb", "kgt", "gewindetrieb",
+                      "kugelgewindespindel", "gewindespindel", "kugelrollspindel", "kugelumlaufspindel",
+                      "vorschubspindel", "kugelgewindemutter", "spindelmutter", "mutter"});
     add(Word::Coolant, {"coolant", "kuehlmittel", "kuehlschmierstoff", "kuehlschmiermittel", "kss", "kuehlemulsion"});
-    add(Word::Room, {"room", "ambient", "ambience", "environment", "surroundings", "hall", "shop", "shopfloor",
-                     "workshop", "lab", "laboratory", "raum", "messraum", "umgebung", "umwelt", "halle", "werkhalle",
-                     "werkstatt", "labor", "raumluft", "hallenluft", "umgebungsluft"});
-    add(Word::Artefact, {"artefact", "artifact", "ballbar", "ballplate", "artefakt", "pruefkoerper",
-                         "kugelplatte", "lochplatte", "kugelstab"});
+    add(Word::Room,
+        {"room",      "ambient",   "ambience",   "environment", "surroundings", "hall",         "shop",   "shopfloor",
+         "workshop",  "lab",       "laboratory", "raum",        "messraum",     "umgebung",     "umwelt", "halle",
+         "werkhalle", "werkstatt", "labor",      "raumluft",    "hallenluft",   "umgebungsluft"});
+    add(Word::Artefact, {"artefact", "artifact", "ballbar", "ballplate", "artefakt", "pruefkoerper", "kugelplatte",
+                         "lochplatte", "kugelstab"});
     add(Word::Instrument, {"instrument", "camera", "microscope", "profiler", "scanner", "kamera", "mikroskop",
                            "messtaster", "taster", "messgeraet", "messkopf"});
     add(Word::X, {"x", "xaxis", "xachse"});
     add(Word::Y, {"y", "yaxis", "yachse"});
     add(Word::Z, {"z", "zaxis", "zachse"});
     add(Word::Plain,
-        {"t",      "temp",    "temperature", "temperatur", "deg",    "degc",   "c",       "celsius", "grad",
-         "sensor", "fuehler", "probe", "upper",       "lower",      "top",    "bottom", "middle",  "centre",  "center",
-         "mid",    "up",      "down",        "inner",      "outer",  "inside", "outside", "main",    "machine",
-         "axis",   "achse",   "far",         "near",       "side",   "seite",  "wall",    "wand",    "oben",
-         "unten",  "mitte",   "innen",       "aussen",     "haupt",  "pt",     "pt100",   "ntc",     "tc",
-         "of",     "the",     "der",         "des",        "am",     "an",     "im",      "in",      "on",
-         "ball",   "cross",   "linear",      "glass",      "cutting", "work",  "structure", "maschine"});
+        {"t",       "temp",    "temperature", "temperatur", "deg",    "degc",    "c",      "celsius",   "grad",
+         "sensor",  "fuehler", "probe",       "upper",      "lower",  "top",     "bottom", "middle",    "centre",
+         "center",  "mid",     "up",          "down",       "inner",  "outer",   "inside", "outside",   "main",
+         "machine", "axis",    "achse",       "far",        "near",   "side",    "seite",  "wall",      "wand",
+         "oben",    "unten",   "mitte",       "innen",      "aussen", "haupt",   "pt",     "pt100",     "ntc",
+         "tc",      "of",      "the",         "der",        "des",    "am",      "an",     "im",        "in",
+         "on",      "ball",    "cross",       "linear",     "glass",  "cutting", "work",   "structure", "maschine"});
     return w;
   }();
   return words;
@@ -133,10 +132,9 @@ const std::map<std::string, Word, std::less<>>& vocabulary() {
 std::vector<Word> meanings(const std::string& word) {
   const auto& words = vocabulary();
   if (const auto found = words.find(word); found != words.end()) return {found->second};
-  static const std::array<std::string_view, 14> endings{"temperatur", "temp",        "vorne",      "vorn",
-                                                        "hinten",     "links",       "rechts",     "oben",
-                                                        "unten",      "vorderseite", "rueckseite", "vorderwand",
-                                                        "rueckwand",  "mitte"};
+  static const std::array<std::string_view, 14> endings{"temperatur", "temp",       "vorne",     "vorn",  "hinten",
+                                                        "links",      "rechts",     "oben",      "unten", "vorderseite",
+                                                        "rueckseite", "vorderwand", "rueckwand", "mitte"};
   for (const std::string_view ending : endings) {
     if (!word.ends_with(ending) || word.size() <= ending.size() + 2) continue;
     std::string stem = word.substr(0, word.size() - ending.size());
@@ -342,7 +340,7 @@ std::optional<SensorRole> readSensorRole(std::string_view text) {
   if (has(Word::SpindleHousing)) parts.push_back(SensorRole::SpindleHousing);
   if (has(Word::Spindle)) {
     parts.push_back(!bearing && (has(Word::Housing) || has(Word::Head)) ? SensorRole::SpindleHousing
-                                                                         : SensorRole::SpindleBearing);
+                                                                        : SensorRole::SpindleBearing);
   }
   if (has(Word::Column)) {
     std::vector<SensorRole> sides;
@@ -381,8 +379,7 @@ SensorReading readSensor(const std::vector<TemperatureSensor>& stated, const std
     return reading;
   }
   const std::optional<SensorRole> by_name = readSensorRole(column);
-  const std::optional<SensorRole> by_place =
-      sensor == stated.end() ? std::nullopt : readSensorRole(sensor->place);
+  const std::optional<SensorRole> by_place = sensor == stated.end() ? std::nullopt : readSensorRole(sensor->place);
   if (!by_name) {
     reading.role = by_place.value_or(SensorRole::Other);
     return reading;

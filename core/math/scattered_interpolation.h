@@ -5,10 +5,11 @@
 //
 // (cubic radial basis function with linear part: of all interpolants the one of least energy of bending in its class).
 // Exact at the places and for every f that is linear in p. Of more than `most_places` the nearest `nearest_places` are
-// used. Places that lie in a plane, on a line or in one point (to a thousandth of their spread) have a linear part along
-// these directions only, and f is constant across. Outside the convex hull, where a cubic runs away, f goes on linearly from the nearest point h of the
-// hull: f(p) = f(h) + grad f(h) . (p - h). All in one unit of length. Sources: Wendland, Scattered Data Approximation
-// (2005), ch. 8 and 11; Wolfe, Finding the nearest point in a polytope, Math. Programming 11 (1976).
+// used. Places that lie in a plane, on a line or in one point (to a thousandth of their spread) have a linear part
+// along these directions only, and f is constant across. Outside the convex hull, where a cubic runs away, f goes on
+// linearly from the nearest point h of the hull: f(p) = f(h) + grad f(h) . (p - h). All in one unit of length. Sources:
+// Wendland, Scattered Data Approximation (2005), ch. 8 and 11; Wolfe, Finding the nearest point in a polytope, Math.
+// Programming 11 (1976).
 #pragma once
 
 #include <Eigen/Core>

@@ -38,8 +38,8 @@ TEST(ImportFiniteElements, WritesToolMinusTable) {
   const auto out = folder / "simulation.csv";
   for (const char* result : {"frame.frd", "frame.dat"}) {
     std::filesystem::remove(out);
-    const nlohmann::json json = jsonOf(import(
-        result, out, {"--mesh", mesh, "--unit", "mm", "--tool", "P1=TOOL", "--table", "TABLE", "--first", "0"}));
+    const nlohmann::json json = jsonOf(
+        import(result, out, {"--mesh", mesh, "--unit", "mm", "--tool", "P1=TOOL", "--table", "TABLE", "--first", "0"}));
     EXPECT_EQ(json["states"], 4);
     EXPECT_EQ(json["rows"], 15);
     EXPECT_EQ(json["plausible"], true);
@@ -48,16 +48,18 @@ TEST(ImportFiniteElements, WritesToolMinusTable) {
     EXPECT_NEAR(std::stod(predicted(out, "900,P1,EZ")), 33.0, 1e-2);
     EXPECT_NEAR(std::stod(predicted(out, "2700,P1,EY")), -30.0, 1e-2);
   }
-  const nlohmann::json placed = jsonOf(
-      import("frame.frd", out, {"--mesh", mesh, "--unit", "mm", "--tool", "TOOL", "--table", "TABLE", "--each-table-node"}));
+  const nlohmann::json placed = jsonOf(import(
+      "frame.frd", out, {"--mesh", mesh, "--unit", "mm", "--tool", "TOOL", "--table", "TABLE", "--each-table-node"}));
   EXPECT_EQ(placed["rows"], 72);
   EXPECT_EQ(linesOf(out).front(), "time_s,x_mm,y_mm,z_mm,component,predicted");
 }
 
 TEST(ImportFiniteElements, ReadsAMap) {
   const TempFolder folder;
-  const auto map = folder.write("fe.json", R"({"format":"spindrift-finite-elements","version":1,"unit_of_displacement":"mm",
-    "result":")" + (data / "frame.frd").string() + R"(","mesh":")" + (data / "mesh.inp").string() + R"(",
+  const auto map =
+      folder.write("fe.json", R"({"format":"spindrift-finite-elements","version":1,"unit_of_displacement":"mm",
+    "result":")" + (data / "frame.frd").string() +
+                                  R"(","mesh":")" + (data / "mesh.inp").string() + R"(",
     "components":["EA"],"points":[{"point":"P1","tool":{"set":"TOOL"},"table":{"set":"TABLE"}}]})");
   const auto out = folder / "simulation.csv";
   EXPECT_EQ(jsonOf({"simulation", "import", "--map", map.string(), "--out", out.string()})["rows"], 4);
@@ -73,7 +75,8 @@ TEST(ImportFiniteElements, SaysWhatIsWrong) {
                  {"no set of nodes \"TIP\"", "EDGE", "TOOL"});
   expectBadInput(import("frame.frd", out, {"--unit", "mm", "--tool", "TOOL", "--table", "TABLE"}), {"P1=NODES"});
   expectBadInput(import("frame.frd", out, {"--unit", "mm", "--tool", "P1=TOOL"}), {"--table"});
-  expectBadInput(import("frame.frd", out, {"--unit", "mm", "--tool", "P1=near:1,2", "--table", "nodes:1"}), {"near:x,y,z"});
+  expectBadInput(import("frame.frd", out, {"--unit", "mm", "--tool", "P1=near:1,2", "--table", "nodes:1"}),
+                 {"near:x,y,z"});
   expectBadInput(import("none.frd", out, {"--unit", "mm", "--tool", "P1=nodes:1", "--table", "nodes:2"}), {"none.frd"});
   EXPECT_FALSE(std::filesystem::exists(out));
   // A wrong unit is no refusal, and is not passed over.
@@ -88,8 +91,9 @@ std::filesystem::path writeCampaign(const TempFolder& folder, double until_s) {
   const auto campaign = folder / "campaign";
   std::filesystem::create_directories(campaign);
   for (const char* file : {"frame.frd", "mesh.inp"}) std::filesystem::copy(data / file, campaign / file);
-  writeText(campaign / "campaign.json",
-            R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z","simulation":"fe.json"})");
+  writeText(
+      campaign / "campaign.json",
+      R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z","simulation":"fe.json"})");
   writeText(campaign / "fe.json",
             R"({"format":"spindrift-finite-elements","version":1,"unit_of_displacement":"mm","result":"frame.frd",
             "mesh":"mesh.inp","first_state_s":0,"points":[{"point":"P1","tool":{"set":"TOOL"},"table":{"set":"TABLE"}}]})");
@@ -145,8 +149,11 @@ TEST(ImportFiniteElements, ReadsVtkInTheProgramBesideIt) {
   const TempFolder folder;
   const auto from_vtk = folder / "vtk.csv";
   const auto from_frd = folder / "frd.csv";
-  const std::vector<std::string> more{"--mesh", (data / "mesh.inp").string(), "--unit",       "mm",      "--tool", "P1=TOOL",
-                                      "--table", "TABLE",                      "--components", "EX,EY,EZ,EA"};
+  const std::vector<std::string> more{"--mesh",       (data / "mesh.inp").string(),
+                                      "--unit",       "mm",
+                                      "--tool",       "P1=TOOL",
+                                      "--table",      "TABLE",
+                                      "--components", "EX,EY,EZ,EA"};
   const nlohmann::json json = jsonOf(import("frame.pvd", from_vtk, more));
   EXPECT_EQ(json["states"], 4);
   (void)jsonOf(import("frame.frd", from_frd, more));
@@ -159,8 +166,8 @@ TEST(ImportFiniteElements, ReadsVtkInTheProgramBesideIt) {
     EXPECT_NEAR(std::stod(a[i].substr(a[i].rfind(',') + 1)), std::stod(b[i].substr(b[i].rfind(',') + 1)), 1e-6);
   }
   // A set of the grid itself, and one state alone.
-  const nlohmann::json one = jsonOf(
-      import("frame_2.vtu", from_vtk, {"--unit", "mm", "--tool", "P1=TOOL", "--table", "nodes:1", "--components", "EZ"}));
+  const nlohmann::json one = jsonOf(import(
+      "frame_2.vtu", from_vtk, {"--unit", "mm", "--tool", "P1=TOOL", "--table", "nodes:1", "--components", "EZ"}));
   EXPECT_EQ(one["states"], 1);
   EXPECT_NEAR(std::stod(predicted(from_vtk, "0,P1,EZ")), 88.0, 1e-2);
 }
@@ -169,7 +176,8 @@ TEST(ImportFiniteElements, SaysWhatIsWrongWithVtk) {
   const TempFolder folder;
   const auto out = (folder / "s.csv").string();
   const std::vector<std::string> rest{"--unit", "mm", "--tool", "P1=nodes:13", "--table", "nodes:7", "--out", out};
-  const auto said = [&](const std::filesystem::path& file, std::vector<std::string> more, const std::vector<std::string>& parts) {
+  const auto said = [&](const std::filesystem::path& file, std::vector<std::string> more,
+                        const std::vector<std::string>& parts) {
     std::vector<std::string> words{"simulation", "import", file.string()};
     words.insert(words.end(), rest.begin(), rest.end());
     words.insert(words.end(), more.begin(), more.end());
@@ -180,10 +188,11 @@ TEST(ImportFiniteElements, SaysWhatIsWrongWithVtk) {
   const std::string whole = textOf(data / "frame_1.vtu");
   said(folder.write("cut.vtu", whole.substr(0, whole.size() / 2)), {}, {"cut.vtu"});
   said(folder.write("text.vtu", "not XML"), {}, {"text.vtu"});
-  said(folder.write("a.pvd", "<VTKFile><Collection><DataSet file=\"a.vtu\"/></Collection></VTKFile>"), {}, {"DataSet 1"});
+  said(folder.write("a.pvd", "<VTKFile><Collection><DataSet file=\"a.vtu\"/></Collection></VTKFile>"), {},
+       {"DataSet 1"});
   said(folder.write("b.pvd", "<VTKFile></VTKFile>"), {}, {"Collection"});
-  said(folder.write("c.pvd", "<VTKFile><Collection><DataSet timestep=\"1\" file=\"no.vtu\"/></Collection></VTKFile>"), {},
-       {"no.vtu"});
+  said(folder.write("c.pvd", "<VTKFile><Collection><DataSet timestep=\"1\" file=\"no.vtu\"/></Collection></VTKFile>"),
+       {}, {"no.vtu"});
 }
 #endif
 

@@ -151,8 +151,8 @@ SimulationMatch matched(DiscrepancyInput& input, double until_s) {
     if (o.time_s > until_s) continue;
     rows.push_back({o.time_s, o.point, nowhere, o.component, input.predicted[i]});
   }
-  SimulationMatch match = matchSimulation(SimulationTable(rows, false, "simulation.csv"), input.observations, {"F1", "Q9"},
-                                          "simulation.csv");
+  SimulationMatch match = matchSimulation(SimulationTable(rows, false, "simulation.csv"), input.observations,
+                                          {"F1", "Q9"}, "simulation.csv");
   input.predicted = match.predicted;
   input.notes = match.notes;
   input.why_unmatched = match.why_unmatched;

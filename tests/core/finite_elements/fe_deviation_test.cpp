@@ -166,8 +166,8 @@ TEST(FeDeviation, WeighsNodesAsObserved) {
   const testing::TempFolder folder;
   FeMap map = frame();
   map.points.clear();
-  map.observe = folder.write("observe.csv",
-                             "point,component,node,dof,weight\nP1,EZ,13,3,1\nP1,EZ,7,3,-1\nP1,EY,13,2,0.5\nP1,EY,7,2,-0.5\n");
+  map.observe = folder.write(
+      "observe.csv", "point,component,node,dof,weight\nP1,EZ,13,3,1\nP1,EZ,7,3,-1\nP1,EY,13,2,0.5\nP1,EY,7,2,-0.5\n");
   const FeDeviation fe = deviation(map);
   EXPECT_NEAR(value(fe, 900.0, Component::EZ), 33.0, 1e-3);
   EXPECT_NEAR(value(fe, 2700.0, Component::EY), -15.0, 1e-3);
@@ -324,13 +324,16 @@ TEST(FeMap, RefusesWhatIsWrong) {
   EXPECT_THAT(with(R"("unit_of_displacement":"mm","observe":"o.csv",)" + points), HasSubstr("one of \"points\""));
   EXPECT_THAT(with(R"("unit_of_displacement":"mm","points":[{"point":"P1","tool":{},"table":{"set":"B"}}])"),
               HasSubstr("$.points[0].tool"));
-  EXPECT_THAT(with(R"("unit_of_displacement":"mm","points":[{"point":"P1","tool":{"set":"T","nodes":[1]},"table":{"set":"B"}}])"),
-              HasSubstr("exactly one"));
+  EXPECT_THAT(
+      with(
+          R"("unit_of_displacement":"mm","points":[{"point":"P1","tool":{"set":"T","nodes":[1]},"table":{"set":"B"}}])"),
+      HasSubstr("exactly one"));
   EXPECT_THAT(with(R"("unit_of_displacement":"mm","points":[{"point":"P1","tool":{"set":"T"},"table":{"set":"B"}},
                    {"point":"P1","tool":{"set":"T"},"table":{"set":"B"}}])"),
               HasSubstr("each point once"));
-  EXPECT_THAT(with(R"("unit_of_displacement":"mm","mcf_from_mesh":[[1,0,0,0],[0,1,0,0],[0,0,2,0],[0,0,0,1]],)" + points),
-              HasSubstr("proper rotation"));
+  EXPECT_THAT(
+      with(R"("unit_of_displacement":"mm","mcf_from_mesh":[[1,0,0,0],[0,1,0,0],[0,0,2,0],[0,0,0,1]],)" + points),
+      HasSubstr("proper rotation"));
   EXPECT_THAT(with(R"("unit_of_displacement":"mm","components":["EW"],)" + points), HasSubstr("EW"));
   EXPECT_THAT(with(R"("unit_of_displacement":"mm","state_interval_s":0,)" + points), HasSubstr("state_interval_s"));
   EXPECT_THAT(mapRefusal(R"({"format":"spindrift-finite-elements","version":9})"), HasSubstr("version"));

@@ -80,12 +80,14 @@ TEST(Frd, RefusesWhatIsCutOffDamagedOrBinary) {
   EXPECT_THAT(said(whole.substr(0, second + 1500)), HasSubstr("ends in the block of displacements at 1800"));
   EXPECT_THAT(said(whole.substr(0, 2000)), HasSubstr("ends in its block of nodes"));
   EXPECT_THAT(said(replaced(whole, " -1         2 2", " -1         2 a")), HasSubstr("line "));
-  const std::string head = whole.substr(whole.find("    2C"), whole.find('\n', whole.find("    2C")) - whole.find("    2C"));
+  const std::string head =
+      whole.substr(whole.find("    2C"), whole.find('\n', whole.find("    2C")) - whole.find("    2C"));
   EXPECT_THAT(said(replaced(whole, head, head.substr(0, head.find_last_of('1')) + "2")), HasSubstr("binary"));
   EXPECT_THAT(said("nothing\n"), HasSubstr("no block of nodes"));
   EXPECT_THAT(said(""), HasSubstr("no block of nodes"));
   std::string cold = whole;
-  for (std::size_t at = cold.find("DISP "); at != std::string::npos; at = cold.find("DISP ")) cold.replace(at, 4, "FLUX");
+  for (std::size_t at = cold.find("DISP "); at != std::string::npos; at = cold.find("DISP "))
+    cold.replace(at, 4, "FLUX");
   EXPECT_THAT(said(cold), HasSubstr("no displacements (DISP), only FLUX and NDTEMP"));
   EXPECT_THAT(refusal([&] { (void)openFrd(folder / "none.frd")->mesh(); }), HasSubstr("cannot be read"));
   EXPECT_THAT(refusal([&] { (void)openFeResult(folder / "a.odb"); }), HasSubstr("allowed: .frd, .dat, .vtu or .pvd"));
@@ -94,12 +96,13 @@ TEST(Frd, RefusesWhatIsCutOffDamagedOrBinary) {
 
 TEST(Frd, ReadsTheShortFormat) {
   const testing::TempFolder folder;
-  const auto file = folder.write("short.frd",
-                                 "    1C\n    2C                             2                                     0\n"
-                                 " -1    1 0.00000E+00 1.00000E+02-2.00000E+02\n -1   12 1.00000E+00 1.00000E+02 3.00000E+02\n -3\n"
-                                 "  100CL  101-5.00000E-01           2                     0    1           0\n"
-                                 " -4  DISP        4    1\n -5  D1          1    2    1    0\n"
-                                 " -1    1-1.00000E-03-2.00000E-03-3.00000E-03\n -1   12 0.00000E+00 0.00000E+00 0.00000E+00\n -3\n");
+  const auto file =
+      folder.write("short.frd",
+                   "    1C\n    2C                             2                                     0\n"
+                   " -1    1 0.00000E+00 1.00000E+02-2.00000E+02\n -1   12 1.00000E+00 1.00000E+02 3.00000E+02\n -3\n"
+                   "  100CL  101-5.00000E-01           2                     0    1           0\n"
+                   " -4  DISP        4    1\n -5  D1          1    2    1    0\n"
+                   " -1    1-1.00000E-03-2.00000E-03-3.00000E-03\n -1   12 0.00000E+00 0.00000E+00 0.00000E+00\n -3\n");
   const auto reader = openFrd(file);
   EXPECT_EQ(reader->mesh().nodes.at(1), Eigen::Vector3d(0, 100, -200));
   const auto states = reader->states({1});
@@ -143,8 +146,8 @@ TEST(AbaqusMesh, ReadsNodesSetsRangesAndIncludes) {
   EXPECT_EQ(mesh.sets.at("BOTH").size(), 9u);
   const testing::TempFolder folder;
   folder.write("inner.inp", "*node, nset = Tip\n1, 0, 0, 5\r\n 2 , 1e2\n");
-  const FeMesh outer = readAbaqusMesh(
-      folder.write("outer.inp", "*Heading\n title, with 1\n*Include, Input=inner.inp\n** note\n*NSET,NSET=two\n1,2,\n"));
+  const FeMesh outer = readAbaqusMesh(folder.write(
+      "outer.inp", "*Heading\n title, with 1\n*Include, Input=inner.inp\n** note\n*NSET,NSET=two\n1,2,\n"));
   EXPECT_EQ(outer.nodes.at(2), Eigen::Vector3d(100, 0, 0));
   EXPECT_THAT(outer.sets.at("TIP"), ElementsAre(1, 2));
   EXPECT_THAT(outer.sets.at("TWO"), ElementsAre(1, 2));

@@ -89,11 +89,30 @@ TEST(SensorRole, ReadsGermanNamesByWholeWords) {
 }
 
 TEST(SensorRole, NeverGuessesFromPartOfAWord) {
-  for (const char* name :
-       {"T_broom_degC", "T_tablet_degC", "T_bedroom_degC", "T_repair_degC", "T_headquarter_degC", "T_football_degC",
-        "T_standard_degC", "T_peanut_degC", "T_embedded_degC", "T_roommate_degC", "T_columnist_degC", "T_challenge_degC",
-        "T_Lagerraum_degC", "T_Tischler_degC", "T_Traum_degC", "T_Umsatzstaender_degC", "T_upscale_degC", "T_x_axis_degC",
-        "T_1_degC", "T_flange1_degC", "T_degC", "T__degC", "", "T_ж_degC"}) {
+  for (const char* name : {"T_broom_degC",
+                           "T_tablet_degC",
+                           "T_bedroom_degC",
+                           "T_repair_degC",
+                           "T_headquarter_degC",
+                           "T_football_degC",
+                           "T_standard_degC",
+                           "T_peanut_degC",
+                           "T_embedded_degC",
+                           "T_roommate_degC",
+                           "T_columnist_degC",
+                           "T_challenge_degC",
+                           "T_Lagerraum_degC",
+                           "T_Tischler_degC",
+                           "T_Traum_degC",
+                           "T_Umsatzstaender_degC",
+                           "T_upscale_degC",
+                           "T_x_axis_degC",
+                           "T_1_degC",
+                           "T_flange1_degC",
+                           "T_degC",
+                           "T__degC",
+                           "",
+                           "T_ж_degC"}) {
     EXPECT_EQ(read(name), "nothing") << name;
   }
 }
@@ -134,7 +153,8 @@ MachineDescription machineWith(const std::string& sensors) {
   return MachineDescription::parse(
       JsonNode::parse(R"({"format":"spindrift-machine","version":1,"name":"m","chain":"V [w-X'-Y'-b-Z-t]",
         "axes":[{"name":"X","travel_mm":[0,480]},{"name":"Y","travel_mm":[0,480]},{"name":"Z","travel_mm":[0,480]}],
-        "temperature_sensors":[)" + sensors + "]}",
+        "temperature_sensors":[)" +
+                          sensors + "]}",
                       "machine.json"),
       "machine.json");
 }

@@ -18,7 +18,8 @@ std::vector<Eigen::Vector3d> randomPlaces(Random& random, std::size_t count, con
   return places;
 }
 
-double at(const ScatteredInterpolation& interpolation, const std::vector<double>& values, const Eigen::Vector3d& place) {
+double at(const ScatteredInterpolation& interpolation, const std::vector<double>& values,
+          const Eigen::Vector3d& place) {
   const auto weights = interpolation.at(place);
   double sum = 0.0;
   for (std::size_t k = 0; k < weights.place.size(); ++k) sum += weights.weight[k] * values[weights.place[k]];
@@ -36,7 +37,8 @@ const auto linear = [](const Eigen::Vector3d& p) { return 3.0 + 0.02 * p.x() - 0
 
 // What a machine does: expansion, bending with the square of the height, a table that dishes.
 const auto machine = [](const Eigen::Vector3d& p) {
-  return 5.0 + 0.02 * p.x() + 2e-5 * p.z() * p.z() - 1e-5 * (p.x() - 200.0) * (p.x() - 200.0) + 1e-8 * std::pow(p.y(), 3);
+  return 5.0 + 0.02 * p.x() + 2e-5 * p.z() * p.z() - 1e-5 * (p.x() - 200.0) * (p.x() - 200.0) +
+         1e-8 * std::pow(p.y(), 3);
 };
 
 TEST(ScatteredInterpolation, IsExactAtThePlaces) {
