@@ -542,7 +542,6 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   const auto drivers = std::make_shared<DriverTable>(input.machine, input.log ? &*input.log : nullptr);
   warnAboutLog(input, *drivers, result.warnings);
   result.sensors = drivers->sensors();
-  warnAboutSensors(result.sensors, result.warnings);
   ResidualProblem problem(input, rows.fit, unit_limit);
   std::vector<Effect> catalogue = effectCatalogue(catalogueContext(input, *drivers, problem));
   warnAboutUndecidable(input, catalogue, result.warnings);
@@ -584,6 +583,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.where = findPlaces(problem, *analysis.drivers, problem.projectedResidual().head(problem.size()));
   if (options.suggest && enough) result.suggestion = suggestionFor(solution);
 
+  warnAboutSensors(result.sensors, result.warnings);
   result.decided = enough;
   result.status = enough ? FitStatus::Converged : FitStatus::Degenerate;
   if (enough) {

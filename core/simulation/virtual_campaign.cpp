@@ -193,12 +193,12 @@ OperatingLog logOf(const Scenario& s, const VirtualMachine& plant, Random& rando
   return log;
 }
 
-/// The role that the scenario's machine states for a sensor.
-std::optional<SensorRole> statedRole(const MachineDescription& machine, const std::string& name) {
-  for (const TemperatureSensor& sensor : machine.temperature_sensors) {
-    if (sensor.name == name) return sensor.role;
+/// The role of a sensor: as the scenario's machine states it, else of the body it sits on.
+std::optional<SensorRole> roleOf(const MachineDescription& machine, const SensorOptions& sensor) {
+  for (const TemperatureSensor& one : machine.temperature_sensors) {
+    if (one.name == sensor.name && one.role) return one.role;
   }
-  return std::nullopt;
+  return readSensorRole(sensor.place);
 }
 
 /// machine.json as it will be written: with the sensors that are in the log.
@@ -208,7 +208,7 @@ nlohmann::json machineJson(const Scenario& s) {
   for (const SensorOptions& sensor : s.sensors) {
     if (s.omitted_signals.contains(sensor.name)) continue;
     sensors.push_back({{"name", sensor.name}, {"place", sensor.place}});
-    if (const auto role = statedRole(s.machine, sensor.name)) sensors.back()["role"] = std::string(toString(*role));
+    if (const auto role = roleOf(s.machine, sensor)) sensors.back()["role"] = std::string(toString(*role));
   }
   json["temperature_sensors"] = sensors;
   return json;
@@ -310,7 +310,7 @@ VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t>
   campaign.machine.temperature_sensors.clear();
   for (const SensorOptions& sensor : s.sensors) {
     if (!s.omitted_signals.contains(sensor.name)) {
-      campaign.machine.temperature_sensors.push_back({sensor.name, sensor.place, statedRole(s.machine, sensor.name)});
+      campaign.machine.temperature_sensors.push_back({sensor.name, sensor.place, roleOf(s.machine, sensor)});
     }
   }
   if (s.simulation) truth.base = s.simulation->effects;
