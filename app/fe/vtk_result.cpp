@@ -5,6 +5,7 @@
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
@@ -212,6 +213,7 @@ class VtkReader : public FeResultReader {
 
 std::unique_ptr<FeResultReader> openVtkResult(const std::filesystem::path& file,
                                               const std::string& displacement_array) {
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   vtkNew<Silence> silence;
   vtkOutputWindow::SetInstance(silence);
   return std::make_unique<VtkReader>(file, displacement_array);

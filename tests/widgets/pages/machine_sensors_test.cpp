@@ -48,7 +48,7 @@ TEST_F(MachineSensorsTest, WhatWasReadIsShownConfirmedAndUndone) {
   EXPECT_NE(machine->sensors()->item(0, 3)->text(), "machine.json");
   // One is put right and applied: the others stay as they were read.
   role(machine, 1)->setCurrentIndex(static_cast<int>(SensorRole::Room));
-  emit role(machine, 1)->activated(role(machine, 1)->currentIndex());
+  Q_EMIT role(machine, 1)->activated(role(machine, 1)->currentIndex());
   click(machine, QStringLiteral("Apply changes"));
   EXPECT_EQ(stated(1), SensorRole::Room);
   EXPECT_EQ(stated(0), std::nullopt);
