@@ -219,6 +219,69 @@ TEST(SimulationTable, NamesPointsOutsideThePlaces) {
   EXPECT_THAT(match.notes, IsEmpty());
 }
 
+/// A campaign whose simulation is `simulation`; EZ at P1 and P2 every 450 s.
+std::filesystem::path campaignFolder(const testing::TempFolder& folder, const std::string& simulation) {
+  folder.write("campaign.json", R"({"format":"spindrift-campaign","version":1,"name":"c",
+    "start_utc":"2026-01-31T08:00:00Z","simulation":")" +
+                                    simulation + "\"}");
+  folder.write("machine.json", R"({"format":"spindrift-machine","version":1,"name":"m","chain":"V [w-X'-Y'-b-Z-t]",
+    "axes":[{"name":"X","travel_mm":[0,400]},{"name":"Y","travel_mm":[0,400]},{"name":"Z","travel_mm":[0,400]}]})");
+  std::string rows = "time_s,state,point,x_mm,y_mm,z_mm,c_deg,component,value,sigma,instrument,use\n";
+  for (int k = 0; k <= 10; ++k) {
+    for (const int p : {1, 2})
+      rows += fmt::format("{},M{},P{},{},150,100,0,EZ,0,0.5,touch,fit\n", 450 * k, k, p, 100 * p);
+  }
+  folder.write("observations.csv", rows);
+  return folder.path();
+}
+
+TEST(DiscrepancyInputOf, ComparesFiniteElementsThemselves) {
+  const testing::TempFolder folder;
+  const auto campaign_folder = campaignFolder(folder, "fe.json");
+  const std::string data = std::string(SPINDRIFT_TEST_DATA) + "/finite_elements/";
+  folder.write("fe.json",
+               R"({"format":"spindrift-finite-elements","version":1,"unit_of_displacement":"mm","result":")" + data +
+                   R"(frame.frd","mesh":")" + data + R"(mesh.inp","first_state_s":0,
+    "points":[{"point":"P1","tool":{"set":"TOOL"},"table":{"set":"TABLE"}}]})");
+  const Campaign campaign = Campaign::read(campaign_folder);
+  const DiscrepancyInput input = discrepancyInput(campaign, *campaign.observations);
+  ASSERT_EQ(input.predicted.size(), 22u);
+  const double expected[] = {0.0, 16.5, 33.0, 49.5, 66.0, 33.0, 0.0};  // P1 from 0 to 2700 s
+  for (std::size_t k = 0; k < 7; ++k) EXPECT_NEAR(input.predicted[2 * k], expected[k], 1e-3) << k;
+  EXPECT_TRUE(std::isnan(input.predicted[18]));  // 4050 s, after the last state
+  EXPECT_TRUE(std::isnan(input.predicted[1]));
+  EXPECT_THAT(input.why_unmatched, HasSubstr("2 lie before or after the rows of fe.json (0 s to 3600 s)"));
+  EXPECT_THAT(input.why_unmatched, HasSubstr("11 are at points that fe.json lacks (P2)"));
+  // A model that stands on this table finds it again.
+  std::vector<std::string> notes;
+  EXPECT_NEAR(readSimulation(campaign.path("fe.json"), notes).at(450.0, "P1", nowhere, Component::EZ).value, 16.5,
+              1e-3);
+}
+
+TEST(DiscrepancyInputOf, InterpolatesInPlace) {
+  const testing::TempFolder folder;
+  const auto campaign_folder = campaignFolder(folder, "simulation.csv");
+  std::string text = "time_s,x_mm,y_mm,z_mm,component,predicted\n";
+  for (const int t : {0, 4500}) {
+    for (const int x : {0, 180}) {
+      for (const int y : {100, 200}) text += fmt::format("{},{},{},100,EZ,{}\n", t, x, y, 1e-5 * t * x);
+    }
+  }
+  folder.write("simulation.csv", text);
+  const Campaign campaign = Campaign::read(campaign_folder);
+  const DiscrepancyInput input = discrepancyInput(campaign, *campaign.observations);
+  for (std::size_t k = 0; k <= 10; ++k) {
+    EXPECT_NEAR(input.predicted[2 * k], 1e-5 * 450.0 * static_cast<double>(k) * 100.0, 1e-9);
+    EXPECT_NEAR(input.predicted[2 * k + 1], 1e-5 * 450.0 * static_cast<double>(k) * 200.0, 1e-9);
+  }
+  EXPECT_THAT(input.notes, Contains(HasSubstr("extrapolated at point P2, up to 20 mm outside")));
+  EXPECT_EQ(input.why_unmatched, "");
+  folder.write("campaign.json", R"({"format":"spindrift-campaign","version":1,"name":"c",
+    "start_utc":"2026-01-31T08:00:00Z","simulation":"mech.frd"})");
+  const Campaign direct = Campaign::read(campaign_folder);
+  EXPECT_THROW((void)discrepancyInput(direct, *direct.observations), InputError);
+}
+
 TEST(SensorRoles, AreToldWithTheResult) {
   using namespace small_plant;
   DiscrepancyInput input = campaign(Hidden::SpindleDrift, 43);
