@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
 #include <algorithm>
 #include <clocale>
+#include <filesystem>
 #include <iostream>
 
 #include "app/cli/command.h"
+#include "app/cli/commands_finite_elements.h"
+#include "core/base/error.h"
 
 namespace {
 
 bool knows(const CLI::App& app, const std::string& command) {
   const auto all = app.get_subcommands([](const CLI::App*) { return true; });
   return std::any_of(all.begin(), all.end(), [&](const CLI::App* one) { return one->check_name(command); });
+}
+
+/// VTK stays out of this program: spindrift-fe beside it takes the same arguments and goes on in its place.
+void goOnInFe(char** argv) {
+  std::error_code none;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", none);
+  const std::filesystem::path other = self.parent_path() / "spindrift-fe";
+  if (none || !std::filesystem::exists(other, none)) return;
+  std::cout.flush();
+  execv(other.c_str(), argv);  // returns only if it failed
 }
 
 }  // namespace
@@ -36,6 +51,12 @@ int main(int argc, char** argv) {
   spindrift::cli::addSimulationCommands(app, line);
   spindrift::cli::addCompensationCommands(app, line);
   spindrift::cli::addDiscrepancyCommands(app, line);
+  spindrift::cli::addFiniteElementCommands(app, line,
+                                           [argv](const std::filesystem::path& file, const spindrift::FeMap&) {
+                                             if (file.extension() == ".vtu" || file.extension() == ".pvd")
+                                               goOnInFe(argv);
+                                             return spindrift::openFeResult(file);
+                                           });
   spindrift::cli::addReportingCommands(app, line);
   try {
     app.parse(argc, argv);

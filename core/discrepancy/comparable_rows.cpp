@@ -76,12 +76,14 @@ ComparableRows comparableRows(const DiscrepancyInput& input, std::vector<std::st
     throw InputError(
         {input.base_table.empty() ? input.observations.file : input.observations.file.parent_path() / input.base_table,
          ""},
-        fmt::format("only {} of {} observations have a prediction in the simulation; allowed: at least half.",
-                    usable - out.unmatched, usable));
+        fmt::format("only {} of {} observations have a prediction in the simulation{}; allowed: at least half.",
+                    usable - out.unmatched, usable,
+                    input.why_unmatched.empty() ? "" : " (" + input.why_unmatched + ")"));
   }
   if (out.unmatched > 0) {
-    warnings.push_back(fmt::format("{} of {} observations have no prediction in the simulation and are left out.",
-                                   out.unmatched, usable));
+    warnings.push_back(fmt::format("{} of {} observations have no prediction in the simulation and are left out{}.",
+                                   out.unmatched, usable,
+                                   input.why_unmatched.empty() ? "" : ": " + input.why_unmatched));
   }
   if (beyond_log > 0) {
     warnings.push_back(

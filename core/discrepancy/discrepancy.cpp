@@ -613,6 +613,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   SPINDRIFT_ASSERT(input.predicted.size() == input.observations.rows.size(), "one prediction for every observation");
   DiscrepancyResult result;
   const ComparableRows rows = comparableRows(input, result.warnings);
+  result.warnings.insert(result.warnings.end(), input.notes.begin(), input.notes.end());
   result.unmatched = rows.unmatched;
   checkUnits(input, rows.fit);
 
@@ -620,6 +621,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   const auto drivers = std::make_shared<DriverTable>(input.machine, input.log ? &*input.log : nullptr);
   warnAboutLog(input, *drivers, result.warnings);
   warnAboutData(input, rows.fit, result.warnings);
+  result.sensors = drivers->sensors();
   ResidualProblem problem(input, rows.fit, unit_limit);
   std::vector<Effect> catalogue = effectCatalogue(catalogueContext(input, *drivers, problem));
   warnAboutUndecidable(input, catalogue, result.warnings);
@@ -664,6 +666,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.where = findPlaces(problem, *analysis.drivers, problem.projectedResidual().head(problem.size()));
   if (options.suggest && enough) result.suggestion = suggestionFor(solution);
 
+  warnAboutSensors(result.sensors, result.warnings);
   result.decided = enough;
   result.status = enough ? FitStatus::Converged : FitStatus::Degenerate;
   if (enough) {

@@ -20,7 +20,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/base/error.h"
@@ -30,6 +29,7 @@
 #include "core/machine/machine_description.h"
 #include "core/machine/observation.h"
 #include "core/machine/operating_log.h"
+#include "core/machine/sensor_role.h"
 
 namespace spindrift {
 
@@ -55,6 +55,8 @@ struct DiscrepancyInput {
   bool absolute = false;                   ///< values are absolute: no free constant for each point and component
   std::shared_ptr<const ErrorModel> base;  ///< the simulation as a model; may be null
   std::string base_table;                  ///< name of simulation.csv for model.json; may be empty
+  std::vector<std::string> notes;          ///< sentences about the simulation that belong to the result
+  std::string why_unmatched;               ///< why predictions are missing, "12 lie after its last row"; may be empty
 };
 
 enum class DiscrepancyVerdict { Named, Ambiguous, Unknown, None };
@@ -172,6 +174,7 @@ struct DiscrepancyResult {
   std::string leftover;  ///< empty: nothing is left
   std::vector<DiscrepancyStep> steps;
   std::vector<std::string> warnings;
+  std::vector<SensorReading> sensors;        ///< what every temperature of the log was taken for
   std::shared_ptr<const EffectModel> model;  ///< the effects found (without the base)
   /// Per row of the observations: simulation, completed model (with the free constant of the series, so that it
   /// compares with the value); NaN where there is no simulation.
@@ -205,20 +208,9 @@ struct DiscrepancyResult {
 [[nodiscard]] DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const DiscrepancyOptions& options,
                                                 JobContext& job);
 
-/// The prediction of a simulation table or model for every observation. Reads campaign.simulation (or `simulation.csv`
-/// beside campaign.json); throws InputError if there is none or it cannot be read.
+/// The prediction of a simulation for every observation: a table (simulation_table.h), a model, or finite-element
+/// results by their map (core/finite_elements). Reads campaign.simulation (or `simulation.csv` beside campaign.json);
+/// throws InputError if there is none or it cannot be read.
 [[nodiscard]] DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations);
-
-/// simulation.csv: time_s,point,component,predicted.
-class SimulationTable {
- public:
-  [[nodiscard]] static SimulationTable read(const std::filesystem::path& file);
-  /// NaN if the table has no row for it (times agree within 1 ms).
-  [[nodiscard]] double at(double time_s, const std::string& point, Component component) const;
-  [[nodiscard]] std::size_t size() const noexcept { return values_.size(); }
-
- private:
-  std::map<std::tuple<std::string, int, long long>, double> values_;
-};
 
 }  // namespace spindrift

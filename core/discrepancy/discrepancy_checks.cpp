@@ -66,6 +66,16 @@ void warnAboutUndecidable(const DiscrepancyInput& input, const std::vector<Effec
                                  ids.size() > 1 ? "them" : "it", joinedList(ids)));
 }
 
+void warnAboutSensors(const std::vector<SensorReading>& sensors, std::vector<std::string>& warnings) {
+  if (const std::string read = readFromNames(sensors); !read.empty()) {
+    warnings.push_back(fmt::format(
+        "Where sensors sit was read from their names, please confirm: {}. A \"role\" in machine.json decides.", read));
+  }
+  for (const SensorReading& s : sensors) {
+    if (!s.note.empty()) warnings.push_back(s.note);
+  }
+}
+
 void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings) {
   if (!input.log || input.log->empty()) {
     warnings.emplace_back("There is no operating log: effects that follow speed, feed or temperature cannot be tried.");

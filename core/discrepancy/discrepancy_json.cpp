@@ -76,6 +76,11 @@ nlohmann::json DiscrepancyResult::json() const {
   out["model"] = model ? model->json() : json();
   out["steps"] = steps_list;
   out["warnings"] = warnings;
+  json sensor_roles = json::object();
+  for (const SensorReading& s : sensors) {
+    sensor_roles[s.column] = {{"role", std::string(toString(s.role))}, {"from", s.from}};
+  }
+  out["sensor_roles"] = sensor_roles;
   out["unmatched_observations"] = unmatched;
   json noise_json = json::object();
   for (const NoiseEstimate& n : noise) {

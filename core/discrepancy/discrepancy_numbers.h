@@ -19,6 +19,8 @@ void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& r
 /// Data that tell less than they seem to: one component, states read at one point only, a clock that is far off.
 void warnAboutData(const DiscrepancyInput& input, const std::vector<std::size_t>& rows,
                    std::vector<std::string>& warnings);
+/// What was read from the names of sensors, for the user to confirm, and where name and place contradict each other.
+void warnAboutSensors(const std::vector<SensorReading>& sensors, std::vector<std::string>& warnings);
 void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings);
 
 /// What decides which effects this machine, its log and the points measured admit.

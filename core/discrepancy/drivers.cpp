@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <map>
 
 #include "core/base/error.h"
 #include "core/discrepancy/log_gaps.h"
@@ -18,42 +18,32 @@ namespace {
 /// No part of a machine follows changes that are much quicker.
 constexpr double longest_noise_s = 600.0;
 
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+/// Mean rise of the sensors of one side of the column.
+struct ColumnSide {
+  std::vector<double> sum;
+  int sensors = 0;
+
+  void add(const std::vector<double>& rise) {
+    sum.resize(rise.size(), 0.0);
+    for (std::size_t i = 0; i < rise.size(); ++i) sum[i] += rise[i];
+    ++sensors;
+  }
+};
+
+/// Difference of two sides, empty unless both have sensors.
+std::vector<double> difference(const ColumnSide& warm, const ColumnSide& cold) {
+  if (warm.sensors == 0 || cold.sensors == 0) return {};
+  std::vector<double> out(warm.sum.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = warm.sum[i] / warm.sensors - cold.sum[i] / cold.sensors;
   return out;
 }
 
-bool holds(const std::string& text, std::initializer_list<const char*> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](const char* word) { return text.find(word) != std::string::npos; });
-}
-
-SensorRole roleOf(const std::string& text) {
-  if (holds(text, {"screw", "nut"})) return SensorRole::Screw;
-  if (holds(text, {"beam", "gantry", "bridge"})) return SensorRole::Beam;
-  if (holds(text, {"scale", "encoder"})) return SensorRole::Scale;
-  if (holds(text, {"column", "stand"})) {
-    if (holds(text, {"front"})) return SensorRole::ColumnFront;
-    if (holds(text, {"rear", "back"})) return SensorRole::ColumnRear;
-    return SensorRole::Column;
-  }
-  if (holds(text, {"spindle", "bearing", "housing", "motor", "head"})) return SensorRole::Spindle;
-  if (holds(text, {"artefact", "artifact", "hole bar", "ball"})) return SensorRole::Artefact;
-  if (holds(text, {"table", "pallet", "rotary"})) return SensorRole::Table;
-  if (holds(text, {"room", "ambient", "air", "hall", "environment"})) return SensorRole::Room;
-  return SensorRole::Other;
+/// Made of several sensors: no temperature of a place.
+bool isDifference(const Driver& driver) {
+  return driver.name == "column_difference" || driver.name == "column_side_difference";
 }
 
 }  // namespace
-
-SensorRole classifySensor(std::string_view name, std::string_view place) {
-  const SensorRole by_place = roleOf(lowered(place));
-  // "front bearing" says less than "T_screw_x": the name may know better than a bare bearing.
-  if (by_place == SensorRole::Spindle && roleOf(lowered(name)) == SensorRole::Screw) return SensorRole::Screw;
-  return by_place != SensorRole::Other ? by_place : roleOf(lowered(name));
-}
 
 void DriverTable::add(Driver driver) {
   double low = 0.0;
@@ -103,38 +93,28 @@ DriverTable::DriverTable(const MachineDescription& machine, const OperatingLog* 
   if (log->signal("instrument_on") == nullptr) {
     add({"instrument_on_assumed", "on", false, SensorRole::Other, std::vector<double>(n, 1.0)});
   }
-  std::vector<double> front(n, 0.0);
-  std::vector<double> rear(n, 0.0);
-  int fronts = 0;
-  int rears = 0;
+  std::map<SensorRole, ColumnSide> sides;
   for (const std::string& name : log->temperatureNames()) {
     // The noise of a sensor is a cause of no deviation: left in, it makes a slow lag of any other sensor look better.
     const std::vector<double> values = smoothWithinNoise(time_s_, *log->signal(name), longest_noise_s).values;
-    std::string place;
-    for (const TemperatureSensor& sensor : machine.temperature_sensors) {
-      if (sensor.name == name) place = sensor.place;
-    }
     // The start is the mean of the first rows, so that the noise of one reading does not count as a step.
     const std::size_t first = std::min<std::size_t>(n, 3);
     double start = 0.0;
     for (std::size_t i = 0; i < first; ++i) start += values[i] / static_cast<double>(first);
     std::vector<double> deviation(n);
     for (std::size_t i = 0; i < n; ++i) deviation[i] = values[i] - start;
-    const SensorRole role = classifySensor(name, place);
+    sensors_.push_back(readSensor(machine.temperature_sensors, name));
+    const SensorRole role = sensors_.back().role;
     const std::size_t before = drivers_.size();
     add({name, "K", true, role, deviation});
-    if (drivers_.size() == before) continue;
-    if (role == SensorRole::ColumnFront || role == SensorRole::ColumnRear) {
-      auto& sum = role == SensorRole::ColumnFront ? front : rear;
-      for (std::size_t i = 0; i < n; ++i) sum[i] += deviation[i];
-      ++(role == SensorRole::ColumnFront ? fronts : rears);
-    }
+    if (drivers_.size() > before) sides[role].add(deviation);
   }
-  if (fronts > 0 && rears > 0) {
-    std::vector<double> difference(n);
-    for (std::size_t i = 0; i < n; ++i) difference[i] = front[i] / fronts - rear[i] / rears;
-    add({"column_difference", "K", true, SensorRole::Other, difference});
-  }
+  const auto addDifference = [&](const char* name, SensorRole warm, SensorRole cold) {
+    std::vector<double> values = difference(sides[warm], sides[cold]);
+    if (!values.empty()) add({name, "K", true, SensorRole::Other, std::move(values)});
+  };
+  addDifference("column_difference", SensorRole::ColumnFront, SensorRole::ColumnRear);
+  addDifference("column_side_difference", SensorRole::ColumnLeft, SensorRole::ColumnRight);
   if (const auto* on = log->signal("coolant")) {
     for (const std::string& room : this->room()) {
       std::vector<double> product = scaled(*on, 1.0, 1.0);
@@ -192,8 +172,7 @@ const Driver* DriverTable::find(std::string_view name) const {
 std::vector<std::string> DriverTable::temperatures(std::initializer_list<SensorRole> roles) const {
   std::vector<std::string> names;
   for (const Driver& d : drivers_) {
-    if (d.unit == "K" && d.name != "column_difference" &&
-        std::find(roles.begin(), roles.end(), d.role) != roles.end()) {
+    if (d.unit == "K" && !isDifference(d) && std::find(roles.begin(), roles.end(), d.role) != roles.end()) {
       names.push_back(d.name);
     }
   }
@@ -203,7 +182,7 @@ std::vector<std::string> DriverTable::temperatures(std::initializer_list<SensorR
 std::vector<std::string> DriverTable::temperatures() const {
   std::vector<std::string> names;
   for (const Driver& d : drivers_) {
-    if (d.unit == "K" && d.name != "column_difference") names.push_back(d.name);
+    if (d.unit == "K" && !isDifference(d)) names.push_back(d.name);
   }
   return names;
 }
@@ -219,7 +198,8 @@ std::vector<std::string> DriverTable::spindleHeat() const {
   for (const char* name : {"spindle_rpm^1", "spindle_rpm^1.5", "spindle_rpm^2"}) {
     if (has(name)) names.emplace_back(name);
   }
-  for (const std::string& name : temperatures({SensorRole::Spindle})) names.push_back(name);
+  for (const std::string& name : temperatures({SensorRole::SpindleBearing, SensorRole::SpindleHousing}))
+    names.push_back(name);
   return names;
 }
 

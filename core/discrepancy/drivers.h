@@ -15,12 +15,9 @@
 #include "core/machine/effect.h"
 #include "core/machine/machine_description.h"
 #include "core/machine/operating_log.h"
+#include "core/machine/sensor_role.h"
 
 namespace spindrift {
-
-/// Where a temperature sensor sits, from its place and name.
-enum class SensorRole { Spindle, ColumnFront, ColumnRear, Column, Table, Room, Scale, Screw, Beam, Artefact, Other };
-[[nodiscard]] SensorRole classifySensor(std::string_view name, std::string_view place);
 
 struct Driver {
   std::string name;
@@ -32,9 +29,10 @@ struct Driver {
 
 /// Signals by name: "spindle_rpm^1", "^1.5", "^2" (krpm^p), "feed_x" (m/min), "speed_c" (rpm) and the squares of both,
 /// "feed_x^2", "speed_c^2" (friction is not quite in proportion to speed), "coolant", "instrument_on",
-/// "coolant*T_room" (on x K), every temperature under its own name, "column_difference" (front minus rear), and heat
-/// times position "spindle_rpm^1*pos_y", and "instrument_on_assumed" (on from the first row) where the log does not say
-/// when the instrument was switched on. Signals that never change are left out and named in `dead`.
+/// "coolant*T_room" (on x K), every temperature under its own name, "column_difference" (front minus rear),
+/// "column_side_difference" (left minus right), and heat times position "spindle_rpm^1*pos_y", and
+/// "instrument_on_assumed" (on from the first row) where the log does not say when the instrument was switched on.
+/// Signals that never change are left out and named in `dead`.
 class DriverTable {
  public:
   DriverTable() = default;
@@ -50,6 +48,8 @@ class DriverTable {
   /// Spindle heat: powers of the speed and spindle temperatures.
   [[nodiscard]] std::vector<std::string> spindleHeat() const;
   [[nodiscard]] const std::vector<std::string>& dead() const noexcept { return dead_; }
+  /// What every temperature of the log is taken for, dead ones too.
+  [[nodiscard]] const std::vector<SensorReading>& sensors() const noexcept { return sensors_; }
   [[nodiscard]] const std::vector<double>& time_s() const noexcept { return time_s_; }
   [[nodiscard]] bool empty() const noexcept { return time_s_.empty(); }
   /// Moves all signals: what the log says of time t is taken for t - offset_s of the observations.
@@ -66,6 +66,7 @@ class DriverTable {
   std::vector<double> time_s_;
   std::vector<Driver> drivers_;
   std::vector<std::string> dead_;
+  std::vector<SensorReading> sensors_;
 };
 
 /// Number of non-linear parameters of a variant.

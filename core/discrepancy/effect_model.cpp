@@ -8,17 +8,18 @@
 
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/discrepancy/simulation_table.h"
 
 namespace spindrift {
 namespace {
 
-/// A base that is a table: exact at its own times and points, nothing elsewhere.
+/// A base that is a table: interpolated in time, and in place where it is one by place.
 class TableModel : public ErrorModel {
  public:
   explicit TableModel(SimulationTable table) : table_(std::move(table)) {}
   [[nodiscard]] std::string description() const override { return "a table of predictions"; }
   [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override {
-    return {table_.at(query.time_s, query.point, component), 0.0};
+    return {table_.at(query.time_s, query.point, query.position_mm, component).value, 0.0};
   }
 
  private:
@@ -318,7 +319,10 @@ std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path
   }
   std::shared_ptr<const ErrorModel> base;
   const std::string table = root.stringOr("table", "");
-  if (!table.empty()) base = std::make_shared<TableModel>(SimulationTable::read(file.parent_path() / table));
+  if (!table.empty()) {
+    std::vector<std::string> told_before;  // when the table was compared with observations
+    base = std::make_shared<TableModel>(readSimulation(file.parent_path() / table, told_before));
+  }
   return std::make_shared<EffectModel>(drivers, std::move(effects), base, table);
 }
 

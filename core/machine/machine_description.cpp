@@ -148,7 +148,9 @@ MachineDescription MachineDescription::parse(const JsonNode& root, const std::fi
   });
   machine.temperature_sensors =
       parseList<TemperatureSensor>(root, "temperature_sensors", "name", [](const JsonNode& node) {
-        return TemperatureSensor{node.at("name").name(), node.stringOr("place", "")};
+        TemperatureSensor sensor{node.at("name").name(), node.stringOr("place", "")};
+        if (const auto role = node.find("role")) sensor.role = sensorRoleFromString(role->oneOf(sensorRoleNames()));
+        return sensor;
       });
   machine.points = parseList<MachinePoint>(root, "points", "id", [](const JsonNode& node) {
     return MachinePoint{

@@ -12,6 +12,7 @@
 
 #include "core/base/json_reader.h"
 #include "core/machine/kinematic_chain.h"
+#include "core/machine/sensor_role.h"
 
 namespace spindrift {
 
@@ -41,6 +42,7 @@ struct RotaryAxis {
 struct TemperatureSensor {
   std::string name;  ///< column of the log, "T_column_degC"
   std::string place;
+  std::optional<SensorRole> role;  ///< as stated; nothing: read from name and place (readSensor)
 };
 
 /// A place where the deviation is measured.

@@ -193,12 +193,22 @@ OperatingLog logOf(const Scenario& s, const VirtualMachine& plant, Random& rando
   return log;
 }
 
+/// The role of a sensor: as the scenario's machine states it, else of the body it sits on.
+std::optional<SensorRole> roleOf(const MachineDescription& machine, const SensorOptions& sensor) {
+  for (const TemperatureSensor& one : machine.temperature_sensors) {
+    if (one.name == sensor.name && one.role) return one.role;
+  }
+  return readSensorRole(sensor.place);
+}
+
 /// machine.json as it will be written: with the sensors that are in the log.
 nlohmann::json machineJson(const Scenario& s) {
   nlohmann::json json = s.machine.source;
   nlohmann::json sensors = nlohmann::json::array();
   for (const SensorOptions& sensor : s.sensors) {
-    if (!s.omitted_signals.contains(sensor.name)) sensors.push_back({{"name", sensor.name}, {"place", sensor.place}});
+    if (s.omitted_signals.contains(sensor.name)) continue;
+    sensors.push_back({{"name", sensor.name}, {"place", sensor.place}});
+    if (const auto role = roleOf(s.machine, sensor)) sensors.back()["role"] = std::string(toString(*role));
   }
   json["temperature_sensors"] = sensors;
   return json;
@@ -300,7 +310,7 @@ VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t>
   campaign.machine.temperature_sensors.clear();
   for (const SensorOptions& sensor : s.sensors) {
     if (!s.omitted_signals.contains(sensor.name)) {
-      campaign.machine.temperature_sensors.push_back({sensor.name, sensor.place});
+      campaign.machine.temperature_sensors.push_back({sensor.name, sensor.place, roleOf(s.machine, sensor)});
     }
   }
   if (s.simulation) truth.base = s.simulation->effects;

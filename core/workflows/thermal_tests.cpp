@@ -10,6 +10,8 @@
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/machine/observation.h"
+#include "core/machine/operating_log.h"
+#include "core/machine/sensor_role.h"
 #include "core/reporting/svg_plot.h"
 #include "core/thermal/time_series.h"
 
@@ -103,8 +105,12 @@ Iso230Result evaluateIso230Test(const TimeSeries& series, const Iso230Request& r
   }
   if (request.test == "etve") {
     std::string ambient = request.ambient;
-    for (const char* candidate : {"T_room_degC", "T_ambient_degC"})
-      if (ambient.empty() && series.find(candidate) != nullptr) ambient = candidate;
+    for (const Signal& s : series.signals) {
+      if (ambient.empty() && OperatingLog::isTemperature(s.name) && readSensorRole(s.name) == SensorRole::Room) {
+        ambient = s.name;
+        result.notes.push_back(ambient + " is taken for the ambient temperature by its name; --ambient names another.");
+      }
+    }
     if (ambient.empty())
       result.notes.push_back("no ambient temperature was named (--ambient): nothing is given per K.");
     result.etve =

@@ -2,6 +2,9 @@
 # What is installed, and the Debian package: cpack --config build/CPackConfig.cmake (or cmake --build build --target package).
 include(GNUInstallDirs)
 install(TARGETS spindrift-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET spindrift-fe)
+  install(TARGETS spindrift-fe RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 if(TARGET spindrift)
   install(TARGETS spindrift RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(FILES resources/packaging/spindrift.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)

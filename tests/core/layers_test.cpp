@@ -28,6 +28,8 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
     for (const auto& name : instruments) t[name] = {"base", "math", "geometry", "machine"};
     std::set<std::string> below = {"base", "math", "geometry", "machine"};
     below.insert(instruments.begin(), instruments.end());
+    t["finite_elements"] = {"base", "math", "geometry", "machine"};
+    below.insert("finite_elements");
     t["simulation"] = below;
     t["discrepancy"] = below;  // and never simulation: a search tested on its own formulas proves nothing
     below.insert({"simulation", "discrepancy"});

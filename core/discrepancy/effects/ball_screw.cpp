@@ -9,9 +9,9 @@ namespace spindrift {
 void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& out) {
   const DriverTable& drivers = *context.drivers;
   const auto room = drivers.room();
-  const auto screw = drivers.temperatures({SensorRole::Screw});
   for (int axis = 0; axis < 3; ++axis) {
     const std::string letter = axis_letters[axis];
+    const auto screw = drivers.temperatures({screwRole(axis), SensorRole::Screw});
     const LinearAxis* linear = nullptr;
     for (const LinearAxis& a : context.machine->axes) {
       if (!a.name.empty() && a.name[0] == static_cast<char>('X' + axis)) linear = &a;

@@ -36,19 +36,11 @@ void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out)
   const DriverTable& drivers = *context.drivers;
   const double base = *context.machine->column_base_mm;
   const auto room = drivers.room();
-  const auto column = drivers.temperatures({SensorRole::ColumnFront, SensorRole::ColumnRear, SensorRole::Column});
-  std::vector<std::string> bending_drivers;
-  if (drivers.has("column_difference")) bending_drivers.emplace_back("column_difference");
+  const auto column = drivers.temperatures({SensorRole::ColumnFront, SensorRole::ColumnRear, SensorRole::ColumnLeft,
+                                            SensorRole::ColumnRight, SensorRole::Column});
   std::vector<std::string> growth_drivers = column;
-  if (bending_drivers.empty()) bending_drivers = column;
-  for (const std::string& name : drivers.spindleHeat()) {
-    bending_drivers.push_back(name);
-    growth_drivers.push_back(name);
-  }
-  for (const std::string& name : room) {
-    bending_drivers.push_back(name);
-    growth_drivers.push_back(name);
-  }
+  for (const std::string& name : drivers.spindleHeat()) growth_drivers.push_back(name);
+  for (const std::string& name : room) growth_drivers.push_back(name);
   for (int axis = 0; axis < 2; ++axis) {
     Effect bending;
     bending.id = axis == 0 ? "column.bending.a" : "column.bending.b";
@@ -57,9 +49,23 @@ void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out)
         "the "
         "height above the base, the rotation in proportion to it.";
     addBendingShape(*context.machine, axis, bending);
+    // Front minus rear turns the column about X, left minus right about Y. Where the sensors of those sides are
+    // missing, others of the column may stand for them.
+    const char* across = axis == 0 ? "column_difference" : "column_side_difference";
+    const char* other = axis == 0 ? "column_side_difference" : "column_difference";
+    std::vector<std::string> bending_drivers;
+    if (drivers.has(across)) {
+      bending_drivers.emplace_back(across);
+    } else if (drivers.has(other)) {
+      bending_drivers.emplace_back(other);
+    } else {
+      bending_drivers = column;
+    }
+    for (const std::string& name : drivers.spindleHeat()) bending_drivers.push_back(name);
+    for (const std::string& name : room) bending_drivers.push_back(name);
     addLagVariants(bending, bending_drivers);
     bending.follows_room = true;
-    bending.driver_missing = !drivers.has("column_difference");
+    bending.driver_missing = !drivers.has(across);
     out.push_back(bending);
   }
   Effect growth;

@@ -27,14 +27,14 @@ void addCrossbeamEffects(const CatalogueContext& context, std::vector<Effect>& o
   std::vector<std::string> names;
   const std::string feed = axis == 1 ? "feed_y" : "feed_x";
   if (drivers.has(feed)) names.push_back(feed);
-  for (const std::string& name : drivers.temperatures({SensorRole::Beam, SensorRole::Room})) names.push_back(name);
+  for (const std::string& name : drivers.temperatures({SensorRole::Crossbeam, SensorRole::Room})) names.push_back(name);
   addLagVariants(effect, names);
   const auto room = drivers.room();
   if (drivers.has(feed) && !room.empty()) {
     effect.variants.push_back({{{feed, Dynamics::Lag}, {room[0], Dynamics::Lag}}, false});
   }
   effect.follows_room = true;
-  effect.driver_missing = !drivers.has(feed) && drivers.temperatures({SensorRole::Beam}).empty();
+  effect.driver_missing = !drivers.has(feed) && drivers.temperatures({SensorRole::Crossbeam}).empty();
   out.push_back(std::move(effect));
 }
 

@@ -34,7 +34,7 @@ void addPeriodicEffects(const CatalogueContext& context, std::vector<Effect>& ou
         effect.variants.push_back({{{feed, Dynamics::Lag}, {room, Dynamics::Lag}}, true});
       }
     }
-    addLagVariants(effect, drivers.temperatures({SensorRole::Room, SensorRole::Screw}));
+    addLagVariants(effect, drivers.temperatures({SensorRole::Room, screwRole(axis), SensorRole::Screw}));
     if (context.position_varies) effect.variants.push_back({{{"", Dynamics::None}}, false});
     effect.follows_room = true;
     effect.driver_missing = !drivers.has(feed);

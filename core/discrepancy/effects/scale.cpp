@@ -5,7 +5,6 @@ namespace spindrift {
 
 // A linear scale that follows the room or its own sensor grows away from its datum.
 void addScaleEffects(const CatalogueContext& context, std::vector<Effect>& out) {
-  const auto sensors = context.drivers->temperatures({SensorRole::Scale, SensorRole::Room});
   for (int axis = 0; axis < 3; ++axis) {
     const LinearAxis* linear = nullptr;
     for (const LinearAxis& a : context.machine->axes) {
@@ -26,6 +25,7 @@ void addScaleEffects(const CatalogueContext& context, std::vector<Effect>& out) 
       effect.origin_low_mm = linear->travel_mm[0] - 500.0;
       effect.origin_high_mm = linear->travel_mm[1] + 500.0;
     }
+    const auto sensors = context.drivers->temperatures({scaleRole(axis), SensorRole::Scale, SensorRole::Room});
     addLagVariants(effect, sensors);
     effect.driver_missing = sensors.empty();
     out.push_back(std::move(effect));

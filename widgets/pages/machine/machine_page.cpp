@@ -13,10 +13,13 @@
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <iterator>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/machine/sensor_role.h"
 #include "core/workflows/fit_campaign.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
@@ -130,11 +133,12 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   tabs->addTab(makeSplitter(card, picture, 8, 5), tr("Axes and points"));
   artefacts_ = new ArtefactEditor(context());
   tabs->addTab(artefacts_, tr("Artefacts and styli"));
+  tabs->addTab(makeSensorTab(), tr("Temperature sensors"));
   content()->addWidget(tabs, 1);
   // Each tab has its own changes to apply.
   connect(tabs, &QTabWidget::currentChanged, this, [this](int index) {
-    apply_->setVisible(index == 0);
-    discard_->setVisible(index == 0);
+    apply_->setVisible(index != 1);
+    discard_->setVisible(index != 1);
   });
 
   connect(name_, &QLineEdit::textEdited, this, &MachinePage::markEdited);
@@ -210,6 +214,7 @@ void MachinePage::refresh() {
     v.position_mm = point.position_mm;
     shown.push_back(v);
   }
+  showSensors();
   filling_ = false;
   view_->setMachine(machine);
   view_->setPoints(std::move(shown));
@@ -219,6 +224,68 @@ void MachinePage::refresh() {
   original_->setVisible(session().machineEdited());
   artefacts_->refresh();
   showFindings();
+}
+
+QWidget* MachinePage::makeSensorTab() {
+  auto* card = new Card;
+  auto* told = new QLabel(
+      tr("Where a sensor sits decides which effects it can drive. What was read from the name of its column is to be "
+         "confirmed or put right."));
+  told->setWordWrap(true);
+  card->body()->addWidget(told);
+  sensors_ =
+      makeEditor({tr("Column of the log"), tr("Place"), tr("Role"), tr("Known from")}, tr("Temperature sensors"));
+  sensors_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  card->body()->addWidget(sensors_, 1);
+  auto* buttons = new WrapLayout;
+  auto* confirm = makeButton(tr("Confirm all"), "check");
+  buttons->addWidget(confirm);
+  card->body()->addLayout(buttons);
+  connect(confirm, &QPushButton::clicked, this, [this] {
+    for (int row = 0; row < sensors_->rowCount(); ++row) stateRole(row);
+  });
+  return card;
+}
+
+void MachinePage::showSensors() {
+  const auto campaign = session().campaign();
+  const MachineDescription& machine = campaign->machine;
+  std::vector<std::string> columns;
+  for (const TemperatureSensor& sensor : machine.temperature_sensors) columns.push_back(sensor.name);
+  if (campaign->log) {
+    for (const std::string& name : campaign->log->temperatureNames()) {
+      if (std::find(columns.begin(), columns.end(), name) == columns.end()) columns.push_back(name);
+    }
+  }
+  sensors_->setRowCount(0);
+  sensors_->setRowCount(static_cast<int>(columns.size()));
+  for (int row = 0; row < sensors_->rowCount(); ++row) {
+    const SensorReading reading = readSensor(machine.temperature_sensors, columns[static_cast<std::size_t>(row)]);
+    setText(sensors_, row, 0, QString::fromStdString(reading.column));
+    for (const TemperatureSensor& sensor : machine.temperature_sensors) {
+      if (sensor.name == reading.column) setText(sensors_, row, 1, QString::fromStdString(sensor.place));
+    }
+    auto* role = new QComboBox;
+    role->setAccessibleName(tr("Role of %1").arg(QString::fromStdString(reading.column)));
+    for (const std::string& name : sensorRoleNames()) {
+      const std::string_view text = describe(*sensorRoleFromString(name));
+      role->addItem(QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())), QString::fromStdString(name));
+    }
+    role->setCurrentIndex(static_cast<int>(reading.role));
+    sensors_->setCellWidget(row, 2, role);
+    const bool stated = reading.from == "machine.json";
+    setText(sensors_, row, 3, stated ? tr("machine.json") : tr("its name: please confirm"));
+    sensors_->item(row, 3)->setData(Qt::UserRole, stated);
+    sensors_->item(row, 3)->setToolTip(QString::fromStdString(reading.note));
+    connect(role, &QComboBox::activated, this, [this, row] { stateRole(row); });
+  }
+  sensors_->resizeColumnsToContents();
+}
+
+void MachinePage::stateRole(int row) {
+  sensors_->item(row, 3)->setData(Qt::UserRole, true);
+  sensors_->item(row, 3)->setText(tr("this page"));
+  markEdited();
 }
 
 void MachinePage::showFindings() {
@@ -282,6 +349,19 @@ nlohmann::json MachinePage::edited() const {
                       {"z_mm", numberOrText(textAt(points_, row, 4))}});
   }
   machine["points"] = points;
+  for (int row = 0; row < sensors_->rowCount(); ++row) {
+    if (!sensors_->item(row, 3)->data(Qt::UserRole).toBool()) continue;
+    const std::string name = textAt(sensors_, row, 0).toStdString();
+    nlohmann::json& list = machine["temperature_sensors"];
+    if (!list.is_array()) list = nlohmann::json::array();
+    auto sensor = std::find_if(list.begin(), list.end(),
+                               [&](const nlohmann::json& one) { return one.value("name", std::string()) == name; });
+    if (sensor == list.end()) {
+      list.push_back({{"name", name}});
+      sensor = std::prev(list.end());
+    }
+    (*sensor)["role"] = qobject_cast<QComboBox*>(sensors_->cellWidget(row, 2))->currentData().toString().toStdString();
+  }
   return machine;
 }
 

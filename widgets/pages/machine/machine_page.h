@@ -26,6 +26,8 @@ class MachinePage : public Page {
   void refresh() override;
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] ArtefactEditor* artefacts() const { return artefacts_; }
+  /// Column of the log, what it is taken for, and from where that is known.
+  [[nodiscard]] QTableWidget* sensors() const { return sensors_; }
 
   [[nodiscard]] bool mayBeLeft() override;
 
@@ -36,11 +38,15 @@ class MachinePage : public Page {
   void showSuggestion(const PlacementAnswer& answer);
   [[nodiscard]] nlohmann::json edited() const;
   void showFindings();
+  QWidget* makeSensorTab();
+  void showSensors();
+  void stateRole(int row);
 
   QLineEdit* name_;
   QLineEdit* chain_;
   QTableWidget* axes_;
   QTableWidget* points_;
+  QTableWidget* sensors_;
   ArtefactEditor* artefacts_;
   View3D* view_;
   QSpinBox* suggest_count_;

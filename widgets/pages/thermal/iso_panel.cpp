@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/machine/sensor_role.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
@@ -51,7 +52,7 @@ void IsoPanel::set(std::shared_ptr<const TimeSeries> series) {
     for (const Signal& s : series_->signals) {
       if (s.kind != SignalKind::Temperature) continue;
       ambient_->addItem(fromCore(s.name));
-      if (s.name == "T_room_degC" || s.name == "T_ambient_degC") ambient_->setCurrentIndex(ambient_->count() - 1);
+      if (readSensorRole(s.name) == SensorRole::Room) ambient_->setCurrentIndex(ambient_->count() - 1);
     }
   }
   evaluate();
