@@ -161,10 +161,11 @@ std::string DiscrepancyResult::summary() const {
                       gap.rms_after_um, gap.noise_um);
   if (!leftover.empty()) text += fmt::format("  left over: {}\n", leftover);
   if (suggestion) {
-    text +=
-        fmt::format("  measure next, to tell {}: {}. Expected probability of the right one alone {:.2f} (now {:.2f})\n",
-                    suggestion->separates, suggestion->conditions, suggestion->probability_alone_expected,
-                    suggestion->probability_alone_now);
+    text += fmt::format(
+        "  measure next, to tell {}: {}. Expected probability that the right one stands alone then {:.2f} (most "
+        "probable one now {:.2f})\n",
+        suggestion->separates, suggestion->conditions, suggestion->probability_alone_expected,
+        suggestion->probability_alone_now);
   }
   for (const std::string& w : warnings) text += fmt::format("  note: {}\n", w);
   return text;

@@ -14,7 +14,6 @@
 
 #include "core/base/random.h"
 #include "core/base/text.h"
-#include "core/math/statistics.h"
 #include "core/simulation/programme.h"
 #include "tests/benchmarks/discrepancy/hidden_effect_scoring.h"
 #include "tests/benchmarks/discrepancy/study_report.h"
@@ -428,8 +427,7 @@ int runSuggestionStudy(const SuggestionStudyOptions& options) {
   const int n = all.suggestion.n + all.without;
   if (n == 0) return 0;
   const int alone = all.suggestion.count[End::Alone];
-  const bool often =
-      wilsonInterval(static_cast<std::size_t>(alone), static_cast<std::size_t>(n)).high >= named_alone_at_least;
+  const bool often = alone >= named_alone_at_least * n;
   const bool beats = all.chance.n == 0 ||
                      static_cast<double>(alone) / n > static_cast<double>(all.chance.count[End::Alone]) / all.chance.n;
   fmt::print("the truth alone after the suggestion in >= {:.0f} %: {}; more often than by chance: {}\n",

@@ -133,7 +133,7 @@ void NextPanel::showSuggestion() {
                          item(tr("Where"), places.join(QStringLiteral("; "))) +
                          item(tr("When, from the start of the programme"), times.join(QStringLiteral(", "))));
     gain_->set(tr("%1 %").arg(100.0 * s.probability_alone_expected, 0, 'f', 0),
-               tr("now %1 %").arg(100.0 * s.probability_alone_now, 0, 'f', 0));
+               tr("most probable one now: %1 %").arg(100.0 * s.probability_alone_now, 0, 'f', 0));
   } else if (!story_->decided) {
     suggestion_->setText(sentenceStart(titledSentence(story_->message)));
   } else if (story_->verdict == DiscrepancyVerdict::Unknown) {
