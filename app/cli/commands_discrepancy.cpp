@@ -25,6 +25,18 @@ void addDiscrepancyCommands(CLI::App& app, CommandLine& line) {
       ->type_name("ID");
   command->add_option("--max-effects", request->options.max_effects, "Most effects to add, 0 to 10")
       ->capture_default_str();
+  command
+      ->add_option("--suggest-hours", request->options.suggest_hours,
+                   "Hours that the measurement suggested next may take, at most 72")
+      ->capture_default_str();
+  command
+      ->add_option("--suggest-points", request->options.suggest_points,
+                   "Points that the measurement suggested next may have, 1 to 50")
+      ->capture_default_str();
+  command
+      ->add_option("--suggest-times", request->options.suggest_times,
+                   "Times at which it may measure these points, 3 to 200")
+      ->capture_default_str();
   command->add_option("--model-out", request->model_out, "Write the effects found as model.json")->type_name("FILE");
   command
       ->add_option("--prediction", request->prediction,

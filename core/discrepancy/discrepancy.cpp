@@ -402,16 +402,31 @@ void tellEffects(const Solution& solution, DiscrepancyResult& result) {
   result.effect_part = std::move(part);
 }
 
-/// For the first effect with a rival that a measurement can separate.
-std::optional<MeasurementSuggestion> suggestionFor(const Solution& solution) {
-  for (const NamedEffect& name : solution.judged.names) {
-    if (!name.closest) continue;
-    auto suggestion = suggestMeasurement(solution.input, *solution.analysis.drivers, *solution.analysis.search,
-                                         solution.problem, solution.judged.named, *name.closest,
-                                         name.id + " from " + name.rivals.front(), solution.analysis.search->logN());
-    if (suggestion) return suggestion;
+/// The most probable candidates, and what each that was rejected is given up for.
+void tellCandidates(const EffectPosterior& posterior, const DiscrepancyOptions& options, DiscrepancyResult& result) {
+  const auto rejected = [&](const std::string& id) {
+    return std::find(options.reject.begin(), options.reject.end(), id) != options.reject.end();
+  };
+  constexpr std::size_t most = 10;
+  for (const auto& [id, probability] : posterior.candidates) {
+    if (result.candidates.size() < most) result.candidates.push_back({id, probability, rejected(id)});
   }
-  return std::nullopt;
+  for (const std::string& id : options.reject) {
+    const auto found = std::find_if(posterior.candidates.begin(), posterior.candidates.end(),
+                                    [&](const auto& c) { return c.first == id; });
+    constexpr double worth_telling = 0.005;
+    if (found == posterior.candidates.end() || found->second < worth_telling) {
+      result.warnings.push_back(fmt::format("{} was rejected by hand; the data do not ask for it either.", id));
+      continue;
+    }
+    std::vector<std::string> others;
+    for (const auto& [other, probability] : posterior.candidates) {
+      if (!rejected(other) && probability >= worth_telling && others.size() < 3)
+        others.push_back(fmt::format("{} {:.2f}", other, probability));
+    }
+    result.warnings.push_back(fmt::format("{} was rejected by hand; with it considered its probability is {:.2f}{}.",
+                                          id, found->second, others.empty() ? "" : ", beside " + joinedList(others)));
+  }
 }
 
 std::string sentenceOf(const DiscrepancyResult& result, const DiscrepancyOptions& options) {
@@ -602,6 +617,18 @@ void DiscrepancyOptions::validate() const {
   if (max_effects < 0 || max_effects > 10) {
     throw InputError(fmt::format("max_effects {} is not allowed; allowed: 0 to 10.", max_effects));
   }
+  if (!(suggest_hours > 0.0) || suggest_hours > 72.0) {
+    throw InputError(
+        fmt::format("{} hours for the next measurement are not allowed; allowed: above 0, at most 72.", suggest_hours));
+  }
+  if (suggest_points < 1 || suggest_points > 50) {
+    throw InputError(
+        fmt::format("{} points for the next measurement are not allowed; allowed: 1 to 50.", suggest_points));
+  }
+  if (suggest_times < 3 || suggest_times > 200) {
+    throw InputError(
+        fmt::format("{} times for the next measurement are not allowed; allowed: 3 to 200.", suggest_times));
+  }
   if (!(false_alarm_rate > 0.0) || false_alarm_rate > 0.2) {
     throw InputError(
         fmt::format("false_alarm_rate {} is not allowed; allowed: above 0, at most 0.2.", false_alarm_rate));
@@ -656,15 +683,20 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   for (const std::string& warning : solution.judged.warnings) result.warnings.push_back(warning);
   if (const std::string far = farClock(problem, analysis, solution.judged.named); !far.empty())
     result.warnings.push_back(far);
-  for (const auto& [id, probability] : analysis.posterior.candidates) {
-    if (result.candidates.size() < 10) result.candidates.push_back({id, probability});
-  }
+  tellCandidates(analysis.posterior, options, result);
   fitModel(solution);
   result.model = std::make_shared<EffectModel>(analysis.drivers, solution.averaged, nullptr, input.base_table);
   tellEffects(solution, result);
   tellNoise(solution, result);
   result.where = findPlaces(problem, *analysis.drivers, problem.projectedResidual().head(problem.size()));
-  if (options.suggest && enough) result.suggestion = suggestionFor(solution);
+  if (options.suggest && enough && result.verdict == DiscrepancyVerdict::Ambiguous) {
+    std::vector<std::string> ambiguous;
+    for (const NamedEffect& name : solution.judged.names) {
+      if (!name.rivals.empty()) ambiguous.push_back(name.id);
+    }
+    result.suggestion = suggestMeasurement(input, *analysis.drivers, *analysis.search, problem, analysis.posterior,
+                                           ambiguous, effective, priors, job);
+  }
 
   warnAboutSensors(result.sensors, result.warnings);
   result.decided = enough;

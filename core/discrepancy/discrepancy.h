@@ -15,6 +15,7 @@
 // and O'Hagan 2001 (model discrepancy); Golub and Pereyra 1973 (variable projection); Schwarz 1978.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -41,6 +42,9 @@ struct DiscrepancyOptions {
   std::vector<std::string> reject;  ///< ids that the user does not want considered
   double false_alarm_rate = 0.01;   ///< (0, 0.2]: of naming anything when nothing is missing
   bool suggest = true;              ///< compute what to measure next for rivals
+  double suggest_hours = 8.0;       ///< what the user allows the next measurement: hours of machine time, (0, 72]
+  int suggest_points = 4;           ///< points, 1 ... 50
+  int suggest_times = 16;           ///< times at which all of these are measured, 3 ... 200
   void validate() const;
 };
 
@@ -115,6 +119,7 @@ struct OutlyingReading {
 struct EffectCandidate {
   std::string id;
   double probability = 0.0;  ///< that it is among what is missing, before rivals and what remains are weighed
+  bool rejected = false;     ///< by the user: weighed, but not named
 };
 
 /// What remains beside the effects, in one component.
@@ -144,13 +149,38 @@ struct DiscrepancyGap {
   double heldout_rms_after_um = 0.0;
 };
 
-/// What to measure next to separate an effect from its rivals.
+/// A part of an operating programme: what the machine does from one time to another, everything else at rest.
+struct ProgrammeStep {
+  double from_s = 0.0;  ///< since the start of the programme
+  double to_s = 0.0;
+  std::string action;      ///< "rest", "X alone at 12 m/min", "the programme of the log again"
+  bool as_logged = false;  ///< what the log did since its start; the rates below are not used
+  double spindle_rpm = 0.0;
+  std::array<double, 3> feed_mm_min{};  ///< X, Y, Z
+  double c_rpm = 0.0;
+  bool coolant = false;
+  std::array<double, 3> position_mm{};  ///< X, Y, Z: where the axes stand or around which they move
+
+  friend bool operator==(const ProgrammeStep&, const ProgrammeStep&) = default;
+};
+
+/// What to measure next to separate effects from their rivals: an operating programme for a machine that has rested
+/// overnight, and where and when to measure meanwhile.
 struct MeasurementSuggestion {
-  std::vector<std::string> points;
-  std::vector<double> times_s;  ///< of this campaign's programme, when it is run again
-  std::string conditions;
-  std::string separates;  ///< "spindle.drift.x from ambient.drift.x"
-  double expected_delta_bic = 0.0;
+  std::vector<std::string> points;  ///< of the machine or, where it has none there, "(x, y, z) mm"
+  std::vector<double> times_s;      ///< since the start of the programme; all points are measured at each
+  std::vector<double> c_deg;        ///< table angle at each time; empty: as it stands
+  std::string conditions;           ///< the plan in one sentence
+  std::string separates;            ///< "spindle.drift.x from ambient.drift.x"
+  double expected_delta_bic = 0.0;  ///< gain in evidence of the effect named over its nearest rival, if it is right
+  std::vector<ProgrammeStep> programme;
+  bool restart_instrument = false;          ///< off overnight, switched on at the start; else left on
+  double expected_information_nats = 0.0;   ///< about which of the candidates it is
+  double present_entropy_nats = 0.0;        ///< what there is to be known of that
+  double probability_alone_now = 0.0;       ///< of the most probable candidate, as it stands
+  double probability_alone_expected = 0.0;  ///< that the right one of them is named without rivals afterwards
+
+  friend bool operator==(const MeasurementSuggestion&, const MeasurementSuggestion&) = default;
 };
 
 /// One step of the search, kept for the session and the report.

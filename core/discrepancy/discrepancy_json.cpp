@@ -66,11 +66,30 @@ nlohmann::json DiscrepancyResult::json() const {
                 {"heldout_rms_after_um", jsonNumber(gap.heldout_rms_after_um)}};
   out["suggestion"] = nullptr;
   if (suggestion) {
+    json programme = json::array();
+    for (const ProgrammeStep& step : suggestion->programme) {
+      programme.push_back({{"from_s", jsonNumber(step.from_s)},
+                           {"to_s", jsonNumber(step.to_s)},
+                           {"action", step.action},
+                           {"as_logged", step.as_logged},
+                           {"spindle_rpm", jsonNumber(step.spindle_rpm)},
+                           {"feed_mm_min", step.feed_mm_min},
+                           {"speed_c_rpm", jsonNumber(step.c_rpm)},
+                           {"coolant", step.coolant},
+                           {"position_mm", step.position_mm}});
+    }
     out["suggestion"] = {{"points", suggestion->points},
                          {"times_s", suggestion->times_s},
+                         {"c_deg", suggestion->c_deg},
                          {"conditions", suggestion->conditions},
                          {"separates", suggestion->separates},
-                         {"expected_delta_bic", jsonNumber(suggestion->expected_delta_bic)}};
+                         {"expected_delta_bic", jsonNumber(suggestion->expected_delta_bic)},
+                         {"programme", programme},
+                         {"restart_instrument", suggestion->restart_instrument},
+                         {"expected_information_nats", jsonNumber(suggestion->expected_information_nats)},
+                         {"present_entropy_nats", jsonNumber(suggestion->present_entropy_nats)},
+                         {"probability_alone_now", jsonNumber(suggestion->probability_alone_now)},
+                         {"probability_alone_expected", jsonNumber(suggestion->probability_alone_expected)}};
   }
   out["leftover"] = leftover.empty() ? json() : json(leftover);
   out["model"] = model ? model->json() : json();
@@ -103,7 +122,7 @@ nlohmann::json DiscrepancyResult::json() const {
   out["state_shifts"] = shift_list;
   json candidate_list = json::array();
   for (const EffectCandidate& c : candidates) {
-    candidate_list.push_back({{"id", c.id}, {"probability", jsonNumber(c.probability)}});
+    candidate_list.push_back({{"id", c.id}, {"probability", jsonNumber(c.probability)}, {"rejected", c.rejected}});
   }
   out["candidates"] = candidate_list;
   json outlier_rows = json::array();
@@ -147,9 +166,11 @@ std::string DiscrepancyResult::summary() const {
                       gap.rms_after_um, gap.noise_um);
   if (!leftover.empty()) text += fmt::format("  left over: {}\n", leftover);
   if (suggestion) {
-    text += fmt::format("  measure next, to tell {}: {} at {} times; {} (expected gain in BIC {:.0f})\n",
-                        suggestion->separates, joinedList(suggestion->points), suggestion->times_s.size(),
-                        suggestion->conditions, suggestion->expected_delta_bic);
+    text += fmt::format(
+        "  measure next, to tell {}: {}. Expected probability that the right one stands alone then {:.2f} (most "
+        "probable one now {:.2f})\n",
+        suggestion->separates, suggestion->conditions, suggestion->probability_alone_expected,
+        suggestion->probability_alone_now);
   }
   for (const std::string& w : warnings) text += fmt::format("  note: {}\n", w);
   return text;

@@ -357,7 +357,7 @@ SlotEvidence PosteriorSearch::slotOf(const State& best, std::size_t t, const Job
     a.rejected = rejected(a.id);
     a.probability = std::exp(std::min(50.0, 0.5 * (a.evidence - best.evidence)));
     a.joint = states[i].fit;
-    if (!a.rejected) visited.push_back(states[i]);
+    visited.push_back(states[i]);
     sum += a.probability;
     out.others.push_back(std::move(a));
   }
@@ -498,6 +498,19 @@ EffectPosterior PosteriorSearch::run(const JobContext& job) const {
     std::vector<ModelTerm> fewer = best.fit.terms;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(idle));
     best = refined(stateOf(fewer, 1));
+  }
+  // What the user rejected is weighed beside the best without it, so that the answer says what it is given up for.
+  for (const std::string& id : options_->reject) {
+    if (job.cancelled()) break;
+    std::vector<std::string> skip;
+    for (const Effect& effect : search_->catalogue()) {
+      if (effect.id != id) skip.push_back(effect.id);
+    }
+    const std::vector<CandidateFit> found = library_->sweep(given(best.fit), skip, job);
+    if (found.empty()) continue;
+    std::vector<ModelTerm> terms = best.fit.terms;
+    terms.push_back(found.front().term);
+    visited.push_back(stateOf(terms, 1));
   }
   std::vector<std::size_t> order(slots.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

@@ -83,7 +83,8 @@ struct EffectPosterior {
   std::vector<bool> forced;
   double evidence = 0.0;
   double evidence_of_nothing = 0.0;
-  /// Probability that an effect is in the set, of all that were looked at, most probable first.
+  /// Probability that an effect is in the set, of all that were looked at, most probable first; what the user rejected
+  /// is among them.
   std::vector<std::pair<std::string, double>> candidates;
   std::vector<DiscrepancyStep> steps;
 };

@@ -253,11 +253,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     for (const Alternative& a : slot.others) {
       name.margin = std::min(name.margin, posterior.evidence - a.evidence);
       if (a.probability < least_rival * slot.probability) continue;
-      if (a.rejected) {
-        out.warnings.push_back(fmt::format("{}, which was rejected, explains the same {}.", a.id,
-                                           a.probability > slot.probability ? "better" : "about as well"));
-        continue;
-      }
+      if (a.rejected) continue;  // told with all that was rejected
       if (a.container) {
         name.containers.push_back(a.id);
         continue;
@@ -291,6 +287,14 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       name.rivals.clear();
       name.containers.clear();
       name.closest.reset();
+    }
+    if (name.forced && slot.delta_evidence > 0.0 && !slot.others.empty()) {
+      const Alternative& best = slot.others.front();
+      if (!best.rejected && best.probability > slot.probability) {
+        out.warnings.push_back(fmt::format(
+            "{} was accepted by hand; {} in its place is more probable with these data ({:.2f} against {:.2f}).",
+            effect.id, best.id, best.probability, slot.probability));
+      }
     }
     DiscrepancyStep step{effect.id, true, slot.delta_evidence, slot.delta_chi2, ""};
     if (name.forced) {

@@ -206,6 +206,7 @@ void addCandidates(HtmlDocument& document, const DiscrepancyReportData& data) {
         answer = "holds what is named as a special case";
         break;
       case CandidateRole::None:
+        if (candidate.rejected) answer = "rejected by hand";
         break;
     }
     rows.push_back({withEffectTitles(candidate.id), percentText(candidate.probability), answer});
@@ -566,9 +567,21 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
   if (result.suggestion) {
     const MeasurementSuggestion& next = *result.suggestion;
     document.subsection("Measure next");
-    document.paragraph(withEffectTitles(fmt::format(
-        "To tell {}: measure {} at {} times of the programme; {}. Expected gain in BIC {:.0f}.", next.separates,
-        joinedList(next.points), next.times_s.size(), next.conditions, next.expected_delta_bic)));
+    document.paragraph(withEffectTitles(fmt::format("To tell {}: {}.", next.separates, next.conditions)));
+    std::vector<std::vector<std::string>> steps;
+    for (const ProgrammeStep& step : next.programme) {
+      steps.push_back(
+          {fmt::format("{:.2f} to {:.2f}", step.from_s / seconds_per_hour, step.to_s / seconds_per_hour), step.action});
+    }
+    if (!steps.empty()) {
+      document.table({"Time / h", "Programme"}, steps, "What the machine does, from its start after a night at rest");
+      document.paragraph(
+          fmt::format("Expected: {:.2f} of {:.2f} nats of what is not known; the right one stands alone afterwards "
+                      "with probability "
+                      "{:.2f}. The most probable one has {:.2f} now.",
+                      next.expected_information_nats, next.present_entropy_nats, next.probability_alone_expected,
+                      next.probability_alone_now));
+    }
   }
   if (!result.where.empty()) {
     std::vector<std::vector<std::string>> rows;

@@ -295,15 +295,46 @@ void parsePlaces(const nlohmann::json& result, DiscrepancyStory& story) {
   }
 }
 
+MeasurementSuggestion parseSuggestion(const nlohmann::json& json) {
+  MeasurementSuggestion s;
+  s.points = json.at("points").get<std::vector<std::string>>();
+  s.times_s = numbersOf(json.at("times_s"));
+  s.conditions = json.at("conditions").get<std::string>();
+  s.separates = json.at("separates").get<std::string>();
+  s.expected_delta_bic = numberOf(json, "expected_delta_bic");
+  // Stories of older versions have no programme.
+  if (!json.contains("programme")) return s;
+  s.c_deg = numbersOf(json.at("c_deg"));
+  for (const auto& p : json.at("programme")) {
+    ProgrammeStep step;
+    step.from_s = numberOf(p, "from_s");
+    step.to_s = numberOf(p, "to_s");
+    step.action = p.at("action").get<std::string>();
+    step.as_logged = p.at("as_logged").get<bool>();
+    step.spindle_rpm = numberOf(p, "spindle_rpm");
+    step.c_rpm = numberOf(p, "speed_c_rpm");
+    step.coolant = p.at("coolant").get<bool>();
+    for (std::size_t a = 0; a < 3; ++a) {
+      step.feed_mm_min[a] = p.at("feed_mm_min").at(a).get<double>();
+      step.position_mm[a] = p.at("position_mm").at(a).get<double>();
+    }
+    s.programme.push_back(std::move(step));
+  }
+  s.restart_instrument = json.at("restart_instrument").get<bool>();
+  s.expected_information_nats = numberOf(json, "expected_information_nats");
+  s.present_entropy_nats = numberOf(json, "present_entropy_nats");
+  s.probability_alone_now = numberOf(json, "probability_alone_now");
+  s.probability_alone_expected = numberOf(json, "probability_alone_expected");
+  return s;
+}
+
 void parseRest(const nlohmann::json& result, DiscrepancyStory& story) {
   story.verdict = verdictOf(result.at("verdict").get<std::string>());
   story.decided = result.at("decided").get<bool>();
   story.message = result.at("message").get<std::string>();
   parsePlaces(result, story);
   if (const auto& s = result.at("suggestion"); s.is_object()) {
-    story.suggestion = MeasurementSuggestion{s.at("points").get<std::vector<std::string>>(), numbersOf(s.at("times_s")),
-                                             s.at("conditions").get<std::string>(),
-                                             s.at("separates").get<std::string>(), numberOf(s, "expected_delta_bic")};
+    story.suggestion = parseSuggestion(s);
   }
   if (result.at("leftover").is_string()) story.leftover = result.at("leftover").get<std::string>();
   for (const auto& s : result.at("steps")) {
@@ -321,7 +352,7 @@ void parseRest(const nlohmann::json& result, DiscrepancyStory& story) {
                             numberOf(s, "shift_um"), numberOf(s, "standard_uncertainty")});
   }
   for (const auto& c : result.at("candidates")) {
-    story.candidates.push_back({c.at("id").get<std::string>(), numberOf(c, "probability")});
+    story.candidates.push_back({c.at("id").get<std::string>(), numberOf(c, "probability"), c.value("rejected", false)});
   }
   for (const auto& [name, r] : result.at("remainder").items()) {
     story.remainder.push_back({componentOf(name), numberOf(r, "rms_um"), numberOf(r, "evidence")});

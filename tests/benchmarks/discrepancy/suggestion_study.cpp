@@ -14,7 +14,6 @@
 
 #include "core/base/random.h"
 #include "core/base/text.h"
-#include "core/math/statistics.h"
 #include "core/simulation/programme.h"
 #include "tests/benchmarks/discrepancy/hidden_effect_scoring.h"
 #include "tests/benchmarks/discrepancy/study_report.h"
@@ -29,9 +28,11 @@ struct Case {
   const char* name;
   double strength;
   bool noisy;
+  bool tied;  ///< everything on the machine starts and stops together, as in a series of the same part
 };
-constexpr Case cases[] = {
-    {"clean, 0.8", 0.8, false}, {"clean, 1.5", 1.5, false}, {"noise, 1.5", 1.5, true}, {"noise, 3", 3.0, true}};
+constexpr Case cases[] = {{"clean, 0.8", 0.8, false, false}, {"clean, 1.5", 1.5, false, false},
+                          {"noise, 1.5", 1.5, true, false},  {"noise, 3", 3.0, true, false},
+                          {"tied, 1.5", 1.5, false, true},   {"tied, noise, 3", 3.0, true, true}};
 
 /// Noise of a workshop. Gaps are left out: they would differ from the first day to both days together.
 StudyConditions noise() {
@@ -44,12 +45,14 @@ StudyConditions noise() {
 struct Plan {
   std::vector<MachinePoint> places;
   std::vector<double> times_s;  ///< since the morning of the second day
-  int readings = 1;             ///< at every time
+  std::vector<double> c_deg;    ///< at every time; empty: as on the first day
   Programme programme;
+  double duration_s = 0.0;
+  bool restart_instrument = false;
 };
 
 /// The work of the first day, a rest, and the work of the second.
-Programme twoDays(const Programme& first, double first_duration_s, const Programme* second) {
+Programme twoDays(const Programme& first, double first_duration_s, const Programme* second, bool restart_instrument) {
   std::vector<ProgrammeSegment> segments;
   for (const ProgrammeSegment& segment : first.segments()) {
     if (segment.from_s < first_duration_s) segments.push_back(segment);
@@ -60,10 +63,12 @@ Programme twoDays(const Programme& first, double first_duration_s, const Program
   rest.feed_mm_min = {};
   rest.c_rpm = 0.0;
   rest.coolant = false;
+  rest.instrument_on = !restart_instrument;
   segments.push_back(rest);
   if (second != nullptr) {
     for (ProgrammeSegment segment : second->segments()) {
       segment.from_s += day_s;
+      segment.instrument_on = true;
       segments.push_back(segment);
     }
   }
@@ -90,6 +95,27 @@ struct Setup {
   double work_s = 0.0;
 };
 
+/// Cycles of one part: spindle, axes and coolant run and rest together, at one of three paces.
+Programme tiedProgramme(const Scenario& s, std::uint64_t seed) {
+  const Programme drawn = randomProgramme(s.machine, s.random_programme, seed);
+  Random random(seed ^ 0x71edULL);
+  std::vector<ProgrammeSegment> segments{drawn.segments().front()};
+  double t = s.random_programme.idle_s;
+  double pace = 0.0;
+  while (t < s.duration_s) {
+    ProgrammeSegment next = segments.front();
+    next.from_s = std::round(t);
+    pace = pace > 0.0 && random.uniform() < 0.6 ? 0.0 : random.uniform() < 0.5 ? 0.5 : 1.0;
+    next.spindle_rpm = 6000.0 * pace;
+    next.feed_mm_min = {12000.0 * pace, 9000.0 * pace, 6000.0 * pace};
+    next.c_rpm = s.machine.rotary.empty() ? 0.0 : 30.0 * pace;
+    next.coolant = pace > 0.0;
+    segments.push_back(next);
+    t += random.uniform(0.4, 1.6) * s.random_programme.mean_hold_s;
+  }
+  return Programme(std::move(segments));
+}
+
 Setup setUp(const Case& which, std::size_t turn, std::uint64_t seed) {
   StudyOptions options;
   options.strength = which.strength;
@@ -99,9 +125,10 @@ Setup setUp(const Case& which, std::size_t turn, std::uint64_t seed) {
   setup.made = studyCase(options, seed);
   Scenario& s = setup.made.scenario;
   setup.work_s = s.duration_s;
-  setup.work = randomProgramme(s.machine, s.random_programme, Random(seed ^ 0xda11ULL).bits());
+  const std::uint64_t work_seed = Random(seed ^ 0xda11ULL).bits();
+  setup.work = which.tied ? tiedProgramme(s, work_seed) : randomProgramme(s.machine, s.random_programme, work_seed);
   s.duration_s = day_s + 2.0 * setup.work_s;
-  s.programme = twoDays(setup.work, setup.work_s, nullptr);
+  s.programme = twoDays(setup.work, setup.work_s, nullptr, false);
   return setup;
 }
 
@@ -109,7 +136,7 @@ Setup setUp(const Case& which, std::size_t turn, std::uint64_t seed) {
 DiscrepancyInput withSecondDay(const Setup& setup, const StudyCampaign& first, const DiscrepancyInput& known,
                                const Plan& plan, std::uint64_t noise_seed) {
   Scenario s = setup.made.scenario;
-  s.programme = twoDays(setup.work, setup.work_s, &plan.programme);
+  s.programme = twoDays(setup.work, setup.work_s, &plan.programme, plan.restart_instrument);
   for (const auto& [id, setting] : first.campaign.truth.settings) {
     s.effects[id].setting = setting;
     s.effects[id].strength.reset();
@@ -117,9 +144,8 @@ DiscrepancyInput withSecondDay(const Setup& setup, const StudyCampaign& first, c
   MeasurementOptions& measurement = *s.measurement;
   measurement.holdout.clear();
   measurement.times_s.clear();
-  for (const double t : plan.times_s) {
-    for (int k = 0; k < plan.readings; ++k) measurement.times_s.push_back(day_s + t + 30.0 * k);
-  }
+  for (const double t : plan.times_s) measurement.times_s.push_back(day_s + t);
+  if (!plan.c_deg.empty()) measurement.c_deg = plan.c_deg;
   measurement.points.clear();
   for (const MachinePoint& place : plan.places) {
     if (s.machine.findPoint(place.id) == nullptr) s.machine.points.push_back(place);
@@ -157,12 +183,27 @@ std::optional<MachinePoint> placeNamed(const MachineDescription& machine, const 
   return place;
 }
 
-/// "run the same programme, 4 readings at every time".
-int readingsOf(const std::string& conditions) {
-  const std::size_t at = conditions.find(" readings at every time");
-  if (at == std::string::npos) return 1;
-  const std::size_t from = conditions.rfind(' ', at - 1);
-  return std::max(1, std::atoi(conditions.substr(from == std::string::npos ? 0 : from + 1).c_str()));
+/// The programme of a suggestion, as the machine is told.
+Programme programmeOf(const Setup& setup, const MeasurementSuggestion& suggestion) {
+  std::vector<ProgrammeSegment> segments;
+  for (const ProgrammeStep& step : suggestion.programme) {
+    if (step.as_logged) {
+      for (ProgrammeSegment segment : setup.work.segments()) {
+        segment.from_s += step.from_s;
+        if (segment.from_s < step.to_s) segments.push_back(segment);
+      }
+      continue;
+    }
+    ProgrammeSegment segment = setup.work.segments().front();
+    segment.from_s = step.from_s;
+    segment.spindle_rpm = step.spindle_rpm;
+    segment.feed_mm_min = step.feed_mm_min;
+    segment.position_mm = step.position_mm;
+    segment.c_rpm = step.c_rpm;
+    segment.coolant = step.coolant;
+    segments.push_back(segment);
+  }
+  return Programme(std::move(segments));
 }
 
 Plan suggested(const Setup& setup, const MeasurementSuggestion& suggestion) {
@@ -171,20 +212,27 @@ Plan suggested(const Setup& setup, const MeasurementSuggestion& suggestion) {
     if (auto place = placeNamed(setup.made.scenario.machine, name)) plan.places.push_back(*place);
   }
   plan.times_s = suggestion.times_s;
-  plan.readings = readingsOf(suggestion.conditions);
-  plan.programme = setup.work;
+  plan.c_deg = suggestion.c_deg;
+  plan.programme = programmeOf(setup, suggestion);
+  plan.duration_s = suggestion.programme.back().to_s;
+  plan.restart_instrument = suggestion.restart_instrument;
   return plan;
 }
 
-/// As many readings as `like` at random times of the same programme, at points that were measured before.
+/// As many readings as `like` in the same span, at random times of a random day's work, at points that were measured
+/// before.
 Plan atRandom(const Setup& setup, const Plan& like, Random& random) {
   Plan plan = like;
-  plan.programme = setup.work;
+  plan.c_deg.clear();
+  plan.restart_instrument = random.uniform() < 0.5;
+  RandomProgrammeOptions options = setup.made.scenario.random_programme;
+  options.duration_s = like.duration_s;
+  plan.programme = randomProgramme(setup.made.scenario.machine, options, random.bits());
   std::vector<MachinePoint> points = setup.made.scenario.machine.points;
   for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[random.index(i)]);
   points.resize(std::min(points.size(), like.places.size()));
   plan.places = points;
-  for (double& time : plan.times_s) time = random.uniform(0.0, setup.work_s);
+  for (double& time : plan.times_s) time = random.uniform(0.0, like.duration_s);
   std::sort(plan.times_s.begin(), plan.times_s.end());
   return plan;
 }
@@ -231,8 +279,9 @@ struct Ends {
 
 struct Counts {
   int campaigns = 0;
-  int ambiguous = 0;  ///< with the truth in the set
-  int without = 0;    ///< of these, nothing is suggested
+  int ambiguous = 0;      ///< with the truth in the set
+  int without = 0;        ///< of these, nothing is suggested
+  double expected = 0.0;  ///< sum of the probabilities that the suggestions stated
   Ends suggestion;
   Ends chance;
 };
@@ -240,6 +289,22 @@ struct Counts {
 const char* nameOf(End end) {
   constexpr const char* names[] = {"alone", "ambiguous", "nothing", "wrong"};
   return names[static_cast<int>(end)];
+}
+
+/// How a second search ended, and with what.
+struct Second {
+  End end = End::Abstained;
+  Answer answer;
+};
+
+/// "a (b or c) + d".
+std::string setText(const Answer& answer) {
+  std::string set;
+  for (const Answer::Listed& listed : answer.effects) {
+    set += (set.empty() ? "" : " + ") + listed.id;
+    if (!listed.rivals.empty()) set += " (" + joinedList(listed.rivals, "or") + ")";
+  }
+  return set.empty() ? answer.verdict : set;
 }
 
 void runOne(const Case& which, std::size_t turn, std::uint64_t seed, const SuggestionStudyOptions& options,
@@ -262,17 +327,21 @@ void runOne(const Case& which, std::size_t turn, std::uint64_t seed, const Sugge
     DiscrepancyOptions again;
     again.suggest = false;
     const DiscrepancyInput both = withSecondDay(setup, first, input, plan, noise_seed);
-    return endOf(answerOf(findDiscrepancy(both, again, job)), setup.made.hidden);
+    Answer found = answerOf(findDiscrepancy(both, again, job));
+    const End end = endOf(found, setup.made.hidden);
+    return Second{end, std::move(found)};
   };
-  std::optional<End> after;
-  std::vector<End> chance;
+  std::optional<Second> after;
+  std::vector<Second> chance;
   Plan plan;
   if (result.suggestion) {
     plan = suggested(setup, *result.suggestion);
     after = search(plan, seed * 16 + 1);
   } else {  // chance measures nevertheless
-    plan.places.resize(3);
-    plan.times_s.resize(8);
+    const DiscrepancyOptions usual;
+    plan.places.resize(static_cast<std::size_t>(usual.suggest_points));
+    plan.times_s.resize(static_cast<std::size_t>(usual.suggest_times));
+    plan.duration_s = 3600.0 * usual.suggest_hours;
   }
   Random random(seed ^ 0x0badULL);
   for (int k = 0; k < options.random_draws; ++k) {
@@ -282,22 +351,21 @@ void runOne(const Case& which, std::size_t turn, std::uint64_t seed, const Sugge
   ++counts.campaigns;
   ++counts.ambiguous;
   if (after) {
-    counts.suggestion.add(*after);
+    counts.suggestion.add(after->end);
   } else {
     ++counts.without;
   }
-  for (const End end : chance) counts.chance.add(end);
-  std::string set;
-  for (const Answer::Listed& listed : answer.effects) {
-    set += (set.empty() ? "" : " + ") + listed.id;
-    if (!listed.rivals.empty()) set += " (" + joinedList(listed.rivals, "or") + ")";
-  }
+  for (const Second& second : chance) counts.chance.add(second.end);
+  const std::string set = setText(answer);
+  if (after) counts.expected += result.suggestion->probability_alone_expected;
   std::string line =
       fmt::format("seed {:7} {:12} hidden {:24} {} -> ", seed, which.name, joinedList(setup.made.hidden), set);
-  line += after ? fmt::format("{} [{} places x {} times x {}: {}]; by chance", nameOf(*after), plan.places.size(),
-                              plan.times_s.size(), plan.readings, result.suggestion->conditions)
+  line += after ? fmt::format("{} [expected {:.2f}, now {:.2f}: {}]; by chance", nameOf(after->end),
+                              result.suggestion->probability_alone_expected, result.suggestion->probability_alone_now,
+                              result.suggestion->conditions)
                 : std::string("nothing suggested");
-  for (const End end : chance) line += fmt::format(" {}", nameOf(end));
+  for (const Second& second : chance) line += fmt::format(" {}", nameOf(second.end));
+  if (after && after->end != End::Alone) line += "; after it " + setText(after->answer);
   lines.push_back(line);
 }
 
@@ -328,22 +396,23 @@ int runSuggestionStudy(const SuggestionStudyOptions& options) {
 
   fmt::print("what to measure next: {} campaigns, seed {}; rates with 95 % intervals (Wilson)\n", work.size(),
              options.seed);
-  fmt::print("{:14} {:>9} {:>9}  {:>24} {:>24}   other ends of the suggestion\n", "case", "campaigns", "ambiguous",
-             "alone after suggestion", "alone by chance");
+  fmt::print("{:14} {:>9} {:>9}  {:>24} {:>24} {:>8}   other ends of the suggestion\n", "case", "campaigns",
+             "ambiguous", "alone after suggestion", "alone by chance", "expected");
   Counts all;
   const auto print = [](const char* name, Counts& c) {
     // Where nothing is suggested, the truth is not named alone.
     const int n = c.suggestion.n + c.without;
-    fmt::print("{:14} {:9} {:9}  {:>24} {:>24}   none {}, ambiguous {}, nothing {}, wrong {}\n", name, c.campaigns,
-               c.ambiguous, rate(c.suggestion.count[End::Alone], n), rate(c.chance.count[End::Alone], c.chance.n),
-               c.without, c.suggestion.count[End::Ambiguous], c.suggestion.count[End::Abstained],
-               c.suggestion.count[End::Wrong]);
+    fmt::print("{:14} {:9} {:9}  {:>24} {:>24} {:7.1f}%   none {}, ambiguous {}, nothing {}, wrong {}\n", name,
+               c.campaigns, c.ambiguous, rate(c.suggestion.count[End::Alone], n),
+               rate(c.chance.count[End::Alone], c.chance.n), n > 0 ? 100.0 * c.expected / n : 0.0, c.without,
+               c.suggestion.count[End::Ambiguous], c.suggestion.count[End::Abstained], c.suggestion.count[End::Wrong]);
   };
   for (std::size_t c = 0; c < std::size(cases); ++c) {
     print(cases[c].name, counts[c]);
     all.campaigns += counts[c].campaigns;
     all.ambiguous += counts[c].ambiguous;
     all.without += counts[c].without;
+    all.expected += counts[c].expected;
     for (const auto& [end, n] : counts[c].suggestion.count) all.suggestion.count[end] += n;
     for (const auto& [end, n] : counts[c].chance.count) all.chance.count[end] += n;
     all.suggestion.n += counts[c].suggestion.n;
@@ -358,8 +427,7 @@ int runSuggestionStudy(const SuggestionStudyOptions& options) {
   const int n = all.suggestion.n + all.without;
   if (n == 0) return 0;
   const int alone = all.suggestion.count[End::Alone];
-  const bool often =
-      wilsonInterval(static_cast<std::size_t>(alone), static_cast<std::size_t>(n)).high >= named_alone_at_least;
+  const bool often = alone >= named_alone_at_least * n;
   const bool beats = all.chance.n == 0 ||
                      static_cast<double>(alone) / n > static_cast<double>(all.chance.count[End::Alone]) / all.chance.n;
   fmt::print("the truth alone after the suggestion in >= {:.0f} %: {}; more often than by chance: {}\n",

@@ -3,8 +3,9 @@
 //
 // One effect is hidden, weakly enough that some campaigns end ambiguous with it in the set. The machine then rests
 // until the next morning and does what is suggested; the readings asked for are added, with noise of their own, and the
-// search runs again over both days. Beside it, the same number of readings at random times and measured points of the
-// same programme run again. Counted is how often the truth is then named alone.
+// search runs again over both days: the machine runs the programme of the suggestion and is measured at its points and
+// times. Beside it, the same number of readings in the same span at random times of a random day's work and at random
+// points of those measured. Counted is how often the truth is then named alone.
 #pragma once
 
 #include <cstdint>

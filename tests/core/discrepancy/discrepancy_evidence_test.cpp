@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Noise as a workshop has it: what is estimated of it, what is named under it, what is said of bad input; and whether
-// what is suggested to be measured next separates rivals.
+// Noise as a workshop has it: what is estimated of it, what is named under it, what is said of bad input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -429,110 +428,6 @@ TEST(ByHand, WhatWasRejectedIsStillTold) {
     EXPECT_NE(e.id, "spindle.drift.y");
     EXPECT_LT(e.confidence, 0.5) << e.id;
   }
-}
-
-/// Spindle and coolant run together but for an hour and a half late in the programme, and only the first five hours are
-/// measured: a drift along X may come from either.
-struct TiedCampaign {
-  DiscrepancyInput input;
-  std::vector<double> drift;  // truth, um, every 30 s
-
-  explicit TiedCampaign(std::uint64_t seed) : random_(seed) {
-    input.machine = machine();
-    std::vector<double> time, rpm, coolant, room;
-    double heat = 0.0;
-    double body = 0.0;
-    double speed = 0.0;
-    for (int i = 0; i < 1440; ++i) {
-      const double t = 30.0 * i;
-      if (i % 80 == 40) speed = random_.uniform() < 0.5 ? 0.0 : 3000.0;
-      const bool apart = t > 29000.0 && t < 34500.0;
-      time.push_back(t);
-      rpm.push_back(apart ? 0.0 : speed);
-      coolant.push_back(apart || speed > 0.0 ? 1.0 : 0.0);
-      room.push_back(20.0 + std::sin(t / 8000.0) + random_.normal(0.0, 0.05));
-      drift.push_back(body);
-      heat += 30.0 * (4.0 * rpm.back() / 3000.0 - heat) / 700.0;
-      body += 30.0 * (heat - body) / 1500.0;
-    }
-    OperatingLog log(time);
-    log.setSignal("spindle_rpm", rpm);
-    log.setSignal("coolant", coolant);
-    log.setSignal("T_room_degC", room);
-    input.log = log;
-    for (int state = 0; state < 16; ++state) {
-      for (int point = 1; point <= 4; ++point) {
-        measure(1100.0 * state, "F" + std::to_string(point), {110.0 * point, 90.0 * point, 60.0 * point},
-                "M" + std::to_string(state));
-      }
-    }
-  }
-
-  void measure(double t, const std::string& point, const Eigen::Vector3d& place, const std::string& state) {
-    for (int c = 0; c < 3; ++c) {
-      Observation o;
-      o.time_s = t;
-      o.state = state;
-      o.point = point;
-      o.position_mm = place;
-      o.component = static_cast<Component>(c);
-      o.sigma = 0.6;
-      const auto at = std::min<std::size_t>(drift.size() - 1, static_cast<std::size_t>(t / 30.0));
-      o.value = (c == 0 ? drift[at] : 0.0) + random_.normal(0.0, o.sigma);
-      input.observations.rows.push_back(o);
-      input.predicted.push_back(0.0);
-    }
-  }
-
- private:
-  Random random_;
-};
-
-TEST(Suggestion, SeparatesRivalsFurtherThanAsManyReadingsAtRandom) {
-  int ambiguous = 0;
-  int by_suggestion = 0;
-  int at_random = 0;
-  double margin_by_suggestion = 0.0;
-  double margin_at_random = 0.0;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const TiedCampaign base(seed);
-    const DiscrepancyResult first = run(base.input);
-    if (first.verdict != DiscrepancyVerdict::Ambiguous || !first.suggestion) continue;
-    ++ambiguous;
-    EXPECT_GT(first.suggestion->expected_delta_bic, 0.0);
-    const auto separated = [&](const std::vector<double>& times) {
-      TiedCampaign more = base;
-      int state = 100;
-      for (const double t : times) {
-        for (int point = 1; point <= 3; ++point) {
-          more.measure(t, "F" + std::to_string(point), {110.0 * point, 90.0 * point, 60.0 * point},
-                       "M" + std::to_string(state));
-        }
-        ++state;
-      }
-      const DiscrepancyResult after = run(more.input);
-
-      const bool right = after.effects.size() == 1 && after.effects[0].id == "spindle.drift.x";
-      return std::pair{right && after.verdict == DiscrepancyVerdict::Named,
-                       right ? std::min(after.effects[0].margin, 500.0) : 0.0};
-    };
-    const auto [told_apart, margin] = separated(first.suggestion->times_s);
-    by_suggestion += told_apart ? 1 : 0;
-    margin_by_suggestion += margin;
-    Random random(seed * 77);
-    std::vector<double> times;
-    for (std::size_t i = 0; i < first.suggestion->times_s.size(); ++i) times.push_back(random.uniform(0.0, 43000.0));
-    std::sort(times.begin(), times.end());
-    const auto [by_chance, chance_margin] = separated(times);
-    at_random += by_chance ? 1 : 0;
-    margin_at_random += chance_margin;
-  }
-  EXPECT_GE(ambiguous, 5);
-  EXPECT_GE(by_suggestion, ambiguous - 1);
-  EXPECT_GE(by_suggestion, at_random);
-  EXPECT_GT(margin_by_suggestion, margin_at_random);
-  RecordProperty("separated_by_suggestion", by_suggestion);
-  RecordProperty("separated_at_random", at_random);
 }
 
 }  // namespace

@@ -14,6 +14,17 @@
 #include "widgets/plots/plot.h"
 
 namespace spindrift::gui {
+namespace {
+
+/// What the machine does at a time of the suggested programme.
+QString stepAt(const MeasurementSuggestion& suggestion, double time_s) {
+  for (const ProgrammeStep& step : suggestion.programme) {
+    if (time_s < step.to_s) return QString::fromStdString(step.action);
+  }
+  return suggestion.programme.empty() ? QString() : QString::fromStdString(suggestion.programme.back().action);
+}
+
+}  // namespace
 
 NextPanel::NextPanel(QWidget* parent) : QWidget(parent) {
   auto* column = new QVBoxLayout(this);
@@ -23,9 +34,9 @@ NextPanel::NextPanel(QWidget* parent) : QWidget(parent) {
   suggestion_->setWordWrap(true);
   suggestion_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   left->body()->addWidget(suggestion_);
-  gain_ = new NumberTile(tr("Expected gain in BIC"));
+  gain_ = new NumberTile(tr("Right one alone afterwards"));
   left->body()->addWidget(gain_);
-  times_ = new RowsModel({tr("Time / s"), tr("Point")}, this);
+  times_ = new RowsModel({tr("Time / s"), tr("Point"), tr("Programme")}, this);
   left->body()->addStretch(1);
   auto* right = new Card(tr("How it was found"));
   leftover_ = new Callout;
@@ -93,33 +104,36 @@ void NextPanel::showSuggestion() {
     suggestion_->setText(tr("After the search this says which measurement tells rivals apart."));
   } else if (story_->suggestion) {
     const MeasurementSuggestion& s = *story_->suggestion;
-    // "A from B" by the ids of the core.
-    QString separates = QString::fromStdString(s.separates);
-    const qsizetype from = separates.indexOf(QLatin1String(" from "));
-    if (from > 0) {
-      separates =
-          tr("%1 from %2")
-              .arg(effectTitle(separates.left(from).toStdString()), effectTitle(separates.mid(from + 6).toStdString()));
-    }
     QStringList times;
     for (const double t : s.times_s) {
       times << clockText(t);
       for (const std::string& point : s.points) {
         Row row;
         row.id = QString::number(t);
-        row.cells = {{QString::number(t, 'f', 0)}, {QString::fromStdString(point)}};
+        row.cells = {{QString::number(t, 'f', 0)}, {QString::fromStdString(point)}, {stepAt(s, t)}};
         rows.push_back(std::move(row));
       }
     }
     QStringList places;
     for (const std::string& p : s.points) places << QString::fromStdString(p);
+    // "After a night at rest: 0:00 to 2:00 X alone at 12 m/min; ..."
+    QStringList parts;
+    for (const ProgrammeStep& step : s.programme) {
+      parts << tr("%1 to %2 %3").arg(clockText(step.from_s), clockText(step.to_s), QString::fromStdString(step.action));
+    }
+    QString programme = tr("After a night at rest: %1.").arg(parts.join(QStringLiteral("; ")));
+    if (s.restart_instrument) programme += tr(" The instrument is off until the start.");
+    if (!s.c_deg.empty()) programme += tr(" The table stands at its angles in turn.");
+    if (s.programme.empty()) programme = QString::fromStdString(s.conditions);
     const auto item = [](const QString& name, const QString& text) {
       return QStringLiteral("<p><b>%1</b><br>%2</p>").arg(name.toHtmlEscaped(), text.toHtmlEscaped());
     };
-    suggestion_->setText(item(tr("To tell"), separates) + item(tr("Where"), places.join(QStringLiteral("; "))) +
-                         item(tr("When, from the start of the programme"), times.join(QStringLiteral(", "))) +
-                         item(tr("How"), QString::fromStdString(s.conditions)));
-    gain_->set(QString::number(s.expected_delta_bic, 'f', 0), tr("above 10 decides between the two"));
+    suggestion_->setText(item(tr("To tell"), titledSentence(s.separates)) +
+                         item(tr("What the machine does"), programme) +
+                         item(tr("Where"), places.join(QStringLiteral("; "))) +
+                         item(tr("When, from the start of the programme"), times.join(QStringLiteral(", "))));
+    gain_->set(tr("%1 %").arg(100.0 * s.probability_alone_expected, 0, 'f', 0),
+               tr("most probable one now: %1 %").arg(100.0 * s.probability_alone_now, 0, 'f', 0));
   } else if (!story_->decided) {
     suggestion_->setText(sentenceStart(titledSentence(story_->message)));
   } else if (story_->verdict == DiscrepancyVerdict::Unknown) {

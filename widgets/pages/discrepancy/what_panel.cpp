@@ -190,6 +190,7 @@ void WhatPanel::fillCandidates() {
         answer.tip = tr("Holds what is named as a special case");
         break;
       case CandidateRole::None:
+        if (c.rejected) answer.text = tr("rejected");
         break;
     }
     row.cells = {name, probability, answer};
