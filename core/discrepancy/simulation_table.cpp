@@ -7,6 +7,7 @@
 #include "core/base/csv.h"
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
+#include "core/discrepancy/own_effects.h"
 
 namespace spindrift {
 
@@ -60,6 +61,8 @@ DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet obser
   input.machine = campaign.machine;
   input.log = campaign.log;
   input.observations = std::move(observations);
+  input.absolute = input.observations.absolute = campaign.absolute;
+  if (!campaign.effects.empty()) input.own = OwnEffects::read(campaign.path(campaign.effects.string()));
   input.simulation_gain_uncertainty = campaign.simulation_gain_uncertainty;
   std::string name = campaign.simulation;
   if (name.empty()) {
@@ -75,8 +78,8 @@ DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet obser
   const std::filesystem::path file = campaign.path(name);
   input.predicted.reserve(input.observations.rows.size());
   if (file.extension() == ".json") {
-    const auto model =
-        EffectModel::read(file, campaign.machine, campaign.log ? &*campaign.log : nullptr, input.observations.points());
+    const auto model = EffectModel::read(file, campaign.machine, campaign.log ? &*campaign.log : nullptr,
+                                         input.observations.points(), input.own.get(), input.absolute);
     input.base = model;
     for (const Observation& o : input.observations.rows) {
       input.predicted.push_back(model->predict(DeviationQuery::of(o), o.component).value);
