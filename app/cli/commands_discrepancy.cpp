@@ -18,6 +18,8 @@ void addDiscrepancyCommands(CLI::App& app, CommandLine& line) {
   command->add_option("CAMPAIGN", request->campaign, "Folder of the campaign")->required();
   command->add_option("--observations", request->observations, "Observations in place of the campaign's own (CSV)")
       ->type_name("FILE");
+  command->add_option("--effects", request->effects, "Effects of your own in place of the campaign's (effects.json)")
+      ->type_name("FILE");
   command
       ->add_option("--accept", request->options.accept, "Put this effect into the model in any case (id, repeatable)")
       ->type_name("ID");
@@ -43,6 +45,18 @@ void addDiscrepancyCommands(CLI::App& app, CommandLine& line) {
                    "Write the completed model (simulation plus effects, um or urad) for every observation (CSV)")
       ->type_name("FILE");
   command->add_option("--html", request->html, "Write a report with plots (one HTML file)")->type_name("FILE");
+
+  auto listing = std::make_shared<EffectsRequest>();
+  CLI::App* effects = addCommand(
+      app, line, "effects",
+      "List the effects that the search knows: physics, drivers, shape, references; with a campaign those of its "
+      "machine and of its effects.json",
+      [listing](JobContext&) {
+        const EffectsAnswer answer = listEffects(*listing);
+        return CommandResult{answer.json(), answer.summary(), Done};
+      });
+  effects->add_option("CAMPAIGN", listing->campaign, "Folder of a campaign (without it: the whole catalogue)");
+  effects->add_option("--effects", listing->effects, "Effects of your own (effects.json)")->type_name("FILE");
 }
 
 }  // namespace spindrift::cli

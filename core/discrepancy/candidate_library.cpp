@@ -12,7 +12,9 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t most_columns = 8;
+constexpr std::size_t most_columns = 16;
+/// The same of effects of the catalogue.
+constexpr std::size_t most_built_in_columns = 8;
 /// Directions of which nuisances leave less than this part of the power are not seen.
 constexpr double least_seen = 1e-5;
 /// Of ln(number of ways): 2 if all of them were independent, as onsets are. Neighbours on the grid of lags are nearly
@@ -103,7 +105,7 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
   };
   const auto addWay = [&](const EffectVariant& variant, std::vector<double> parameters,
                           const std::vector<Index>& which) {
-    if (which.size() * static_cast<std::size_t>(k) > most_columns) return;
+    if (which.size() * static_cast<std::size_t>(k) > (effect.own ? most_columns : most_built_in_columns)) return;
     Way way;
     way.variant = variant;
     way.parameters = std::move(parameters);
@@ -112,7 +114,7 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
     }
     entry.ways.push_back(std::move(way));
   };
-  const std::vector<double>& lags = search_->lags();
+  const std::vector<double> lags = search_->lagsOf(effect);
   const auto linear = [&](const std::string& name) {
     const Driver* driver = search_->drivers().find(name);
     return driver != nullptr && driver->linear;
@@ -129,7 +131,7 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
         break;
       case Dynamics::Pulse:
         pulses = true;
-        for (const double tau : search_->pulseLags()) {
+        for (const double tau : search_->pulseLagsOf(effect)) {
           const std::vector<double>& onsets = search_->onsets();
           for (std::size_t i = 0; i < onsets.size(); ++i) {
             const Index from = responseOf(first, onsets[i], tau);

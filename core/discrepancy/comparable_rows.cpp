@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/discrepancy/log_gaps.h"
+#include "core/discrepancy/own_effects.h"
 #include "core/math/statistics.h"
 
 namespace spindrift {
@@ -43,12 +44,14 @@ ComparableRows comparableRows(const DiscrepancyInput& input, std::vector<std::st
   std::size_t beyond_log = 0;
   double log_end = std::numeric_limits<double>::infinity();
   std::vector<LogGap> gaps;
+  // Where nothing has a memory, what happened in a gap of the log or between two of its rows is of no account.
+  const bool remembers = !input.own || input.own->builtIn() || input.own->anyLag();
   if (input.log && input.log->time_s().size() > 1) {
     const auto& t = input.log->time_s();
     std::vector<double> steps;
     for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
     log_end = t.back() + std::max(300.0, 2.0 * median(steps));
-    gaps = logGaps(t);
+    if (remembers) gaps = logGaps(t);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool known = rows[i].time_s <= log_end && !inGap(gaps, rows[i].time_s);
@@ -89,7 +92,7 @@ ComparableRows comparableRows(const DiscrepancyInput& input, std::vector<std::st
     warnings.push_back(
         fmt::format("{} observations are later than the end of the log and are not fitted.", beyond_log));
   }
-  if (const std::size_t count = input.log ? leaveOutChanges(*input.log, rows, out.fit) : 0; count > 0) {
+  if (const std::size_t count = input.log && remembers ? leaveOutChanges(*input.log, rows, out.fit) : 0; count > 0) {
     warnings.push_back(fmt::format(
         "{} observations lie between two rows of the log of different spindle speed and are not fitted: when it "
         "changed is not known.",

@@ -16,7 +16,9 @@
 #include "core/discrepancy/distributed_dynamics.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/effect_posterior.h"
+#include "core/discrepancy/effect_relations.h"
 #include "core/discrepancy/judgement.h"
+#include "core/discrepancy/own_effects.h"
 #include "core/discrepancy/places.h"
 #include "core/discrepancy/suggestion.h"
 
@@ -38,6 +40,42 @@ void checkIds(const DiscrepancyOptions& options, const std::vector<Effect>& cata
                                    joinedList(known, "or")));
     }
   }
+}
+
+/// What effects of the user's hold as special cases, and which are the same under two names.
+void relateOwnEffects(std::vector<Effect>& effects, const ResidualProblem& problem,
+                      std::vector<std::string>& warnings) {
+  std::vector<Eigen::MatrixXd> shapes;
+  shapes.reserve(effects.size());
+  for (const Effect& effect : effects) shapes.push_back(problem.shapeAtUnits(effect));
+  const EffectRelations relations = effectRelations(effects, shapes, false);
+  for (std::size_t a = 0; a < effects.size(); ++a) {
+    for (const std::size_t b : relations.holds[a]) {
+      if ((effects[a].own || effects[b].own) && !holdsEffect(effects[a], effects[b].id))
+        effects[a].contains.push_back(effects[b].id);
+    }
+  }
+  for (const auto& [a, b] : relations.same) {
+    if (!effects[a].own && !effects[b].own) continue;
+    warnings.push_back(fmt::format(
+        "{} and {} have the same shape at all points and the same drivers: no measurement of this kind can tell them "
+        "apart.",
+        effects[a].id, effects[b].id));
+  }
+}
+
+/// The catalogue, as far as the user wants it, and the user's own effects.
+std::vector<Effect> catalogueOf(const DiscrepancyInput& input, DriverTable& drivers, const ResidualProblem& problem,
+                                std::vector<std::string>& warnings) {
+  std::vector<Effect> out;
+  if (!input.own || input.own->builtIn()) out = effectCatalogue(catalogueContext(input, drivers, problem));
+  if (!input.own) return out;
+  std::vector<Effect> own = input.own->bind(drivers, input.log ? &*input.log : nullptr,
+                                            input.machine.reference_temperature_degC, input.absolute);
+  input.own->check(own, input.observations.rows, warnings);
+  out.insert(out.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
+  relateOwnEffects(out, problem, warnings);
+  return out;
 }
 
 /// Everything that is estimated together: noise, clock and effects.
@@ -186,11 +224,13 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
   Analysis a;
   a.drivers = std::move(drivers);
   a.catalogue = std::move(catalogue);
-  problem.setNuisances(problem.simulationNuisances(std::max(input.simulation_gain_uncertainty, priors.simulation_error),
-                                                   priors.clock_s));
+  // Absolute values that are said to be predicted exactly: what deviates is none of the simulation's own scale.
+  const bool exact = input.absolute && !(input.simulation_gain_uncertainty > 0.0);
+  problem.setNuisances(problem.simulationNuisances(
+      exact ? 0.0 : std::max(input.simulation_gain_uncertainty, priors.simulation_error), priors.clock_s));
   const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);
   problem.setNoise(estimateNoise(problem, problem.y - first.values, false));
-  double simulation_error = std::max(input.simulation_gain_uncertainty, usual_simulation_error);
+  double simulation_error = exact ? 0.0 : std::max(input.simulation_gain_uncertainty, usual_simulation_error);
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
     job.report(0.1 + 0.25 * round, "weighing effects");
@@ -210,7 +250,7 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
     const ResidualProblem::NuisancePart taken = problem.nuisancePart(left);
     left -= taken.values;
     const double error_before = simulation_error;
-    simulation_error = simulationError(problem, taken, input.simulation_gain_uncertainty);
+    if (!exact) simulation_error = simulationError(problem, taken, input.simulation_gain_uncertainty);
     const bool other_error = std::abs(simulation_error - error_before) > 0.01;
     const NoiseModel again = estimateNoise(problem, left, true);
     const bool other_clock = std::abs(a.clock_offset_s - clock_before) > 20.0;
@@ -290,9 +330,11 @@ std::vector<double> partOfFirst(const Solution& solution, std::size_t count) {
   return part;
 }
 
-/// rms of a contribution over the units in the displacement in which it is largest, um.
+/// rms of a contribution over the units in the displacement in which it is largest, um; in the rotation, urad, where
+/// nothing else was observed.
 double largestRms(const ResidualProblem& problem, const Eigen::VectorXd& contribution) {
   double largest = 0.0;
+  const bool rotations = std::all_of(problem.component.begin(), problem.component.end(), isRotation);
   for (const Component c : all_components) {
     double power = 0.0;
     double count = 0.0;
@@ -301,7 +343,7 @@ double largestRms(const ResidualProblem& problem, const Eigen::VectorXd& contrib
       power += contribution[u] * contribution[u];
       count += 1.0;
     }
-    if (count > 0.0 && !isRotation(c)) largest = std::max(largest, std::sqrt(power / count));
+    if (count > 0.0 && isRotation(c) == rotations) largest = std::max(largest, std::sqrt(power / count));
   }
   return largest;
 }
@@ -313,6 +355,7 @@ FoundEffect describedEffect(const Solution& solution, std::size_t t) {
   FoundEffect found;
   found.id = e.effect.id;
   found.physics = e.effect.physics;
+  if (e.effect.own) found.title = e.effect.title;
   found.drivers = driversText(e);
   found.delta_bic = name.delta_evidence;
   found.delta_chi2 = name.delta_chi2;
@@ -349,13 +392,13 @@ void crossValidate(const Solution& solution, DiscrepancyResult& result) {
 
 /// rms of the noise of single readings as found, over the fitted displacements, shifts of states included, um.
 double noiseFloor(const DiscrepancyInput& input, const ResidualProblem& problem,
-                  const std::vector<std::size_t>& fit_rows) {
+                  const std::vector<std::size_t>& fit_rows, bool rotations) {
   double power = 0.0;
   double count = 0.0;
   const double tails = problem.noise.tail_dof > 2.0 ? problem.noise.tail_dof / (problem.noise.tail_dof - 2.0) : 1.0;
   for (const std::size_t row : fit_rows) {
     const Observation& o = input.observations.rows[row];
-    if (isRotation(o.component)) continue;
+    if (isRotation(o.component) != rotations) continue;
     const ComponentNoise& n = problem.noise.of(o.component);
     power += std::pow(o.sigma * n.scale, 2) * tails + n.common * n.common;
     count += 1.0;
@@ -394,7 +437,8 @@ void tellEffects(const Solution& solution, DiscrepancyResult& result) {
     result.gap.heldout_rms_before_um = result.effects.front().heldout_rms_before_um;
     result.gap.heldout_rms_after_um = result.effects.back().heldout_rms_after_um;
   }
-  result.gap.noise_um = noiseFloor(input, solution.problem, solution.rows.fit);
+  result.gap.noise_um = noiseFloor(input, solution.problem, solution.rows.fit, before.rotations);
+  result.gap.rotations = before.rotations;
   result.constant = last.constant;
   result.simulated = input.predicted;
   result.completed.resize(part.size());
@@ -650,7 +694,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   warnAboutData(input, rows.fit, result.warnings);
   result.sensors = drivers->sensors();
   ResidualProblem problem(input, rows.fit, unit_limit);
-  std::vector<Effect> catalogue = effectCatalogue(catalogueContext(input, *drivers, problem));
+  std::vector<Effect> catalogue = catalogueOf(input, *drivers, problem, result.warnings);
   warnAboutUndecidable(input, catalogue, result.warnings);
   checkIds(options, catalogue);
 

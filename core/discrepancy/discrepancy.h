@@ -35,6 +35,7 @@
 namespace spindrift {
 
 class EffectModel;
+class OwnEffects;
 
 struct DiscrepancyOptions {
   int max_effects = 4;              ///< 0 ... 10
@@ -57,6 +58,7 @@ struct DiscrepancyInput {
   std::vector<double> predicted;
   double simulation_gain_uncertainty = 0.01;
   bool absolute = false;                   ///< values are absolute: no free constant for each point and component
+  std::shared_ptr<const OwnEffects> own;   ///< effects of the user; may be null
   std::shared_ptr<const ErrorModel> base;  ///< the simulation as a model; may be null
   std::string base_table;                  ///< name of simulation.csv for model.json; may be empty
   std::vector<std::string> notes;          ///< sentences about the simulation that belong to the result
@@ -74,6 +76,7 @@ struct FittedParameter {
 
 struct FoundEffect {
   std::string id;
+  std::string title;  ///< of an effect of the user's; empty: effectTitle(id)
   std::string physics;
   std::string drivers;                  ///< "feed_y_mm_min (lag 2400 s) + T_ambient_degC (lag 900 s)"
   std::vector<std::string> rivals;      ///< cannot be told from `id` with these data
@@ -140,13 +143,14 @@ struct DisagreementPlace {
   std::string condition;  ///< "spindle on", "z above 200 mm"; empty for a span of time
 };
 
-/// rms in um over displacements (urad are weighed by their sigma relative to the mean sigma of displacements).
+/// rms in um over displacements; in urad over rotations where nothing else was observed.
 struct DiscrepancyGap {
   double rms_before_um = 0.0;
   double rms_after_um = 0.0;
   double noise_um = 0.0;
   double heldout_rms_before_um = 0.0;
   double heldout_rms_after_um = 0.0;
+  bool rotations = false;  ///< all of it is in urad
 };
 
 /// A part of an operating programme: what the machine does from one time to another, everything else at rest.

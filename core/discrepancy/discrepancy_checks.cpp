@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/discrepancy/discrepancy_numbers.h"
 #include "core/discrepancy/log_gaps.h"
+#include "core/discrepancy/own_effects.h"
 
 namespace spindrift {
 
@@ -28,8 +29,8 @@ void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& r
   for (const std::size_t row : rows) {
     const Observation& o = input.observations.rows[row];
     const auto& m = means[{o.point, static_cast<int>(o.component)}];
-    const double a = o.value - m[1] / m[0];
-    const double b = input.predicted[row] - m[2] / m[0];
+    const double a = o.value - (input.absolute ? 0.0 : m[1] / m[0]);
+    const double b = input.predicted[row] - (input.absolute ? 0.0 : m[2] / m[0]);
     oo += a * a;
     ss += b * b;
     os += a * b;
@@ -78,7 +79,10 @@ void warnAboutSensors(const std::vector<SensorReading>& sensors, std::vector<std
 
 void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std::vector<std::string>& warnings) {
   if (!input.log || input.log->empty()) {
-    warnings.emplace_back("There is no operating log: effects that follow speed, feed or temperature cannot be tried.");
+    if (!input.own || input.own->builtIn()) {
+      warnings.emplace_back(
+          "There is no operating log: effects that follow speed, feed or temperature cannot be tried.");
+    }
     return;
   }
   for (const std::string& name : drivers.dead()) {
@@ -86,8 +90,9 @@ void warnAboutLog(const DiscrepancyInput& input, const DriverTable& drivers, std
       warnings.push_back(fmt::format("The sensor {} never moves; it is left out as dead.", name));
     }
   }
-  if (!input.log->has("spindle_rpm"))
+  if (!input.log->has("spindle_rpm") && (!input.own || input.own->builtIn()))
     warnings.emplace_back("The log has no spindle_rpm: spindle heat is known from temperatures at best.");
+  if (input.own && !input.own->builtIn() && !input.own->anyLag()) return;
   for (const LogGap& gap : logGaps(input.log->time_s())) {
     const auto count =
         std::count_if(input.observations.rows.begin(), input.observations.rows.end(), [&](const Observation& o) {

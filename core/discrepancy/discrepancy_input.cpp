@@ -4,6 +4,7 @@
 
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
+#include "core/discrepancy/own_effects.h"
 #include "core/discrepancy/simulation_table.h"
 
 namespace spindrift {
@@ -26,6 +27,8 @@ DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet obser
   input.machine = campaign.machine;
   input.log = campaign.log;
   input.observations = std::move(observations);
+  input.absolute = input.observations.absolute = campaign.absolute;
+  if (!campaign.effects.empty()) input.own = OwnEffects::read(campaign.path(campaign.effects.string()));
   input.simulation_gain_uncertainty = campaign.simulation_gain_uncertainty;
   std::string name = campaign.simulation;
   if (name.empty()) {
@@ -44,8 +47,8 @@ DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet obser
       match(readSimulation(file, input.notes), campaign, name, input);
       return input;
     }
-    const auto model =
-        EffectModel::read(file, campaign.machine, campaign.log ? &*campaign.log : nullptr, input.observations.points());
+    const auto model = EffectModel::read(file, campaign.machine, campaign.log ? &*campaign.log : nullptr,
+                                         input.observations.points(), input.own.get(), input.absolute);
     input.base = model;
     input.predicted.reserve(input.observations.rows.size());
     for (const Observation& o : input.observations.rows) {

@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
+#include "core/discrepancy/effect_titles.h"
 
 namespace spindrift {
 
@@ -19,6 +20,7 @@ nlohmann::json DiscrepancyResult::json() const {
       uncertainty[p.name] = jsonNumber(p.standard_uncertainty);
     }
     list.push_back({{"id", e.id},
+                    {"title", e.title.empty() ? effectTitle(e.id) : e.title},
                     {"rivals", e.rivals},
                     {"containers", e.containers},
                     {"confidence", jsonNumber(e.confidence)},
@@ -62,6 +64,7 @@ nlohmann::json DiscrepancyResult::json() const {
   out["gap"] = {{"rms_before_um", jsonNumber(gap.rms_before_um)},
                 {"rms_after_um", jsonNumber(gap.rms_after_um)},
                 {"noise_um", jsonNumber(gap.noise_um)},
+                {"unit", gap.rotations ? "urad" : "um"},
                 {"heldout_rms_before_um", jsonNumber(gap.heldout_rms_before_um)},
                 {"heldout_rms_after_um", jsonNumber(gap.heldout_rms_after_um)}};
   out["suggestion"] = nullptr;
@@ -147,10 +150,11 @@ nlohmann::json DiscrepancyResult::json() const {
 }
 
 std::string DiscrepancyResult::summary() const {
+  const char* unit = gap.rotations ? "urad" : "um";
   std::string text = fmt::format("{}: {}\n", toString(verdict), message);
   for (const FoundEffect& e : effects) {
-    text += fmt::format("  {}  {}  confidence {:.2f}, gain in BIC {:.0f}, held-out rms {:.2f} -> {:.2f} um\n", e.id,
-                        e.drivers, e.confidence, e.delta_bic, e.heldout_rms_before_um, e.heldout_rms_after_um);
+    text += fmt::format("  {}  {}  confidence {:.2f}, gain in BIC {:.0f}, held-out rms {:.2f} -> {:.2f} {}\n", e.id,
+                        e.drivers, e.confidence, e.delta_bic, e.heldout_rms_before_um, e.heldout_rms_after_um, unit);
     if (!e.rivals.empty()) text += fmt::format("    cannot be told from {}\n", joinedList(e.rivals, "or"));
     for (const FittedParameter& p : e.parameters) {
       text += fmt::format("    {} = {}\n", p.name, withUncertainty(p.value, p.standard_uncertainty, ""));
@@ -162,8 +166,8 @@ std::string DiscrepancyResult::summary() const {
                         p.condition.empty() ? "" : ", " + p.condition, p.excess_um, unitOf(p.component),
                         p.p_value < 1e-12 ? std::string("< 1e-12") : fmt::format("{:.1e}", p.p_value));
   }
-  text += fmt::format("  gap: {:.2f} um before, {:.2f} um after, noise {:.2f} um\n", gap.rms_before_um,
-                      gap.rms_after_um, gap.noise_um);
+  text += fmt::format("  gap: {:.2f} {} before, {:.2f} {} after, noise {:.2f} {}\n", gap.rms_before_um, unit,
+                      gap.rms_after_um, unit, gap.noise_um, unit);
   if (!leftover.empty()) text += fmt::format("  left over: {}\n", leftover);
   if (suggestion) {
     text += fmt::format(

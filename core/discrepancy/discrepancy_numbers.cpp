@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/discrepancy/discrepancy_numbers.h"
 
+#include "core/discrepancy/own_effects.h"
+
 #include <fmt/format.h>
 
 #include <Eigen/QR>
@@ -24,6 +26,17 @@ CatalogueContext catalogueContext(const DiscrepancyInput& input, const DriverTab
   context.machine = &input.machine;
   context.drivers = &drivers;
   std::set<std::string> points(problem.own_points.begin(), problem.own_points.end());
+  // A point that was read once or twice shows no slip of its own: any level of it would be one.
+  std::map<std::string, std::size_t> readings;
+  for (int s = 0; s < problem.seriesCount(); ++s) {
+    const auto at = static_cast<std::size_t>(s);
+    auto& most = readings[problem.series_point[at]];
+    most = std::max(most, static_cast<std::size_t>(problem.series_begin[at + 1] - problem.series_begin[at]));
+  }
+  std::erase_if(points, [&](const std::string& point) {
+    const auto found = readings.find(point);
+    return found != readings.end() && found->second < 3;
+  });
   context.points.assign(points.begin(), points.end());
   context.point_count = std::set<std::string>(problem.series_point.begin(), problem.series_point.end()).size();
   Eigen::Vector3d low = Eigen::Vector3d::Constant(2.0);
@@ -39,6 +52,7 @@ CatalogueContext catalogueContext(const DiscrepancyInput& input, const DriverTab
   for (int axis = 0; axis < 3; ++axis) {
     if (high[axis] > low[axis]) context.varying_approach.insert(axis_letters[axis]);
   }
+  context.rotations = std::any_of(problem.component.begin(), problem.component.end(), isRotation);
   context.c_varies = c_high > c_low;
   for (int s = 0; s < problem.seriesCount() && !context.position_varies; ++s) {
     const auto from = static_cast<std::size_t>(problem.series_begin[static_cast<std::size_t>(s)]);
@@ -148,13 +162,14 @@ std::string driversText(const ModelEffect& e) {
   std::size_t next = 0;
   for (const EffectInput& input : e.variant.inputs) {
     if (!text.empty()) text += " + ";
+    const std::string name(driverAsWritten(input.driver));
     switch (input.dynamics) {
       case Dynamics::None:
-        text += input.driver.empty() ? "steady" : input.driver + " without lag";
+        text += input.driver.empty() ? "steady" : name + " without lag";
         break;
       case Dynamics::Lag: {
         const double tau = e.parameters[e.variant.shared_lag ? 0 : next++];
-        text += tau > 0.0 ? fmt::format("{} (lag {:.0f} s)", input.driver, tau) : input.driver;
+        text += tau > 0.0 ? fmt::format("{} (lag {:.0f} s)", name, tau) : name;
         break;
       }
       case Dynamics::Start:
@@ -192,6 +207,8 @@ RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::siz
     s[0] += w;
     s[1] += w * (o.value - input.predicted[row] - effect_part[row]);
   }
+  out.rotations =
+      std::all_of(fit_rows.begin(), fit_rows.end(), [&](std::size_t row) { return isRotation(rows[row].component); });
   double fit = 0.0;
   double fit_count = 0.0;
   double held = 0.0;
@@ -200,9 +217,9 @@ RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::siz
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const Observation& o = rows[row];
     const auto found = sums.find({o.point, static_cast<int>(o.component)});
-    if (found == sums.end() || !std::isfinite(input.predicted[row])) continue;
-    out.constant[row] = found->second[1] / found->second[0];
-    if (isRotation(o.component)) continue;
+    if ((found == sums.end() && !input.absolute) || !std::isfinite(input.predicted[row])) continue;
+    out.constant[row] = input.absolute ? 0.0 : found->second[1] / found->second[0];
+    if (isRotation(o.component) != out.rotations) continue;
     const double r = o.value - input.predicted[row] - effect_part[row] - out.constant[row];
     if (fitted.contains(row)) {
       fit += r * r;

@@ -45,9 +45,11 @@ struct RowResult {
   double fit_rms = 0.0;
   double holdout_rms = 0.0;
   std::size_t holdout_rows = 0;
+  bool rotations = false;  ///< no displacement was fitted: rms in urad
 };
 
-/// Constants of the series from the fit rows, and the rms of what is left in displacements (um).
+/// Constants of the series from the fit rows (0 where values are absolute), and the rms of what is left in
+/// displacements (um), or in rotations (urad) where nothing else was fitted.
 [[nodiscard]] RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::size_t>& fit_rows,
                                      const std::vector<std::size_t>& held_rows, const std::vector<double>& effect_part);
 

@@ -140,6 +140,16 @@ DriverTable::DriverTable(const MachineDescription& machine, const OperatingLog* 
   fillGaps();
 }
 
+void DriverTable::addOwn(Driver driver) {
+  SPINDRIFT_ASSERT(driver.values.size() == time_s_.size(), "a value for every row of the log");
+  const bool zero = std::all_of(driver.values.begin(), driver.values.end(), [](double v) { return v == 0.0; });
+  if (zero) {
+    dead_.push_back(driver.name);
+  } else {
+    drivers_.push_back(std::move(driver));
+  }
+}
+
 void DriverTable::fillGaps() {
   const std::vector<LogGap> gaps = logGaps(time_s_);
   for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) {
@@ -218,7 +228,8 @@ Eigen::VectorXd DriverTable::response(const Driver& driver, double tau_on_s, dou
   const bool lagged = tau_on_s > 0.0 || tau_off_s > 0.0;
   Eigen::VectorXd out(static_cast<Eigen::Index>(times_s.size()));
   std::size_t k = 0;
-  double q = lagged ? 0.0 : driver.values[0];
+  const double before = driver.settled ? driver.values[0] : 0.0;
+  double q = lagged ? before : driver.values[0];
   double last_dt = -1.0;
   double decay = 0.0;
   const bool symmetric = tau_on_s == tau_off_s;
@@ -249,7 +260,7 @@ Eigen::VectorXd DriverTable::response(const Driver& driver, double tau_on_s, dou
       slope = (driver.values[k + 1] - driver.values[k]) / (time_s_[k + 1] - time_s_[k]);
     }
     if (t < time_s_[0]) {
-      out[static_cast<Eigen::Index>(i)] = lagged ? 0.0 : driver.values[0];
+      out[static_cast<Eigen::Index>(i)] = lagged ? before : driver.values[0];
     } else {
       out[static_cast<Eigen::Index>(i)] =
           lagged ? advance(q, driver.values[k], slope, dt) : driver.values[k] + slope * dt;

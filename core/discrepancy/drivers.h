@@ -25,6 +25,7 @@ struct Driver {
   bool linear = false;                  ///< linear between rows; else it holds
   SensorRole role = SensorRole::Other;  ///< temperatures
   std::vector<double> values;           ///< at the rows of the log
+  bool settled = false;                 ///< before the log it had its first value for long; false: it was zero
 };
 
 /// Signals by name: "spindle_rpm^1", "^1.5", "^2" (krpm^p), "feed_x" (m/min), "speed_c" (rpm) and the squares of both,
@@ -52,6 +53,8 @@ class DriverTable {
   [[nodiscard]] const std::vector<SensorReading>& sensors() const noexcept { return sensors_; }
   [[nodiscard]] const std::vector<double>& time_s() const noexcept { return time_s_; }
   [[nodiscard]] bool empty() const noexcept { return time_s_.empty(); }
+  /// Adds a signal of the user's, with a value at every time of time_s(); one that is zero throughout is dead.
+  void addOwn(Driver driver);
   /// Moves all signals: what the log says of time t is taken for t - offset_s of the observations.
   void shiftClock(double offset_s);
 

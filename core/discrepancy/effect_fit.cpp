@@ -69,8 +69,14 @@ std::pair<double, double> EffectSearch::parameterBounds(const ModelTerm& term, s
   const std::string name = parameterNames(term.variant)[index];
   const double start = problem_->node_time_s.front();
   const double end = problem_->node_time_s.back();
-  if (name.starts_with("onset")) return {start, end};
+  if (name.starts_with("onset")) {
+    // A step that only the first or the last reading shows is an outlier.
+    const auto& t = problem_->node_time_s;
+    const bool step = term.variant.inputs[0].dynamics == Dynamics::Step && t.size() >= 6;
+    return step ? std::pair(0.5 * (t[1] + t[2]), 0.5 * (t[t.size() - 3] + t[t.size() - 2])) : std::pair(start, end);
+  }
   if (name.starts_with("length")) return {1.0, 11.0 * (end - start + 1.0)};
+  if (term.effect->tau_s) return {(*term.effect->tau_s)[0], (*term.effect->tau_s)[1]};
   // A lag much longer than the campaign is an integrator: it fits a drift and predicts nonsense.
   return {60.0, std::clamp(0.45 * (end - start), 3600.0, 36000.0)};
 }

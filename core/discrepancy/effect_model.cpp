@@ -8,6 +8,7 @@
 
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/discrepancy/own_effects.h"
 #include "core/discrepancy/simulation_table.h"
 
 namespace spindrift {
@@ -30,7 +31,7 @@ Effect effectById(const std::vector<Effect>& catalogue, const std::string& id, c
   for (const Effect& effect : catalogue) {
     if (effect.id == id) return effect;
   }
-  node.reject("the id of an effect of the catalogue that this machine can have");
+  node.reject("the id of an effect of the catalogue that this machine can have, or of the campaign's effects.json");
 }
 
 }  // namespace
@@ -41,7 +42,7 @@ std::vector<std::string> ModelEffect::gainNames(const DriverTable& drivers) cons
     const Driver* driver = variant.inputs[i].driver.empty() ? nullptr : drivers.find(variant.inputs[i].driver);
     for (const ShapeColumn& column : effect.shape) {
       std::string name = "gain_" + column.gain_unit;
-      if (driver != nullptr && driver->unit != "on") name += "_per_" + driver->unit;
+      if (driver != nullptr && !driver->unit.empty() && driver->unit != "on") name += "_per_" + driver->unit;
       if (variant.inputs[i].dynamics == Dynamics::Start) name += "_at_start";
       int twin = 1;
       std::string unique = name;
@@ -232,7 +233,8 @@ nlohmann::json EffectModel::json() const {
 
 std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path& file,
                                                      const MachineDescription& machine, const OperatingLog* log,
-                                                     const std::vector<std::string>& points) {
+                                                     const std::vector<std::string>& points, const OwnEffects* own,
+                                                     bool absolute) {
   const JsonNode root = JsonNode::read(file);
   root.requireFormat("spindrift-error-model", 1);
   auto drivers = std::make_shared<DriverTable>(machine, log);
@@ -244,7 +246,12 @@ std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path
   context.varying_approach = {"x", "y", "z"};
   context.c_varies = true;
   context.position_varies = true;
-  const std::vector<Effect> catalogue = effectCatalogue(context);
+  std::vector<Effect> catalogue = effectCatalogue(context);
+  if (own != nullptr) {
+    for (Effect& effect : own->bind(*drivers, log, machine.reference_temperature_degC, absolute)) {
+      catalogue.push_back(std::move(effect));
+    }
+  }
   std::vector<ModelEffect> effects;
   for (const JsonNode& node : root.at("effects").items()) {
     ModelEffect e;

@@ -51,12 +51,14 @@ class EffectModel : public ErrorModel {
                                                         std::span<const Observation> rows);
   /// model.json.
   [[nodiscard]] nlohmann::json json() const;
-  /// Reads model.json for a machine and its log; `table` is read beside it when it is given. Throws InputError: unknown
+  /// Reads model.json for a machine and its log; `table` is read beside it when it is given. `own`: effects of the
+  /// user's that it may hold, of a campaign that is `absolute` or not. Throws InputError: unknown
   /// effect, a driver that the log does not have, a missing parameter.
   [[nodiscard]] static std::shared_ptr<const EffectModel> read(const std::filesystem::path& file,
                                                                const MachineDescription& machine,
                                                                const OperatingLog* log,
-                                                               const std::vector<std::string>& points);
+                                                               const std::vector<std::string>& points,
+                                                               const OwnEffects* own = nullptr, bool absolute = false);
 
  private:
   std::shared_ptr<const DriverTable> drivers_;

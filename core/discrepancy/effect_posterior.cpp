@@ -42,6 +42,12 @@ std::string keyOf(const std::vector<ModelTerm>& terms) {
   return key;
 }
 
+/// Of the catalogue, and holds a simpler effect: a wide shape follows part of much that it does not cause. Effects of
+/// the user's pay for their gains alone.
+bool wide(const Effect& effect) {
+  return !effect.own && !effect.contains.empty();
+}
+
 bool driverless(const Effect& effect) {
   return !effect.variants.empty() &&
          std::all_of(effect.variants.begin(), effect.variants.end(), [](const EffectVariant& variant) {
@@ -111,7 +117,7 @@ double PosteriorSearch::imitationPrice(const JointFit& fit) const {
       price += beyond * std::min(most_simulation_price, simulation_power_[c]);
     }
     const double wider = fit.terms[t].effect->refinement ? priors_.refinement_error : priors_.wider_error;
-    if (!fit.terms[t].effect->contains.empty()) price += wider * wider * total;
+    if (wide(*fit.terms[t].effect)) price += wider * wider * total;
   }
   return price;
 }
@@ -124,13 +130,15 @@ Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
     const Eigen::VectorXd& f = fit.contribution[t];
     // Another size at every point.
-    for (int s = 0; s < problem_->seriesCount(); ++s) {
-      const Index from = problem_->series_begin[static_cast<std::size_t>(s)];
-      const Index count = problem_->series_begin[static_cast<std::size_t>(s) + 1] - from;
-      if (f.segment(from, count).isZero(0.0)) continue;
-      Eigen::VectorXd column = Eigen::VectorXd::Zero(f.size());
-      column.segment(from, count) = priors_.model_error * f.segment(from, count);
-      columns.push_back(std::move(column));
+    std::vector<Eigen::VectorXd> sizes(static_cast<std::size_t>(problem_->neighbourhood_count));
+    for (Index u = 0; u < f.size(); ++u) {
+      if (f[u] == 0.0) continue;
+      auto& column = sizes[static_cast<std::size_t>(problem_->neighbourhood[static_cast<std::size_t>(u)])];
+      if (column.size() == 0) column = Eigen::VectorXd::Zero(f.size());
+      column[u] = priors_.model_error * f[u];
+    }
+    for (Eigen::VectorXd& column : sizes) {
+      if (column.size() > 0) columns.push_back(std::move(column));
     }
     // Another size in every span of time.
     const EffectInput& first = fit.terms[t].variant.inputs[0];
@@ -153,7 +161,7 @@ double PosteriorSearch::priceOf(const JointFit& fit) const {
   const double effects = std::max<double>(2.0, static_cast<double>(search_->catalogue().size()));
   double price = 0.0;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
-    if (!fit.terms[t].effect->contains.empty()) price += 2.0 * std::log(1.0 / priors_.wider);
+    if (wide(*fit.terms[t].effect)) price += 2.0 * std::log(1.0 / priors_.wider);
     if (warmStart(fit.terms[t].variant)) price += warm_price;
     if (fit.terms[t].effect->driver_missing) price += 2.0 * std::log(1.0 / priors_.without_driver);
     price += library_->choicePrice(*fit.terms[t].effect) + 2.0 * std::log(effects) +

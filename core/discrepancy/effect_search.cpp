@@ -23,6 +23,19 @@ EffectSearch::EffectSearch(ResidualProblem& problem, const DriverTable& drivers,
   for (std::size_t i = 1; i + 2 < times.size(); i += step) onsets_.push_back(0.5 * (times[i] + times[i + 1]));
 }
 
+std::vector<double> EffectSearch::within(const Effect& effect, const std::vector<double>& lags) {
+  if (!effect.tau_s) return lags;
+  const auto [low, high] = *effect.tau_s;
+  std::vector<double> out;
+  if (low > 0.0) out.push_back(low);
+  // A lag next to a bound says nothing that the bound does not.
+  for (const double tau : lags) {
+    if (tau > 1.2 * low && tau < high / 1.2) out.push_back(tau);
+  }
+  out.push_back(high);
+  return out;
+}
+
 double EffectSearch::endlessLength() const noexcept {
   return 10.0 * (problem_->node_time_s.back() - problem_->node_time_s.front() + 1.0);
 }

@@ -43,9 +43,9 @@ class EffectSearch {
   /// The grid of onsets, s.
   [[nodiscard]] const std::vector<double>& onsets() const noexcept { return onsets_; }
 
-  /// The grid of lags, s.
-  [[nodiscard]] const std::vector<double>& lags() const noexcept { return lags_; }
-  [[nodiscard]] const std::vector<double>& pulseLags() const noexcept { return pulse_lags_; }
+  /// The grid of lags, s: the same for all, or what of it lies within the bounds of the effect, and these.
+  [[nodiscard]] std::vector<double> lagsOf(const Effect& effect) const { return within(effect, lags_); }
+  [[nodiscard]] std::vector<double> pulseLagsOf(const Effect& effect) const { return within(effect, pulse_lags_); }
   /// Length of a pulse that does not end, s.
   [[nodiscard]] double endlessLength() const noexcept;
   /// Fills what is kept of an effect; afterwards shape() may be asked by several threads.
@@ -81,6 +81,7 @@ class EffectSearch {
   [[nodiscard]] std::pair<double, double> parameterBounds(const ModelTerm& term, std::size_t index) const;
 
  private:
+  [[nodiscard]] static std::vector<double> within(const Effect& effect, const std::vector<double>& lags);
   ResidualProblem* problem_;
   const DriverTable* drivers_;
   const std::vector<Effect>* catalogue_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people call the effects of the catalogue: one table for reports, command line and window.
+// What people call the effects of the catalogue, for reports, command line and window; each effect says it itself.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace spindrift {
 
-/// The pattern is one of a fixed table, so that a window can translate it; "%1" stands for `subject`.
+/// The pattern is one of a fixed set, so that a window can translate it; "%1" stands for `subject`.
 struct EffectTitle {
   std::string_view pattern;
   std::string subject;  ///< axis or point; empty where the pattern has no %1
@@ -20,5 +20,8 @@ struct EffectTitle {
 
 /// "thermal expansion of the Y ball screw"; an id that is not known stays as it is.
 [[nodiscard]] std::string effectTitle(std::string_view id);
+
+/// The pattern with its subject in place of "%1".
+[[nodiscard]] std::string titleText(std::string_view pattern, std::string_view subject);
 
 }  // namespace spindrift

@@ -23,6 +23,7 @@ EffectSearch::CrossValidation EffectSearch::crossValidate(const std::vector<Mode
   const Index n = problem_->size();
   const int folds = std::min(5, problem_->epoch_count);
   double count = 0.0;
+  const bool rotations = std::all_of(problem_->component.begin(), problem_->component.end(), isRotation);
   for (const bool with : {false, true}) {
     const auto& terms = with ? after : before;
     std::vector<Eigen::MatrixXd> parts;
@@ -65,8 +66,8 @@ EffectSearch::CrossValidation EffectSearch::crossValidate(const std::vector<Mode
           mean_x += w * x.row(u);
         }
         for (Index u = from; u < to; ++u) {
-          weight[u] = sum_w > 0.0 ? 1.0 / problem_->ownSigma(u) : 0.0;
-          if (!(sum_w > 0.0)) continue;
+          weight[u] = sum_w > 0.0 || !problem_->free_constants ? 1.0 / problem_->ownSigma(u) : 0.0;
+          if (!(sum_w > 0.0) || !problem_->free_constants) continue;
           r[u] -= mean_y / sum_w;
           a.row(u) -= mean_x / sum_w;
         }
@@ -102,7 +103,7 @@ EffectSearch::CrossValidation EffectSearch::crossValidate(const std::vector<Mode
         const double leverage = x.cols() > 0 ? std::max(0.0, row.dot(ldlt.solve(row))) : 0.0;
         chi2 += error * error * weight[u] * weight[u] / (1.0 + leverage) + std::log1p(leverage);
         if (leverage > most_leverage) continue;
-        if (!isRotation(problem_->component[static_cast<std::size_t>(u)])) {
+        if (isRotation(problem_->component[static_cast<std::size_t>(u)]) == rotations) {
           sum += error * error;
           count += 1.0;
         }

@@ -44,11 +44,33 @@ Eigen::VectorXd centred(const ResidualProblem& problem, Eigen::VectorXd values) 
   return values;
 }
 
+/// Of `values` what has the pattern of an effect, with any smooth course in time: what the same cause would leave if it
+/// acted otherwise. A common drift of all points is none of a play that changes its sign from reading to reading.
+Eigen::VectorXd inPatternOf(const ResidualProblem& problem, const Eigen::MatrixXd& shape,
+                            const Eigen::VectorXd& values) {
+  const int hats = std::clamp(problem.epoch_count / 3, 2, 8);
+  const double start = problem.node_time_s.front();
+  const double span = std::max(1.0, problem.node_time_s.back() - start);
+  Eigen::MatrixXd columns(problem.size(), shape.cols() * hats);
+  Eigen::VectorXd sigma(problem.size());
+  for (Index u = 0; u < problem.size(); ++u) {
+    sigma[u] = problem.ownSigma(u);
+    const double position = (problem.time_s[static_cast<std::size_t>(u)] - start) / span * (hats - 1);
+    for (int h = 0; h < hats; ++h) {
+      const double hat = std::max(0.0, 1.0 - std::abs(position - h));
+      for (Index k = 0; k < shape.cols(); ++k) columns(u, h * shape.cols() + k) = hat * shape(u, k) / sigma[u];
+    }
+  }
+  const Eigen::VectorXd white = values.cwiseQuotient(sigma);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  return (columns * qr.solve(white)).cwiseProduct(sigma);
+}
+
 /// rms of what is left over that of an effect, over the readings that the effect moves, in standard deviations of the
 /// noise. Left is the remainder, what other effects explain that are not named, and of the shifts of states what is
 /// larger than shifts are. Effects that cancel each other count as what they are together.
-double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::size_t t, const Remainder& remainder,
-                      const std::vector<bool>& unnamed) {
+double imitationRatio(const ResidualProblem& problem, const EffectSearch& search, const JointFit& fit, std::size_t t,
+                      const Remainder& remainder, const std::vector<bool>& unnamed) {
   const Eigen::VectorXd own = centred(problem, fit.contribution[t]);
   Eigen::VectorXd together = Eigen::VectorXd::Zero(problem.size());
   Eigen::VectorXd rest = Eigen::VectorXd::Zero(problem.size());
@@ -60,6 +82,10 @@ double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::
   for (const Remainder::OfComponent& r : remainder.components) {
     told[static_cast<std::size_t>(r.component)] = r.evidence >= remainder_evidence;
   }
+  // Patterns of the user's effects may be any: what remains in others is none of theirs.
+  const Effect& effect = *fit.terms[t].effect;
+  const Eigen::VectorXd remaining =
+      effect.own ? inPatternOf(problem, search.shape(effect), remainder.values) : remainder.values;
   double left = 0.0;
   double own_power = 0.0;
   double together_power = 0.0;
@@ -75,14 +101,14 @@ double imitationRatio(const ResidualProblem& problem, const JointFit& fit, std::
     own_power += std::pow(own[u] / sigma, 2);
     together_power += std::pow(together[u] / sigma, 2);
     left += std::pow(rest[u] / sigma, 2);
-    if (told[static_cast<std::size_t>(c)]) left += std::pow(remainder.values[u] / sigma, 2);
+    if (told[static_cast<std::size_t>(c)]) left += std::pow(remaining[u] / sigma, 2);
     left += std::max(0.0, std::pow(problem.noise.of(c).common / sigma, 2) - 1.0);
   }
   const double power = std::min(own_power, together_power);
   // A step is a step: it has no dynamics that could be a little different.
   const Dynamics dynamics = fit.terms[t].variant.inputs[0].dynamics;
   // One that chooses its own onset and length follows half of anything.
-  const double strict = dynamics == Dynamics::Step ? 3.0 : dynamics == Dynamics::Pulse ? 1.5 : 1.0;
+  const double strict = effect.own ? 1.0 : dynamics == Dynamics::Step ? 3.0 : dynamics == Dynamics::Pulse ? 1.5 : 1.0;
   if (!(power > 0.0) || !(together_power > 0.0) || !(together_since > 0.0)) return 1e9;
   // Effects that cancel each other follow much that they do not cause: about their means, or since the log began.
   const double cancelling = 0.1 * std::sqrt(std::max(own_power / together_power, own_since / together_since));
@@ -227,8 +253,10 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     for (std::size_t t = 0; t < fit.terms.size(); ++t) {
       if (imitates[t]) continue;
       const SlotEvidence& slot = posterior.slots[t];
-      ratios[t] = imitationRatio(problem, fit, t, remainder, imitates);
-      const double known = 1.0 / (1.0 + std::pow(ratios[t] / priors.imitation, 4));
+      ratios[t] = imitationRatio(problem, search, fit, t, remainder, imitates);
+      // What smooth courses in simple patterns cannot take up, whatever their size, imitates nothing that drifts.
+      const bool beyond_drifts = fit.terms[t].effect->own && slot.over_unknown > remainder_evidence;
+      const double known = 1.0 / (1.0 + std::pow(ratios[t] / (beyond_drifts ? 1.0 : priors.imitation), 4));
       const double there =
           1.0 / (1.0 + std::exp(-0.5 * std::min(slot.delta_evidence, slot.over_unknown + unknown_price)));
       // One unknown cause in place of several effects that share a component: they must be far better than it.
@@ -263,6 +291,8 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     }
     for (const Effect& other : search.catalogue()) {
       if (!other.variants.empty() || other.id == effect.id) continue;
+      // Whoever wrote down what drives an effect knows what it is; that its course follows speaks for it.
+      if (effect.own && !fit.terms[t].variant.inputs[0].driver.empty()) continue;
       // One that holds a simpler effect is seen through that one.
       const bool seen = std::any_of(other.contains.begin(), other.contains.end(), [&](const std::string& id) {
         const Effect* simple = search.find(id);

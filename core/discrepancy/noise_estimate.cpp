@@ -429,7 +429,9 @@ void estimateAt(const ResidualProblem& problem, ComponentEstimate& e, bool again
     steps.push_back(problem.epoch_time_s[i] - problem.epoch_time_s[i - 1]);
   }
   const double step = steps.empty() ? 0.0 : median(steps);
-  const bool enough = !careful && e.data.residual.size() >= 24 && steps.size() >= 7 && step > 0.0;
+  // Series of one reading each have no course in time that could be correlated.
+  const bool courses = 2 * e.data.series.size() <= static_cast<std::size_t>(e.data.residual.size());
+  const bool enough = !careful && courses && e.data.residual.size() >= 24 && steps.size() >= 7 && step > 0.0;
   if (enough) {
     double best_correlated = 1e300;
     Parameters correlated;

@@ -67,6 +67,7 @@ class Scan {
   /// The free constant of every series moved so that most of its readings, not their mean, are where they should be:
   /// what deviates for a while must not make the rest deviate the other way.
   [[nodiscard]] Eigen::VectorXd onBaseline(Eigen::VectorXd z) const {
+    if (!problem_->free_constants) return z;
     std::vector<std::pair<double, double>> slope;  // constant that brings a reading to zero, and its weight
     for (int s = 0; s < problem_->seriesCount(); ++s) {
       const Index from = problem_->series_begin[static_cast<std::size_t>(s)];

@@ -338,8 +338,29 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
     }
   }
   for (const auto& [pair, value] : between) extra_covariance_.push_back({pair.first, pair.second, value});
+  makeNeighbourhoods();
   makeDomains();
   setNoise({});
+}
+
+void ResidualProblem::makeNeighbourhoods() {
+  neighbourhood = series;
+  neighbourhood_count = seriesCount();
+  constexpr Index few_readings = 3;
+  if (free_constants || size() >= few_readings * seriesCount()) return;
+  constexpr std::size_t most_neighbourhoods = 12;
+  neighbourhood_count = 0;
+  std::vector<Eigen::Vector3d> at;
+  for (const DeviationQuery& q : place) at.push_back(q.position_mm);
+  for (const Component c : all_components) {
+    std::vector<std::size_t> members;
+    for (std::size_t u = 0; u < component.size(); ++u) {
+      if (component[u] == c) members.push_back(u);
+    }
+    if (members.empty()) continue;
+    const std::size_t each = (members.size() + most_neighbourhoods - 1) / most_neighbourhoods;
+    splitPoints(at, members, std::max<std::size_t>(each, 4), neighbourhood_count, neighbourhood);
+  }
 }
 
 Eigen::VectorXd ResidualProblem::toUnits(const Eigen::VectorXd& at_nodes) const {

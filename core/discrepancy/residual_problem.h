@@ -66,7 +66,11 @@ class ResidualProblem {
   std::vector<std::string> own_points;
   std::vector<std::string> series_point;  ///< the point of a series; of several points that are one unit: the first
   std::vector<double> time_s;             ///< mean time
-  std::vector<int> epoch;                 ///< index of the thermal state (or time bin)
+  /// Neighbourhood of each unit in which an effect may have another size: its series, or, where places were measured
+  /// once each, the units of its component nearby.
+  std::vector<int> neighbourhood;
+  int neighbourhood_count = 0;
+  std::vector<int> epoch;  ///< index of the thermal state (or time bin)
   int epoch_count = 0;
   bool epochs_are_states = false;
   std::vector<double> epoch_time_s;
@@ -141,6 +145,7 @@ class ResidualProblem {
     Eigen::VectorXd shift_part;   ///< 1 - 1 / sqrt(1 + lambda)
     Eigen::MatrixXd constants;    ///< orthonormal basis of the whitened constants
   };
+  void makeNeighbourhoods();
   void makeDomains();
   void makeBlocks();
   void whitenDomain(std::size_t domain, Eigen::Ref<Eigen::MatrixXd> rows) const;

@@ -42,7 +42,8 @@ std::vector<NuisanceColumn> ResidualProblem::simulationNuisances(double gain_unc
     for (const int s : members) {
       const Index from = series_begin[static_cast<std::size_t>(s)];
       const Index count = series_begin[static_cast<std::size_t>(s) + 1] - from;
-      centred.segment(from, count) = simulated.segment(from, count).array() - simulated.segment(from, count).mean();
+      centred.segment(from, count) = simulated.segment(from, count);
+      if (free_constants) centred.segment(from, count).array() -= simulated.segment(from, count).mean();
     }
     const double size_um = centred.cwiseAbs().maxCoeff();
     if (!(size_um > 1e-9)) continue;

@@ -30,10 +30,15 @@ Campaign Campaign::read(const std::filesystem::path& folder) {
   if (const auto gain = root.find("simulation_gain_uncertainty")) {
     campaign.simulation_gain_uncertainty = gain->nonNegativeNumber();
   }
+  if (const auto reference = root.find("reference")) {
+    campaign.absolute = reference->oneOf({"first_state", "absolute"}) == "absolute";
+  }
+  if (const auto effects = root.find("effects")) campaign.effects = effects->name();
   campaign.machine = MachineDescription::read(folder / "machine.json");
   if (std::filesystem::exists(folder / "log.csv")) campaign.log = OperatingLog::read(folder / "log.csv");
   if (std::filesystem::exists(folder / "observations.csv")) {
     campaign.observations = ObservationSet::read(folder / "observations.csv");
+    campaign.observations->absolute = campaign.absolute;
   }
   return campaign;
 }

@@ -19,6 +19,8 @@ struct Campaign {
   std::string start_utc;                      ///< "2026-01-31T08:00:00Z"
   std::string simulation;                     ///< "model.json", "simulation.csv" or empty; relative to the folder
   double simulation_gain_uncertainty = 0.01;  ///< relative, per component
+  bool absolute = false;                      ///< "reference": "absolute": no constant of an observation is free
+  std::filesystem::path effects;              ///< "effects.json" or empty; relative to the folder, or absolute
   MachineDescription machine;
   std::optional<OperatingLog> log;
   std::optional<ObservationSet> observations;  ///< the campaign's own observations.csv

@@ -7,7 +7,9 @@
 // times; the driver's unit is part of the gain's name ("gain_um_per_krpm"). Frame: MCF, sign of FORMATS.md.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,10 +52,14 @@ struct ShapeColumn {
   ShapeFunction value;
 };
 
-/// One effect of the catalogue.
+/// One effect: of the catalogue, or of a file of the user's.
 struct Effect {
-  std::string id;       ///< stable id of EFFECTS.md: "ball_screw.expansion.x"
-  std::string physics;  ///< one paragraph for the user
+  std::string id;                       ///< stable id of EFFECTS.md: "ball_screw.expansion.x"
+  std::string title;                    ///< what people call it; "%1" stands for `subject`
+  std::string subject;                  ///< axis or point of the title; empty where it has no "%1"
+  std::string physics;                  ///< one paragraph for the user
+  std::string formula;                  ///< of its shape: "ez = g q (z - z0)"
+  std::vector<std::string> references;  ///< where the physics is described
   std::vector<ShapeColumn> shape;
   std::vector<EffectVariant> variants;
   int sign = 0;  ///< +1 or -1: physical sign of the first gain of temperature and heat inputs; 0 free
@@ -64,9 +70,11 @@ struct Effect {
   double origin_high_mm = 0.0;
   /// |gain of shape column k| <= largest_ratio[k] x |gain of column 0|, 0: free. Empty: all free.
   std::vector<double> largest_ratio;
-  bool two_lags = false;        ///< its heat may reach it through two lags
-  bool refinement = false;      ///< refines another effect of the same cause (ball_screw.nonuniform)
-  bool follows_room = false;    ///< what the driver heats also follows the room, a little
+  std::optional<std::array<double, 2>> tau_s;  ///< bounds of its lags; empty: as the observations allow
+  bool own = false;                            ///< comes from a file of the user's
+  bool two_lags = false;                       ///< its heat may reach it through two lags
+  bool refinement = false;                     ///< refines another effect of the same cause (ball_screw.nonuniform)
+  bool follows_room = false;                   ///< what the driver heats also follows the room, a little
   bool of_machine = true;       ///< a part of the machine moves, which follows the room; false: the instrument does
   bool driver_missing = false;  ///< the driver that matters most for this effect is not in the log
 };

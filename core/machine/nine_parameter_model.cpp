@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "core/base/text.h"
@@ -44,13 +45,17 @@ StateChange changeOf(const ObservationSet& set, const NineParameterOptions& opti
   if (states.empty()) throw InputError({set.file, ""}, "holds no observation; allowed: at least one row per point.");
   StateChange change;
   change.state = options.state.empty() ? lastStateToFit(set) : options.state;
-  if (std::find(states.begin(), states.end(), change.state) == states.end()) {
+  const bool named = std::find(states.begin(), states.end(), change.state) != states.end();
+  const bool all = set.absolute && !named && change.state == every_state;
+  const auto inState = [&](const Observation& o) { return all || o.state == change.state; };
+  if (!named && !all) {
     throw InputError({set.file, ""},
                      fmt::format("state \"{}\" is not there; allowed: {}.", change.state, joinedList(states, "or")));
   }
-  const bool relative = options.relative_to_reference && change.state != states.front();
+  const bool deviations = options.relative_to_reference && !set.absolute;
+  const bool relative = deviations && change.state != states.front();
   if (relative) change.reference = states.front();
-  if (!relative && options.relative_to_reference && states.size() > 1) {
+  if (!relative && deviations && states.size() > 1) {
     change.warnings.push_back(fmt::format(
         "{} is the reference state: its values are zero up to an unknown constant, not deviations.", change.state));
   }
@@ -63,11 +68,11 @@ StateChange changeOf(const ObservationSet& set, const NineParameterOptions& opti
     const Observation& o = set.rows[i];
     if (o.use == ObservationUse::Exclude) continue;
     if (isRotation(o.component)) {
-      rotations = rotations || o.state == change.state;
+      rotations = rotations || inState(o);
       continue;
     }
     if (relative && o.state == change.reference) reference_rows[keyOf(o)].push_back(i);
-    if (o.state == change.state) in_state.push_back(i);
+    if (inState(o)) in_state.push_back(i);
   }
   if (rotations) {
     change.warnings.emplace_back("observed rotations are left out: the nine parameters are fitted to displacements.");
@@ -311,9 +316,27 @@ NineParameterModel NineParameterFit::model() const {
   return {parameters, estimable_covariance, fmt::format("nine-parameter model of {}", from), null_space};
 }
 
+namespace {
+
+/// Absolute values of many points, each state with fewer of them than a model of one state needs.
+bool measuredInPassing(const ObservationSet& observations) {
+  constexpr std::size_t few_points = 3;
+  std::map<std::string, std::set<std::string>> points;
+  for (const Observation& o : observations.rows) {
+    if (o.use == ObservationUse::Exclude) continue;
+    auto& of_state = points[o.state];
+    of_state.insert(o.point);
+    if (of_state.size() >= few_points) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 std::string lastStateToFit(const ObservationSet& observations) {
   const std::vector<std::string> states = observations.states();
   if (states.empty()) return {};
+  if (observations.absolute && states.size() > 1 && measuredInPassing(observations)) return std::string(every_state);
   for (auto state = states.rbegin(); state != states.rend(); ++state) {
     const bool to_fit = std::any_of(observations.rows.begin(), observations.rows.end(), [&](const Observation& row) {
       return row.state == *state && row.use == ObservationUse::Fit && !isRotation(row.component);

@@ -64,12 +64,14 @@ class NineParameterModel final : public ErrorModel {
 enum class RobustLoss { None, Huber, Tukey };
 
 struct NineParameterOptions {
-  std::string state;                ///< thermal state to fit; empty: the last one with a displacement to fit
+  /// Thermal state to fit; empty: see lastStateToFit. `every_state` in an absolute set: all states as one.
+  std::string state;
   std::vector<std::string> points;  ///< points to fit, the others validate; empty: all rows with use `fit`
   RobustLoss robust = RobustLoss::None;
-  bool relative_to_reference = true;  ///< false: values as they stand, even if the reference state was measured
-  bool scale_by_residuals = false;    ///< true: covariance times chi2/dof (sigmas known up to a factor)
-  double rank_tolerance = 1e-8;       ///< of the whitened, column-scaled design matrix
+  /// false: values as they stand, even if the reference state was measured; so are those of an absolute set.
+  bool relative_to_reference = true;
+  bool scale_by_residuals = false;  ///< true: covariance times chi2/dof (sigmas known up to a factor)
+  double rank_tolerance = 1e-8;     ///< of the whitened, column-scaled design matrix
 
   /// Throws InputError for options no fit can be made with.
   void validate() const;
@@ -117,8 +119,12 @@ struct NineParameterFit {
   [[nodiscard]] NineParameterModel model() const;
 };
 
-/// The state that is fitted if none is named: the last one with a displacement (EX, EY, EZ) of use `fit`, the reference
-/// state only if there is no other; the last of all if none has one; empty without observations.
+/// Names all states of an absolute set together, unless a state is called so.
+inline constexpr std::string_view every_state = "all";
+
+/// The state that is fitted if none is named: `every_state` where an absolute set has few points in each; else the last
+/// one with a displacement (EX, EY, EZ) of use `fit`, the reference state only if there is no other; the last of all if
+/// none has one; empty without observations.
 [[nodiscard]] std::string lastStateToFit(const ObservationSet& observations);
 
 /// Fits one state. Throws InputError for a state or point that does not exist or a state without any row to fit.

@@ -47,6 +47,9 @@ struct ObservationSet {
   /// Sparse, beyond the diagonal sigma^2; symmetric entries are given once. A diagonal entry replaces sigma^2.
   std::vector<CovarianceEntry> covariance;
   std::filesystem::path file;
+  /// Values are deviations as they stand (the campaign says "reference": "absolute"); false: up to a constant for each
+  /// point and component, and the first state is the reference.
+  bool absolute = false;
 
   /// Reads observations.csv and, if it stands beside it, <stem>.cov.csv. Throws InputError: missing column, unknown
   /// component or use, sigma that is not positive, time that runs backwards for a point, a duplicate row.

@@ -124,7 +124,7 @@ void addGap(HtmlDocument& document, const DiscrepancyReportData& data) {
     return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : none;
   };
   std::vector<std::vector<std::string>> table;
-  const auto addRms = [&](const char* what, double before, double after) {
+  const auto addRms = [&](const std::string& what, double before, double after) {
     table.push_back({what, text(before, 2), text(after, 2), text(data.gap.noise_um, 2)});
   };
   const auto addFigures = [&](const char* what, bool held_out) {
@@ -141,9 +141,10 @@ void addGap(HtmlDocument& document, const DiscrepancyReportData& data) {
     }
   };
   const bool held_out = anyHeldOut(data.rows);
-  addRms("rms of the rows that were fitted / um", data.gap.rms_before_um, data.gap.rms_after_um);
+  const std::string unit = data.gap.rotations ? " / urad" : " / um";
+  addRms("rms of the rows that were fitted" + unit, data.gap.rms_before_um, data.gap.rms_after_um);
   addFigures("rows fitted", false);
-  addRms(held_out ? "rms of the rows held out / um" : "rms of blocks of rows left out in turn / um",
+  addRms((held_out ? "rms of the rows held out" : "rms of blocks of rows left out in turn") + unit,
          data.gap.heldout_rms_before_um, data.gap.heldout_rms_after_um);
   if (held_out) addFigures("rows held out", true);
   document.table({"", "before", "after", "noise"}, table,
@@ -168,9 +169,9 @@ void addSteps(HtmlDocument& document, const DiscrepancyReportData& data) {
 }
 
 void addEffect(HtmlDocument& document, const FoundEffect& effect, bool user_adds, bool held_out) {
-  document.subsection(effectHeading(effect.id) + (!user_adds      ? ""
-                                                  : effect.forced ? " (added to the model)"
-                                                                  : " (proposed)"));
+  document.subsection(effectHeading(effect.id, effect.title) + (!user_adds      ? ""
+                                                                : effect.forced ? " (added to the model)"
+                                                                                : " (proposed)"));
   document.paragraph(effect.physics);
   document.paragraph(fmt::format(
       "Driven by {}. Probability that {} {:.2f}; gain in BIC {:.0f}; rms on {} {:.2f} um before, {:.2f} um "
@@ -187,7 +188,8 @@ void addEffect(HtmlDocument& document, const FoundEffect& effect, bool user_adds
     rows.push_back(
         {parameterTitle(p.name) + ' ' + smallPrint(p.name), withUncertainty(p.value, p.standard_uncertainty, "")});
   }
-  document.table({"Parameter", "Value ± standard uncertainty"}, rows, "Parameters of the " + effectTitle(effect.id));
+  document.table({"Parameter", "Value ± standard uncertainty"}, rows,
+                 "Parameters of the " + (effect.title.empty() ? effectTitle(effect.id) : effect.title));
 }
 
 void addCandidates(HtmlDocument& document, const DiscrepancyReportData& data) {
@@ -411,8 +413,9 @@ DiscrepancyReportData discrepancyReportData(const DiscrepancyInput& input, const
     const double none = std::nan("");
     DiscrepancyReportRow row{
         o.time_s, o.point, o.component, o.position_mm, o.sigma, none, none, o.use == ObservationUse::Holdout, o.value};
-    if (const auto sum = sums.find({o.point, o.component}); sum != sums.end() && std::isfinite(result.simulated[i])) {
-      row.before = o.value - result.simulated[i] - sum->second.value / sum->second.weight;
+    const auto sum = sums.find({o.point, o.component});
+    if ((sum != sums.end() || input.absolute) && std::isfinite(result.simulated[i])) {
+      row.before = o.value - result.simulated[i] - (input.absolute ? 0.0 : sum->second.value / sum->second.weight);
       if (std::isfinite(result.constant[i])) row.after = o.value - result.completed[i] - result.constant[i];
       if (!row.held_out && i < result.remaining.size()) row.remaining = result.remaining[i];
     }

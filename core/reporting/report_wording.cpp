@@ -162,7 +162,8 @@ std::string withEffectTitles(std::string_view text) {
   return out;
 }
 
-std::string effectHeading(std::string_view id) {
+std::string effectHeading(std::string_view id, std::string_view own_title) {
+  if (!own_title.empty() && own_title != id) return capital(std::string(own_title)) + ' ' + smallPrint(id);
   return effectTitleOf(id) ? capital(effectTitle(id)) + ' ' + smallPrint(id) : std::string(id);
 }
 

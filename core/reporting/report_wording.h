@@ -23,7 +23,7 @@ namespace spindrift {
 /// Every id of the catalogue of effects by its title, with the id small beside it.
 [[nodiscard]] std::string withEffectTitles(std::string_view text);
 /// The title of one effect with a capital, its id small beside it.
-[[nodiscard]] std::string effectHeading(std::string_view id);
+[[nodiscard]] std::string effectHeading(std::string_view id, std::string_view own_title = {});
 
 /// "gain_um_per_m2_per_K" -> "gain / um/(m² K)", "tau_on_s" -> "time constant on / s": parameters of effects.
 [[nodiscard]] std::string parameterTitle(std::string_view name);

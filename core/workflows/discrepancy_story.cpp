@@ -22,7 +22,7 @@ double excess(double rms, double noise) {
 
 /// Constants and rms of one series from its rows with use `fit`.
 /// `sigma`: of every reading, shift of its state included.
-void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double gain_uncertainty) {
+void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double gain_uncertainty, bool absolute) {
   double weights = 0.0;
   double sum = 0.0;
   for (std::size_t i = 0; i < s.value.size(); ++i) {
@@ -31,7 +31,7 @@ void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double
     weights += w;
     sum += w * (s.value[i] - s.simulated[i]);
   }
-  s.constant_before = sum / weights;
+  s.constant_before = absolute ? 0.0 : sum / weights;
   double before = 0.0;
   double after = 0.0;
   double variance = 0.0;
@@ -119,7 +119,7 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
   }
   for (std::size_t k = 0; k < out.size(); ++k) {
     out[k].position_mm /= static_cast<double>(out[k].value.size());
-    finishSeries(out[k], sigmas[k], input.simulation_gain_uncertainty);
+    finishSeries(out[k], sigmas[k], input.simulation_gain_uncertainty, input.absolute);
     for (double& e : out[k].explained) e -= out[k].constant_before;
   }
   markSignificant(out, search);
@@ -130,6 +130,7 @@ nlohmann::json gapJson(const DiscrepancyGap& g) {
   return {{"rms_before_um", jsonNumber(g.rms_before_um)},
           {"rms_after_um", jsonNumber(g.rms_after_um)},
           {"noise_um", jsonNumber(g.noise_um)},
+          {"rotations", g.rotations},
           {"heldout_rms_before_um", jsonNumber(g.heldout_rms_before_um)},
           {"heldout_rms_after_um", jsonNumber(g.heldout_rms_after_um)}};
 }
@@ -146,8 +147,9 @@ std::vector<double> numbersOf(const nlohmann::json& json) {
 }
 
 DiscrepancyGap gapOf(const nlohmann::json& json) {
-  return {numberOf(json, "rms_before_um"), numberOf(json, "rms_after_um"), numberOf(json, "noise_um"),
-          numberOf(json, "heldout_rms_before_um"), numberOf(json, "heldout_rms_after_um")};
+  return {
+      numberOf(json, "rms_before_um"),         numberOf(json, "rms_after_um"),         numberOf(json, "noise_um"),
+      numberOf(json, "heldout_rms_before_um"), numberOf(json, "heldout_rms_after_um"), json.value("rotations", false)};
 }
 
 Component componentOf(const nlohmann::json& json) {
@@ -162,6 +164,7 @@ nlohmann::json effectJson(const FoundEffect& e) {
     parameters.push_back({p.name, jsonNumber(p.value), jsonNumber(p.standard_uncertainty)});
   }
   return {{"id", e.id},
+          {"title", e.title},
           {"physics", e.physics},
           {"drivers", e.drivers},
           {"rivals", e.rivals},
@@ -179,6 +182,7 @@ nlohmann::json effectJson(const FoundEffect& e) {
 FoundEffect effectOf(const nlohmann::json& json) {
   FoundEffect e;
   e.id = json.at("id").get<std::string>();
+  e.title = json.value("title", "");
   e.physics = json.at("physics").get<std::string>();
   e.drivers = json.at("drivers").get<std::string>();
   e.rivals = json.at("rivals").get<std::vector<std::string>>();

@@ -8,6 +8,8 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
+#include "core/discrepancy/catalogue.h"
+#include "core/discrepancy/effect_listing.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/reporting/discrepancy_report.h"
 #include "core/workflows/evaluate_campaign.h"
@@ -57,9 +59,65 @@ DiscrepancyRun searchDiscrepancy(const Campaign& campaign, ObservationSet observ
   return run;
 }
 
+nlohmann::json EffectsAnswer::json() const {
+  nlohmann::json out = effectsJson(effects, own.get());
+  out["warnings"] = warnings;
+  return out;
+}
+
+std::string EffectsAnswer::summary() const {
+  std::string text = effectsText(effects) + fmt::format("{} effects\n", effects.size());
+  for (const std::string& warning : warnings) text += fmt::format("note: {}\n", warning);
+  return text;
+}
+
+EffectsAnswer listEffects(const EffectsRequest& request) {
+  EffectsAnswer out;
+  if (request.campaign.empty()) {
+    if (!request.effects.empty()) out.own = OwnEffects::read(request.effects);
+    if (!out.own || out.own->builtIn()) out.effects = everyEffect();
+    if (!out.own) return out;
+    // Without a log: the drivers as they are written.
+    for (const OwnEffect& own : out.own->effects()) {
+      Effect effect = own.effect;
+      if (own.drivers.empty()) effect.variants.push_back({{{"", own.dynamics}}, false});
+      for (const std::vector<OwnDriver>& alternative : own.drivers) {
+        EffectVariant variant;
+        for (const OwnDriver& driver : alternative)
+          variant.inputs.push_back({ownDriverName(driver.text), own.dynamics});
+        effect.variants.push_back(std::move(variant));
+      }
+      out.effects.push_back(std::move(effect));
+    }
+    return out;
+  }
+  Campaign campaign = Campaign::read(request.campaign);
+  if (!request.effects.empty()) campaign.effects = std::filesystem::absolute(request.effects);
+  if (!campaign.effects.empty()) out.own = OwnEffects::read(campaign.path(campaign.effects.string()));
+  const OperatingLog* log = campaign.log ? &*campaign.log : nullptr;
+  DriverTable drivers(campaign.machine, log);
+  if (!out.own || out.own->builtIn()) {
+    CatalogueContext context;
+    context.machine = &campaign.machine;
+    context.drivers = &drivers;
+    if (campaign.observations) context.points = campaign.observations->points();
+    context.point_count = context.points.size();
+    context.varying_approach = {"x", "y", "z"};
+    context.c_varies = !campaign.machine.rotary.empty();
+    context.position_varies = true;
+    out.effects = effectCatalogue(context);
+  }
+  if (!out.own) return out;
+  std::vector<Effect> own = out.own->bind(drivers, log, campaign.machine.reference_temperature_degC, campaign.absolute);
+  if (campaign.observations) out.own->check(own, campaign.observations->rows, out.warnings);
+  for (Effect& effect : own) out.effects.push_back(std::move(effect));
+  return out;
+}
+
 DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job) {
   request.options.validate();
-  const Campaign campaign = Campaign::read(request.campaign);
+  Campaign campaign = Campaign::read(request.campaign);
+  if (!request.effects.empty()) campaign.effects = std::filesystem::absolute(request.effects);
   const auto root = std::filesystem::weakly_canonical(campaign.folder).string() + "/";
   for (const auto& file : {request.model_out, request.prediction, request.html}) {
     if (!file.empty() && std::filesystem::weakly_canonical(file).string().starts_with(root)) {

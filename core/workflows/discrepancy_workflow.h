@@ -6,12 +6,14 @@
 
 #include "core/base/job_context.h"
 #include "core/discrepancy/discrepancy.h"
+#include "core/discrepancy/own_effects.h"
 
 namespace spindrift {
 
 struct DiscrepancyRequest {
   std::filesystem::path campaign;
   std::filesystem::path observations;  ///< empty: the campaign's own, else its captures evaluated in memory
+  std::filesystem::path effects;       ///< effects of the user's; empty: those that campaign.json names
   DiscrepancyOptions options;
   std::filesystem::path model_out;   ///< empty: not written
   std::filesystem::path prediction;  ///< time_s,point,component,predicted of the completed model
@@ -30,6 +32,21 @@ struct DiscrepancyRun {
 /// The search on a campaign in memory, with the observations given in place of its own.
 [[nodiscard]] DiscrepancyRun searchDiscrepancy(const Campaign& campaign, ObservationSet observations,
                                                const DiscrepancyOptions& options, JobContext& job);
+
+/// The catalogue as a whole, or with a campaign as its machine and log have it; and the user's own effects.
+struct EffectsRequest {
+  std::filesystem::path campaign;  ///< empty: no machine in particular
+  std::filesystem::path effects;   ///< effects.json; empty: those that campaign.json names
+};
+struct EffectsAnswer {
+  std::vector<Effect> effects;
+  std::shared_ptr<const OwnEffects> own;  ///< may be null
+  std::vector<std::string> warnings;
+  [[nodiscard]] nlohmann::json json() const;
+  [[nodiscard]] std::string summary() const;
+};
+/// Throws InputError, as for a search: expressions are evaluated at the campaign's observations, if it has any.
+[[nodiscard]] EffectsAnswer listEffects(const EffectsRequest& request);
 
 /// Throws InputError; nothing is written then. The campaign folder is never written to.
 [[nodiscard]] DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job);

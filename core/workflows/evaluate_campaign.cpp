@@ -120,6 +120,7 @@ std::string outsideTravel(const ObservationSet& observations, const MachineDescr
 ObservationSet observationsOf(const Campaign& campaign, const std::filesystem::path& file,
                               const EvaluateOptions& options, JobContext& job, std::vector<std::string>* notes) {
   ObservationSet set = allObservationsOf(campaign, file, options, job);
+  set.absolute = campaign.absolute;
   const std::string left_out = leaveOutCompensated(set, campaign.log);
   if (const std::string outside = outsideTravel(set, campaign.machine); notes != nullptr && !outside.empty())
     notes->push_back(outside);

@@ -7,6 +7,8 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "core/discrepancy/catalogue.h"
+#include "core/discrepancy/effect_listing.h"
 #include "widgets/common/parts.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
@@ -71,7 +73,14 @@ void HelpPanel::showStep(StepId step) {
   if (step == step_ && !text_->document()->isEmpty()) return;
   step_ = step;
   QFile file(QStringLiteral(":/help/%1.html").arg(QLatin1String(helpName(step))));
-  if (file.open(QIODevice::ReadOnly)) text_->setHtml(QString::fromUtf8(file.readAll()));
+  if (!file.open(QIODevice::ReadOnly)) return;
+  QString html = QString::fromUtf8(file.readAll());
+  // The catalogue speaks for itself, so that the help cannot fall behind it.
+  if (step == StepId::Discrepancy) {
+    html += QStringLiteral("<h4>%1</h4>").arg(tr("Effects of the catalogue"));
+    html += QString::fromStdString(effectsHtml(everyEffect()));
+  }
+  text_->setHtml(html);
 }
 
 }  // namespace spindrift::gui

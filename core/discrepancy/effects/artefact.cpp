@@ -6,7 +6,9 @@
 namespace spindrift {
 
 // The artefact itself warms and grows from its reference feature; it turns with the table.
-void addArtefactEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void artefact(const CatalogueContext& context, std::vector<Effect>& out) {
   if (context.machine->artefacts.empty()) return;
   const Artefact artefact = context.machine->artefacts.front();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -16,6 +18,9 @@ void addArtefactEffects(const CatalogueContext& context, std::vector<Effect>& ou
   const DriverTable& drivers = *context.drivers;
   Effect effect;
   effect.id = "artefact.expansion";
+  effect.title = "expansion of the artefact";
+  effect.formula = "e = -g q (growth from the reference feature, turned by c)";
+  effect.references = {references::iso_230_3, references::ibaraki_knapp};
   effect.physics = "The artefact warms with the table or the room and grows away from its reference feature.";
   effect.shape = {{"um_per_m", [artefact, centre](const DeviationQuery& q, Component c) {
                      if (isRotation(c)) return 0.0;
@@ -42,4 +47,5 @@ void addArtefactEffects(const CatalogueContext& context, std::vector<Effect>& ou
   out.push_back(std::move(effect));
 }
 
+}  // namespace effect_family
 }  // namespace spindrift

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include "core/discrepancy/catalogue.h"
 
 namespace spindrift {
@@ -6,7 +8,9 @@ namespace spindrift {
 // Friction in nut and bearings heats the screw in proportion to the mean absolute feed, and the screw follows the room.
 // It grows away from the fixed bearing p0. Where the nut travels the screw is warmer, so the growth is not quite
 // linear.
-void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void ball_screw(const CatalogueContext& context, std::vector<Effect>& out) {
   const DriverTable& drivers = *context.drivers;
   const auto room = drivers.room();
   for (int axis = 0; axis < 3; ++axis) {
@@ -23,6 +27,11 @@ void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& o
     for (const bool uniform : {true, false}) {
       Effect effect;
       effect.id = (uniform ? "ball_screw.expansion." : "ball_screw.nonuniform.") + letter;
+      effect.title = uniform ? "thermal expansion of the %1 ball screw" : "uneven expansion of the %1 ball screw";
+      effect.subject = axis_names[axis];
+      effect.formula = uniform ? fmt::format("e{0} = g q ({0} - {0}0)", letter)
+                               : fmt::format("e{0} = g q ({0} - {0}0)^2 + g' q ({0} - {0}0)", letter);
+      effect.references = {references::heisel, references::mayr};
       effect.physics =
           uniform
               ? "Feed motion and the room heat the ball screw; it grows away from its fixed bearing and takes the nut "
@@ -67,10 +76,10 @@ void addBallScrewEffects(const CatalogueContext& context, std::vector<Effect>& o
       effect.driver_missing = !drivers.has(feed);
       effect.refinement = !uniform;
       effect.two_lags = uniform;
-      if (!uniform) effect.contains = {"ball_screw.expansion." + letter};
       out.push_back(std::move(effect));
     }
   }
 }
 
+}  // namespace effect_family
 }  // namespace spindrift

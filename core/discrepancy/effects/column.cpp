@@ -31,7 +31,9 @@ void addBendingShape(const MachineDescription& machine, int axis, Effect& effect
   effect.largest_ratio = {0.0, longest_overhang_m};
 }
 
-void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void column(const CatalogueContext& context, std::vector<Effect>& out) {
   if (!context.machine->column_base_mm) return;
   const DriverTable& drivers = *context.drivers;
   const double base = *context.machine->column_base_mm;
@@ -44,6 +46,10 @@ void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out)
   for (int axis = 0; axis < 2; ++axis) {
     Effect bending;
     bending.id = axis == 0 ? "column.bending.a" : "column.bending.b";
+    bending.title = axis == 0 ? "bending of the column towards Y" : "bending of the column towards X";
+    bending.formula = axis == 0 ? "ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA r_y"
+                                : "ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB r_x";
+    bending.references = {references::timoshenko, references::mayr};
     bending.physics =
         "A temperature difference across the column bends it about its base: the deviation grows with the square of "
         "the "
@@ -70,6 +76,9 @@ void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out)
   }
   Effect growth;
   growth.id = "column.expansion.z";
+  growth.title = "expansion of the column along Z";
+  growth.formula = "ez = g q (z - z0) + g' q";
+  growth.references = {references::bryan, references::mayr};
   growth.physics =
       "The column warms as a whole and grows from its base: the head rises, more so the higher it stands on the "
       "column.";
@@ -78,10 +87,10 @@ void addColumnEffects(const CatalogueContext& context, std::vector<Effect>& out)
                           Component c) { return c == Component::EZ ? (q.position_mm.z() - base) * 1e-3 : 0.0; }},
       constantShape(Component::EZ)};
   addLagVariants(growth, growth_drivers);
-  growth.contains = {"spindle.growth.z", "ambient.drift.z", "scale.expansion.z", "spindle.centrifugal.z"};
   growth.follows_room = true;
   growth.driver_missing = column.empty();
   out.push_back(growth);
 }
 
+}  // namespace effect_family
 }  // namespace spindrift

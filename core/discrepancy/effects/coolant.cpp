@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include "core/discrepancy/catalogue.h"
 
 namespace spindrift {
 
 // Coolant cools or warms the structure while it runs; the response may be quicker while it flows than after it stopped.
-void addCoolantEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void coolant(const CatalogueContext& context, std::vector<Effect>& out) {
   const bool logged = context.drivers->has("coolant");
   for (int axis = 0; axis < 3; ++axis) {
     Effect effect;
     effect.id = std::string("coolant.shock.") + axis_letters[axis];
+    effect.title = "shock by the coolant along %1";
+    effect.subject = axis_names[axis];
+    effect.formula = fmt::format("e{} = g q", axis_letters[axis]);
+    effect.references = {references::mayr};
     effect.physics =
         "Coolant changes the temperature of table and structure while it flows; the tool shifts and comes back when it "
         "stops, not always at the same pace.";
@@ -31,4 +39,5 @@ void addCoolantEffects(const CatalogueContext& context, std::vector<Effect>& out
   }
 }
 
+}  // namespace effect_family
 }  // namespace spindrift

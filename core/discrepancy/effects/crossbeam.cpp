@@ -5,7 +5,9 @@ namespace spindrift {
 
 // A cross beam that is warmer on top than below sags between its ends as a parabola; the head that travels on it sinks
 // and turns with the slope.
-void addCrossbeamEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void crossbeam(const CatalogueContext& context, std::vector<Effect>& out) {
   if (!context.machine->crossbeam) return;
   const Crossbeam& beam = *context.machine->crossbeam;
   const int axis = beam.axis.empty() || beam.axis[0] != 'X' ? 1 : 0;
@@ -15,6 +17,9 @@ void addCrossbeamEffects(const CatalogueContext& context, std::vector<Effect>& o
   const double sign = axis == 1 ? 1.0 : -1.0;
   Effect effect;
   effect.id = "crossbeam.sag.z";
+  effect.title = "sag of the crossbeam";
+  effect.formula = "ez = 4 g q s (1 - s), s = (y - y1) / (y2 - y1); EA = slope of ez along y";
+  effect.references = {references::timoshenko, references::mayr};
   effect.physics =
       "The beam warms unevenly over its height and sags between its ends; the head that travels on it follows the "
       "parabola and turns with its slope.";
@@ -38,4 +43,5 @@ void addCrossbeamEffects(const CatalogueContext& context, std::vector<Effect>& o
   out.push_back(std::move(effect));
 }
 
+}  // namespace effect_family
 }  // namespace spindrift

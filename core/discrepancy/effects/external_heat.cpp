@@ -5,11 +5,20 @@ namespace spindrift {
 
 // Sun through a window, an open door, a radiator: heat that no log shows, from an unknown time on and for an unknown
 // time. It bends the column as a temperature difference does, or lifts the head.
-void addExternalHeatEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void external_heat(const CatalogueContext& context, std::vector<Effect>& out) {
   for (int kind = 0; kind < 3; ++kind) {
     if (kind < 2 && !context.machine->column_base_mm) continue;
     Effect effect;
     effect.id = std::string("external_heat.") + (kind == 0 ? "a" : kind == 1 ? "b" : "z");
+    effect.title = kind == 0   ? "heat from outside that bends the column towards Y"
+                   : kind == 1 ? "heat from outside that bends the column towards X"
+                               : "heat from outside that acts along Z";
+    effect.formula = kind == 0   ? "ey = -g q (z - z0)^2 / 2, EA = g q (z - z0), ez = EA r_y"
+                     : kind == 1 ? "ex = g q (z - z0)^2 / 2, EB = g q (z - z0), ez = -EB r_x"
+                                 : "ez = g q";
+    effect.references = {references::iso_230_3, references::bryan};
     effect.physics =
         "Heat from outside (sun, door, radiator) warms one side of the machine for a while; nothing in the log shows "
         "it.";
@@ -23,4 +32,5 @@ void addExternalHeatEffects(const CatalogueContext& context, std::vector<Effect>
   }
 }
 
+}  // namespace effect_family
 }  // namespace spindrift

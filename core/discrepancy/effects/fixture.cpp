@@ -6,11 +6,16 @@
 namespace spindrift {
 
 // A clamped part or target slips once and stays where it went: one point, one time.
-void addFixtureEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void fixture(const CatalogueContext& context, std::vector<Effect>& out) {
   if (std::max(context.point_count, context.points.size()) < 2) return;
   for (const std::string& point : context.points) {
     Effect effect;
     effect.id = "fixture.slip." + point;
+    effect.title = "slip of point %1 in its fixture";
+    effect.subject = point;
+    effect.formula = "(ex, ey, ez) = (g_x, g_y, g_z) q, of one point";
     effect.physics = "The fixture of this point slipped once and stayed where it went.";
     for (int axis = 0; axis < 3; ++axis) {
       const auto component = static_cast<Component>(axis);
@@ -24,4 +29,5 @@ void addFixtureEffects(const CatalogueContext& context, std::vector<Effect>& out
   }
 }
 
+}  // namespace effect_family
 }  // namespace spindrift

@@ -5,11 +5,17 @@ namespace spindrift {
 
 // The frame turns as one body about an axis whose place is not known (free origin: one constant per component), and the
 // angle between two axes changes when their guideways bend or shift.
-void addFrameEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void frame(const CatalogueContext& context, std::vector<Effect>& out) {
   const auto temperatures = context.drivers->temperatures();
   for (int axis = 0; axis < 3; ++axis) {
     Effect effect;
     effect.id = std::string("frame.rotation.") + std::string(1, static_cast<char>('a' + axis));
+    effect.title = "rotation of the frame about %1";
+    effect.subject = axis_names[axis];
+    effect.formula = "(ex, ey, ez) = g q n x (p - p0), n along the axis of the turn";
+    effect.references = {references::iso_230_1, references::schwenke};
     effect.physics =
         "Uneven warming of bed and column turns the machine frame as one body; the deviation grows in proportion to "
         "the "
@@ -28,25 +34,22 @@ void addFrameEffects(const CatalogueContext& context, std::vector<Effect>& out) 
                     constantShape(static_cast<Component>(v))};
     addLagVariants(effect, temperatures);
     effect.driver_missing = temperatures.empty();
-    for (const int w : {u, v}) {
-      effect.contains.push_back(std::string("ambient.drift.") + axis_letters[w]);
-      effect.contains.push_back(w == 2 ? std::string("spindle.growth.z")
-                                       : std::string("spindle.drift.") + axis_letters[w]);
-    }
-    if (axis < 2) effect.contains.push_back(axis == 0 ? "head.tilt.a" : "head.tilt.b");
     out.push_back(std::move(effect));
   }
   Effect square;
   square.id = "squareness.drift.c0y";
+  square.title = "drift of the squareness of Y to X";
+  square.formula = "ex = -g q (y - y0)";
+  square.references = {references::iso_230_1, references::schwenke};
   square.physics =
       "The angle between X and Y changes with the temperature of the guideways: X drifts in proportion to Y.";
   square.shape = {{"urad", [](const DeviationQuery& q,
                               Component c) { return c == Component::EX ? -q.position_mm.y() * 1e-3 : 0.0; }},
                   constantShape(Component::EX)};
-  square.contains = {"ambient.drift.x", "spindle.drift.x"};
   addLagVariants(square, temperatures);
   square.driver_missing = temperatures.empty();
   out.push_back(std::move(square));
 }
 
+}  // namespace effect_family
 }  // namespace spindrift

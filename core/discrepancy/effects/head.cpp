@@ -7,12 +7,18 @@ namespace spindrift {
 // The levers are not in the machine file, so they are free: gains of the turn (urad) and of the two displacements (um).
 // Where the Z axis is a ram between pivot and tool, the vertical lever changes with z: a turn that carries its
 // displacement in proportion to z along.
-void addHeadEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void head(const CatalogueContext& context, std::vector<Effect>& out) {
   const std::vector<std::string> heat = context.drivers->spindleHeat();
   const bool ram = context.machine->chain.movesTool("Z");
   for (int axis = 0; axis < 2; ++axis) {
     Effect tilt;
     tilt.id = axis == 0 ? "head.tilt.a" : "head.tilt.b";
+    tilt.title = "tilt of the head about %1";
+    tilt.subject = axis_names[axis];
+    tilt.formula = axis == 0 ? "EA = g q, ey = -g q rz, ez = g q ry" : "EB = g q, ex = g q rz, ez = -g q rx";
+    tilt.references = {references::abele, references::mayr};
     tilt.physics =
         "Spindle heat warms one side of the head more than the other; the head turns about a pivot and carries the "
         "tool point with it, sideways and in height.";
@@ -29,11 +35,11 @@ void addHeadEffects(const CatalogueContext& context, std::vector<Effect>& out) {
                             }});
     }
     addLagVariants(tilt, heat);
-    tilt.contains = {axis == 0 ? "spindle.drift.y" : "spindle.drift.x", "spindle.growth.z", "spindle.centrifugal.z"};
     tilt.follows_room = true;
     tilt.driver_missing = heat.empty();
     out.push_back(tilt);
   }
 }
 
+}  // namespace effect_family
 }  // namespace spindrift

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/discrepancy/catalogue.h"
@@ -7,7 +9,9 @@ namespace spindrift {
 
 // A screw whose pitch error repeats every turn: amplitude and phase (sine and cosine), growing with the heat of the
 // screw. A steady error is a constant of each point and shows only where positions change.
-void addPeriodicEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void periodic(const CatalogueContext& context, std::vector<Effect>& out) {
   const auto& drivers = *context.drivers;
   for (int axis = 0; axis < 3; ++axis) {
     const LinearAxis* linear = nullptr;
@@ -19,6 +23,10 @@ void addPeriodicEffects(const CatalogueContext& context, std::vector<Effect>& ou
     const auto component = static_cast<Component>(axis);
     Effect effect;
     effect.id = std::string("periodic.pitch.") + axis_letters[axis];
+    effect.title = "periodic error of the %1 ball screw";
+    effect.subject = axis_names[axis];
+    effect.formula = fmt::format("e{0} = g q sin(2 pi {0} / pitch) + g' q cos(2 pi {0} / pitch)", axis_letters[axis]);
+    effect.references = {references::iso_230_2, references::schwenke};
     effect.physics = "The pitch error of the screw repeats with every turn and changes as the screw warms.";
     effect.shape = {{"um_sin",
                      [component, axis, k](const DeviationQuery& q, Component c) {
@@ -42,4 +50,5 @@ void addPeriodicEffects(const CatalogueContext& context, std::vector<Effect>& ou
   }
 }
 
+}  // namespace effect_family
 }  // namespace spindrift

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include "core/discrepancy/catalogue.h"
 
 namespace spindrift {
@@ -6,17 +8,21 @@ namespace spindrift {
 // Bearings and motor heat the spindle in proportion to speed^p (1 <= p <= 2: viscous and load-dependent friction). The
 // shaft grows along its axis through one or two lags (bearing, housing) and drifts sideways when its support warms
 // unevenly. Centrifugal forces shorten or lengthen the shaft with the square of the speed at once.
-void addSpindleEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void spindle(const CatalogueContext& context, std::vector<Effect>& out) {
   const std::vector<std::string> heat = context.drivers->spindleHeat();
   Effect growth;
   growth.id = "spindle.growth.z";
+  growth.title = "growth of the spindle along Z";
+  growth.formula = "ez = g q";
+  growth.references = {references::iso_230_3, references::abele, references::harris};
   growth.physics =
       "The spindle shaft and housing grow along Z as the bearings heat them; the heat follows the speed and reaches "
       "the "
       "structure through one or two lags.";
   growth.shape = {constantShape(Component::EZ)};
   addLagVariants(growth, heat);
-  growth.contains = {"spindle.centrifugal.z"};
   growth.follows_room = true;
   growth.two_lags = true;
   growth.driver_missing = heat.empty();
@@ -24,6 +30,9 @@ void addSpindleEffects(const CatalogueContext& context, std::vector<Effect>& out
 
   Effect centrifugal;
   centrifugal.id = "spindle.centrifugal.z";
+  centrifugal.title = "shortening of the spindle by its speed along Z";
+  centrifugal.formula = "ez = g speed^2";
+  centrifugal.references = {references::abele, references::harris};
   centrifugal.physics =
       "Centrifugal forces change the bearing contact and the diameter of the shaft, so the nose moves along Z with the "
       "square of the speed and without delay.";
@@ -37,6 +46,10 @@ void addSpindleEffects(const CatalogueContext& context, std::vector<Effect>& out
   for (int axis = 0; axis < 2; ++axis) {
     Effect drift;
     drift.id = std::string("spindle.drift.") + axis_letters[axis];
+    drift.title = "drift of the spindle along %1";
+    drift.subject = axis_names[axis];
+    drift.formula = fmt::format("e{} = g q", axis_letters[axis]);
+    drift.references = {references::iso_230_3, references::abele};
     drift.physics =
         "The spindle support warms unevenly and shifts the nose sideways, the same everywhere in the working space, "
         "following the spindle heat through one or two lags.";
@@ -49,4 +62,5 @@ void addSpindleEffects(const CatalogueContext& context, std::vector<Effect>& out
   }
 }
 
+}  // namespace effect_family
 }  // namespace spindrift

@@ -4,12 +4,17 @@
 namespace spindrift {
 
 // A warm table grows away from its centre; the tool seems to fall short, so the deviation points to the centre.
-void addTableEffects(const CatalogueContext& context, std::vector<Effect>& out) {
+namespace effect_family {
+
+void table(const CatalogueContext& context, std::vector<Effect>& out) {
   const DriverTable& drivers = *context.drivers;
   const bool known = context.machine->table_centre_mm.has_value();
   const Eigen::Vector2d centre = context.machine->table_centre_mm.value_or(Eigen::Vector2d::Zero());
   Effect effect;
   effect.id = "table.expansion.xy";
+  effect.title = "expansion of the table";
+  effect.formula = "ex = -g q (x - xc), ey = -g q (y - yc)";
+  effect.references = {references::iso_230_3, references::mayr};
   effect.physics =
       "Guideways, drives and the room heat the table, which grows away from its centre in both directions; measured "
       "points move outwards under the tool.";
@@ -44,4 +49,5 @@ void addTableEffects(const CatalogueContext& context, std::vector<Effect>& out) 
   out.push_back(std::move(effect));
 }
 
+}  // namespace effect_family
 }  // namespace spindrift
