@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numbers>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -20,6 +21,7 @@ struct Instance {
 
   Instance(const std::string& text, const std::vector<std::string>& variables) : values(variables.size(), 0.0) {
     for (std::size_t i = 0; i < variables.size(); ++i) parser.DefineVar(variables[i], &values[i]);
+    parser.DefineConst("_pi", std::numbers::pi);  // the library's own has 12 digits
     parser.SetExpr(text);
   }
 };

@@ -14,8 +14,6 @@
 namespace spindrift {
 namespace {
 
-constexpr std::array<const char*, 3> axis_names{"X", "Y", "Z"};
-
 /// The simulation, with its stated gain uncertainty, and the effects added.
 class SumModel final : public ErrorModel {
  public:

@@ -34,7 +34,6 @@ void scale(const CatalogueContext& context, std::vector<Effect>& out) {
       effect.origin_high_mm = linear->travel_mm[1] + 500.0;
     }
     const auto sensors = context.drivers->temperatures({scaleRole(axis), SensorRole::Scale, SensorRole::Room});
-    const auto sensors = context.drivers->temperatures({scaleRole(axis), SensorRole::Scale, SensorRole::Room});
     addLagVariants(effect, sensors);
     effect.driver_missing = sensors.empty();
     out.push_back(std::move(effect));

@@ -42,7 +42,7 @@ TEST(Expression, HasTheValueOfItsFormula) {
 
 TEST(Expression, SaysWhatIsWrong) {
   EXPECT_THAT(refusalOf("x + speed"), HasSubstr("\"speed\" at character 5"));
-  EXPECT_THAT(refusalOf("x + speed"), HasSubstr("allowed: x, y"));
+  EXPECT_THAT(refusalOf("x + speed"), HasSubstr("allowed: x and y"));
   EXPECT_THAT(refusalOf("sin(x"), HasSubstr("cannot be read"));
   EXPECT_THAT(refusalOf("2 x *"), HasSubstr("cannot be read"));
   EXPECT_THAT(refusalOf("x,y"), HasSubstr("has 2 values"));

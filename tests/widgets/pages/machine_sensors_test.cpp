@@ -33,7 +33,7 @@ class MachineSensorsTest : public PageTest {
   }
   static void click(MachinePage* page, const QString& text) {
     for (auto* button : page->findChildren<QPushButton*>()) {
-      if (button->text() == text && button->isVisible()) QTest::mouseClick(button, Qt::LeftButton);
+      if (button->text().trimmed() == text && button->isVisible()) QTest::mouseClick(button, Qt::LeftButton);
     }
   }
 };

@@ -178,11 +178,9 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   where_ = new WherePanel;
   what_ = new WhatPanel;
   gap_ = new GapPanel;
-  next_ = new NextPanel;
   tabs_->addTab(where_, tr("Where"));
   tabs_->addTab(what_, tr("What is missing"));
   tabs_->addTab(gap_, tr("Gap before and after"));
-  tabs_->addTab(next_, tr("What to measure next"));
   column->addWidget(tabs_, 1);
   stack_->addWidget(told);
   content()->addWidget(stack_, 1);
@@ -207,7 +205,10 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   });
   QTimer::singleShot(40, this, [this] {
     makeNoise();
-    QTimer::singleShot(40, this, &DiscrepancyPage::makeRemainder);
+    QTimer::singleShot(40, this, [this] {
+      makeRemainder();
+      QTimer::singleShot(40, this, &DiscrepancyPage::makeNext);
+    });
   });
   connect(gap_, &GapPanel::timeChosen, where_, &WherePanel::markTime);
   connect(where_, &WherePanel::timeChosen, gap_, &GapPanel::chooseTime);
@@ -419,9 +420,16 @@ void DiscrepancyPage::makeRemainder() {
   connect(remainder_, &RemainderPanel::chosen, this, [this] { choose(remainder_->point(), remainder_->component()); });
 }
 
+void DiscrepancyPage::makeNext() {
+  if (next_ != nullptr) return;
+  next_ = new NextPanel;
+  tabs_->addTab(next_, tr("What to measure next"));
+}
+
 void DiscrepancyPage::show() {
   makeNoise();
   makeRemainder();
+  makeNext();
   const auto campaign = session().campaign();
   where_->show(story_, &campaign->machine);
   what_->show(story_);
@@ -491,6 +499,7 @@ void DiscrepancyPage::showVerdict() {
 std::vector<Exportable> DiscrepancyPage::exportables() {
   makeNoise();
   makeRemainder();
+  makeNext();
   std::vector<Exportable> items;
   if (story_ == nullptr) return items;
   for (auto&& list : {where_->exportables(), what_->exportables(), noise_->exportables(), remainder_->exportables(),

@@ -69,6 +69,7 @@ class DiscrepancyPage : public Page {
   /// Tabs that nobody sees first are made when the page stands already, or when they are needed: a page opens at once.
   void makeNoise();
   void makeRemainder();
+  void makeNext();
   void showExcluded();
   void toggleExcluded();
   void choose(const std::string& point, Component component);
@@ -90,7 +91,7 @@ class DiscrepancyPage : public Page {
   NoisePanel* noise_ = nullptr;          ///< made soon after the page, see makeNoise
   RemainderPanel* remainder_ = nullptr;  ///< the same
   GapPanel* gap_;
-  NextPanel* next_;
+  NextPanel* next_ = nullptr;  ///< the same
   std::shared_ptr<const DiscrepancyStory> story_;
   std::int64_t shown_result_ = 0;
 };
