@@ -6,6 +6,7 @@
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/effect_titles.h"
+#include "core/discrepancy/place_text.h"
 
 namespace spindrift {
 
@@ -162,13 +163,13 @@ std::string DiscrepancyResult::summary() const {
   }
   for (const DisagreementPlace& p : where) {
     text += fmt::format("  where: {} {} from {:.0f} s to {:.0f} s{}: {:.2f} {} beyond the noise (p {})\n",
-                        toString(p.component), joinedList(p.points), p.from_s, p.to_s,
+                        toString(p.component), pointsText(p), p.from_s, p.to_s,
                         p.condition.empty() ? "" : ", " + p.condition, p.excess_um, unitOf(p.component),
                         p.p_value < 1e-12 ? std::string("< 1e-12") : fmt::format("{:.1e}", p.p_value));
   }
   text += fmt::format("  gap: {:.2f} {} before, {:.2f} {} after, noise {:.2f} {}\n", gap.rms_before_um, unit,
                       gap.rms_after_um, unit, gap.noise_um, unit);
-  if (!leftover.empty()) text += fmt::format("  left over: {}\n", leftover);
+  if (!leftover.empty()) text += fmt::format("  remains: {}\n", leftover);
   if (suggestion) {
     text += fmt::format(
         "  measure next, to tell {}: {}. Expected probability that the right one stands alone then {:.2f} (most "
