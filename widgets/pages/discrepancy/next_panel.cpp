@@ -6,6 +6,7 @@
 #include <QSplitter>
 #include <QTableView>
 #include <QVBoxLayout>
+#include <cmath>
 
 #include "core/base/text.h"
 #include "widgets/common/parts.h"
@@ -15,6 +16,12 @@
 
 namespace spindrift::gui {
 namespace {
+
+/// "2:24", hours and minutes from the start of the programme.
+QString hoursText(double time_s) {
+  const int minutes = static_cast<int>(std::lround(time_s / 60.0));
+  return QStringLiteral("%1:%2").arg(minutes / 60).arg(minutes % 60, 2, 10, QLatin1Char('0'));
+}
 
 /// What the machine does at a time of the suggested programme.
 QString stepAt(const MeasurementSuggestion& suggestion, double time_s) {
@@ -106,7 +113,7 @@ void NextPanel::showSuggestion() {
     const MeasurementSuggestion& s = *story_->suggestion;
     QStringList times;
     for (const double t : s.times_s) {
-      times << clockText(t);
+      times << hoursText(t);
       for (const std::string& point : s.points) {
         Row row;
         row.id = QString::number(t);
@@ -116,22 +123,28 @@ void NextPanel::showSuggestion() {
     }
     QStringList places;
     for (const std::string& p : s.points) places << QString::fromStdString(p);
-    // "After a night at rest: 0:00 to 2:00 X alone at 12 m/min; ..."
-    QStringList parts;
-    for (const ProgrammeStep& step : s.programme) {
-      parts << tr("%1 to %2 %3").arg(clockText(step.from_s), clockText(step.to_s), QString::fromStdString(step.action));
+    // "After a night at rest", then a line for every part of the programme: "0:00 to 2:24 X alone at 12 m/min".
+    QStringList programme;
+    if (s.programme.empty()) {
+      programme << QString::fromStdString(s.conditions);
+    } else {
+      programme << tr("After a night at rest:");
+      for (const ProgrammeStep& step : s.programme) {
+        programme
+            << tr("%1 to %2 %3").arg(hoursText(step.from_s), hoursText(step.to_s), QString::fromStdString(step.action));
+      }
+      if (s.restart_instrument) programme << tr("The instrument is off until the start.");
+      if (!s.c_deg.empty()) programme << tr("The table stands at its angles in turn.");
     }
-    QString programme = tr("After a night at rest: %1.").arg(parts.join(QStringLiteral("; ")));
-    if (s.restart_instrument) programme += tr(" The instrument is off until the start.");
-    if (!s.c_deg.empty()) programme += tr(" The table stands at its angles in turn.");
-    if (s.programme.empty()) programme = QString::fromStdString(s.conditions);
-    const auto item = [](const QString& name, const QString& text) {
-      return QStringLiteral("<p><b>%1</b><br>%2</p>").arg(name.toHtmlEscaped(), text.toHtmlEscaped());
+    const auto item = [](const QString& name, const QStringList& lines) {
+      QStringList escaped;
+      for (const QString& line : lines) escaped << line.toHtmlEscaped();
+      return QStringLiteral("<p><b>%1</b><br>%2</p>").arg(name.toHtmlEscaped(), escaped.join(QStringLiteral("<br>")));
     };
-    suggestion_->setText(item(tr("To tell"), titledSentence(s.separates)) +
-                         item(tr("What the machine does"), programme) +
-                         item(tr("Where"), places.join(QStringLiteral("; "))) +
-                         item(tr("When, from the start of the programme"), times.join(QStringLiteral(", "))));
+    suggestion_->setText(item(tr("To tell"), {titledSentence(s.separates)}) +
+                         item(tr("What the machine does (h:min)"), programme) +
+                         item(tr("Where"), {places.join(QStringLiteral("; "))}) +
+                         item(tr("When, from the start of the programme (h:min)"), {times.join(QStringLiteral(", "))}));
     gain_->set(tr("%1 %").arg(100.0 * s.probability_alone_expected, 0, 'f', 0),
                tr("most probable one now: %1 %").arg(100.0 * s.probability_alone_now, 0, 'f', 0));
   } else if (!story_->decided) {
