@@ -66,6 +66,12 @@ Eigen::VectorXd inPatternOf(const ResidualProblem& problem, const Eigen::MatrixX
   return (columns * qr.solve(white)).cwiseProduct(sigma);
 }
 
+/// Variance of the own noise over that of its core: what outliers make of it; of very heavy tails not all.
+double varianceOfTails(const ResidualProblem& problem) {
+  const double dof = std::max(4.0, problem.noise.tail_dof);
+  return problem.noise.tail_dof > 0.0 ? dof / (dof - 2.0) : 1.0;
+}
+
 /// rms of what is left over that of an effect, over the readings that the effect moves, in standard deviations of the
 /// noise. Left is the remainder, what other effects explain that are not named, and of the shifts of states what is
 /// larger than shifts are. Effects that cancel each other count as what they are together.
@@ -92,6 +98,7 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
   double own_since = 0.0;
   double together_since = 0.0;
   const double largest = own.cwiseAbs().maxCoeff();
+  const double spread = varianceOfTails(problem);
   for (Index u = 0; u < problem.size(); ++u) {
     const Component c = problem.component[static_cast<std::size_t>(u)];
     if (std::abs(fit.contribution[t][u]) < 1e-6 * largest) continue;
@@ -102,7 +109,7 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
     together_power += std::pow(together[u] / sigma, 2);
     left += std::pow(rest[u] / sigma, 2);
     if (told[static_cast<std::size_t>(c)]) left += std::pow(remaining[u] / sigma, 2);
-    left += std::max(0.0, std::pow(problem.noise.of(c).common / sigma, 2) - 1.0);
+    left += std::max(0.0, std::pow(problem.noise.of(c).common / sigma, 2) - spread);
   }
   const double power = std::min(own_power, together_power);
   // A step is a step: it has no dynamics that could be a little different.
@@ -156,7 +163,8 @@ std::vector<Component> movedTogether(const ResidualProblem& problem) {
       own += std::pow(problem.ownSigma(u), 2);
       count += 1.0;
     }
-    if (count > 0.0 && problem.noise.of(c).common > largest_shift * std::sqrt(own / count)) out.push_back(c);
+    if (count > 0.0 && problem.noise.of(c).common > largest_shift * std::sqrt(varianceOfTails(problem) * own / count))
+      out.push_back(c);
   }
   return out;
 }
@@ -401,7 +409,9 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     std::size_t worst = terms.size();
     double least = with / worse_held_out;
     for (std::size_t k = 0; k < terms.size(); ++k) {
-      if (out.names[k].forced || out.names[k].delta_evidence > beyond_held_out) continue;
+      // What has moved stays where it is: no reason to foretell it badly.
+      const bool stays = terms[k].variant.inputs[0].dynamics == Dynamics::Step;
+      if (out.names[k].forced || (out.names[k].delta_evidence > beyond_held_out && !stays)) continue;
       std::vector<ModelTerm> others = terms;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
       const double without = held_out(search.solve(others));

@@ -119,10 +119,7 @@ QString spanText(double from_s, double to_s, double whole_s) {
 
 QString clockText(double time_s) {
   const auto minutes = static_cast<int>(std::lround(time_s / 60.0));
-  if (minutes < 60) return QCoreApplication::translate("Effect", "%1 min").arg(minutes);
-  return QCoreApplication::translate("Effect", "%1 h %2 min")
-      .arg(minutes / 60)
-      .arg(minutes % 60, 2, 10, QLatin1Char('0'));
+  return QStringLiteral("%1:%2").arg(minutes / 60).arg(minutes % 60, 2, 10, QLatin1Char('0'));
 }
 
 QString pointsText(const std::vector<std::string>& points, std::size_t all) {

@@ -38,7 +38,7 @@ namespace spindrift::gui {
 [[nodiscard]] QString remainderText(const std::vector<ComponentRemainder>& remainder);
 /// "0.0–6.0 h", in the unit that suits the whole of it.
 [[nodiscard]] QString spanText(double from_s, double to_s, double whole_s);
-/// "1 h 37 min".
+/// "1:37", hours and minutes.
 [[nodiscard]] QString clockText(double time_s);
 /// "all 10", "F1, F2", "7 of 10".
 [[nodiscard]] QString pointsText(const std::vector<std::string>& points, std::size_t all);

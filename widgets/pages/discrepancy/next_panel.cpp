@@ -6,7 +6,6 @@
 #include <QSplitter>
 #include <QTableView>
 #include <QVBoxLayout>
-#include <cmath>
 
 #include "core/base/text.h"
 #include "widgets/common/parts.h"
@@ -16,12 +15,6 @@
 
 namespace spindrift::gui {
 namespace {
-
-/// "2:24", hours and minutes from the start of the programme.
-QString hoursText(double time_s) {
-  const int minutes = static_cast<int>(std::lround(time_s / 60.0));
-  return QStringLiteral("%1:%2").arg(minutes / 60).arg(minutes % 60, 2, 10, QLatin1Char('0'));
-}
 
 /// What the machine does at a time of the suggested programme.
 QString stepAt(const MeasurementSuggestion& suggestion, double time_s) {
@@ -113,7 +106,7 @@ void NextPanel::showSuggestion() {
     const MeasurementSuggestion& s = *story_->suggestion;
     QStringList times;
     for (const double t : s.times_s) {
-      times << hoursText(t);
+      times << clockText(t);
       for (const std::string& point : s.points) {
         Row row;
         row.id = QString::number(t);
@@ -131,7 +124,7 @@ void NextPanel::showSuggestion() {
       programme << tr("After a night at rest:");
       for (const ProgrammeStep& step : s.programme) {
         programme
-            << tr("%1 to %2 %3").arg(hoursText(step.from_s), hoursText(step.to_s), QString::fromStdString(step.action));
+            << tr("%1 to %2 %3").arg(clockText(step.from_s), clockText(step.to_s), QString::fromStdString(step.action));
       }
       if (s.restart_instrument) programme << tr("The instrument is off until the start.");
       if (!s.c_deg.empty()) programme << tr("The table stands at its angles in turn.");
