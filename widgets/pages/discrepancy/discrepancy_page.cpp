@@ -176,46 +176,20 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
 
   tabs_ = makeTabs();
   where_ = new WherePanel;
-  what_ = new WhatPanel;
-  gap_ = new GapPanel;
   tabs_->addTab(where_, tr("Where"));
-  tabs_->addTab(what_, tr("What is missing"));
-  tabs_->addTab(gap_, tr("Gap before and after"));
   column->addWidget(tabs_, 1);
   stack_->addWidget(told);
   content()->addWidget(stack_, 1);
   showHints(where_);
-  showHints(what_);
-  showHints(gap_);
 
   connect(search_, &QPushButton::clicked, this, &DiscrepancyPage::search);
   connect(add_, &QPushButton::clicked, this, &DiscrepancyPage::add);
   connect(remove_, &QPushButton::clicked, this, &DiscrepancyPage::removeLast);
-  connect(what_, &WhatPanel::choiceChanged, this, &DiscrepancyPage::updateButtons);
-  connect(what_, &WhatPanel::rejectAsked, this, [this](const std::string& id) {
-    DiscrepancyChoice choice = DiscrepancyChoice::of(session());
-    choice.rejected.push_back(id);
-    change(tr("leave out %1").arg(effectTitle(id)), choice);
-  });
-  connect(gap_, &GapPanel::chosen, this, [this] {
-    where_->choose(gap_->point(), gap_->component());
-    what_->choose(gap_->point(), gap_->component());
-    makeRemainder();
-    remainder_->choose(gap_->point(), gap_->component());
-  });
-  QTimer::singleShot(40, this, [this] {
-    makeNoise();
-    QTimer::singleShot(40, this, [this] {
-      makeRemainder();
-      QTimer::singleShot(40, this, &DiscrepancyPage::makeNext);
-    });
-  });
-  connect(gap_, &GapPanel::timeChosen, where_, &WherePanel::markTime);
-  connect(where_, &WherePanel::timeChosen, gap_, &GapPanel::chooseTime);
+  makePanelsSoon();
   connect(where_, &WherePanel::chosen, this, [this] {
+    makePanels();
     gap_->choose(where_->point(), where_->component());
     what_->choose(where_->point(), where_->component());
-    makeRemainder();
     remainder_->choose(where_->point(), where_->component());
   });
   // Ids of results start again in every session.
@@ -382,54 +356,84 @@ void DiscrepancyPage::removeLast() {
 void DiscrepancyPage::updateButtons() {
   const bool idle = !context().jobs.busy();
   search_->setEnabled(idle && missing().isEmpty());
-  const bool proposes =
-      story_ != nullptr && (story_->nextProposal() != nullptr || (!what_->chosen().empty() && !what_->chosenIsAdded()));
+  const bool proposes = story_ != nullptr && what_ != nullptr &&
+                        (story_->nextProposal() != nullptr || (!what_->chosen().empty() && !what_->chosenIsAdded()));
   add_->setVisible(proposes);
   add_->setEnabled(idle && proposes);
   remove_->setVisible(story_ != nullptr && !story_->added.empty());
   remove_->setEnabled(idle);
-  what_->rejectButton()->setEnabled(idle);
+  if (what_ != nullptr) what_->rejectButton()->setEnabled(idle);
   if (!proposes) return;
   std::string id = what_->chosen();
   if (id.empty() || what_->chosenIsAdded()) id = story_->nextProposal() != nullptr ? story_->nextProposal()->id : "";
   add_->setToolTip(id.empty() ? QString() : tr("Add %1 and fit all parameters again").arg(effectTitle(id)));
 }
 
-void DiscrepancyPage::makeNoise() {
-  if (noise_ != nullptr) return;
-  noise_ = new NoisePanel;
-  tabs_->insertTab(tabs_->indexOf(what_) + 1, noise_, tr("Noise"));
-  showHints(noise_);
-  connect(noise_, &NoisePanel::readingChosen, this,
-          [this](const std::string& point, Component component, double time_s) {
-            choose(point, component);
-            makeRemainder();
-            remainder_->choose(point, component);
-            gap_->chooseTime(time_s);
-            where_->markTime(time_s);
-          });
-  connect(noise_, &NoisePanel::excludeAsked, this, &DiscrepancyPage::toggleExcluded);
-  showExcluded();
+void DiscrepancyPage::makePanelsSoon() {
+  constexpr int between_ms = 30;
+  QTimer::singleShot(between_ms, this, [this] {
+    if (makePanel()) makePanelsSoon();
+  });
 }
 
-void DiscrepancyPage::makeRemainder() {
-  if (remainder_ != nullptr) return;
-  remainder_ = new RemainderPanel;
-  tabs_->insertTab(tabs_->indexOf(gap_), remainder_, tr("What remains"));
-  showHints(remainder_);
-  connect(remainder_, &RemainderPanel::chosen, this, [this] { choose(remainder_->point(), remainder_->component()); });
+void DiscrepancyPage::makePanels() {
+  while (makePanel()) {
+  }
 }
 
-void DiscrepancyPage::makeNext() {
-  if (next_ != nullptr) return;
-  next_ = new NextPanel;
-  tabs_->addTab(next_, tr("What to measure next"));
+bool DiscrepancyPage::makePanel() {
+  if (what_ == nullptr) {
+    what_ = new WhatPanel;
+    tabs_->addTab(what_, tr("What is missing"));
+    showHints(what_);
+    connect(what_, &WhatPanel::choiceChanged, this, &DiscrepancyPage::updateButtons);
+    connect(what_, &WhatPanel::rejectAsked, this, [this](const std::string& id) {
+      DiscrepancyChoice choice = DiscrepancyChoice::of(session());
+      choice.rejected.push_back(id);
+      change(tr("leave out %1").arg(effectTitle(id)), choice);
+    });
+  } else if (noise_ == nullptr) {
+    noise_ = new NoisePanel;
+    tabs_->addTab(noise_, tr("Noise"));
+    showHints(noise_);
+    connect(noise_, &NoisePanel::readingChosen, this,
+            [this](const std::string& point, Component component, double time_s) {
+              makePanels();
+              choose(point, component);
+              remainder_->choose(point, component);
+              gap_->chooseTime(time_s);
+              where_->markTime(time_s);
+            });
+    connect(noise_, &NoisePanel::excludeAsked, this, &DiscrepancyPage::toggleExcluded);
+    showExcluded();
+  } else if (remainder_ == nullptr) {
+    remainder_ = new RemainderPanel;
+    tabs_->addTab(remainder_, tr("What remains"));
+    showHints(remainder_);
+    connect(remainder_, &RemainderPanel::chosen, this, [this] {
+      makePanels();
+      choose(remainder_->point(), remainder_->component());
+    });
+  } else if (gap_ == nullptr) {
+    gap_ = new GapPanel;
+    tabs_->addTab(gap_, tr("Gap before and after"));
+    showHints(gap_);
+    connect(gap_, &GapPanel::chosen, this, [this] {
+      where_->choose(gap_->point(), gap_->component());
+      what_->choose(gap_->point(), gap_->component());
+      remainder_->choose(gap_->point(), gap_->component());
+    });
+    connect(gap_, &GapPanel::timeChosen, where_, &WherePanel::markTime);
+    connect(where_, &WherePanel::timeChosen, gap_, &GapPanel::chooseTime);
+  } else if (next_ == nullptr) {
+    next_ = new NextPanel;
+    tabs_->addTab(next_, tr("What to measure next"));
+  }
+  return next_ == nullptr;
 }
 
 void DiscrepancyPage::show() {
-  makeNoise();
-  makeRemainder();
-  makeNext();
+  makePanels();
   const auto campaign = session().campaign();
   where_->show(story_, &campaign->machine);
   what_->show(story_);
@@ -481,7 +485,7 @@ void DiscrepancyPage::toggleExcluded() {
 }
 
 void DiscrepancyPage::excludeReadings(const QString& reason) {
-  makeNoise();
+  makePanels();
   const QStringList items = noise_->chosenItems();
   if (!items.isEmpty()) context().undo.push(new ExcludeCommand(session(), items, reason));
 }
@@ -497,9 +501,7 @@ void DiscrepancyPage::showVerdict() {
 }
 
 std::vector<Exportable> DiscrepancyPage::exportables() {
-  makeNoise();
-  makeRemainder();
-  makeNext();
+  makePanels();
   std::vector<Exportable> items;
   if (story_ == nullptr) return items;
   for (auto&& list : {where_->exportables(), what_->exportables(), noise_->exportables(), remainder_->exportables(),

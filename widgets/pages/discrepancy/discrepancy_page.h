@@ -66,10 +66,12 @@ class DiscrepancyPage : public Page {
   void add();
   void removeLast();
   void show();
-  /// Tabs that nobody sees first are made when the page stands already, or when they are needed: a page opens at once.
-  void makeNoise();
-  void makeRemainder();
-  void makeNext();
+  /// Panels that nobody sees first are made after the page, one at a turn of the event loop.
+  void makePanelsSoon();
+  /// All that are not there yet, at once.
+  void makePanels();
+  /// The next one, in the order of the tabs; false when that was the last.
+  bool makePanel();
   void showExcluded();
   void toggleExcluded();
   void choose(const std::string& point, Component component);
@@ -87,11 +89,11 @@ class DiscrepancyPage : public Page {
   QLabel* verdict_note_;
   QTabWidget* tabs_;
   WherePanel* where_;
-  WhatPanel* what_;
-  NoisePanel* noise_ = nullptr;          ///< made soon after the page, see makeNoise
-  RemainderPanel* remainder_ = nullptr;  ///< the same
-  GapPanel* gap_;
-  NextPanel* next_ = nullptr;  ///< the same
+  WhatPanel* what_ = nullptr;  ///< this and all after it: see makePanel
+  NoisePanel* noise_ = nullptr;
+  RemainderPanel* remainder_ = nullptr;
+  GapPanel* gap_ = nullptr;
+  NextPanel* next_ = nullptr;
   std::shared_ptr<const DiscrepancyStory> story_;
   std::int64_t shown_result_ = 0;
 };
