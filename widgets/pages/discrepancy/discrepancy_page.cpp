@@ -176,16 +176,26 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
 
   tabs_ = makeTabs();
   where_ = new WherePanel;
+  gap_ = new GapPanel;
   tabs_->addTab(where_, tr("Where"));
+  tabs_->addTab(gap_, tr("Gap before and after"));
   column->addWidget(tabs_, 1);
   stack_->addWidget(told);
   content()->addWidget(stack_, 1);
   showHints(where_);
+  showHints(gap_);
 
   connect(search_, &QPushButton::clicked, this, &DiscrepancyPage::search);
   connect(add_, &QPushButton::clicked, this, &DiscrepancyPage::add);
   connect(remove_, &QPushButton::clicked, this, &DiscrepancyPage::removeLast);
-  makePanelsSoon();
+  connect(gap_, &GapPanel::chosen, this, [this] {
+    makePanels();
+    where_->choose(gap_->point(), gap_->component());
+    what_->choose(gap_->point(), gap_->component());
+    remainder_->choose(gap_->point(), gap_->component());
+  });
+  connect(gap_, &GapPanel::timeChosen, where_, &WherePanel::markTime);
+  connect(where_, &WherePanel::timeChosen, gap_, &GapPanel::chooseTime);
   connect(where_, &WherePanel::chosen, this, [this] {
     makePanels();
     gap_->choose(where_->point(), where_->component());
@@ -276,6 +286,7 @@ void DiscrepancyPage::refresh() {
 }
 
 void DiscrepancyPage::search() {
+  makePanelsSoon();  // while the search runs
   if (context().jobs.busy() || !missing().isEmpty()) return;
   const DiscrepancyChoice choice = DiscrepancyChoice::of(session());
   DiscrepancyOptions options;
@@ -384,7 +395,7 @@ void DiscrepancyPage::makePanels() {
 bool DiscrepancyPage::makePanel() {
   if (what_ == nullptr) {
     what_ = new WhatPanel;
-    tabs_->addTab(what_, tr("What is missing"));
+    tabs_->insertTab(tabs_->indexOf(gap_), what_, tr("What is missing"));
     showHints(what_);
     connect(what_, &WhatPanel::choiceChanged, this, &DiscrepancyPage::updateButtons);
     connect(what_, &WhatPanel::rejectAsked, this, [this](const std::string& id) {
@@ -394,7 +405,7 @@ bool DiscrepancyPage::makePanel() {
     });
   } else if (noise_ == nullptr) {
     noise_ = new NoisePanel;
-    tabs_->addTab(noise_, tr("Noise"));
+    tabs_->insertTab(tabs_->indexOf(gap_), noise_, tr("Noise"));
     showHints(noise_);
     connect(noise_, &NoisePanel::readingChosen, this,
             [this](const std::string& point, Component component, double time_s) {
@@ -408,23 +419,12 @@ bool DiscrepancyPage::makePanel() {
     showExcluded();
   } else if (remainder_ == nullptr) {
     remainder_ = new RemainderPanel;
-    tabs_->addTab(remainder_, tr("What remains"));
+    tabs_->insertTab(tabs_->indexOf(gap_), remainder_, tr("What remains"));
     showHints(remainder_);
     connect(remainder_, &RemainderPanel::chosen, this, [this] {
       makePanels();
       choose(remainder_->point(), remainder_->component());
     });
-  } else if (gap_ == nullptr) {
-    gap_ = new GapPanel;
-    tabs_->addTab(gap_, tr("Gap before and after"));
-    showHints(gap_);
-    connect(gap_, &GapPanel::chosen, this, [this] {
-      where_->choose(gap_->point(), gap_->component());
-      what_->choose(gap_->point(), gap_->component());
-      remainder_->choose(gap_->point(), gap_->component());
-    });
-    connect(gap_, &GapPanel::timeChosen, where_, &WherePanel::markTime);
-    connect(where_, &WherePanel::timeChosen, gap_, &GapPanel::chooseTime);
   } else if (next_ == nullptr) {
     next_ = new NextPanel;
     tabs_->addTab(next_, tr("What to measure next"));

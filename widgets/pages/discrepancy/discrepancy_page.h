@@ -66,7 +66,7 @@ class DiscrepancyPage : public Page {
   void add();
   void removeLast();
   void show();
-  /// Panels that nobody sees first are made after the page, one at a turn of the event loop.
+  /// Panels that nobody sees before there is a result are made one at a turn of the event loop.
   void makePanelsSoon();
   /// All that are not there yet, at once.
   void makePanels();
@@ -89,10 +89,10 @@ class DiscrepancyPage : public Page {
   QLabel* verdict_note_;
   QTabWidget* tabs_;
   WherePanel* where_;
-  WhatPanel* what_ = nullptr;  ///< this and all after it: see makePanel
+  WhatPanel* what_ = nullptr;  ///< this and the others: see makePanel
   NoisePanel* noise_ = nullptr;
   RemainderPanel* remainder_ = nullptr;
-  GapPanel* gap_ = nullptr;
+  GapPanel* gap_;
   NextPanel* next_ = nullptr;
   std::shared_ptr<const DiscrepancyStory> story_;
   std::int64_t shown_result_ = 0;
