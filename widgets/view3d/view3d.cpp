@@ -343,9 +343,22 @@ bool View3D::refining() const {
   return cloud_.xyz_mm == nullptr && smooth_step_ < static_cast<int>(smooth_shifts.size());
 }
 
+bool View3D::waitsForItsTurn() {
+  // Of the GUI thread: one window of OpenGL and its first picture take so long that two are too much for one turn.
+  static bool taken = false;
+  if (scene_ != nullptr || !failure_.isEmpty()) return false;
+  if (taken) {
+    QTimer::singleShot(0, this, qOverload<>(&View3D::update));
+    return true;
+  }
+  taken = true;
+  QTimer::singleShot(0, [] { taken = false; });
+  return false;
+}
+
 void View3D::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  if (!empty()) ensureFrame(size(), devicePixelRatioF());
+  if (!empty() && !waitsForItsTurn()) ensureFrame(size(), devicePixelRatioF());
   if (empty() || !failure_.isEmpty() || frame_.isNull()) {
     QLinearGradient background(0, 0, 0, height());
     background.setColorAt(0, theme().view_top);

@@ -169,6 +169,8 @@ class View3D : public QWidget {
   [[nodiscard]] QStringList notes(const QSize& size) const;
   void cameraMoved();  ///< redraw, thinned, and refine a moment later
   void ensureFrame(const QSize& size, double ratio);
+  /// True if another view drew its first picture in this turn of the event loop: this one is painted again in the next.
+  bool waitsForItsTurn();
   void fitCamera(const QSize& size);
   void setHoveredPoint(const QString& id);  ///< its label is always shown
   void shareCamera();                       ///< with the linked views

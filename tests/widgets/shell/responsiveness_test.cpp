@@ -28,7 +28,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr double allowed_ms = 130.0;
+constexpr double allowed_ms = 100.0;
 constexpr int most_walks = 3;
 
 class ResponsivenessTest : public StoryTest {
