@@ -4,6 +4,7 @@
 #include <QFontMetrics>
 #include <QPainter>
 #include <QTextDocument>
+#include <QThread>
 #include <QTimer>
 #include <algorithm>
 #include <array>
@@ -346,7 +347,8 @@ bool View3D::refining() const {
 bool View3D::waitsForItsTurn() {
   // Of the GUI thread: one window of OpenGL and its first picture take so long that two are too much for one turn.
   static bool taken = false;
-  if (scene_ != nullptr || !failure_.isEmpty()) return false;
+  // Without an event loop there is no next turn: a picture that is asked for directly has to be complete.
+  if (scene_ != nullptr || !failure_.isEmpty() || QThread::currentThread()->loopLevel() == 0) return false;
   if (taken) {
     QTimer::singleShot(0, this, qOverload<>(&View3D::update));
     return true;
