@@ -66,6 +66,13 @@ std::string joinedList(std::span<const std::string> items, std::string_view last
   return text;
 }
 
+std::string shortenedList(std::span<const std::string> items, std::size_t all_up_to, std::size_t shown) {
+  if (items.size() <= all_up_to) return joinedList(items);
+  std::vector<std::string> some(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(shown));
+  some.push_back(fmt::format("{} more", items.size() - shown));
+  return joinedList(some);
+}
+
 std::vector<std::string> splitList(std::string_view text, char separator) {
   std::vector<std::string> parts;
   while (!text.empty()) {

@@ -22,6 +22,10 @@ namespace spindrift {
 /// "F1, F2 and F3".
 [[nodiscard]] std::string joinedList(std::span<const std::string> items, std::string_view last_word = "and");
 
+/// The same of many items: all up to `all_up_to`, else the first `shown` and how many more: "F1, F2 and 12 more".
+[[nodiscard]] std::string shortenedList(std::span<const std::string> items, std::size_t all_up_to = 8,
+                                        std::size_t shown = 5);
+
 /// Splits at `separator`, trims blanks, drops empty parts: "F1, F2" -> {"F1", "F2"}.
 [[nodiscard]] std::vector<std::string> splitList(std::string_view text, char separator = ',');
 

@@ -242,7 +242,7 @@ struct DiscrepancyResult {
 [[nodiscard]] DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const DiscrepancyOptions& options,
                                                 JobContext& job);
 
-/// The prediction of a simulation for every observation: a table (simulation_table.h), a model, or finite-element
+/// The prediction of a simulation for every observation: a table (core/machine/simulation_table.h), a model, or finite-element
 /// results by their map (core/finite_elements). Reads campaign.simulation (or `simulation.csv` beside campaign.json);
 /// throws InputError if there is none or it cannot be read.
 [[nodiscard]] DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations);

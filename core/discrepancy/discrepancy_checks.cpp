@@ -122,10 +122,9 @@ void warnAboutLoneStates(const DiscrepancyInput& input, const std::vector<std::s
   // Where every state is one reading, that is how it was measured.
   if (lone.empty() || 2 * lone.size() > points.size()) return;
   const bool one = lone.size() == 1;
-  if (lone.size() > 5) lone = {lone[0], lone[1], lone[2], fmt::format("{} more", lone.size() - 3)};
   warnings.push_back(fmt::format(
       "{} {} read at one point only: whether the state was shifted or the point moved cannot be told there.",
-      joinedList(lone), one ? "was" : "were"));
+      shortenedList(lone, 5, 3), one ? "was" : "were"));
 }
 
 /// Simulation at a time of one series, linear between its observations.

@@ -5,7 +5,7 @@
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/own_effects.h"
-#include "core/discrepancy/simulation_table.h"
+#include "core/finite_elements/fe_simulation.h"
 
 namespace spindrift {
 namespace {

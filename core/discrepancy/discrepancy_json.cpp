@@ -6,7 +6,6 @@
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/effect_titles.h"
-#include "core/discrepancy/place_text.h"
 
 namespace spindrift {
 
@@ -163,7 +162,7 @@ std::string DiscrepancyResult::summary() const {
   }
   for (const DisagreementPlace& p : where) {
     text += fmt::format("  where: {} {} from {:.0f} s to {:.0f} s{}: {:.2f} {} beyond the noise (p {})\n",
-                        toString(p.component), pointsText(p), p.from_s, p.to_s,
+                        toString(p.component), shortenedList(p.points, 12), p.from_s, p.to_s,
                         p.condition.empty() ? "" : ", " + p.condition, p.excess_um, unitOf(p.component),
                         p.p_value < 1e-12 ? std::string("< 1e-12") : fmt::format("{:.1e}", p.p_value));
   }

@@ -68,29 +68,10 @@ nlohmann::json effectsJson(const std::vector<Effect>& effects, const OwnEffects*
 }
 
 std::string effectsHtml(const std::vector<Effect>& effects) {
-  const auto escaped = [](const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-      switch (c) {
-        case '<':
-          out += "&lt;";
-          break;
-        case '>':
-          out += "&gt;";
-          break;
-        case '&':
-          out += "&amp;";
-          break;
-        default:
-          out += c;
-      }
-    }
-    return out;
-  };
   std::string out = "<ul>";
   for (const Effect& effect : effects) {
-    out += fmt::format("<li><b>{}</b> ({}): {} <i>{}</i></li>\n", escaped(titleOf(effect)), escaped(effect.id),
-                       escaped(effect.physics), escaped(effect.formula));
+    out += fmt::format("<li><b>{}</b> ({}): {} <i>{}</i></li>\n", escapedXml(titleOf(effect)), escapedXml(effect.id),
+                       escapedXml(effect.physics), escapedXml(effect.formula));
   }
   return out + "</ul>";
 }

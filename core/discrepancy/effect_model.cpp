@@ -9,7 +9,7 @@
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/discrepancy/own_effects.h"
-#include "core/discrepancy/simulation_table.h"
+#include "core/finite_elements/fe_simulation.h"
 
 namespace spindrift {
 namespace {

@@ -34,6 +34,7 @@ Campaign Campaign::read(const std::filesystem::path& folder) {
     campaign.absolute = reference->oneOf({"first_state", "absolute"}) == "absolute";
   }
   if (const auto effects = root.find("effects")) campaign.effects = effects->name();
+  if (const auto simulator = root.find("simulator")) campaign.simulator = simulator->name();
   campaign.machine = MachineDescription::read(folder / "machine.json");
   if (std::filesystem::exists(folder / "log.csv")) campaign.log = OperatingLog::read(folder / "log.csv");
   if (std::filesystem::exists(folder / "observations.csv")) {

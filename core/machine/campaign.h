@@ -21,6 +21,7 @@ struct Campaign {
   double simulation_gain_uncertainty = 0.01;  ///< relative, per component
   bool absolute = false;                      ///< "reference": "absolute": no constant of an observation is free
   std::filesystem::path effects;              ///< "effects.json" or empty; relative to the folder, or absolute
+  std::filesystem::path simulator;            ///< "simulator.json" or empty; relative to the folder, or absolute
   MachineDescription machine;
   std::optional<OperatingLog> log;
   std::optional<ObservationSet> observations;  ///< the campaign's own observations.csv

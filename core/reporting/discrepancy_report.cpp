@@ -10,7 +10,6 @@
 
 #include "core/base/text.h"
 #include "core/discrepancy/effect_titles.h"
-#include "core/discrepancy/place_text.h"
 #include "core/machine/interpolated_field.h"
 #include "core/reporting/heatmap_picture.h"
 #include "core/reporting/report_wording.h"
@@ -590,7 +589,7 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
   if (!result.where.empty()) {
     std::vector<std::vector<std::string>> rows;
     for (const DisagreementPlace& place : result.where) {
-      rows.push_back({std::string(toString(place.component)), pointsText(place),
+      rows.push_back({std::string(toString(place.component)), shortenedList(place.points, 12),
                       fmt::format("{:.1f} to {:.1f}", place.from_s / seconds_per_hour, place.to_s / seconds_per_hour),
                       place.condition, fmt::format("{:.2f} {}", place.excess_um, unitOf(place.component)),
                       probabilityInWords(place.p_value)});

@@ -30,6 +30,8 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
     below.insert(instruments.begin(), instruments.end());
     t["finite_elements"] = {"base", "math", "geometry", "machine"};
     below.insert("finite_elements");
+    t["simulator"] = {"base", "math", "geometry", "machine", "finite_elements"};
+    below.insert("simulator");
     t["simulation"] = below;
     t["discrepancy"] = below;  // and never simulation: a search tested on its own formulas proves nothing
     below.insert({"simulation", "discrepancy"});

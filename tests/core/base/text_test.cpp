@@ -43,6 +43,8 @@ TEST(Text, ListsAndEscapes) {
   const std::vector<std::string> names{"F1", "F2", "F3"};
   EXPECT_EQ(joinedList(names), "F1, F2 and F3");
   EXPECT_EQ(joinedList(std::span(names).first(1)), "F1");
+  EXPECT_EQ(shortenedList(names, 3, 2), "F1, F2 and F3");
+  EXPECT_EQ(shortenedList(names, 2, 1), "F1 and 2 more");
   EXPECT_EQ(splitList(" F1, F2,,F3 "), names);
   EXPECT_EQ(escapedXml("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
 }

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "core/discrepancy/drivers.h"
-#include "core/discrepancy/place_text.h"
 #include "core/discrepancy/places.h"
 #include "tests/core/discrepancy/small_plant.h"
 
@@ -103,15 +102,6 @@ TEST(Places, NameTheRegionBesideTheCondition) {
     if (!place.condition.empty()) conditions.push_back(place.condition.substr(0, 7));
   }
   EXPECT_THAT(conditions, Contains("z above"));
-}
-
-TEST(PlaceText, NamesAFewOfManyPoints) {
-  DisagreementPlace place;
-  for (int i = 1; i <= 12; ++i) place.points.push_back("S" + std::to_string(i));
-  EXPECT_EQ(pointsText(place).substr(0, 10), "S1, S2, S3");
-  EXPECT_EQ(pointsText(place).find("more"), std::string::npos);
-  place.points.push_back("S13");
-  EXPECT_EQ(pointsText(place), "S1, S2, S3, S4, S5 and 8 more");
 }
 
 }  // namespace

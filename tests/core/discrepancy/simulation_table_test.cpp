@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/discrepancy/simulation_table.h"
+#include "core/machine/simulation_table.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

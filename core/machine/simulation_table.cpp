@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/discrepancy/simulation_table.h"
+#include "core/machine/simulation_table.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,7 @@
 #include <tuple>
 
 #include "core/base/csv.h"
-#include "core/base/json_reader.h"
 #include "core/base/text.h"
-#include "core/finite_elements/fe_deviation.h"
 #include "core/math/scattered_interpolation.h"
 
 namespace spindrift {
@@ -36,15 +34,8 @@ std::string placeText(const Eigen::Vector3d& p) {
   return fmt::format("place ({}, {}, {}) mm", p.x(), p.y(), p.z());
 }
 
-/// "F1, F2, F3 and 12 more".
-std::string someOf(const std::set<std::string>& names) {
-  constexpr std::size_t most = 8;
-  std::vector<std::string> list(names.begin(), names.end());
-  if (list.size() <= most) return joinedList(list);
-  const std::size_t more = list.size() - most;
-  list.resize(most);
-  list.push_back(fmt::format("{} more", more));
-  return joinedList(list);
+std::string listOf(const std::set<std::string>& names) {
+  return shortenedList(std::vector<std::string>(names.begin(), names.end()));
 }
 
 }  // namespace
@@ -207,20 +198,6 @@ std::vector<std::string> SimulationTable::points() const {
   return out;
 }
 
-bool isFeMap(const std::filesystem::path& file) {
-  if (file.extension() != ".json") return false;
-  const JsonNode root = JsonNode::read(file);
-  return root.value().is_object() && root.value().value("format", nlohmann::json()) == fe_map_format;
-}
-
-SimulationTable readSimulation(const std::filesystem::path& file, std::vector<std::string>& notes) {
-  if (!isFeMap(file)) return SimulationTable::read(file);
-  JobContext quiet;
-  const FeDeviation fe = feDeviation(FeMap::read(file), openFeResult, quiet);
-  notes.insert(notes.end(), fe.notes.begin(), fe.notes.end());
-  return SimulationTable(fe.rows, fe.by_place, file);
-}
-
 SimulationMatch matchSimulation(const SimulationTable& table, const ObservationSet& observations,
                                 const std::vector<std::string>& known_points, std::string_view name) {
   using Answer = SimulationTable::Answer;
@@ -246,11 +223,11 @@ SimulationMatch matchSimulation(const SimulationTable& table, const ObservationS
   }
   if (count[Answer::UnknownPoint] > 0) {
     reasons.push_back(
-        fmt::format("{} are at points that {} lacks ({})", count[Answer::UnknownPoint], name, someOf(lacking)));
+        fmt::format("{} are at points that {} lacks ({})", count[Answer::UnknownPoint], name, listOf(lacking)));
   }
   if (count[Answer::UnknownComponent] > 0) {
     reasons.push_back(fmt::format("{} are of components that {} lacks ({})", count[Answer::UnknownComponent], name,
-                                  someOf(components)));
+                                  listOf(components)));
   }
   match.why_unmatched = joinedList(reasons);
   if (!outside_mm.empty()) {
@@ -262,7 +239,7 @@ SimulationMatch matchSimulation(const SimulationTable& table, const ObservationS
     }
     match.notes.push_back(
         fmt::format("The simulation is extrapolated at {} {}, up to {:.3g} mm outside the places that {} predicts.",
-                    names.size() == 1 ? "point" : "points", someOf(names), largest, name));
+                    names.size() == 1 ? "point" : "points", listOf(names), largest, name));
   }
   if (!table.byPlace()) {
     std::set<std::string> known(known_points.begin(), known_points.end());
@@ -273,7 +250,7 @@ SimulationMatch matchSimulation(const SimulationTable& table, const ObservationS
     }
     if (!strange.empty()) {
       match.notes.push_back(fmt::format("{} predicts {} {}, which neither machine.json nor the observations know.",
-                                        name, strange.size() == 1 ? "point" : "points", someOf(strange)));
+                                        name, strange.size() == 1 ? "point" : "points", listOf(strange)));
     }
   }
   return match;

@@ -67,12 +67,6 @@ class SimulationTable {
   std::map<Component, std::shared_ptr<Places>> places_;
 };
 
-/// True for a JSON file of the format of fe_map.h. Throws InputError if it cannot be read.
-[[nodiscard]] bool isFeMap(const std::filesystem::path& file);
-/// simulation.csv, or the deviations of finite-element results by their map; what is to be said of these goes into
-/// `notes`. Throws InputError.
-[[nodiscard]] SimulationTable readSimulation(const std::filesystem::path& file, std::vector<std::string>& notes);
-
 /// Predictions for observations, and sentences about those that have none or lie outside.
 struct SimulationMatch {
   std::vector<double> predicted;  ///< one for every row, NaN where there is none
