@@ -244,7 +244,8 @@ double CandidateLibrary::choicePrice(const Effect& effect) const {
     if (entry.effect != &effect || entry.ways.empty()) continue;
     const Dynamics dynamics = entry.ways.front().variant.inputs[0].dynamics;
     const bool onset = dynamics == Dynamics::Step || dynamics == Dynamics::Pulse;
-    return (onset ? onset_way_price : way_price) * std::log(static_cast<double>(entry.ways.size()));
+    return (onset ? onset_way_price : way_price) * std::log(static_cast<double>(entry.ways.size())) +
+           onset_way_price * std::log(static_cast<double>(effect.choices));
   }
   return 0.0;
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/text.h"
+#include "core/discrepancy/clock_offset.h"
 #include "core/discrepancy/comparable_rows.h"
 #include "core/discrepancy/discrepancy_numbers.h"
 #include "core/discrepancy/distributed_dynamics.h"
@@ -20,7 +21,9 @@
 #include "core/discrepancy/judgement.h"
 #include "core/discrepancy/own_effects.h"
 #include "core/discrepancy/places.h"
+#include "core/discrepancy/simulator_hypotheses.h"
 #include "core/discrepancy/suggestion.h"
+#include "core/discrepancy/told_noise.h"
 
 namespace spindrift {
 namespace {
@@ -68,13 +71,18 @@ void relateOwnEffects(std::vector<Effect>& effects, const ResidualProblem& probl
 std::vector<Effect> catalogueOf(const DiscrepancyInput& input, DriverTable& drivers, const ResidualProblem& problem,
                                 std::vector<std::string>& warnings) {
   std::vector<Effect> out;
+  const SimulatorHypotheses hypotheses(input.tangents.get(), input.observations);
   if (!input.own || input.own->builtIn()) out = effectCatalogue(catalogueContext(input, drivers, problem));
-  if (!input.own) return out;
+  if (!input.own) {
+    hypotheses.append(out);
+    return out;
+  }
   std::vector<Effect> own = input.own->bind(drivers, input.log ? &*input.log : nullptr,
                                             input.machine.reference_temperature_degC, input.absolute);
   input.own->check(own, input.observations.rows, warnings);
   out.insert(out.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
   relateOwnEffects(out, problem, warnings);
+  hypotheses.append(out);
   return out;
 }
 
@@ -82,6 +90,7 @@ std::vector<Effect> catalogueOf(const DiscrepancyInput& input, DriverTable& driv
 struct Analysis {
   std::shared_ptr<DriverTable> drivers;
   std::vector<Effect> catalogue;
+  SimulatorHypotheses hypotheses;  ///< those of the catalogue that are parameters of a simulator
   std::unique_ptr<EffectSearch> search;
   EffectPosterior posterior;
   Remainder remainder;
@@ -100,100 +109,6 @@ bool differs(const NoiseModel& a, const NoiseModel& b) {
     if ((x.common > 0.0 || y.common > 0.0) && ratio(x.common + 0.02, y.common + 0.02) > 0.25) return true;
   }
   return false;
-}
-
-/// The residual without the effects.
-Eigen::VectorXd withoutEffects(const ResidualProblem& problem, const JointFit& fit) {
-  Eigen::VectorXd left = problem.y;
-  for (const Eigen::VectorXd& part : fit.contribution) left -= part;
-  return left;
-}
-
-/// The offset of the clock at which the effects found fit best, if it is worth its price: a parabola through -2 ln of
-/// the posterior on a grid.
-void estimateClock(const DiscrepancyInput& input, const ResidualProblem& problem, const DiscrepancyPriors& priors,
-                   Analysis& a) {
-  const bool driven =
-      std::any_of(a.posterior.fit.terms.begin(), a.posterior.fit.terms.end(), [](const ModelTerm& term) {
-        return std::any_of(term.variant.inputs.begin(), term.variant.inputs.end(),
-                           [](const EffectInput& i) { return !i.driver.empty(); });
-      });
-  if (!driven || !input.log) return;
-  const double before = a.clock_offset_s;
-  const auto valueAt = [&](double offset) {
-    DriverTable shifted = *a.drivers;
-    shifted.shiftClock(offset - before);
-    // Lags follow the clock: each may change by the offset.
-    std::vector<ModelTerm> terms = a.posterior.fit.terms;
-    EffectSearch search(const_cast<ResidualProblem&>(problem), shifted, a.catalogue);
-    for (const ModelTerm& term : terms) search.prepare(*term.effect);
-    return search.refine(terms, 1).chi2 + std::pow(offset / priors.clock_s, 2);
-  };
-  constexpr double step_s = 60.0;
-  std::map<int, double> values;
-  const auto at = [&](int k) {
-    const auto found = values.find(k);
-    if (found != values.end()) return found->second;
-    return values.emplace(k, valueAt(k * step_s)).first->second;
-  };
-  int best = static_cast<int>(std::lround(before / step_s));
-  const double start = at(best);
-  for (const int stride : {4, 2, 1}) {
-    for (int guard = 0; guard < 8; ++guard) {
-      const int from = best;
-      for (const int k : {best - stride, best + stride}) {
-        if (std::abs(k) <= 10 && at(k) < at(best)) best = k;
-      }
-      if (best == from) break;
-    }
-  }
-  const double low = at(best - 1);
-  const double high = at(best + 1);
-  const double curvature = low + high - 2.0 * at(best);
-  if (!(curvature > 0.0) || !(start - at(best) > 8.0)) return;
-  a.clock_offset_s = step_s * (best + std::clamp(0.5 * (low - high) / curvature, -1.0, 1.0));
-  a.clock_uncertainty_s = step_s * std::sqrt(2.0 / curvature);
-  a.drivers->shiftClock(a.clock_offset_s - before);
-}
-
-/// An offset of the clocks far beyond what is estimated, at which the effects named would fit much better: a sentence,
-/// or none.
-std::string farClock(const ResidualProblem& problem, const Analysis& a, const JointFit& named) {
-  const bool driven = std::any_of(named.terms.begin(), named.terms.end(),
-                                  [](const ModelTerm& term) { return !term.variant.inputs[0].driver.empty(); });
-  if (!driven) return {};
-  constexpr double step_s = 1200.0;
-  constexpr int most_steps = 12;
-  const auto valueAt = [&](double offset_s) {
-    DriverTable shifted = *a.drivers;
-    shifted.shiftClock(offset_s);
-    EffectSearch search(const_cast<ResidualProblem&>(problem), shifted, a.catalogue);
-    for (const ModelTerm& term : named.terms) search.prepare(*term.effect);
-    return search.refine(named.terms, 2).chi2;
-  };
-  const double now = valueAt(0.0);
-  double best = now;
-  int best_step = 0;
-  for (int k = -most_steps; k <= most_steps; ++k) {
-    if (k == 0) continue;
-    const double value = valueAt(k * step_s);
-    if (value < best) {
-      best = value;
-      best_step = k;
-    }
-  }
-  // In 2 ln of the likelihood, the best of so many offsets.
-  constexpr double beyond_doubt = 20.0;
-  if (now - best < beyond_doubt) return {};
-  return fmt::format(
-      "{} would fit far better if the clock of the log were {:.0f} min {} that of the observations: compare the "
-      "clocks.",
-      joinedList([&] {
-        std::vector<std::string> ids;
-        for (const ModelTerm& term : named.terms) ids.push_back(term.effect->id);
-        return ids;
-      }()),
-      std::abs(best_step) * step_s / 60.0, best_step > 0 ? "ahead of" : "behind");
 }
 
 /// While nothing is known of it.
@@ -221,16 +136,19 @@ double simulationError(const ResidualProblem& problem, const ResidualProblem::Nu
 Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
                  const DiscrepancyPriors& priors, std::shared_ptr<DriverTable> drivers, std::vector<Effect> catalogue,
                  JobContext& job) {
-  Analysis a;
-  a.drivers = std::move(drivers);
-  a.catalogue = std::move(catalogue);
+  Analysis a{std::move(drivers), std::move(catalogue), {input.tangents.get(), input.observations}, {}, {}, {}, {}};
   // Absolute values that are said to be predicted exactly: what deviates is none of the simulation's own scale.
   const bool exact = input.absolute && !(input.simulation_gain_uncertainty > 0.0);
-  problem.setNuisances(problem.simulationNuisances(
-      exact ? 0.0 : std::max(input.simulation_gain_uncertainty, priors.simulation_error), priors.clock_s));
+  std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(
+      exact ? 0.0 : std::max(input.simulation_gain_uncertainty, priors.simulation_error), priors.clock_s);
+  for (NuisanceColumn& column : a.hypotheses.nuisances(problem)) nuisances.push_back(std::move(column));
+  problem.setNuisances(nuisances);
   const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);
   problem.setNoise(estimateNoise(problem, problem.y - first.values, false));
   double simulation_error = exact ? 0.0 : std::max(input.simulation_gain_uncertainty, usual_simulation_error);
+  a.hypotheses.chooseWindows(a.catalogue, problem, [&](const std::string&) {
+    return CandidateLibrary::Given{Eigen::MatrixXd(problem.projectedResidual().size(), 0), problem.projectedResidual()};
+  });
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
     job.report(0.1 + 0.25 * round, "weighing effects");
@@ -245,8 +163,21 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
       break;
     }
     const double clock_before = a.clock_offset_s;
-    estimateClock(input, problem, priors, a);
-    Eigen::VectorXd left = withoutEffects(problem, a.posterior.fit);
+    if (const auto clock =
+            estimateClockOffset(problem, a.catalogue, *a.drivers, a.posterior.fit, clock_before, priors.clock_s)) {
+      a.clock_offset_s = clock->offset_s;
+      a.clock_uncertainty_s = clock->standard_uncertainty_s;
+      a.drivers->shiftClock(clock->offset_s - clock_before);
+    }
+    // Windows of loads beside the other effects found.
+    const bool other_window = a.hypotheses.chooseWindows(a.catalogue, problem, [&](const std::string& id) {
+      std::vector<ModelTerm> others;
+      for (const ModelTerm& term : a.posterior.fit.terms) {
+        if (term.effect->id != id) others.push_back(term);
+      }
+      return posterior.given(a.search->solve(others));
+    });
+    Eigen::VectorXd left = problem.without(a.posterior.fit.contribution);
     const ResidualProblem::NuisancePart taken = problem.nuisancePart(left);
     left -= taken.values;
     const double error_before = simulation_error;
@@ -254,7 +185,7 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
     const bool other_error = std::abs(simulation_error - error_before) > 0.01;
     const NoiseModel again = estimateNoise(problem, left, true);
     const bool other_clock = std::abs(a.clock_offset_s - clock_before) > 20.0;
-    if (!differs(problem.noise, again) && !other_clock && !other_error) {
+    if (!differs(problem.noise, again) && !other_clock && !other_error && !other_window) {
       finish();
       break;
     }
@@ -373,6 +304,7 @@ FoundEffect describedEffect(const Solution& solution, std::size_t t) {
   for (std::size_t p = 0; p < names.size(); ++p) {
     found.parameters.push_back({names[p], e.parameters[p], e.parameter_uncertainty[p]});
   }
+  solution.analysis.hypotheses.describe(found, e.gains[0], e.gain_uncertainty[0]);
   found.rms_um = largestRms(solution.problem, solution.judged.named.contribution[t]);
   return found;
 }
@@ -508,128 +440,6 @@ void tellUndecided(const Solution& solution, DiscrepancyResult& result) {
   if (result.leftover.empty()) result.leftover = "too few observations to decide";
 }
 
-/// Components of which so many readings lie far from the others that no weighting helps. The scatter of the others is
-/// taken from the smallest quarter of what is left, which even half a component of outliers does not reach.
-void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& left,
-                       std::vector<std::string>& warnings) {
-  constexpr double far = 5.0;
-  constexpr double too_many = 0.25;
-  for (const Component c : all_components) {
-    std::vector<double> sizes;
-    for (Index u = 0; u < problem.size(); ++u) {
-      if (problem.component[static_cast<std::size_t>(u)] == c) sizes.push_back(std::abs(left[u]) / problem.sigma[u]);
-    }
-    if (sizes.size() < 20) continue;
-    std::sort(sizes.begin(), sizes.end());
-    const double limit = far * sizes[sizes.size() / 4] / 0.6745;
-    const auto outside = sizes.end() - std::upper_bound(sizes.begin(), sizes.end(), limit);
-    const double part = static_cast<double>(outside) / static_cast<double>(sizes.size());
-    if (part < too_many) continue;
-    warnings.push_back(
-        fmt::format("{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the rest: too many to be "
-                    "weighted away; look at how they were taken before you rely on a name.",
-                    100.0 * part, toString(c), far));
-  }
-}
-
-/// Noise, shifts of states and outliers as they were found.
-void tellNoise(const Solution& solution, DiscrepancyResult& result) {
-  const ResidualProblem& problem = solution.problem;
-  const double tails =
-      problem.noise.tail_dof > 2.0 ? std::sqrt(problem.noise.tail_dof / (problem.noise.tail_dof - 2.0)) : 1.0;
-  std::set<Component> observed(problem.component.begin(), problem.component.end());
-  for (const Component c : observed) {
-    const ComponentNoise& n = problem.noise.of(c);
-    result.noise.push_back(
-        {c, n.scale * tails, n.scale_uncertainty * tails, n.common, n.correlated_part, n.correlation_time_s});
-    if (n.scale * tails < 0.8 || n.scale * tails > 1.25) {
-      result.warnings.push_back(fmt::format(
-          "{} scatters {:.2f} times as much as its stated sigma; it is used as found.", toString(c), n.scale * tails));
-    }
-  }
-  result.tail_dof = problem.noise.tail_dof;
-  const JointFit& fit = solution.analysis.posterior.fit;
-  Eigen::VectorXd left = withoutEffects(problem, fit) - solution.analysis.remainder.values;
-  left -= problem.nuisancePart(left).values;
-  // Constant of each series, then the shift of each state: weighted means, the latter shrunk to its prior.
-  const auto weightOf = [&](Index u) { return problem.noise.weight.size() == 0 ? 1.0 : problem.noise.weight[u]; };
-  for (int pass = 0; pass < 3; ++pass) {
-    for (int s = 0; s < problem.seriesCount(); ++s) {
-      const Index from = problem.series_begin[static_cast<std::size_t>(s)];
-      const Index to = problem.series_begin[static_cast<std::size_t>(s) + 1];
-      double sum = 0.0;
-      double weight = 0.0;
-      for (Index u = from; u < to; ++u) {
-        const double w = weightOf(u) / std::pow(problem.ownSigma(u), 2);
-        sum += w * left[u];
-        weight += w;
-      }
-      if (problem.free_constants) left.segment(from, to - from).array() -= sum / weight;
-    }
-    std::map<std::pair<Component, int>, std::array<double, 2>> shift;
-    for (Index u = 0; u < problem.size(); ++u) {
-      const Component c = problem.component[static_cast<std::size_t>(u)];
-      if (!(problem.noise.of(c).common > 0.0)) continue;
-      auto& sums = shift[{c, problem.epoch[static_cast<std::size_t>(u)]}];
-      const double w = weightOf(u) / std::pow(problem.ownSigma(u), 2);
-      sums[0] += w * left[u];
-      sums[1] += w;
-    }
-    for (const auto& [key, sums] : shift) {
-      const double common = problem.noise.of(key.first).common;
-      const double precision = sums[1] + 1.0 / (common * common);
-      const double value = sums[0] / precision;
-      const auto found = std::find_if(result.shifts.begin(), result.shifts.end(), [&](const StateShift& s) {
-        return s.component == key.first && s.time_s == problem.epoch_time_s[static_cast<std::size_t>(key.second)];
-      });
-      if (found == result.shifts.end()) {
-        std::string state;
-        for (Index u = 0; u < problem.size() && state.empty(); ++u) {
-          if (problem.epoch[static_cast<std::size_t>(u)] == key.second) {
-            state = solution.input.observations.rows[problem.unit_rows[static_cast<std::size_t>(u)].front()].state;
-          }
-        }
-        result.shifts.push_back({state, key.first, problem.epoch_time_s[static_cast<std::size_t>(key.second)], value,
-                                 1.0 / std::sqrt(precision)});
-      } else {
-        found->shift_um += value;
-      }
-      for (Index u = 0; u < problem.size(); ++u) {
-        if (problem.component[static_cast<std::size_t>(u)] == key.first &&
-            problem.epoch[static_cast<std::size_t>(u)] == key.second) {
-          left[u] -= value;
-        }
-      }
-    }
-  }
-  warnAboutOutliers(problem, left, result.warnings);
-  constexpr double far = 5.0;
-  for (Index u = 0; u < problem.size(); ++u) {
-    const double z = left[u] / problem.ownSigma(u);
-    if (std::abs(z) < far || problem.unit_rows[static_cast<std::size_t>(u)].size() != 1) continue;
-    result.outliers.push_back({problem.unit_rows[static_cast<std::size_t>(u)].front(), z});
-  }
-  std::sort(result.outliers.begin(), result.outliers.end(),
-            [](const OutlyingReading& a, const OutlyingReading& b) { return a.row < b.row; });
-  if (!result.outliers.empty()) {
-    result.warnings.push_back(fmt::format("{} lie far from all others and have little weight: {}.",
-                                          result.outliers.size() == 1 ? "1 reading" : fmt::format("{} readings", result.outliers.size()),
-                                          result.outliers.size() <= 6 ? [&] {
-                                            std::vector<std::string> names;
-                                            for (const OutlyingReading& o : result.outliers) names.push_back(fmt::format("row {}", o.row + 1));
-                                            return joinedList(names);
-                                          }() : std::string("see the list of outliers")));
-  }
-  result.remaining.assign(solution.input.observations.rows.size(), 0.0);
-  for (Index u = 0; u < problem.size(); ++u) {
-    for (const std::size_t row : problem.unit_rows[static_cast<std::size_t>(u)])
-      result.remaining[row] = solution.analysis.remainder.values[u];
-  }
-  for (const Remainder::OfComponent& r : solution.analysis.remainder.components) {
-    result.remainder.push_back({r.component, r.rms_um, r.evidence});
-  }
-}
-
 }  // namespace
 
 std::string_view toString(DiscrepancyVerdict verdict) noexcept {
@@ -725,21 +535,29 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.steps = solution.judged.steps;
   result.explained_fraction = solution.judged.explained_fraction;
   for (const std::string& warning : solution.judged.warnings) result.warnings.push_back(warning);
-  if (const std::string far = farClock(problem, analysis, solution.judged.named); !far.empty())
-    result.warnings.push_back(far);
+  const std::string far_clock = farClockOffset(problem, analysis.catalogue, *drivers, solution.judged.named);
+  if (!far_clock.empty()) result.warnings.push_back(far_clock);
   tellCandidates(analysis.posterior, options, result);
   fitModel(solution);
   result.model = std::make_shared<EffectModel>(analysis.drivers, solution.averaged, nullptr, input.base_table);
   tellEffects(solution, result);
-  tellNoise(solution, result);
+  tellNoise(problem, analysis.posterior.fit, analysis.remainder, input.observations.rows, result);
+  result.noise_model = std::make_shared<const NoiseModel>(problem.noise);
+  analysis.hypotheses.warnAboutTwins(problem, result.warnings);
   result.where = findPlaces(problem, *analysis.drivers, problem.projectedResidual().head(problem.size()));
   if (options.suggest && enough && result.verdict == DiscrepancyVerdict::Ambiguous) {
     std::vector<std::string> ambiguous;
     for (const NamedEffect& name : solution.judged.names) {
-      if (!name.rivals.empty()) ambiguous.push_back(name.id);
+      const bool of_catalogue = analysis.hypotheses.find(name.id) == nullptr &&
+                                std::none_of(name.rivals.begin(), name.rivals.end(), [&](const std::string& rival) {
+                                  return analysis.hypotheses.find(rival) != nullptr;
+                                });
+      // What a simulator would predict for another programme is not known here.
+      if (!name.rivals.empty() && of_catalogue) ambiguous.push_back(name.id);
     }
-    result.suggestion = suggestMeasurement(input, *analysis.drivers, *analysis.search, problem, analysis.posterior,
-                                           ambiguous, effective, priors, job);
+    if (!ambiguous.empty())
+      result.suggestion = suggestMeasurement(input, *analysis.drivers, *analysis.search, problem, analysis.posterior,
+                                             ambiguous, effective, priors, job);
   }
 
   warnAboutSensors(result.sensors, result.warnings);

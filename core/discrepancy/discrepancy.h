@@ -36,6 +36,8 @@ namespace spindrift {
 
 class EffectModel;
 class OwnEffects;
+struct NoiseModel;
+struct SimulatorTangents;
 
 struct DiscrepancyOptions {
   int max_effects = 4;              ///< 0 ... 10
@@ -60,9 +62,10 @@ struct DiscrepancyInput {
   bool absolute = false;                   ///< values are absolute: no free constant for each point and component
   std::shared_ptr<const OwnEffects> own;   ///< effects of the user; may be null
   std::shared_ptr<const ErrorModel> base;  ///< the simulation as a model; may be null
-  std::string base_table;                  ///< name of simulation.csv for model.json; may be empty
-  std::vector<std::string> notes;          ///< sentences about the simulation that belong to the result
-  std::string why_unmatched;               ///< why predictions are missing, "12 lie after its last row"; may be empty
+  std::shared_ptr<const SimulatorTangents> tangents;  ///< of a simulator (simulator_tangents.h); may be null
+  std::string base_table;                             ///< name of simulation.csv for model.json; may be empty
+  std::vector<std::string> notes;                     ///< sentences about the simulation that belong to the result
+  std::string why_unmatched;  ///< why predictions are missing, "12 lie after its last row"; may be empty
 };
 
 enum class DiscrepancyVerdict { Named, Ambiguous, Unknown, None };
@@ -225,8 +228,9 @@ struct DiscrepancyResult {
   double clock_offset_s = 0.0;              ///< clock of the log minus clock of the observations
   double clock_offset_uncertainty_s = 0.0;  ///< 0: not seen in these data
   std::vector<ComponentRemainder> remainder;
-  std::vector<double> remaining;    ///< per row: what remains and is not noise, um or urad; 0 where nothing is known
-  double explained_fraction = 0.0;  ///< of the structured part of the residual
+  std::vector<double> remaining;  ///< per row: what remains and is not noise, um or urad; 0 where nothing is known
+  std::shared_ptr<const NoiseModel> noise_model;  ///< as found, for fits that go on from here
+  double explained_fraction = 0.0;                ///< of the structured part of the residual
 
   /// Noise of a component as found; nothing where the component was not fitted.
   [[nodiscard]] const NoiseEstimate* noiseOf(Component component) const;
@@ -242,9 +246,9 @@ struct DiscrepancyResult {
 [[nodiscard]] DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const DiscrepancyOptions& options,
                                                 JobContext& job);
 
-/// The prediction of a simulation for every observation: a table (core/machine/simulation_table.h), a model, or finite-element
-/// results by their map (core/finite_elements). Reads campaign.simulation (or `simulation.csv` beside campaign.json);
-/// throws InputError if there is none or it cannot be read.
+/// The prediction of a simulation for every observation: a table (core/machine/simulation_table.h), a model, or
+/// finite-element results by their map (core/finite_elements). Reads campaign.simulation (or `simulation.csv` beside
+/// campaign.json); throws InputError if there is none or it cannot be read.
 [[nodiscard]] DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations);
 
 }  // namespace spindrift

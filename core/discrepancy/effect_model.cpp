@@ -203,6 +203,7 @@ std::vector<double> EffectModel::effectPart(std::span<const Observation> rows) c
 nlohmann::json EffectModel::json() const {
   nlohmann::json effects = nlohmann::json::array();
   for (const ModelEffect& e : effects_) {
+    if (e.effect.over_time) continue;  // a parameter of the simulation stands in the simulation
     nlohmann::json parameters = nlohmann::json::object();
     nlohmann::json uncertainty = nlohmann::json::object();
     const auto gains = e.gainNames(*drivers_);

@@ -142,7 +142,7 @@ Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
     }
     // Another size in every span of time.
     const EffectInput& first = fit.terms[t].variant.inputs[0];
-    if (first.driver.empty() && first.dynamics != Dynamics::Pulse) continue;
+    if (first.driver.empty() && first.dynamics != Dynamics::Pulse && !fit.terms[t].effect->over_time) continue;
     for (int h = 0; h < hats; ++h) {
       Eigen::VectorXd column(f.size());
       for (Index u = 0; u < f.size(); ++u) {

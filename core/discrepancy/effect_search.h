@@ -34,7 +34,7 @@ struct JointFit {
 
 class EffectSearch {
  public:
-  EffectSearch(ResidualProblem& problem, const DriverTable& drivers, const std::vector<Effect>& catalogue);
+  EffectSearch(const ResidualProblem& problem, const DriverTable& drivers, const std::vector<Effect>& catalogue);
 
   [[nodiscard]] const std::vector<Effect>& catalogue() const noexcept { return *catalogue_; }
   [[nodiscard]] const Effect* find(std::string_view id) const;
@@ -82,7 +82,7 @@ class EffectSearch {
 
  private:
   [[nodiscard]] static std::vector<double> within(const Effect& effect, const std::vector<double>& lags);
-  ResidualProblem* problem_;
+  const ResidualProblem* problem_;
   const DriverTable* drivers_;
   const std::vector<Effect>* catalogue_;
   double log_n_ = 1.0;

@@ -214,6 +214,11 @@ std::optional<double> commonPeriod(const ResidualProblem& problem, const JointFi
   return std::nullopt;
 }
 
+/// `id` is the cause of `effect` in other words.
+bool sameCause(const Effect& effect, const std::string& id) {
+  return std::find(effect.same_cause.begin(), effect.same_cause.end(), id) != effect.same_cause.end();
+}
+
 std::string describedRemainder(const ResidualProblem& problem, const JointFit& fit, const Remainder& remainder) {
   std::vector<std::string> parts;
   const std::vector<Component> together = movedTogether(problem);
@@ -290,6 +295,8 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       name.margin = std::min(name.margin, posterior.evidence - a.evidence);
       if (a.probability < least_rival * slot.probability) continue;
       if (a.rejected) continue;  // told with all that was rejected
+      const Effect* other = search.find(a.id);
+      if (other != nullptr && (sameCause(effect, a.id) || sameCause(*other, effect.id))) continue;
       if (a.container) {
         name.containers.push_back(a.id);
         continue;
@@ -300,7 +307,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     for (const Effect& other : search.catalogue()) {
       if (!other.variants.empty() || other.id == effect.id) continue;
       // Whoever wrote down what drives an effect knows what it is; that its course follows speaks for it.
-      if (effect.own && !fit.terms[t].variant.inputs[0].driver.empty()) continue;
+      if (effect.own && (effect.over_time || !fit.terms[t].variant.inputs[0].driver.empty())) continue;
       // One that holds a simpler effect is seen through that one.
       const bool seen = std::any_of(other.contains.begin(), other.contains.end(), [&](const std::string& id) {
         const Effect* simple = search.find(id);

@@ -85,6 +85,7 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
                                  std::size_t unit_limit) {
   free_constants = !input.absolute;
   const auto& all = input.observations.rows;
+  observations_ = &all;
   // Points, and whether each stays at one place.
   std::map<std::string, std::size_t> point_index;
   std::vector<std::string> point_names;
@@ -378,6 +379,20 @@ Eigen::VectorXd ResidualProblem::toUnits(const Eigen::VectorXd& at_nodes) const 
 Eigen::MatrixXd ResidualProblem::shapeAtUnits(const Effect& effect) const {
   const auto columns = static_cast<Index>(effect.shape.size());
   Eigen::MatrixXd s(size(), columns);
+  if (effect.over_time) {
+    for (Index u = 0; u < size(); ++u) {
+      const std::vector<std::size_t>& rows = unit_rows[static_cast<std::size_t>(u)];
+      for (Index k = 0; k < columns; ++k) {
+        double sum = 0.0;
+        for (const std::size_t row : rows) {
+          const Observation& o = (*observations_)[row];
+          sum += effect.shape[static_cast<std::size_t>(k)].value(DeviationQuery::of(o), o.component);
+        }
+        s(u, k) = sum / static_cast<double>(rows.size());
+      }
+    }
+    return s;
+  }
   for (int i = 0; i < seriesCount(); ++i) {
     const Index from = series_begin[static_cast<std::size_t>(i)];
     const Index to = series_begin[static_cast<std::size_t>(i) + 1];

@@ -52,7 +52,8 @@ struct NuisanceColumn {
 
 class ResidualProblem {
  public:
-  /// `rows` are the observations that may be used (matched, fit). At most about `unit_limit` units.
+  /// `rows` are the observations that may be used (matched, fit). At most about `unit_limit` units. `input` has to
+  /// outlive the problem.
   ResidualProblem(const DiscrepancyInput& input, const std::vector<std::size_t>& rows, std::size_t unit_limit);
 
   [[nodiscard]] Eigen::Index size() const noexcept { return static_cast<Eigen::Index>(y.size()); }
@@ -104,6 +105,12 @@ class ResidualProblem {
     std::vector<double> variances;  ///< of the coefficients, under their priors
   };
   [[nodiscard]] NuisancePart nuisancePart(const Eigen::VectorXd& values) const;
+  /// The residual without these parts.
+  [[nodiscard]] Eigen::VectorXd without(const std::vector<Eigen::VectorXd>& parts) const {
+    Eigen::VectorXd left = y;
+    for (const Eigen::VectorXd& part : parts) left -= part;
+    return left;
+  }
   /// Rows of priors in a projected vector.
   [[nodiscard]] Eigen::Index priorRows() const noexcept { return prior_rows_; }
   /// Own noise of every unit as one standard deviation, without the common shift and before weights.
@@ -149,6 +156,7 @@ class ResidualProblem {
   void makeDomains();
   void makeBlocks();
   void whitenDomain(std::size_t domain, Eigen::Ref<Eigen::MatrixXd> rows) const;
+  const std::vector<Observation>* observations_ = nullptr;  ///< of the input, which outlives the problem
   std::vector<std::size_t> node_begin_;
   std::vector<int> node_index_;
   std::vector<std::vector<DeviationQuery>> members_;  ///< of each series, where points were merged; else empty

@@ -75,11 +75,12 @@ struct Effect {
   bool two_lags = false;                       ///< its heat may reach it through two lags
   bool refinement = false;                     ///< refines another effect of the same cause (ball_screw.nonuniform)
   bool follows_room = false;                   ///< what the driver heats also follows the room, a little
-  bool of_machine = true;       ///< a part of the machine moves, which follows the room; false: the instrument does
-  bool over_time = false;       ///< its shape depends on the time of the query: a tangent of a simulation
+  bool of_machine = true;  ///< a part of the machine moves, which follows the room; false: the instrument does
+  bool over_time = false;  ///< its shape depends on the time of the query: a tangent of a simulation
   /// The same cause under other names (ids): what a mechanism of the simulation makes in the catalogue's words. They
   /// are no rivals of each other.
   std::vector<std::string> same_cause;
+  int choices = 1;              ///< among so many forms the one at hand was chosen by the data
   bool driver_missing = false;  ///< the driver that matters most for this effect is not in the log
 };
 
