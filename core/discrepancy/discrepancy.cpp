@@ -139,8 +139,10 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
   Analysis a{std::move(drivers), std::move(catalogue), {input.tangents.get(), input.observations}, {}, {}, {}, {}};
   // Absolute values that are said to be predicted exactly: what deviates is none of the simulation's own scale.
   const bool exact = input.absolute && !(input.simulation_gain_uncertainty > 0.0);
+  // Where a simulator says which of its parameters are uncertain, its parts are not doubted beyond what is stated.
+  const double parts_error = input.tangents ? 0.0 : priors.simulation_error;
   std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(
-      exact ? 0.0 : std::max(input.simulation_gain_uncertainty, priors.simulation_error), priors.clock_s);
+      exact ? 0.0 : std::max(input.simulation_gain_uncertainty, parts_error), priors.clock_s);
   for (NuisanceColumn& column : a.hypotheses.nuisances(problem)) nuisances.push_back(std::move(column));
   problem.setNuisances(nuisances);
   const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);

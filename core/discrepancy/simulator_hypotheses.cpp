@@ -107,7 +107,7 @@ void SimulatorHypotheses::append(std::vector<Effect>& catalogue) const {
                     [&](const Effect& e) { return e.id == tangent.parameter.id(); }))
       continue;
     catalogue.push_back(tangent.window ? windowedEffect(tangent, tangent.window->first_s, tangent.window->last_s)
-                                       : tangentEffect(tangent, *observations_));
+                                       : tangentEffect(tangent, *observations_, true));
   }
 }
 
@@ -117,7 +117,8 @@ std::vector<NuisanceColumn> SimulatorHypotheses::nuisances(const ResidualProblem
   for (const SimulatorTangent& tangent : tangents_->tangents) {
     const SimulatorParameter& p = tangent.parameter;
     if (p.off() || !(p.standard_uncertainty > 0.0)) continue;
-    out.push_back({problem.shapeAtUnits(tangentEffect(tangent, *observations_)).col(0), p.standard_uncertainty, false});
+    out.push_back(
+        {problem.shapeAtUnits(tangentEffect(tangent, *observations_, false)).col(0), p.standard_uncertainty, false});
   }
   return out;
 }
@@ -135,8 +136,8 @@ bool SimulatorHypotheses::chooseWindows(std::vector<Effect>& catalogue, const Re
     const LoadWindow window = bestWindow(tangent, problem, given(id));
     const double far = 0.02 * (tangent.window->last_s - tangent.window->first_s);
     const auto [before, fresh] = windows_.try_emplace(id, window);
-    const bool same = std::abs(before->second.from_s - window.from_s) <= far &&
-                      std::abs(before->second.to_s - window.to_s) <= far;
+    const bool same =
+        std::abs(before->second.from_s - window.from_s) <= far && std::abs(before->second.to_s - window.to_s) <= far;
     if (!fresh && same) continue;
     moved = true;
     before->second = window;
@@ -192,7 +193,7 @@ void SimulatorHypotheses::warnAboutTwins(const ResidualProblem& problem, std::ve
   for (const SimulatorTangent& tangent : tangents_->tangents) {
     const Eigen::MatrixXd shape =
         problem.shapeAtUnits(tangent.window ? windowedEffect(tangent, tangent.window->first_s, tangent.window->last_s)
-                                            : tangentEffect(tangent, *observations_));
+                                            : tangentEffect(tangent, *observations_, true));
     const Eigen::MatrixXd white = problem.projected(shape);
     if (!(white.norm() * tangentStep(tangent.parameter) > 1.0)) continue;
     columns.push_back(white.col(0).normalized());

@@ -51,6 +51,100 @@ std::shared_ptr<WindowedLoad> stepResponse(const SimulatorWindow& window, const 
   return load;
 }
 
+/// Fitted rows as one least-squares problem in stated sigmas, free of the constant of every series.
+class QuickFit {
+ public:
+  QuickFit(const ObservationSet& observations, const std::vector<double>& base) : rows_(&observations.rows) {
+    residual_.resize(base.size());
+    for (std::size_t i = 0; i < base.size(); ++i) residual_[i] = (*rows_)[i].value - base[i];
+    if (!observations.absolute) centre(residual_);
+  }
+
+  struct Change {
+    double size = 0.0;  ///< of the parameter
+    double delta_chi2 = 0.0;
+  };
+  [[nodiscard]] Change changeFor(std::vector<double> per_unit) const {
+    centre(per_unit);
+    double dot = 0.0;
+    double power = 0.0;
+    for (std::size_t i = 0; i < per_unit.size(); ++i) {
+      if (!used(i, per_unit[i])) continue;
+      const double w = 1.0 / std::pow((*rows_)[i].sigma, 2);
+      dot += w * per_unit[i] * residual_[i];
+      power += w * per_unit[i] * per_unit[i];
+    }
+    if (!(power > 0.0)) return {};
+    return {dot / power, dot * dot / power};
+  }
+
+ private:
+  [[nodiscard]] bool used(std::size_t i, double value) const {
+    const Observation& o = (*rows_)[i];
+    return o.use == ObservationUse::Fit && std::isfinite(value) && std::isfinite(residual_[i]) && o.sigma > 0.0;
+  }
+  void centre(std::vector<double>& values) const {
+    std::map<std::pair<std::string, Component>, std::pair<double, double>> sums;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!used(i, values[i])) continue;
+      auto& [sum, count] = sums[{(*rows_)[i].point, (*rows_)[i].component}];
+      sum += values[i];
+      count += 1.0;
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto found = sums.find({(*rows_)[i].point, (*rows_)[i].component});
+      if (found != sums.end()) values[i] -= found->second.first / found->second.second;
+    }
+  }
+
+  const std::vector<Observation>* rows_;
+  std::vector<double> residual_;
+};
+
+/// Secants for the parameters that explain most of the gap, if they have to change by much.
+void goFar(const Simulator& simulator, const ObservationSet& observations, const JobContext& job,
+           SimulatorTangents& tangents) {
+  if (simulator.linear()) return;
+  constexpr std::size_t most = 4;
+  constexpr double worth_a_run = 30.0;  // in chi-squared
+  constexpr double far_steps = 1.2;
+  constexpr int most_rounds = 3;
+  const QuickFit fit(observations, tangents.base);
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t t = 0; t < tangents.tangents.size(); ++t) {
+    const SimulatorTangent& tangent = tangents.tangents[t];
+    const QuickFit::Change change = fit.changeFor(tangent.per_unit);
+    if (tangent.window || change.delta_chi2 < worth_a_run || std::abs(change.size) < far_steps * std::abs(tangent.step))
+      continue;
+    order.emplace_back(-change.delta_chi2, t);
+  }
+  std::sort(order.begin(), order.end());
+  if (order.size() > most) order.resize(most);
+  std::vector<double> reached(order.size(), 0.0);
+  for (int round = 0; round < most_rounds; ++round) {
+    std::vector<ParameterValues> sets;
+    std::vector<std::size_t> which;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const SimulatorTangent& t = tangents.tangents[order[i].second];
+      const double wanted = fit.changeFor(t.per_unit_far.empty() ? t.per_unit : t.per_unit_far).size;
+      const double change =
+          std::clamp(t.parameter.value + wanted, t.parameter.min, t.parameter.max) - t.parameter.value;
+      if (std::abs(change) < 0.5 * std::abs(t.step) || std::abs(change - reached[i]) < 0.1 * std::abs(change)) continue;
+      sets.push_back({{t.parameter.name, t.parameter.value + change}});
+      which.push_back(i);
+      reached[i] = change;
+    }
+    if (sets.empty()) return;
+    const SimulatorRuns runs = runAll(simulator, sets, observations, job, "running the simulation");
+    tangents.runs += sets.size();
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      SimulatorTangent& t = tangents.tangents[order[which[i]].second];
+      if (!runs.failed[i].empty()) continue;  // the tangent nearby is as far as this simulation goes
+      t.per_unit_far = slope(runs.runs[i].predicted, tangents.base, reached[which[i]]);
+    }
+  }
+}
+
 Effect effectOf(const SimulatorParameter& parameter) {
   Effect effect;
   effect.id = parameter.id();
@@ -162,7 +256,9 @@ SimulatorTangents simulatorTangents(const Simulator& simulator, const Observatio
       out.notes.push_back(fmt::format("What {} does is not known: {}", p.name, runs.failed[i + 1]));
       continue;
     }
-    SimulatorTangent tangent{p, tangentStep(p), {}, nullptr};
+    SimulatorTangent tangent;
+    tangent.parameter = p;
+    tangent.step = tangentStep(p);
     const std::vector<double>* answer = &runs.runs[i + 1].predicted;
     std::size_t all_open = trials.size();
     for (std::size_t t = 0; t < trials.size(); ++t) {
@@ -185,12 +281,14 @@ SimulatorTangents simulatorTangents(const Simulator& simulator, const Observatio
     tangent.per_unit = slope(*answer, out.base, tangent.step);
     out.tangents.push_back(std::move(tangent));
   }
+  goFar(simulator, observations, job.part(1.0, 1.0), out);
   return out;
 }
 
-Effect tangentEffect(const SimulatorTangent& tangent, const ObservationSet& observations) {
+Effect tangentEffect(const SimulatorTangent& tangent, const ObservationSet& observations, bool far) {
   Effect effect = effectOf(tangent.parameter);
-  const auto field = std::make_shared<const ObservedField>(observations.rows, tangent.per_unit);
+  const auto field = std::make_shared<const ObservedField>(
+      observations.rows, far && !tangent.per_unit_far.empty() ? tangent.per_unit_far : tangent.per_unit);
   effect.shape.push_back({tangent.parameter.unit, [field](const DeviationQuery& query, Component component) {
                             return field->at(query, component);
                           }});

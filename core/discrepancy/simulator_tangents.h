@@ -9,6 +9,9 @@
 // ordinary parameter may move within its standard uncertainty is a nuisance with this prior, so that it is named only
 // where it must leave it.
 //
+// Films and conductivities are not linear: where the observations ask for a large change of one parameter, its
+// hypothesis is the secant over that change, from runs there.
+//
 // A load that acts between two unknown times ("window"): from its answer S(t) to a load that begins with the first
 // state and stays, the answer to one from a to b is S(t - a) - S(t - b), exact where the machine is linear with
 // constant coefficients in this load, and a first guess otherwise. The window is the one that explains most; the choice
@@ -41,6 +44,9 @@ struct SimulatorTangent {
   SimulatorParameter parameter;
   double step = 0.0;             ///< of the finite difference, in units of the parameter
   std::vector<double> per_unit;  ///< by observation; NaN where the simulation has no value
+  /// The same over the change that the observations ask of this parameter alone, where that is far from the step and
+  /// the simulation is not linear; empty: as per_unit.
+  std::vector<double> per_unit_far;
   std::shared_ptr<const WindowedLoad> window;
 };
 
@@ -62,9 +68,9 @@ struct SimulatorTangents {
 /// The step that is taken to see what a parameter does: one standard uncertainty, inside its bounds.
 [[nodiscard]] double tangentStep(const SimulatorParameter& parameter);
 
-/// The hypothesis as an effect of the search: one gain, in units of the parameter. `from_s`, `to_s`: the window of a
-/// load that has one.
-[[nodiscard]] Effect tangentEffect(const SimulatorTangent& tangent, const ObservationSet& observations);
+/// The hypothesis as an effect of the search: one gain, in units of the parameter. `far`: over the change that the
+/// observations ask for. `from_s`, `to_s`: the window of a load that has one.
+[[nodiscard]] Effect tangentEffect(const SimulatorTangent& tangent, const ObservationSet& observations, bool far);
 [[nodiscard]] Effect windowedEffect(const SimulatorTangent& tangent, double from_s, double to_s);
 
 }  // namespace spindrift
