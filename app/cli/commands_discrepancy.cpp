@@ -8,13 +8,16 @@ namespace spindrift::cli {
 
 void addDiscrepancyCommands(CLI::App& app, CommandLine& line) {
   auto request = std::make_shared<DiscrepancyRequest>();
-  CLI::App* command = addCommand(
-      app, line, "discrepancy",
-      "Find where measurement and simulation disagree and which physical effect the simulation lacks",
-      [request](JobContext& job) {
-        const DiscrepancyRun run = runDiscrepancy(*request, job);
-        return noted({run.json(), run.result.summary(), run.result.decided ? Done : NotGoodEnough}, run.notes);
-      });
+  CLI::App* command =
+      addCommand(app, line, "discrepancy",
+                 "Find where measurement and simulation disagree and which physical effect the simulation lacks",
+                 [request](JobContext& job) {
+                   const DiscrepancyRun run = runDiscrepancy(*request, job);
+                   std::string summary = run.result.summary();
+                   if (run.update) summary += run.update->summary();
+                   const bool put_in = !run.update || run.update->status == FitStatus::Converged;
+                   return noted({run.json(), summary, run.result.decided && put_in ? Done : NotGoodEnough}, run.notes);
+                 });
   command->add_option("CAMPAIGN", request->campaign, "Folder of the campaign")->required();
   command->add_option("--observations", request->observations, "Observations in place of the campaign's own (CSV)")
       ->type_name("FILE");
@@ -39,6 +42,20 @@ void addDiscrepancyCommands(CLI::App& app, CommandLine& line) {
       ->add_option("--suggest-times", request->options.suggest_times,
                    "Times at which it may measure these points, 3 to 200")
       ->capture_default_str();
+  command
+      ->add_option("--simulator", request->simulator,
+                   "Simulation that can be run (simulator.json): its parameters and sensors are looked at as well. "
+                   "Runs the programs that the file names")
+      ->type_name("FILE");
+  command
+      ->add_option("--into-simulation", request->into_simulation,
+                   "Put what is missing into the simulation: fit its physical parameters, run it again, write its new "
+                   "version to this new folder")
+      ->type_name("FOLDER");
+  command
+      ->add_option("--mechanism", request->mechanisms,
+                   "Parameter of the simulator to put in, in place of those behind what is named (repeatable)")
+      ->type_name("NAME");
   command->add_option("--model-out", request->model_out, "Write the effects found as model.json")->type_name("FILE");
   command
       ->add_option("--prediction", request->prediction,

@@ -250,5 +250,8 @@ struct DiscrepancyResult {
 /// finite-element results by their map (core/finite_elements). Reads campaign.simulation (or `simulation.csv` beside
 /// campaign.json); throws InputError if there is none or it cannot be read.
 [[nodiscard]] DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations);
+/// The same with a simulator's own prediction in place of the campaign's; notes where the two differ.
+[[nodiscard]] DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations,
+                                                std::shared_ptr<const SimulatorTangents> tangents);
 
 }  // namespace spindrift

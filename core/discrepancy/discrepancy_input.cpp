@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the search looks at: a campaign with the predictions of its simulation.
+#include <fmt/format.h>
+
+#include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/own_effects.h"
+#include "core/discrepancy/simulator_tangents.h"
 #include "core/finite_elements/fe_simulation.h"
 
 namespace spindrift {
@@ -20,9 +25,8 @@ void match(const SimulationTable& table, const Campaign& campaign, const std::st
   input.why_unmatched = std::move(found.why_unmatched);
 }
 
-}  // namespace
-
-DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations) {
+/// All but the simulation.
+DiscrepancyInput withoutSimulation(const Campaign& campaign, ObservationSet observations) {
   DiscrepancyInput input;
   input.machine = campaign.machine;
   input.log = campaign.log;
@@ -30,12 +34,67 @@ DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet obser
   input.absolute = input.observations.absolute = campaign.absolute;
   if (!campaign.effects.empty()) input.own = OwnEffects::read(campaign.path(campaign.effects.string()));
   input.simulation_gain_uncertainty = campaign.simulation_gain_uncertainty;
+  return input;
+}
+
+/// Empty: there is none.
+std::string simulationName(const Campaign& campaign) {
   std::string name = campaign.simulation;
-  if (name.empty()) {
-    for (const char* candidate : {"simulation.csv", "model.json"}) {
-      if (name.empty() && std::filesystem::exists(campaign.path(candidate))) name = candidate;
-    }
+  for (const char* candidate : {"simulation.csv", "model.json"}) {
+    if (name.empty() && std::filesystem::exists(campaign.path(candidate))) name = candidate;
   }
+  return name;
+}
+
+/// A sentence if the simulator's own run is not what the campaign says it is; each series about its mean.
+void compareRuns(const std::vector<Observation>& rows, const std::vector<double>& given, const std::vector<double>& run,
+                 const std::string& name, std::vector<std::string>& notes) {
+  std::map<std::pair<std::string, Component>, std::pair<double, double>> mean;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!std::isfinite(given[i]) || !std::isfinite(run[i])) continue;
+    auto& [sum, count] = mean[{rows[i].point, rows[i].component}];
+    sum += given[i] - run[i];
+    count += 1.0;
+  }
+  double largest = 0.0;
+  std::string where;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!std::isfinite(given[i]) || !std::isfinite(run[i])) continue;
+    const auto& [sum, count] = mean.at({rows[i].point, rows[i].component});
+    const double apart = given[i] - run[i] - sum / count;
+    if (!(std::abs(apart) / rows[i].sigma > largest)) continue;
+    largest = std::abs(apart) / rows[i].sigma;
+    where = fmt::format("{:.2f} {} in {} at {}, {:.0f} s", apart, unitOf(rows[i].component),
+                        toString(rows[i].component), rows[i].point, rows[i].time_s);
+  }
+  constexpr double told_from = 0.5;  // of the stated sigma
+  if (largest < told_from) return;
+  notes.push_back(
+      fmt::format("{} is not what the simulator predicts with its own values (up to {}); the simulator's run is used.",
+                  name, where));
+}
+
+}  // namespace
+
+DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations,
+                                  std::shared_ptr<const SimulatorTangents> tangents) {
+  SPINDRIFT_ASSERT(tangents != nullptr && tangents->base.size() == observations.rows.size(),
+                   "a simulator that was run for these observations");
+  const std::string name = simulationName(campaign);
+  DiscrepancyInput input = name.empty() ? withoutSimulation(campaign, std::move(observations))
+                                        : discrepancyInput(campaign, std::move(observations));
+  if (!name.empty()) compareRuns(input.observations.rows, input.predicted, tangents->base, name, input.notes);
+  input.predicted = tangents->base;
+  input.base.reset();
+  input.base_table.clear();
+  input.notes.insert(input.notes.end(), tangents->notes.begin(), tangents->notes.end());
+  input.tangents = std::move(tangents);
+  return input;
+}
+
+DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet observations) {
+  DiscrepancyInput input = withoutSimulation(campaign, std::move(observations));
+  const std::string name = simulationName(campaign);
   if (name.empty()) {
     throw InputError({campaign.path("campaign.json"), ""},
                      "names no simulation to compare with; allowed: \"simulation\": \"simulation.csv\", \"model.json\" "

@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/discrepancy/effect_titles.h"
 #include "core/machine/interpolated_field.h"
+#include "core/reporting/discrepancy_figures.h"
 #include "core/reporting/heatmap_picture.h"
 #include "core/reporting/report_wording.h"
 #include "core/reporting/svg_plot.h"
@@ -21,34 +22,6 @@ namespace {
 constexpr double seconds_per_hour = 3600.0;
 constexpr std::size_t most_states_in_table = 48;
 constexpr std::size_t most_outliers_in_table = 50;
-
-void addTimeHistories(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows) {
-  for (const Component component : all_components) {
-    PlotSeries before{"measured minus simulation", {}, {}, {}, SeriesStyle::Points};
-    PlotSeries after{"measured minus completed model", {}, {}, {}, SeriesStyle::Points};
-    double holdout_from = std::nan("");
-    double last = 0.0;
-    for (const DiscrepancyReportRow& row : rows) {
-      if (row.component != component || !std::isfinite(row.before)) continue;
-      const double hours = row.time_s / seconds_per_hour;
-      before.x.push_back(hours);
-      before.y.push_back(row.before);
-      after.x.push_back(hours);
-      after.y.push_back(row.after);
-      last = std::max(last, hours);
-      if (row.held_out && !(holdout_from <= hours)) holdout_from = hours;
-    }
-    if (before.x.empty()) continue;
-    PlotOptions options{.title = std::string(toString(component)),
-                        .x_label = "time / h",
-                        .y_label = fmt::format("{} / {}", toString(component), unitOf(component)),
-                        .width_px = 860,
-                        .height_px = 240};
-    if (std::isfinite(holdout_from)) options.ranges.push_back({holdout_from, last, "held out"});
-    document.figure(svgPlot({before, after}, options),
-                    fmt::format("{} of all points over time, before and after", toString(component)));
-  }
-}
 
 void addPoints(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows) {
   struct Cell {
@@ -89,28 +62,6 @@ void addPoints(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& 
     table.push_back(std::move(row));
   }
   document.table(header, table, "rms of the rows that were fitted, per point and component, before \u2192 after");
-}
-
-void addMaps(HtmlDocument& document, const DiscrepancyReportData& data, const FieldGrid& table) {
-  double time_s = 0.0;
-  const auto maps = discrepancyMaps(data, table, time_s);
-  if (!maps) return;
-  const double limit = roundLimit((*maps)[0].largestMagnitude());
-  const std::string name(toString((*maps)[0].component));
-  std::vector<std::string> pictures;
-  for (std::size_t side = 0; side < 2; ++side) {
-    HeatmapPictureOptions options;
-    options.width_px = 480;
-    options.title = fmt::format("{} {}", name, side == 0 ? "before" : "after");
-    options.subtitle = side == 0 ? "measured minus simulation" : "measured minus completed model";
-    options.limit = limit;
-    options.legend = false;
-    pictures.push_back(heatmapSvg((*maps)[side], options));
-  }
-  document.figure(svgGrid(pictures, 2),
-                  fmt::format("{} over the table at {:.2f} h, where the gap is largest, before and after on one scale; "
-                              "between the points interpolated; {}",
-                              name, time_s / seconds_per_hour, heatmap_legend));
 }
 
 bool anyHeldOut(const std::vector<DiscrepancyReportRow>& rows) {
@@ -506,55 +457,6 @@ bool takenOutAgain(const DiscrepancyStep& step, const std::vector<FoundEffect>& 
          std::none_of(effects.begin(), effects.end(), [&](const FoundEffect& e) { return e.id == step.id; });
 }
 
-std::optional<std::array<Field, 2>> discrepancyMaps(const DiscrepancyReportData& data, FieldGrid table,
-                                                    double& time_s) {
-  // The readings of a component in order of time; a moment ends where a point comes a second time.
-  std::vector<std::vector<const DiscrepancyReportRow*>> moments;
-  for (const Component component : all_components) {
-    std::vector<const DiscrepancyReportRow*> rows;
-    for (const DiscrepancyReportRow& row : data.rows)
-      if (row.component == component && std::isfinite(row.before) && std::isfinite(row.after)) rows.push_back(&row);
-    std::stable_sort(rows.begin(), rows.end(), [](const auto* a, const auto* b) { return a->time_s < b->time_s; });
-    std::set<std::string> seen;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (i == 0 || !seen.insert(rows[i]->point).second) {
-        seen = {rows[i]->point};
-        moments.emplace_back();
-      }
-      moments.back().push_back(rows[i]);
-    }
-  }
-  const std::vector<const DiscrepancyReportRow*>* worst = nullptr;
-  double largest = 0.0;
-  for (const auto& moment : moments) {
-    double sum = 0.0;
-    for (const DiscrepancyReportRow* row : moment) sum += row->before * row->before / (row->sigma * row->sigma);
-    sum /= static_cast<double>(moment.size());
-    if (moment.size() < 3 || sum <= largest) continue;
-    largest = sum;
-    worst = &moment;
-  }
-  if (worst == nullptr) return std::nullopt;
-  const Component component = worst->front()->component;
-  time_s = worst->front()->time_s;
-  std::array<std::vector<ScatteredValue>, 2> values;
-  std::array<std::vector<Field::Marker>, 2> markers;
-  double z_mm = 0.0;
-  for (const DiscrepancyReportRow* row : *worst) {
-    z_mm += row->position_mm.z();
-    for (std::size_t side = 0; side < 2; ++side) {
-      const double value = side == 0 ? row->before : row->after;
-      values[side].push_back({row->position_mm, value, row->sigma});
-      markers[side].push_back({row->point, row->position_mm, value, row->sigma, !row->held_out});
-    }
-  }
-  if (!spreadsOverPlane(values[0])) return std::nullopt;
-  table.z_mm = z_mm / static_cast<double>(values[0].size());
-  std::array<Field, 2> fields{fieldBetween(component, values[0], table), fieldBetween(component, values[1], table)};
-  for (std::size_t side = 0; side < 2; ++side) fields[side].markers = std::move(markers[side]);
-  return fields;
-}
-
 void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& result,
                          const std::optional<FieldGrid>& table) {
   document.verdict(verdictKind(result.verdict), discrepancyHeadline(result));
@@ -599,8 +501,8 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
                    "at together");
   }
   addNoise(document, result);
-  if (table && !result.effects.empty()) addMaps(document, result, *table);
-  addTimeHistories(document, result.rows);
+  if (table && !result.effects.empty()) addDiscrepancyMaps(document, result.rows, *table, "completed model");
+  addTimeHistories(document, result.rows, "completed model");
   addPoints(document, result.rows);
   addSteps(document, result);
   for (const std::string& warning : result.warnings) document.paragraph(withEffectTitles("Note: " + warning));
@@ -614,12 +516,12 @@ std::string discrepancyHeadline(const DiscrepancyReportData& data) {
   return withEffectTitles(data.message);
 }
 
-std::string discrepancyReport(const std::string& campaign, const DiscrepancyReportData& data,
-                              const std::optional<FieldGrid>& table) {
+HtmlDocument discrepancyDocument(const std::string& campaign, const DiscrepancyReportData& data,
+                                 const std::optional<FieldGrid>& table) {
   HtmlDocument document(fmt::format("Discrepancy: {}", campaign),
                         "where measured and simulated disagree, which effect is missing, what its addition gains");
   addDiscrepancyStory(document, data, table);
-  return document.html();
+  return document;
 }
 
 }  // namespace spindrift

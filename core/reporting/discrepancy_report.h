@@ -4,7 +4,6 @@
 // h. One self-contained file, or the same parts inside a larger report.
 #pragma once
 
-#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -97,11 +96,6 @@ struct DiscrepancyReportData {
 [[nodiscard]] DiscrepancyReportData discrepancyReportData(const DiscrepancyInput& input,
                                                           const DiscrepancyResult& result);
 
-/// What is left before (0) and after (1) at the moment and in the component where it is largest before, over `table`
-/// (its z is set to that of the points); empty if the points of no moment span a plane.
-[[nodiscard]] std::optional<std::array<Field, 2>> discrepancyMaps(const DiscrepancyReportData& data, FieldGrid table,
-                                                                  double& time_s);
-
 /// The sentence of the verdict, effects by their titles.
 [[nodiscard]] std::string discrepancyHeadline(const DiscrepancyReportData& data);
 
@@ -109,7 +103,8 @@ struct DiscrepancyReportData {
 void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& data,
                          const std::optional<FieldGrid>& table);
 
-[[nodiscard]] std::string discrepancyReport(const std::string& campaign, const DiscrepancyReportData& data,
-                                            const std::optional<FieldGrid>& table);
+/// The story as a document of its own, to which more may be added.
+[[nodiscard]] HtmlDocument discrepancyDocument(const std::string& campaign, const DiscrepancyReportData& data,
+                                               const std::optional<FieldGrid>& table);
 
 }  // namespace spindrift

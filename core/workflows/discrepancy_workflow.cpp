@@ -5,15 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
 #include "core/discrepancy/catalogue.h"
 #include "core/discrepancy/effect_listing.h"
 #include "core/discrepancy/effect_model.h"
+#include "core/discrepancy/simulator_tangents.h"
 #include "core/reporting/discrepancy_report.h"
+#include "core/reporting/simulation_update_report.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "core/workflows/fit_campaign.h"
+#include "core/workflows/open_simulator.h"
 
 namespace spindrift {
 namespace {
@@ -31,6 +36,33 @@ DiscrepancyOptions withoutContradictions(DiscrepancyOptions options) {
   return options;
 }
 
+/// The simulator that the user allows to be run: a campaign from elsewhere runs no program by being looked at.
+std::filesystem::path simulatorOf(const DiscrepancyRequest& request, const Campaign& campaign) {
+  if (!request.simulator.empty()) return request.simulator;
+  if (request.into_simulation.empty()) return {};
+  if (campaign.simulator.empty()) {
+    throw InputError({campaign.path("campaign.json"), ""},
+                     "names no simulator that something could be put into; allowed: \"simulator\": \"simulator.json\", "
+                     "or --simulator FILE.");
+  }
+  return campaign.path(campaign.simulator.string());
+}
+
+/// The prediction of a run as simulation.csv: the whole table where there is one, else at the observations.
+std::string predictionCsv(const SimulationUpdate& update, const std::vector<Observation>& observations) {
+  if (!update.rows.empty()) return simulationCsv(update.rows, false);
+  std::vector<SimulationRow> rows;
+  std::set<std::tuple<std::string, Component, double>> seen;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const Observation& o = observations[i];
+    if (!std::isfinite(update.after[i]) || !seen.insert({o.point, o.component, o.time_s}).second) continue;
+    rows.push_back({o.time_s, o.point, o.position_mm, o.component, update.after[i]});
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const SimulationRow& a, const SimulationRow& b) { return a.time_s < b.time_s; });
+  return simulationCsv(rows, false);
+}
+
 }  // namespace
 
 nlohmann::json DiscrepancyRun::json() const {
@@ -46,6 +78,7 @@ nlohmann::json DiscrepancyRun::json() const {
     gap[prefix + "fit_before_percent"] = jsonNumber(figures.fit_before_percent);
     gap[prefix + "fit_after_percent"] = jsonNumber(figures.fit_after_percent);
   }
+  if (update) out["into_simulation"] = update->json();
   return out;
 }
 
@@ -57,6 +90,34 @@ DiscrepancyRun searchDiscrepancy(const Campaign& campaign, ObservationSet observ
   run.input = discrepancyInput(campaign, std::move(observations));
   run.result = findDiscrepancy(run.input, asked, job);
   return run;
+}
+
+DiscrepancyRun searchDiscrepancy(const Campaign& campaign, ObservationSet observations,
+                                 const DiscrepancyOptions& options, const Simulator& simulator, JobContext& job) {
+  options.validate();
+  const DiscrepancyOptions asked = withoutContradictions(options);
+  JobContext running = job.part(0.0, 0.6);
+  auto tangents = std::make_shared<const SimulatorTangents>(simulatorTangents(simulator, observations, running));
+  DiscrepancyRun run;
+  run.input = discrepancyInput(campaign, std::move(observations), std::move(tangents));
+  JobContext searching = job.part(0.6, 1.0);
+  run.result = findDiscrepancy(run.input, asked, searching);
+  return run;
+}
+
+SimulationUpdate updateSimulation(const Campaign& campaign, const DiscrepancyRun& run, const Simulator& simulator,
+                                  const IntoSimulationOptions& options, const std::filesystem::path& folder,
+                                  JobContext& job) {
+  if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder))
+    throw InputError({folder, ""}, "is not empty; allowed: a new folder for the simulation's new version.");
+  SimulationUpdate update = putIntoSimulation(run.input, run.result, simulator, options, job);
+  if (update.status != FitStatus::Converged) return update;
+  nlohmann::json change = update.json();
+  change["campaign"] = campaign.name;
+  change.erase("where");
+  simulator.writeVersion(update.values, folder, change);
+  writeFileAtomically(folder / "simulation.csv", predictionCsv(update, run.input.observations.rows));
+  return update;
 }
 
 nlohmann::json EffectsAnswer::json() const {
@@ -119,7 +180,7 @@ DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job
   Campaign campaign = Campaign::read(request.campaign);
   if (!request.effects.empty()) campaign.effects = std::filesystem::absolute(request.effects);
   const auto root = std::filesystem::weakly_canonical(campaign.folder).string() + "/";
-  for (const auto& file : {request.model_out, request.prediction, request.html}) {
+  for (const auto& file : {request.model_out, request.prediction, request.html, request.into_simulation}) {
     if (!file.empty() && std::filesystem::weakly_canonical(file).string().starts_with(root)) {
       throw InputError({file, ""}, "lies in the campaign folder, which is never written to; allowed: any other place.");
     }
@@ -128,7 +189,24 @@ DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job
   std::vector<std::string> notes;
   ObservationSet observations = observationsOf(campaign, request.observations, {}, first, &notes);
   JobContext second = job.part(0.2, 1.0);
-  DiscrepancyRun run = searchDiscrepancy(campaign, std::move(observations), request.options, second);
+  DiscrepancyRun run;
+  if (const std::filesystem::path file = simulatorOf(request, campaign); !file.empty()) {
+    const std::unique_ptr<Simulator> simulator = openSimulator(file, campaign, observations);
+    JobContext search = second.part(0.0, request.into_simulation.empty() ? 1.0 : 0.4);
+    run = searchDiscrepancy(campaign, std::move(observations), request.options, *simulator, search);
+    if (!request.into_simulation.empty()) {
+      JobContext fit = second.part(0.4, 1.0);
+      run.update = updateSimulation(campaign, run, *simulator, {request.mechanisms}, request.into_simulation, fit);
+    }
+  } else {
+    if (!campaign.simulator.empty()) {
+      notes.push_back(
+          fmt::format("campaign.json names the simulator {}, which was not run; --simulator {} runs it and "
+                      "looks among its parameters as well.",
+                      campaign.simulator.string(), campaign.path(campaign.simulator.string()).string()));
+    }
+    run = searchDiscrepancy(campaign, std::move(observations), request.options, second);
+  }
   run.notes = std::move(notes);
   if (!request.model_out.empty()) writeFileAtomically(request.model_out, run.result.model->json().dump(2) + "\n");
   if (!request.prediction.empty()) {
@@ -142,8 +220,10 @@ DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job
     writeFileAtomically(request.prediction, text);
   }
   if (!request.html.empty()) {
-    writeFileAtomically(request.html, discrepancyReport(campaign.name, discrepancyReportData(run.input, run.result),
-                                                        mapTable(campaign.machine, 0.0, report_map_nodes)));
+    const FieldGrid table = mapTable(campaign.machine, 0.0, report_map_nodes);
+    HtmlDocument document = discrepancyDocument(campaign.name, discrepancyReportData(run.input, run.result), table);
+    if (run.update) addSimulationUpdate(document, *run.update, simulationUpdateRows(run.input, *run.update), table);
+    writeFileAtomically(request.html, document.html());
   }
   return run;
 }

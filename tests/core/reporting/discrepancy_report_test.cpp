@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/reporting/discrepancy_report.h"
 
+#include "core/reporting/discrepancy_figures.h"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -42,7 +44,7 @@ DiscrepancyReportData data() {
 
 TEST(DiscrepancyReport, MapsAreOfTheWorstMomentBeforeAndAfter) {
   double time_s = 0.0;
-  const auto maps = discrepancyMaps(data(), {0, 100, 0, 80, 0, 11, 9}, time_s);
+  const auto maps = discrepancyMaps(data().rows, {0, 100, 0, 80, 0, 11, 9}, time_s);
   ASSERT_TRUE(maps.has_value());
   EXPECT_EQ(time_s, 7200.0);
   EXPECT_EQ((*maps)[0].component, Component::EY);
@@ -57,14 +59,14 @@ TEST(DiscrepancyReport, MapsAreOfTheWorstMomentBeforeAndAfter) {
   // Along a line there is no map, and that is no failure.
   DiscrepancyReportData line = data();
   for (DiscrepancyReportRow& row : line.rows) row.position_mm.y() = 0.0;
-  EXPECT_FALSE(discrepancyMaps(line, {0, 100, 0, 80, 0, 11, 9}, time_s).has_value());
+  EXPECT_FALSE(discrepancyMaps(line.rows, {0, 100, 0, 80, 0, 11, 9}, time_s).has_value());
 }
 
 TEST(DiscrepancyReport, SaysWhatWasAddedAndWhatIsProposed) {
   DiscrepancyReportData d = data();
-  EXPECT_THAT(discrepancyReport("c", d, std::nullopt), Not(HasSubstr("(added to the model)")));
+  EXPECT_THAT(discrepancyDocument("c", d, std::nullopt).html(), Not(HasSubstr("(added to the model)")));
   d.user_adds = true;
-  const std::string html = discrepancyReport("c", d, FieldGrid{0, 100, 0, 80, 0, 11, 9});
+  const std::string html = discrepancyDocument("c", d, FieldGrid{0, 100, 0, 80, 0, 11, 9}).html();
   EXPECT_THAT(
       html,
       HasSubstr("Thermal expansion of the Y ball screw <small>ball_screw.expansion.y</small> (added to the model)"));
@@ -89,7 +91,7 @@ TEST(DiscrepancyReport, GapSaysPeakToPeakAndFitOfFittedAndHeldOutRows) {
   const GapFigures held_out = gapFigures(data().rows, true);
   EXPECT_EQ(held_out.p2p_before, 0.0);
   EXPECT_TRUE(std::isnan(held_out.fit_before_percent));
-  const std::string html = discrepancyReport("c", data(), std::nullopt);
+  const std::string html = discrepancyDocument("c", data(), std::nullopt).html();
   EXPECT_THAT(html, HasSubstr("largest peak-to-peak of one series, rows fitted"));
   EXPECT_THAT(html, HasSubstr("fit, rows fitted"));
   EXPECT_THAT(html, HasSubstr("largest peak-to-peak of one series, rows held out"));
@@ -98,7 +100,7 @@ TEST(DiscrepancyReport, GapSaysPeakToPeakAndFitOfFittedAndHeldOutRows) {
 TEST(DiscrepancyReport, WithoutHeldOutRowsTheFiguresAreOfBlocksLeftOut) {
   DiscrepancyReportData d = data();
   for (DiscrepancyReportRow& row : d.rows) row.held_out = false;
-  const std::string html = discrepancyReport("c", d, std::nullopt);
+  const std::string html = discrepancyDocument("c", d, std::nullopt).html();
   EXPECT_THAT(html, HasSubstr("rms of blocks of rows left out in turn"));
   EXPECT_THAT(html, HasSubstr("rms on blocks left out in turn"));
   EXPECT_THAT(html, Not(HasSubstr("rows held out")));
@@ -109,10 +111,10 @@ TEST(DiscrepancyReport, WhatWasAddedAndTakenOutAgainIsNotSaidToBeIn) {
   d.steps = {{"ball_screw.expansion.y", true, 50.0, 60.0, "gains"}, {"spindle.drift.x", true, 25.0, 30.0, "gains"}};
   EXPECT_FALSE(takenOutAgain(d.steps[0], d.effects));
   EXPECT_TRUE(takenOutAgain(d.steps[1], d.effects));
-  EXPECT_THAT(discrepancyReport("c", d, std::nullopt), HasSubstr("added, then taken out again"));
+  EXPECT_THAT(discrepancyDocument("c", d, std::nullopt).html(), HasSubstr("added, then taken out again"));
   d.verdict = DiscrepancyVerdict::Unknown;
   d.effects.clear();
-  EXPECT_THAT(discrepancyReport("c", d, std::nullopt), HasSubstr("with it too something remains"));
+  EXPECT_THAT(discrepancyDocument("c", d, std::nullopt).html(), HasSubstr("with it too something remains"));
 }
 
 TEST(DiscrepancyReport, TellsCandidatesNoiseShiftsOutliersAndRemainder) {
@@ -128,7 +130,7 @@ TEST(DiscrepancyReport, TellsCandidatesNoiseShiftsOutliersAndRemainder) {
   d.clock_offset_s = -312.0;
   d.clock_offset_uncertainty_s = 40.0;
   for (DiscrepancyReportRow& row : d.rows) row.remaining = row.component == Component::EY ? 0.8 : 0.0;
-  const std::string html = discrepancyReport("c", d, std::nullopt);
+  const std::string html = discrepancyDocument("c", d, std::nullopt).html();
   EXPECT_THAT(html, HasSubstr("71 %"));
   EXPECT_THAT(html, HasSubstr("&lt; 1 %"));
   EXPECT_THAT(html, HasSubstr("rival of what is named"));
@@ -142,7 +144,7 @@ TEST(DiscrepancyReport, TellsCandidatesNoiseShiftsOutliersAndRemainder) {
   EXPECT_THAT(html, HasSubstr("Remainder: 0.80"));
   EXPECT_THAT(html, Not(HasSubstr("nan")));
   // Nothing of it is said where nothing of it is known.
-  EXPECT_THAT(discrepancyReport("c", data(), std::nullopt), Not(HasSubstr("What was taken as noise")));
+  EXPECT_THAT(discrepancyDocument("c", data(), std::nullopt).html(), Not(HasSubstr("What was taken as noise")));
 }
 
 TEST(DiscrepancyReport, ProbabilitiesInPercentNeverSayCertain) {
@@ -166,9 +168,10 @@ TEST(DiscrepancyReport, ACandidateIsNamedBeforeItIsARival) {
 
 TEST(DiscrepancyReport, TheProbabilityOfARivalIsThatOfTheWholeSet) {
   DiscrepancyReportData d = data();
-  EXPECT_THAT(discrepancyReport("c", d, std::nullopt), HasSubstr("Probability that the name is right"));
+  EXPECT_THAT(discrepancyDocument("c", d, std::nullopt).html(), HasSubstr("Probability that the name is right"));
   d.effects[0].rivals = {"spindle.drift.y"};
-  EXPECT_THAT(discrepancyReport("c", d, std::nullopt), HasSubstr("Probability that it or one of its rivals is right"));
+  EXPECT_THAT(discrepancyDocument("c", d, std::nullopt).html(),
+              HasSubstr("Probability that it or one of its rivals is right"));
 }
 
 }  // namespace

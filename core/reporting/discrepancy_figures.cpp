@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/reporting/discrepancy_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/machine/interpolated_field.h"
+#include "core/reporting/heatmap_picture.h"
+#include "core/reporting/svg_plot.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double seconds_per_hour = 3600.0;
+
+}  // namespace
+
+std::optional<std::array<Field, 2>> discrepancyMaps(const std::vector<DiscrepancyReportRow>& data, FieldGrid table,
+                                                    double& time_s) {
+  // The readings of a component in order of time; a moment ends where a point comes a second time.
+  std::vector<std::vector<const DiscrepancyReportRow*>> moments;
+  for (const Component component : all_components) {
+    std::vector<const DiscrepancyReportRow*> rows;
+    for (const DiscrepancyReportRow& row : data)
+      if (row.component == component && std::isfinite(row.before) && std::isfinite(row.after)) rows.push_back(&row);
+    std::stable_sort(rows.begin(), rows.end(), [](const auto* a, const auto* b) { return a->time_s < b->time_s; });
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (i == 0 || !seen.insert(rows[i]->point).second) {
+        seen = {rows[i]->point};
+        moments.emplace_back();
+      }
+      moments.back().push_back(rows[i]);
+    }
+  }
+  const std::vector<const DiscrepancyReportRow*>* worst = nullptr;
+  double largest = 0.0;
+  for (const auto& moment : moments) {
+    double sum = 0.0;
+    for (const DiscrepancyReportRow* row : moment) sum += row->before * row->before / (row->sigma * row->sigma);
+    sum /= static_cast<double>(moment.size());
+    if (moment.size() < 3 || sum <= largest) continue;
+    largest = sum;
+    worst = &moment;
+  }
+  if (worst == nullptr) return std::nullopt;
+  const Component component = worst->front()->component;
+  time_s = worst->front()->time_s;
+  std::array<std::vector<ScatteredValue>, 2> values;
+  std::array<std::vector<Field::Marker>, 2> markers;
+  double z_mm = 0.0;
+  for (const DiscrepancyReportRow* row : *worst) {
+    z_mm += row->position_mm.z();
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double value = side == 0 ? row->before : row->after;
+      values[side].push_back({row->position_mm, value, row->sigma});
+      markers[side].push_back({row->point, row->position_mm, value, row->sigma, !row->held_out});
+    }
+  }
+  if (!spreadsOverPlane(values[0])) return std::nullopt;
+  table.z_mm = z_mm / static_cast<double>(values[0].size());
+  std::array<Field, 2> fields{fieldBetween(component, values[0], table), fieldBetween(component, values[1], table)};
+  for (std::size_t side = 0; side < 2; ++side) fields[side].markers = std::move(markers[side]);
+  return fields;
+}
+
+void addTimeHistories(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows,
+                      std::string_view completed) {
+  for (const Component component : all_components) {
+    PlotSeries before{"measured minus simulation", {}, {}, {}, SeriesStyle::Points};
+    PlotSeries after{fmt::format("measured minus {}", completed), {}, {}, {}, SeriesStyle::Points};
+    double holdout_from = std::nan("");
+    double last = 0.0;
+    for (const DiscrepancyReportRow& row : rows) {
+      if (row.component != component || !std::isfinite(row.before)) continue;
+      const double hours = row.time_s / seconds_per_hour;
+      before.x.push_back(hours);
+      before.y.push_back(row.before);
+      after.x.push_back(hours);
+      after.y.push_back(row.after);
+      last = std::max(last, hours);
+      if (row.held_out && !(holdout_from <= hours)) holdout_from = hours;
+    }
+    if (before.x.empty()) continue;
+    PlotOptions options{.title = std::string(toString(component)),
+                        .x_label = "time / h",
+                        .y_label = fmt::format("{} / {}", toString(component), unitOf(component)),
+                        .width_px = 860,
+                        .height_px = 240};
+    if (std::isfinite(holdout_from)) options.ranges.push_back({holdout_from, last, "held out"});
+    document.figure(svgPlot({before, after}, options),
+                    fmt::format("{} of all points over time, before and after", toString(component)));
+  }
+}
+
+void addDiscrepancyMaps(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows, const FieldGrid& table,
+                        std::string_view completed) {
+  double time_s = 0.0;
+  const auto maps = discrepancyMaps(rows, table, time_s);
+  if (!maps) return;
+  const double limit = roundLimit((*maps)[0].largestMagnitude());
+  const std::string name(toString((*maps)[0].component));
+  std::vector<std::string> pictures;
+  for (std::size_t side = 0; side < 2; ++side) {
+    HeatmapPictureOptions options;
+    options.width_px = 480;
+    options.title = fmt::format("{} {}", name, side == 0 ? "before" : "after");
+    options.subtitle = side == 0 ? "measured minus simulation" : fmt::format("measured minus {}", completed);
+    options.limit = limit;
+    options.legend = false;
+    pictures.push_back(heatmapSvg((*maps)[side], options));
+  }
+  document.figure(svgGrid(pictures, 2),
+                  fmt::format("{} over the table at {:.2f} h, where the gap is largest, before and after on one scale; "
+                              "between the points interpolated; {}",
+                              name, time_s / seconds_per_hour, heatmap_legend));
+}
+
+}  // namespace spindrift

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/reporting/simulation_update_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "core/base/text.h"
+#include "core/reporting/discrepancy_figures.h"
+
+namespace spindrift {
+
+std::vector<DiscrepancyReportRow> simulationUpdateRows(const DiscrepancyInput& input, const SimulationUpdate& update) {
+  const auto& rows = input.observations.rows;
+  struct Sums {
+    double weight = 0.0;
+    double before = 0.0;
+    double after = 0.0;
+  };
+  std::map<std::pair<std::string, Component>, Sums> series;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].use != ObservationUse::Fit || !std::isfinite(update.before[i]) || !std::isfinite(update.after[i]))
+      continue;
+    const double weight = 1.0 / (rows[i].sigma * rows[i].sigma);
+    Sums& sums = series[{rows[i].point, rows[i].component}];
+    sums.weight += weight;
+    sums.before += weight * (rows[i].value - update.before[i]);
+    sums.after += weight * (rows[i].value - update.after[i]);
+  }
+  std::vector<DiscrepancyReportRow> out;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Observation& o = rows[i];
+    if (o.use == ObservationUse::Exclude) continue;
+    const double none = std::nan("");
+    DiscrepancyReportRow row{
+        o.time_s, o.point, o.component, o.position_mm, o.sigma, none, none, o.use == ObservationUse::Holdout, o.value};
+    const auto sums = series.find({o.point, o.component});
+    if (sums != series.end() || input.absolute) {
+      const double weight = input.absolute ? 1.0 : sums->second.weight;
+      row.before = o.value - update.before[i] - (input.absolute ? 0.0 : sums->second.before / weight);
+      row.after = o.value - update.after[i] - (input.absolute ? 0.0 : sums->second.after / weight);
+    }
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+void addSimulationUpdate(HtmlDocument& document, const SimulationUpdate& update,
+                         const std::vector<DiscrepancyReportRow>& rows, const std::optional<FieldGrid>& table) {
+  document.subsection("Put into the simulation");
+  const char* kind = update.status != FitStatus::Converged ? "bad"
+                     : update.as_well_as_fitted_term       ? "good"
+                                                           : "attention";
+  document.verdict(kind, update.message);
+  if (!update.parameters.empty()) {
+    std::vector<std::vector<std::string>> lines;
+    for (const FittedSimulatorParameter& p : update.parameters) {
+      const SimulatorParameter& was = p.parameter;
+      std::string note = p.put_in ? "put in" : "adjusted within its uncertainty";
+      if (p.no_influence) note = "changes no prediction";
+      if (p.at_bound) note += ", at its bound";
+      const std::string before = was.standard_uncertainty > 0.0 && !p.put_in
+                                     ? withUncertainty(was.value, was.standard_uncertainty, was.unit)
+                                     : fmt::format("{:g} {}", was.value, was.unit);
+      lines.push_back({was.name, was.what, before,
+                       p.no_influence ? "\u2013" : withUncertainty(p.value, p.standard_uncertainty, was.unit), note});
+    }
+    document.table({"Parameter", "What", "Before", "After", ""}, lines,
+                   "Parameters of the simulation; after: value \u00b1 one standard uncertainty");
+  }
+  if (update.status == FitStatus::Converged || update.status == FitStatus::Rejected) {
+    const auto text = [](double value) { return std::isfinite(value) ? fmt::format("{:.2f}", value) : "\u2013"; };
+    document.table({"", "Simulation before", "Simulation after", "Fitted term instead", "Noise"},
+                   {{"Fitted states, rms / um", text(update.rms_before_um), text(update.rms_after_um),
+                     text(update.rms_fitted_term_um), text(update.noise_um)},
+                    {"Held-out states, rms / um", text(update.heldout_rms_before_um), text(update.heldout_rms_after_um),
+                     text(update.heldout_rms_fitted_term_um), text(update.noise_um)},
+                    {"Fitted states, peak-to-peak / um", text(update.p2p_before_um), text(update.p2p_after_um),
+                     "\u2013", "\u2013"}},
+                   "Measured minus the simulation's own runs, before and after");
+    if (table) addDiscrepancyMaps(document, rows, *table, "new simulation");
+    addTimeHistories(document, rows, "new simulation");
+  }
+  for (const std::string& warning : update.warnings) document.paragraph("Note: " + warning);
+  document.paragraph(fmt::format("{} runs of the simulation, {:.0f} s.", update.runs, update.elapsed_s));
+}
+
+}  // namespace spindrift
