@@ -83,11 +83,12 @@ DeckTemplate::DeckTemplate(const std::string& text, const std::filesystem::path&
     if (open == std::string::npos) return;
     const SourcePlace place{file, fmt::format("line {}", line)};
     const std::size_t close = text.find("}}", open);
-    const std::string inner(
-        trimmed(std::string_view(text).substr(open + 2, close == std::string::npos ? 0 : close - open - 2)));
-    if (close == std::string::npos || inner.find_first_of("{}\n") != std::string::npos) {
+    const std::string_view between =
+        close == std::string::npos ? std::string_view() : std::string_view(text).substr(open + 2, close - open - 2);
+    if (close == std::string::npos || between.find_first_of("{}\n") != std::string_view::npos) {
       throw InputError(place, "\"{{\" is not closed on its line; allowed: {{name}}, {{expression}} or {{table:NAME}}.");
     }
+    const std::string inner(trimmed(between));
     at = close + 2;
     if (inner.starts_with("table:")) {
       const std::string name(trimmed(std::string_view(inner).substr(6)));

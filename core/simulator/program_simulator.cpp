@@ -82,7 +82,8 @@ class RunFolder {
   bool kept_ = false;
 };
 
-/// Blanks and line ends as one blank, without a full stop at the end, not too long.
+/// What a program said, for the middle of a sentence: blanks and line ends as one blank, its own sentences parted by
+/// semicolons, without a full stop at the end, not too long.
 std::string oneLine(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -93,6 +94,10 @@ std::string oneLine(std::string_view text) {
       out += ' ';
     }
     if (out.size() > most_quoted) break;
+  }
+  for (std::size_t i = 0; i + 2 < out.size(); ++i) {
+    const bool begins = out[i + 2] == '*' || std::isupper(static_cast<unsigned char>(out[i + 2])) != 0;
+    if (out[i] == '.' && out[i + 1] == ' ' && begins) out[i] = ';';
   }
   if (out.size() > most_quoted) {
     std::size_t end = most_quoted - 3;
