@@ -289,15 +289,20 @@ nlohmann::json truthJson(const VirtualCampaign& campaign) {
   return json;
 }
 
-VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t> seed_option, const JobContext& job) {
-  const auto started = std::chrono::steady_clock::now();
+std::shared_ptr<const VirtualMachine> makeVirtualMachine(const Scenario& s, std::optional<std::uint64_t> seed_option,
+                                                         const JobContext& job) {
   const std::uint64_t seed = seed_option.value_or(s.seed);
   const Programme programme =
       s.programme ? *s.programme : randomProgramme(s.machine, s.random_programme, streamSeed(seed, Stream::Programme));
   const Environment environment(s.environment, s.duration_s, streamSeed(seed, Stream::Environment));
-  const std::uint64_t plant_seed = streamSeed(seed, Stream::Plant);
-  const auto plant_pointer = std::make_shared<const VirtualMachine>(
-      s.machine, programme, environment, s.physics, s.duration_s, plant_seed, job.part(0.0, s.simulation ? 0.45 : 0.9));
+  return std::make_shared<const VirtualMachine>(s.machine, programme, environment, s.physics, s.duration_s,
+                                                streamSeed(seed, Stream::Plant), job);
+}
+
+VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t> seed_option, const JobContext& job) {
+  const auto started = std::chrono::steady_clock::now();
+  const std::uint64_t seed = seed_option.value_or(s.seed);
+  const auto plant_pointer = makeVirtualMachine(s, seed, job.part(0.0, s.simulation ? 0.45 : 0.9));
   const VirtualMachine& plant = *plant_pointer;
 
   VirtualCampaign result;
@@ -360,8 +365,9 @@ VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t>
   if (s.simulation) {
     Random base_random(streamSeed(seed, Stream::Base));
     const double error = s.simulation->parameter_error;
-    const VirtualMachine simplified(s.machine, programme, environment, perturbed(s.physics, base_random, error),
-                                    s.duration_s, plant_seed, job.part(0.45, 0.9));
+    const VirtualMachine simplified(s.machine, plant.programme(), plant.environment(),
+                                    perturbed(s.physics, base_random, error), s.duration_s, plant.seed(),
+                                    job.part(0.45, 0.9));
     PlantEffectSettings settings;
     for (const std::string& id : truth.base) {
       const auto found = truth.settings.find(id);

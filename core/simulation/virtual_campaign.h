@@ -69,6 +69,11 @@ struct VirtualCampaign {
   double elapsed_ms = 0.0;
 };
 
+/// The machine of a scenario with its programme and its room; runs the heat flow. `seed` replaces that of the scenario.
+[[nodiscard]] std::shared_ptr<const VirtualMachine> makeVirtualMachine(const Scenario& scenario,
+                                                                       std::optional<std::uint64_t> seed,
+                                                                       const JobContext& job);
+
 /// Deterministic: the same scenario and seed give the same campaign. `seed` replaces that of the scenario.
 [[nodiscard]] VirtualCampaign simulateCampaign(const Scenario& scenario, std::optional<std::uint64_t> seed,
                                                const JobContext& job);
