@@ -92,10 +92,9 @@ int BrickMesh::brickOf(const Cell& cell) const {
 
 void BrickMesh::makeElements() {
   const std::array<int, 3> nodes_along{cellCount(0) + 1, cellCount(1) + 1, cellCount(2) + 1};
-  std::vector<long> node_at(
-      static_cast<std::size_t>(nodes_along[0]) * static_cast<std::size_t>(nodes_along[1]) *
-          static_cast<std::size_t>(nodes_along[2]),
-      -1);
+  std::vector<long> node_at(static_cast<std::size_t>(nodes_along[0]) * static_cast<std::size_t>(nodes_along[1]) *
+                                static_cast<std::size_t>(nodes_along[2]),
+                            -1);
   const auto cell_total = static_cast<std::size_t>(cellCount(0)) * static_cast<std::size_t>(cellCount(1)) *
                           static_cast<std::size_t>(cellCount(2));
   brick_of_cell_.assign(cell_total, -1);
@@ -110,8 +109,8 @@ void BrickMesh::makeElements() {
           centre[static_cast<Eigen::Index>(axis)] = 0.5 * (plane(axis, cell[axis]) + plane(axis, cell[axis] + 1));
         }
         for (std::size_t b = bricks_.size(); b-- > 0;) {
-          const bool inside = (centre.array() > bricks_[b].low_mm.array()).all() &&
-                              (centre.array() < bricks_[b].high_mm.array()).all();
+          const bool inside =
+              (centre.array() > bricks_[b].low_mm.array()).all() && (centre.array() < bricks_[b].high_mm.array()).all();
           if (!inside) continue;
           brick_of_cell_[cellIndex(cell)] = static_cast<int>(b);
           break;
@@ -124,8 +123,7 @@ void BrickMesh::makeElements() {
         for (std::size_t corner = 0; corner < 8; ++corner) {
           std::array<int, 3> at{};
           for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = cell[axis] + corner_offsets[corner][axis];
-          long& node =
-              node_at[static_cast<std::size_t>(at[0] + nodes_along[0] * (at[1] + nodes_along[1] * at[2]))];
+          long& node = node_at[static_cast<std::size_t>(at[0] + nodes_along[0] * (at[1] + nodes_along[1] * at[2]))];
           if (node < 0) {
             node = static_cast<long>(nodes_mm_.size());
             nodes_mm_.emplace_back(plane(0, at[0]), plane(1, at[1]), plane(2, at[2]));
@@ -173,7 +171,8 @@ std::vector<std::pair<std::size_t, double>> BrickMesh::weightsAt(const Eigen::Ve
     const double at = place_mm[static_cast<Eigen::Index>(axis)];
     const std::vector<double>& planes = planes_mm_[axis];
     for (std::size_t k = 0; k + 1 < planes.size(); ++k) {
-      if (at > planes[k] - same_plane_mm && at < planes[k + 1] + same_plane_mm) near[axis].push_back(static_cast<int>(k));
+      if (at > planes[k] - same_plane_mm && at < planes[k + 1] + same_plane_mm)
+        near[axis].push_back(static_cast<int>(k));
     }
   }
   for (const int i : near[0]) {
@@ -186,8 +185,8 @@ std::vector<std::pair<std::size_t, double>> BrickMesh::weightsAt(const Eigen::Ve
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const std::vector<double>& planes = planes_mm_[axis];
           const auto c = static_cast<std::size_t>(cell[axis]);
-          part[axis] = std::clamp(
-              (place_mm[static_cast<Eigen::Index>(axis)] - planes[c]) / (planes[c + 1] - planes[c]), 0.0, 1.0);
+          part[axis] = std::clamp((place_mm[static_cast<Eigen::Index>(axis)] - planes[c]) / (planes[c + 1] - planes[c]),
+                                  0.0, 1.0);
         }
         std::vector<std::pair<std::size_t, double>> out;
         const BrickElement& element = elements_[static_cast<std::size_t>(e)];
@@ -202,9 +201,10 @@ std::vector<std::pair<std::size_t, double>> BrickMesh::weightsAt(const Eigen::Ve
       }
     }
   }
-  throw InputError(fmt::format("There is no material at ({:.6g}, {:.6g}, {:.6g}) mm of the machine's mesh; allowed: a "
-                               "place in or on it.",
-                               place_mm.x(), place_mm.y(), place_mm.z()));
+  throw InputError(
+      fmt::format("There is no material at ({:.6g}, {:.6g}, {:.6g}) mm of the machine's mesh; allowed: a "
+                  "place in or on it.",
+                  place_mm.x(), place_mm.y(), place_mm.z()));
 }
 
 }  // namespace spindrift

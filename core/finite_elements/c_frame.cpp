@@ -126,13 +126,20 @@ nlohmann::json gapJson(const std::vector<SimulationRow>& measured, const std::ve
 }
 
 nlohmann::json dimensionsJson(const CFrameDimensions& d) {
-  return {{"bed_half_width_mm", d.bed_half_width_mm},   {"bed_height_mm", d.bed_height_mm},
-          {"bed_wall_mm", d.bed_wall_mm},               {"saddle_height_mm", d.saddle_height_mm},
-          {"table_thickness_mm", d.table_thickness_mm}, {"column_half_width_mm", d.column_half_width_mm},
-          {"column_front_mm", d.column_front_mm},       {"column_depth_mm", d.column_depth_mm},
-          {"column_top_mm", d.column_top_mm},           {"column_wall_mm", d.column_wall_mm},
-          {"head_half_width_mm", d.head_half_width_mm}, {"head_front_mm", d.head_front_mm},
-          {"head_top_mm", d.head_top_mm},               {"front_bearing_mm", d.front_bearing_mm},
+  return {{"bed_half_width_mm", d.bed_half_width_mm},
+          {"bed_height_mm", d.bed_height_mm},
+          {"bed_wall_mm", d.bed_wall_mm},
+          {"saddle_height_mm", d.saddle_height_mm},
+          {"table_thickness_mm", d.table_thickness_mm},
+          {"column_half_width_mm", d.column_half_width_mm},
+          {"column_front_mm", d.column_front_mm},
+          {"column_depth_mm", d.column_depth_mm},
+          {"column_top_mm", d.column_top_mm},
+          {"column_wall_mm", d.column_wall_mm},
+          {"head_half_width_mm", d.head_half_width_mm},
+          {"head_front_mm", d.head_front_mm},
+          {"head_top_mm", d.head_top_mm},
+          {"front_bearing_mm", d.front_bearing_mm},
           {"rear_bearing_mm", d.rear_bearing_mm}};
 }
 
@@ -196,8 +203,7 @@ const std::vector<std::string>& cFrameStoryNames() {
 }
 
 std::optional<CFrameStory> cFrameStoryFromString(std::string_view name) noexcept {
-  for (const CFrameStory story :
-       {CFrameStory::Sun, CFrameStory::Friction, CFrameStory::Coolant, CFrameStory::Room}) {
+  for (const CFrameStory story : {CFrameStory::Sun, CFrameStory::Friction, CFrameStory::Coolant, CFrameStory::Room}) {
     if (toString(story) == name) return story;
   }
   return std::nullopt;
@@ -225,7 +231,8 @@ OperatingLog cFrameLog(double duration_s, std::uint64_t seed) {
     rpm.push_back(now->rpm);
     coolant.push_back(now->coolant ? 1.0 : 0.0);
     // Rises until the afternoon, with the beat of the ventilation and the dip that the gate makes.
-    double degC = morning_degC + rise_K * std::pow(std::sin(0.5 * std::numbers::pi * std::min(minute / 400.0, 1.0)), 2) +
+    double degC = morning_degC +
+                  rise_K * std::pow(std::sin(0.5 * std::numbers::pi * std::min(minute / 400.0, 1.0)), 2) +
                   0.18 * (std::sin(2.0 * std::numbers::pi * minute / 34.0 + phase) - std::sin(phase));
     if (minute > gate_min) degC -= 1.1 * std::exp(-(minute - gate_min) / 18.0);
     room.push_back(rounded(degC + random.normal(0.0, 0.02), 0.01));
@@ -314,6 +321,7 @@ CFrameCampaign writeCFrameCampaign(CFrameStory story, const std::filesystem::pat
                {"gap", gapJson(measurement, simulation, last_fitted_s)},
                {"gap_with_hidden", gapJson(measurement, completed, last_fitted_s)},
                {"effect", gapJson(completed, simulation, last_fitted_s)}};
+  const bool new_folder = !std::filesystem::exists(folder);
   const nlohmann::json campaign{{"format", "spindrift-campaign"},
                                 {"version", 1},
                                 {"name", fmt::format("C-frame machining centre, finite elements: {}", toString(story))},
@@ -335,6 +343,7 @@ CFrameCampaign writeCFrameCampaign(CFrameStory story, const std::filesystem::pat
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
       std::filesystem::remove_all(entry.path(), ignored);
     }
+    if (new_folder) std::filesystem::remove(folder, ignored);
     std::filesystem::remove(truthFile(folder), ignored);
     throw;
   }

@@ -2,10 +2,10 @@
 // Campaigns of the finite-element example machine (c_frame_machine.h, c_frame_deck.h) whose simulation lacks one cause.
 //
 // What was "measured" comes from CalculiX as well, but from another model of the machine than the simulation's: a finer
-// mesh, half the increment, dimensions of the castings about 1 %, films and conductivity some per cent off, and with the
-// cause of the story switched on; noise 0.5 um and 2 urad is added. The simulation of the campaign is the coarse deck
-// with that cause switched off (0). A shop's day of eight hours: speeds with pauses, coolant in phases, a room that
-// drifts. The last 30 % of the states are held out.
+// mesh, half the increment, dimensions of the castings about 1 %, films and conductivity some per cent off, and with
+// the cause of the story switched on; noise 0.5 um and 2 urad is added. The simulation of the campaign is the coarse
+// deck with that cause switched off (0). A shop's day of eight hours: speeds with pauses, coolant in phases, a room
+// that drifts. The last 30 % of the states are held out.
 //
 //   sun       sun on the front of the column, its begin and end inside the fitted part
 //   friction  friction in the spindle's bearings

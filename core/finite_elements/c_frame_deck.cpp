@@ -37,18 +37,52 @@ const std::vector<Parameter>& parameterTable() {
       {"cp_iron", 500.0, "J/kg/K", 20.0, 20.0, 400.0, 620.0, "heat capacity of grey iron", {}},
       {"alpha_iron", 10.8, "um/m/K", 0.3, 0.3, 8.0, 14.0, "expansion of grey iron", {}},
       {"alpha_steel", 11.6, "um/m/K", 0.3, 0.3, 9.0, 14.0, "expansion of the spindle's steel", {}},
-      {"friction", 7.0, "kW/m3 at 1000 rpm", 0.7, 5.0, 0.0, 60.0,
+      {"friction",
+       7.0,
+       "kW/m3 at 1000 rpm",
+       0.7,
+       5.0,
+       0.0,
+       60.0,
        "friction heat in the spindle's bearings, grows with speed^1.5",
        {"spindle.growth.z", "spindle.drift.y", "head.tilt.a"}},
-      {"motor", 0.0, "kW/m3 at 1000 rpm", 2.0, 5.0, 0.0, 80.0, "loss of the spindle's motor, grows with speed",
+      {"motor",
+       0.0,
+       "kW/m3 at 1000 rpm",
+       2.0,
+       5.0,
+       0.0,
+       80.0,
+       "loss of the spindle's motor, grows with speed",
        {"head.tilt.a", "spindle.drift.y", "column.bending.a"}},
-      {"room_gain", 1.0, "1", 0.05, 1.0, 0.0, 2.0, "share of the room's change that reaches the machine",
+      {"room_gain",
+       1.0,
+       "1",
+       0.05,
+       1.0,
+       0.0,
+       2.0,
+       "share of the room's change that reaches the machine",
        {"ambient.drift.x", "ambient.drift.y", "ambient.drift.z", "column.expansion.z", "frame.rotation.a"}},
-      {"sun_front", 0.0, "W/m2", 10.0, 60.0, 0.0, 600.0, "heat that the column's front takes up from the sun",
+      {"sun_front",
+       0.0,
+       "W/m2",
+       10.0,
+       60.0,
+       0.0,
+       600.0,
+       "heat that the column's front takes up from the sun",
        {"external_heat.a", "external_heat.z", "column.bending.a"}},
       {"sun_on_s", 0.0, "s", 3600.0, 3600.0, 0.0, end, "begin of the sun", {}},
       {"sun_off_s", end, "s", 3600.0, 3600.0, 0.0, end, "end of the sun", {}},
-      {"h_coolant", 0.0, "W/m2/K", 20.0, 150.0, 0.0, 2000.0, "film of the coolant on the table while it runs",
+      {"h_coolant",
+       0.0,
+       "W/m2/K",
+       20.0,
+       150.0,
+       0.0,
+       2000.0,
+       "film of the coolant on the table while it runs",
        {"table.expansion.xy", "coolant.shock.x", "coolant.shock.y", "coolant.shock.z"}},
       {"coolant_K", -4.0, "K", 0.5, 0.5, -15.0, 15.0, "coolant minus start temperature", {}},
   };
@@ -101,11 +135,12 @@ std::string heatTemplate(const CFrameDeckOptions& options, const CFrameMachine& 
     fmt::format_to(out, "{}, F{}, {{{{room_gain}}}}, {{{{{}*1e-3}}}}\n", name, group.side,
                    group.in_cavity ? inner_film : outer_film);
   }
-  text += "** coolant while it runs\n*FILM, FILM AMPLITUDE=COOLANT\nWET_2, F2, {{coolant_K}}, {{h_coolant*1e-3}}\n"
-          "** losses of bearings and motor, sun\n"
-          "*DFLUX, AMPLITUDE=FRICTION\nBEARING, BF, {{friction*1e-3}}\n"
-          "*DFLUX, AMPLITUDE=MOTOR\nMOTOR, BF, {{motor*1e-3}}\n"
-          "*DFLUX, AMPLITUDE=SUN\nSUN_3, S3, {{sun_front*1e-3}}\n";
+  text +=
+      "** coolant while it runs\n*FILM, FILM AMPLITUDE=COOLANT\nWET_2, F2, {{coolant_K}}, {{h_coolant*1e-3}}\n"
+      "** losses of bearings and motor, sun\n"
+      "*DFLUX, AMPLITUDE=FRICTION\nBEARING, BF, {{friction*1e-3}}\n"
+      "*DFLUX, AMPLITUDE=MOTOR\nMOTOR, BF, {{motor*1e-3}}\n"
+      "*DFLUX, AMPLITUDE=SUN\nSUN_3, S3, {{sun_front*1e-3}}\n";
   text += wanted;
   text += "** the loads stay, one step per state\n";
   for (int k = 1; k < options.states; ++k) text += step + wanted;
@@ -121,9 +156,8 @@ std::string mechTemplate(const CFrameDeckOptions& options, const CFrameMachine& 
                  "** one step per state; BSTEP counts the steps of heat.inp\n",
                  feet[0] + 1, feet[1] + 1, feet[2] + 1);
   for (int k = 1; k <= options.states; ++k) {
-    fmt::format_to(out,
-                   "*STEP\n*STATIC\n*TEMPERATURE, FILE=heat.frd, BSTEP={}\n*NODE PRINT, NSET=OBSERVED\nU\n*END STEP\n",
-                   k);
+    fmt::format_to(
+        out, "*STEP\n*STATIC\n*TEMPERATURE, FILE=heat.frd, BSTEP={}\n*NODE PRINT, NSET=OBSERVED\nU\n*END STEP\n", k);
   }
   return text;
 }
@@ -160,8 +194,11 @@ nlohmann::json simulatorJson(const CFrameDeckOptions& options) {
                           {"effects", p.effects}});
   }
   const auto speed = [](double power) {
-    return nlohmann::json{{"column", "spindle_rpm"}, {"between_rows", "hold"}, {"divide_by", 1000.0},
-                          {"power", power},          {"mean_over_increment", true}};
+    return nlohmann::json{{"column", "spindle_rpm"},
+                          {"between_rows", "hold"},
+                          {"divide_by", 1000.0},
+                          {"power", power},
+                          {"mean_over_increment", true}};
   };
   return {
       {"format", "spindrift-simulator"},

@@ -3,13 +3,14 @@
 // simulator.json of kind "calculix" describes it.
 //
 //   heat.inp: rho c dT/dt = div(k grad T) + q, implicit with a fixed increment, one step per state
-//             films on all free faces (air at room_gain x change of the room; the coolant on the middle of the table while
-//             it runs), friction in both bearings ~ speed^1.5, loss of the motor ~ speed, sun on the column's front
+//             films on all free faces (air at room_gain x change of the room; the coolant on the middle of the table
+//             while it runs), friction in both bearings ~ speed^1.5, loss of the motor ~ speed, sun on the column's
+//             front
 //   mech.inp: linear statics with the temperatures of each state, free of stress at the start, three feet
 //
-// Units of the deck: mm, t, s, N, MPa, mW, K. Temperatures count from the start of the campaign, so that the first state
-// is zero and the answer is linear in every load but those that change a film. CalculiX takes a load at the end of an
-// increment for all of it: what switches is given as its mean over the increment.
+// Units of the deck: mm, t, s, N, MPa, mW, K. Temperatures count from the start of the campaign, so that the first
+// state is zero and the answer is linear in every load but those that change a film. CalculiX takes a load at the end
+// of an increment for all of it: what switches is given as its mean over the increment.
 //
 // Left out: screws, scales and guideways with play or friction of their own; joints conduct perfectly; a film that runs
 // part of the time (coolant) leaves its faces without air while it does not.

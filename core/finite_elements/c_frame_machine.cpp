@@ -205,8 +205,7 @@ void CFrameMachine::observe() {
     const double y = d.column_front_mm;
     const double low = height_mm - d.carriage_half_length_mm;
     const double high = height_mm + d.carriage_half_length_mm;
-    return rigidMotion(mesh_, std::array<Eigen::Vector3d, 4>{
-                                  {{-x, y, low}, {x, y, low}, {x, y, high}, {-x, y, high}}});
+    return rigidMotion(mesh_, std::array<Eigen::Vector3d, 4>{{{-x, y, low}, {x, y, low}, {x, y, high}, {-x, y, high}}});
   };
   // The spindle turns as its nose and the end of its front bearing do, and stands where its nose stands.
   std::vector<Eigen::Vector3d> around;
@@ -280,8 +279,9 @@ std::array<std::size_t, 3> CFrameMachine::feet() const {
 }
 
 std::string CFrameMachine::meshText() const {
-  std::string text = "** C-frame machining centre, mm, frame of the mesh: axes of the machine, origin on top of the "
-                     "table under the spindle\n*NODE, NSET=ALL\n";
+  std::string text =
+      "** C-frame machining centre, mm, frame of the mesh: axes of the machine, origin on top of the "
+      "table under the spindle\n*NODE, NSET=ALL\n";
   const auto out = std::back_inserter(text);
   for (std::size_t i = 0; i < mesh_.nodes_mm().size(); ++i) {
     const Eigen::Vector3d& p = mesh_.nodes_mm()[i];

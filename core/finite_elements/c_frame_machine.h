@@ -8,8 +8,9 @@
 //
 // Deviation at the commanded position (x, y, z), from the displacements u of ONE pose (small motions, all linear in u):
 //
-//   tool  = carriage where it stands for z, as a lever to the tip + the head's own change, tip minus carriage, as meshed
-//   table = u at the place of the table's top that is under the tool + its turn there x the height z of the target
+//   tool  = carriage where it stands for z, as a lever to the tip + the head's own change, tip minus carriage, as
+//   meshed table = u at the place of the table's top that is under the tool + its turn there x the height z of the
+//   target
 //           + turn of the saddle's guideways x travel along X + turn of the bed's guideways x travel along Y
 //
 // EX, EY, EZ = tool - table; EA, EB = turn of carriage and spindle - turn of the table's top. Displacement and turn of
@@ -60,7 +61,7 @@ struct CFrameDimensions {
   double rear_bearing_mm = 60.0;
   double motor_height_mm = 180.0;  ///< on top of the spindle
   double tool_length_mm = 110.0;
-  double guide_half_width_mm = 200.0;   ///< of the column's guideways, from the middle
+  double guide_half_width_mm = 200.0;  ///< of the column's guideways, from the middle
   double carriage_half_length_mm = 150.0;
 
   [[nodiscard]] double bedRear_mm() const { return column_front_mm + column_depth_mm + bed_rear_mm; }

@@ -62,8 +62,8 @@ std::string endOf(const std::string& printed) {
   return out;
 }
 
-/// Mean over (from, to] of f(signal), exact for a signal that holds between the rows, by the trapezium rule for one that
-/// is interpolated.
+/// Mean over (from, to] of f(signal), exact for a signal that holds between the rows, by the trapezium rule for one
+/// that is interpolated.
 template <typename Function>
 double meanOver(const OperatingLog& log, const std::string& column, bool hold, double from, double to,
                 const Function& f) {
@@ -116,7 +116,9 @@ std::map<std::string, std::string> deckTables(const CFrameDeck& deck, const Oper
       const bool hold = table.at("between_rows") == "hold";
       const double divide_by = table.value("divide_by", 1.0);
       const double power = table.value("power", 1.0);
-      const auto f = [&](double value) { return power == 1.0 ? value / divide_by : std::pow(value / divide_by, power); };
+      const auto f = [&](double value) {
+        return power == 1.0 ? value / divide_by : std::pow(value / divide_by, power);
+      };
       at_end.push_back(f(log.at(column, 0.0)));
       for (long k = 1; k <= increments; ++k) {
         const double to = static_cast<double>(k) * step;
@@ -186,13 +188,11 @@ void runCalculix(const std::filesystem::path& folder, const std::string& job_nam
   std::string deck = job_name;
   std::array<char*, 4> arguments{name.data(), option.data(), deck.data(), nullptr};
   pid_t child = 0;
-  const int status_of_spawn =
-      posix_spawnp(&child, program, &actions, nullptr, arguments.data(), environment.data());
+  const int status_of_spawn = posix_spawnp(&child, program, &actions, nullptr, arguments.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
   if (status_of_spawn != 0) {
-    throw InputError(
-        fmt::format("The finite-element program CalculiX ({}) cannot be run ({}): install calculix-ccx.", program,
-                    std::strerror(status_of_spawn)));
+    throw InputError(fmt::format("The finite-element program CalculiX ({}) cannot be run ({}): install calculix-ccx.",
+                                 program, std::strerror(status_of_spawn)));
   }
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(time_limit_s);
   int status = 0;
@@ -205,7 +205,8 @@ void runCalculix(const std::filesystem::path& folder, const std::string& job_nam
       kill(child, SIGKILL);
       waitpid(child, &status, 0);
       job.throwIfCancelled();
-      throw InputError(fmt::format("CalculiX ({} -i {}) did not end within {:.0f} s.", program, job_name, time_limit_s));
+      throw InputError(
+          fmt::format("CalculiX ({} -i {}) did not end within {:.0f} s.", program, job_name, time_limit_s));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
