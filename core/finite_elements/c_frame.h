@@ -35,8 +35,8 @@ enum class CFrameStory { Sun, Friction, Coolant, Room };
 [[nodiscard]] const std::vector<std::string>& cFrameStoryNames();
 
 struct CFrameCampaignOptions {
-  double coarse_cell_mm = 120.0;  ///< of the simulation
-  double fine_cell_mm = 70.0;     ///< of what is "measured"
+  double coarse_cell_mm = 110.0;  ///< of the simulation
+  double fine_cell_mm = 60.0;     ///< of what is "measured"
   int states = 32;                ///< after the first
   double state_interval_s = 900.0;
   double increment_s = 300.0;  ///< of the simulation; half of it for what is measured

@@ -33,7 +33,7 @@ using CFrameValues = std::map<std::string, double>;
 
 struct CFrameDeckOptions {
   CFrameDimensions dimensions;
-  double largest_cell_mm = 120.0;  ///< about 2,400 nodes
+  double largest_cell_mm = 110.0;  ///< about 2,800 nodes
   CFrameValues values;             ///< in place of those of the example
   int states = 32;
   double state_interval_s = 900.0;

@@ -53,10 +53,10 @@ std::vector<Brick> bricksOf(const CFrameDimensions& d) {
   return out;
 }
 
-/// Planes at the edges of loaded areas that no brick has: the coolant's on the table.
+/// Planes that no brick has: through the heated spindle, which needs two cells, and at the edge of the coolant.
 BrickMesh::Planes furtherPlanes(const CFrameDimensions& d) {
   const double wet_y = d.table_half_width_mm - d.table_rim_mm;
-  return {std::vector<double>{}, {-wet_y, wet_y}, {}};
+  return {std::vector<double>{0.0}, {-wet_y, wet_y}, {}};
 }
 
 /// A number that is linear in the displacements of nodes.
