@@ -256,7 +256,7 @@ CFrameValues hiddenValues(CFrameStory story, double duration_s) {
     case CFrameStory::Sun:
       return {{"sun_front", 90.0}, {"sun_on_s", 0.19 * duration_s}, {"sun_off_s", 0.5 * duration_s}};
     case CFrameStory::Friction:
-      return {{"friction", 1.8}};
+      return {{"friction", 1.6}};
     case CFrameStory::Coolant:
       return {{"h_coolant", 180.0}};
     case CFrameStory::Room:

@@ -38,7 +38,7 @@ const std::vector<Parameter>& parameterTable() {
       {"alpha_iron", 10.8, "um/m/K", 0.3, 0.3, 8.0, 14.0, "expansion of grey iron", {}},
       {"alpha_steel", 11.6, "um/m/K", 0.3, 0.3, 9.0, 14.0, "expansion of the spindle's steel", {}},
       {"friction",
-       1.8,
+       1.6,
        "kW/m3 at 1000 rpm",
        0.15,
        1.5,
