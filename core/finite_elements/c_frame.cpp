@@ -58,8 +58,9 @@ std::string logCsv(const OperatingLog& log) {
   return text;
 }
 
-double rounded(double value, double to) {
-  return std::round(value / to) * to;
+/// To whole parts, `parts` to one.
+double rounded(double value, double parts) {
+  return std::round(value * parts) / parts;
 }
 
 /// The machine that stands in the shop: nothing of it is quite as in the simulation.
@@ -73,16 +74,16 @@ CFrameDeckOptions measuredMachine(const CFrameDeckOptions& simulated, const CFra
        {&d.bed_half_width_mm, &d.bed_height_mm, &d.bed_wall_mm, &d.saddle_height_mm, &d.table_thickness_mm,
         &d.column_half_width_mm, &d.column_front_mm, &d.column_depth_mm, &d.column_top_mm, &d.column_wall_mm,
         &d.head_half_width_mm, &d.head_front_mm, &d.head_top_mm, &d.front_bearing_mm, &d.rear_bearing_mm}) {
-    *size = rounded(*size * random.uniform(0.99, 1.01), 0.1);
+    *size = rounded(*size * random.uniform(0.99, 1.01), 10.0);
   }
   CFrameValues values = cFrameValues();
   for (const auto& [name, value] : simulated.values) values[name] = value;
-  const auto scaled = [&](const char* name, double part, double to) {
-    values[name] = rounded(values[name] * random.uniform(1.0 - part, 1.0 + part), to);
+  const auto scaled = [&](const char* name, double part, double parts) {
+    values[name] = rounded(values[name] * random.uniform(1.0 - part, 1.0 + part), parts);
   };
-  scaled("h_air", 0.05, 0.01);
-  scaled("h_inside", 0.05, 0.01);
-  scaled("k_iron", 0.03, 0.1);
+  scaled("h_air", 0.05, 100.0);
+  scaled("h_inside", 0.05, 100.0);
+  scaled("k_iron", 0.03, 10.0);
   scaled("cp_iron", 0.01, 1.0);
   for (const auto& [name, value] : hidden) values[name] = value;
   out.values = values;
@@ -115,14 +116,14 @@ nlohmann::json gapJson(const std::vector<SimulationRow>& measured, const std::ve
     if (kind == 0) largest_um = std::max(largest_um, std::abs(gap));
   }
   const auto rms = [&](std::size_t kind, std::size_t part) {
-    return count[kind][part] > 0.0 ? nlohmann::json(rounded(std::sqrt(sum[kind][part] / count[kind][part]), 1e-4))
+    return count[kind][part] > 0.0 ? nlohmann::json(rounded(std::sqrt(sum[kind][part] / count[kind][part]), 1e4))
                                    : nlohmann::json();
   };
   return {{"fit_rms_um", rms(0, 0)},
           {"heldout_rms_um", rms(0, 1)},
           {"fit_rms_urad", rms(1, 0)},
           {"heldout_rms_urad", rms(1, 1)},
-          {"largest_um", rounded(largest_um, 1e-4)}};
+          {"largest_um", rounded(largest_um, 1e4)}};
 }
 
 nlohmann::json dimensionsJson(const CFrameDimensions& d) {
@@ -160,7 +161,7 @@ ObservationSet observe(const std::vector<SimulationRow>& measured, const CFrameC
         row.position_mm = point.position_mm;
         row.component = c;
         row.sigma = isRotation(c) ? options.noise_urad : options.noise_um;
-        row.value = rounded(found->second + random.normal(0.0, row.sigma), 1e-4);
+        row.value = rounded(found->second + random.normal(0.0, row.sigma), 1e4);
         row.instrument = isRotation(c) ? "autocollimator" : "microscope";
         row.use = time_s > last_fitted_s ? ObservationUse::Holdout : ObservationUse::Fit;
         out.rows.push_back(row);
@@ -235,7 +236,7 @@ OperatingLog cFrameLog(double duration_s, std::uint64_t seed) {
                   rise_K * std::pow(std::sin(0.5 * std::numbers::pi * std::min(minute / 400.0, 1.0)), 2) +
                   0.18 * (std::sin(2.0 * std::numbers::pi * minute / 34.0 + phase) - std::sin(phase));
     if (minute > gate_min) degC -= 1.1 * std::exp(-(minute - gate_min) / 18.0);
-    room.push_back(rounded(degC + random.normal(0.0, 0.02), 0.01));
+    room.push_back(rounded(degC + random.normal(0.0, 0.02), 100.0));
   }
   OperatingLog log(std::move(time_s));
   log.setSignal("spindle_rpm", std::move(rpm));
