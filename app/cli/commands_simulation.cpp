@@ -7,6 +7,9 @@
 
 #include "app/cli/command.h"
 #include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/finite_elements/c_frame.h"
 #include "core/simulation/virtual_campaign.h"
 
 namespace spindrift::cli {
@@ -14,6 +17,7 @@ namespace {
 
 struct SimulateArguments {
   std::string scenario;
+  std::string c_frame;
   std::string out;
   std::string truth;
   std::uint64_t seed = 0;
@@ -28,7 +32,40 @@ std::string durationText(double ms) {
   return fmt::format("{} min {} s", seconds / 60, seconds % 60);
 }
 
+/// The finite-element machine with one cause left out of its simulation.
+CommandResult simulateCFrame(const SimulateArguments& arguments, JobContext& job) {
+  const auto story = cFrameStoryFromString(arguments.c_frame);
+  if (!story) {
+    throw InputError(fmt::format("--c-frame \"{}\" is not known; allowed: {}.", arguments.c_frame,
+                                 joinedList(cFrameStoryNames(), "or")));
+  }
+  const std::uint64_t seed = arguments.has_seed ? arguments.seed : 1;
+  const CFrameCampaign campaign = writeCFrameCampaign(*story, arguments.out, seed, job);
+  if (!arguments.truth.empty()) writeFileAtomically(arguments.truth, campaign.truth.dump(1) + "\n");
+  CommandResult result;
+  result.json = {{"campaign", arguments.out},
+                 {"seed", seed},
+                 {"story", toString(*story)},
+                 {"observations", campaign.observations},
+                 {"simulation_rows", campaign.simulation_rows},
+                 {"simulation_nodes", campaign.coarse_nodes},
+                 {"simulation_run_ms", 1e3 * campaign.coarse_s},
+                 {"measured_nodes", campaign.fine_nodes},
+                 {"measured_run_ms", 1e3 * campaign.fine_s},
+                 {"elapsed_ms", 1e3 * campaign.elapsed_s}};
+  result.summary = fmt::format(
+      "{}: finite-element machine, story {}: {} observations from {} nodes, simulation from {} nodes ({} a run), "
+      "written in {}",
+      arguments.out, toString(*story), campaign.observations, campaign.fine_nodes, campaign.coarse_nodes,
+      durationText(1e3 * campaign.coarse_s), durationText(1e3 * campaign.elapsed_s));
+  return result;
+}
+
 CommandResult simulate(const SimulateArguments& arguments, JobContext& job) {
+  if (arguments.scenario.empty() == arguments.c_frame.empty()) {
+    throw InputError("Nothing to simulate is given, or two things; allowed: a SCENARIO or --c-frame.");
+  }
+  if (!arguments.c_frame.empty()) return simulateCFrame(arguments, job);
   const Scenario scenario = Scenario::read(arguments.scenario);
   // Rendering images and clouds takes nearly all of the time where there are any.
   const double part_of_plant = scenario.microscope || scenario.profiler ? 0.02 : 0.8;
@@ -74,7 +111,13 @@ void addSimulationCommands(CLI::App& app, CommandLine& line) {
   CLI::App* command = addCommand(app, line, "simulate",
                                  "Run the virtual machine and write a campaign as a real machine would have left it",
                                  [arguments](JobContext& job) { return simulate(*arguments, job); });
-  command->add_option("SCENARIO", arguments->scenario, "Scenario (JSON, format spindrift-scenario)")->required();
+  command->add_option("SCENARIO", arguments->scenario, "Scenario (JSON, format spindrift-scenario)");
+  command
+      ->add_option(
+          "--c-frame", arguments->c_frame,
+          "In place of a scenario: a machining centre in CalculiX (has to be installed) whose simulation lacks "
+          "one cause, sun, friction, coolant or room; the truth is written to <out>.truth.json")
+      ->type_name("STORY");
   command->add_option("--out", arguments->out, "Folder of the campaign: new or empty")->required()->type_name("DIR");
   command->add_option("--seed", arguments->seed, "Seed of everything random, in place of the scenario's")
       ->check(CLI::NonNegativeNumber)

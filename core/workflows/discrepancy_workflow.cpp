@@ -220,7 +220,7 @@ DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job
     writeFileAtomically(request.prediction, text);
   }
   if (!request.html.empty()) {
-    const FieldGrid table = mapTable(campaign.machine, 0.0, report_map_nodes);
+    const std::optional<FieldGrid> table = mapTable(campaign.machine, 0.0, report_map_nodes);
     HtmlDocument document = discrepancyDocument(campaign.name, discrepancyReportData(run.input, run.result), table);
     if (run.update) addSimulationUpdate(document, *run.update, simulationUpdateRows(run.input, *run.update), table);
     writeFileAtomically(request.html, document.html());
