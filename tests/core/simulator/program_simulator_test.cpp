@@ -268,6 +268,7 @@ TEST_F(ProgramSimulatorTest, RefusesASimulatorThatIsNotAsDescribed) {
   expect("/format", "spindrift-effects", "allowed: \"spindrift-simulator\"");
   expect("/version", 2, "a newer file needs a newer program");
   expect("/kind", "ansys", "scenario, command, calculix or sensitivities");
+  expect("/history", "none", "a list");
   expect("/parameters/1/name", "a", "each parameter once");
   expect("/parameters/1/name", "b c", "a letter and then");
   expect("/parameters/1/name", "sensor.b", "a letter and then");
