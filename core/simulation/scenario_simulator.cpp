@@ -87,7 +87,7 @@ std::optional<Target> targetOf(const std::string& name, const nlohmann::json& do
   while (!rest.empty()) {
     const JsonPath& path = target.path;
     std::string key = longestKey(rest, [&](const std::string& k) { return memberOf(node, k) != nullptr; });
-    if (key.empty()) {
+    if (key.empty() && (node == nullptr || node->is_object())) {
       key = longestKey(rest, [&](const std::string& k) {
         if (path.empty()) return k == "physics" || k == "environment" || k == "effects";
         if (path.size() == 1 && path[0] == "effects") {
@@ -119,6 +119,14 @@ std::optional<Target> targetOf(const std::string& name, const nlohmann::json& do
   return target;
 }
 
+std::set<std::string> effectsOf(const nlohmann::json& document) {
+  std::set<std::string> ids;
+  const auto effects = document.find("effects");
+  if (effects == document.end() || !effects->is_object()) return ids;
+  for (auto it = effects->begin(); it != effects->end(); ++it) ids.insert(it.key());
+  return ids;
+}
+
 /// What has to change in `document` for the parameter to have this value; nothing where it has it.
 std::vector<JsonEdit> editsFor(const Target& target, double value, const nlohmann::json& document) {
   const nlohmann::json* now = valueAt(document, target.path);
@@ -128,7 +136,9 @@ std::vector<JsonEdit> editsFor(const Target& target, double value, const nlohman
   }
   const JsonPath effect{target.path[0], target.path[1]};
   const nlohmann::json* setting = valueAt(document, effect);
-  const bool on = setting != nullptr && (!setting->contains("on") || (*setting)["on"] == true);
+  // A factor of the heat flow is 1 where the scenario is silent, a cause is off.
+  const bool factor = target.effect == convection || target.effect == second_lag;
+  const bool on = setting == nullptr ? factor : !setting->contains("on") || (*setting)["on"] == true;
   const bool strength = setting != nullptr && setting->contains("strength");
   if (value == 0.0 && !on) return {};
   if (on && !strength && (now == nullptr ? 1.0 : now->get<double>()) == value) return {};
@@ -174,8 +184,7 @@ struct ScenarioSimulator::Parts {
 
 void ScenarioSimulator::Parts::readTargets() {
   const Scenario as_it_stands = Scenario::read(path);
-  std::set<std::string> sized;
-  for (const auto& item : document.value("effects", nlohmann::json::object()).items()) sized.insert(item.key());
+  std::set<std::string> sized = effectsOf(document);
   const std::vector<JsonNode> nodes = file.root.at("parameters").items();
   for (std::size_t i = 0; i < file.parameters.size(); ++i) {
     const auto target = targetOf(file.parameters[i].name, document, as_it_stands.machine);
@@ -204,8 +213,7 @@ std::vector<JsonEdit> ScenarioSimulator::Parts::editsOf(const ParameterValues& a
     edits.insert(edits.end(), more.begin(), more.end());
   }
   // A number of an effect that is off and not in the scenario must not bring it in.
-  std::set<std::string> there;
-  for (const auto& item : document.value("effects", nlohmann::json::object()).items()) there.insert(item.key());
+  std::set<std::string> there = effectsOf(document);
   for (const JsonEdit& edit : edits) {
     if (edit.path[0] == "effects" && edit.path[2] == "size") there.insert(edit.path[1]);
   }

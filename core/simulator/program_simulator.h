@@ -9,9 +9,10 @@
 //   the last state, otherwise to the end of the log.
 //
 // What is checked of every run: that the program is found, ends with status 0 within `time_limit_s` per command (600),
-// prints no *ERROR (calculix), and gives finite predictions, as many as before. Of a run that fails log and filled
-// templates stay in a folder for temporary files, which the sentence names; of all others nothing stays. Answers are
-// kept in memory and on the disk (answer_store.h) by all that goes in: filled templates, included files, commands.
+// prints no *ERROR (calculix), and gives finite predictions, as many as the first run that worked. Of a run that fails
+// log and filled templates stay in a folder for temporary files, which the sentence names; of all others nothing stays.
+// Answers are kept in memory and on the disk (answer_store.h) by all that goes in: filled templates, included files,
+// commands.
 //
 // Temperatures of the log that drive the simulation add the errors of their sensors to the parameters (log_tables.h). A
 // version with other values of these holds them in "sensor_values": {"sensor.T_room_degC.lag": 300}.

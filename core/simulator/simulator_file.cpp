@@ -107,6 +107,7 @@ SimulatorFile openSimulatorFile(const fs::path& file) {
   JsonNode root = JsonNode::parse(text, file);
   root.requireFormat("spindrift-simulator", 1);
   const SimulatorKind kind = kindAt(root.at("kind"));
+  if (const auto history = root.find("history")) (void)history->items();
   SimulatorFile out{file, std::move(text), root, kind, {}};
   std::set<std::string> names;
   for (const JsonNode& item : root.at("parameters").items()) {

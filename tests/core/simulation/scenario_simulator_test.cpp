@@ -172,6 +172,9 @@ TEST_F(ScenarioSimulatorTest, RefusesPathsThatLeadNowhere) {
                            "instrument.sigma_um", "machine.name", "programme.segments.9.spindle_rpm", "seed"}) {
     EXPECT_THAT(said(name), AllOf(HasSubstr("$.parameters[1].name"), HasSubstr("the path of a number"))) << name;
   }
+  scenario["effects"]["spindle.drift.y"] = 1;
+  EXPECT_THAT(said("effects.spindle.drift.y.size"), HasSubstr("the path of a number"));
+  scenario["effects"].erase("spindle.drift.y");
   EXPECT_THAT(said("effects.external_heat.a.onset_s"), HasSubstr("whose size is a parameter as well"));
   json["scenario"] = "../scenario.json";
   EXPECT_THAT(said("environment.ramp_K_per_h"), HasSubstr("within the folder"));

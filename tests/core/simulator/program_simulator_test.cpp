@@ -27,6 +27,23 @@ using testing::observation;
 using testing::parameter;
 using testing::refusal;
 
+bool isGone(const std::string& process) {
+  std::ifstream stat("/proc/" + process + "/stat");
+  std::string text;
+  std::getline(stat, text);
+  return text.empty() || text.find(") Z ") != std::string::npos;
+}
+
+/// The processes whose numbers the program wrote are no more, or will be in a moment.
+void expectGone(const fs::path& numbers) {
+  const std::vector<std::string> processes = splitList(readFile(numbers), '\n');
+  EXPECT_EQ(processes.size(), 2u);
+  for (const std::string& process : processes) {
+    for (int i = 0; i < 100 && !isGone(process); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_TRUE(isGone(process));
+  }
+}
+
 /// EX = a t / 3600 + b, EY = a^2 at point P1; `mode` is what goes wrong.
 class ProgramSimulatorTest : public testing::SimulatorTest {
  protected:
@@ -40,7 +57,7 @@ class ProgramSimulatorTest : public testing::SimulatorTest {
             {"include", nlohmann::json::array({"run.sh"})},
             {"run", nlohmann::json::parse(R"([["sh", "run.sh"]])")},
             {"result", "simulation.csv"},
-            {"time_limit_s", 1},
+            {"time_limit_s", 30},
             {"parameters", nlohmann::json::array({parameter("a", 2, -10, 10), parameter("b", 500, 0, 1000),
                                                   parameter("mode", 0, 0, 20)})}};
     at.rows = {observation("P1", Component::EX, 0), observation("P1", Component::EX, 1800),
@@ -134,7 +151,6 @@ TEST_F(ProgramSimulatorTest, RunsTheProgramOnceForTheSameInput) {
 }
 
 TEST_F(ProgramSimulatorTest, TwoThreadsThatAskForTheSameRunItOnce) {
-  json["time_limit_s"] = 20;
   const auto simulator = open();
   std::vector<SimulatorRun> runs(4);
   {
@@ -147,7 +163,6 @@ TEST_F(ProgramSimulatorTest, TwoThreadsThatAskForTheSameRunItOnce) {
 
 TEST_F(ProgramSimulatorTest, RunsSetsAtTheSameTimeAndTellsWhichFailed) {
   setenv("SPINDRIFT_THREADS", "4", 1);
-  json["time_limit_s"] = 20;
   const auto simulator = open();
   std::vector<ParameterValues> sets;
   for (int i = 0; i < 8; ++i) sets.push_back({{"a", i}, {"mode", i == 3 ? 1 : 0}});
@@ -180,12 +195,14 @@ TEST_F(ProgramSimulatorTest, TellsInOneSentenceWhyARunFailed) {
                                                           {7, "was ended by signal 11"}};
   std::size_t kept = 0;
   for (const auto& [mode, reason] : cases) {
+    json["time_limit_s"] = mode == 2 ? 1 : 30;
     const std::string said = failureOf(mode);
     expectOneSentence(said);
     EXPECT_THAT(said, AllOf(HasSubstr("\"sh run.sh\""), HasSubstr(reason), HasSubstr(fmt::format("mode = {}", mode)),
                             HasSubstr("kept in " + (temp / "runs").string())));
     EXPECT_EQ(foldersLeft(), ++kept) << "the folder that the sentence names";
   }
+  expectGone(temp / "pid");
   for (const auto& entry : fs::directory_iterator(temp / "runs")) {
     EXPECT_TRUE(fs::exists(entry.path() / "simulator.log"));
     EXPECT_TRUE(fs::exists(entry.path() / "values.txt"));
@@ -217,15 +234,7 @@ TEST_F(ProgramSimulatorTest, ATemplateWithoutAFiniteValueFails) {
   EXPECT_EQ(timesRun(), 0u);
 }
 
-bool isGone(const std::string& process) {
-  std::ifstream stat("/proc/" + process + "/stat");
-  std::string text;
-  std::getline(stat, text);
-  return text.empty() || text.find(") Z ") != std::string::npos;
-}
-
 TEST_F(ProgramSimulatorTest, CancelEndsTheProgramAndAllThatItStarted) {
-  json["time_limit_s"] = 60;
   const auto simulator = open();
   std::stop_source stop;
   std::chrono::steady_clock::time_point asked;
@@ -238,12 +247,7 @@ TEST_F(ProgramSimulatorTest, CancelEndsTheProgramAndAllThatItStarted) {
   });
   EXPECT_THROW((void)simulator->run({{"mode", 2}}, at, JobContext(stop.get_token(), nullptr)), Cancelled);
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count(), 0.5);
-  const std::vector<std::string> processes = splitList(readFile(temp / "pid"), '\n');
-  ASSERT_EQ(processes.size(), 2u);
-  for (const std::string& process : processes) {
-    for (int i = 0; i < 100 && !isGone(process); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    EXPECT_TRUE(isGone(process));
-  }
+  expectGone(temp / "pid");
   EXPECT_EQ(foldersLeft(), 0u);
 }
 
@@ -268,6 +272,7 @@ TEST_F(ProgramSimulatorTest, RefusesASimulatorThatIsNotAsDescribed) {
   expect("/format", "spindrift-effects", "allowed: \"spindrift-simulator\"");
   expect("/version", 2, "a newer file needs a newer program");
   expect("/kind", "ansys", "scenario, command, calculix or sensitivities");
+  expect("/history", "none", "a list");
   expect("/parameters/1/name", "a", "each parameter once");
   expect("/parameters/1/name", "b c", "a letter and then");
   expect("/parameters/1/name", "sensor.b", "a letter and then");
