@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
@@ -445,6 +446,27 @@ TEST_F(CFrameSolved, AFailureIsToldInOneSentence) {
   }
 }
 
+TEST_F(CFrameSolved, WhatTakesTooLongOrIsCancelledIsEnded) {
+  const CFrameDeck deck = CFrameDeck::make({});
+  const OperatingLog log = cFrameLog(deck.options.duration_s(), 1);
+  const testing::TempFolder folder;
+  folder.write("mesh.inp", deck.mesh);
+  folder.write("heat.inp", fillDeck(deck.heat_template, deck.values(), deckTables(deck, log, deck.values())));
+  try {
+    runCalculix(folder.path(), "heat", 0.05, JobContext());
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did not end within"));
+  }
+  std::stop_source stop;
+  stop.request_stop();
+  const JobContext cancelled(stop.get_token(), nullptr);
+  const std::filesystem::path out = folder.path() / "campaign";
+  EXPECT_THROW((void)writeCFrameCampaign(CFrameStory::Sun, out, 1, cancelled), Cancelled);
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "campaign.truth.json"));
+}
+
 TEST_F(CFrameSolved, ACampaignIsWholeAndTheTruthStandsBesideIt) {
   const testing::TempFolder folder;
   CFrameCampaignOptions options;
@@ -470,6 +492,22 @@ TEST_F(CFrameSolved, ACampaignIsWholeAndTheTruthStandsBesideIt) {
   EXPECT_EQ(truth["hidden"]["friction"], hiddenValues(CFrameStory::Friction, 3600.0).at("friction"));
   EXPECT_LT(truth["gap_with_hidden"]["heldout_rms_um"].get<double>(), truth["gap"]["heldout_rms_um"].get<double>());
   EXPECT_THROW((void)writeCFrameCampaign(CFrameStory::Friction, out, 5, job, options), InputError);
+}
+
+TEST(CFrameStories, WithoutCalculixASentenceSaysWhatToInstall) {
+  const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): one thread
+  const std::string before = path == nullptr ? "" : path;
+  setenv("PATH", "/nowhere", 1);  // NOLINT(concurrency-mt-unsafe)
+  const testing::TempFolder folder;
+  const std::filesystem::path out = folder.path() / "campaign";
+  try {
+    (void)writeCFrameCampaign(CFrameStory::Sun, out, 1, JobContext());
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("install calculix-ccx"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(out));
+  setenv("PATH", before.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
 }
 
 TEST(CFrameStories, NamesAndHiddenCausesBelongTogether) {
