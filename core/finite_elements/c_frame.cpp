@@ -259,7 +259,7 @@ CFrameValues hiddenValues(CFrameStory story, double duration_s) {
     case CFrameStory::Friction:
       return {{"friction", 1.6}};
     case CFrameStory::Coolant:
-      return {{"h_coolant", 180.0}};
+      return {{"h_coolant", 150.0}};
     case CFrameStory::Room:
       return {{"room_gain", 1.0}};
   }

@@ -204,7 +204,7 @@ TEST(CFrameObservation, LeanOfTheColumnMovesAndTurnsTheTool) {
 CFrameDeckOptions fewStates(int states = 3) {
   CFrameDeckOptions options;
   options.states = states;
-  options.largest_cell_mm = 150.0;
+  options.largest_cell_mm = 200.0;
   return options;
 }
 
