@@ -215,7 +215,7 @@ OperatingLog cFrameLog(double duration_s, std::uint64_t seed) {
   std::array<Work, day.size()> work = day;
   for (std::size_t i = 1; i < work.size(); ++i) work[i].from_min += std::round(random.uniform(-4.0, 4.0));
   const double morning_degC = 20.6 + random.uniform(-0.4, 0.4);
-  const double rise_K = 2.6 + random.uniform(-0.3, 0.3);
+  const double rise_K = 3.5 + random.uniform(-0.3, 0.3);
   const double gate_min = random.uniform(255.0, 275.0);  // a gate stands open for a while
   const double phase = random.uniform(0.0, 2.0 * std::numbers::pi);
   std::vector<double> time_s;
@@ -233,7 +233,7 @@ OperatingLog cFrameLog(double duration_s, std::uint64_t seed) {
     coolant.push_back(now->coolant ? 1.0 : 0.0);
     // Rises until the afternoon, with the beat of the ventilation and the dip that the gate makes.
     double degC = morning_degC +
-                  rise_K * std::pow(std::sin(0.5 * std::numbers::pi * std::min(minute / 400.0, 1.0)), 2) +
+                  rise_K * std::pow(std::sin(0.5 * std::numbers::pi * std::min(minute / 320.0, 1.0)), 2) +
                   0.18 * (std::sin(2.0 * std::numbers::pi * minute / 34.0 + phase) - std::sin(phase));
     if (minute > gate_min) degC -= 1.1 * std::exp(-(minute - gate_min) / 18.0);
     room.push_back(rounded(degC + random.normal(0.0, 0.02), 100.0));
@@ -259,7 +259,7 @@ CFrameValues hiddenValues(CFrameStory story, double duration_s) {
     case CFrameStory::Friction:
       return {{"friction", 1.6}};
     case CFrameStory::Coolant:
-      return {{"h_coolant", 180.0}};
+      return {{"h_coolant", 150.0}};
     case CFrameStory::Room:
       return {{"room_gain", 1.0}};
   }

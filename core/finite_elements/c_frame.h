@@ -9,7 +9,7 @@
 //
 //   sun       sun on the front of the column, its begin and end inside the fitted part
 //   friction  friction in the spindle's bearings
-//   coolant   the coolant cools the table while it runs
+//   coolant   the coolant cools the table while it runs (in the other stories it takes up no heat)
 //   room      the change of the room's temperature
 #pragma once
 

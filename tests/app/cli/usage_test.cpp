@@ -60,6 +60,8 @@ TEST(Usage, WrongUseEndsWithTwo) {
       {"calibrate-profiler", "a.pcd", "--circle", "1,2,3"},
       {"thermal", "track", "log.csv", "--model", "m.json", "--interval", "0"},
       {"simulate", "s.json"},
+      {"simulate", "--out", "nothing"},
+      {"simulate", "s.json", "--c-frame", "sun", "--out", "nothing"},
       {"report", "."}};
   for (const auto& words : wrong) {
     const Outcome outcome = runCli(words);
@@ -74,6 +76,7 @@ TEST(Usage, WhatIsWrongIsSaidInASentenceOfOurs) {
   expectBadInput({"nonsense"}, {"\"nonsense\" is no command"});
   expectBadInput({"verify", "a", "b", "--goal", "-5"}, {"--goal", "-5 is not allowed", "greater than zero"});
   expectBadInput({"report", ".", "--out", (folder / "r.pdf").string()}, {"r.pdf", ".html"});
+  expectBadInput({"simulate", "--c-frame", "rain", "--out", "nothing"}, {"rain", "sun, friction, coolant or room"});
   expectBadInput({"sensor-groups", folder.write("log.csv", "time_s,spindle_rpm\n0,1\n60,1\n").string()},
                  {"no temperature", "T_"});
 }

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
@@ -203,7 +204,7 @@ TEST(CFrameObservation, LeanOfTheColumnMovesAndTurnsTheTool) {
 CFrameDeckOptions fewStates(int states = 3) {
   CFrameDeckOptions options;
   options.states = states;
-  options.largest_cell_mm = 150.0;
+  options.largest_cell_mm = 200.0;
   return options;
 }
 
@@ -287,6 +288,16 @@ std::map<std::pair<std::string, Component>, double> stateOf(const std::vector<Si
   return out;
 }
 
+/// Same expansion of all parts: a machine that is evenly warm moves as the closed form says.
+double evenlyWarm_um(const SimulationRow& row, double um_per_m) {
+  const auto point = std::find_if(cFramePoints().begin(), cFramePoints().end(),
+                                  [&](const CFramePoint& p) { return p.id == row.point; });
+  const Eigen::Vector3d p = point->position_mm;
+  if (isRotation(row.component)) return 0.0;
+  const Eigen::Vector3d arm(300.0 - p.x(), 200.0 - p.y(), p.z() + CFrameDimensions().tool_length_mm);
+  return 1e-3 * um_per_m * arm[axisIndex(row.component)];
+}
+
 TEST_F(CFrameSolved, UniformTemperatureGivesTheClosedForm) {
   // The static part alone: 10 K everywhere, one expansion for all parts. No stress, u = alpha dT x.
   CFrameDeckOptions options = fewStates(1);
@@ -306,19 +317,61 @@ TEST_F(CFrameSolved, UniformTemperatureGivesTheClosedForm) {
   map.result = folder.path() / "mech.dat";
   map.observe = folder.path() / "observe.csv";
   map.unit_of_displacement = "mm";
-  const CFrameDimensions d;
   const FeDeviation fe = feDeviation(map, openDat, job);
   EXPECT_EQ(fe.rows.size(), 38u);
   for (const SimulationRow& row : fe.rows) {
-    const auto point = std::find_if(cFramePoints().begin(), cFramePoints().end(),
-                                    [&](const CFramePoint& p) { return p.id == row.point; });
-    const Eigen::Vector3d p = point->position_mm;
-    Eigen::Vector3d expected = Eigen::Vector3d::Zero();
-    if (!isRotation(row.component)) {
-      expected = 0.11 * Eigen::Vector3d(300.0 - p.x(), 200.0 - p.y(), p.z() + d.tool_length_mm);
-    }
-    EXPECT_NEAR(row.predicted, expected[axisIndex(row.component)], isRotation(row.component) ? 0.2 : 0.01)
+    EXPECT_NEAR(row.predicted, evenlyWarm_um(row, 10.0 * 11.0), isRotation(row.component) ? 0.2 : 0.01)
         << row.point << toString(row.component);
+  }
+}
+
+TEST_F(CFrameSolved, AfterDaysInAWarmerRoomTheMachineIsAsWarm) {
+  CFrameDeckOptions options = fewStates(2);
+  options.state_interval_s = 4.0 * 86'400.0;
+  options.increment_s = 0.25 * 86'400.0;
+  options.values = {{"alpha_iron", 11.0}, {"alpha_steel", 11.0}};
+  OperatingLog log({0.0, 1.0});
+  log.setSignal("spindle_rpm", {0.0, 0.0});
+  log.setSignal("coolant", {0.0, 0.0});
+  log.setSignal("T_ambient_degC", {21.0, 24.0});
+  const JobContext job;
+  for (const SimulationRow& row : runDeck(CFrameDeck::make(options), log, {}, job)) {
+    if (row.time_s != options.duration_s()) continue;
+    EXPECT_NEAR(row.predicted, evenlyWarm_um(row, 3.0 * 11.0), isRotation(row.component) ? 0.2 : 0.02)
+        << row.point << toString(row.component);
+  }
+}
+
+TEST_F(CFrameSolved, HeatThatCannotLeaveWarmsTheMachineByItsEnergy) {
+  // Without films, weeks after twelve hours of friction or sun: dT = energy / (sum of rho c V) everywhere.
+  CFrameDeckOptions options = fewStates(1);
+  options.state_interval_s = 60.0 * 86'400.0;
+  options.increment_s = 86'400.0;
+  options.values = {{"alpha_iron", 11.0}, {"alpha_steel", 11.0}, {"sun_on_s", 0.0}, {"sun_off_s", 43'200.0}};
+  const CFrameMachine body(options.dimensions, options.largest_cell_mm);
+  const CFrameDeck deck = CFrameDeck::make(options, body);
+  OperatingLog log({0.0, 43'200.0});
+  log.setSignal("spindle_rpm", {4000.0, 0.0});
+  log.setSignal("coolant", {0.0, 0.0});
+  log.setSignal("T_ambient_degC", {21.0, 21.0});
+  double capacity_J_K = 0.0;
+  for (const BrickElement& element : body.mesh().elements()) {
+    const bool steel = body.mesh().bricks()[element.brick].material == "STEEL";
+    const double volume_m3 = 1e-9 * jacobianAndVolume(body.mesh(), element).second;
+    capacity_J_K += volume_m3 * (steel ? 7850.0 * 470.0 : 7200.0 * deck.values().at("cp_iron"));
+  }
+  const double friction_W = 2.0e3 * 1e-9 * volumeOf(body, "BEARING") * std::pow(4.0, 1.5);
+  const double sun_W = 50.0 * 1e-6 * areaOf(body, "SUN_3");
+  const JobContext job;
+  for (const bool sun : {false, true}) {
+    const CFrameValues changes{
+        {"h_air", 0.0}, {"h_inside", 0.0}, {"friction", sun ? 0.0 : 2.0}, {"sun_front", sun ? 50.0 : 0.0}};
+    const double warmer_K = (sun ? sun_W : friction_W) * 43'200.0 / capacity_J_K;
+    for (const SimulationRow& row : runDeck(deck, log, changes, job)) {
+      if (row.time_s != options.duration_s() || isRotation(row.component)) continue;
+      const double expected = evenlyWarm_um(row, warmer_K * 11.0);
+      EXPECT_NEAR(row.predicted, expected, 0.005 * std::abs(expected) + 0.01) << row.point << toString(row.component);
+    }
   }
 }
 
@@ -393,6 +446,27 @@ TEST_F(CFrameSolved, AFailureIsToldInOneSentence) {
   }
 }
 
+TEST_F(CFrameSolved, WhatTakesTooLongOrIsCancelledIsEnded) {
+  const CFrameDeck deck = CFrameDeck::make({});
+  const OperatingLog log = cFrameLog(deck.options.duration_s(), 1);
+  const testing::TempFolder folder;
+  folder.write("mesh.inp", deck.mesh);
+  folder.write("heat.inp", fillDeck(deck.heat_template, deck.values(), deckTables(deck, log, deck.values())));
+  try {
+    runCalculix(folder.path(), "heat", 0.05, JobContext());
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did not end within"));
+  }
+  std::stop_source stop;
+  stop.request_stop();
+  const JobContext cancelled(stop.get_token(), nullptr);
+  const std::filesystem::path out = folder.path() / "campaign";
+  EXPECT_THROW((void)writeCFrameCampaign(CFrameStory::Sun, out, 1, cancelled), Cancelled);
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "campaign.truth.json"));
+}
+
 TEST_F(CFrameSolved, ACampaignIsWholeAndTheTruthStandsBesideIt) {
   const testing::TempFolder folder;
   CFrameCampaignOptions options;
@@ -418,6 +492,22 @@ TEST_F(CFrameSolved, ACampaignIsWholeAndTheTruthStandsBesideIt) {
   EXPECT_EQ(truth["hidden"]["friction"], hiddenValues(CFrameStory::Friction, 3600.0).at("friction"));
   EXPECT_LT(truth["gap_with_hidden"]["heldout_rms_um"].get<double>(), truth["gap"]["heldout_rms_um"].get<double>());
   EXPECT_THROW((void)writeCFrameCampaign(CFrameStory::Friction, out, 5, job, options), InputError);
+}
+
+TEST(CFrameStories, WithoutCalculixASentenceSaysWhatToInstall) {
+  const char* path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): one thread
+  const std::string before = path == nullptr ? "" : path;
+  setenv("PATH", "/nowhere", 1);  // NOLINT(concurrency-mt-unsafe)
+  const testing::TempFolder folder;
+  const std::filesystem::path out = folder.path() / "campaign";
+  try {
+    (void)writeCFrameCampaign(CFrameStory::Sun, out, 1, JobContext());
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("install calculix-ccx"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(out));
+  setenv("PATH", before.c_str(), 1);  // NOLINT(concurrency-mt-unsafe)
 }
 
 TEST(CFrameStories, NamesAndHiddenCausesBelongTogether) {
