@@ -31,6 +31,8 @@ constexpr std::size_t unit_limit = 3000;
 constexpr double not_worth_a_run = 0.3;
 /// The same of the error of a linear prediction, from which on derivatives are taken anew.
 constexpr double not_linear = 0.5;
+/// The same of one standard uncertainty: none at all.
+constexpr double no_influence = 1e-6;
 /// Correlation of two fitted parameters from which on these data do not tell them apart.
 constexpr double inseparable = 0.98;
 /// rms with the physics over that with the fitted term, up to which they close the gap as well.
@@ -188,7 +190,9 @@ class ClosureCost : public ceres::CostFunction {
     }
     std::vector<std::size_t> which;
     for (std::size_t k = 0; k < at.size(); ++k) {
-      if (slopes_[k].size() == 0 || (stale && (*free_)[k].put_in && !slopes_at_.empty())) which.push_back(k);
+      // What did nothing does nothing.
+      const bool idle = slopes_[k].size() > 0 && !(slopes_[k].norm() * (*free_)[k].scale() > no_influence);
+      if (slopes_[k].size() == 0 || (stale && (*free_)[k].put_in && !slopes_at_.empty() && !idle)) which.push_back(k);
     }
     if (which.empty() && !slopes_at_.empty()) return;
     std::vector<ParameterValues> sets;
@@ -248,8 +252,8 @@ Solved solve(Closure& closure, const std::vector<Free>& free, std::vector<double
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = most_iterations;
   options.max_num_consecutive_invalid_steps = 3;
-  options.function_tolerance = 1e-5;
-  options.parameter_tolerance = 1e-4;
+  options.function_tolerance = 1e-4;
+  options.parameter_tolerance = 1e-3;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
   ceres::Solver::Summary summary;
@@ -371,9 +375,10 @@ void tellParameters(const std::vector<Free>& free, const Solved& solved, double 
     const Free& f = free[at];
     FittedSimulatorParameter fitted{f.parameter, f.start + solved.scaled[at] * f.scale(), 0.0, f.put_in};
     const double range = f.parameter.max - f.parameter.min;
-    fitted.no_influence = !(solved.slopes[at].norm() * f.scale() > 1e-6);
-    fitted.at_bound = !fitted.no_influence && (fitted.value <= f.parameter.min + 1e-6 * range ||
-                                               fitted.value >= f.parameter.max - 1e-6 * range);
+    fitted.no_influence = !(solved.slopes[at].norm() * f.scale() > no_influence);
+    fitted.at_bound =
+        !fitted.no_influence && fitted.value != f.parameter.value &&
+        (fitted.value <= f.parameter.min + 1e-6 * range || fitted.value >= f.parameter.max - 1e-6 * range);
     if (!fitted.no_influence && !fitted.at_bound) inner.push_back(k);
     if (fitted.no_influence) fitted.value = f.parameter.value;
     out.parameters.push_back(std::move(fitted));
@@ -438,6 +443,32 @@ std::string retreat(Closure& closure, std::vector<Free>& free) {
     for (Free& f : free) f.start = 0.5 * (f.start + f.parameter.value);
   }
   return failure;
+}
+
+/// One run with all parameters that keep their first derivatives moved by half their uncertainty, to and fro: true if
+/// the derivatives foretell it.
+bool slopesHold(Closure& closure, const std::vector<Free>& free, const Solved& solved) {
+  std::vector<double> moved = solved.scaled;
+  double sign = 0.5;
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    if (free[k].put_in) continue;
+    moved[k] += sign;
+    sign = -sign;
+  }
+  if (moved == solved.scaled) return true;
+  try {
+    const ParameterValues here = valuesOf(free, solved.scaled.data());
+    const ParameterValues there = valuesOf(free, moved.data());
+    Eigen::VectorXd error =
+        closure.projectedChange(closure.runAt(there)) - closure.projectedChange(closure.runAt(here));
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const std::string& name = free[k].parameter.name;
+      error -= solved.slopes[k] * (there.at(name) - here.at(name));
+    }
+    return error.norm() < 2.0 * not_linear;
+  } catch (const SimulatorFailed&) {
+    return true;  // nothing to learn there
+  }
 }
 
 std::string sentenceOf(const SimulationUpdate& update) {
@@ -549,9 +580,15 @@ SimulationUpdate putIntoSimulation(const DiscrepancyInput& input, const Discrepa
   Solved solved = solve(closure, free, std::vector<double>(free.size(), 0.0), slopes, options.most_iterations);
   if (solved.usable) {
     job.report(0.7, "running the simulation");
-    // All derivatives once more where it ended.
-    std::vector<Eigen::VectorXd> none(free.size());
-    Solved again = solve(closure, free, solved.scaled, none, options.most_iterations);
+    // Derivatives that no longer hold where it ended are taken anew, and the fit goes on with them.
+    Solved again;
+    if (!slopesHold(closure, free, solved)) {
+      std::vector<Eigen::VectorXd> kept(free.size());
+      for (std::size_t k = 0; k < free.size(); ++k) {
+        if (!(solved.slopes[k].norm() * free[k].scale() > no_influence)) kept[k] = solved.slopes[k];
+      }
+      again = solve(closure, free, solved.scaled, std::move(kept), options.most_iterations);
+    }
     if (again.usable) {
       if (again.failure.empty()) again.failure = solved.failure;
       solved = std::move(again);

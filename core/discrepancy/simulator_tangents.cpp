@@ -109,12 +109,18 @@ void goFar(const Simulator& simulator, const ObservationSet& observations, const
   constexpr double worth_a_run = 30.0;  // in chi-squared
   constexpr double far_steps = 1.2;
   constexpr int most_rounds = 3;
+  // Of what the best single parameter explains.
+  constexpr double least_part = 0.5;
   const QuickFit fit(observations, tangents.base);
+  double best = 0.0;
+  for (const SimulatorTangent& tangent : tangents.tangents)
+    best = std::max(best, fit.changeFor(tangent.per_unit).delta_chi2);
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t t = 0; t < tangents.tangents.size(); ++t) {
     const SimulatorTangent& tangent = tangents.tangents[t];
     const QuickFit::Change change = fit.changeFor(tangent.per_unit);
-    if (tangent.window || change.delta_chi2 < worth_a_run || std::abs(change.size) < far_steps * std::abs(tangent.step))
+    if (tangent.window || change.delta_chi2 < std::max(worth_a_run, least_part * best) ||
+        std::abs(change.size) < far_steps * std::abs(tangent.step))
       continue;
     order.emplace_back(-change.delta_chi2, t);
   }
