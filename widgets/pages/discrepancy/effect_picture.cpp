@@ -18,7 +18,10 @@ namespace {
 constexpr int cells_along = 16;
 constexpr int lines_along = 8;  ///< spaces between lines of the grid
 constexpr int samples_along = 96;
-constexpr double room_for_displacement = 0.16;  ///< of a view, on every side
+constexpr double head_px = 20;     ///< name of a view
+constexpr double axes_px = 24;     ///< at the left and below
+constexpr double foot_px = 36;     ///< legend below the views
+constexpr double legend_px = 150;  ///< least width of a legend beside them
 constexpr double default_travel_mm = 500.0;
 
 /// Which axes a view has: across, up, out of it towards who looks.
@@ -180,16 +183,69 @@ void EffectPicture::make(const Effect& effect, const MachineDescription& machine
   scale_ = ColourScale::symmetric(largest_out_ > 0.0 ? largest_out_ : largest_, {}, {});
 }
 
-void EffectPicture::paintView(QPainter& painter, const View& view, const QRectF& area) const {
+/// Where the three views are: in a row, or as a drawing has them (top view above the front view, side view beside it),
+/// whichever makes them larger. All have one scale.
+struct EffectPicture::Layout {
+  double px_per_mm = 0.0;
+  double room_px = 0.0;  ///< for the displacement, on every side of a view
+  std::array<QRectF, 3> view;
+  QRectF legend;
+  bool beside = false;  ///< the legend has the corner that a drawing leaves free
+};
+
+EffectPicture::Layout EffectPicture::layoutFor(const QSize& size) const {
+  const auto length = [this](int axis) {
+    const auto& range = range_mm_[static_cast<std::size_t>(axis)];
+    return range[1] - range[0];
+  };
+  const double x = length(0);
+  const double y = length(1);
+  const double z = length(2);
+  Layout row;
+  Layout drawing;
+  const double room = std::clamp(0.06 * std::min(size.width(), size.height()), 12.0, 36.0);
+  row.room_px = drawing.room_px = room;
+  const double more_width = 2 * room + axes_px;
+  const double more_height = 2 * room + head_px + axes_px;
+  row.px_per_mm =
+      std::min((size.width() - 3 * more_width) / (2 * x + y), (size.height() - foot_px - more_height) / std::max(y, z));
+  drawing.px_per_mm = std::min((size.width() - 2 * more_width) / (x + y), (size.height() - 2 * more_height) / (y + z));
+  const double beside_px = size.width() - (x * drawing.px_per_mm + more_width);
+  if (drawing.px_per_mm > row.px_per_mm && beside_px > legend_px) {
+    const double s = drawing.px_per_mm;
+    const double spare_x = std::max(0.0, size.width() - 2 * more_width - (x + y) * s) / 3;
+    const double spare_y = std::max(0.0, size.height() - 2 * more_height - (y + z) * s) / 3;
+    const double second_x = 2 * spare_x + more_width + x * s;
+    const double second_y = 2 * spare_y + more_height + y * s;
+    drawing.view = {QRectF(spare_x, spare_y, more_width + x * s, more_height + y * s),
+                    QRectF(spare_x, second_y, more_width + x * s, more_height + z * s),
+                    QRectF(second_x, second_y, more_width + y * s, more_height + z * s)};
+    drawing.legend = QRectF(second_x + 8, spare_y + head_px, size.width() - second_x - 16, more_height + y * s);
+    drawing.beside = true;
+    return drawing;
+  }
+  const double s = row.px_per_mm;
+  const double spare_x = std::max(0.0, size.width() - 3 * more_width - (2 * x + y) * s) / 4;
+  const double high = std::max(y, z) * s + more_height;
+  const double top = std::max(0.0, size.height() - foot_px - high) / 2;
+  double left = spare_x;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double across = (i < 2 ? x : y) * s + more_width;
+    row.view[i] = QRectF(left, top, across, high);
+    left += across + spare_x;
+  }
+  row.legend = QRectF(0, size.height() - foot_px, size.width(), foot_px);
+  return row;
+}
+
+void EffectPicture::paintView(QPainter& painter, const View& view, const QRectF& area, const Layout& layout) const {
   const Theme& t = theme();
   const auto& h = range_mm_[static_cast<std::size_t>(view.across)];
   const auto& v = range_mm_[static_cast<std::size_t>(view.up)];
-  const double room = room_for_displacement * std::min(area.width(), area.height());
-  const double px_per_mm =
-      std::min((area.width() - 2 * room) / (h[1] - h[0]), (area.height() - 2 * room) / (v[1] - v[0]));
+  const double px_per_mm = layout.px_per_mm;
   if (!(px_per_mm > 0.0)) return;
   const QPointF centre = area.center();
-  const double px_per_unit = 0.9 * room / largest_;
+  const double px_per_unit = 0.95 * layout.room_px / largest_;
   const auto rest = [&](const Sample& s) {
     return QPointF(centre.x() + (s.at_mm[view.across] - 0.5 * (h[0] + h[1])) * px_per_mm,
                    centre.y() - (s.at_mm[view.up] - 0.5 * (v[0] + v[1])) * px_per_mm);
@@ -290,20 +346,16 @@ void EffectPicture::paint(QPainter& painter, const QSize& size) const {
     painter.drawText(QRect(QPoint(0, 0), size).adjusted(16, 8, -16, -8), Qt::AlignCenter | Qt::TextWordWrap, why_);
     return;
   }
-  constexpr int foot = 36;
-  constexpr int head = 20;
-  const QString unit = rotations_ ? QStringLiteral("urad") : QStringLiteral("um");
-  const double width = size.width() / 3.0;
+  const Layout layout = layoutFor(size);
   for (std::size_t i = 0; i < views_.size(); ++i) {
     const View& view = views_[i];
-    const QRectF place(width * static_cast<double>(i), 0, width, size.height() - foot);
-    painter.setPen(t.text);
+    const QRectF& place = layout.view[i];
     const auto coloured = static_cast<Component>(view.out + (rotations_ ? 3 : 0));
-    painter.drawText(place.adjusted(4, 0, -4, 0), Qt::AlignLeft | Qt::AlignTop,
+    painter.setPen(t.text);
+    painter.setFont(textFont(sizes::font_secondary));
+    painter.drawText(QRectF(place.left() + 4, place.top(), 160, head_px), Qt::AlignLeft | Qt::AlignTop,
                      tr("%1, colour %2").arg(viewName(static_cast<int>(i)), componentName(coloured)));
-    constexpr double axis_px = 22;
-    const QRectF picture = place.adjusted(axis_px, head, -4, -axis_px);
-    paintView(painter, view, picture);
+    paintView(painter, view, place.adjusted(axes_px, head_px, 0, -axes_px), layout);
     // The axes at the lower left.
     painter.setRenderHint(QPainter::Antialiasing);
     const QPointF origin(place.left() + 10, place.bottom() - 10);
@@ -316,15 +368,26 @@ void EffectPicture::paint(QPainter& painter, const QSize& size) const {
     painter.drawText(QRectF(origin.x() - 8, origin.y() - 44, 16, 16), Qt::AlignCenter,
                      QStringLiteral("XYZ").at(view.up));
   }
-  const double bar = std::min(160.0, 0.3 * size.width());
-  paintScale(painter, QRectF(size.width() - bar - 28, size.height() - foot + 6, bar, foot - 6));
-  painter.setPen(t.text_secondary);
+  paintLegend(painter, layout.legend, layout.beside);
+}
+
+void EffectPicture::paintLegend(QPainter& painter, const QRectF& area, bool beside) const {
+  const QString unit = rotations_ ? QStringLiteral("urad") : QStringLiteral("um");
+  const QString words = (rotations_ ? tr("Rotation of the tool for a gain of 1 %1, as vectors: at most %2.")
+                                    : tr("Deviation of the tool for a gain of 1 %1, drawn exaggerated: at most %2."))
+                            .arg(unit_, sizeText(largest_, unit));
+  constexpr double unit_width = 32;
+  const double bar = std::min(160.0, beside ? area.width() - 2 * unit_width : 0.3 * area.width());
+  const QRectF text = beside ? QRectF(area.left(), area.top(), area.width(), area.height() - foot_px)
+                             : QRectF(4, area.top() + 2, area.width() - bar - 80, area.height() - 2);
+  painter.setPen(theme().text_secondary);
   painter.setFont(textFont(sizes::font_secondary));
-  const QString words = rotations_ ? tr("Rotation of the tool for a gain of 1 %1, as vectors: at most %2.")
-                                   : tr("Deviation of the tool for a gain of 1 %1, drawn exaggerated: at most %2.");
-  painter.drawText(QRectF(4, size.height() - foot + 2, size.width() - bar - 72, foot - 2),
-                   Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, words.arg(unit_, sizeText(largest_, unit)));
-  painter.drawText(QRectF(size.width() - 24 - 4, size.height() - foot + 2, 28, 16), Qt::AlignRight | Qt::AlignTop,
+  QRectF used;
+  painter.drawText(text, Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap, words, &used);
+  const QPointF at =
+      beside ? QPointF(area.left() + 12, used.bottom() + 12) : QPointF(area.right() - bar - unit_width, area.top() + 6);
+  paintScale(painter, QRectF(at, QSizeF(bar, foot_px - 6)));
+  painter.drawText(QRectF(at.x() + bar + 6, at.y() - 4, unit_width, 16), Qt::AlignLeft | Qt::AlignVCenter,
                    QString::fromStdString(printedUnits(unit.toStdString())));
 }
 

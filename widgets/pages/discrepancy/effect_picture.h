@@ -51,7 +51,10 @@ class EffectPicture : public QWidget {
   };
   void make(const Effect& effect, const MachineDescription& machine, std::size_t gain);
   void paint(QPainter& painter, const QSize& size) const;
-  void paintView(QPainter& painter, const View& view, const QRectF& area) const;
+  struct Layout;
+  [[nodiscard]] Layout layoutFor(const QSize& size) const;
+  void paintView(QPainter& painter, const View& view, const QRectF& area, const Layout& layout) const;
+  void paintLegend(QPainter& painter, const QRectF& area, bool beside) const;
   void paintScale(QPainter& painter, const QRectF& area) const;
 
   std::vector<View> views_;

@@ -31,6 +31,7 @@
 #include "widgets/pages/discrepancy/effect_picture.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/icons.h"
 
 namespace spindrift::gui {
 namespace {
@@ -39,6 +40,7 @@ constexpr int id_role = Qt::UserRole;
 constexpr int words_role = Qt::UserRole + 1;  ///< what a search looks through
 constexpr int debounce_ms = 250;
 constexpr int row_height = 32;
+constexpr int state_width = 32;
 constexpr auto effects_file = "effects.json";
 
 nlohmann::json emptyDocument() {
@@ -142,8 +144,18 @@ QString driversText(const std::vector<std::vector<std::string>>& drivers) {
   return out.join(QStringLiteral(", "));
 }
 
+/// What the search makes of an effect.
+QString stateOf(const DiscrepancyChoice& choice, const std::string& id, bool possible) {
+  if (!choice.considers(id)) return EffectsPanel::tr("switched off: it is not named");
+  if (std::find(choice.added.begin(), choice.added.end(), id) != choice.added.end())
+    return EffectsPanel::tr("in the model");
+  if (!possible) return EffectsPanel::tr("cannot be tried: nothing that these data hold drives it");
+  return EffectsPanel::tr("is tried");
+}
+
 /// Everything there is to say about an effect, as a table of rich text.
-QString detailsOf(const Effect& effect, const OwnEffects* own) {
+QString detailsOf(const Effect& effect, const EffectListing& listing, const QString& state) {
+  const OwnEffects* own = listing.own.get();
   const auto row = [](const QString& name, const QString& value) {
     if (value.isEmpty()) return QString();
     return QStringLiteral(
@@ -152,10 +164,11 @@ QString detailsOf(const Effect& effect, const OwnEffects* own) {
   };
   const auto plain = [](const std::string& text) { return QString::fromStdString(printedUnits(text)).toHtmlEscaped(); };
   const OwnEffect* written = effect.own && own != nullptr ? own->find(effect.id) : nullptr;
-  QString html = QStringLiteral("<p style=\"margin:0 0 8px 0\">%1</p>")
+  QString html = QStringLiteral("<p style=\"margin-top:0;margin-bottom:8px\">%1</p>")
                      .arg(QString::fromStdString(effect.physics).toHtmlEscaped());
   if (effect.physics.empty()) html.clear();
   html += QStringLiteral("<table cellspacing=\"0\">");
+  html += row(EffectsPanel::tr("In the search"), state.toHtmlEscaped());
   html += row(EffectsPanel::tr("Id"), QString::fromStdString(effect.id).toHtmlEscaped());
   html += row(EffectsPanel::tr("Formula"), QString::fromStdString(effect.formula).toHtmlEscaped());
   QStringList gains;
@@ -182,7 +195,9 @@ QString detailsOf(const Effect& effect, const OwnEffects* own) {
   }
   html += row(EffectsPanel::tr("Dynamics"), dynamics.toHtmlEscaped());
   QStringList held;
-  for (const std::string& id : effect.contains) held << effectTitle(id);
+  for (const std::string& id : effect.contains) {
+    if (listing.find(id) != nullptr) held << effectTitle(id);  // others this machine cannot have
+  }
   html += row(EffectsPanel::tr("Contains"), held.join(QStringLiteral(", ")).toHtmlEscaped());
   QStringList references;
   for (const std::string& reference : effect.references) references << plain(reference);
@@ -217,10 +232,7 @@ EffectsPanel::EffectsPanel(SessionModel& session, QWidget* parent) : QWidget(par
   debounce_.setSingleShot(true);
   debounce_.setInterval(debounce_ms);
   connect(&debounce_, &QTimer::timeout, this, &EffectsPanel::checkEdited);
-  connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] {
-    markStates();
-    showEffect();
-  });
+  connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, &EffectsPanel::markStates);
 }
 
 void EffectsPanel::makeBrowser() {
@@ -240,7 +252,8 @@ void EffectsPanel::makeBrowser() {
   tree_->setIndentation(16);
   tree_->header()->setStretchLastSection(false);
   tree_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
-  tree_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+  tree_->header()->setSectionResizeMode(1, QHeaderView::Fixed);
+  tree_->header()->resizeSection(1, state_width);
   tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   tree_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   tree_->setMinimumHeight(160);
@@ -250,8 +263,10 @@ void EffectsPanel::makeBrowser() {
   list_card->body()->addWidget(built_in_);
   auto* buttons = new WrapLayout;
   new_ = makeButton(tr("New effect …"), "plus");
-  load_ = makeButton(tr("Load effects.json …"), "folder-open");
+  load_ = makeButton(tr("Load …"), "folder-open");
+  load_->setToolTip(tr("Reads effects.json in place of your own effects as they are here"));
   save_ = makeButton(tr("Save as …"), "export");
+  save_->setToolTip(tr("Writes your own effects as effects.json, for campaign.json or the command line"));
   original_ = makeButton(tr("Back to the campaign's"), "restore");
   original_->setToolTip(tr("Drops the effects as edited here; those that campaign.json names are used again"));
   for (QPushButton* button : {new_, load_, save_, original_}) buttons->addWidget(button);
@@ -283,7 +298,7 @@ void EffectsPanel::makeBrowser() {
   scroll->setWidget(details_);
   scroll->setMinimumHeight(120);
   detail_->body()->addWidget(scroll, 3);
-  stack_->addWidget(makeSplitter(list_card, detail_, 5, 7));
+  stack_->addWidget(makeSplitter(list_card, detail_, 6, 7));
 
   connect(search_, &QLineEdit::textChanged, this, &EffectsPanel::filter);
   connect(tree_, &QTreeWidget::currentItemChanged, this, &EffectsPanel::showEffect);
@@ -298,6 +313,13 @@ void EffectsPanel::makeBrowser() {
   });
   connect(gain_, &QComboBox::activated, this, &EffectsPanel::showPicture);
   connect(built_in_, &QCheckBox::clicked, this, [this](bool on) {
+    if (!on && listing_.document["effects"].empty()) {
+      built_in_->setChecked(true);
+      callout_->show(Tone::Attention,
+                     tr("There is no effect of your own yet: without the built-in ones the search would "
+                        "have nothing to try. Write or load one first."));
+      return;
+    }
     nlohmann::json document = listing_.document;
     document["built_in"] = on;
     storeDocument(on ? tr("use the built-in effects") : tr("leave out the built-in effects"), std::move(document));
@@ -428,27 +450,30 @@ QTreeWidgetItem* EffectsPanel::itemOf(const std::string& id) const {
 
 void EffectsPanel::markStates() {
   const DiscrepancyChoice choice = DiscrepancyChoice::of(session_);
+  std::map<std::string, const Effect*> effects;
+  for (const Effect& effect : listing_.effects) effects.emplace(effect.id, &effect);
   filling_ = true;
   for (int f = 0; f < tree_->topLevelItemCount(); ++f) {
     for (int i = 0; i < tree_->topLevelItem(f)->childCount(); ++i) {
       QTreeWidgetItem* item = tree_->topLevelItem(f)->child(i);
       const std::string id = item->data(0, id_role).toString().toStdString();
-      const Effect* effect = listing_.find(id);
+      const Effect* effect = effects[id];
       const bool on = choice.considers(id);
       const bool added = std::find(choice.added.begin(), choice.added.end(), id) != choice.added.end();
       const bool possible = effect != nullptr && !effect->variants.empty();
       item->setCheckState(0, on ? Qt::Checked : Qt::Unchecked);
-      item->setText(1, !on         ? tr("switched off")
-                       : added     ? tr("in the model")
-                       : !possible ? tr("cannot be tried")
-                                   : QString());
-      item->setFont(1, textFont(sizes::font_secondary));
-      item->setForeground(1, added && on ? theme().good : theme().text_secondary);
+      const QString state = stateOf(choice, id, possible);
+      item->setToolTip(1, state);
+      item->setData(1, Qt::AccessibleTextRole, state);
+      item->setIcon(1, added && on       ? icon("check-circle", theme().good)
+                       : on && !possible ? icon("blocked", theme().text_secondary)
+                                         : QIcon());
       item->setForeground(0, on && possible ? theme().text : theme().text_secondary);
     }
   }
   filling_ = false;
   updateButtons();
+  if (!chosen().empty()) showEffect();
 }
 
 void EffectsPanel::filter() {
@@ -529,7 +554,7 @@ void EffectsPanel::showEffect() {
     return;
   }
   detail_->setTitle(titleOfEffect(*effect));
-  details_->setText(detailsOf(*effect, listing_.own.get()));
+  details_->setText(detailsOf(*effect, listing_, itemOf(effect->id)->toolTip(1)));
   fillGains(gain_, *effect);
   showPicture();
 }
@@ -543,7 +568,6 @@ void EffectsPanel::showPicture() {
 void EffectsPanel::updateButtons() {
   const bool any = listing_.document.contains("effects") && listing_.document["effects"].is_array() &&
                    !listing_.document["effects"].empty();
-  built_in_->setEnabled(any);
   save_->setEnabled(any);
   original_->setVisible(campaign_ != nullptr && !campaign_->effects.empty() && effects_of_choice_.is_object());
 }
@@ -642,13 +666,13 @@ void EffectsPanel::makeEditor() {
   auto* buttons = new QHBoxLayout;
   buttons->setSpacing(8);
   auto* cancel = makeButton(tr("Cancel"), nullptr);
-  accept_ = makeButton(tr("Take over"), nullptr, "primary");
+  accept_ = makeButton(tr("Apply"), nullptr, "primary");
   accept_->setToolTip(tr("Puts the effect into the list; the next search tries it"));
   buttons->addStretch(1);
   buttons->addWidget(cancel);
   buttons->addWidget(accept_);
   picture_card->body()->addLayout(buttons);
-  stack_->addWidget(makeSplitter(editor_card_, picture_card, 1, 1));
+  stack_->addWidget(makeSplitter(editor_card_, picture_card, 6, 5));
 
   connect(editor_, &EffectEditor::edited, this, &EffectsPanel::editorChanged);
   connect(editor_gain_, &QComboBox::activated, this, &EffectsPanel::showEditorPicture);
