@@ -438,4 +438,21 @@ QString EffectEditor::problemAt(const std::string& field) const {
   return found->second.problem->sentence();
 }
 
+const EffectEditor::Field* EffectEditor::marked() const {
+  for (const auto& [key, field] : fields_)
+    if (field.problem != nullptr && !field.problem->isHidden()) return &field;
+  return nullptr;
+}
+
+QWidget* EffectEditor::problemWidget() const {
+  const Field* field = marked();
+  return field == nullptr ? nullptr : field->problem;
+}
+
+bool EffectEditor::problemHasFocus() const {
+  const Field* field = marked();
+  const QWidget* focus = focusWidget();
+  return field != nullptr && focus != nullptr && (focus == field->control || field->control->isAncestorOf(focus));
+}
+
 }  // namespace spindrift::gui

@@ -40,6 +40,11 @@ class EffectEditor : public QWidget {
   /// The sentence that is shown below a field; empty: none.
   [[nodiscard]] QString problemAt(const std::string& field) const;
 
+  /// Where that sentence is; null: nowhere.
+  [[nodiscard]] QWidget* problemWidget() const;
+  /// The field it is about is the one that is being typed in.
+  [[nodiscard]] bool problemHasFocus() const;
+
   [[nodiscard]] QLineEdit* id() const { return id_; }
   [[nodiscard]] QLineEdit* title() const { return title_; }
   [[nodiscard]] QLineEdit* drivers() const { return drivers_; }
@@ -70,6 +75,7 @@ class EffectEditor : public QWidget {
   void removeGain(std::size_t gain);
   void rebuildGains(const nlohmann::json& shape);
   [[nodiscard]] nlohmann::json shapeJson() const;
+  [[nodiscard]] const Field* marked() const;
   void touched();
 
   nlohmann::json entry_;  ///< as it was given

@@ -45,16 +45,13 @@ QColor axisColour(int axis) {
   return axis == 0 ? theme().axis_x : axis == 1 ? theme().axis_y : theme().axis_z;
 }
 
-/// "um_per_m" -> "µm/m".
-QString gainUnit(const std::string& unit) {
-  QString text = QString::fromStdString(unit);
-  text.replace(QStringLiteral("_per_"), QStringLiteral("/"));
-  return QString::fromStdString(printedUnits(text.toStdString()));
-}
-
-void paintArrow(QPainter& painter, const QPointF& from, const QPointF& to, const QColor& colour) {
+void paintArrow(QPainter& painter, const QPointF& from, const QPointF& to, const QColor& colour, bool halo = false) {
   const QPointF way = to - from;
   const double length = std::hypot(way.x(), way.y());
+  if (halo && length > 1.0) {  // dark on the light map, and still seen where the arrow leaves it
+    painter.setPen(QPen(QColor(255, 255, 255, 200), 4, Qt::SolidLine, Qt::RoundCap));
+    painter.drawLine(from, to);
+  }
   painter.setPen(QPen(colour, 1.4));
   painter.drawLine(from, to);
   if (length < 4.0) return;
@@ -104,7 +101,7 @@ void EffectPicture::show(const Effect& effect, const MachineDescription& machine
 
 void EffectPicture::make(const Effect& effect, const MachineDescription& machine, std::size_t gain) {
   const ShapeColumn& column = effect.shape[gain];
-  unit_ = gainUnit(column.gain_unit);
+  unit_ = gainUnitText(column.gain_unit);
   static constexpr const char* names[3] = {"X", "Y", "Z"};
   Eigen::Vector3d middle_mm;
   for (int i = 0; i < 3; ++i) {
@@ -303,14 +300,14 @@ void EffectPicture::paintView(QPainter& painter, const View& view, const QRectF&
     for (std::size_t row = 0; row < row_length; row += 4) {
       for (std::size_t i = 0; i < row_length; i += 4) {
         const Sample& s = view.nodes[row * row_length + i];
-        if (s.deviation.allFinite()) paintArrow(painter, rest(s), moved(s), arrow_colour);
+        if (s.deviation.allFinite()) paintArrow(painter, rest(s), moved(s), arrow_colour, true);
       }
     }
   }
   for (const Sample& s : view.points) {
     if (!s.deviation.allFinite()) continue;
     const QPointF from = rest(s);
-    paintArrow(painter, from, moved(s), arrow_colour);
+    paintArrow(painter, from, moved(s), arrow_colour, true);
     painter.setPen(QPen(arrow_colour, 1));
     painter.setBrush(one_point_ ? scale_.colour(s.deviation[view.out]) : QColor(Qt::white));
     const double radius = one_point_ ? 4.0 : 2.5;

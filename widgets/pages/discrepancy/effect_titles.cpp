@@ -149,6 +149,13 @@ QString pointsText(const std::vector<std::string>& points, std::size_t all) {
   return QCoreApplication::translate("Effect", "%1 of %2").arg(names.size()).arg(all);
 }
 
+QString gainUnitText(const std::string& unit) {
+  static const QRegularExpression of_component(QStringLiteral("_[xyz]$"));
+  QString text = QString::fromStdString(unit);
+  text.remove(of_component).replace(QStringLiteral("_per_"), QStringLiteral("/"));
+  return QString::fromStdString(printedUnits(text.toStdString()));
+}
+
 QString componentName(Component component) {
   return QString::fromStdString(std::string(toString(component)));
 }

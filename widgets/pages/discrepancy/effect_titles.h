@@ -46,6 +46,8 @@ void knowOwnTitles(const nlohmann::json& document);
 [[nodiscard]] QString clockText(double time_s);
 /// "all 10", "F1, F2", "7 of 10".
 [[nodiscard]] QString pointsText(const std::vector<std::string>& points, std::size_t all);
+/// Unit of a gain as people write it: "um_per_m" -> "µm/m", "um_x" -> "µm".
+[[nodiscard]] QString gainUnitText(const std::string& unit);
 [[nodiscard]] QString componentName(Component component);
 [[nodiscard]] QString componentUnit(Component component);
 

@@ -164,24 +164,18 @@ QString detailsOf(const Effect& effect, const EffectListing& listing, const QStr
   };
   const auto plain = [](const std::string& text) { return QString::fromStdString(printedUnits(text)).toHtmlEscaped(); };
   const OwnEffect* written = effect.own && own != nullptr ? own->find(effect.id) : nullptr;
-  QString html = QStringLiteral("<p style=\"margin-top:0;margin-bottom:8px\">%1</p>")
-                     .arg(QString::fromStdString(effect.physics).toHtmlEscaped());
-  if (effect.physics.empty()) html.clear();
-  html += QStringLiteral("<table cellspacing=\"0\">");
+  QString html = QStringLiteral("<table cellspacing=\"0\">");
+  html += row(EffectsPanel::tr("Physics"), QString::fromStdString(effect.physics).toHtmlEscaped());
   html += row(EffectsPanel::tr("In the search"), state.toHtmlEscaped());
   html += row(EffectsPanel::tr("Id"), QString::fromStdString(effect.id).toHtmlEscaped());
   html += row(EffectsPanel::tr("Formula"), QString::fromStdString(effect.formula).toHtmlEscaped());
   QStringList gains;
-  for (const ShapeColumn& column : effect.shape) {
-    QString unit = QString::fromStdString(column.gain_unit);
-    gains << QString::fromStdString(
-        printedUnits(unit.replace(QStringLiteral("_per_"), QStringLiteral("/")).toStdString()));
-  }
+  for (const ShapeColumn& column : effect.shape) gains << gainUnitText(column.gain_unit);
+  gains.removeDuplicates();
   const QString sign = effect.sign > 0   ? EffectsPanel::tr("; positive for more of the driver")
                        : effect.sign < 0 ? EffectsPanel::tr("; negative for more of the driver")
                                          : QString();
-  html += row(gains.size() > 1 ? EffectsPanel::tr("Gains") : EffectsPanel::tr("Gain"),
-              (gains.join(QStringLiteral(", ")) + sign).toHtmlEscaped());
+  html += row(EffectsPanel::tr("Unit of gain"), (gains.join(QStringLiteral(", ")) + sign).toHtmlEscaped());
   const QString drivers = driversText(writtenDrivers(effect, own));
   html += row(EffectsPanel::tr("Driven by"),
               drivers.isEmpty() ? (effect.variants.empty() && written == nullptr
@@ -298,7 +292,7 @@ void EffectsPanel::makeBrowser() {
   scroll->setWidget(details_);
   scroll->setMinimumHeight(120);
   detail_->body()->addWidget(scroll, 3);
-  stack_->addWidget(makeSplitter(list_card, detail_, 6, 7));
+  stack_->addWidget(makeSplitter(list_card, detail_, 1, 1));
 
   connect(search_, &QLineEdit::textChanged, this, &EffectsPanel::filter);
   connect(tree_, &QTreeWidget::currentItemChanged, this, &EffectsPanel::showEffect);
@@ -401,7 +395,7 @@ void EffectsPanel::fillTree() {
     item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable | Qt::ItemNeverHasChildren);
     item->setCheckState(0, Qt::Checked);
     item->setSizeHint(0, QSize(0, row_height));
-    item->setToolTip(0, QString::fromStdString(effect.id));
+    item->setToolTip(0, QStringLiteral("%1 (%2)").arg(item->text(0), QString::fromStdString(effect.id)));
     item->setData(0, id_role, QString::fromStdString(effect.id));
     QStringList words{item->text(0),
                       family,
@@ -647,12 +641,12 @@ void EffectsPanel::saveFile(const QString& file) {
 void EffectsPanel::makeEditor() {
   editor_card_ = new Card;
   editor_ = new EffectEditor;
-  auto* scroll = new QScrollArea;
-  scroll->setWidgetResizable(true);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setWidget(editor_);
-  editor_card_->body()->addWidget(scroll, 1);
+  editor_scroll_ = new QScrollArea;
+  editor_scroll_->setWidgetResizable(true);
+  editor_scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  editor_scroll_->setFrameShape(QFrame::NoFrame);
+  editor_scroll_->setWidget(editor_);
+  editor_card_->body()->addWidget(editor_scroll_, 1);
 
   auto* picture_card = new Card(tr("Shape on the machine"));
   editor_gain_ = new QComboBox;
@@ -763,12 +757,19 @@ void EffectsPanel::showProblem(const InputError& wrong) {
   const std::string& place = wrong.where().place;
   const QString sentence = QString::fromUtf8(wrong.what());
   accept_->setEnabled(false);
+  editor_state_->setAction({}, {});
   if (place.starts_with(prefix) && editor_->showProblem(place.substr(prefix.size()), sentence)) {
     editor_state_->show(Tone::Bad, tr("Not right yet: see the field that is marked."));
+    editor_state_->setAction(tr("Show"), [this] { showMarkedField(); });
+    if (editor_->problemHasFocus()) QTimer::singleShot(0, this, &EffectsPanel::showMarkedField);
     return;
   }
   editor_->clearProblems();
   editor_state_->show(Tone::Bad, sentence);
+}
+
+void EffectsPanel::showMarkedField() {
+  if (QWidget* problem = editor_->problemWidget()) editor_scroll_->ensureWidgetVisible(problem, 0, 56);
 }
 
 void EffectsPanel::showEditorPicture() {
@@ -812,6 +813,7 @@ void EffectsPanel::checkEdited() {
         return;
       }
       editor_->clearProblems();
+      editor_state_->setAction({}, {});
       if (!warnings.isEmpty()) {
         editor_state_->show(Tone::Attention, warnings.join(QLatin1Char(' ')));
       } else if (count > 0) {

@@ -22,6 +22,7 @@ class QComboBox;
 class QLabel;
 class QLineEdit;
 class QPushButton;
+class QScrollArea;
 class QStackedWidget;
 class QTreeWidget;
 class QTreeWidgetItem;
@@ -102,6 +103,7 @@ class EffectsPanel : public QWidget {
   void editorChanged();
   void checkEdited();
   void showProblem(const InputError& wrong);
+  void showMarkedField();
   void showEditorPicture();
   void accept();
   [[nodiscard]] nlohmann::json editedDocument() const;
@@ -131,6 +133,7 @@ class EffectsPanel : public QWidget {
   QComboBox* editor_gain_ = nullptr;
   Callout* editor_state_ = nullptr;
   Card* editor_card_ = nullptr;
+  QScrollArea* editor_scroll_ = nullptr;
   QPushButton* accept_ = nullptr;
   std::string original_id_;  ///< of the effect that is edited; empty: a new one
   bool edited_ = false;
