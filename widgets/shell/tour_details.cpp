@@ -167,6 +167,7 @@ QWidget* showEffectEditor(MainWindow& window) {
   editor.expression(0, Component::EZ)->setText(QStringLiteral("0.001 * x * y"));
   Q_EMIT editor.edited();
   waitForEffects(panel);
+  editor.expression(0, Component::EA)->setFocus();
   editor.expression(0, Component::EA)->setText(QStringLiteral("x * cosine(c)"));
   Q_EMIT editor.edited();
   waitForEffects(panel);

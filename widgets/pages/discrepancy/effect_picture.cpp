@@ -372,7 +372,7 @@ void EffectPicture::paintLegend(QPainter& painter, const QRectF& area, bool besi
   const QString unit = rotations_ ? QStringLiteral("urad") : QStringLiteral("um");
   const QString words = (rotations_ ? tr("Rotation of the tool for a gain of 1 %1, as vectors: at most %2.")
                                     : tr("Deviation of the tool for a gain of 1 %1, drawn exaggerated: at most %2."))
-                            .arg(unit_, sizeText(largest_, unit));
+                            .arg(unit_, sizeText(largest_, unit).replace(QLatin1Char(' '), QChar(QChar::Nbsp)));
   constexpr double unit_width = 32;
   const double bar = std::min(160.0, beside ? area.width() - 2 * unit_width : 0.3 * area.width());
   const QRectF text = beside ? QRectF(area.left(), area.top(), area.width(), area.height() - foot_px)

@@ -150,9 +150,10 @@ QString pointsText(const std::vector<std::string>& points, std::size_t all) {
 }
 
 QString gainUnitText(const std::string& unit) {
-  static const QRegularExpression of_component(QStringLiteral("_[xyz]$"));
+  static const QRegularExpression of_component(QStringLiteral("_([xyz]|cos|sin|lift|ram)$"));
   QString text = QString::fromStdString(unit);
   text.remove(of_component).replace(QStringLiteral("_per_"), QStringLiteral("/"));
+  text.replace(QStringLiteral("/m2"), QStringLiteral("/m²"));
   return QString::fromStdString(printedUnits(text.toStdString()));
 }
 

@@ -292,7 +292,7 @@ void EffectsPanel::makeBrowser() {
   scroll->setWidget(details_);
   scroll->setMinimumHeight(120);
   detail_->body()->addWidget(scroll, 3);
-  stack_->addWidget(makeSplitter(list_card, detail_, 1, 1));
+  stack_->addWidget(makeSplitter(list_card, detail_, 10, 10));
 
   connect(search_, &QLineEdit::textChanged, this, &EffectsPanel::filter);
   connect(tree_, &QTreeWidget::currentItemChanged, this, &EffectsPanel::showEffect);
