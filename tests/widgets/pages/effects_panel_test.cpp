@@ -247,6 +247,20 @@ TEST_F(EffectsPanelTest, AnEffectIsCheckedWhileItIsTypedAndTheSearchNamesIt) {
       << page_->verdict()->text().toStdString();
   EXPECT_EQ(choiceOfResult().at("effects").at("effects").size(), 1U);
   EXPECT_EQ(window_->workflow().status(StepId::Discrepancy).state, StepState::Current);
+  // What follows knows it too: the model it was added to, the corrections and the report.
+  QTest::mouseClick(page_->addButton(), Qt::LeftButton);
+  wait();
+  ASSERT_EQ(page_->story()->added, std::vector<std::string>{"quill.growth"});
+  for (const StepId step : {StepId::Compensate, StepId::Report}) {
+    window_->workflow().goTo(step);
+    window_->currentPage()->runAll();
+    wait();
+    EXPECT_EQ(window_->workflow().status(step).state, StepState::Current)
+        << stepTitle(step).toStdString() << ": " << window_->currentPage()->callout()->sentence().toStdString();
+  }
+  window_->workflow().goTo(StepId::Discrepancy);
+  window_->undoStack().undo();
+  wait();
   // The campaign folder is as it was.
   EXPECT_FALSE(std::filesystem::exists(window_->session().campaign()->folder / "effects.json"));
   // Undo: the built-in ones again, then without the new one.
