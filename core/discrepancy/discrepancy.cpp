@@ -18,6 +18,7 @@
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/effect_posterior.h"
 #include "core/discrepancy/effect_relations.h"
+#include "core/discrepancy/effect_titles.h"
 #include "core/discrepancy/judgement.h"
 #include "core/discrepancy/own_effects.h"
 #include "core/discrepancy/places.h"
@@ -32,11 +33,14 @@ using Eigen::Index;
 
 constexpr std::size_t unit_limit = 3000;
 
-/// Every id of the user's lists is one that this machine can have.
-void checkIds(const DiscrepancyOptions& options, const std::vector<Effect>& catalogue) {
+/// Every id of the user's lists is one that this machine can have. What is left out may also be an effect that these
+/// data cannot show anyway (backlash where every point is approached from one side, a shape that is zero at all
+/// points).
+void checkIds(const DiscrepancyOptions& options, const std::vector<Effect>& catalogue, const OwnEffects* own) {
   for (const auto* list : {&options.accept, &options.reject}) {
     for (const std::string& id : *list) {
       if (std::any_of(catalogue.begin(), catalogue.end(), [&](const Effect& e) { return e.id == id; })) continue;
+      if (list == &options.reject && (effectTitleOf(id) || (own != nullptr && own->find(id) != nullptr))) continue;
       std::vector<std::string> known;
       for (const Effect& e : catalogue) known.push_back(e.id);
       throw InputError(fmt::format("effect \"{}\" is not one that this machine can have; allowed: {}.", id,
@@ -508,7 +512,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   ResidualProblem problem(input, rows.fit, unit_limit);
   std::vector<Effect> catalogue = catalogueOf(input, *drivers, problem, result.warnings);
   warnAboutUndecidable(input, catalogue, result.warnings);
-  checkIds(options, catalogue);
+  checkIds(options, catalogue, input.own.get());
 
   const bool enough = problem.degreesOfFreedom() >= 12 && (input.absolute || problem.epoch_count >= 4);
   DiscrepancyOptions effective = options;

@@ -155,13 +155,20 @@ EffectsAnswer listEffects(const EffectsRequest& request) {
   Campaign campaign = Campaign::read(request.campaign);
   if (!request.effects.empty()) campaign.effects = std::filesystem::absolute(request.effects);
   if (!campaign.effects.empty()) out.own = OwnEffects::read(campaign.path(campaign.effects.string()));
+  return listEffects(campaign, campaign.observations ? &*campaign.observations : nullptr, std::move(out.own));
+}
+
+EffectsAnswer listEffects(const Campaign& campaign, const ObservationSet* observations,
+                          std::shared_ptr<const OwnEffects> own_effects) {
+  EffectsAnswer out;
+  out.own = std::move(own_effects);
   const OperatingLog* log = campaign.log ? &*campaign.log : nullptr;
   DriverTable drivers(campaign.machine, log);
   if (!out.own || out.own->builtIn()) {
     CatalogueContext context;
     context.machine = &campaign.machine;
     context.drivers = &drivers;
-    if (campaign.observations) context.points = campaign.observations->points();
+    if (observations != nullptr) context.points = observations->points();
     context.point_count = context.points.size();
     context.varying_approach = {"x", "y", "z"};
     context.c_varies = !campaign.machine.rotary.empty();
@@ -170,7 +177,7 @@ EffectsAnswer listEffects(const EffectsRequest& request) {
   }
   if (!out.own) return out;
   std::vector<Effect> own = out.own->bind(drivers, log, campaign.machine.reference_temperature_degC, campaign.absolute);
-  if (campaign.observations) out.own->check(own, campaign.observations->rows, out.warnings);
+  if (observations != nullptr) out.own->check(own, observations->rows, out.warnings);
   for (Effect& effect : own) out.effects.push_back(std::move(effect));
   return out;
 }

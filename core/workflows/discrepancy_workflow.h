@@ -61,6 +61,10 @@ struct EffectsAnswer {
 };
 /// Throws InputError, as for a search: expressions are evaluated at the campaign's observations, if it has any.
 [[nodiscard]] EffectsAnswer listEffects(const EffectsRequest& request);
+/// The same for a campaign in memory: with `own_effects` (may be null) in place of the effects that it names, checked
+/// at the observations given (may be null) in place of its own.
+[[nodiscard]] EffectsAnswer listEffects(const Campaign& campaign, const ObservationSet* observations,
+                                        std::shared_ptr<const OwnEffects> own_effects);
 
 /// Throws InputError; nothing is written then. The campaign folder is never written to.
 [[nodiscard]] DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job);

@@ -65,6 +65,7 @@ class MainWindow : public QMainWindow {
   /// A new session with an empty campaign of this machine (machine.json), at the step Machine.
   void startMeasurement(const nlohmann::json& machine);
   NotesDialog* openNotes();  ///< null if nothing is open
+  void openEffects();        ///< the list of effects of the step Discrepancy
 
  protected:
   void closeEvent(QCloseEvent* event) override;

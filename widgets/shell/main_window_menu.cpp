@@ -17,6 +17,7 @@
 #include "core/base/error.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/scanning/artefact_designer.h"
 #include "widgets/shell/diagnostics.h"
 #include "widgets/shell/help_panel.h"
@@ -93,6 +94,7 @@ void MainWindow::buildMenu() {
     designer->setAttribute(Qt::WA_DeleteOnClose);
     designer->show();
   });
+  add(tools, tr("&Effects of this machine …"), "table", QKeySequence(tr("Ctrl+Shift+E")), [this] { openEffects(); });
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   help_action_ = add(help, tr("Help &beside the step"), "help", QKeySequence(Qt::Key_F1), [this] {
     QSettings().setValue(QStringLiteral("help"), help_action_->isChecked());
@@ -161,6 +163,15 @@ void MainWindow::saveLog(const QString& file) {
   } catch (const InputError& e) {
     tell(QString::fromUtf8(e.what()));
   }
+}
+
+void MainWindow::openEffects() {
+  if (session_.campaign() == nullptr) {
+    tell(tr("Open a session first; which effects there can be depends on its machine."));
+    return;
+  }
+  workflow_.goTo(StepId::Discrepancy);
+  if (auto* page = qobject_cast<DiscrepancyPage*>(page_)) page->showEffects(true);
 }
 
 NotesDialog* MainWindow::openNotes() {

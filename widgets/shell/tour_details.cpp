@@ -6,6 +6,7 @@
 #include <QElapsedTimer>
 #include <QEventLoop>
 #include <QImage>
+#include <QLineEdit>
 #include <QTabWidget>
 #include <QTimer>
 #include <cmath>
@@ -18,6 +19,8 @@
 #include "widgets/pages/capture/new_capture_page.h"
 #include "widgets/pages/capture/plan_panel.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
+#include "widgets/pages/discrepancy/effect_editor.h"
+#include "widgets/pages/discrepancy/effects_panel.h"
 #include "widgets/pages/discrepancy/gap_panel.h"
 #include "widgets/pages/discrepancy/next_panel.h"
 #include "widgets/pages/discrepancy/noise_panel.h"
@@ -131,6 +134,46 @@ TourDetail discrepancyTab(const char* name, QWidget* (*tab)(const DiscrepancyPag
   return {StepId::Discrepancy, name, show, {}};
 }
 
+void waitForEffects(const EffectsPanel& panel) {
+  QElapsedTimer timer;
+  timer.start();
+  while (panel.busy() && timer.elapsed() < 1000LL * search_seconds) {
+    QEventLoop loop;
+    QTimer::singleShot(20, &loop, &QEventLoop::quit);
+    loop.exec();
+  }
+}
+
+QWidget* showEffects(MainWindow& window) {
+  auto* page = qobject_cast<DiscrepancyPage*>(window.currentPage());
+  if (page == nullptr) return nullptr;
+  page->showEffects(true);
+  waitForEffects(*page->effects());
+  page->effects()->choose("column.bending.a");
+  return nullptr;
+}
+
+/// An effect of the user's while it is written, with a function that does not exist.
+QWidget* showEffectEditor(MainWindow& window) {
+  showEffects(window);
+  auto* page = qobject_cast<DiscrepancyPage*>(window.currentPage());
+  if (page == nullptr) return nullptr;
+  EffectsPanel& panel = *page->effects();
+  panel.newEffect();
+  EffectEditor& editor = *panel.editor();
+  editor.id()->setText(QStringLiteral("bed.twist.x"));
+  editor.title()->setText(QStringLiteral("twist of the bed about X"));
+  editor.expression(0, Component::EY)->setText(QStringLiteral("-0.001 * x * z"));
+  editor.expression(0, Component::EZ)->setText(QStringLiteral("0.001 * x * y"));
+  Q_EMIT editor.edited();
+  waitForEffects(panel);
+  editor.expression(0, Component::EA)->setFocus();
+  editor.expression(0, Component::EA)->setText(QStringLiteral("x * cosine(c)"));
+  Q_EMIT editor.edited();
+  waitForEffects(panel);
+  return nullptr;
+}
+
 /// Every tab behind the first; the gap before and after the effects found are added. The page is left as it was.
 std::vector<TourDetail> discrepancyTabs() {
   std::vector<TourDetail> tabs{
@@ -147,11 +190,18 @@ std::vector<TourDetail> discrepancyTabs() {
       discrepancyTab(
           "next", [](const DiscrepancyPage& page) -> QWidget* { return page.next(); }, true)};
   tabs.back().leave = [](MainWindow& window) {
-    if (const auto* page = qobject_cast<DiscrepancyPage*>(window.currentPage())) {
+    if (auto* page = qobject_cast<DiscrepancyPage*>(window.currentPage())) {
       setEffectsAdded(window, *page, false);
       page->tabs()->setCurrentIndex(0);
     }
   };
+  tabs.push_back({StepId::Discrepancy, "effects", showEffects, {}});
+  tabs.push_back({StepId::Discrepancy, "effect-editor", showEffectEditor, [](MainWindow& window) {
+                    if (auto* page = qobject_cast<DiscrepancyPage*>(window.currentPage())) {
+                      page->effects()->leaveEditor();
+                      page->showEffects(false);
+                    }
+                  }});
   return tabs;
 }
 
@@ -199,6 +249,13 @@ std::vector<TourDetail> tourDetails(const QString& demo, const QString& scratch)
   }
   if (demo == QLatin1String("discrepancy")) {
     std::vector<TourDetail> details = discrepancyTabs();
+    details.push_back({StepId::Machine, "sensors",
+                       [](MainWindow& window) -> QWidget* {
+                         auto* tabs = window.currentPage()->findChild<QTabWidget*>();
+                         if (tabs != nullptr) tabs->setCurrentIndex(2);
+                         return nullptr;
+                       },
+                       firstTab});
     details.push_back(
         {StepId::Verify, "compared", [scratch](MainWindow& window) { return showVerify(window, scratch); }, {}});
     return details;

@@ -2,6 +2,7 @@
 #include "widgets/workflow/workflow.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/workflows/report_workflow.h"
 #include "widgets/models/session_model.h"
@@ -193,14 +194,17 @@ StepStatus Workflow::evaluate(StepId step) const {
         session_.setting("discrepancy/" + std::to_string(session_.campaignId()), nlohmann::json::object());
     return json.is_object() ? json : nlohmann::json::object();
   };
+  static constexpr std::array choice_lists{"added", "rejected"};
   const auto withChoice = [&](StepStatus status, const char* kind) {
     if (status.state != StepState::Current) return status;
     const StoredResult* result = session_.latest(kind);
     const nlohmann::json& options = result->provenance.options;
     const nlohmann::json& depends = options.contains("depends") ? options["depends"] : options;
     const nlohmann::json then = depends.value("discrepancy", nlohmann::json::object());
-    if (then.value("added", nlohmann::json::array()) != choice().value("added", nlohmann::json::array()) ||
-        then.value("rejected", nlohmann::json::array()) != choice().value("rejected", nlohmann::json::array())) {
+    const bool same = std::all_of(choice_lists.begin(), choice_lists.end(), [&](const char* list) {
+      return then.value(list, nlohmann::json::array()) == choice().value(list, nlohmann::json::array());
+    });
+    if (!same || then.value("effects", nlohmann::json()) != choice().value("effects", nlohmann::json())) {
       return StepStatus{StepState::Outdated, tr("The effects in the model have changed since. Run it again.")};
     }
     return status;

@@ -101,5 +101,15 @@ TEST(RejectedByHand, WhatNobodyAsksForIsNotMissed) {
   EXPECT_THAT(result.warnings, Contains(HasSubstr("fixture.slip.F1 was rejected by hand; the data do not ask")));
 }
 
+// A list of switched-off effects is kept from one search to the next, while machine and data change.
+TEST(RejectedByHand, AnEffectThatCannotBeTriedAnyway) {
+  DiscrepancyInput input = campaign(Hidden::SpindleDrift, 3);
+  DiscrepancyOptions options;
+  options.reject = {"rotary.expansion.r0t"};
+  EXPECT_FALSE(run(input, options).effects.empty());
+  options.reject = {"rotary.no_such"};
+  EXPECT_THROW((void)run(input, options), InputError);
+}
+
 }  // namespace
 }  // namespace spindrift

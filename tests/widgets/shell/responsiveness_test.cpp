@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QTabWidget>
+#include <QTest>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -22,6 +24,8 @@
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
+#include "widgets/pages/discrepancy/effect_editor.h"
+#include "widgets/pages/discrepancy/effects_panel.h"
 #include "widgets/pages/report/report_page.h"
 #include "widgets/shell/tour.h"
 
@@ -93,6 +97,18 @@ void StoryResponsivenessTest::walk() {
   for (int tab = 0; tab < story->tabs()->count(); ++tab) {
     watch(QStringLiteral("tab ") + story->tabs()->tabText(tab), [&] { story->tabs()->setCurrentIndex(tab); });
   }
+  watch(QStringLiteral("effects"), [&] { story->showEffects(true); });
+  watch(QStringLiteral("effects, listed"),
+        [&] { ASSERT_TRUE(QTest::qWaitFor([&] { return !story->effects()->busy(); }, 10'000)); });
+  watch(QStringLiteral("new effect"), [&] { story->effects()->newEffect(); });
+  watch(QStringLiteral("effect typed"), [&] {
+    story->effects()->editor()->id()->setText(QStringLiteral("bed.slope"));
+    story->effects()->editor()->expression(0, Component::EZ)->setText(QStringLiteral("1e-3 * x"));
+    Q_EMIT story->effects()->editor()->edited();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !story->effects()->busy(); }, 10'000));
+  });
+  story->effects()->leaveEditor();
+  watch(QStringLiteral("story again"), [&] { story->showEffects(false); });
   watch(QStringLiteral("undo"), [&] { window_->undoStack().undo(); });
   watch(QStringLiteral("report again"), [&] { window_->workflow().goTo(StepId::Report); });
   auto* report = page<ReportPage>();

@@ -345,8 +345,9 @@ void CompensatePage::runPlan(bool store) {
   Job job;
   job.title = tr("Working out the corrections");
   job.work = [this, store, visit, set = *observations, asked = request(), depends = dependencies(),
+              choice = DiscrepancyChoice::of(session()), effects_file = DiscrepancyChoice::file(session()),
               data = session().snapshot().campaign](JobContext& progress) -> std::function<void()> {
-    const CompensationPlan plan = planCompensation(*data, set, asked, progress);
+    const CompensationPlan plan = planCompensation(*choice.applied(data, effects_file), set, asked, progress);
     return [this, store, visit, plan, depends] {
       if (session().visit() != visit) return;
       plan_ = plan;

@@ -5,6 +5,7 @@
 #include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QStackedWidget>
 #include <QTabWidget>
 #include <QTimer>
@@ -14,9 +15,11 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/json_reader.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/pages/discrepancy/effects_panel.h"
 #include "widgets/pages/discrepancy/gap_panel.h"
 #include "widgets/pages/discrepancy/next_panel.h"
 #include "widgets/pages/discrepancy/noise_panel.h"
@@ -120,28 +123,15 @@ Sentence verdictOf(const DiscrepancyStory& story) {
 
 }  // namespace
 
-std::string DiscrepancyChoice::key(const SessionModel& session) {
-  return "discrepancy/" + std::to_string(session.campaignId());
-}
-
-DiscrepancyChoice DiscrepancyChoice::of(const SessionModel& session) {
-  DiscrepancyChoice choice;
-  const nlohmann::json json = session.setting(key(session), nlohmann::json::object());
-  if (json.is_object()) {
-    choice.added = json.value("added", std::vector<std::string>());
-    choice.rejected = json.value("rejected", std::vector<std::string>());
-  }
-  return choice;
-}
-
-nlohmann::json DiscrepancyChoice::json() const {
-  return {{"added", added}, {"rejected", rejected}};
-}
-
 DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Discrepancy, parent) {
   search_ = makeButton(tr("Search"), nullptr, "primary");
   search_->setToolTip(tr("Look where measured and simulated disagree and try every effect of the catalogue"));
+  effects_button_ = makeButton(tr("Effects"), "table");
+  effects_button_->setCheckable(true);
+  effects_button_->setToolTip(
+      tr("All effects that the search knows for this machine: look at them, switch them off, write your own"));
+  addAction(effects_button_);
   addAction(search_);
 
   stack_ = new QStackedWidget;
@@ -185,7 +175,12 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   showHints(where_);
   showHints(gap_);
 
-  connect(search_, &QPushButton::clicked, this, &DiscrepancyPage::search);
+  connect(search_, &QPushButton::clicked, this, [this] {
+    if (!mayBeLeft()) return;
+    showEffects(false);
+    search();
+  });
+  connect(effects_button_, &QPushButton::clicked, this, &DiscrepancyPage::showEffects);
   connect(add_, &QPushButton::clicked, this, &DiscrepancyPage::add);
   connect(remove_, &QPushButton::clicked, this, &DiscrepancyPage::removeLast);
   connect(gap_, &GapPanel::chosen, this, [this] {
@@ -230,14 +225,19 @@ QString DiscrepancyPage::missing() const {
 
 void DiscrepancyPage::refresh() {
   if (session().campaign() == nullptr) return;
-  noticeCampaign();
+  if (noticeCampaign()) {
+    if (effects_ != nullptr) effects_->leaveEditor();
+    showEffects(false);
+  }
+  knowTitles();
+  if (effects_button_->isChecked()) effects_->refresh();
   const QString lacks = missing();
   callout()->setAction({}, {});
   if (!lacks.isEmpty()) {
     story_.reset();
     shown_result_ = 0;
     empty_->setTexts(tr("Nothing to compare yet"), lacks);
-    stack_->setCurrentIndex(0);
+    showContent(0);
     callout()->set(Tone::Neutral, {});
     updateButtons();
     return;
@@ -249,7 +249,7 @@ void DiscrepancyPage::refresh() {
     empty_->setTexts(tr("What does the simulation lack?"),
                      tr("Press Search: every effect of the catalogue is tried on what is left between measurement and "
                         "simulation. It takes a few seconds, can be cancelled, and changes nothing."));
-    stack_->setCurrentIndex(0);
+    showContent(0);
     callout()->set(Tone::Neutral, {});
     updateButtons();
     return;
@@ -261,19 +261,19 @@ void DiscrepancyPage::refresh() {
     } catch (const InputError& e) {
       story_.reset();
       callout()->show(Tone::Attention, QString::fromUtf8(e.what()));
-      stack_->setCurrentIndex(0);
+      showContent(0);
       updateButtons();
       return;
     }
     show();
   }
   showExcluded();
-  stack_->setCurrentIndex(1);
+  showContent(1);
   const bool same =
       stored->provenance.options.value(option_name, nlohmann::json()) == DiscrepancyChoice::of(session()).json();
   if (!session().state(result_kind).current || !same) {
     callout()->show(Tone::Outdated,
-                    tr("Observations, exclusions, the machine or the model have changed since this was found."));
+                    tr("Observations, exclusions, the machine or the effects have changed since this was found."));
     callout()->setAction(tr("Search again"), [this] { search(); });
   } else if (!story_->warnings.empty()) {
     QString text = titledSentence(story_->warnings.front());
@@ -296,8 +296,9 @@ void DiscrepancyPage::search() {
   Job job;
   job.title = tr("Searching for what the simulation lacks");
   job.work = [this, visit, options, choice, data = session().snapshot().campaign,
+              file = DiscrepancyChoice::file(session()),
               observations = *session().observations()](JobContext& progress) -> std::function<void()> {
-    const DiscrepancyStory story = tellDiscrepancy(*data, observations, options, progress);
+    const DiscrepancyStory story = tellDiscrepancy(*choice.applied(data, file), observations, options, progress);
     return [this, visit, choice, payload = story.json()] {
       if (session().visit() != visit) return;
       session().storeResult(result_kind, {{option_name, choice.json()}}, payload);
@@ -322,19 +323,77 @@ void DiscrepancyPage::change(const QString& what, const DiscrepancyChoice& after
                                          [this] { choiceChanged(); }));
 }
 
+bool DiscrepancyPage::showStored() {
+  const nlohmann::json wanted = DiscrepancyChoice::of(session()).json();
+  Session* store = session().session();
+  if (store == nullptr) return false;
+  const std::vector<StoredResult> all = store->resultHeads(session().campaignId(), result_kind);
+  for (auto it = all.rbegin(); it != all.rend(); ++it) {
+    if (it->provenance.options.value(option_name, nlohmann::json()) != wanted) continue;
+    if (!store->isCurrent(*it)) continue;
+    session().storeResult(result_kind, {{option_name, wanted}}, store->payload(it->id));
+    refresh();
+    return true;
+  }
+  return false;
+}
+
+void DiscrepancyPage::changeEffects(const QString& what, const DiscrepancyChoice& after) {
+  context().undo.push(new OptionsCommand(session(), what, DiscrepancyChoice::key(session()), after.json(),
+                                         [this] { effectsChanged(); }));
+}
+
+void DiscrepancyPage::effectsChanged() {
+  if (showStored()) return;
+  context().workflow.refresh();
+  refresh();
+}
+
+void DiscrepancyPage::showContent(int index) {
+  content_index_ = index;
+  stack_->setCurrentIndex(effects_button_->isChecked() ? stack_->indexOf(effects_) : index);
+}
+
+void DiscrepancyPage::showEffects(bool shown) {
+  if (!shown && !mayBeLeft()) shown = true;
+  effects_button_->setChecked(shown);
+  if (shown && effects_ == nullptr) {
+    effects_ = new EffectsPanel(session());
+    stack_->addWidget(effects_);
+    connect(effects_, &EffectsPanel::changeAsked, this, &DiscrepancyPage::changeEffects);
+  }
+  if (shown) effects_->refresh();
+  showContent(content_index_);
+}
+
+bool DiscrepancyPage::mayBeLeft() {
+  if (effects_ == nullptr || !effects_->hasUnsavedEdit()) return true;
+  QMessageBox box(QMessageBox::Question, tr("Effects"), tr("The effect that is being edited has not been taken over."),
+                  QMessageBox::Discard | QMessageBox::Cancel, this);
+  box.setDefaultButton(QMessageBox::Cancel);
+  if (box.exec() != QMessageBox::Discard) return false;
+  effects_->leaveEditor();
+  return true;
+}
+
+void DiscrepancyPage::knowTitles() {
+  const auto campaign = session().campaign();
+  nlohmann::json now = DiscrepancyChoice::of(session()).effects;
+  if (!now.is_object()) now = campaign->effects.empty() ? "" : campaign->path(campaign->effects.string()).string();
+  if (now == titles_of_) return;
+  titles_of_ = now;
+  try {
+    knowOwnTitles(!now.is_string() ? now
+                  : now == ""      ? nlohmann::json()
+                                   : JsonNode::read(now.get<std::string>()).value());
+  } catch (const InputError&) {
+    knowOwnTitles(nullptr);  // the search says what is wrong with the file
+  }
+}
+
 void DiscrepancyPage::choiceChanged() {
   // Undo must not wait for a search that was made before.
-  const nlohmann::json wanted = DiscrepancyChoice::of(session()).json();
-  if (Session* store = session().session(); store != nullptr) {
-    const std::vector<StoredResult> all = store->resultHeads(session().campaignId(), result_kind);
-    for (auto it = all.rbegin(); it != all.rend(); ++it) {
-      if (it->provenance.options.value(option_name, nlohmann::json()) != wanted) continue;
-      if (!store->isCurrent(*it)) continue;
-      session().storeResult(result_kind, {{option_name, wanted}}, store->payload(it->id));
-      refresh();
-      return;
-    }
-  }
+  if (showStored()) return;
   context().workflow.refresh();
   refresh();
   search();
@@ -503,6 +562,7 @@ void DiscrepancyPage::showVerdict() {
 std::vector<Exportable> DiscrepancyPage::exportables() {
   makePanels();
   std::vector<Exportable> items;
+  if (effects_ != nullptr) items = effects_->exportables();
   if (story_ == nullptr) return items;
   for (auto&& list : {where_->exportables(), what_->exportables(), noise_->exportables(), remainder_->exportables(),
                       gap_->exportables(), next_->exportables()}) {

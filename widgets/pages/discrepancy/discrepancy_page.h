@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Step Discrepancy: the story of what the simulation lacks. Where it disagrees, what is missing, what was taken as
-// noise, what remains; add the effect, see the gap close, know what to measure next. Which effects are in the model is
-// an option of the session and can be undone.
+// noise, what remains; add the effect, see the gap close, know what to measure next. Which effects are in the model,
+// which are left out and which are the user's own is an option of the session and can be undone.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/workflows/discrepancy_story.h"
+#include "widgets/pages/discrepancy/discrepancy_choice.h"
 #include "widgets/pages/page.h"
 
 class QLabel;
@@ -17,6 +18,7 @@ class QTabWidget;
 
 namespace spindrift::gui {
 
+class EffectsPanel;
 class EmptyState;
 class GapPanel;
 class IconLabel;
@@ -26,15 +28,6 @@ class RemainderPanel;
 class WhatPanel;
 class WherePanel;
 
-/// Effects that the user has put into the model or does not want considered, kept in the session.
-struct DiscrepancyChoice {
-  std::vector<std::string> added;
-  std::vector<std::string> rejected;
-  [[nodiscard]] static DiscrepancyChoice of(const SessionModel& session);
-  [[nodiscard]] static std::string key(const SessionModel& session);
-  [[nodiscard]] nlohmann::json json() const;
-};
-
 class DiscrepancyPage : public Page {
   Q_OBJECT
  public:
@@ -43,9 +36,14 @@ class DiscrepancyPage : public Page {
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return search_; }
   void runAll() override { search(); }
+  [[nodiscard]] bool mayBeLeft() override;
+  /// The list of effects in place of the story, or the story again.
+  void showEffects(bool shown);
 
   [[nodiscard]] QPushButton* addButton() const { return add_; }
   [[nodiscard]] QPushButton* removeButton() const { return remove_; }
+  [[nodiscard]] QPushButton* effectsButton() const { return effects_button_; }
+  [[nodiscard]] EffectsPanel* effects() const { return effects_; }  ///< null before it was first shown
   [[nodiscard]] QLabel* verdict() const { return verdict_; }
   [[nodiscard]] QTabWidget* tabs() const { return tabs_; }
   [[nodiscard]] WherePanel* where() const { return where_; }
@@ -62,7 +60,14 @@ class DiscrepancyPage : public Page {
   void search();
   /// After the choice has changed: a stored result with the same choice is shown again, else the search is run.
   void choiceChanged();
+  /// A stored result with the choice as it is now is shown again; false: there is none.
+  bool showStored();
   void change(const QString& what, const DiscrepancyChoice& after);
+  /// After the list of effects has changed: nothing is searched before somebody asks for it.
+  void effectsChanged();
+  void changeEffects(const QString& what, const DiscrepancyChoice& after);
+  void showContent(int index);
+  void knowTitles();
   void add();
   void removeLast();
   void show();
@@ -80,6 +85,10 @@ class DiscrepancyPage : public Page {
   [[nodiscard]] QString missing() const;  ///< what the campaign lacks for this step; empty: nothing
 
   QPushButton* search_;
+  QPushButton* effects_button_;
+  EffectsPanel* effects_ = nullptr;
+  int content_index_ = 0;     ///< what is shown while the effects are not
+  nlohmann::json titles_of_;  ///< whose effects' titles are known
   QPushButton* add_;
   QPushButton* remove_;
   QStackedWidget* stack_;

@@ -9,6 +9,7 @@
 #include <QTableView>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/base/text.h"
 #include "core/discrepancy/effect_titles.h"
@@ -24,9 +25,27 @@ QString translated(const char* text) {
   return QCoreApplication::translate("Effect", text);
 }
 
+/// Titles of the effects of the user's, of the campaign at hand.
+std::map<std::string, QString>& ownTitles() {
+  static std::map<std::string, QString> titles;
+  return titles;
+}
+
 }  // namespace
 
+void knowOwnTitles(const nlohmann::json& document) {
+  ownTitles().clear();
+  if (!document.is_object() || !document.contains("effects")) return;
+  for (const nlohmann::json& entry : document["effects"]) {
+    const auto id = entry.find("id");
+    const auto title = entry.find("title");
+    if (id == entry.end() || title == entry.end() || !id->is_string() || !title->is_string()) continue;
+    ownTitles()[id->get<std::string>()] = QString::fromStdString(title->get<std::string>());
+  }
+}
+
 QString effectTitle(const std::string& id) {
+  if (const auto own = ownTitles().find(id); own != ownTitles().end()) return own->second;
   const auto title = effectTitleOf(id);
   if (!title) return QString::fromStdString(id);
   const QString text = translated(std::string(title->pattern).c_str());
@@ -128,6 +147,14 @@ QString pointsText(const std::vector<std::string>& points, std::size_t all) {
   for (const std::string& p : points) names << QString::fromStdString(p);
   if (names.size() <= 2) return names.join(QStringLiteral(", "));
   return QCoreApplication::translate("Effect", "%1 of %2").arg(names.size()).arg(all);
+}
+
+QString gainUnitText(const std::string& unit) {
+  static const QRegularExpression of_component(QStringLiteral("_([xyz]|cos|sin|lift|ram)$"));
+  QString text = QString::fromStdString(unit);
+  text.remove(of_component).replace(QStringLiteral("_per_"), QStringLiteral("/"));
+  text.replace(QStringLiteral("/m2"), QStringLiteral("/m²"));
+  return QString::fromStdString(printedUnits(text.toStdString()));
 }
 
 QString componentName(Component component) {

@@ -4,6 +4,7 @@
 
 #include <QPixmap>
 #include <QString>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,9 @@ namespace spindrift::gui {
 
 /// "ball_screw.expansion.y" -> "thermal expansion of the Y ball screw". An id that is not known stays as it is.
 [[nodiscard]] QString effectTitle(const std::string& id);
+/// From now on effects of the user's go by the titles that they have in `document` (effects.json); null: there are
+/// none. GUI thread.
+void knowOwnTitles(const nlohmann::json& document);
 /// "head.tilt.a or frame.rotation.a" by their titles.
 [[nodiscard]] QString effectTitles(const std::vector<std::string>& ids, const QString& last_word);
 /// A sentence of the search with every id of the catalogue by its title.
@@ -42,6 +46,8 @@ namespace spindrift::gui {
 [[nodiscard]] QString clockText(double time_s);
 /// "all 10", "F1, F2", "7 of 10".
 [[nodiscard]] QString pointsText(const std::vector<std::string>& points, std::size_t all);
+/// Unit of a gain as people write it: "um_per_m" -> "µm/m", "um_x" -> "µm".
+[[nodiscard]] QString gainUnitText(const std::string& unit);
 [[nodiscard]] QString componentName(Component component);
 [[nodiscard]] QString componentUnit(Component component);
 

@@ -259,6 +259,7 @@ void MachinePage::showSensors() {
   }
   sensors_->setRowCount(0);
   sensors_->setRowCount(static_cast<int>(columns.size()));
+  int role_width = 0;
   for (int row = 0; row < sensors_->rowCount(); ++row) {
     const SensorReading reading = readSensor(machine.temperature_sensors, columns[static_cast<std::size_t>(row)]);
     setText(sensors_, row, 0, QString::fromStdString(reading.column));
@@ -277,9 +278,12 @@ void MachinePage::showSensors() {
     setText(sensors_, row, 3, stated ? tr("machine.json") : tr("its name: please confirm"));
     sensors_->item(row, 3)->setData(Qt::UserRole, stated);
     sensors_->item(row, 3)->setToolTip(QString::fromStdString(reading.note));
+    role_width = std::max(role_width, role->sizeHint().width());
     connect(role, &QComboBox::activated, this, [this, row] { stateRole(row); });
   }
-  sensors_->resizeColumnsToContents();
+  // The header's own mode looks at texts alone, not at the boxes in the cells.
+  sensors_->horizontalHeader()->setSectionResizeMode(2, QHeaderView::Fixed);
+  sensors_->horizontalHeader()->resizeSection(2, role_width);
 }
 
 void MachinePage::stateRole(int row) {

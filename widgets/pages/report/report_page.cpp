@@ -276,8 +276,9 @@ void ReportPage::write() {
   Job job;
   job.title = tr("Writing the report");
   job.work = [this, visit, name, campaign_copy, asked = options(), depends = dependencies(),
+              choice = DiscrepancyChoice::of(session()), effects_file = DiscrepancyChoice::file(session()),
               target = session().folder() / name](JobContext& progress) -> std::function<void()> {
-    const std::string html = campaignReportHtml(*campaign_copy, asked, progress);
+    const std::string html = campaignReportHtml(*choice.applied(campaign_copy, effects_file), asked, progress);
     progress.throwIfCancelled();
     std::filesystem::create_directories(target.parent_path());
     writeFileAtomically(target, html);

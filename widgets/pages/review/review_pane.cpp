@@ -28,6 +28,14 @@ Eigen::Vector3d deviationOf(const ReviewPoint& p) {
   return out;
 }
 
+/// As wide as what is chosen, so that it is never cut; with the longest choice the page would be too wide.
+void fitToChoice(QComboBox* box) {
+  constexpr int least = 8;
+  const QFontMetrics metrics = box->fontMetrics();
+  const int letter = std::max(1, metrics.horizontalAdvance(QLatin1Char('X')));
+  box->setMinimumContentsLength(std::max(least, metrics.horizontalAdvance(box->currentText()) / letter + 1));
+}
+
 }  // namespace
 
 std::optional<ReviewQuantity> quantityOf(PaneContent content) {
@@ -51,9 +59,10 @@ ReviewPane::ReviewPane(int number, ReviewSources& sources, QWidget* parent)
   state_->setAccessibleName(tr("State of pane %1").arg(number));
   content_ = new QComboBox;
   content_->setAccessibleName(tr("What pane %1 shows").arg(number));
-  for (QComboBox* box : {state_, content_}) {  // else the longest choice decides how wide the page is
+  for (QComboBox* box : {state_, content_}) {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    box->setMinimumContentsLength(8);
+    fitToChoice(box);
+    connect(box, &QComboBox::currentIndexChanged, this, [box] { fitToChoice(box); });
   }
   for (QComboBox* box : {campaign_, state_, content_}) box->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   line->addWidget(campaign_);
