@@ -11,7 +11,6 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,9 +57,9 @@ struct SimulatorRun {
 };
 
 /// Why one run gave no prediction. The simulator's files are as they were.
-class SimulatorFailed : public std::runtime_error {
+class SimulatorFailed : public InputError {
  public:
-  explicit SimulatorFailed(const std::string& sentence) : std::runtime_error(sentence) {}
+  explicit SimulatorFailed(const std::string& sentence) : InputError(sentence) {}
 };
 
 class Simulator {
