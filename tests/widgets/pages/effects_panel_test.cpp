@@ -15,6 +15,7 @@
 #include <fstream>
 
 #include "core/base/atomic_file.h"
+#include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "tests/widgets/pages/story_support.h"
 #include "widgets/common/parts.h"
@@ -366,6 +367,29 @@ TEST_F(EffectsPanelTest, TheCampaignsOwnAreListedAndComeBack) {
   }
   settle();
   EXPECT_EQ(panel_->listing().effects.size(), 2U);
+}
+
+// A mount: its third axis is two degrees long beside two hundred, and refraction has no value at the horizon.
+TEST(EffectPicture, ShortAxesAndPolesAreDrawn) {
+  const auto own = OwnEffects::parse(R"({"format":"spindrift-effects","version":1,"effects":[
+    {"id":"mount.refraction","shape":[{"gain_unit":"urad","EA":"tan(y*_pi/180) "}]},
+    {"id":"mount.zero","shape":[{"gain_unit":"urad","EB":"0*x"}]}]})",
+                                     "effects.json");
+  const MachineDescription machine = MachineDescription::parse(
+      JsonNode::parse(R"({"format":"spindrift-machine","version":1,"name":"mount","chain":"V [w-X'-Y'-b-Z-t]","axes":[
+        {"name":"X","travel_mm":[-180,180]},{"name":"Y","travel_mm":[-90,90]},{"name":"Z","travel_mm":[-1,1]}]})",
+                      "machine.json"),
+      "machine.json");
+  EffectPicture picture;
+  picture.resize(500, 300);
+  picture.show(own->effects()[0].effect, machine);
+  EXPECT_FALSE(picture.empty());
+  EXPECT_TRUE(picture.rotations());
+  EXPECT_GT(picture.largest(), 1.0);
+  EXPECT_LT(picture.largest(), 1e4);
+  EXPECT_FALSE(picture.grab().isNull());
+  picture.show(own->effects()[1].effect, machine);
+  EXPECT_TRUE(picture.empty());
 }
 
 }  // namespace

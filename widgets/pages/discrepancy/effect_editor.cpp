@@ -117,7 +117,7 @@ EffectEditor::EffectEditor(QWidget* parent) : QWidget(parent) {
   driver_row->setSpacing(8);
   drivers_ = new QLineEdit;
   drivers_->setAccessibleName(tr("Drivers"));
-  drivers_->setPlaceholderText(tr("empty: constant in time"));
+  drivers_->setPlaceholderText(tr("none: constant"));
   column_ = new QComboBox;
   column_->setAccessibleName(tr("Add a column of the log"));
   column_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);

@@ -23,6 +23,8 @@ constexpr double axes_px = 24;     ///< at the left and below
 constexpr double foot_px = 36;     ///< legend below the views
 constexpr double legend_px = 150;  ///< least width of a legend beside them
 constexpr double default_travel_mm = 500.0;
+constexpr double least_length = 0.3;  ///< of the longest axis, as drawn
+constexpr double pole = 50.0;         ///< times the 70th percentile: nothing that can be drawn beside the rest
 
 /// Which axes a view has: across, up, out of it towards who looks.
 struct Plane {
@@ -99,18 +101,50 @@ void EffectPicture::show(const Effect& effect, const MachineDescription& machine
   update();
 }
 
+void EffectPicture::leaveOutPoles() {
+  std::vector<double> sizes_of_nodes;
+  for (const View& view : views_)
+    for (const Sample& s : view.nodes)
+      if (s.deviation.allFinite()) sizes_of_nodes.push_back(s.deviation.norm());
+  if (sizes_of_nodes.empty()) return;
+  const auto at =
+      sizes_of_nodes.begin() + static_cast<std::ptrdiff_t>(0.7 * static_cast<double>(sizes_of_nodes.size() - 1));
+  std::nth_element(sizes_of_nodes.begin(), at, sizes_of_nodes.end());
+  const double limit = pole * *at;
+  if (!(limit > 0.0) || largest_ <= limit) return;
+  largest_ = largest_out_ = 0.0;
+  const auto keep = [&](Sample& s, int out) {
+    if (!(s.deviation.norm() <= limit)) {
+      s.deviation.setConstant(std::nan(""));
+      return;
+    }
+    largest_ = std::max(largest_, s.deviation.norm());
+    largest_out_ = std::max(largest_out_, std::abs(s.deviation[out]));
+  };
+  for (View& view : views_) {
+    for (Sample& s : view.nodes) keep(s, view.out);
+    for (Sample& s : view.points) keep(s, view.out);
+    for (std::vector<Sample>& line : view.lines)
+      for (Sample& s : line) keep(s, view.out);
+  }
+}
+
 void EffectPicture::make(const Effect& effect, const MachineDescription& machine, std::size_t gain) {
   const ShapeColumn& column = effect.shape[gain];
   unit_ = gainUnitText(column.gain_unit);
   static constexpr const char* names[3] = {"X", "Y", "Z"};
   Eigen::Vector3d middle_mm;
+  double longest_mm = 0.0;
   for (int i = 0; i < 3; ++i) {
     const LinearAxis* axis = machine.findAxis(names[i]);
     auto& range = range_mm_[static_cast<std::size_t>(i)];
     range = axis != nullptr ? axis->travel_mm : std::array<double, 2>{0.0, default_travel_mm};
     if (!(range[1] > range[0])) range[1] = range[0] + default_travel_mm;
     middle_mm[i] = 0.5 * (range[0] + range[1]);
+    longest_mm = std::max(longest_mm, range[1] - range[0]);
   }
+  for (std::size_t i = 0; i < 3; ++i)
+    stretch_[i] = std::max(1.0, least_length * longest_mm / (range_mm_[i][1] - range_mm_[i][0]));
   const auto sampleAt = [&](const Eigen::Vector3d& at_mm, const std::string& point) {
     DeviationQuery query;
     query.position_mm = at_mm;
@@ -177,6 +211,7 @@ void EffectPicture::make(const Effect& effect, const MachineDescription& machine
     rotations_ = true;
     fill();
   }
+  leaveOutPoles();
   scale_ = ColourScale::symmetric(largest_out_ > 0.0 ? largest_out_ : largest_, {}, {});
 }
 
@@ -193,7 +228,7 @@ struct EffectPicture::Layout {
 EffectPicture::Layout EffectPicture::layoutFor(const QSize& size) const {
   const auto length = [this](int axis) {
     const auto& range = range_mm_[static_cast<std::size_t>(axis)];
-    return range[1] - range[0];
+    return (range[1] - range[0]) * stretch_[static_cast<std::size_t>(axis)];
   };
   const double x = length(0);
   const double y = length(1);
@@ -244,8 +279,10 @@ void EffectPicture::paintView(QPainter& painter, const View& view, const QRectF&
   const QPointF centre = area.center();
   const double px_per_unit = 0.95 * layout.room_px / largest_;
   const auto rest = [&](const Sample& s) {
-    return QPointF(centre.x() + (s.at_mm[view.across] - 0.5 * (h[0] + h[1])) * px_per_mm,
-                   centre.y() - (s.at_mm[view.up] - 0.5 * (v[0] + v[1])) * px_per_mm);
+    const double across = stretch_[static_cast<std::size_t>(view.across)];
+    const double up = stretch_[static_cast<std::size_t>(view.up)];
+    return QPointF(centre.x() + (s.at_mm[view.across] - 0.5 * (h[0] + h[1])) * across * px_per_mm,
+                   centre.y() - (s.at_mm[view.up] - 0.5 * (v[0] + v[1])) * up * px_per_mm);
   };
   const auto moved = [&](const Sample& s) {
     return rest(s) + QPointF(s.deviation[view.across], -s.deviation[view.up]) * px_per_unit;

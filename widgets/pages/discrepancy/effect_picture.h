@@ -49,6 +49,8 @@ class EffectPicture : public QWidget {
     std::vector<std::vector<Sample>> lines;  ///< of the grid
     std::vector<Sample> points;
   };
+  /// Where a shape goes to infinity (refraction at the horizon) there is a gap, so that the rest is seen.
+  void leaveOutPoles();
   void make(const Effect& effect, const MachineDescription& machine, std::size_t gain);
   void paint(QPainter& painter, const QSize& size) const;
   struct Layout;
@@ -59,6 +61,7 @@ class EffectPicture : public QWidget {
 
   std::vector<View> views_;
   std::array<std::array<double, 2>, 3> range_mm_{};
+  std::array<double, 3> stretch_{1.0, 1.0, 1.0};  ///< of an axis that is very short beside the others
   double largest_ = 0.0;
   double largest_out_ = 0.0;
   bool rotations_ = false;
