@@ -29,12 +29,15 @@ using Eigen::Index;
 constexpr std::size_t unit_limit = 3000;
 /// In whitened units: what a parameter may move within its uncertainty and is not worth a run.
 constexpr double not_worth_a_run = 0.3;
-/// The same of the error of a linear prediction, from which on derivatives are taken anew.
-constexpr double not_linear = 0.5;
+/// The same of the error of a linear prediction, from which on derivatives are taken anew. Where they are a few per
+/// cent off, the solution moves by as much of what noise alone moves it.
+constexpr double not_linear = 2.0;
 /// The same of one standard uncertainty: none at all.
 constexpr double no_influence = 1e-6;
 /// Correlation of two fitted parameters from which on these data do not tell them apart.
 constexpr double inseparable = 0.98;
+/// Uncertainty after the fit over that before, from which on nothing was learnt of a parameter.
+constexpr double nothing_learnt = 0.9;
 /// rms with the physics over that with the fitted term, up to which they close the gap as well.
 constexpr double as_well = 1.05;
 
@@ -411,17 +414,20 @@ void tellParameters(const std::vector<Free>& free, const Solved& solved, double 
           free[static_cast<std::size_t>(j)].parameter.name, free[at].parameter.name, r));
     }
   }
-  for (const FittedSimulatorParameter& p : out.parameters) {
+  for (FittedSimulatorParameter& p : out.parameters) {
+    // Of what these data say nothing, what was known stays.
+    if (!p.put_in && p.standard_uncertainty > nothing_learnt * p.parameter.standard_uncertainty)
+      p.value = p.parameter.value;
     if (p.no_influence) {
-      out.warnings.push_back(fmt::format("{} changes no prediction: it keeps its value {:g} {}.", p.parameter.name,
-                                         p.parameter.value, p.parameter.unit));
+      out.warnings.push_back(fmt::format("{} changes no prediction: it keeps its value {}.", p.parameter.name,
+                                         withUncertainty(p.parameter.value, 0.0, p.parameter.printedUnit())));
     } else if (p.at_bound) {
       const bool low = p.value <= p.parameter.min + 1e-6 * (p.parameter.max - p.parameter.min);
-      out.warnings.push_back(
-          fmt::format("{} ends at its bound {:g} {}: the data ask for {}; widen \"{}\" or look for "
-                      "another cause.",
-                      p.parameter.name, low ? p.parameter.min : p.parameter.max, p.parameter.unit,
-                      low ? "less" : "more", low ? "min" : "max"));
+      out.warnings.push_back(fmt::format(
+          "{} ends at its bound {}: the data ask for {}; widen \"{}\" or look for "
+          "another cause.",
+          p.parameter.name, withUncertainty(low ? p.parameter.min : p.parameter.max, 0.0, p.parameter.printedUnit()),
+          low ? "less" : "more", low ? "min" : "max"));
     }
     if (!p.no_influence && (p.put_in || p.value != p.parameter.value)) out.values[p.parameter.name] = p.value;
   }
@@ -465,7 +471,7 @@ bool slopesHold(Closure& closure, const std::vector<Free>& free, const Solved& s
       const std::string& name = free[k].parameter.name;
       error -= solved.slopes[k] * (there.at(name) - here.at(name));
     }
-    return error.norm() < 2.0 * not_linear;
+    return error.norm() < not_linear;
   } catch (const SimulatorFailed&) {
     return true;  // nothing to learn there
   }
@@ -476,7 +482,8 @@ std::string sentenceOf(const SimulationUpdate& update) {
   for (const FittedSimulatorParameter& p : update.parameters) {
     if (!p.put_in || p.no_influence) continue;
     put.push_back(fmt::format("{} = {} (was {:g})", p.parameter.name,
-                              withUncertainty(p.value, p.standard_uncertainty, p.parameter.unit), p.parameter.value));
+                              withUncertainty(p.value, p.standard_uncertainty, p.parameter.printedUnit()),
+                              p.parameter.value));
   }
   const bool held = std::isfinite(update.heldout_rms_after_um);
   const double before = held ? update.heldout_rms_before_um : update.rms_before_um;
@@ -681,7 +688,7 @@ std::string SimulationUpdate::summary() const {
   for (const FittedSimulatorParameter& p : parameters) {
     if (p.no_influence) continue;
     text += fmt::format("  {:<14} {}  (was {:g}{})\n", p.parameter.name,
-                        withUncertainty(p.value, p.standard_uncertainty, p.parameter.unit), p.parameter.value,
+                        withUncertainty(p.value, p.standard_uncertainty, p.parameter.printedUnit()), p.parameter.value,
                         p.put_in ? ", put in" : "");
   }
   for (const std::string& warning : warnings) text += fmt::format("  note: {}\n", warning);

@@ -165,16 +165,16 @@ void SimulatorHypotheses::describe(FoundEffect& found, double gain, double gain_
   if (tangent == nullptr) return;
   const SimulatorParameter& p = tangent->parameter;
   found.parameters = {{p.name, p.value + gain, gain_uncertainty}};
-  const std::string value = withUncertainty(p.value + gain, gain_uncertainty, p.unit);
+  const std::string value = withUncertainty(p.value + gain, gain_uncertainty, p.printedUnit());
   if (p.off()) {
     found.drivers = fmt::format("switched off in the simulation; measured {}", value);
   } else if (p.value != 0.0) {
     // Too low: the simulation has less than the machine.
     const double part = -100.0 * gain / (p.value + gain);
     const double uncertainty = 100.0 * std::abs(gain_uncertainty * p.value / std::pow(p.value + gain, 2));
-    found.drivers = fmt::format("{} too {} in the simulation: {:g} {} there, measured {}",
-                                withUncertainty(std::abs(part), uncertainty, "%"), gain > 0.0 ? "low" : "high", p.value,
-                                p.unit, value);
+    found.drivers = fmt::format("{} too {} in the simulation: {} there, measured {}",
+                                withUncertainty(std::abs(part), uncertainty, "%"), gain > 0.0 ? "low" : "high",
+                                withUncertainty(p.value, 0.0, p.printedUnit()), value);
     found.parameters.push_back({p.name + "_relative_change", gain / p.value, gain_uncertainty / std::abs(p.value)});
   } else {
     found.drivers = fmt::format("taken as 0 in the simulation; measured {}", value);

@@ -61,10 +61,11 @@ void addSimulationUpdate(HtmlDocument& document, const SimulationUpdate& update,
       if (p.no_influence) note = "changes no prediction";
       if (p.at_bound) note += ", at its bound";
       const std::string before = was.standard_uncertainty > 0.0 && !p.put_in
-                                     ? withUncertainty(was.value, was.standard_uncertainty, was.unit)
-                                     : fmt::format("{:g} {}", was.value, was.unit);
+                                     ? withUncertainty(was.value, was.standard_uncertainty, was.printedUnit())
+                                     : withUncertainty(was.value, 0.0, was.printedUnit());
       lines.push_back({was.name, was.what, before,
-                       p.no_influence ? "\u2013" : withUncertainty(p.value, p.standard_uncertainty, was.unit), note});
+                       p.no_influence ? "\u2013" : withUncertainty(p.value, p.standard_uncertainty, was.printedUnit()),
+                       note});
     }
     document.table({"Parameter", "What", "Before", "After", ""}, lines,
                    "Parameters of the simulation; after: value \u00b1 one standard uncertainty");

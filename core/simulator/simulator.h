@@ -36,6 +36,8 @@ struct SimulatorParameter {
 
   /// A mechanism that the simulation does not have.
   [[nodiscard]] bool off() const noexcept { return value == 0.0 && !effects.empty(); }
+  /// As it stands beside a number: nothing for a plain number ("1").
+  [[nodiscard]] std::string printedUnit() const { return unit == "1" ? std::string() : unit; }
   /// "simulation.h_air", "sensor.T_room_degC.gain".
   [[nodiscard]] std::string id() const { return of_sensor ? name : "simulation." + name; }
 };

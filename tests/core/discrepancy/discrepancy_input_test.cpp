@@ -11,7 +11,7 @@
 #include "core/discrepancy/comparable_rows.h"
 #include "core/discrepancy/drivers.h"
 #include "core/discrepancy/log_gaps.h"
-#include "core/discrepancy/simulation_table.h"
+#include "core/finite_elements/fe_simulation.h"
 #include "tests/core/discrepancy/small_plant.h"
 #include "tests/support/temp_folder.h"
 
