@@ -104,7 +104,8 @@ TEST_F(IntoSimulationCli, SaysWhatIsWrongInOneSentence) {
   named["simulator"] = "simulator.json";
   writeFileAtomically(campaign / "campaign.json", named.dump(1));
   simulator["kind"] = "command";
-  simulator["templates"] = nlohmann::json::array();
+  writeText(campaign / "deck.in", "friction {{physics.friction}}\n");
+  simulator["templates"] = {"deck.in"};
   simulator["run"] = {{"false"}};
   simulator["result"] = "simulation.csv";
   simulator["time_limit_s"] = 5;

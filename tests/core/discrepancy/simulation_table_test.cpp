@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/machine/simulation_table.h"
+#include "core/finite_elements/fe_simulation.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
