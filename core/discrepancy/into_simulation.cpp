@@ -683,8 +683,8 @@ SimulationUpdate SimulationUpdate::parse(const nlohmann::json& json) {
     return value.is_number() ? value.get<double>() : std::nan("");
   };
   SimulationUpdate out;
-  for (const FitStatus status : {FitStatus::Converged, FitStatus::Degenerate, FitStatus::NoConvergence,
-                                 FitStatus::Rejected}) {
+  for (const FitStatus status :
+       {FitStatus::Converged, FitStatus::Degenerate, FitStatus::NoConvergence, FitStatus::Rejected}) {
     if (json.at("status") == std::string(toString(status))) out.status = status;
   }
   out.message = json.at("message").get<std::string>();
