@@ -326,8 +326,13 @@ void SimulationPanel::chooseSimulator(const QString& file) {
   }
   context_.undo.push(
       new OptionsCommand(session, tr("choose the simulator"), simulatorKey(session), name, [panel = QPointer(this)] {
-        if (panel != nullptr) panel->refresh();
+        if (panel != nullptr) panel->simulatorChanged();
       }));
+}
+
+void SimulationPanel::simulatorChanged() {
+  refresh();
+  context_.workflow.refresh();  // a report tells of the one at hand
 }
 
 SimulationPanel::Inputs SimulationPanel::inputs() {
@@ -463,7 +468,7 @@ void SimulationPanel::putInto(const QString& folder) {
       }
       context_.undo.push(new OptionsCommand(session, tr("put %1 into the simulation").arg(text(joinedList(mechanisms))),
                                             simulatorKey(session), version, [panel = QPointer(this)] {
-                                              if (panel != nullptr) panel->refresh();
+                                              if (panel != nullptr) panel->simulatorChanged();
                                             }));
     };
   };

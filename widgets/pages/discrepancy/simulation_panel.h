@@ -88,6 +88,7 @@ class SimulationPanel : public QWidget {
   void askForFolder();
   void openSoon();
   void load();
+  void simulatorChanged();
   void fail(const QString& sentence);
   void showParameters();
   void showFound();
