@@ -272,29 +272,27 @@ TEST_F(SimulationPanelTest, ASimulatorThatFailsSaysItsOneSentence) {
   EXPECT_FALSE(panel_->searchButton()->isVisible());
   picture("none");
   folder_.write("broken/in.txt.in", "{{h}}\n");
-  const auto file = folder_.write("broken/simulator.json", R"({"format":"spindrift-simulator","version":1,
+  const auto file = folder_.write("broken/simulator.json", R"json({"format":"spindrift-simulator","version":1,
  "kind":"command","templates":["in.txt.in"],"run":[["false"]],"result":"out.csv","parameters":[
- {"name":"h","value":1,"unit":"W/(m2 K)","standard_uncertainty":0.1,"min":0,"max":5,"what":"film"
-}]
-})");
+ {"name":"h","value":1,"unit":"W/(m2 K)","standard_uncertainty":0.1,"min":0,"max":5,"what":"film"}]})json");
   panel_->chooseSimulator(QString::fromStdString(file.string()));
-settle();
-EXPECT_EQ(panel_->parameterTable()->model()->rowCount(), 1);
-EXPECT_TRUE(panel_->runs()->text().contains(QStringLiteral("false"))) << panel_->runs()->text().toStdString();
-search();
-EXPECT_EQ(panel_->callout()->tone(), Tone::Bad);
-EXPECT_NE(sentence().find("false"), std::string::npos) << sentence();
-EXPECT_EQ(sentence().find("nternal error"), std::string::npos) << sentence();
-EXPECT_EQ(panel_->story(), nullptr);
-picture("failed");
-window_->undoStack().undo();
-settle();
-EXPECT_TRUE(currentSimulator(window_->session()).empty());
-// One that cannot be read is told as well.
-panel_->chooseSimulator(QString::fromStdString(folder_.write("broken/other.json", "{}").string()));
-settle();
-EXPECT_EQ(panel_->callout()->tone(), Tone::Bad);
-EXPECT_FALSE(panel_->searchButton()->isEnabled());
+  settle();
+  EXPECT_EQ(panel_->parameterTable()->model()->rowCount(), 1);
+  EXPECT_TRUE(panel_->runs()->text().contains(QStringLiteral("false"))) << panel_->runs()->text().toStdString();
+  search();
+  EXPECT_EQ(panel_->callout()->tone(), Tone::Bad);
+  EXPECT_NE(sentence().find("false"), std::string::npos) << sentence();
+  EXPECT_EQ(sentence().find("nternal error"), std::string::npos) << sentence();
+  EXPECT_EQ(panel_->story(), nullptr);
+  picture("failed");
+  window_->undoStack().undo();
+  settle();
+  EXPECT_TRUE(currentSimulator(window_->session()).empty());
+  // One that cannot be read is told as well.
+  panel_->chooseSimulator(QString::fromStdString(folder_.write("broken/other.json", "{}").string()));
+  settle();
+  EXPECT_EQ(panel_->callout()->tone(), Tone::Bad);
+  EXPECT_FALSE(panel_->searchButton()->isEnabled());
 }
 
 }  // namespace
