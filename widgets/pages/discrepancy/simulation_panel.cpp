@@ -40,6 +40,7 @@ namespace fs = std::filesystem;
 constexpr int view_parameters = 0;
 constexpr int view_history = 1;
 constexpr int view_maps = 2;
+constexpr int height_for_words = 440;
 
 QString translated(const char* text) {
   return QCoreApplication::translate("SimulationPanel", text);
@@ -113,12 +114,14 @@ QString number(double value) {
   return QString::number(value, 'g', 5).replace(QLatin1Char('-'), QChar(0x2212));
 }
 
-QString unitText(const std::string& unit) {
-  return unit.empty() ? QString() : text(printedUnits(unit));
+/// Plain numbers have no unit.
+QString unitOf(const SimulatorParameter& p) {
+  return p.unit == "1" ? QString() : text(printedUnits(p.unit));
 }
 
-QString withUnit(double value, const std::string& unit) {
-  return unit.empty() ? number(value) : number(value) + QLatin1Char(' ') + unitText(unit);
+QString withUnit(double value, const SimulatorParameter& p) {
+  const QString unit = unitOf(p);
+  return unit.isEmpty() ? number(value) : number(value) + QLatin1Char(' ') + unit;
 }
 
 Cell tipped(const QString& words) {
@@ -133,8 +136,7 @@ QString effectsText(const std::vector<std::string>& effects) {
 
 QString valueText(const SimulatorParameter& p) {
   if (p.off()) return translated("off");
-  return p.standard_uncertainty > 0.0 ? withError(p.value, p.standard_uncertainty, text(p.unit))
-                                      : withUnit(p.value, p.unit);
+  return p.standard_uncertainty > 0.0 ? withError(p.value, p.standard_uncertainty, unitOf(p)) : withUnit(p.value, p);
 }
 
 }  // namespace
@@ -173,12 +175,12 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   put_->setToolTip(
       tr("Fit the physical parameters on the simulator and write its new version to a new folder; the present one "
          "stays as it is"));
+  views_ = new Segments({tr("Parameters"), tr("Over time"), tr("Over the table")}, tr("What is shown"));
+  head_->addToTitle(views_);
   for (QPushButton* button : {choose_, search_, put_}) head_->addToTitle(button);
   column->addWidget(head_);
   callout_ = new Callout;
   column->addWidget(callout_);
-  views_ = new Segments({tr("Parameters"), tr("Over time"), tr("Over the table")}, tr("What is shown"));
-  column->addWidget(views_, 0, Qt::AlignLeft);
 
   stack_ = new QStackedWidget;
   parameters_ = new RowsModel({tr("Parameter"), tr("What it is"), tr("Value"), tr("Bounds"), tr("Can cause")}, this);
@@ -196,12 +198,15 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setWidget(found_);
-  found_card_->body()->addWidget(scroll, 1);
+  found_scroll_ = scroll;
   figures_ = new RowsModel({tr("In µm"), tr("Before"), tr("After"), tr("Fitted term"), tr("Noise")}, this);
   figure_table_ = makeTable(figures_, tr("Figures before and after"));
   stretchColumn(figure_table_, 0);
   figure_table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  figure_table_->verticalHeader()->setDefaultSectionSize(28);
+  figure_table_->setMinimumHeight(0);
   found_card_->body()->addWidget(figure_table_);
+  found_card_->body()->addWidget(scroll, 1);
   stack_->addWidget(makeSplitter(left, found_card_, 3, 2));
   history_ = new SimulationHistory;
   stack_->addWidget(history_);
@@ -245,6 +250,17 @@ bool SimulationPanel::current() const {
 void SimulationPanel::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   openSoon();
+}
+
+void SimulationPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  arrange();
+}
+
+void SimulationPanel::arrange() {
+  // In a low window the words beside the figures are a tip.
+  found_scroll_->setVisible(figures_->rowCount() == 0 || height() >= height_for_words);
+  found_card_->setToolTip(found_scroll_->isVisibleTo(this) ? QString() : found_->text());
 }
 
 void SimulationPanel::refresh() {
@@ -504,15 +520,16 @@ void SimulationPanel::showParameters() {
       Cell name = tipped(text(p.parameter.name));
       name.bold = p.put_in;
       Cell before{p.parameter.standard_uncertainty > 0.0 && !p.put_in
-                      ? withError(p.parameter.value, p.parameter.standard_uncertainty, text(p.parameter.unit))
-                      : withUnit(p.parameter.value, p.parameter.unit)};
+                      ? withError(p.parameter.value, p.parameter.standard_uncertainty, unitOf(p.parameter))
+                      : withUnit(p.parameter.value, p.parameter)};
       Cell after{p.no_influence ? QStringLiteral("–")
-                                : withError(p.value, p.standard_uncertainty, text(p.parameter.unit))};
+                                : withError(p.value, p.standard_uncertainty, unitOf(p.parameter))};
       after.bold = p.put_in;
-      Cell mark = p.no_influence ? Cell{tr("no influence")}
-                  : p.at_bound   ? Cell{tr("at its bound"), Tone::Attention, "alert"}
-                  : p.put_in     ? Cell{tr("put in"), Tone::Good, "check-circle"}
-                                 : Cell{tr("adjusted")};
+      Cell mark = p.no_influence                 ? Cell{tr("no influence")}
+                  : p.at_bound                   ? Cell{tr("at its bound"), Tone::Attention, "alert"}
+                  : p.put_in                     ? Cell{tr("put in"), Tone::Good, "check-circle"}
+                  : p.value == p.parameter.value ? Cell{tr("kept")}
+                                                 : Cell{tr("adjusted")};
       if (!p.put_in && !p.no_influence) mark.tip = tr("adjusted within its stated uncertainty");
       row.cells = {name, tipped(text(p.parameter.what)), before, after, mark};
       row.faded = p.no_influence;
@@ -530,14 +547,17 @@ void SimulationPanel::showParameters() {
       if (p.off()) {
         value.icon = "stop";
         value.tip = tr("A mechanism that the simulation does not have; it may well be %1.")
-                        .arg(withUnit(p.standard_uncertainty, p.unit));
+                        .arg(withUnit(p.standard_uncertainty, p));
       }
-      row.cells = {name, tipped(text(p.what)), value, Cell{tr("%1 to %2").arg(number(p.min), withUnit(p.max, p.unit))},
+      row.cells = {name, tipped(text(p.what)), value, Cell{tr("%1 to %2").arg(number(p.min), withUnit(p.max, p))},
                    tipped(effectsText(p.effects))};
       rows.push_back(std::move(row));
     }
   }
   parameters_->setRows(std::move(rows));
+  // Beside what was found there is no room for all of it.
+  const bool narrow = story_ != nullptr && done == nullptr;
+  for (const int column : {3, 4}) parameter_table_->setColumnHidden(column, narrow);
 }
 
 void SimulationPanel::showFound() {
@@ -603,6 +623,8 @@ void SimulationPanel::showFigures() {
     figure_table_->setFixedHeight(header + 3 * figure_table_->verticalHeader()->defaultSectionSize() + 4);
   }
   figures_->setRows(std::move(rows));
+  found_card_->setTitle(there ? tr("Before and after") : tr("What was found"));
+  arrange();
 }
 
 void SimulationPanel::showCallout() {
@@ -637,9 +659,7 @@ void SimulationPanel::showCallout() {
   } else if (story_->effects.empty()) {
     callout_->show(Tone::Attention, sentenceStart(titledSentence(story_->message)));
   } else {
-    QStringList names;
-    for (const FoundEffect& e : story_->effects) names << titleOf(e);
-    callout_->show(Tone::Attention, tr("The simulation lacks: %1.").arg(names.join(tr("; and "))));
+    callout_->set(Tone::Neutral, {});  // the card tells it
   }
 }
 

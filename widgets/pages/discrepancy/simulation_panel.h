@@ -74,6 +74,7 @@ class SimulationPanel : public QWidget {
 
  protected:
   void showEvent(QShowEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 
  private:
   /// A search that was made since the window was opened, with all that an update of the simulation takes.
@@ -95,6 +96,7 @@ class SimulationPanel : public QWidget {
   void showFigures();
   void showCallout();
   void showView(int index);
+  void arrange();
   void updateButtons();
   [[nodiscard]] bool current() const;
   [[nodiscard]] QString titleOf(const FoundEffect& effect) const;
@@ -111,6 +113,7 @@ class SimulationPanel : public QWidget {
   RowsModel* parameters_;
   QTableView* parameter_table_;
   Card* found_card_;
+  QWidget* found_scroll_;
   QLabel* found_;
   RowsModel* figures_;
   QTableView* figure_table_;
