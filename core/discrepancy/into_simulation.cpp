@@ -640,6 +640,7 @@ nlohmann::json SimulationUpdate::json() const {
     fitted[p.parameter.name] = {{"value", jsonNumber(p.value)},
                                 {"standard_uncertainty", jsonNumber(p.standard_uncertainty)},
                                 {"before", jsonNumber(p.parameter.value)},
+                                {"standard_uncertainty_before", jsonNumber(p.parameter.standard_uncertainty)},
                                 {"unit", p.parameter.unit},
                                 {"what", p.parameter.what},
                                 {"put_in", p.put_in},
@@ -681,6 +682,59 @@ nlohmann::json SimulationUpdate::json() const {
           {"warnings", warnings},
           {"runs", runs},
           {"elapsed_s", jsonNumber(elapsed_s)}};
+}
+
+SimulationUpdate SimulationUpdate::parse(const nlohmann::json& json) {
+  const auto number = [](const nlohmann::json& object, const char* key) {
+    const nlohmann::json& value = object.at(key);
+    return value.is_number() ? value.get<double>() : std::nan("");
+  };
+  SimulationUpdate out;
+  for (const FitStatus status :
+       {FitStatus::Converged, FitStatus::Degenerate, FitStatus::NoConvergence, FitStatus::Rejected}) {
+    if (json.at("status") == std::string(toString(status))) out.status = status;
+  }
+  out.message = json.at("message").get<std::string>();
+  out.mechanisms = json.at("mechanisms").get<std::vector<std::string>>();
+  const nlohmann::json& names = json.at("correlation").at("parameters");
+  const nlohmann::json& matrix = json.at("correlation").at("matrix");
+  const auto count = static_cast<Index>(names.size());
+  out.correlation = Eigen::MatrixXd::Zero(count, count);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto name = names[i].get<std::string>();
+    const nlohmann::json& p = json.at("parameters").at(name);
+    FittedSimulatorParameter fitted;
+    fitted.parameter.name = name;
+    fitted.parameter.value = number(p, "before");
+    fitted.parameter.standard_uncertainty = number(p, "standard_uncertainty_before");
+    fitted.parameter.unit = p.at("unit").get<std::string>();
+    fitted.parameter.what = p.at("what").get<std::string>();
+    fitted.value = number(p, "value");
+    fitted.standard_uncertainty = number(p, "standard_uncertainty");
+    fitted.put_in = p.at("put_in").get<bool>();
+    fitted.at_bound = p.at("at_bound").get<bool>();
+    fitted.no_influence = p.at("no_influence").get<bool>();
+    out.parameters.push_back(std::move(fitted));
+    for (std::size_t j = 0; j < names.size(); ++j) {
+      const nlohmann::json& r = matrix.at(i).at(j);
+      if (r.is_number()) out.correlation(static_cast<Index>(i), static_cast<Index>(j)) = r.get<double>();
+    }
+  }
+  out.warnings = json.at("warnings").get<std::vector<std::string>>();
+  out.rms_before_um = number(json, "rms_before_um");
+  out.rms_after_um = number(json, "rms_after_um");
+  out.rms_fitted_term_um = number(json, "rms_fitted_term_um");
+  out.p2p_before_um = number(json, "p2p_before_um");
+  out.p2p_after_um = number(json, "p2p_after_um");
+  out.heldout_rms_before_um = number(json, "heldout_rms_before_um");
+  out.heldout_rms_after_um = number(json, "heldout_rms_after_um");
+  out.heldout_rms_fitted_term_um = number(json, "heldout_rms_fitted_term_um");
+  out.noise_um = number(json, "noise_um");
+  out.improves = json.at("improves").get<bool>();
+  out.as_well_as_fitted_term = json.at("as_well_as_fitted_term").get<bool>();
+  out.runs = json.at("runs").get<std::size_t>();
+  out.elapsed_s = number(json, "elapsed_s");
+  return out;
 }
 
 std::string SimulationUpdate::summary() const {

@@ -65,6 +65,8 @@ struct SimulationUpdate {
 
   /// The object "into_simulation" of the JSON of `discrepancy`.
   [[nodiscard]] nlohmann::json json() const;
+  /// Reads what `json` wrote: without predictions, rows and places. Throws nlohmann::json::exception.
+  [[nodiscard]] static SimulationUpdate parse(const nlohmann::json& json);
   [[nodiscard]] std::string summary() const;
 };
 

@@ -25,6 +25,7 @@ struct StoredResults {
   /// CompensateResult::json: the control's compensator run over the log.
   nlohmann::json log_compensation;
   nlohmann::json verification;  ///< VerifyResult::json
+  nlohmann::json simulation;    ///< SimulationStory::json: what was put into the simulation itself
 };
 
 /// States with what was to be captured and what was. Nothing without a plan.

@@ -17,6 +17,7 @@
 #include "core/workflows/compensated_data.h"
 #include "core/workflows/discrepancy_story.h"
 #include "core/workflows/fit_campaign.h"
+#include "core/workflows/simulation_story.h"
 
 namespace spindrift {
 namespace {
@@ -132,9 +133,11 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
       *data = discrepancyReportData(found, findDiscrepancy(found, options.search, searching));
     }
     input.headlines.emplace_back("Simulation and measurement", discrepancyHeadline(*data));
-    input.sections.push_back({"Where simulation and measurement disagree", [data, &campaign](HtmlDocument& document) {
-                                addDiscrepancyStory(document, *data, mapTable(campaign.machine, 0.0, report_map_nodes));
-                              }});
+    input.sections.push_back(
+        {"Where simulation and measurement disagree", [data, &campaign, &stored](HtmlDocument& document) {
+           addDiscrepancyStory(document, *data, mapTable(campaign.machine, 0.0, report_map_nodes));
+           addStoredUpdate(document, stored.simulation, campaign);
+         }});
   }
   input.conclusions = {[&](HtmlDocument& document) { addThermalModel(document, stored.thermal); },
                        [&](HtmlDocument& document) { addIso230(document, campaign); },

@@ -2,6 +2,7 @@
 #include "widgets/workflow/report_inputs.h"
 
 #include "widgets/models/session_model.h"
+#include "widgets/workflow/simulator_choice.h"
 
 namespace spindrift::gui {
 
@@ -12,6 +13,10 @@ nlohmann::json reportedInputs(const SessionModel& session) {
     const StoredResult* result = session.latest(kind);
     results.push_back(result == nullptr ? 0 : result->id);
   }
+  // What was put into the simulation belongs to the simulator at hand.
+  const StoredResult* simulation = session.latest(simulation_result);
+  results.push_back(simulation == nullptr ? nlohmann::json(0)
+                                          : nlohmann::json{simulation->id, currentSimulator(session)});
   return {{"warm", session.warmStatement().value_or(nlohmann::json())},
           {"fit", session.setting("nine-parameter", nlohmann::json::object())},
           {"results", results}};

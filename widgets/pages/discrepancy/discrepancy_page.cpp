@@ -24,6 +24,7 @@
 #include "widgets/pages/discrepancy/next_panel.h"
 #include "widgets/pages/discrepancy/noise_panel.h"
 #include "widgets/pages/discrepancy/remainder_panel.h"
+#include "widgets/pages/discrepancy/simulation_panel.h"
 #include "widgets/pages/discrepancy/what_panel.h"
 #include "widgets/pages/discrepancy/where_panel.h"
 
@@ -268,6 +269,7 @@ void DiscrepancyPage::refresh() {
     show();
   }
   showExcluded();
+  if (simulation_ != nullptr) simulation_->refresh();
   showContent(1);
   const bool same =
       stored->provenance.options.value(option_name, nlohmann::json()) == DiscrepancyChoice::of(session()).json();
@@ -484,6 +486,11 @@ bool DiscrepancyPage::makePanel() {
       makePanels();
       choose(remainder_->point(), remainder_->component());
     });
+  } else if (simulation_ == nullptr) {
+    simulation_ = new SimulationPanel(context());
+    tabs_->addTab(simulation_, tr("Into the simulation"));
+    showHints(simulation_);
+    simulation_->refresh();
   } else if (next_ == nullptr) {
     next_ = new NextPanel;
     tabs_->addTab(next_, tr("What to measure next"));
@@ -565,7 +572,7 @@ std::vector<Exportable> DiscrepancyPage::exportables() {
   if (effects_ != nullptr) items = effects_->exportables();
   if (story_ == nullptr) return items;
   for (auto&& list : {where_->exportables(), what_->exportables(), noise_->exportables(), remainder_->exportables(),
-                      gap_->exportables(), next_->exportables()}) {
+                      gap_->exportables(), simulation_->exportables(), next_->exportables()}) {
     items.insert(items.end(), list.begin(), list.end());
   }
   const auto story = story_;

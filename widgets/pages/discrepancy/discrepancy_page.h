@@ -25,6 +25,7 @@ class IconLabel;
 class NextPanel;
 class NoisePanel;
 class RemainderPanel;
+class SimulationPanel;
 class WhatPanel;
 class WherePanel;
 
@@ -52,6 +53,7 @@ class DiscrepancyPage : public Page {
   [[nodiscard]] RemainderPanel* remainder() const { return remainder_; }
   [[nodiscard]] GapPanel* gap() const { return gap_; }
   [[nodiscard]] NextPanel* next() const { return next_; }
+  [[nodiscard]] SimulationPanel* simulation() const { return simulation_; }
   [[nodiscard]] const DiscrepancyStory* story() const { return story_.get(); }
   /// Takes the readings marked in the list of outliers out, or, without a reason, brings them back.
   void excludeReadings(const QString& reason);
@@ -102,6 +104,7 @@ class DiscrepancyPage : public Page {
   NoisePanel* noise_ = nullptr;
   RemainderPanel* remainder_ = nullptr;
   GapPanel* gap_;
+  SimulationPanel* simulation_ = nullptr;
   NextPanel* next_ = nullptr;
   std::shared_ptr<const DiscrepancyStory> story_;
   std::int64_t shown_result_ = 0;

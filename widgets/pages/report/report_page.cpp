@@ -26,6 +26,7 @@
 #include "widgets/pages/report/page_view.h"
 #include "widgets/pages/report/report_pages.h"
 #include "widgets/workflow/report_inputs.h"
+#include "widgets/workflow/simulator_choice.h"
 
 namespace spindrift::gui {
 namespace {
@@ -153,6 +154,7 @@ StoredResults ReportPage::stored() const {
   out.compensation = payload("compensation");
   out.log_compensation = payload("log-compensation");
   out.verification = payload("verify");
+  out.simulation = simulationUpdateOf(model);
   return out;
 }
 

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/workflows/simulation_story.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "core/base/error.h"
+#include "core/base/json_reader.h"
+#include "core/reporting/simulation_update_report.h"
+#include "core/workflows/fit_campaign.h"
+
+namespace spindrift {
+namespace {
+
+double numberOf(const nlohmann::json& json) {
+  return json.is_number() ? json.get<double>() : std::nan("");
+}
+
+nlohmann::json effectJson(const FoundEffect& e) {
+  nlohmann::json parameters = nlohmann::json::array();
+  for (const FittedParameter& p : e.parameters)
+    parameters.push_back({p.name, jsonNumber(p.value), jsonNumber(p.standard_uncertainty)});
+  return {{"id", e.id},
+          {"title", e.title},
+          {"physics", e.physics},
+          {"drivers", e.drivers},
+          {"rivals", e.rivals},
+          {"confidence", jsonNumber(e.confidence)},
+          {"parameters", parameters}};
+}
+
+FoundEffect effectOf(const nlohmann::json& json) {
+  FoundEffect e;
+  e.id = json.at("id").get<std::string>();
+  e.title = json.at("title").get<std::string>();
+  e.physics = json.at("physics").get<std::string>();
+  e.drivers = json.at("drivers").get<std::string>();
+  e.rivals = json.at("rivals").get<std::vector<std::string>>();
+  e.confidence = numberOf(json.at("confidence"));
+  for (const nlohmann::json& p : json.at("parameters"))
+    e.parameters.push_back({p.at(0).get<std::string>(), numberOf(p.at(1)), numberOf(p.at(2))});
+  return e;
+}
+
+nlohmann::json gapJson(const DiscrepancyGap& gap) {
+  return {{"rms_before_um", jsonNumber(gap.rms_before_um)},
+          {"rms_after_um", jsonNumber(gap.rms_after_um)},
+          {"noise_um", jsonNumber(gap.noise_um)},
+          {"heldout_rms_before_um", jsonNumber(gap.heldout_rms_before_um)},
+          {"heldout_rms_after_um", jsonNumber(gap.heldout_rms_after_um)},
+          {"rotations", gap.rotations}};
+}
+
+DiscrepancyGap gapOf(const nlohmann::json& json) {
+  return {numberOf(json.at("rms_before_um")),
+          numberOf(json.at("rms_after_um")),
+          numberOf(json.at("noise_um")),
+          numberOf(json.at("heldout_rms_before_um")),
+          numberOf(json.at("heldout_rms_after_um")),
+          json.at("rotations").get<bool>()};
+}
+
+/// Row after row of one point and component.
+nlohmann::json rowsJson(const std::vector<DiscrepancyReportRow>& rows) {
+  std::map<std::pair<std::string, Component>, nlohmann::json> series;
+  for (const DiscrepancyReportRow& r : rows) {
+    nlohmann::json& s = series[{r.point, r.component}];
+    if (s.is_null()) s = {{"point", r.point}, {"component", toString(r.component)}};
+    s["rows"].push_back({r.time_s, r.position_mm.x(), r.position_mm.y(), r.position_mm.z(), jsonNumber(r.sigma),
+                         jsonNumber(r.measured), jsonNumber(r.before), jsonNumber(r.after), r.held_out});
+  }
+  nlohmann::json out = nlohmann::json::array();
+  for (auto& [key, s] : series) out.push_back(std::move(s));
+  return out;
+}
+
+std::vector<DiscrepancyReportRow> rowsOf(const nlohmann::json& json) {
+  std::vector<DiscrepancyReportRow> out;
+  for (const nlohmann::json& s : json) {
+    const auto component = componentFromString(s.at("component").get<std::string>());
+    if (!component) throw InputError("the stored update of the simulation names a component that does not exist.");
+    for (const nlohmann::json& r : s.at("rows")) {
+      out.push_back({numberOf(r.at(0)),
+                     s.at("point").get<std::string>(),
+                     *component,
+                     {numberOf(r.at(1)), numberOf(r.at(2)), numberOf(r.at(3))},
+                     numberOf(r.at(4)),
+                     numberOf(r.at(6)),
+                     numberOf(r.at(7)),
+                     r.at(8).get<bool>(),
+                     numberOf(r.at(5))});
+    }
+  }
+  return out;
+}
+
+DiscrepancyVerdict verdictOf(const nlohmann::json& json) {
+  for (const DiscrepancyVerdict v : {DiscrepancyVerdict::Named, DiscrepancyVerdict::Ambiguous,
+                                     DiscrepancyVerdict::Unknown, DiscrepancyVerdict::None}) {
+    if (toString(v) == json.get<std::string>()) return v;
+  }
+  throw InputError("the stored search with the simulator has a verdict that does not exist; search again.");
+}
+
+}  // namespace
+
+SimulationStory SimulationStory::of(const DiscrepancyRun& run) {
+  SimulationStory story;
+  story.verdict = run.result.verdict;
+  story.message = run.result.message;
+  story.effects = run.result.effects;
+  story.gap = run.result.gap;
+  story.warnings = run.result.warnings;
+  story.result = run.result.json();
+  if (run.update) {
+    story.update = run.update;
+    story.rows = simulationUpdateRows(run.input, *run.update);
+  }
+  return story;
+}
+
+nlohmann::json SimulationStory::json() const {
+  nlohmann::json found = nlohmann::json::array();
+  for (const FoundEffect& e : effects) found.push_back(effectJson(e));
+  return {{"format", "spindrift-simulation-story"},
+          {"version", 1},
+          {"verdict", toString(verdict)},
+          {"message", message},
+          {"effects", found},
+          {"gap", gapJson(gap)},
+          {"warnings", warnings},
+          {"update", update ? update->json() : nlohmann::json()},
+          {"rows", rowsJson(rows)},
+          {"result", result}};
+}
+
+SimulationStory SimulationStory::parse(const nlohmann::json& json) {
+  try {
+    if (json.at("format") != "spindrift-simulation-story" || json.at("version") != 1) {
+      throw InputError("the stored search with the simulator is of another version; search again.");
+    }
+    SimulationStory story;
+    story.verdict = verdictOf(json.at("verdict"));
+    story.message = json.at("message").get<std::string>();
+    for (const nlohmann::json& e : json.at("effects")) story.effects.push_back(effectOf(e));
+    story.gap = gapOf(json.at("gap"));
+    story.warnings = json.at("warnings").get<std::vector<std::string>>();
+    if (json.at("update").is_object()) story.update = SimulationUpdate::parse(json.at("update"));
+    story.rows = rowsOf(json.at("rows"));
+    story.result = json.at("result");
+    return story;
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError(fmt::format("the stored search with the simulator cannot be read ({}); search again.", e.what()));
+  }
+}
+
+void addStoredUpdate(HtmlDocument& document, const nlohmann::json& story, const Campaign& campaign) {
+  if (!story.is_object()) return;
+  const SimulationStory told = SimulationStory::parse(story);
+  if (told.update)
+    addSimulationUpdate(document, *told.update, told.rows, mapTable(campaign.machine, 0.0, report_map_nodes));
+}
+
+}  // namespace spindrift

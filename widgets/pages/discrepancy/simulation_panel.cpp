@@ -1,0 +1,713 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/discrepancy/simulation_panel.h"
+
+#include <QCoreApplication>
+#include <QDialog>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPointer>
+#include <QScrollArea>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/reporting/report_wording.h"
+#include "core/simulator/simulator_file.h"
+#include "core/workflows/open_simulator.h"
+#include "widgets/commands/commands.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/discrepancy/discrepancy_choice.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/pages/discrepancy/simulation_views.h"
+#include "widgets/plots/plot.h"
+#include "widgets/workflow/simulator_choice.h"
+
+namespace spindrift::gui {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int view_parameters = 0;
+constexpr int view_history = 1;
+constexpr int view_maps = 2;
+constexpr int height_for_words = 440;
+
+QString translated(const char* text) {
+  return QCoreApplication::translate("SimulationPanel", text);
+}
+
+QString text(const std::string& words) {
+  return QString::fromStdString(words);
+}
+
+/// The programs that a simulator.json starts, each once, as it names them.
+QStringList programsOf(const SimulatorFile& file) {
+  QStringList out;
+  const auto run = file.root.find("run");
+  if (!run) return out;
+  for (const JsonNode& command : run->items()) {
+    const std::vector<JsonNode> words = command.items();
+    if (words.empty()) continue;
+    const QString program = text(words.front().string());
+    if (!out.contains(program)) out << program;
+  }
+  return out;
+}
+
+void tellKind(const SimulatorFile& file, OpenedSimulator& out) {
+  switch (file.kind) {
+    case SimulatorKind::Scenario:
+      out.kind = translated("scenario of the virtual machine");
+      out.runs = translated("It is run inside Spindrift: no other program is started.");
+      break;
+    case SimulatorKind::Sensitivities:
+      out.kind = translated("table of sensitivities");
+      out.runs = translated("Nothing is run: the table says what each parameter changes.");
+      break;
+    case SimulatorKind::Command:
+    case SimulatorKind::Calculix: {
+      out.kind = file.kind == SimulatorKind::Calculix ? translated("CalculiX") : translated("a program with templates");
+      const QStringList programs = programsOf(file);
+      out.runs = (programs.size() > 1 ? translated("Programs that will be run, each time in a folder of their own: %1.")
+                                      : translated("Program that will be run, each time in a folder of its own: %1."))
+                     .arg(programs.join(QStringLiteral(", "))) +
+                 QLatin1Char(' ') + translated("Nothing is started before you press Search with the simulator.");
+      break;
+    }
+  }
+}
+
+OpenedSimulator opened(const fs::path& file, const Campaign& campaign, const ObservationSet& observations) {
+  OpenedSimulator out;
+  try {
+    const SimulatorFile read = openSimulatorFile(file);
+    out.parameters = read.parameters;
+    tellKind(read, out);
+    out.parameters = openSimulator(file, campaign, observations)->parameters();
+  } catch (const std::exception& e) {
+    out.error = QString::fromUtf8(e.what());
+  }
+  return out;
+}
+
+/// A failed run is one sentence for the user, not a mistake of the program.
+template <class Work>
+auto withSentences(const Work& work) {
+  try {
+    return work();
+  } catch (const SimulatorFailed& failed) {
+    throw InputError(std::string(failed.what()));
+  }
+}
+
+QString number(double value) {
+  return QString::number(value, 'g', 5).replace(QLatin1Char('-'), QChar(0x2212));
+}
+
+/// Plain numbers have no unit.
+QString unitOf(const SimulatorParameter& p) {
+  return p.unit == "1" ? QString() : text(printedUnits(p.unit));
+}
+
+QString withUnit(double value, const SimulatorParameter& p) {
+  const QString unit = unitOf(p);
+  return unit.isEmpty() ? number(value) : number(value) + QLatin1Char(' ') + unit;
+}
+
+Cell tipped(const QString& words) {
+  Cell cell{words};
+  cell.tip = words;
+  return cell;
+}
+
+QString effectsText(const std::vector<std::string>& effects) {
+  return effects.empty() ? QString() : effectTitles(effects, translated("or"));
+}
+
+QString valueText(const SimulatorParameter& p) {
+  if (p.off()) return translated("off");
+  return p.standard_uncertainty > 0.0 ? withError(p.value, p.standard_uncertainty, unitOf(p)) : withUnit(p.value, p);
+}
+
+}  // namespace
+
+/// Copies for a job.
+struct SimulationPanel::Inputs {
+  std::int64_t visit = 0;
+  std::string simulator;
+  fs::path file;
+  DiscrepancyChoice choice;
+  fs::path effects;
+  std::shared_ptr<const Campaign> campaign;
+  ObservationSet observations;
+
+  [[nodiscard]] DiscrepancyRun search(const Campaign& with, const Simulator& simulator_at_hand,
+                                      JobContext& progress) const {
+    DiscrepancyOptions options;
+    options.reject = choice.rejected;
+    return searchDiscrepancy(with, observations, options, simulator_at_hand, progress);
+  }
+};
+
+SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget(parent), context_(std::move(context)) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 8, 0, 0);
+  column->setSpacing(8);
+  head_ = new Card(tr("Simulator"));
+  runs_ = makeLabel({}, "secondaryText");
+  runs_->setWordWrap(true);
+  head_->body()->addWidget(runs_);
+  choose_ = makeButton(tr("Choose simulator.json…"), "folder-open");
+  choose_->setToolTip(tr("Take another description of a simulation that can be run"));
+  search_ = makeButton(tr("Search with the simulator"), "play");
+  search_->setToolTip(tr("Run the simulator and look for what is missing among its parameters as well"));
+  put_ = makeButton(tr("Put it into the simulation…"), nullptr, "primary");
+  put_->setToolTip(
+      tr("Fit the physical parameters on the simulator and write its new version to a new folder; the present one "
+         "stays as it is"));
+  views_ = new Segments({tr("Parameters"), tr("Over time"), tr("Over the table")}, tr("What is shown"));
+  head_->addToTitle(views_);
+  for (QPushButton* button : {choose_, search_, put_}) head_->addToTitle(button);
+  column->addWidget(head_);
+  callout_ = new Callout;
+  column->addWidget(callout_);
+
+  stack_ = new QStackedWidget;
+  parameters_ = new RowsModel({tr("Parameter"), tr("What it is"), tr("Value"), tr("Bounds"), tr("Can cause")}, this);
+  parameter_table_ = makeTable(parameters_, tr("Parameters of the simulator"),
+                               tr("Choose simulator.json: the parameters of the simulation appear here."));
+  stretchColumn(parameter_table_, 1);
+  auto* left = new Card(tr("Parameters"));
+  left->body()->addWidget(parameter_table_, 1);
+  found_card_ = new Card(tr("What was found"));
+  found_ = new QLabel;
+  found_->setWordWrap(true);
+  found_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  found_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  auto* scroll = new QScrollArea;
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setWidget(found_);
+  found_scroll_ = scroll;
+  figures_ = new RowsModel({tr("In µm"), tr("Before"), tr("After"), tr("Fitted term"), tr("Noise")}, this);
+  figure_table_ = makeTable(figures_, tr("Figures before and after"));
+  stretchColumn(figure_table_, 0);
+  figure_table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  figure_table_->verticalHeader()->setDefaultSectionSize(28);
+  figure_table_->setMinimumHeight(0);
+  found_card_->body()->addWidget(figure_table_);
+  found_card_->body()->addWidget(scroll, 1);
+  stack_->addWidget(makeSplitter(left, found_card_, 3, 2));
+  history_ = new SimulationHistory;
+  stack_->addWidget(history_);
+  column->addWidget(stack_, 1);
+
+  connect(choose_, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Choose the simulator"), {}, tr("Simulator (*.json)"));
+    if (!file.isEmpty()) chooseSimulator(file);
+  });
+  connect(search_, &QPushButton::clicked, this, &SimulationPanel::search);
+  connect(put_, &QPushButton::clicked, this, &SimulationPanel::askForFolder);
+  connect(views_, &Segments::chosen, this, &SimulationPanel::showView);
+  connect(history_, &SimulationHistory::hovered, this, &SimulationPanel::hovered);
+  connect(&context_.jobs, &JobRunner::started, this, &SimulationPanel::updateButtons);
+  connect(&context_.jobs, &JobRunner::finished, this, &SimulationPanel::updateButtons);
+}
+
+const SimulationUpdate* SimulationPanel::update() const {
+  if (story_ == nullptr || !story_->update) return nullptr;
+  const std::string version = stored_.provenance.options.value("version", "");
+  // An update that wrote a version counts while that version is the one at hand.
+  return version.empty() || version == simulator_ ? &*story_->update : nullptr;
+}
+
+nlohmann::json SimulationPanel::choice() const {
+  nlohmann::json out = DiscrepancyChoice::of(context_.session).json();
+  out.erase("added");  // terms on top of the simulation are what the simulator is to make unnecessary
+  return out;
+}
+
+bool SimulationPanel::current() const {
+  Session* store = context_.session.session();
+  if (store == nullptr || stored_.id == 0 || !store->isCurrent(stored_)) return false;
+  const nlohmann::json now = context_.session.commonOptions();
+  const nlohmann::json& then = stored_.provenance.options;
+  for (const char* key : {"machine", "time_offsets"})
+    if (then.value(key, nlohmann::json()) != now.value(key, nlohmann::json())) return false;
+  return then.value("choice", nlohmann::json()) == choice();
+}
+
+void SimulationPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  openSoon();
+}
+
+void SimulationPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  arrange();
+}
+
+void SimulationPanel::arrange() {
+  // In a low window the words beside the figures are a tip.
+  found_scroll_->setVisible(figures_->rowCount() == 0 || height() >= height_for_words);
+  found_card_->setToolTip(found_scroll_->isVisibleTo(this) ? QString() : found_->text());
+}
+
+void SimulationPanel::refresh() {
+  SessionModel& session = context_.session;
+  if (session.campaign() == nullptr) return;
+  if (shown_visit_ != session.visit()) {
+    shown_visit_ = session.visit();
+    failure_.clear();
+    searched_ = {};
+    story_.reset();
+    shown_result_ = 0;
+    stored_ = {};
+  }
+  const std::string simulator = currentSimulator(session);
+  if (simulator != simulator_) failure_.clear();
+  simulator_ = simulator;
+  load();
+  openSoon();
+  showParameters();
+  showFound();
+  showFigures();
+  showCallout();
+  const bool rows = update() != nullptr && !story_->rows.empty();
+  history_->show(rows ? story_->rows : std::vector<DiscrepancyReportRow>());
+  maps_stale_ = true;
+  views_->setVisible(rows);
+  if (!rows) views_->setCurrent(view_parameters);
+  showView(views_->current());
+  updateButtons();
+}
+
+void SimulationPanel::load() {
+  stored_ = simulationResult(context_.session, simulator_);
+  if (stored_.id == shown_result_) return;
+  shown_result_ = stored_.id;
+  story_.reset();
+  if (stored_.id == 0) return;
+  try {
+    story_ = std::make_shared<const SimulationStory>(
+        SimulationStory::parse(context_.session.session()->payload(stored_.id)));
+  } catch (const InputError& e) {
+    failure_ = QString::fromUtf8(e.what());
+  }
+}
+
+void SimulationPanel::openSoon() {
+  SessionModel& session = context_.session;
+  const auto campaign = session.campaign();
+  if (!isVisible() || campaign == nullptr) return;
+  const std::string key = std::to_string(session.visit()) + " " + simulator_;
+  if (key == opened_key_) return;
+  opened_key_ = key;
+  opened_ = {};
+  const auto observations = session.observations();
+  if (simulator_.empty() || !observations) {
+    opening_.forget();
+    showParameters();
+    return;
+  }
+  // A snapshot: the page may show another campaign by then.
+  opening_.ask([this, file = simulatorFile(session, simulator_), campaign, at = *observations] {
+    OpenedSimulator read = opened(file, *campaign, at);
+    return [this, read = std::move(read)] {
+      opened_ = read;
+      showParameters();
+      showFound();
+      showCallout();
+      updateButtons();
+    };
+  });
+}
+
+void SimulationPanel::chooseSimulator(const QString& file) {
+  SessionModel& session = context_.session;
+  const std::string name = simulatorName(session, file.toStdString());
+  opened_key_.clear();  // it may have changed on the disk
+  if (name == simulator_) {
+    refresh();
+    return;
+  }
+  context_.undo.push(
+      new OptionsCommand(session, tr("choose the simulator"), simulatorKey(session), name, [panel = QPointer(this)] {
+        if (panel != nullptr) panel->simulatorChanged();
+      }));
+}
+
+void SimulationPanel::simulatorChanged() {
+  refresh();
+  context_.workflow.refresh();  // a report tells of the one at hand
+}
+
+SimulationPanel::Inputs SimulationPanel::inputs() {
+  SessionModel& session = context_.session;
+  Inputs in;
+  in.visit = session.visit();
+  in.simulator = simulator_;
+  in.file = simulatorFile(session, simulator_);
+  in.choice = DiscrepancyChoice::of(session);
+  in.effects = DiscrepancyChoice::file(session);
+  in.campaign = session.snapshot().campaign;
+  in.observations = *session.observations();
+  return in;
+}
+
+void SimulationPanel::fail(const QString& sentence) {
+  failure_ = sentence;
+  refresh();
+}
+
+void SimulationPanel::search() {
+  if (context_.jobs.busy() || simulator_.empty() || !context_.session.observations()) return;
+  failure_.clear();
+  Job job;
+  job.title = tr("Searching with the simulator");
+  job.work = [this, in = inputs(), options = choice()](JobContext& progress) -> std::function<void()> {
+    const auto campaign = in.choice.applied(in.campaign, in.effects);
+    const auto run = withSentences([&] {
+      const auto simulator = openSimulator(in.file, *campaign, in.observations);
+      return std::make_shared<const DiscrepancyRun>(in.search(*campaign, *simulator, progress));
+    });
+    return
+        [this, run, options, visit = in.visit, simulator = in.simulator, payload = SimulationStory::of(*run).json()] {
+          if (context_.session.visit() != visit) return;
+          context_.session.storeResult(simulation_result,
+                                       {{"simulator", simulator}, {"version", ""}, {"choice", options}}, payload);
+          const StoredResult* kept = context_.session.latest(simulation_result);
+          searched_ = {visit, kept != nullptr ? kept->id : 0, run};
+          refresh();
+        };
+  };
+  job.failed = [this](const QString& sentence) { fail(sentence); };
+  job.cancelled = [this] { refresh(); };
+  context_.jobs.run(std::move(job));
+}
+
+QString SimulationPanel::proposedFolder() const {
+  const fs::path folder = context_.session.folder() / "simulations";
+  const std::string name = fileNameOf(text(context_.session.campaign()->name)).toStdString();
+  for (int version = 2;; ++version) {
+    const fs::path proposed = folder / (name + "-" + std::to_string(version));
+    if (!fs::exists(proposed)) return text(proposed.string());
+  }
+}
+
+void SimulationPanel::askForFolder() {
+  QDialog dialog(this);
+  dialog.setWindowTitle(tr("Put it into the simulation"));
+  auto* column = new QVBoxLayout(&dialog);
+  column->setContentsMargins(24, 16, 24, 16);
+  column->setSpacing(12);
+  auto* words = new QLabel(
+      tr("The simulator is run until its parameters fit what was measured. Its new version is written to a new folder; "
+         "the present one stays as it is.") +
+      QLatin1Char(' ') + opened_.runs);
+  words->setWordWrap(true);
+  column->addWidget(words);
+  auto* line = new QHBoxLayout;
+  auto* folder = new QLineEdit(proposedFolder());
+  folder->setAccessibleName(tr("New folder"));
+  folder->setMinimumWidth(440);
+  auto* browse = makeButton(tr("Browse…"), "folder-open");
+  line->addWidget(folder, 1);
+  line->addWidget(browse);
+  column->addLayout(line);
+  auto* buttons = new QHBoxLayout;
+  buttons->addStretch(1);
+  auto* cancel = makeButton(tr("Cancel"), nullptr);
+  auto* accept = makeButton(tr("Put it in"), nullptr, "primary");
+  accept->setDefault(true);
+  buttons->addWidget(cancel);
+  buttons->addWidget(accept);
+  column->addLayout(buttons);
+  connect(browse, &QPushButton::clicked, &dialog, [&dialog, folder] {
+    const QString chosen = QFileDialog::getExistingDirectory(&dialog, tr("An empty folder"), folder->text());
+    if (!chosen.isEmpty()) folder->setText(chosen);
+  });
+  connect(folder, &QLineEdit::textChanged, accept,
+          [accept](const QString& path) { accept->setEnabled(!path.trimmed().isEmpty()); });
+  connect(cancel, &QPushButton::clicked, &dialog, &QDialog::reject);
+  connect(accept, &QPushButton::clicked, &dialog, &QDialog::accept);
+  if (dialog.exec() == QDialog::Accepted) putInto(folder->text().trimmed());
+}
+
+void SimulationPanel::putInto(const QString& folder) {
+  if (context_.jobs.busy() || story_ == nullptr || simulator_.empty()) return;
+  failure_.clear();
+  const fs::path target = fs::absolute(folder.toStdString()).lexically_normal();
+  const fs::path within =
+      target.lexically_relative(fs::absolute(context_.session.campaign()->folder).lexically_normal());
+  if (!within.empty() && *within.begin() != "..") {
+    fail(tr("%1 lies in the campaign folder, which is never written to; choose another place.").arg(folder));
+    return;
+  }
+  const std::string version = simulatorName(context_.session, target / "simulator.json");
+  const bool kept =
+      searched_.run != nullptr && searched_.visit == context_.session.visit() && searched_.result == stored_.id;
+  Job job;
+  job.title = tr("Putting it into the simulation");
+  job.work = [this, in = inputs(), options = choice(), target, version,
+              before = kept ? searched_.run : nullptr](JobContext& progress) -> std::function<void()> {
+    const auto campaign = in.choice.applied(in.campaign, in.effects);
+    const auto run = withSentences([&] {
+      const auto simulator = openSimulator(in.file, *campaign, in.observations);
+      // Answers of the simulator are kept: a search of an earlier session is made again quickly.
+      JobContext searching = progress.part(0.0, 0.4);
+      auto out =
+          std::make_shared<DiscrepancyRun>(before != nullptr ? *before : in.search(*campaign, *simulator, searching));
+      JobContext fitting = progress.part(before != nullptr ? 0.0 : 0.4, 1.0);
+      out->update = updateSimulation(*campaign, *out, *simulator, {}, target, fitting);
+      return out;
+    });
+    const bool written = run->update->status == FitStatus::Converged;
+    return [this, options, version = written ? version : std::string(), visit = in.visit, simulator = in.simulator,
+            mechanisms = run->update->mechanisms, payload = SimulationStory::of(*run).json()] {
+      SessionModel& session = context_.session;
+      if (session.visit() != visit) return;
+      session.storeResult(simulation_result, {{"simulator", simulator}, {"version", version}, {"choice", options}},
+                          payload);
+      if (version.empty()) {
+        refresh();
+        return;
+      }
+      context_.undo.push(new OptionsCommand(session, tr("put %1 into the simulation").arg(text(joinedList(mechanisms))),
+                                            simulatorKey(session), version, [panel = QPointer(this)] {
+                                              if (panel != nullptr) panel->simulatorChanged();
+                                            }));
+    };
+  };
+  job.failed = [this](const QString& sentence) { fail(sentence); };
+  job.cancelled = [this] { refresh(); };
+  context_.jobs.run(std::move(job));
+}
+
+QString SimulationPanel::titleOf(const FoundEffect& effect) const {
+  for (const SimulatorParameter& p : opened_.parameters)
+    if (p.id() == effect.id) return p.what == p.name ? text(p.name) : tr("%1 (%2)").arg(text(p.what), text(p.name));
+  return !effect.title.empty() ? text(effect.title) : effectTitle(effect.id);
+}
+
+void SimulationPanel::showParameters() {
+  const QString file = text(simulator_);
+  head_->setTitle(simulator_.empty() ? tr("No simulator") : text(fs::path(simulator_).filename().string()));
+  head_->setToolTip(file);
+  runs_->setText(simulator_.empty()
+                     ? tr("campaign.json names no simulation that can be run (\"simulator\": \"simulator.json\"). "
+                          "Choose one: what is missing is then looked for among its parameters and put into it.")
+                     : tr("%1%2 %3")
+                           .arg(file, opened_.kind.isEmpty() ? QString() : tr(", %1.").arg(opened_.kind), opened_.runs)
+                           .trimmed());
+  std::vector<Row> rows;
+  const SimulationUpdate* done = update();
+  if (done != nullptr && !done->parameters.empty()) {
+    parameters_->setHeaders({tr("Parameter"), tr("What it is"), tr("Before"), tr("After"), QString()});
+    for (const FittedSimulatorParameter& p : done->parameters) {
+      Row row;
+      row.id = text(p.parameter.name);
+      Cell name = tipped(text(p.parameter.name));
+      name.bold = p.put_in;
+      Cell before{p.parameter.standard_uncertainty > 0.0 && !p.put_in
+                      ? withError(p.parameter.value, p.parameter.standard_uncertainty, unitOf(p.parameter))
+                      : withUnit(p.parameter.value, p.parameter)};
+      Cell after{p.no_influence ? QStringLiteral("–")
+                                : withError(p.value, p.standard_uncertainty, unitOf(p.parameter))};
+      after.bold = p.put_in;
+      Cell mark = p.no_influence                 ? Cell{tr("no influence")}
+                  : p.at_bound                   ? Cell{tr("at its bound"), Tone::Attention, "alert"}
+                  : p.put_in                     ? Cell{tr("put in"), Tone::Good, "check-circle"}
+                  : p.value == p.parameter.value ? Cell{tr("kept")}
+                                                 : Cell{tr("adjusted")};
+      if (!p.put_in && !p.no_influence) mark.tip = tr("adjusted within its stated uncertainty");
+      row.cells = {name, tipped(text(p.parameter.what)), before, after, mark};
+      row.faded = p.no_influence;
+      rows.push_back(std::move(row));
+    }
+  } else {
+    parameters_->setHeaders({tr("Parameter"), tr("What it is"), tr("Value"), tr("Bounds"), tr("Can cause")});
+    for (const SimulatorParameter& p : opened_.parameters) {
+      Row row;
+      row.id = text(p.name);
+      Cell name = tipped(text(p.name));
+      name.bold = story_ != nullptr && std::any_of(story_->effects.begin(), story_->effects.end(),
+                                                   [&](const FoundEffect& e) { return e.id == p.id(); });
+      Cell value{valueText(p)};
+      if (p.off()) {
+        value.icon = "stop";
+        value.tip = tr("A mechanism that the simulation does not have; it may well be %1.")
+                        .arg(withUnit(p.standard_uncertainty, p));
+      }
+      row.cells = {name, tipped(text(p.what)), value, Cell{tr("%1 to %2").arg(number(p.min), withUnit(p.max, p))},
+                   tipped(effectsText(p.effects))};
+      rows.push_back(std::move(row));
+    }
+  }
+  parameters_->setRows(std::move(rows));
+  // Beside what was found there is no room for all of it.
+  const bool narrow = story_ != nullptr && done == nullptr;
+  for (const int column : {3, 4}) parameter_table_->setColumnHidden(column, narrow);
+}
+
+void SimulationPanel::showFound() {
+  found_card_->setVisible(story_ != nullptr);
+  if (story_ == nullptr) {
+    found_->clear();
+    return;
+  }
+  QString html;
+  for (const FoundEffect& e : story_->effects) {
+    QString words = sentenceStart(titledSentence(e.drivers));
+    if (!words.isEmpty()) words += QLatin1Char('.');
+    if (std::isfinite(e.confidence)) words += QLatin1Char(' ') + tr("Confidence %1.").arg(e.confidence, 0, 'f', 2);
+    if (!e.rivals.empty())
+      words += QLatin1Char(' ') + tr("These data cannot tell it from %1.").arg(effectTitles(e.rivals, tr("or")));
+    html +=
+        QStringLiteral("<p><b>%1</b><br>%2</p>").arg(sentenceStart(titleOf(e)).toHtmlEscaped(), words.toHtmlEscaped());
+  }
+  if (story_->effects.empty())
+    html += QStringLiteral("<p>%1</p>").arg(sentenceStart(titledSentence(story_->message)).toHtmlEscaped());
+  std::vector<std::string> warnings;
+  if (const SimulationUpdate* done = update()) {
+    warnings = done->warnings;
+    html +=
+        QStringLiteral("<p>%1</p>")
+            .arg(
+                tr("%1 runs of the simulation, %2 s.").arg(done->runs).arg(done->elapsed_s, 0, 'f', 0).toHtmlEscaped());
+  } else {
+    warnings = story_->warnings;
+  }
+  for (const std::string& w : warnings) html += QStringLiteral("<p>%1</p>").arg(titledSentence(w).toHtmlEscaped());
+  found_->setText(html);
+}
+
+void SimulationPanel::showFigures() {
+  const SimulationUpdate* done = update();
+  const bool there = done != nullptr && !story_->rows.empty();
+  figure_table_->setVisible(there);
+  std::vector<Row> rows;
+  if (there) {
+    const auto line = [&](const QString& id, const QString& name, double before, double after, double term,
+                          double noise) {
+      Row row;
+      row.id = id;
+      row.cells.push_back({name});
+      for (const double value : {before, after, term, noise}) {
+        Cell cell{sizeText(value, {})};
+        cell.right = true;
+        row.cells.push_back(std::move(cell));
+      }
+      row.cells[2].bold = true;
+      rows.push_back(std::move(row));
+    };
+    const double none = std::nan("");
+    figures_->setHeaders({story_->gap.rotations ? tr("In µrad") : tr("In µm"), tr("Before"), tr("After"),
+                          tr("Fitted term"), tr("Noise")});
+    line(QStringLiteral("fit"), tr("rms, fitted"), done->rms_before_um, done->rms_after_um, done->rms_fitted_term_um,
+         done->noise_um);
+    line(QStringLiteral("heldout"), tr("rms, held out"), done->heldout_rms_before_um, done->heldout_rms_after_um,
+         done->heldout_rms_fitted_term_um, done->noise_um);
+    line(QStringLiteral("p2p"), tr("Peak to peak"), done->p2p_before_um, done->p2p_after_um, none, none);
+    const int header = figure_table_->horizontalHeader()->sizeHint().height();
+    figure_table_->setFixedHeight(header + 3 * figure_table_->verticalHeader()->defaultSectionSize() + 4);
+  }
+  figures_->setRows(std::move(rows));
+  found_card_->setTitle(there ? tr("Before and after") : tr("What was found"));
+  arrange();
+}
+
+void SimulationPanel::showCallout() {
+  callout_->setAction({}, {});
+  if (!failure_.isEmpty()) {
+    callout_->show(Tone::Bad, failure_);
+    return;
+  }
+  if (!opened_.error.isEmpty()) {
+    callout_->show(Tone::Bad, opened_.error);
+    return;
+  }
+  if (story_ == nullptr) {
+    callout_->set(Tone::Neutral, {});
+    return;
+  }
+  if (!current()) {
+    callout_->show(Tone::Outdated, tr("Observations, exclusions, the machine or the effects have changed since the "
+                                      "simulator was searched with."));
+    callout_->setAction(tr("Search again"), [this] { search(); });
+    return;
+  }
+  if (const SimulationUpdate* done = update()) {
+    callout_->show(done->status != FitStatus::Converged ? Tone::Bad
+                   : done->as_well_as_fitted_term       ? Tone::Good
+                                                        : Tone::Attention,
+                   titledSentence(done->message));
+    return;
+  }
+  if (story_->verdict == DiscrepancyVerdict::None) {
+    callout_->show(Tone::Good, tr("Measured and the simulator's own run agree within the noise."));
+  } else if (story_->effects.empty()) {
+    callout_->show(Tone::Attention, sentenceStart(titledSentence(story_->message)));
+  } else {
+    callout_->set(Tone::Neutral, {});  // the card tells it
+  }
+}
+
+void SimulationPanel::showView(int index) {
+  if (index == view_maps) {
+    if (maps_ == nullptr) {
+      maps_ = new SimulationMaps;
+      stack_->addWidget(maps_);
+      connect(maps_, &SimulationMaps::hovered, this, &SimulationPanel::hovered);
+    }
+    if (maps_stale_ && update() != nullptr) {
+      maps_->show(story_->rows, context_.session.campaign()->machine);
+      maps_stale_ = false;
+    }
+    stack_->setCurrentWidget(maps_);
+    return;
+  }
+  stack_->setCurrentIndex(index == view_history ? 1 : 0);
+}
+
+void SimulationPanel::updateButtons() {
+  const bool idle = !context_.jobs.busy();
+  const bool usable = !simulator_.empty() && opened_.error.isEmpty();
+  choose_->setEnabled(idle);
+  search_->setVisible(!simulator_.empty());
+  search_->setEnabled(idle && usable);
+  const bool named = story_ != nullptr && !story_->effects.empty() && update() == nullptr;
+  put_->setVisible(named);
+  put_->setEnabled(idle && usable && named && current());
+}
+
+std::vector<Exportable> SimulationPanel::exportables() {
+  std::vector<Exportable> items;
+  if (parameters_->rowCount() > 0) items.push_back(exportableOf(tr("Parameters of the simulator"), parameters_));
+  if (story_ == nullptr) return items;
+  if (figures_->rowCount() > 0) {
+    items.push_back(exportableOf(tr("Simulation before and after"), figures_));
+    items.push_back(exportableOf(tr("Simulation before and after over time"), history_->plot()));
+  }
+  if (maps_ != nullptr && !maps_stale_) {
+    for (const Exportable& item : maps_->exportables()) items.push_back(item);
+  }
+  items.push_back({tr("Search with the simulator"), {QStringLiteral("json")}, [story = story_](const QString& file) {
+                     nlohmann::json out = story->result;
+                     if (story->update) out["into_simulation"] = story->update->json();
+                     writeFileAtomically(file.toStdString(), out.dump(2) + "\n");
+                   }});
+  return items;
+}
+
+}  // namespace spindrift::gui
