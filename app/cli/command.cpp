@@ -122,6 +122,10 @@ CLI::App* addCommand(CLI::App& parent, CommandLine& line, const std::string& nam
 }
 
 int runSelected(CommandLine& line) {
+  // Names of files need not be UTF-8; what JSON cannot hold becomes U+FFFD.
+  const auto text = [](const nlohmann::json& json) {
+    return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+  };
   const bool json_to_stdout = line.json_file == "-";
   try {
     std::signal(SIGINT, onInterrupt);
@@ -132,9 +136,9 @@ int runSelected(CommandLine& line) {
       result = line.selected(job);
     }
     if (json_to_stdout) {
-      std::cout << result.json.dump(1) << '\n';
+      std::cout << text(result.json) << '\n';
     } else {
-      if (!line.json_file.empty()) writeFileAtomically(line.json_file, result.json.dump(1) + "\n");
+      if (!line.json_file.empty()) writeFileAtomically(line.json_file, text(result.json) + "\n");
       std::cout << result.summary;
       if (!result.summary.empty() && !result.summary.ends_with('\n')) std::cout << '\n';
     }

@@ -11,6 +11,40 @@
 namespace spindrift {
 namespace {
 
+/// Index of the first byte that is no UTF-8; npos if there is none.
+std::size_t firstInvalidUtf8(std::string_view text) noexcept {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  for (std::size_t i = 0; i < text.size();) {
+    const unsigned lead = byte(i);
+    const std::size_t length = lead < 0x80                    ? 1
+                               : lead >= 0xC2 && lead <= 0xDF ? 2
+                               : lead >= 0xE0 && lead <= 0xEF ? 3
+                               : lead >= 0xF0 && lead <= 0xF4 ? 4
+                                                              : 0;
+    if (length == 0 || length > text.size() - i) return i;
+    for (std::size_t k = 1; k < length; ++k)
+      if ((byte(i + k) & 0xC0U) != 0x80U) return i;
+    // No overlong forms, no surrogates, nothing above U+10FFFF.
+    if ((lead == 0xE0 && byte(i + 1) < 0xA0) || (lead == 0xED && byte(i + 1) > 0x9F) ||
+        (lead == 0xF0 && byte(i + 1) < 0x90) || (lead == 0xF4 && byte(i + 1) > 0x8F))
+      return i;
+    i += length;
+  }
+  return std::string_view::npos;
+}
+
+/// True for a text that a spreadsheet would run as a formula, however many marks (') stand before it.
+bool isFormula(std::string_view text) {
+  const std::size_t first = text.find_first_not_of('\'');
+  return first != std::string_view::npos && std::string_view("=+-@\t\r").find(text[first]) != std::string_view::npos;
+}
+
+/// The mark that csvField puts before a formula is no part of the text.
+std::string_view withoutMark(std::string_view field) {
+  if (field.starts_with('\'') && isFormula(field)) field.remove_prefix(1);
+  return field;
+}
+
 /// Takes one field off the front of `line` (which must not be at its end marker); sets `more` if a comma followed.
 std::string_view takeField(std::string_view& line, bool& more, std::vector<std::shared_ptr<const std::string>>& owned,
                            const SourcePlace& place) {
@@ -32,7 +66,7 @@ std::string_view takeField(std::string_view& line, bool& more, std::vector<std::
     }
     line.remove_prefix(i + 1);
     owned.push_back(std::make_shared<const std::string>(std::move(text)));
-    field = *owned.back();
+    field = withoutMark(*owned.back());
     const std::size_t comma = line.find(',');
     if (!trimmed(line.substr(0, comma)).empty()) {
       throw InputError(
@@ -46,7 +80,7 @@ std::string_view takeField(std::string_view& line, bool& more, std::vector<std::
   field = trimmed(line.substr(0, comma));
   more = comma != std::string_view::npos;
   line.remove_prefix(more ? comma + 1 : line.size());
-  return field;
+  return withoutMark(field);
 }
 
 bool looksLikeDecimalComma(const std::vector<std::string_view>& fields, std::size_t expected) {
@@ -71,6 +105,12 @@ CsvTable CsvTable::parse(std::string content, const std::filesystem::path& name)
   if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
   if (rest.find('\0') != std::string_view::npos) {
     throw InputError({name, ""}, "is not a text file (it contains zero bytes); allowed: CSV in UTF-8.");
+  }
+  if (const std::size_t bad = firstInvalidUtf8(rest); bad != std::string_view::npos) {
+    const auto line = std::count(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(bad), '\n') + 1;
+    throw InputError({name, fmt::format("line {}", line)},
+                     fmt::format("the byte 0x{:02X} is no UTF-8 (Latin-1, perhaps); allowed: CSV in UTF-8.",
+                                 static_cast<unsigned>(static_cast<unsigned char>(rest[bad]))));
   }
   std::size_t line_number = 0;
   std::vector<std::string_view> fields;
@@ -164,8 +204,10 @@ SourcePlace CsvTable::place(std::size_t row, std::size_t column) const {
   return {file_, fmt::format("line {}, column {}", lines_.at(row), names_.at(column))};
 }
 
-std::string csvField(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+std::string csvField(std::string_view plain) {
+  double number = 0.0;
+  const std::string text = (isFormula(plain) && !parseNumber(plain, number) ? "'" : "") + std::string(plain);
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"') quoted += '"';

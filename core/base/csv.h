@@ -55,7 +55,9 @@ class CsvTable {
   std::vector<std::shared_ptr<const std::string>> unquoted_;
 };
 
-/// A field for writing: quoted if it holds a comma, a quote or a line break.
-[[nodiscard]] std::string csvField(std::string_view text);
+/// A field for writing: quoted if it holds a comma, a quote or a line break; a text that a spreadsheet would run as a
+/// formula (it begins with =, +, -, @, a tab or a carriage return and is no number) gets a mark (') in front, which
+/// CsvTable takes off again.
+[[nodiscard]] std::string csvField(std::string_view plain);
 
 }  // namespace spindrift

@@ -52,6 +52,7 @@ std::string pValueText(double p_value) {
 }
 
 std::string exactNumber(double value) {
+  if (value == 0.0) return "0";  // never -0
   char buffer[32];
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
   return {buffer, result.ptr};

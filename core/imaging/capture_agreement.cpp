@@ -173,11 +173,10 @@ std::string sharpnessContradiction(const SeenCapture& seen, const std::vector<co
 
 }  // namespace
 
-std::optional<ImagePose> poseOf(const DecodeResult& decoded) {
+std::optional<ImagePose> poseOf(const DecodeResult& decoded, const FiducialPattern& pattern) {
   if (!decoded.usable()) return std::nullopt;
-  ImagePose pose =
-      fitImagePose(markPositions(decoded, standardPattern()), {decoded.map.centre_x_px, decoded.map.centre_y_px},
-                   decoded.map.k1_per_px2, decoded.map.mirrored);
+  ImagePose pose = fitImagePose(markPositions(decoded, pattern), {decoded.map.centre_x_px, decoded.map.centre_y_px},
+                                decoded.map.k1_per_px2, decoded.map.mirrored);
   if (pose.status != FitStatus::Converged) return std::nullopt;
   return pose;
 }

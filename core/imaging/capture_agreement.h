@@ -40,7 +40,8 @@ struct SeenCapture {
 };
 
 /// Pose of a decoded image, or none.
-[[nodiscard]] std::optional<ImagePose> poseOf(const DecodeResult& decoded);
+[[nodiscard]] std::optional<ImagePose> poseOf(const DecodeResult& decoded,
+                                              const FiducialPattern& pattern = standardPattern());
 
 struct AgreementOptions {
   double turn_deg = 2.0;                    ///< beyond it the spindle stood elsewhere

@@ -7,10 +7,11 @@
 
 namespace spindrift {
 
-CaptureVerdict judgeCapture(const GrayImage& image, bool focus_series, const CaptureVerdictOptions& options) {
+CaptureVerdict judgeCapture(const GrayImage& image, bool focus_series, const CaptureVerdictOptions& options,
+                            const FiducialPattern& pattern) {
   CaptureVerdict verdict;
   verdict.focus = measureFocus(image);
-  verdict.decoded = decodeImage(image);
+  verdict.decoded = decodeImage(image, pattern);
   const ExposureStatistics& light = verdict.decoded.exposure;
   if (light.saturated_fraction > options.largest_saturated) {
     verdict.sentence =

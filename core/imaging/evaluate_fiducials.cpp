@@ -153,12 +153,20 @@ std::string summaryOf(const FiducialDisplacement& d) {
 
 }  // namespace
 
+std::shared_ptr<const FiducialPattern> campaignPattern(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "pattern.json";
+  if (std::filesystem::exists(file)) return std::make_shared<const FiducialPattern>(readPattern(file));
+  // The standard one lives as long as the program: a pointer that owns nothing keeps its address, which decoding knows.
+  return {std::shared_ptr<const FiducialPattern>(), &standardPattern()};
+}
+
 InstrumentEvaluation evaluateFiducials(const Campaign& campaign, JobContext& job) {
   const auto file = campaign.captureList("fiducials.csv");
   if (!file) throw InputError({campaign.path("captures/fiducials.csv"), ""}, "is not there.");
   FiducialCaptureList list = readFiducialCaptures(*file);
   std::erase_if(list.captures, [&](const FiducialCapture& c) { return campaign.excluded_captures.contains(c.image); });
-  const FiducialImages images = measureFiducialImages(campaign.folder, list, standardPattern(), job.part(0.0, 0.95));
+  const FiducialImages images =
+      measureFiducialImages(campaign.folder, list, *campaignPattern(campaign.folder), job.part(0.0, 0.95));
   const FiducialDisplacement displacement = findFiducialDisplacement(list, images, campaign.machine);
   InstrumentEvaluation evaluation;
   evaluation.instrument = "microscope";

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "core/base/csv.h"
+#include "core/base/inside_folder.h"
 
 namespace spindrift {
 namespace {
@@ -59,6 +60,7 @@ FiducialCaptureList readFiducialCaptures(const std::filesystem::path& file) {
   const std::array<std::size_t, 3> position{table.column("x_mm"), table.column("y_mm"), table.column("z_mm")};
   const std::size_t spindle = table.column("spindle_deg");
   const std::size_t image = table.column("image");
+  InsideFolder folder(std::filesystem::absolute(file).parent_path().parent_path());
   std::map<std::string, double> last_time;
   std::map<std::tuple<std::string, std::string, CaptureRole, int>, std::size_t> seen;
   for (std::size_t row = 0; row < table.rowCount(); ++row) {
@@ -85,6 +87,7 @@ FiducialCaptureList readFiducialCaptures(const std::filesystem::path& file) {
     }
     c.spindle_deg = table.number(row, spindle);
     c.image = table.requiredText(row, image);
+    (void)folder.path(c.image, table.place(row, image));
     const auto [last, first] = last_time.try_emplace(c.fiducial, c.time_s);
     if (!first && c.time_s < last->second) {
       throw InputError(

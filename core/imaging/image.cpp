@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -53,6 +54,78 @@ bool pngIsComplete(std::string_view bytes) {
   return false;
 }
 
+struct StatedSize {
+  double width = 0.0;
+  double height = 0.0;
+};
+
+/// Size that the JPEG's frame header states; zero if there is none.
+StatedSize jpegSize(std::string_view bytes) {
+  std::size_t i = 2;
+  while (i + 9 <= bytes.size() && byteAt(bytes, i) == 0xFF) {
+    const unsigned marker = byteAt(bytes, i + 1);
+    if (marker == 0xFF) {
+      ++i;
+      continue;
+    }
+    if (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC)
+      return {byteAt(bytes, i + 7) * 256.0 + byteAt(bytes, i + 8), byteAt(bytes, i + 5) * 256.0 + byteAt(bytes, i + 6)};
+    i += 2 + byteAt(bytes, i + 2) * 256 + byteAt(bytes, i + 3);
+  }
+  return {};
+}
+
+/// Size that the header of any other format states, before anything is allocated for it; zero if it cannot be told.
+StatedSize statedSize(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xD8")) return jpegSize(bytes);
+  const auto number = [&](std::size_t i, std::size_t count, bool big) {
+    double value = 0.0;
+    for (std::size_t k = 0; k < count && i + count <= bytes.size(); ++k)
+      value = 256.0 * value + byteAt(bytes, big ? i + k : i + count - 1 - k);
+    return value;
+  };
+  if (bytes.starts_with("\x89PNG")) return {number(16, 4, true), number(20, 4, true)};
+  if (bytes.starts_with("BM")) {
+    // A negative height: rows from top to bottom.
+    const double height = number(22, 4, false);
+    return {number(18, 4, false), std::min(height, 4294967296.0 - height)};
+  }
+  if (bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') {
+    StatedSize size;
+    std::size_t i = 2;
+    for (double* value : {&size.width, &size.height}) {
+      while (i < bytes.size() && (std::isspace(static_cast<unsigned char>(bytes[i])) != 0 || bytes[i] == '#')) {
+        if (bytes[i] == '#') i = std::min(bytes.find('\n', i), bytes.size() - 1);
+        ++i;
+      }
+      for (; i < bytes.size() && bytes[i] >= '0' && bytes[i] <= '9'; ++i) *value = 10.0 * *value + (bytes[i] - '0');
+    }
+    return size;
+  }
+  if (bytes.starts_with(std::string_view("II*\0", 4)) || bytes.starts_with(std::string_view("MM\0*", 4))) {
+    const bool big = bytes[0] == 'M';
+    StatedSize size;
+    const auto directory = static_cast<std::size_t>(number(4, 4, big));
+    const auto entries = static_cast<std::size_t>(number(directory, 2, big));
+    for (std::size_t k = 0; k < entries && directory + 14 + 12 * k <= bytes.size(); ++k) {
+      const std::size_t at = directory + 2 + 12 * k;
+      const double tag = number(at, 2, big);
+      const double value = number(at + 8, number(at + 2, 2, big) == 3.0 ? 2 : 4, big);
+      if (tag == 256.0) size.width = value;
+      if (tag == 257.0) size.height = value;
+    }
+    return size;
+  }
+  return {};
+}
+
+void requireSize(const std::filesystem::path& name, double width, double height) {
+  if (width * height <= 1e8) return;
+  throw InputError({name, ""}, fmt::format("the image has {:.0f} x {:.0f} pixels; at most 100 million pixels are "
+                                           "allowed.",
+                                           width, height));
+}
+
 std::string encode(const cv::Mat& mat, const char* extension, const std::vector<int>& parameters) {
   std::vector<unsigned char> buffer;
   const bool done = cv::imencode(extension, mat, buffer, parameters);
@@ -86,6 +159,8 @@ GrayImage decodeImageBytes(std::string_view bytes, const std::filesystem::path& 
                      fmt::format("the {} is cut short: it ends after {} bytes without its end marker; copy it again.",
                                  jpeg ? "JPEG" : "PNG", bytes.size()));
   }
+  const StatedSize stated = statedSize(bytes);
+  requireSize(name, stated.width, stated.height);
   cv::Mat mat;
   try {
     const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
@@ -98,10 +173,7 @@ GrayImage decodeImageBytes(std::string_view bytes, const std::filesystem::path& 
                                      ? "the image is damaged and cannot be read."
                                      : "this is not an image that can be read (JPEG, PNG, TIFF, BMP or PGM are).");
   }
-  if (static_cast<double>(mat.rows) * mat.cols > 1e8) {
-    throw InputError({name, ""}, fmt::format("the image has {} x {} pixels; at most 100 million pixels are allowed.",
-                                             mat.cols, mat.rows));
-  }
+  requireSize(name, mat.cols, mat.rows);
   GrayImage image(mat.cols, mat.rows);
   for (int y = 0; y < mat.rows; ++y) std::copy_n(mat.ptr<std::uint8_t>(y), mat.cols, image.row(y));
   return image;

@@ -186,11 +186,15 @@ std::string ObservationSet::csv() const {
   if (with_tool) text += ",tool_x_mm,tool_y_mm,tool_z_mm";
   text += '\n';
   for (const Observation& o : rows) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", o.time_s, csvField(o.state), csvField(o.point),
-                        o.position_mm.x(), o.position_mm.y(), o.position_mm.z(), o.c_deg, toString(o.component),
-                        o.value, o.sigma, csvField(o.instrument), toString(o.use));
-    if (with_approach) text += fmt::format(",{},{},{}", o.approach.x(), o.approach.y(), o.approach.z());
-    if (with_tool) text += fmt::format(",{},{},{}", o.tool_offset_mm.x(), o.tool_offset_mm.y(), o.tool_offset_mm.z());
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", exactNumber(o.time_s), csvField(o.state),
+                        csvField(o.point), exactNumber(o.position_mm.x()), exactNumber(o.position_mm.y()),
+                        exactNumber(o.position_mm.z()), exactNumber(o.c_deg), toString(o.component),
+                        exactNumber(o.value), exactNumber(o.sigma), csvField(o.instrument), toString(o.use));
+    const auto three = [&](const Eigen::Vector3d& v) {
+      text += fmt::format(",{},{},{}", exactNumber(v.x()), exactNumber(v.y()), exactNumber(v.z()));
+    };
+    if (with_approach) three(o.approach);
+    if (with_tool) three(o.tool_offset_mm);
     text += '\n';
   }
   return text;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/base/csv.h"
+#include "core/base/text.h"
 
 namespace spindrift {
 namespace {
@@ -69,20 +70,18 @@ OperatingLog OperatingLog::read(const std::filesystem::path& file) {
     if (column == time_column) continue;
     std::vector<double> values(table.rowCount(), std::numeric_limits<double>::quiet_NaN());
     bool numeric = true;
+    // A column of words (a remark, a programme name) is not a signal, unless FORMATS.md gives it a meaning.
+    const std::string& name = table.columnNames()[column];
+    const bool known = isTemperature(name) || name == "spindle_rpm" || name.starts_with("feed_") ||
+                       name.starts_with("pos_") || name.starts_with("speed_") || name == "coolant" ||
+                       name == "instrument_on" || name == "compensation_on";
     for (std::size_t row = 0; row < table.rowCount() && numeric; ++row) {
       if (table.empty(row, column)) continue;
-      // A column of words (a remark, a programme name) is not a signal, unless FORMATS.md gives it a meaning.
-      const std::string& name = table.columnNames()[column];
-      const bool known = isTemperature(name) || name == "spindle_rpm" || name.starts_with("feed_") ||
-                         name.starts_with("pos_") || name.starts_with("speed_") || name == "coolant" ||
-                         name == "instrument_on" || name == "compensation_on";
-      const std::string_view field = table.text(row, column);
-      if (!known && !field.empty() && std::isalpha(static_cast<unsigned char>(field.front())) != 0 && row == 0 &&
-          field != "nan" && field != "NaN" && field != "inf" && field != "Inf") {
-        numeric = false;
-        break;
+      if (known) {
+        values[row] = table.number(row, column);
+      } else {
+        numeric = parseNumber(table.text(row, column), values[row]);
       }
-      values[row] = table.number(row, column);
     }
     if (numeric) log.setSignal(table.columnNames()[column], std::move(values));
   }

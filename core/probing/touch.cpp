@@ -213,9 +213,10 @@ void TouchList::checkAgainst(const MachineDescription& machine) const {
 std::string TouchList::csv() const {
   std::string text = "time_s,cycle,artefact,feature,stylus,c_deg,touch,x_mm,y_mm,z_mm,nx,ny,nz\n";
   for (const Touch& t : touches) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", t.time_s, csvField(t.cycle), csvField(t.artefact),
-                        csvField(t.feature), csvField(t.stylus), t.c_deg, t.touch, t.position_mm.x(), t.position_mm.y(),
-                        t.position_mm.z(), t.approach.x(), t.approach.y(), t.approach.z());
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", exactNumber(t.time_s), csvField(t.cycle),
+                        csvField(t.artefact), csvField(t.feature), csvField(t.stylus), exactNumber(t.c_deg), t.touch,
+                        exactNumber(t.position_mm.x()), exactNumber(t.position_mm.y()), exactNumber(t.position_mm.z()),
+                        exactNumber(t.approach.x()), exactNumber(t.approach.y()), exactNumber(t.approach.z()));
   }
   return text;
 }

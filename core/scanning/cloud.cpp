@@ -140,6 +140,12 @@ void requireUsableCloud(const PointCloud& cloud, std::size_t least_points) {
   if (cloud.size() < least_points)
     throw InputError(
         fmt::format("{} holds only {} points; at least {} are needed.", label(cloud), cloud.size(), least_points));
+  const auto infinite = std::find_if(cloud.points_mm.begin(), cloud.points_mm.end(),
+                                     [](const Eigen::Vector3d& p) { return !p.allFinite(); });
+  if (infinite != cloud.points_mm.end())
+    throw InputError(fmt::format("Point {} of {} is not finite ({}, {}, {}); allowed: finite coordinates in mm.",
+                                 infinite - cloud.points_mm.begin() + 1, label(cloud), infinite->x(), infinite->y(),
+                                 infinite->z()));
   const Extent e = robustExtent(cloud);
   const Eigen::Vector3d size = e.high - e.low;
   if (!(std::max(size.x(), size.y()) > 0.0))

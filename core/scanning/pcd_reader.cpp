@@ -125,6 +125,10 @@ PointCloud readPcd(const std::filesystem::path& file, const std::string& text) {
       fail(file, "header",
            fmt::format("states {} points of {} bytes, but the compressed block unpacks to {} bytes.", header.points,
                        header.record, full));
+    // No byte of LZF stands for more than 88 (a match of 264 bytes takes three): what claims more is not unpacked.
+    if (full > 88U * static_cast<std::size_t>(packed))
+      fail(file, "",
+           fmt::format("is damaged: {} compressed bytes cannot unpack to the {} bytes it states.", packed, full));
     std::string raw(full, '\0');
     if (!lzfUnpack(std::string_view(text).substr(header.body + 8, packed), raw))
       fail(file, "", "is damaged: its compressed block does not unpack to the size it states.");

@@ -8,10 +8,16 @@
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/icp.h>
 #include <pcl/registration/ndt.h>
+#include <pcl/search/kdtree.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <array>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 
 #include "core/scanning/registration_solver.h"
 
@@ -20,14 +26,39 @@ namespace {
 
 using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
 
+/// PCL ends the process where a place that is asked for is not finite; this tree says that nothing is near it.
+class PatientTree : public pcl::search::KdTree<pcl::PointXYZ> {
+ public:
+  using pcl::search::KdTree<pcl::PointXYZ>::nearestKSearch;
+  int nearestKSearch(const pcl::PointXYZ& point, int k, pcl::Indices& indices,
+                     std::vector<float>& square_distances) const override {
+    if (point.getVector3fMap().allFinite())
+      return pcl::search::KdTree<pcl::PointXYZ>::nearestKSearch(point, k, indices, square_distances);
+    indices.assign(static_cast<std::size_t>(k), 0);
+    square_distances.assign(static_cast<std::size_t>(k), std::numeric_limits<float>::max());
+    return 0;
+  }
+};
+
 PclCloud::Ptr toPcl(const PointCloud& cloud, const Eigen::Vector3d& origin) {
   PclCloud::Ptr out(new PclCloud);
   out->reserve(cloud.size());
   for (const Eigen::Vector3d& p : cloud.points_mm) {
     const Eigen::Vector3f q = (p - origin).cast<float>();
-    out->emplace_back(q.x(), q.y(), q.z());
+    // Squares of distances must be numbers in float as well.
+    if (q.allFinite() && q.cwiseAbs().maxCoeff() < 1e6F) out->emplace_back(q.x(), q.y(), q.z());
   }
   return out;
+}
+
+/// The normal distributions transform needs cells of that width that hold a distribution (PCL: six points).
+bool holdsDistributions(const PclCloud& cloud, float width_mm) {
+  std::map<std::array<std::int64_t, 3>, int> cells;
+  const auto index = [&](float v) { return static_cast<std::int64_t>(std::floor(v / width_mm)); };
+  int full = 0;
+  for (const pcl::PointXYZ& p : cloud)
+    if (++cells[{index(p.x), index(p.y), index(p.z)}] == 6) ++full;
+  return full >= 3;
 }
 
 PclCloud::Ptr thinned(const PclCloud::Ptr& cloud, float leaf_mm) {
@@ -63,6 +94,21 @@ RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& t
   const Eigen::Vector3d centre = target_clean.centroid_mm();
   const PclCloud::Ptr from = toPcl(source_clean, centre);
   const PclCloud::Ptr onto = toPcl(target_clean, centre);
+  const auto rejected = [&](std::string message) {
+    result.status = FitStatus::Rejected;
+    result.message = std::move(message);
+    return result;
+  };
+  const PclCloud::Ptr few_from = thinned(from, ndt ? settings.icp_leaf_mm : settings.gicp_leaf_mm);
+  const PclCloud::Ptr few_onto = ndt ? onto : thinned(onto, settings.gicp_leaf_mm);
+  const auto least = static_cast<std::size_t>(std::max(settings.gicp_neighbours, 20));
+  if (few_from->size() < least || few_onto->size() < least)
+    return rejected(fmt::format("Only {} points of the scan and {} of the reference lie apart; at least {} are needed.",
+                                few_from->size(), few_onto->size(), least));
+  if (ndt && !holdsDistributions(*onto, settings.ndt_resolution_mm))
+    return rejected(fmt::format("The points of the reference lie too far apart: cells of {:.3g} mm hold too few.",
+                                settings.ndt_resolution_mm));
+  const pcl::search::KdTree<pcl::PointXYZ>::Ptr tree(new PatientTree);
   Eigen::Matrix4f guess = Eigen::Matrix4f::Identity();
   guess.topLeftCorner<3, 3>() =
       RigidTransform::fromRotationVector(options.start_rotation_rad, Eigen::Vector3d::Zero()).rotation().cast<float>();
@@ -80,14 +126,17 @@ RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& t
     first.setInputSource(thinned(from, settings.ndt_leaf_mm));
     first.setInputTarget(onto);
     first.align(aligned, guess);
+    const Eigen::Matrix4f near = first.getFinalTransformation();
+    if (!near.allFinite()) return rejected("The normal distributions transform found no motion.");
     pcl::IterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ> icp;
     icp.setMaxCorrespondenceDistance(settings.icp_distance_mm);
     icp.setTransformationEpsilon(1e-12);
     icp.setEuclideanFitnessEpsilon(1e-12);
     icp.setMaximumIterations(settings.icp_iterations);
-    icp.setInputSource(thinned(from, settings.icp_leaf_mm));
-    icp.setInputTarget(onto);
-    icp.align(aligned, first.getFinalTransformation());
+    icp.setSearchMethodTarget(tree);
+    icp.setInputSource(few_from);
+    icp.setInputTarget(few_onto);
+    icp.align(aligned, near);
     converged = icp.hasConverged();
     found = icp.getFinalTransformation();
     fitness = icp.getFitnessScore(1.0);
@@ -98,8 +147,7 @@ RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& t
     gicp.setTransformationEpsilon(1e-9);
     gicp.setRotationEpsilon(1e-9);
     gicp.setMaximumIterations(settings.gicp_iterations);
-    const PclCloud::Ptr few_from = thinned(from, settings.gicp_leaf_mm);
-    const PclCloud::Ptr few_onto = thinned(onto, settings.gicp_leaf_mm);
+    gicp.setSearchMethodTarget(tree);
     gicp.setInputSource(few_from);
     gicp.setInputTarget(few_onto);
     gicp.align(aligned, guess);
@@ -107,6 +155,8 @@ RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& t
     found = gicp.getFinalTransformation();
     fitness = gicp.getFitnessScore(1.0);
   }
+  if (!found.allFinite() || std::abs(found.topLeftCorner<3, 3>().determinant() - 1.0F) > 0.1F)
+    return rejected("The two clouds do not determine a motion between them.");
   // PCL works in float: make the rotation proper again.
   const Eigen::Matrix3d raw = found.topLeftCorner<3, 3>().cast<double>();
   const Eigen::Quaterniond q(raw);

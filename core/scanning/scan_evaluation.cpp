@@ -13,6 +13,7 @@
 #include <set>
 
 #include "core/base/csv.h"
+#include "core/base/inside_folder.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -281,8 +282,10 @@ ProfilerCalibration calibrationOf(const Campaign& campaign, const ProfilerDescri
     reason = "machine.json names no calibration_cloud with its calibration_circle";
   } else {
     try {
-      const ProfilerCalibration c = calibrateProfiler(readCloud(campaign.path(profiler.calibration_cloud)),
-                                                      *profiler.calibration_circle_mm, options);
+      const ProfilerCalibration c = calibrateProfiler(
+          readCloud(InsideFolder(campaign.folder)
+                        .path(profiler.calibration_cloud, {campaign.machine.file, "$.profiler.calibration_cloud"})),
+          *profiler.calibration_circle_mm, options);
       if (c.usable()) {
         if (!c.message.empty()) warnings.push_back("Calibration of the profiler: " + c.message);
         return c;
@@ -334,12 +337,14 @@ std::vector<ScanCapture> readScanList(const Campaign& campaign) {
   const CsvTable table = CsvTable::read(*file);
   const std::size_t time = table.column("time_s"), cycle = table.column("cycle"), artefact = table.column("artefact"),
                     y = table.column("y_mm"), cloud = table.column("cloud");
+  InsideFolder folder(campaign.folder);
   std::vector<ScanCapture> out;
   std::map<std::string, double> last;
   std::set<std::pair<std::string, std::string>> seen;
   for (std::size_t row = 0; row < table.rowCount(); ++row) {
     ScanCapture c{table.number(row, time), table.requiredText(row, cycle), table.requiredText(row, artefact),
                   table.number(row, y), table.requiredText(row, cloud)};
+    (void)folder.path(c.cloud, table.place(row, cloud));
     const auto before = last.find(c.artefact);
     if (before != last.end() && c.time_s < before->second)
       throw InputError(table.place(row, time),

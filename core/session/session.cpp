@@ -11,6 +11,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/inside_folder.h"
 #include "core/base/json_reader.h"
 #include "core/base/log.h"
 #include "core/session/fingerprint.h"
@@ -252,18 +253,18 @@ void Session::addCapture(std::int64_t id, const std::string& list, const std::st
                          const std::filesystem::path& source, const std::string& relative_name) {
   database_->requireInPlace();
   const CampaignRecord record = campaign(id);
-  const std::filesystem::path captures = record.folder / "captures";
-  const std::filesystem::path list_file = captures / list;
+  InsideFolder inside(record.folder);
+  const std::filesystem::path list_file = inside.path("captures/" + list, {record.folder, ""});
+  const std::filesystem::path stored = inside.path("captures/" + relative_name, {record.folder, ""});
   std::string text = std::filesystem::exists(list_file) ? readFile(list_file) : header + "\n";
   if (!text.ends_with('\n')) text += '\n';
   const bool there = text.find("\n" + row + "\n") != std::string::npos;
   if (!source.empty()) {
     const std::string content = readFile(source);
     if (!there) {
-      writeFileAtomically(captures / relative_name, content);
-    } else if (readFile(captures / relative_name) != content) {
-      throw InputError({captures / relative_name, ""},
-                       "is there already with another content; allowed: a new name for a new capture.");
+      writeFileAtomically(stored, content);
+    } else if (readFile(stored) != content) {
+      throw InputError({stored, ""}, "is there already with another content; allowed: a new name for a new capture.");
     }
   }
   if (!database_->setting(captureBaseKey(id))) {
@@ -277,7 +278,7 @@ void Session::addCaptureRows(std::int64_t id, const std::string& list, const std
                              const std::vector<std::string>& rows) {
   database_->requireInPlace();
   const CampaignRecord record = campaign(id);
-  const std::filesystem::path list_file = record.folder / "captures" / list;
+  const std::filesystem::path list_file = InsideFolder(record.folder).path("captures/" + list, {record.folder, ""});
   const std::string before = std::filesystem::exists(list_file) ? readFile(list_file) : std::string();
   const std::string columns = before.substr(0, before.find_first_of("\r\n"));
   if (!before.empty() && columns != header) {

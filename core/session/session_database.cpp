@@ -8,6 +8,7 @@
 #include <soci/sqlite3/soci-sqlite3.h>
 
 #include "core/base/error.h"
+#include "core/base/inside_folder.h"
 
 namespace spindrift {
 
@@ -141,7 +142,7 @@ void SessionDatabase::setCampaignFingerprint(std::int64_t id, const std::string&
 }
 
 std::vector<CampaignRecord> SessionDatabase::campaigns() const {
-  return guarded(file_, [&] {
+  std::vector<CampaignRecord> found = guarded(file_, [&] {
     std::vector<CampaignRecord> list;
     const soci::rowset<soci::row> rows =
         (connection_->sql.prepare << "select cast(id as text), name, folder, fingerprint, imported_utc from campaign "
@@ -152,6 +153,18 @@ std::vector<CampaignRecord> SessionDatabase::campaigns() const {
     }
     return list;
   });
+  // Whoever made this file may be somebody else: only folders right inside campaigns are ever touched.
+  InsideFolder session(file_.parent_path());
+  for (const CampaignRecord& record : found) {
+    const std::filesystem::path named(record.folder);
+    const std::filesystem::path folder = session.path(named.string(), {file_, ""});
+    std::error_code none;
+    if (named != named.lexically_normal() || named.parent_path() != "campaigns" || named.filename().empty() ||
+        std::filesystem::is_symlink(folder, none))
+      throw InputError({file_, ""}, fmt::format("keeps the campaign \"{}\" in \"{}\"; allowed: a folder in campaigns.",
+                                                record.name, named.string()));
+  }
+  return found;
 }
 
 void SessionDatabase::removeCampaign(std::int64_t id) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/atomic_file.h"
+#include "core/base/inside_folder.h"
 #include "core/session/fingerprint.h"
 #include "core/session/session_database.h"
 
@@ -104,6 +105,8 @@ void refreshCaptureFingerprint(SessionDatabase& database, const CampaignRecord& 
 
 RecoveryReport putInOrder(const fs::path& session_folder, SessionDatabase& database) {
   RecoveryReport report;
+  InsideFolder inside(session_folder);
+  for (const char* folder : {"campaigns", "removed"}) (void)inside.path(folder, {session_folder, ""});
   report.leftovers = removeLeftovers(session_folder);
   std::set<fs::path> known;
   for (CampaignRecord& record : database.campaigns()) {

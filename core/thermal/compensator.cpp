@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/thermal/compensator.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -12,9 +14,31 @@
 namespace spindrift {
 namespace {
 
-void copyName(const std::string& from, std::array<char, 64>& to) noexcept {
-  to.fill('\0');
-  std::memcpy(to.data(), from.data(), std::min(from.size(), to.size() - 1));
+/// Why an output cannot be compensated with; empty if it can.
+std::string problemOf(const ThermalModel& model, const ThermalOutput& output, bool forced) {
+  if (output.unit != "um" && output.unit != "urad")
+    return fmt::format("Output {} is in \"{}\"; allowed: um or urad.", output.name, output.unit);
+  if (output.terms.empty())
+    return fmt::format(
+        "Output {} has no terms, only a constant (an ARX model with complex, negative or double poles has "
+        "no equivalent in lags); allowed: a model identified with --method response or oe.",
+        output.name);
+  if (!std::isfinite(output.offset)) return fmt::format("The offset of output {} is not finite.", output.name);
+  for (const LagTerm& term : output.terms) {
+    if (term.input < 0 || static_cast<std::size_t>(term.input) >= model.inputs.size())
+      return fmt::format("Output {} uses input {}, which the model does not have.", output.name, term.input);
+    if (!std::isfinite(term.gain) || !std::isfinite(term.tau_s) || term.tau_s < 0.0)
+      return fmt::format(
+          "Output {} has a gain of {} with a time constant of {} s; allowed: finite numbers, no negative "
+          "time constant (it would be unstable).",
+          output.name, term.gain, term.tau_s);
+  }
+  if (!forced && output.verdict && !output.verdict->good_enough)
+    return fmt::format(
+        "The identification called the model of {} not good enough ({}); allowed: a better model, or "
+        "loading it by force.",
+        output.name, output.verdict->reason.empty() ? "no reason given" : output.verdict->reason);
+  return {};
 }
 
 // Two doubles in one register of every 64-bit processor; compilers make scalars of it where there is none.
@@ -69,30 +93,43 @@ std::string Compensator::load(const ThermalModel& model, double cycle_s, const C
   *this = Compensator();
   if (!(cycle_s > 0.0) || !std::isfinite(cycle_s)) return "The cycle time must be positive.";
   if (!(limits.limit > 0.0) || !(limits.slew_per_s > 0.0) || !(limits.stale_after_s >= 0.0) ||
-      !(limits.recover_after_s >= 0.0) || !(limits.range_margin >= 0.0) || !(limits.minimum_margin >= 0.0)) {
+      !(limits.recover_after_s >= 0.0) || !(limits.range_margin >= 0.0) || !(limits.minimum_margin >= 0.0) ||
+      !(limits.update_limit >= 0.0) || !(limits.least_gain >= 0.0) || !(limits.most_gain >= limits.least_gain)) {
     return "A limit of the compensator is negative or zero.";
   }
+  for (const double limit : {limits.limit, limits.slew_per_s, limits.stale_after_s, limits.recover_after_s,
+                             limits.range_margin, limits.minimum_margin, limits.update_limit, limits.most_gain})
+    if (!std::isfinite(limit)) return "A limit of the compensator is not finite.";
   if (model.outputs.empty() || model.outputs.size() > maximum_outputs) return "The model has no output or more than 8.";
   if (model.inputs.size() > transform_.size()) return "The model has too many inputs.";
+  for (const ThermalOutput& output : model.outputs) {
+    if (std::string problem = problemOf(model, output, limits.forced); !problem.empty()) return problem;
+    forced_ = forced_ || (output.verdict && !output.verdict->good_enough);
+  }
   for (const ThermalInput& input : model.inputs) {
     int source = 0;
-    while (source < inputs_ && input.name.compare(0, 63, input_names_[source].data()) != 0) ++source;
+    while (source < inputs_ && input.name != input_names_[source]) ++source;
     if (source == inputs_) {
       if (inputs_ == maximum_inputs) return "The model has more than 32 input signals.";
-      copyName(input.name, input_names_[inputs_++]);
+      input_names_[inputs_++] = input.name;
       const double range = input.train_max - input.train_min;
       const bool driven =
           input.kind == SignalKind::Speed || input.kind == SignalKind::Feed || input.kind == SignalKind::Switch;
       const double margin = std::max(limits.range_margin * range, driven ? 0.0 : limits.minimum_margin);
       low_[source] = input.train_min - margin;
       high_[source] = input.train_max + margin;
+      if (!(std::isfinite(low_[source]) && std::isfinite(high_[source])))
+        return fmt::format("The range of training of input {} is not finite.", input.name);
     }
+    if (!(input.scale > 0.0) || !(input.power > 0.0) || !std::isfinite(input.scale) || !std::isfinite(input.power))
+      return fmt::format("Input {} has the scale {} and the power {}; allowed: finite and positive.", input.name,
+                         input.scale, input.power);
     transform_[transforms_++] = {source, input.power, 1.0 / input.scale};
   }
   int rounds = 0;
   for (std::size_t o = 0; o < model.outputs.size(); ++o) {
     const ThermalOutput& output = model.outputs[o];
-    copyName(output.name, output_names_[o]);
+    output_names_[o] = output.name;
     offset_[o] = output.offset;
     gain_factor_[o] = 1.0;
     first_[o] = lags_;
@@ -135,11 +172,11 @@ std::string Compensator::load(const ThermalModel& model, double cycle_s, const C
 }
 
 const char* Compensator::inputName(int index) const noexcept {
-  return index >= 0 && index < inputs_ ? input_names_[index].data() : "";
+  return index >= 0 && index < inputs_ ? input_names_[index].c_str() : "";
 }
 
 const char* Compensator::outputName(int index) const noexcept {
-  return index >= 0 && index < outputs_ ? output_names_[index].data() : "";
+  return index >= 0 && index < outputs_ ? output_names_[index].c_str() : "";
 }
 
 void Compensator::reset() noexcept {
@@ -147,13 +184,27 @@ void Compensator::reset() noexcept {
   good_for_s_ = limits_.recover_after_s;
   bad_for_s_.fill(0.0);
   was_bad_ = false;
+  broken_for_s_ = 0.0;
   output_.fill(0.0);
 }
 
-void Compensator::update(int output, double gain_factor, double offset_correction) noexcept {
-  if (output < 0 || output >= outputs_ || !std::isfinite(gain_factor) || !std::isfinite(offset_correction)) return;
+CompensatorStatus Compensator::status() const noexcept {
+  return {state_, refused_, refused_update_, forced_, broken_for_s_ > 0.0};
+}
+
+bool Compensator::update(int output, double gain_factor, double offset_correction) noexcept {
+  if (output < 0 || output >= outputs_) return false;
+  // Written so that NaN fails.
+  const bool possible = gain_factor >= limits_.least_gain && gain_factor <= limits_.most_gain &&
+                        std::abs(correction_[output] + offset_correction) <= limits_.update_limit;
+  if (!possible) {
+    refused_update_ = output;
+    return false;
+  }
+  if (refused_update_ == output) refused_update_ = -1;
   gain_factor_[output] = gain_factor;
   correction_[output] += offset_correction;
+  return true;
 }
 
 double Compensator::powered(double v, double power) noexcept {
@@ -202,7 +253,12 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
            : refused_ >= 0 ? CompensatorState::Holding
                            : CompensatorState::Running;
   if (!started_ && refused_ >= 0) {
-    for (int o = 0; o < outputs_; ++o) outputs[o] = 0.0;
+    // Nothing to go by: to zero, where it is from the beginning unless the model's own value broke.
+    for (int o = 0; o < outputs_; ++o) {
+      const double change = limits_.slew_per_s * cycle_s_;
+      output_[o] = std::clamp(0.0, output_[o] - change, output_[o] + change);
+      outputs[o] = output_[o];
+    }
     return state_;
   }
   for (int t = 0; t < transforms_; ++t)
@@ -210,6 +266,7 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
   const bool at_rest = !started_;
   started_ = true;
   const double largest_change = limits_.slew_per_s * cycle_s_;
+  bool broken = false;
   alignas(64) std::array<double, 3 * maximum_inputs> before;
   alignas(64) std::array<double, 3 * maximum_inputs> now;
   for (int o = 0; o < outputs_; ++o) {
@@ -242,11 +299,22 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
     double value = offset_[o] + sums.total();
     value = -(gain_factor_[o] * value + correction_[o]);
     double target = fallback ? 0.0 : std::clamp(value, -limits_.limit, limits_.limit);
-    if (!(target >= -limits_.limit && target <= limits_.limit)) target = 0.0;
+    if (!std::isfinite(value)) {
+      broken = true;
+      target = fallback || broken_for_s_ > limits_.stale_after_s ? 0.0 : output_[o];
+    }
     output_[o] = std::clamp(target, output_[o] - largest_change, output_[o] + largest_change);
     outputs[o] = output_[o];
   }
   for (int t = 0; t < transforms_; ++t) before_[t] = now_[t];
+  if (broken) {
+    broken_for_s_ = std::min(broken_for_s_ + cycle_s_, 1e9);
+    started_ = false;  // a lag that is no number stays so: all begin at rest again
+    if (state_ == CompensatorState::Running) state_ = CompensatorState::Holding;
+    if (broken_for_s_ > limits_.stale_after_s) state_ = CompensatorState::Fallback;
+  } else {
+    broken_for_s_ = 0.0;
+  }
   return state_;
 }
 

@@ -7,8 +7,9 @@
 // The output is the compensation (minus the predicted deviation), in the unit of the model's outputs. Inputs are
 // checked in every step: not finite, outside the allowed range, or stale (no new value for longer than `stale_after_s`;
 // also a clock that does not run forwards). While an input is bad its last good value is used for `stale_after_s`;
-// after that the compensator is in fall-back: it holds its output and then fades it to zero with the slew limit, until
-// all inputs are good again for `recover_after_s`. Configuration (load) happens outside the control loop and reports
+// after that the compensator is in fall-back: it fades its output to zero with the slew limit, until all inputs are
+// good again for `recover_after_s`. Should the model's own value ever not be finite, the output is held and faded in
+// the same way and the lags start again at rest. Configuration (load) happens outside the control loop and reports
 // problems as a sentence; everything else is noexcept.
 #pragma once
 
@@ -35,6 +36,19 @@ struct CompensatorLimits {
   double range_margin = 0.5;      ///< input beyond its training range by more than this part of the range is impossible
   double minimum_margin =
       20.0;  ///< but never less than this, in the input's unit (ignored for speeds, where the range decides)
+  double update_limit = 100.0;  ///< of the sum of measured offsets that `update` takes, um or urad
+  double least_gain = 0.2;      ///< factors outside are no measurement of the same machine
+  double most_gain = 5.0;
+  bool forced = false;  ///< take a model that its identification called not good enough; the status says so
+};
+
+/// What a controller should show beside the outputs.
+struct CompensatorStatus {
+  CompensatorState state = CompensatorState::Empty;
+  int refused_input = -1;         ///< first input that was refused in the last step, -1 if none
+  int refused_update = -1;        ///< output whose last measured update was refused as impossible, -1 if none
+  bool forced = false;            ///< the model was called not good enough and was loaded all the same
+  bool value_not_finite = false;  ///< the model's own value was no number in the last step: its lags start again
 };
 
 class Compensator {
@@ -43,8 +57,9 @@ class Compensator {
   static constexpr int maximum_inputs = 32;
   static constexpr int maximum_lags = 1024;  ///< over all outputs
 
-  /// Takes a model for a fixed cycle time. Returns an empty text, or a sentence why not (too large, cycle not
-  /// positive). Resets all states.
+  /// Takes a model for a fixed cycle time. Returns an empty text, or a sentence why not: too large, cycle not positive,
+  /// a verdict "not good enough" (unless forced), an output without terms, of an unknown unit or with numbers that are
+  /// not finite. Resets all states.
   [[nodiscard]] std::string load(const ThermalModel& model, double cycle_s, const CompensatorLimits& limits = {});
 
   [[nodiscard]] int inputCount() const noexcept { return inputs_; }
@@ -60,9 +75,11 @@ class Compensator {
   [[nodiscard]] CompensatorState state() const noexcept { return state_; }
   /// First input that was refused in the last step, -1 if none.
   [[nodiscard]] int refusedInput() const noexcept { return refused_; }
+  [[nodiscard]] CompensatorStatus status() const noexcept;
   /// Shifts the model's offset of one output after an on-machine measurement: new offset = old + correction. Gain
-  /// likewise as a factor.
-  void update(int output, double gain_factor, double offset_correction) noexcept;
+  /// likewise as a factor. Not finite, or outside the limits: nothing changes, false, and the status says so until an
+  /// update of that output is taken.
+  bool update(int output, double gain_factor, double offset_correction) noexcept;
   /// Forgets all states; the next good step starts at rest.
   void reset() noexcept;
 
@@ -85,8 +102,11 @@ class Compensator {
   double cycle_s_ = 0.0;
   double good_for_s_ = 0.0;
   CompensatorLimits limits_;
-  std::array<std::array<char, 64>, maximum_inputs> input_names_{};
-  std::array<std::array<char, 64>, maximum_outputs> output_names_{};
+  double broken_for_s_ = 0.0;  ///< how long the model's own value has not been finite
+  int refused_update_ = -1;
+  bool forced_ = false;
+  std::array<std::string, maximum_inputs> input_names_;  // written by `load` alone
+  std::array<std::string, maximum_outputs> output_names_;
   std::array<double, maximum_inputs> low_{};
   std::array<double, maximum_inputs> high_{};
   std::array<double, maximum_inputs> last_good_{};

@@ -6,6 +6,9 @@
 #ifndef SPINDRIFT_COMPENSATOR_C_H
 #define SPINDRIFT_COMPENSATOR_C_H
 
+#include <stddef.h>
+#include <stdint.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -20,11 +23,56 @@ enum spindrift_compensator_state {
 };
 
 /* Reads a spindrift-thermal-model file. Returns NULL and writes a sentence into `message` (at most `message_size`
- * bytes, always ended) if it cannot be used. limit: of each output; slew_per_s: of its change; 0 or less takes the
- * default. */
+ * bytes, always ended) if it cannot be used, also if its identification called it not good enough. limit: of each
+ * output; slew_per_s: of its change; 0 or less takes the default. */
 spindrift_compensator* spindrift_compensator_load(const char* model_file, double cycle_s, double limit,
                                                   double slew_per_s, char* message, int message_size);
 void spindrift_compensator_free(spindrift_compensator* compensator);
+
+/* Options of a load. Set `struct_size` to sizeof and leave 0 what shall have its default; a later version of the
+ * library only adds members at the end and takes a shorter struct as it is. Units: um or urad, s. */
+typedef struct spindrift_compensator_options {
+  size_t struct_size;
+  double cycle_s;         /* needed */
+  double limit;           /* of the magnitude of every output */
+  double slew_per_s;      /* of the change of every output */
+  double stale_after_s;   /* an input without a good value for longer is stale */
+  double recover_after_s; /* good again for this long before the compensation returns */
+  double range_margin;    /* part of the range of training by which an input may leave it */
+  double minimum_margin;  /* but never less than this, in the input's unit */
+  double update_limit;    /* of the sum of measured offsets */
+  int32_t force;          /* 1: take a model that its identification called not good enough */
+} spindrift_compensator_options;
+
+/* As spindrift_compensator_load, with options. */
+spindrift_compensator* spindrift_compensator_load_with(const char* model_file,
+                                                       const spindrift_compensator_options* options, char* message,
+                                                       size_t message_size);
+
+/* Set `struct_size` to sizeof; no more than that is written. */
+typedef struct spindrift_compensator_status {
+  size_t struct_size;
+  int32_t state;            /* enum spindrift_compensator_state */
+  int32_t refused_input;    /* first input refused in the last step, -1 if none */
+  int32_t refused_update;   /* output whose last measured update was refused, -1 if none */
+  int32_t forced;           /* 1: the model was called not good enough and was loaded by force */
+  int32_t value_not_finite; /* 1: the model's own value was no number in the last step */
+} spindrift_compensator_status;
+
+/* 0, or -1 if an argument is NULL or the struct has no size. */
+int spindrift_compensator_get_status(const spindrift_compensator* compensator, spindrift_compensator_status* status);
+
+/* Copies a name of any length into `buffer` (at most `size` bytes, always ended) and returns the bytes that the whole
+ * name needs with its end, 0 for an index that does not exist. */
+size_t spindrift_compensator_copy_input_name(const spindrift_compensator* compensator, int index, char* buffer,
+                                             size_t size);
+size_t spindrift_compensator_copy_output_name(const spindrift_compensator* compensator, int index, char* buffer,
+                                              size_t size);
+
+/* One cycle with the lengths of all arrays. Returns the state, or -1 without touching anything if a length is not that
+ * of the model; age_s may be NULL (then age_count is 0). */
+int spindrift_compensator_step_sized(spindrift_compensator* compensator, const double* inputs, size_t input_count,
+                                     const double* age_s, size_t age_count, double* outputs, size_t output_count);
 
 int spindrift_compensator_inputs(const spindrift_compensator* compensator);
 int spindrift_compensator_outputs(const spindrift_compensator* compensator);
@@ -34,9 +82,10 @@ const char* spindrift_compensator_output_name(const spindrift_compensator* compe
 /* One cycle; age_s may be NULL. Returns the state. */
 int spindrift_compensator_step(spindrift_compensator* compensator, const double* inputs, const double* age_s,
                                double* outputs);
-/* After an on-machine measurement: deviation = gain_factor * model + corrections. */
-void spindrift_compensator_update(spindrift_compensator* compensator, int output, double gain_factor,
-                                  double offset_correction);
+/* After an on-machine measurement: deviation = gain_factor * model + corrections. Returns 1, or 0 if the values are
+ * impossible: then nothing changes and the status says so. */
+int spindrift_compensator_update(spindrift_compensator* compensator, int output, double gain_factor,
+                                 double offset_correction);
 void spindrift_compensator_reset(spindrift_compensator* compensator);
 
 #ifdef __cplusplus

@@ -108,6 +108,20 @@ AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, do
 
 }  // namespace
 
+void requireSpindleAtRest(const TimeSeries& series) {
+  constexpr double creep_rpm = 1.0;  // what an encoder shows of a spindle that stands
+  for (const Signal& signal : series.signals) {
+    if (signal.kind != SignalKind::Speed) continue;
+    for (std::size_t row = 0; row < signal.values.size(); ++row) {
+      if (!(std::abs(signal.values[row]) > creep_rpm)) continue;
+      throw InputError({series.file, fmt::format("column {}", signal.name)},
+                       fmt::format("the spindle turns ({:g} rpm at {:g} s), but an ETVE test is of a machine at rest; "
+                                   "allowed: a log without a running spindle, or the test \"spindle\".",
+                                   signal.values[row], series.time_s[row]));
+    }
+  }
+}
+
 EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<ComponentSeries>& components,
                         std::span<const double> ambient) {
   checkSeries(time_s, components, 10);

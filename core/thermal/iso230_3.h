@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "core/thermal/time_series.h"
+
 namespace spindrift {
 
 /// A component (EX ... EC) or a single probe over time. NaN where missing.
@@ -38,6 +40,8 @@ struct EtveResult {
   std::vector<EtveComponent> components;
   std::string note;
 };
+/// The test is of a machine at rest. Throws InputError if a spindle (a signal of kind Speed) turns anywhere in the log.
+void requireSpindleAtRest(const TimeSeries& series);
 /// `ambient_degC` may be empty: then nothing is per K.
 [[nodiscard]] EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<ComponentSeries>& components,
                                       std::span<const double> ambient_degC);

@@ -235,7 +235,9 @@ TimeSeries parseTimeSeries(std::string text, const std::filesystem::path& name, 
         if (!bad) bad = row;
       }
     }
-    if (bad && numbers == 0 && !looksMissing(table.text(*bad, column))) {
+    // Words among the numbers of a column that means nothing to us (alarms, programme names) leave it out as well.
+    if (bad && (numbers == 0 || signalKind(signal.name, {}) == SignalKind::Other) &&
+        !looksMissing(table.text(*bad, column))) {
       series.notes.push_back(fmt::format("column {} holds text and was left out.", signal.name));
       continue;
     }

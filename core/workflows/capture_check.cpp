@@ -8,23 +8,26 @@
 #include "core/base/error.h"
 #include "core/imaging/capture_agreement.h"
 #include "core/imaging/capture_verdict.h"
+#include "core/imaging/evaluate_fiducials.h"
 #include "core/imaging/fiducial_captures.h"
 #include "core/imaging/image.h"
 
 namespace spindrift {
 namespace {
 
-CheckedCapture judged(const Campaign& campaign, const FiducialCapture& c, SeenCapture& seen) {
+CheckedCapture judged(const Campaign& campaign, const FiducialCapture& c, const FiducialPattern& pattern,
+                      SeenCapture& seen) {
   CheckedCapture checked;
   checked.image = c.image;
   try {
-    const CaptureVerdict verdict = judgeCapture(readImage(campaign.path(c.image)), c.role == CaptureRole::Focus);
+    const CaptureVerdict verdict =
+        judgeCapture(readImage(campaign.path(c.image)), c.role == CaptureRole::Focus, {}, pattern);
     checked.good = verdict.good;
     checked.sentence = verdict.sentence;
     checked.ellipses = static_cast<int>(verdict.decoded.subpatterns.size());
     checked.blur_px = verdict.decoded.exposure.blur_sigma_px;
     if (verdict.good) {
-      seen.pose = poseOf(verdict.decoded);
+      seen.pose = poseOf(verdict.decoded, pattern);
       seen.sharpness = verdict.focus.normalised;
     }
   } catch (const InputError& e) {
@@ -46,11 +49,12 @@ std::vector<CheckedCapture> checkFiducialCaptures(const Campaign& campaign, JobC
   const std::vector<FiducialCapture> list = readFiducialCaptures(*file).captures;
   std::vector<CheckedCapture> checked(list.size());
   std::vector<SeenCapture> seen(list.size());
+  const std::shared_ptr<const FiducialPattern> pattern = campaignPattern(campaign.folder);
   std::atomic<std::size_t> done{0};
   parallelFor(list.size(), job, [&](std::size_t i) {
     const FiducialCapture& c = list[i];
     seen[i] = {c.fiducial, c.state, c.role, c.index, c.position_mm, c.spindle_deg, std::nullopt, 0.0};
-    checked[i] = judged(campaign, c, seen[i]);
+    checked[i] = judged(campaign, c, *pattern, seen[i]);
     if (campaign.excluded_captures.contains(c.image)) {
       seen[i].pose.reset();
       seen[i].sharpness = 0.0;

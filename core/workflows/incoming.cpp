@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/imaging/capture_verdict.h"
+#include "core/imaging/evaluate_fiducials.h"
 #include "core/imaging/fiducial_captures.h"
 #include "core/imaging/image.h"
 #include "core/scanning/cloud_file.h"
@@ -177,7 +178,7 @@ bool foundTwice(const IncomingContext& context, IncomingItem& item) {
   return true;
 }
 
-SeenCapture seenOf(const PlannedItem& planned, const CaptureVerdict& verdict) {
+SeenCapture seenOf(const PlannedItem& planned, const CaptureVerdict& verdict, const FiducialPattern& pattern) {
   SeenCapture seen;
   seen.fiducial = planned.fiducial;
   seen.state = planned.state;
@@ -185,7 +186,7 @@ SeenCapture seenOf(const PlannedItem& planned, const CaptureVerdict& verdict) {
   seen.index = planned.index;
   seen.position_mm = planned.position_mm;
   seen.spindle_deg = planned.spindle_deg;
-  seen.pose = poseOf(verdict.decoded);
+  seen.pose = poseOf(verdict.decoded, pattern);
   seen.sharpness = verdict.focus.normalised;
   return seen;
 }
@@ -200,7 +201,8 @@ std::vector<SeenCapture> comparable(const IncomingContext& context, const SeenCa
       if (other.fiducial != seen.fiducial) continue;
       try {
         const GrayImage image = readImage(context.campaign_folder / listed.image);
-        other.pose = poseOf(decodeImage(image));
+        const auto pattern = campaignPattern(context.campaign_folder);
+        other.pose = poseOf(decodeImage(image, *pattern), *pattern);
         other.sharpness = measureFocus(image).normalised;
       } catch (const InputError&) {
         continue;  // the check of all captures says so
@@ -227,9 +229,10 @@ void examineImageBytes(const std::string& bytes, const std::string& ending, cons
   const std::string stem =
       planned != nullptr ? safeName(planned->id) : std::filesystem::path(safeName(out.item.name)).stem().string();
   if (planned == nullptr) return keep(context, out.item, "kept", stem, ending, bytes);
-  CaptureVerdict verdict = judgeCapture(image, planned->role == "focus");
+  const auto pattern = campaignPattern(context.campaign_folder);
+  CaptureVerdict verdict = judgeCapture(image, planned->role == "focus", {}, *pattern);
   if (verdict.good) {
-    const SeenCapture seen = seenOf(*planned, verdict);
+    const SeenCapture seen = seenOf(*planned, verdict, *pattern);
     out.item.pose = seen.pose;
     out.item.sharpness = seen.sharpness;
     const std::string contradiction = contradictionOf(seen, comparable(context, seen));

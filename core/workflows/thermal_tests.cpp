@@ -104,6 +104,7 @@ Iso230Result evaluateIso230Test(const TimeSeries& series, const Iso230Request& r
     curves.push_back(std::move(curve));
   }
   if (request.test == "etve") {
+    requireSpindleAtRest(series);
     std::string ambient = request.ambient;
     for (const Signal& s : series.signals) {
       if (ambient.empty() && OperatingLog::isTemperature(s.name) && readSensorRole(s.name) == SensorRole::Room) {

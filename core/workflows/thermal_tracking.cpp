@@ -231,7 +231,10 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
   if (!(result.cycle_s > 0.0))
     throw InputError({request.log, ""}, "has a single row, so the cycle time is unknown; give --cycle.");
   Compensator compensator;
-  const std::string problem = compensator.load(model, result.cycle_s, request.limits);
+  // A replay shows what would have come of it, also of a model that no control may load; the warnings say so.
+  CompensatorLimits limits = request.limits;
+  limits.forced = true;
+  const std::string problem = compensator.load(model, result.cycle_s, limits);
   if (!problem.empty()) throw InputError({request.model, ""}, problem);
   for (const ThermalOutput& output : model.outputs) {
     if (!output.verdict || output.verdict->good_enough) continue;

@@ -7,8 +7,10 @@ namespace spindrift {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 std::string complaint(const std::string& text, const std::function<void(const CsvTable&)>& use = {}) {
   try {
@@ -55,6 +57,25 @@ TEST(Csv, RefusesWhatIsNoTable) {
   EXPECT_THAT(complaint("a,b\n1,2\n", [](const CsvTable& t) { (void)t.column("c"); }),
               AllOf(HasSubstr("column \"c\" is missing"), HasSubstr("a and b")));
   EXPECT_THROW((void)CsvTable::read("/nonexistent/file.csv"), InputError);
+}
+
+TEST(Csv, RefusesBytesThatAreNoUtf8) {
+  for (const std::string bad : {"\xe4", "\xc3", "\xc0\xaf", "\xed\xa0\x80", "\xf5\x80\x80\x80", "\x80", "\xe2\x82"})
+    for (const std::string& text : {"a,b\n1," + bad + "\n", "a,b" + bad + "\n1,2\n", "a,b\n# " + bad + "\n1,2\n"})
+      EXPECT_THAT(complaint(text), AllOf(HasSubstr("log.csv, line"), HasSubstr("no UTF-8"))) << text;
+  EXPECT_EQ(complaint("a,b\n\xc3\xa4,\xf0\x9f\x98\x80\xe2\x82\xac\n"), "no complaint");
+}
+
+TEST(Csv, WritesNothingThatASpreadsheetRuns) {
+  for (const std::string text : {"=1+1", "+1+cmd", "-x", "@sum", "\t=1", "'=1", "''=1"}) {
+    const std::string field = csvField(text);
+    EXPECT_THAT(field, AnyOf(StartsWith("'"), StartsWith("\"'"))) << text;
+    EXPECT_EQ(CsvTable::parse("h\n" + field + "\n", "t").text(0, 0), text);
+  }
+  for (const std::string text : {"-1.5", "+2", "'quoted", "a=b"}) {
+    EXPECT_EQ(csvField(text), text);
+    EXPECT_EQ(CsvTable::parse("h\n" + text + "\n", "t").text(0, 0), text);
+  }
 }
 
 TEST(Csv, WritesFieldsThatReadBack) {

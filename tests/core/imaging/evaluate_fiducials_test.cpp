@@ -14,6 +14,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/random.h"
 #include "core/base/units.h"
+#include "core/imaging/artwork.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/simulation/virtual_microscope.h"
 #include "tests/support/temp_folder.h"
@@ -40,7 +41,8 @@ NineVector truthParameters() {
 
 /// A campaign rendered from the conventions of FORMATS.md: the tool stands at commanded + deviation relative to the
 /// table, the camera turns with the spindle, the shots flicker.
-void renderCampaign(const std::filesystem::path& folder, double noise_um) {
+void renderCampaign(const std::filesystem::path& folder, double noise_um,
+                    const FiducialPattern& pattern = standardPattern()) {
   std::filesystem::create_directories(folder / "captures/images");
   std::ofstream(folder / "campaign.json")
       << R"({"format":"spindrift-campaign","version":1,"name":"rendered","start_utc":"2026-01-31T08:00:00Z"})";
@@ -78,17 +80,18 @@ void renderCampaign(const std::filesystem::path& folder, double noise_um) {
         const Eigen::Vector2d tool(offset_mm.x() * um_per_mm + d.x() + random.normal(0, noise_um),
                                    offset_mm.y() * um_per_mm + d.y() + random.normal(0, noise_um));
         // Where the spindle's axis meets the fiducial, in FCF; and how FCF lies in the camera.
-        const Eigen::Vector2d place(1400 + std::cos(p) * tool.x() + std::sin(p) * tool.y(),
-                                    1400 - std::sin(p) * tool.x() + std::cos(p) * tool.y());
+        const double middle = 4.0 * pattern.pitch_um;
+        const Eigen::Vector2d place(middle + std::cos(p) * tool.x() + std::sin(p) * tool.y(),
+                                    middle - std::sin(p) * tool.x() + std::cos(p) * tool.y());
         const double orientation = p - 0.11 - spindle_deg * rad_per_deg;
-        scene.map = poseAt(width, height, 2.4, -orientation, place, centre_px);
+        scene.map = poseAt(width, height, 2.4 * pattern.pitch_um / 350.0, -orientation, place, centre_px);
         scene.blur_sigma_px = 0.8;
         scene.defocus_px_per_um = 0.012;
         scene.defocus_um = offset_mm.z() * um_per_mm + d.z() + 12.0 + random.normal(0, noise_um);
         scene.illumination_gain = random.uniform(0.94, 1.06);
         scene.jpeg_quality = 95;
         const std::string name = fmt::format("captures/images/{}_{}_{}_{}.jpg", state, id, role, index);
-        writeFileAtomically(folder / name, encodeJpeg(renderFiducial(standardPattern(), scene, seed++), 95));
+        writeFileAtomically(folder / name, encodeJpeg(renderFiducial(pattern, scene, seed++), 95));
         list << fmt::format("{},{},{},{},{},{},{},{},{},{}\n", time, state, id, role, index,
                             nominal.x() + offset_mm.x(), nominal.y() + offset_mm.y(), nominal.z() + offset_mm.z(),
                             spindle_deg, name);
@@ -133,6 +136,26 @@ class RenderedCampaign : public ::testing::Test {
   testing::TempFolder own_;
 };
 std::unique_ptr<testing::TempFolder> RenderedCampaign::folder_;
+
+TEST(EvaluateFiducials, TakesThePatternOfTheCampaign) {
+  const testing::TempFolder folder;
+  const FiducialPattern own = makePattern({.pitch_um = 455.0});
+  renderCampaign(folder / "campaign", 0.2, own);
+  folder.write("campaign/pattern.json", patternJson(own));
+  EXPECT_EQ(campaignPattern(folder / "campaign")->pitch_um, 455.0);
+  EXPECT_EQ(campaignPattern(folder.path()).get(), &standardPattern());
+  JobContext job;
+  const InstrumentEvaluation e = evaluateFiducials(Campaign::read(folder / "campaign"), job);
+  EXPECT_TRUE(e.good_enough);
+  ASSERT_EQ(e.observations.rows.size(), 18u);
+  for (const Observation& o : e.observations.rows) {
+    if (o.state == "M0") continue;
+    const double truth = nineParameterRow(o.position_mm, o.component).dot(truthParameters());
+    EXPECT_NEAR(o.value, truth, o.component == Component::EZ ? 2.5 : 1.2) << o.point << toString(o.component);
+  }
+  folder.write("campaign/pattern.json", "{}");
+  EXPECT_THROW((void)evaluateFiducials(Campaign::read(folder / "campaign"), job), InputError);
+}
 
 TEST_F(RenderedCampaign, DeviationHasTheSignAndSizeOfTheTruth) {
   const InstrumentEvaluation e = evaluate(folder_->path() / "campaign");

@@ -52,6 +52,12 @@ TEST(FiducialCaptures, RefusesWithPlaceAndValue) {
   EXPECT_THAT(errorOf(std::string(header)), HasSubstr("lists no image"));
 }
 
+TEST(FiducialCaptures, ImagesStayInTheFolderOfTheCampaign) {
+  for (const std::string image : {"/etc/passwd", "../a.jpg", "captures/../../a.jpg", ".."})
+    EXPECT_THAT(errorOf(std::string(header) + "5,M0,F1,rotation,0,1,2,3,0," + image + "\n"),
+                ::testing::AllOf(HasSubstr("line 2, column image: \"" + image + "\""), HasSubstr("allowed")));
+}
+
 TEST(FiducialCaptures, TimeRunsPerFiducial) {
   EXPECT_EQ(errorOf(std::string(header) + "5,M0,F1,rotation,0,1,2,3,0,a.jpg\n4,M0,F2,rotation,0,1,2,3,0,b.jpg\n"), "");
 }

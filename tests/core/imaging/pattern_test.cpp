@@ -112,5 +112,32 @@ TEST(Image, RefusesWhatIsNoWholeImage) {
   EXPECT_NE(sentence("").find("empty"), std::string::npos);
 }
 
+TEST(Image, SizesAreCheckedBeforeAnythingIsAllocated) {
+  const auto complaint = [](const std::string& bytes) -> std::string {
+    try {
+      (void)decodeImageBytes(bytes, "a");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  std::string png = encodePng(GrayImage(16, 16, 7));
+  png.replace(16, 8, std::string("\x00\x00\xff\xff\x00\x00\xff\xff", 8));
+  EXPECT_NE(complaint(png).find("65535 x 65535 pixels"), std::string::npos) << complaint(png);
+  std::string jpeg = encodeJpeg(GrayImage(16, 16, 7), 90);
+  const std::size_t frame = jpeg.find("\xff\xc0");
+  ASSERT_NE(frame, std::string::npos);
+  jpeg.replace(frame + 5, 4, "\xff\xfe\xff\xfd");
+  EXPECT_NE(complaint(jpeg).find("65533 x 65534 pixels"), std::string::npos) << complaint(jpeg);
+  EXPECT_NE(complaint("P5\n# x\n30000 30001\n255\nabc").find("30000 x 30001 pixels"), std::string::npos);
+  std::string bmp = "BM" + std::string(16, '\0') + std::string("\x00\x00\x01\x00\x00\x00\xff\xff", 8) + "\x01";
+  EXPECT_NE(complaint(bmp).find("65536 x 65536 pixels"), std::string::npos) << complaint(bmp);
+  const std::string tiff = std::string("II*\0\x08\0\0\0\x02\0", 10) +
+                           std::string("\x00\x01\x04\0\x01\0\0\0\x00\x00\x01\x00", 12) +
+                           std::string("\x01\x01\x03\0\x01\0\0\0\xff\xff\0\0", 12);
+  EXPECT_NE(complaint(tiff).find("65536 x 65535 pixels"), std::string::npos) << complaint(tiff);
+  for (std::size_t cut = 0; cut <= tiff.size(); ++cut) EXPECT_NE(complaint(tiff.substr(0, cut)), "");
+}
+
 }  // namespace
 }  // namespace spindrift

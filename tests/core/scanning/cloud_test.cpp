@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 
 #include "core/base/atomic_file.h"
@@ -52,6 +53,34 @@ TEST(Lzf, GivesBackWhatWentIn) {
       std::string cut(size, 'x');
       EXPECT_FALSE(lzfUnpack(std::string_view(packed).substr(0, packed.size() - 1), cut));
     }
+  }
+}
+
+TEST(CloudFile, SizesAreCheckedBeforeAnythingIsAllocated) {
+  const testing::TempFolder folder;
+  const auto header = [](const std::string& points) {
+    return "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + points + "\nHEIGHT 1\nPOINTS " +
+           points + "\nDATA ";
+  };
+  // 300 bytes that claim 4 GB; the sizes agree with each other.
+  std::string bomb = header("357913941") + "binary_compressed\n";
+  const std::uint32_t packed = 100, full = 12U * 357913941U;
+  bomb.append(reinterpret_cast<const char*>(&packed), 4);
+  bomb.append(reinterpret_cast<const char*>(&full), 4);
+  bomb.append(100, '\xff');
+  EXPECT_NE(complaint(folder.write("bomb.pcd", bomb)).find("cannot unpack to the 4294967292 bytes"), std::string::npos)
+      << complaint(folder / "bomb.pcd");
+  EXPECT_NE(complaint(folder.write("binary.pcd", header("399999999") + "binary\nabc")).find("truncated"),
+            std::string::npos);
+  EXPECT_NE(complaint(folder.write("ascii.pcd", header("399999999") + "ascii\n1 2 3\n")).find("truncated"),
+            std::string::npos);
+  const std::string properties = "property float x\nproperty float y\nproperty float z\nend_header\n";
+  for (const std::string format : {"ascii", "binary_little_endian"}) {
+    const std::string head = "ply\nformat " + format + " 1.0\nelement vertex ";
+    EXPECT_NE(complaint(folder.write("large.ply", head + "399999999\n" + properties + "1 2 3\n")).find("truncated"),
+              std::string::npos);
+    EXPECT_NE(complaint(folder.write("huge.ply", head + "18446744073709551615\n" + properties)).find("allowed"),
+              std::string::npos);
   }
 }
 

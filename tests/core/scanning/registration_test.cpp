@@ -296,5 +296,64 @@ TEST(Registration, GicpOfPclIsThereAsReference) {
   EXPECT_THROW(static_cast<void>(registerClouds(source, target, options)), InputError);
 }
 
+/// What becomes of a pair: a complaint about the input, a status, but never an end of the process.
+std::string outcome(const PointCloud& source, const PointCloud& target, RegistrationMethod method, bool fall_back) {
+  RegistrationOptions options;
+  options.method = method;
+  options.fall_back = fall_back;
+  try {
+    const RegistrationResult r = registerClouds(source, target, options);
+    if (r.usable()) {
+      EXPECT_TRUE(r.translation_mm.allFinite());
+      EXPECT_TRUE(r.rotation_rad.allFinite());
+      return "used";
+    }
+    EXPECT_FALSE(r.message.empty());
+    return std::string(toString(r.status));
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()), "");
+    return "input";
+  }
+}
+
+TEST(Registration, SurvivesCloudsThatHoldNoSurface) {
+  Random random(22);
+  std::vector<std::pair<std::string, PointCloud>> clouds;
+  const auto add = [&](const std::string& name, std::size_t count, const std::function<Eigen::Vector3d()>& point) {
+    PointCloud cloud;
+    cloud.name = name;
+    for (std::size_t i = 0; i < count; ++i) cloud.points_mm.push_back(point());
+    clouds.emplace_back(name, std::move(cloud));
+  };
+  const auto u = [&] { return random.uniform(); };
+  clouds.emplace_back("surface", scan(paperSurface, RigidTransform(), {60, 60, 0.18, 0.68}, 0.5e-3, random));
+  add("one point", 1, [] { return Eigen::Vector3d(1.0, 2.0, 3.0); });
+  add("one point often", 500, [] { return Eigen::Vector3d(1.0, 2.0, 3.0); });
+  add("few places", 500, [&] { return Eigen::Vector3d(1.0 * random.index(3), 1.0 * random.index(3), 0.0); });
+  add("line", 500, [&] { return Eigen::Vector3d(10.0 * u(), 0.0, 0.0); });
+  add("plane", 4000, [&] { return Eigen::Vector3d(10.0 * u(), 10.0 * u(), 0.0); });
+  add("two planes", 4000, [&] { return Eigen::Vector3d(10.0 * u(), 10.0 * u(), u() < 0.5 ? 0.0 : 5.0); });
+  add("wall", 4000, [&] { return Eigen::Vector3d(2.0, 10.0 * u(), 10.0 * u()); });
+  add("sparse", 120, [&] { return Eigen::Vector3d(1000.0 * u(), 1000.0 * u(), 100.0 * u()); });
+  add("far", 500, [&] {
+    return u() < 0.002 ? Eigen::Vector3d(1e300, -1e300, 1e300) : Eigen::Vector3d(10.0 * u(), 10.0 * u(), u());
+  });
+  add("with NaN", 500, [&] { return Eigen::Vector3d(10.0 * u(), 10.0 * u(), u() < 0.1 ? std::nan("") : u()); });
+  for (const auto& [source_name, source] : clouds)
+    for (const auto& [target_name, target] : clouds) {
+      if (source_name == target_name && source_name == "surface") continue;
+      SCOPED_TRACE(source_name + " onto " + target_name);
+      for (const RegistrationMethod method :
+           {RegistrationMethod::Surface, RegistrationMethod::NdtIcp, RegistrationMethod::Gicp}) {
+        const std::string got = outcome(source, target, method, method == RegistrationMethod::Surface);
+        const bool unusable = source_name.starts_with("one point") || target_name.starts_with("one point") ||
+                              source_name == "with NaN" || target_name == "with NaN";
+        if (unusable) {
+          EXPECT_EQ(got, "input");
+        }
+      }
+    }
+}
+
 }  // namespace
 }  // namespace spindrift

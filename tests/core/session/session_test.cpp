@@ -307,6 +307,52 @@ TEST(Session, RemovedCampaignKeepsItsFilesAside) {
   EXPECT_TRUE(std::filesystem::exists(folder / "s/removed/warm-up_1/machine.json"));
 }
 
+/// What is said on opening a session whose database was changed by hand.
+std::string complaintAbout(const std::filesystem::path& session, const std::string& sql) {
+  sqlite3* database = nullptr;
+  EXPECT_EQ(sqlite3_open((session / "session.sqlite").c_str(), &database), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(database);
+  try {
+    Session opened = Session::open(session);
+    for (const CampaignRecord& record : opened.campaigns()) opened.removeCampaign(record.id);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(Session, ACraftedOneTouchesNothingOutsideItself) {
+  const TempFolder folder;
+  folder.write("mine/keep.txt", "x");
+  JobContext job;
+  {
+    Session session = Session::create(folder / "s");
+    session.importCampaign(writeCampaign(folder, "source"), job);
+  }
+  std::filesystem::create_directory_symlink(folder / "mine", folder / "s/campaigns/link");
+  for (const std::string& named :
+       {(folder / "mine").string(), std::string("../mine"), std::string("campaigns/../../mine"),
+        std::string("campaigns/link"), std::string("."), std::string(""), std::string("campaigns"),
+        std::string("campaigns/"), std::string("removed/x")}) {
+    EXPECT_THAT(complaintAbout(folder / "s", "update campaign set folder = '" + named + "'"),
+                ::testing::AllOf(HasSubstr("session.sqlite"), HasSubstr("allowed")))
+        << named;
+    EXPECT_EQ(readFile(folder / "mine/keep.txt"), "x") << named;
+  }
+  EXPECT_EQ(complaintAbout(folder / "s", "update campaign set folder = 'campaigns/warm-up_1'"), "no complaint");
+}
+
+TEST(Session, ALinkInPlaceOfItsCampaignsIsRefused) {
+  const TempFolder folder;
+  folder.write("mine/work/keep.txt", "x");
+  { Session session = Session::create(folder / "s"); }
+  std::filesystem::remove(folder / "s/campaigns");
+  std::filesystem::create_directory_symlink(folder / "mine", folder / "s/campaigns");
+  EXPECT_THAT(complaintAbout(folder / "s", "select 1"), HasSubstr("leads out of its folder by a link"));
+  EXPECT_EQ(readFile(folder / "mine/work/keep.txt"), "x");
+}
+
 TEST(Fingerprint, TellsPartsApart) {
   EXPECT_NE(Fingerprint().add("ab").add("c").text(), Fingerprint().add("a").add("bc").text());
   EXPECT_EQ(Fingerprint().add("ab").text(), Fingerprint().add("ab").text());

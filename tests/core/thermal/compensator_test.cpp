@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
 
 #include "core/thermal/compensator_c.h"
@@ -119,6 +121,192 @@ TEST(Compensator, IsZeroUntilAllInputsWereGoodOnce) {
   ThermalModel large = model();
   large.outputs.front().terms.assign(2000, {0, 1.0, 1.0});
   EXPECT_THAT(c.load(large, 1.0), HasSubstr("1024"));
+}
+
+TEST(Compensator, RefusesWhatMustNotRunOnAMachine) {
+  Compensator c;
+  ThermalModel rejected = model();
+  rejected.outputs.front().verdict = ThermalVerdict{false, 0.0, 1.0, 2.0, "no better than a straight line"};
+  EXPECT_THAT(c.load(rejected, 1.0), HasSubstr("not good enough (no better than a straight line)"));
+  EXPECT_EQ(c.state(), CompensatorState::Empty);
+  CompensatorLimits forced;
+  forced.forced = true;
+  ASSERT_EQ(c.load(rejected, 1.0, forced), "");
+  EXPECT_TRUE(c.status().forced);
+  ASSERT_EQ(c.load(model(), 1.0, forced), "");
+  EXPECT_FALSE(c.status().forced);
+  const auto complaint = [&](const std::function<void(ThermalModel&)>& spoil) {
+    ThermalModel m = model();
+    spoil(m);
+    return c.load(m, 1.0, forced);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(complaint([](ThermalModel& m) { m.outputs[0].terms.clear(); }), HasSubstr("has no terms"));
+  EXPECT_THAT(complaint([](ThermalModel& m) { m.outputs[0].unit = "mm"; }), HasSubstr("allowed: um or urad"));
+  EXPECT_THAT(complaint([](ThermalModel& m) { m.outputs[0].terms[0].tau_s = -5.0; }), HasSubstr("unstable"));
+  EXPECT_THAT(complaint([&](ThermalModel& m) { m.outputs[0].terms[0].gain = nan; }), HasSubstr("finite"));
+  EXPECT_THAT(complaint([](ThermalModel& m) { m.outputs[0].terms[0].input = 7; }), HasSubstr("input 7"));
+  EXPECT_THAT(complaint([](ThermalModel& m) {
+                m.inputs[1].train_min = -1e308;
+                m.inputs[1].train_max = 1e308;
+              }),
+              HasSubstr("range of training"));
+}
+
+TEST(Compensator, RecoversFromAnythingThatIsNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  CompensatorLimits limits;
+  limits.slew_per_s = 0.5;
+  limits.stale_after_s = 30.0;
+  limits.recover_after_s = 20.0;
+  // At the first step, in mid-run, for a moment and for long: the same end.
+  for (const double bad : {nan, inf, -inf, 1e308})
+    for (const int from : {0, 1, 1000})
+      for (const int length : {1, 10, 200}) {
+        Compensator c;
+        Compensator sound;
+        ASSERT_EQ(c.load(model(), 1.0, limits), "");
+        ASSERT_EQ(sound.load(model(), 1.0, limits), "");
+        double out = 0.0, expected = 0.0, last = 0.0;
+        const double good[2] = {3000.0, 24.0};
+        for (int k = 0; k < 40000; ++k) {
+          const double u[2] = {3000.0, k >= from && k < from + length ? bad : 24.0};
+          const CompensatorState state = c.step(u, nullptr, &out);
+          sound.step(good, nullptr, &expected);
+          ASSERT_TRUE(std::isfinite(out));
+          ASSERT_LE(std::abs(out - last), 0.5 + 1e-12);
+          if (from == 1000 && length == 10 && k >= from) {
+            EXPECT_NEAR(out, expected, 0.05);
+          }
+          if (length == 200 && k == from + length - 1) {
+            EXPECT_EQ(out, 0.0);
+            EXPECT_EQ(state, CompensatorState::Fallback);
+          }
+          last = out;
+        }
+        EXPECT_EQ(c.state(), CompensatorState::Running);
+        EXPECT_NEAR(out, expected, 1e-6) << bad << " from " << from << " for " << length;
+      }
+}
+
+TEST(Compensator, AValueThatIsNoNumberIsHeldFadedAndLeftBehind) {
+  // Finite inputs whose power is not: the range of training allows them.
+  ThermalModel wild = model();
+  wild.inputs[0].train_max = 1e300;
+  wild.inputs[0].power = 2.0;
+  CompensatorLimits limits;
+  limits.slew_per_s = 1.0;
+  limits.stale_after_s = 5.0;
+  Compensator c;
+  ASSERT_EQ(c.load(wild, 1.0, limits), "");
+  const double good[2] = {3000.0, 24.0};
+  const double bad[2] = {1e200, 24.0};
+  double out = 0.0;
+  for (int k = 0; k < 5000; ++k) c.step(good, nullptr, &out);
+  const double level = out;
+  EXPECT_GT(std::abs(level), 1.0);
+  EXPECT_EQ(c.step(bad, nullptr, &out), CompensatorState::Holding);
+  EXPECT_TRUE(c.status().value_not_finite);
+  EXPECT_EQ(out, level);
+  for (int k = 0; k < 50; ++k) c.step(bad, nullptr, &out);
+  EXPECT_EQ(c.state(), CompensatorState::Fallback);
+  EXPECT_EQ(out, 0.0);
+  for (int k = 0; k < 50000; ++k) c.step(good, nullptr, &out);
+  EXPECT_EQ(c.state(), CompensatorState::Running);
+  EXPECT_FALSE(c.status().value_not_finite);
+  EXPECT_NEAR(out, level, 1e-2);
+}
+
+TEST(Compensator, RefusesAnImpossibleMeasurementAndSaysSo) {
+  Compensator c;
+  CompensatorLimits limits;
+  limits.slew_per_s = 1e6;
+  limits.update_limit = 50.0;
+  ASSERT_EQ(c.load(model(), 1.0, limits), "");
+  const double u[2] = {3000.0, 24.0};
+  double before = 0.0, out = 0.0;
+  c.step(u, nullptr, &before);
+  for (const double wild : {1e9, -1e9, 51.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_FALSE(c.update(0, 1.0, wild));
+    EXPECT_EQ(c.status().refused_update, 0);
+  }
+  for (const double gain : {0.0, -1.0, 100.0, std::numeric_limits<double>::infinity()})
+    EXPECT_FALSE(c.update(0, gain, 0.0));
+  EXPECT_FALSE(c.update(3, 1.0, 0.0));
+  c.step(u, nullptr, &out);
+  EXPECT_NEAR(out, before, 1e-9);
+  EXPECT_TRUE(c.update(0, 1.0, 30.0));
+  EXPECT_EQ(c.status().refused_update, -1);
+  EXPECT_FALSE(c.update(0, 1.0, 30.0)) << "the sum counts";
+  c.step(u, nullptr, &out);
+  EXPECT_NEAR(out, before - 30.0, 1e-9);
+}
+
+TEST(Compensator, TheInterfaceForCChecksLengthsSizesAndNames) {
+  const testing::TempFolder folder;
+  ThermalModel m = model();
+  // Two names that agree for longer than any fixed buffer.
+  m.inputs[0].name = std::string(200, 'a') + "_rpm";
+  m.inputs[1].name = std::string(200, 'a') + "_degC";
+  m.outputs[0].verdict = ThermalVerdict{false, 0.0, 1.0, 2.0, "worse than nothing"};
+  m.write(folder / "model.json");
+  char message[300];
+  spindrift_compensator_options options{};
+  EXPECT_EQ(spindrift_compensator_load_with((folder / "model.json").c_str(), &options, message, sizeof message),
+            nullptr);
+  EXPECT_THAT(message, HasSubstr("struct_size"));
+  options.struct_size = sizeof options;
+  options.cycle_s = 1.0;
+  EXPECT_EQ(spindrift_compensator_load_with((folder / "model.json").c_str(), &options, message, sizeof message),
+            nullptr);
+  EXPECT_THAT(message, HasSubstr("worse than nothing"));
+  char little[4];
+  EXPECT_EQ(spindrift_compensator_load_with((folder / "model.json").c_str(), &options, little, sizeof little), nullptr);
+  EXPECT_EQ(std::string(little).size(), 3U);
+  // A caller of an older version knows nothing of `force`: it cannot be set by what stands behind its struct.
+  options.force = 1;
+  options.struct_size = offsetof(spindrift_compensator_options, force);
+  EXPECT_EQ(spindrift_compensator_load_with((folder / "model.json").c_str(), &options, message, sizeof message),
+            nullptr);
+  options.struct_size = sizeof options;
+  options.slew_per_s = -1.0;
+  EXPECT_EQ(spindrift_compensator_load_with((folder / "model.json").c_str(), &options, message, sizeof message),
+            nullptr);
+  options.slew_per_s = 0.0;
+  spindrift_compensator* c =
+      spindrift_compensator_load_with((folder / "model.json").c_str(), &options, message, sizeof message);
+  ASSERT_NE(c, nullptr) << message;
+  ASSERT_EQ(spindrift_compensator_inputs(c), 2);
+  EXPECT_EQ(spindrift_compensator_copy_input_name(c, 1, nullptr, 0), 206U);
+  std::string name(206, 'x');
+  EXPECT_EQ(spindrift_compensator_copy_input_name(c, 1, name.data(), name.size()), 206U);
+  EXPECT_STREQ(name.c_str(), m.inputs[1].name.c_str());
+  EXPECT_EQ(spindrift_compensator_copy_input_name(c, 2, name.data(), name.size()), 0U);
+  EXPECT_EQ(spindrift_compensator_copy_output_name(c, 0, name.data(), name.size()), 6U);
+  const double u[2] = {3000.0, 24.0};
+  const double age[2] = {0.0, 0.0};
+  double out[2] = {7.0, 7.0};
+  EXPECT_EQ(spindrift_compensator_step_sized(c, u, 1, nullptr, 0, out, 1), -1);
+  EXPECT_EQ(spindrift_compensator_step_sized(c, u, 2, nullptr, 0, out, 2), -1);
+  EXPECT_EQ(spindrift_compensator_step_sized(c, u, 2, age, 1, out, 1), -1);
+  EXPECT_EQ(out[0], 7.0);
+  EXPECT_EQ(spindrift_compensator_step_sized(c, u, 2, age, 2, out, 1), SPINDRIFT_COMPENSATOR_RUNNING);
+  EXPECT_EQ(out[1], 7.0);
+  EXPECT_EQ(spindrift_compensator_update(c, 0, 1.0, 1e9), 0);
+  spindrift_compensator_status status{};
+  EXPECT_EQ(spindrift_compensator_get_status(c, &status), -1);
+  status.struct_size = sizeof status;
+  EXPECT_EQ(spindrift_compensator_get_status(c, &status), 0);
+  EXPECT_EQ(status.state, SPINDRIFT_COMPENSATOR_RUNNING);
+  EXPECT_EQ(status.refused_input, -1);
+  EXPECT_EQ(status.refused_update, 0);
+  EXPECT_EQ(status.forced, 1);
+  status.forced = 9;
+  status.struct_size = offsetof(spindrift_compensator_status, forced);
+  EXPECT_EQ(spindrift_compensator_get_status(c, &status), 0);
+  EXPECT_EQ(status.forced, 9) << "written behind the caller's struct";
+  spindrift_compensator_free(c);
 }
 
 TEST(Compensator, WorksFromC) {

@@ -86,5 +86,24 @@ TEST(Iso2303, RefusesTestsThatHoldNothing) {
   EXPECT_THROW(static_cast<void>(evaluateMovingAxis({{0, 1, 2, 1}})), InputError);
 }
 
+TEST(Etve, IsRefusedWhenTheSpindleRan) {
+  TimeSeries series;
+  series.file = "log.csv";
+  series.time_s = {0.0, 60.0, 120.0};
+  series.signals = {{"x_um", SignalKind::Displacement, {0.0, 1.0, 2.0}},
+                    {"spindle_rpm", SignalKind::Speed, {0.0, std::nan(""), 0.5}}};
+  EXPECT_NO_THROW(requireSpindleAtRest(series));
+  series.signals[1].values[2] = -3000.0;
+  try {
+    requireSpindleAtRest(series);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        "log.csv, column spindle_rpm: the spindle turns (-3000 rpm at 120 s), but an ETVE test is of a machine at "
+        "rest; allowed: a log without a running spindle, or the test \"spindle\".");
+  }
+}
+
 }  // namespace
 }  // namespace spindrift
