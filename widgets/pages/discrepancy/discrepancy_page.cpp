@@ -175,6 +175,9 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   content()->addWidget(stack_, 1);
   showHints(where_);
   showHints(gap_);
+  // The verdict is about the simulation as it is; where it is changed there is no room for it.
+  connect(tabs_, &QTabWidget::currentChanged, this,
+          [this, banner] { banner->setVisible(simulation_ == nullptr || tabs_->currentWidget() != simulation_); });
 
   connect(search_, &QPushButton::clicked, this, [this] {
     if (!mayBeLeft()) return;
