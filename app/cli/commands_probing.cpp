@@ -274,6 +274,12 @@ void addStudies(CLI::App& app, CommandLine& line) {
                        {"status", toString(c.status)},
                        {"message", c.message},
                        {"offset", c.offset},
+                       {"offset_standard_uncertainty", c.offset_sigma},
+                       {"slope", jsonNumber(c.slope)},
+                       {"slope_standard_uncertainty", jsonNumber(c.slope_sigma)},
+                       {"line_rms", c.line_rms},
+                       {"agrees", c.agrees},
+                       {"verdict", c.verdict},
                        {"rms", c.rms},
                        {"largest", c.largest},
                        {"correlation", c.correlation},
@@ -287,6 +293,9 @@ void addStudies(CLI::App& app, CommandLine& line) {
           result.summary = fmt::format(
               "{}: rms difference {:.3g}, largest {:.3g}, {:.0f} % of {} cycles within two sigma, correlation {:.4f}\n",
               c.name, c.rms, c.largest, 100.0 * c.within_two_sigma, c.points.size(), c.correlation);
+          result.summary += fmt::format("slope {}, offset {}: {}\n", withUncertainty(c.slope, c.slope_sigma, ""),
+                                        withUncertainty(c.offset, c.offset_sigma, ""), c.verdict);
+          if (c.differs) result.exit_status = NotGoodEnough;
         }
         return result;
       });

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "core/base/units.h"
 
 namespace spindrift {
@@ -81,14 +83,18 @@ std::vector<CompensationNode> compensationGrid(const ErrorModel& model, const Co
   return grid;
 }
 
-std::string compensationGridCsv(const std::vector<CompensationNode>& nodes) {
+std::string compensationGridCsv(const std::vector<CompensationNode>& nodes,
+                                const std::optional<MeasuredBox>& measured) {
   std::string text =
       "# correction to add to the command = minus the predicted deviation (actual minus commanded)\n"
-      "x_mm,y_mm,z_mm,correction_x_um,correction_y_um,correction_z_um,sigma_x_um,sigma_y_um,sigma_z_um\n";
+      "x_mm,y_mm,z_mm,correction_x_um,correction_y_um,correction_z_um,sigma_x_um,sigma_y_um,sigma_z_um";
+  text += measured ? ",extrapolated\n" : "\n";
   for (const CompensationNode& n : nodes) {
-    text += fmt::format("{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", n.position_mm.x(), n.position_mm.y(),
+    text += fmt::format("{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", n.position_mm.x(), n.position_mm.y(),
                         n.position_mm.z(), n.correction_um.x(), n.correction_um.y(), n.correction_um.z(),
                         n.sigma_um.x(), n.sigma_um.y(), n.sigma_um.z());
+    if (measured) text += measured->contains(n.position_mm) ? ",0" : ",1";
+    text += '\n';
   }
   return text;
 }
@@ -121,7 +127,10 @@ AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescript
   return table;
 }
 
-std::string axisComponentsCsv(const AxisComponentTable& table) {
+std::string axisComponentsCsv(const AxisComponentTable& table, const std::optional<MeasuredBox>& measured) {
+  const auto axis = static_cast<Eigen::Index>(std::string_view("XYZ").find(table.axis));
+  SPINDRIFT_ASSERT(axis >= 0 && axis < 3, "a table of X, Y or Z");
+  const bool known = !measured || measured->extendsAlong(static_cast<int>(axis));
   std::string header = "position_mm";
   std::string sigma_header;
   for (int i = 0; i < 6; ++i) {
@@ -131,11 +140,19 @@ std::string axisComponentsCsv(const AxisComponentTable& table) {
   }
   std::string text =
       fmt::format("# ISO 230-1 component errors of {}: deviation = actual minus commanded\n", table.axis);
-  text += header + sigma_header + "\n";
+  if (!known)
+    text += fmt::format("# nothing was measured along {} (all points lie at {:g} mm): no error of it is stated\n",
+                        table.axis, measured->low_mm[axis]);
+  text += header + sigma_header + (measured ? ",extrapolated\n" : "\n");
   for (std::size_t row = 0; row < table.position_mm.size(); ++row) {
     text += fmt::format("{}", table.position_mm[row]);
-    for (const double v : table.deviation[row]) text += fmt::format(",{:.4f}", v);
-    for (const double v : table.sigma[row]) text += fmt::format(",{:.4f}", v);
+    for (const auto* values : {&table.deviation[row], &table.sigma[row]})
+      for (const double v : *values) text += known ? fmt::format(",{:.4f}", v) : std::string(",");
+    if (measured) {
+      Eigen::Vector3d position = measured->low_mm;
+      position[axis] = table.position_mm[row];
+      text += measured->contains(position) ? ",0" : ",1";
+    }
     text += '\n';
   }
   return text;

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,19 @@ struct CompensationGridOptions {
   void validate() const;
 };
 
+/// The box of the places where something was measured. A table says what lies outside it, and states no error of an
+/// axis along which it has no extent.
+struct MeasuredBox {
+  Eigen::Vector3d low_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d high_mm = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] bool contains(const Eigen::Vector3d& position_mm) const noexcept {
+    constexpr double slack_mm = 1e-6;
+    return ((position_mm - low_mm).array() >= -slack_mm).all() && ((high_mm - position_mm).array() >= -slack_mm).all();
+  }
+  [[nodiscard]] bool extendsAlong(int axis) const noexcept { return high_mm[axis] - low_mm[axis] > 1e-3; }
+};
+
 struct CompensationNode {
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d correction_um = Eigen::Vector3d::Zero();  ///< to add to the command: minus the predicted deviation
@@ -40,8 +54,10 @@ struct CompensationNode {
 [[nodiscard]] std::vector<CompensationNode> compensationGrid(const ErrorModel& model,
                                                              const CompensationGridOptions& options,
                                                              const DeviationQuery& conditions);
-/// x_mm,y_mm,z_mm,correction_x_um,correction_y_um,correction_z_um,sigma_x_um,sigma_y_um,sigma_z_um
-[[nodiscard]] std::string compensationGridCsv(const std::vector<CompensationNode>& nodes);
+/// x_mm,y_mm,z_mm,correction_x_um,correction_y_um,correction_z_um,sigma_x_um,sigma_y_um,sigma_z_um; with `measured`
+/// also extrapolated: 1 for a node outside that box.
+[[nodiscard]] std::string compensationGridCsv(const std::vector<CompensationNode>& nodes,
+                                              const std::optional<MeasuredBox>& measured = {});
 
 /// Component errors of one linear axis along its travel, the others at `reference_mm`, relative to the reference
 /// position.
@@ -57,8 +73,10 @@ struct AxisComponentTable {
 [[nodiscard]] AxisComponentTable axisComponents(const ErrorModel& model, const MachineDescription& machine,
                                                 const std::string& axis, const Eigen::Vector3d& reference_mm, int count,
                                                 const DeviationQuery& conditions);
-/// position_mm,EXX_um,EYX_um,EZX_um,EAX_urad,EBX_urad,ECX_urad and sigma_ of each.
-[[nodiscard]] std::string axisComponentsCsv(const AxisComponentTable& table);
+/// position_mm,EXX_um,EYX_um,EZX_um,EAX_urad,EBX_urad,ECX_urad and sigma_ of each; with `measured` also extrapolated,
+/// and empty fields (said in a comment) where nothing was measured along the axis.
+[[nodiscard]] std::string axisComponentsCsv(const AxisComponentTable& table,
+                                            const std::optional<MeasuredBox>& measured = {});
 
 /// LinuxCNC screw compensation file for the positioning error of the table's axis (mm, at most 256 lines). Forward and
 /// reverse are the same unless the model tells the directions of approach apart (backlash).

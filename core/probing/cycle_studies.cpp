@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/csv.h"
 #include "core/base/text.h"
@@ -67,6 +68,95 @@ RepeatabilityStudy studyRepeatability(const CycleEvaluation& evaluation, const R
   return study;
 }
 
+namespace {
+
+/// Straight line with errors in both coordinates (York), then what it says of probe and reference.
+void judge(ReferenceComparison& comparison, const std::vector<double>& probe_sigma,
+           const std::vector<double>& reference_sigma) {
+  const auto& points = comparison.points;
+  const std::size_t n = points.size();
+  constexpr double gain_tolerance = 0.05;
+  double low = points.front().reference, high = low, weights = 0.0;
+  std::vector<double> sy2(n), sx2(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    low = std::min(low, points[i].reference);
+    high = std::max(high, points[i].reference);
+    sx2[i] = reference_sigma[i] * reference_sigma[i];
+    sy2[i] = probe_sigma[i] * probe_sigma[i];
+  }
+  // Without uncertainties all points count alike, and their scatter tells the uncertainty.
+  const bool stated =
+      std::all_of(points.begin(), points.end(), [](const auto& p) { return p.standard_uncertainty > 0.0; });
+  if (!stated) {
+    std::fill(sy2.begin(), sy2.end(), 1.0);
+    std::fill(sx2.begin(), sx2.end(), 0.0);
+  }
+  for (std::size_t i = 0; i < n; ++i) weights += 1.0 / (sy2[i] + sx2[i]);
+  comparison.offset_sigma = std::sqrt(1.0 / weights);
+  comparison.slope = comparison.slope_sigma = std::nan("");
+  if (!(high > low)) {
+    comparison.verdict = "the reference does not move: the gain cannot be compared";
+    return;
+  }
+  double slope = 1.0, squares = 0.0, left = 0.0, sigma2 = 0.0;
+  for (int pass = 0; pass < 50; ++pass) {
+    double sum = 0.0, mean_x = 0.0, mean_y = 0.0;
+    std::vector<double> w(n), beta(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      w[i] = 1.0 / (sy2[i] + slope * slope * sx2[i]);
+      sum += w[i];
+      mean_x += w[i] * points[i].reference;
+      mean_y += w[i] * points[i].probe;
+    }
+    mean_x /= sum;
+    mean_y /= sum;
+    double above = 0.0, below = 0.0, mean_beta = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double u = points[i].reference - mean_x, v = points[i].probe - mean_y;
+      beta[i] = w[i] * (u * sy2[i] + slope * v * sx2[i]);
+      above += w[i] * beta[i] * v;
+      below += w[i] * beta[i] * u;
+      mean_beta += w[i] * beta[i] / sum;
+    }
+    if (!(std::abs(below) > 0.0)) break;
+    const double last = std::exchange(slope, above / below);
+    squares = left = 0.0;
+    double spread = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double r = points[i].probe - mean_y - slope * (points[i].reference - mean_x);
+      squares += w[i] * r * r;
+      left += r * r / static_cast<double>(n);
+      spread += w[i] * (beta[i] - mean_beta) * (beta[i] - mean_beta);
+    }
+    sigma2 = 1.0 / spread;
+    if (std::abs(slope - last) < 1e-12 * (1.0 + std::abs(slope))) break;
+  }
+  const auto freedom = static_cast<double>(n) - 2.0;
+  const double factor = stated ? std::max(1.0, squares / freedom) : squares / freedom;
+  comparison.slope = slope;
+  comparison.slope_sigma = std::sqrt(sigma2 * factor);
+  if (!stated) comparison.offset_sigma *= std::sqrt(factor);
+  comparison.line_rms = std::sqrt(left);
+  const double deviation = std::abs(slope - 1.0);
+  const bool course = comparison.line_rms > gain_tolerance * (high - low) &&
+                      (!stated || squares > freedom + 4.0 * std::sqrt(2.0 * freedom));
+  if (deviation > gain_tolerance && deviation > 2.6 * comparison.slope_sigma) {
+    comparison.differs = true;
+    comparison.verdict =
+        fmt::format("the gain differs: the probe shows {:.0f} % of what the reference shows", 100.0 * slope);
+  } else if (course) {
+    comparison.differs = true;
+    comparison.verdict = fmt::format("the courses differ: a line leaves {:.3g} rms", comparison.line_rms);
+  } else if (!(2.0 * comparison.slope_sigma <= 0.2)) {
+    comparison.verdict = "the reference moves too little to compare the gain";
+  } else {
+    comparison.agrees = true;
+    comparison.verdict = "probe and reference agree";
+  }
+}
+
+}  // namespace
+
 ReferenceComparison compareWithReference(const CycleEvaluation& evaluation, const std::string& parameter,
                                          const std::filesystem::path& reference_csv) {
   const auto found = std::find(evaluation.names.begin(), evaluation.names.end(), parameter);
@@ -90,6 +180,8 @@ ReferenceComparison compareWithReference(const CycleEvaluation& evaluation, cons
   }
   ReferenceComparison comparison;
   comparison.name = parameter;
+  std::vector<double> probe_sigma;
+  std::vector<double> reference_sigmas;
   for (std::size_t k = 0; k < evaluation.cycles.size(); ++k) {
     const double t = evaluation.cycle_time_s[k];
     const CycleParameter& q = evaluation.parameters[k][p];
@@ -104,6 +196,8 @@ ReferenceComparison compareWithReference(const CycleEvaluation& evaluation, cons
     const double reference_sigma = std::max(sigma[next - 1], sigma[next]);
     point.standard_uncertainty = std::hypot(q.standard_uncertainty, reference_sigma);
     comparison.points.push_back(point);
+    probe_sigma.push_back(q.standard_uncertainty);
+    reference_sigmas.push_back(reference_sigma);
   }
   if (comparison.points.size() < 3) {
     comparison.status = FitStatus::Degenerate;
@@ -137,6 +231,7 @@ ReferenceComparison compareWithReference(const CycleEvaluation& evaluation, cons
   comparison.correlation = spread > 0.0 ? cross / spread : 0.0;
   comparison.status = FitStatus::Converged;
   comparison.message = "done";
+  judge(comparison, probe_sigma, reference_sigmas);
   return comparison;
 }
 

@@ -52,6 +52,16 @@ struct ReferenceComparison {
   };
   std::vector<Point> points;  ///< one per cycle within the record
   double offset = 0.0;        ///< mean difference taken out (both are relative to an unknown zero)
+  double offset_sigma = 0.0;
+  /// Change of the probe per change of the reference (a line with errors in both), 1 if both have the same gain; NaN if
+  /// the reference does not move.
+  double slope = 0.0;
+  double slope_sigma = 0.0;
+  double line_rms = 0.0;  ///< of what the line leaves
+  /// Both show the same: slope 1 within its uncertainty or 5 %, and no course beside the line. `verdict` says it.
+  bool agrees = false;
+  bool differs = false;  ///< neither: it cannot be told
+  std::string verdict;
   double rms = 0.0;
   double largest = 0.0;
   double correlation = 0.0;

@@ -103,8 +103,9 @@ RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& t
   const PclCloud::Ptr few_onto = ndt ? onto : thinned(onto, settings.gicp_leaf_mm);
   const auto least = static_cast<std::size_t>(std::max(settings.gicp_neighbours, 20));
   if (few_from->size() < least || few_onto->size() < least)
-    return rejected(fmt::format("Only {} points of the scan and {} of the reference lie apart; at least {} are needed.",
-                                few_from->size(), few_onto->size(), least));
+    throw InputError(
+        fmt::format("Only {} points of the scan and {} of the reference lie apart; at least {} are needed.",
+                    few_from->size(), few_onto->size(), least));
   if (ndt && !holdsDistributions(*onto, settings.ndt_resolution_mm))
     return rejected(fmt::format("The points of the reference lie too far apart: cells of {:.3g} mm hold too few.",
                                 settings.ndt_resolution_mm));

@@ -301,18 +301,25 @@ RegistrationResult registerClouds(const PointCloud& source, const PointCloud& ta
   if (options.method != RegistrationMethod::Surface) return registerWithPcl(source, target, options);
   const auto begin = Clock::now();
   RegistrationResult result;
+  std::optional<InputError> unusable;
   try {
     const RegistrationTarget surface(target);
     result = registerToSurface(source, surface, options);
   } catch (const InputError& error) {
     if (!options.fall_back) throw;
+    unusable = error;
     result.status = FitStatus::Rejected;
     result.message = error.what();
   }
   if (options.fall_back && result.status == FitStatus::Rejected) {
     RegistrationOptions other = options;
     other.method = RegistrationMethod::Gicp;
-    RegistrationResult free_form = registerWithPcl(source, target, other);
+    RegistrationResult free_form;
+    try {
+      free_form = registerWithPcl(source, target, other);
+    } catch (const InputError&) {
+      if (unusable) throw *unusable;  // of no use either way: what is wrong with them as they are
+    }
     // Two height maps of different surfaces fit no better as free-form clouds.
     const bool better = !(result.rms_mm > 0.0) || free_form.rms_mm < 0.5 * result.rms_mm;
     if (free_form.usable() && better) {

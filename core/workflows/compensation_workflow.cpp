@@ -197,6 +197,11 @@ void makeFiles(const MachineDescription& machine, const Prepared& prepared, cons
   }
   plan.files.push_back({"compensation_points.csv", "Corrections at the measured points",
                         fmt::format("Correction to add to the command: minus the deviation, {}.", relative), csv});
+  MeasuredBox measured{plan.points.front().position_mm, plan.points.front().position_mm};
+  for (const CompensationPoint& p : plan.points) {
+    measured.low_mm = measured.low_mm.cwiseMin(p.position_mm);
+    measured.high_mm = measured.high_mm.cwiseMax(p.position_mm);
+  }
   CompensationGridOptions grid = CompensationGridOptions::travelOf(machine);
   for (std::size_t i = 0; i < 3; ++i) {
     if (grid.nodes[i] > 1) grid.nodes[i] = request.positions;
@@ -206,7 +211,7 @@ void makeFiles(const MachineDescription& machine, const Prepared& prepared, cons
       {"compensation_grid.csv", "Corrections on a grid",
        fmt::format("Correction to add to the command: minus the predicted deviation (actual minus commanded), {}.",
                    relative),
-       compensationGridCsv(compensationGrid(model, grid, prepared.conditions))});
+       compensationGridCsv(compensationGrid(model, grid, prepared.conditions), measured)});
   for (const char* axis : axis_names) {
     if (machine.findAxis(axis) == nullptr) continue;
     plan.files.push_back(
@@ -214,7 +219,14 @@ void makeFiles(const MachineDescription& machine, const Prepared& prepared, cons
          fmt::format("Deviation, not correction: actual minus commanded, {}, zero at the reference position.",
                      relative),
          axisComponentsCsv(
-             axisComponents(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions))});
+             axisComponents(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions),
+             measured)});
+    if (!measured.extendsAlong(axis[0] - 'X')) {
+      plan.warnings.push_back(
+          fmt::format("nothing was measured along {}: no component error of that axis is stated, and "
+                      "its screw compensation is a constant.",
+                      axis));
+    }
     plan.files.push_back(
         {fmt::format("linuxcnc_{}.comp", axis), fmt::format("LinuxCNC screw compensation of {}", axis),
          fmt::format("Nominal, forward, reverse in mm (COMP_FILE_TYPE = 0): where the axis really is; LinuxCNC "

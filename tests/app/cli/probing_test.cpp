@@ -265,8 +265,10 @@ TEST_F(Touches, CyclesAreComparedWithAReferenceInstrument) {
   EXPECT_NEAR(same["offset"].get<double>(), -40.0, 1e-3);
   EXPECT_LT(same["rms"].get<double>(), 1e-3);
   EXPECT_EQ(same["within_two_sigma"], 1.0);
+  EXPECT_NEAR(same["slope"].get<double>(), 1.0, 1e-3);
   write(25.0);
-  const nlohmann::json other = jsonOf(compare);
+  const nlohmann::json other = jsonOf(compare, 1);
+  EXPECT_EQ(other["agrees"], false);
   EXPECT_LT(other["within_two_sigma"].get<double>(), 1.0);
   EXPECT_GT(other["largest"].get<double>(), 15.0);
   auto words = compare;

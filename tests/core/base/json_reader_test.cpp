@@ -38,6 +38,12 @@ TEST(JsonReader, PointsAtTheLineOfASyntaxError) {
   EXPECT_THAT(complaint("{\"a\": 1"), HasSubstr("not valid JSON"));
 }
 
+TEST(JsonReader, RefusesBytesThatAreNoUtf8AndSaysWhere) {
+  for (const std::string bad : {"\xe4", "\xc3", "\xed\xa0\x80", "\xff"})
+    for (const std::string& text : {"{\n\"a\": \"" + bad + "\"}", "{\n\"" + bad + "\": 1}", "{\n" + bad + "}"})
+      EXPECT_THAT(complaint(text), AllOf(HasSubstr("line 2"), HasSubstr("not valid JSON")));
+}
+
 TEST(JsonReader, RefusesADuplicateKeyAtAnyDepth) {
   EXPECT_THAT(complaint(R"({"a":1,"a":2})"), HasSubstr("\"a\" appears twice"));
   EXPECT_THAT(complaint(R"({"x":{"b":1},"y":{"b":1,"b":3}})"), HasSubstr("\"b\" appears twice"));

@@ -44,6 +44,25 @@ TEST(Compensation, ComponentTableIsTheDeviationRelativeToTheReference) {
   EXPECT_EQ(axisComponentsCsv(table), golden("iso230_x.csv"));
 }
 
+TEST(Compensation, TablesMarkExtrapolationAndStateNothingThatWasNotMeasured) {
+  const MeasuredBox measured{{0.0, 10.0, 0.0}, {60.0, 40.0, 0.0}};
+  EXPECT_TRUE(measured.extendsAlong(0));
+  EXPECT_FALSE(measured.extendsAlong(2));
+  const std::string x =
+      axisComponentsCsv(axisComponents(HandModel(), machine(), "X", {50.0, 0.0, 0.0}, 3, {}), measured);
+  EXPECT_THAT(x, ::testing::HasSubstr(",extrapolated\n0,"));
+  EXPECT_THAT(x, ::testing::ContainsRegex("\n50,[^\n]*,0\n100,[^\n]*,1\n"));
+  const std::string z =
+      axisComponentsCsv(axisComponents(HandModel(), machine(), "Z", {0.0, 0.0, 0.0}, 3, {}), measured);
+  EXPECT_THAT(z, ::testing::HasSubstr("# nothing was measured along Z (all points lie at 0 mm)"));
+  EXPECT_THAT(z, ::testing::HasSubstr("\n-10,,,,,,,,,,,,,1\n0,,,,,,,,,,,,,0\n10,,,,,,,,,,,,,1\n"));
+  CompensationGridOptions options = CompensationGridOptions::travelOf(machine());
+  options.nodes = {2, 1, 1};
+  options.from_mm = {50.0, 20.0, 0.0};
+  EXPECT_THAT(compensationGridCsv(compensationGrid(HandModel(), options, {}), measured),
+              ::testing::ContainsRegex(",extrapolated\n50,20,0,[^\n]*,0\n100,20,0,[^\n]*,1\n"));
+}
+
 TEST(Compensation, LinuxcncFileHoldsWhereTheAxisReallyIs) {
   EXPECT_EQ(linuxcncCompensation(HandModel(), machine(), "X", {0.0, 0.0, 0.0}, 3, {}), golden("linuxcnc_x.comp"));
 }

@@ -346,6 +346,9 @@ TEST(Registration, SurvivesCloudsThatHoldNoSurface) {
       for (const RegistrationMethod method :
            {RegistrationMethod::Surface, RegistrationMethod::NdtIcp, RegistrationMethod::Gicp}) {
         const std::string got = outcome(source, target, method, method == RegistrationMethod::Surface);
+        if (method == RegistrationMethod::Gicp && (source_name == "few places" || target_name == "few places")) {
+          EXPECT_EQ(got, "input");
+        }
         const bool unusable = source_name.starts_with("one point") || target_name.starts_with("one point") ||
                               source_name == "with NaN" || target_name == "with NaN";
         if (unusable) {
