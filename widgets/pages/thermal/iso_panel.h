@@ -25,6 +25,7 @@ class IsoPanel : public QWidget {
   [[nodiscard]] Segments* test() const { return test_; }
   [[nodiscard]] RowsModel* rows() const { return rows_; }
   [[nodiscard]] Plot* plot() const { return plot_; }
+  [[nodiscard]] Callout* note() const { return note_; }
 
  private:
   void evaluate();
