@@ -32,6 +32,8 @@ constexpr double not_worth_a_run = 0.3;
 /// The same of the error of a linear prediction, from which on derivatives are taken anew. Where they are a few per
 /// cent off, the solution moves by as much of what noise alone moves it.
 constexpr double not_linear = 2.0;
+/// Derivatives that are off by this part are good enough: they turn the solution by as much of its uncertainty.
+constexpr double derivatives_hold = 0.1;
 /// The same of one standard uncertainty: none at all.
 constexpr double no_influence = 1e-6;
 /// Correlation of two fitted parameters from which on these data do not tell them apart.
@@ -465,13 +467,14 @@ bool slopesHold(Closure& closure, const std::vector<Free>& free, const Solved& s
   try {
     const ParameterValues here = valuesOf(free, solved.scaled.data());
     const ParameterValues there = valuesOf(free, moved.data());
-    Eigen::VectorXd error =
-        closure.projectedChange(closure.runAt(there)) - closure.projectedChange(closure.runAt(here));
+    Eigen::VectorXd foretold = Eigen::VectorXd::Zero(closure.problem.projectedResidual().size());
     for (std::size_t k = 0; k < free.size(); ++k) {
       const std::string& name = free[k].parameter.name;
-      error -= solved.slopes[k] * (there.at(name) - here.at(name));
+      foretold += solved.slopes[k] * (there.at(name) - here.at(name));
     }
-    return error.norm() < not_linear;
+    const Eigen::VectorXd change =
+        closure.projectedChange(closure.runAt(there)) - closure.projectedChange(closure.runAt(here));
+    return (change - foretold).norm() < std::max(not_linear, derivatives_hold * foretold.norm());
   } catch (const SimulatorFailed&) {
     return true;  // nothing to learn there
   }
