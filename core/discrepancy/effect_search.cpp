@@ -8,7 +8,8 @@ namespace spindrift {
 
 using Eigen::Index;
 
-EffectSearch::EffectSearch(const ResidualProblem& problem, const DriverTable& drivers, const std::vector<Effect>& catalogue)
+EffectSearch::EffectSearch(const ResidualProblem& problem, const DriverTable& drivers,
+                           const std::vector<Effect>& catalogue)
     : problem_(&problem), drivers_(&drivers), catalogue_(&catalogue) {
   log_n_ = std::log(std::max(8.0, static_cast<double>(problem.size())));
   // From 2 min to what the span of the observations can tell from an integrator.
