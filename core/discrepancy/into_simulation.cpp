@@ -484,9 +484,9 @@ std::string sentenceOf(const SimulationUpdate& update) {
   std::vector<std::string> put;
   for (const FittedSimulatorParameter& p : update.parameters) {
     if (!p.put_in || p.no_influence) continue;
-    put.push_back(fmt::format("{} = {} (was {:g})", p.parameter.name,
+    put.push_back(fmt::format("{} = {} (was {})", p.parameter.name,
                               withUncertainty(p.value, p.standard_uncertainty, p.parameter.printedUnit()),
-                              p.parameter.value));
+                              withUncertainty(p.parameter.value, 0.0, "")));
   }
   const bool held = std::isfinite(update.heldout_rms_after_um);
   const double before = held ? update.heldout_rms_before_um : update.rms_before_um;
