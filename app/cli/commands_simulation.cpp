@@ -9,7 +9,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/finite_elements/c_frame.h"
+#include "core/simulator/c_frame.h"
 #include "core/simulation/virtual_campaign.h"
 
 namespace spindrift::cli {

@@ -22,6 +22,7 @@
 #include "core/simulator/child_program.h"
 #include "core/simulator/deck_template.h"
 #include "core/simulator/log_tables.h"
+#include "core/simulator/run_folder.h"
 #include "core/simulator/sha256.h"
 
 namespace spindrift {
@@ -42,45 +43,6 @@ std::shared_ptr<const Answer> answerOf(ProgramAnswer answer, const fs::path& fil
   SimulationTable table(answer.rows, answer.by_place, file);
   return std::make_shared<const Answer>(Answer{std::move(answer.rows), std::move(table), elapsed_s});
 }
-
-/// A folder for one run, gone with all its content unless something of it is kept.
-class RunFolder {
- public:
-  RunFolder() {
-    std::error_code error;
-    const fs::path parent = fs::temp_directory_path(error);
-    std::string name = (parent / "spindrift-simulator-XXXXXX").string();
-    if (error || ::mkdtemp(name.data()) == nullptr) {
-      throw SimulatorFailed(fmt::format("No folder for a run can be made in {}: {}.", parent.string(),
-                                        error ? error.message() : std::strerror(errno)));
-    }
-    path_ = name;
-  }
-  ~RunFolder() {
-    std::error_code ignored;
-    if (!kept_) fs::remove_all(path_, ignored);
-  }
-  RunFolder(const RunFolder&) = delete;
-  RunFolder& operator=(const RunFolder&) = delete;
-
-  [[nodiscard]] const fs::path& path() const noexcept { return path_; }
-  /// Only these files stay, for the user to look at.
-  void keep(const std::set<std::string>& relative) {
-    kept_ = true;
-    std::error_code ignored;
-    std::vector<fs::path> others;
-    for (fs::recursive_directory_iterator it(path_, ignored), end; !ignored && it != end; it.increment(ignored)) {
-      std::error_code failed;
-      if (it->is_directory(failed) && !it->is_symlink(failed)) continue;
-      if (!relative.contains(it->path().lexically_relative(path_).generic_string())) others.push_back(it->path());
-    }
-    for (const fs::path& other : others) fs::remove(other, ignored);
-  }
-
- private:
-  fs::path path_;
-  bool kept_ = false;
-};
 
 /// What a program said, for the middle of a sentence: blanks and line ends as one blank, its own sentences parted by
 /// semicolons, without a full stop at the end, not too long.

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "core/simulator/c_frame.h"
 #include "core/simulator/program_simulator.h"
 #include "tests/core/simulator/small_simulator.h"
 
@@ -26,14 +27,6 @@ using testing::refusal;
 constexpr int elements = 8;
 constexpr double length_mm = 80.0;
 constexpr int states = 4;
-
-bool hasCalculix() {
-  const char* path = std::getenv("PATH");
-  for (const std::string& folder : splitList(path == nullptr ? "" : path, ':')) {
-    if (fs::exists(fs::path(folder) / "ccx")) return true;
-  }
-  return false;
-}
 
 /// Nodes 4 i + 1 ... 4 i + 4 at x = i L / 8.
 std::string mesh() {
@@ -122,7 +115,7 @@ class CalculixTest : public testing::SimulatorTest {
 };
 
 TEST_F(CalculixTest, TheRodGrowsAsItShould) {
-  if (!hasCalculix()) GTEST_SKIP() << "ccx is not installed (Debian: calculix-ccx)";
+  if (!calculixIsInstalled()) GTEST_SKIP() << "ccx is not installed (Debian: calculix-ccx)";
   const auto simulator = open();
   EXPECT_NE(simulator->find("sensor.T_room_degC.gain"), nullptr);
   EXPECT_EQ(simulator->find("sensor.T_room_degC.offset"), nullptr);
@@ -142,7 +135,7 @@ TEST_F(CalculixTest, TheRodGrowsAsItShould) {
 }
 
 TEST_F(CalculixTest, TellsWhatCalculixSaysAndKeepsItsLog) {
-  if (!hasCalculix()) GTEST_SKIP() << "ccx is not installed (Debian: calculix-ccx)";
+  if (!calculixIsInstalled()) GTEST_SKIP() << "ccx is not installed (Debian: calculix-ccx)";
   temp.write("sim/mech.inp.in",
              statics() + "*NONSENSE, NSET=NOWHERE\n*STEP\n*STATIC\n*BOUNDARY\nNOWHERE, 1\n*END STEP\n");
   const std::string wrong = failure([&] { (void)open()->run({{"alpha", 12}}, at, {}); });

@@ -7,8 +7,7 @@
 #include <cstdlib>
 
 #include "core/base/atomic_file.h"
-#include "core/finite_elements/c_frame.h"
-#include "core/finite_elements/c_frame_run.h"
+#include "core/simulator/c_frame.h"
 #include "core/workflows/discrepancy_workflow.h"
 #include "tests/support/temp_folder.h"
 

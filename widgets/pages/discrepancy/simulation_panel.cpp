@@ -187,6 +187,8 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   parameter_table_ = makeTable(parameters_, tr("Parameters of the simulator"),
                                tr("Choose simulator.json: the parameters of the simulation appear here."));
   stretchColumn(parameter_table_, 1);
+  parameter_table_->setWordWrap(true);
+  parameter_table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   auto* left = new Card(tr("Parameters"));
   left->body()->addWidget(parameter_table_, 1);
   found_card_ = new Card(tr("What was found"));

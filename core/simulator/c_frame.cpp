@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/finite_elements/c_frame.h"
+#include "core/simulator/c_frame.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <numbers>
 #include <tuple>
@@ -14,9 +17,10 @@
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
-#include "core/finite_elements/c_frame_run.h"
 #include "core/machine/observation.h"
 #include "core/machine/simulation_row.h"
+#include "core/simulator/program_simulator.h"
+#include "core/simulator/run_folder.h"
 
 namespace spindrift {
 namespace {
@@ -264,6 +268,31 @@ CFrameValues hiddenValues(CFrameStory story, double duration_s) {
       return {{"room_gain", 1.0}};
   }
   return {};
+}
+
+bool calculixIsInstalled() {
+  const char* folders = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+  const std::vector<std::string> list = splitList(folders == nullptr ? "" : folders, ':');
+  return std::any_of(list.begin(), list.end(), [](const std::string& folder) {
+    return access((std::filesystem::path(folder) / "ccx").c_str(), X_OK) == 0;
+  });
+}
+
+std::vector<SimulationRow> runDeck(const CFrameDeck& deck, const OperatingLog& log, const CFrameValues& changes,
+                                   const JobContext& job) {
+  CFrameDeck changed = deck;
+  for (nlohmann::json& parameter : changed.simulator.at("parameters")) {
+    const auto change = changes.find(parameter.at("name").get<std::string>());
+    if (change == changes.end()) continue;
+    // What a machine is takes no notice of the bounds that its simulation has.
+    parameter["value"] = change->second;
+    parameter["min"] = std::min(parameter.at("min").get<double>(), change->second);
+    parameter["max"] = std::max(parameter.at("max").get<double>(), change->second);
+  }
+  const RunFolder folder;
+  changed.write(folder.path());
+  const ProgramSimulator simulator(openSimulatorFile(folder.path() / "simulator.json"), log);
+  return simulator.run({}, {}, job).rows;
 }
 
 CFrameCampaign writeCFrameCampaign(CFrameStory story, const std::filesystem::path& folder, std::uint64_t seed,

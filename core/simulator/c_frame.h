@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Campaigns of the finite-element example machine (c_frame_machine.h, c_frame_deck.h) whose simulation lacks one cause.
+// Campaigns of the finite-element example machine (core/finite_elements/c_frame_machine.h,
+// c_frame_deck.h) whose simulation lacks one cause.
 //
 // What was "measured" comes from CalculiX as well, but from another model of the machine than the simulation's: a finer
 // mesh, half the increment, dimensions of the castings about 1 %, films and conductivity some per cent off, and with
@@ -24,6 +25,7 @@
 #include "core/base/job_context.h"
 #include "core/finite_elements/c_frame_deck.h"
 #include "core/machine/operating_log.h"
+#include "core/machine/simulation_row.h"
 
 namespace spindrift {
 
@@ -63,6 +65,14 @@ struct CFrameCampaign {
 /// Values of the parameters that the story's simulation has, resp. of what was left out of it.
 [[nodiscard]] CFrameValues simulatedValues(CFrameStory story);
 [[nodiscard]] CFrameValues hiddenValues(CFrameStory story, double duration_s);
+
+/// True if a program `ccx` stands in one of the folders of PATH.
+[[nodiscard]] bool calculixIsInstalled();
+
+/// Deviations of all points and components (um, urad) at the start and at the end of every state, as CalculiX finds
+/// them; `changes` replace values of the deck. Throws SimulatorFailed, Cancelled: see ProgramSimulator.
+[[nodiscard]] std::vector<SimulationRow> runDeck(const CFrameDeck& deck, const OperatingLog& log,
+                                                 const CFrameValues& changes, const JobContext& job);
 
 /// Runs CalculiX three times and writes campaign.json, machine.json, log.csv, observations.csv, simulation.csv and the
 /// deck in fe/; beside the folder <folder>.truth.json: hidden parameters, the machine that was measured, noise-free gap
