@@ -9,8 +9,8 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/simulator/c_frame.h"
 #include "core/simulation/virtual_campaign.h"
+#include "core/simulator/c_frame.h"
 
 namespace spindrift::cli {
 namespace {
