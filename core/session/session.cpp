@@ -302,16 +302,21 @@ std::string Session::inputsFingerprint(std::int64_t id, const nlohmann::json& op
 
 std::int64_t Session::addResult(std::int64_t id, const std::string& kind, const nlohmann::json& options,
                                 const nlohmann::json& payload) {
-  return keepResult(id, kind, options, payload).id;
+  return keepResult(originOf(id, kind, options), payload)->id;
 }
 
-StoredResult Session::keepResult(std::int64_t id, const std::string& kind, const nlohmann::json& options,
-                                 nlohmann::json payload) {
+ResultOrigin Session::originOf(std::int64_t id, const std::string& kind, const nlohmann::json& options) const {
+  return {id, kind, options, inputsFingerprint(id, options)};
+}
+
+std::optional<StoredResult> Session::keepResult(const ResultOrigin& origin, nlohmann::json payload) {
+  const std::vector<CampaignRecord> all = campaigns();
+  if (std::none_of(all.begin(), all.end(), [&](const CampaignRecord& r) { return r.id == origin.campaign; })) return {};
   StoredResult result;
-  result.campaign = id;
-  result.kind = kind;
+  result.campaign = origin.campaign;
+  result.kind = origin.kind;
   result.payload = std::move(payload);
-  result.provenance = {SPINDRIFT_VERSION, utcNow(), inputsFingerprint(id, options), options};
+  result.provenance = {SPINDRIFT_VERSION, utcNow(), origin.inputs_fingerprint, origin.options};
   result.id = database_->addResult(result);
   return result;
 }

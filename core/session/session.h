@@ -31,6 +31,15 @@ struct Provenance {
   nlohmann::json options = nlohmann::json::object();  ///< everything that influenced the result, seed included
 };
 
+/// What a result is made from, taken when the work on it starts. Files, exclusions or options that change while it is
+/// worked out make the result outdated; they never make it look as if it had been made from them.
+struct ResultOrigin {
+  std::int64_t campaign = 0;
+  std::string kind;
+  nlohmann::json options = nlohmann::json::object();
+  std::string inputs_fingerprint;
+};
+
 struct StoredResult {
   std::int64_t id = 0;
   std::int64_t campaign = 0;
@@ -136,11 +145,15 @@ class Session {
   // Results -------------------------------------------------------------------------------------------------------
   /// What a result of this campaign with these options depends on: files, exclusions, options, program version.
   [[nodiscard]] std::string inputsFingerprint(std::int64_t campaign, const nlohmann::json& options) const;
+  /// To be called when the work starts, on the inputs that it is given.
+  [[nodiscard]] ResultOrigin originOf(std::int64_t campaign, const std::string& kind,
+                                      const nlohmann::json& options) const;
+  /// Files a result under the campaign that it was started for; nothing if that is no longer in the session. Returns
+  /// what was stored, without reading it again.
+  std::optional<StoredResult> keepResult(const ResultOrigin& origin, nlohmann::json payload);
+  /// Both at once, for what is ready the moment it is asked for.
   std::int64_t addResult(std::int64_t campaign, const std::string& kind, const nlohmann::json& options,
                          const nlohmann::json& payload);
-  /// The same; returns the result as it was stored, without reading it again.
-  StoredResult keepResult(std::int64_t campaign, const std::string& kind, const nlohmann::json& options,
-                          nlohmann::json payload);
   [[nodiscard]] std::optional<StoredResult> latestResult(std::int64_t campaign, const std::string& kind) const;
   [[nodiscard]] std::vector<StoredResult> results(std::int64_t campaign) const;
   /// All results of a kind without their payloads (those may be large), oldest first; `payload` fetches one.

@@ -13,7 +13,7 @@ QString translated(const char* text) {
 }  // namespace
 
 ExcludeCommand::ExcludeCommand(SessionModel& session, const QStringList& items, const QString& reason)
-    : session_(session), campaign_(session.campaignId()), reason_(reason) {
+    : session_(session), reason_(reason) {
   for (const QString& item : items) {
     const auto found = session.excluded().find(item);
     before_.emplace_back(item, found == session.excluded().end() ? QString() : found->second);
@@ -23,22 +23,19 @@ ExcludeCommand::ExcludeCommand(SessionModel& session, const QStringList& items, 
 }
 
 void ExcludeCommand::redo() {
-  if (session_.campaignId() != campaign_) return;
   for (const auto& [item, reason] : before_) session_.setExcluded(item, reason_);
 }
 
 void ExcludeCommand::undo() {
-  if (session_.campaignId() != campaign_) return;
   for (const auto& [item, reason] : before_) session_.setExcluded(item, reason);
 }
 
 ReplaceExclusionCommand::ReplaceExclusionCommand(SessionModel& session, Entry before, Entry after, const QString& text)
-    : session_(session), campaign_(session.campaignId()), before_(std::move(before)), after_(std::move(after)) {
+    : session_(session), before_(std::move(before)), after_(std::move(after)) {
   setText(text);
 }
 
 void ReplaceExclusionCommand::replace(const Entry& from, const Entry& to) {
-  if (session_.campaignId() != campaign_) return;
   // The new one first: at no time is less left out than before or after.
   if (!to.first.isEmpty()) session_.setExcluded(to.first, to.second);
   if (!from.first.isEmpty() && from.first != to.first) session_.setExcluded(from.first, {});

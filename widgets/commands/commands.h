@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What can be undone. Each command does one thing to the session through SessionModel.
+// What can be undone. Each command does one thing to the campaign at hand through SessionModel; CampaignUndo sees to
+// it that this is the campaign it was made for.
 #pragma once
 
 #include <QUndoCommand>
@@ -20,7 +21,6 @@ class ExcludeCommand : public QUndoCommand {
 
  private:
   SessionModel& session_;
-  std::int64_t campaign_;
   std::vector<std::pair<QString, QString>> before_;  // item, reason (empty: was in)
   QString reason_;
 };
@@ -37,7 +37,6 @@ class ReplaceExclusionCommand : public QUndoCommand {
  private:
   void replace(const Entry& from, const Entry& to);
   SessionModel& session_;
-  std::int64_t campaign_;
   Entry before_, after_;
 };
 

@@ -76,6 +76,7 @@ void SessionModel::openSession(const std::filesystem::path& folder) {
 void SessionModel::createSession(const std::filesystem::path& folder) {
   auto made = std::make_unique<Session>(Session::create(folder));
   session_ = std::move(made);
+  ++opened_;
   latest_.clear();
   campaign_.reset();
   campaign_id_ = 0;
@@ -87,6 +88,7 @@ void SessionModel::createSession(const std::filesystem::path& folder) {
 
 void SessionModel::close() {
   session_.reset();
+  ++opened_;
   latest_.clear();
   campaign_.reset();
   campaign_id_ = 0;
@@ -110,6 +112,7 @@ void SessionModel::adopt(std::unique_ptr<Session> session, std::int64_t campaign
 
 void SessionModel::adopt(LoadedSession loaded) {
   take(std::move(loaded));
+  ++opened_;
   ++visit_;
   if (campaign_id_ != 0) setSetting("campaign", campaign_id_);
   Q_EMIT sessionChanged();
@@ -274,12 +277,29 @@ nlohmann::json SessionModel::commonOptions() const {
   return options;
 }
 
-void SessionModel::storeResult(const std::string& kind, const nlohmann::json& options, const nlohmann::json& payload) {
-  if (session_ == nullptr || campaign_ == nullptr) return;
+PendingResult SessionModel::begin(const std::string& kind, const nlohmann::json& options) const {
+  if (session_ == nullptr || campaign_ == nullptr) return {};
   nlohmann::json all = commonOptions();
   all.update(options);
-  latest_[kind] = session_->keepResult(campaign_id_, kind, all, payload);
-  Q_EMIT resultChanged(QString::fromStdString(kind));
+  return {opened_, session_->originOf(campaign_id_, kind, all)};
+}
+
+bool SessionModel::atHand(const PendingResult& pending) const {
+  return session_ != nullptr && campaign_ != nullptr && pending.session == opened_ &&
+         pending.origin.campaign == campaign_id_;
+}
+
+bool SessionModel::finish(const PendingResult& pending, const nlohmann::json& payload) {
+  if (session_ == nullptr || pending.session != opened_) return false;
+  auto kept = session_->keepResult(pending.origin, payload);
+  if (!kept || !atHand(pending)) return false;
+  latest_[pending.origin.kind] = std::move(kept);
+  Q_EMIT resultChanged(QString::fromStdString(pending.origin.kind));
+  return true;
+}
+
+void SessionModel::storeResult(const std::string& kind, const nlohmann::json& options, const nlohmann::json& payload) {
+  finish(begin(kind, options), payload);
 }
 
 const StoredResult* SessionModel::latest(const std::string& kind) const {
@@ -397,6 +417,28 @@ std::optional<nlohmann::json> SessionModel::warmStatement() const {
 nlohmann::json SessionModel::setting(const std::string& key, const nlohmann::json& otherwise) const {
   if (session_ == nullptr) return otherwise;
   return session_->setting(key).value_or(otherwise);
+}
+
+std::string SessionModel::campaignKey(const std::string& key) const {
+  return key + "/" + std::to_string(campaign_id_);
+}
+
+nlohmann::json SessionModel::campaignSetting(const std::string& key, const nlohmann::json& otherwise) const {
+  return setting(campaignKey(key), setting(key, otherwise));
+}
+
+nlohmann::json SessionModel::draft(const std::string& name, const nlohmann::json& base) const {
+  const nlohmann::json kept = setting(campaignKey("draft/" + name), nullptr);
+  if (!kept.is_object() || kept.value("base", nlohmann::json()) != base) return nullptr;
+  return kept.value("typed", nlohmann::json());
+}
+
+void SessionModel::keepDraft(const std::string& name, const nlohmann::json& base, const nlohmann::json& typed) {
+  setSetting(campaignKey("draft/" + name), {{"base", base}, {"typed", typed}});
+}
+
+void SessionModel::dropDraft(const std::string& name) {
+  if (!setting(campaignKey("draft/" + name), nullptr).is_null()) setSetting(campaignKey("draft/" + name), nullptr);
 }
 
 std::filesystem::path sessionsFolder() {

@@ -46,6 +46,12 @@ struct StoredEvaluation {
 [[nodiscard]] nlohmann::json payloadOf(const CampaignEvaluation& evaluation);
 [[nodiscard]] StoredEvaluation evaluationFrom(const StoredResult& result);
 
+/// A result that is being worked out: what it is made from, and the session that was open when the work started.
+struct PendingResult {
+  std::int64_t session = 0;  ///< SessionModel::sessionNumber
+  ResultOrigin origin;
+};
+
 /// A result with what is known about its freshness.
 struct ResultState {
   bool there = false;
@@ -83,6 +89,8 @@ class SessionModel : public QObject {
   [[nodiscard]] Session* session() { return session_.get(); }
   [[nodiscard]] std::filesystem::path folder() const;
   [[nodiscard]] QString name() const;
+  /// Another number for every session that is opened or closed.
+  [[nodiscard]] std::int64_t sessionNumber() const { return opened_; }
 
   // The campaign at hand.
   /// Takes over a session that a job has made or added a campaign to.
@@ -112,6 +120,16 @@ class SessionModel : public QObject {
   [[nodiscard]] bool machineEdited() const { return machine_edited_; }
 
   // Results. `kind` names what was computed ("evaluate", "fit", "check").
+  //
+  // begin() when the work starts, finish() when it is done: whatever the user does meanwhile, the result is filed under
+  // the campaign it was started for, as made from what it was made from.
+  [[nodiscard]] PendingResult begin(const std::string& kind,
+                                    const nlohmann::json& options = nlohmann::json::object()) const;
+  /// True if the page at hand shows the campaign of this result. A result whose session or campaign is gone is dropped.
+  bool finish(const PendingResult& pending, const nlohmann::json& payload);
+  /// True while the campaign that a result was started for is at hand.
+  [[nodiscard]] bool atHand(const PendingResult& pending) const;
+  /// Both at once, for what is ready the moment it is asked for.
   void storeResult(const std::string& kind, const nlohmann::json& options, const nlohmann::json& payload);
   [[nodiscard]] std::optional<StoredResult> result(const std::string& kind) const;
   /// The same without a copy, for large ones; null if there is none. Holds until the next change of results or
@@ -150,6 +168,16 @@ class SessionModel : public QObject {
   // Settings that belong to the session.
   void setSetting(const std::string& key, const nlohmann::json& value);
   [[nodiscard]] nlohmann::json setting(const std::string& key, const nlohmann::json& otherwise) const;
+  /// The key of what is kept for the campaign at hand alone; and its value. Sessions of earlier versions kept some of
+  /// it for all campaigns together: that stands where a campaign has nothing of its own.
+  [[nodiscard]] std::string campaignKey(const std::string& key) const;
+  [[nodiscard]] nlohmann::json campaignSetting(const std::string& key, const nlohmann::json& otherwise) const;
+  /// What was typed and is not applied yet, for the campaign at hand: on the disk with every change, so that no other
+  /// page, campaign or session and no crash loses it. It belongs to `base`, what was being edited: null where there is
+  /// none, or where that has become another.
+  [[nodiscard]] nlohmann::json draft(const std::string& name, const nlohmann::json& base) const;
+  void keepDraft(const std::string& name, const nlohmann::json& base, const nlohmann::json& typed);
+  void dropDraft(const std::string& name);
 
  Q_SIGNALS:
   void sessionChanged();
@@ -168,6 +196,7 @@ class SessionModel : public QObject {
   std::unique_ptr<Session> session_;
   std::int64_t campaign_id_ = 0;
   std::int64_t visit_ = 0;
+  std::int64_t opened_ = 0;  ///< sessions so far
   std::shared_ptr<const Campaign> campaign_;
   std::map<QString, QString> excluded_;
   bool machine_edited_ = false;

@@ -4,12 +4,12 @@
 // Adding a page: derive from Page, and name it in register_pages.cpp with its step and the campaigns it is for.
 #pragma once
 
-#include <QUndoStack>
 #include <QWidget>
 #include <functional>
 #include <memory>
 #include <vector>
 
+#include "widgets/commands/campaign_undo.h"
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/job_runner.h"
 #include "widgets/models/session_model.h"
@@ -27,7 +27,7 @@ class Callout;
 struct PageContext {
   SessionModel& session;
   JobRunner& jobs;
-  QUndoStack& undo;
+  CampaignUndo& undo;
   Workflow& workflow;
   std::function<void(const QString&)> hint;  ///< a short text at the bottom: the value under the cursor
 };

@@ -104,7 +104,6 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   connect(next_, &QPushButton::clicked, &workflow_, &Workflow::next);
   connect(&workflow_, &Workflow::currentChanged, this, &MainWindow::showStep);
   connect(&session_, &SessionModel::sessionChanged, this, [this] {
-    undo_.clear();
     welcome_->offerRecovery({});
     refreshTitle();
     refreshCampaigns();
@@ -123,7 +122,6 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
     if (id == session_.campaignId()) return;
     try {
       session_.selectCampaign(id);
-      undo_.clear();
     } catch (const InputError& e) {
       refreshCampaigns();
       tell(QString::fromUtf8(e.what()));

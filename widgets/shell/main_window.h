@@ -3,7 +3,6 @@
 #pragma once
 
 #include <QMainWindow>
-#include <QUndoStack>
 #include <map>
 
 #include "widgets/jobs/job_runner.h"
@@ -50,7 +49,7 @@ class MainWindow : public QMainWindow {
 
   [[nodiscard]] SessionModel& session() { return session_; }
   [[nodiscard]] JobRunner& jobs() { return jobs_; }
-  [[nodiscard]] QUndoStack& undoStack() { return undo_; }
+  [[nodiscard]] QUndoStack& undoStack() { return undo_.stack(); }
   [[nodiscard]] Workflow& workflow() { return workflow_; }
   [[nodiscard]] Page* currentPage() const { return page_; }
   [[nodiscard]] WelcomePage* welcome() const { return welcome_; }
@@ -88,7 +87,7 @@ class MainWindow : public QMainWindow {
 
   SessionModel session_;
   JobRunner jobs_;
-  QUndoStack undo_;
+  CampaignUndo undo_{session_};
   Workflow workflow_;
   PageRegistry registry_;
   std::map<const PageRegistry::Entry*, Page*> pages_;

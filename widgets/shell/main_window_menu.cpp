@@ -59,11 +59,11 @@ void MainWindow::buildMenu() {
   add(session_menu, tr("&Quit"), "x", QKeySequence::Quit, [this] { close(); });
 
   QMenu* edit = menuBar()->addMenu(tr("&Edit"));
-  QAction* undo = undo_.createUndoAction(this, tr("&Undo"));
+  QAction* undo = undo_.group().createUndoAction(this, tr("&Undo"));
   undo->setShortcut(QKeySequence::Undo);
   undo->setIcon(icon("undo"));
   edit->addAction(undo);
-  QAction* redo = undo_.createRedoAction(this, tr("&Redo"));
+  QAction* redo = undo_.group().createRedoAction(this, tr("&Redo"));
   // Of the platform, and the other one that hands know.
   redo->setShortcuts({QKeySequence(QKeySequence::Redo), QKeySequence(Qt::CTRL | Qt::Key_Y)});
   redo->setIcon(icon("redo"));
@@ -133,9 +133,9 @@ void MainWindow::buildMenu() {
   auto* redo_button = tool("redo", tr("Redo"), [this] { undo_.redo(); });
   undo_button->setEnabled(false);
   redo_button->setEnabled(false);
-  connect(&undo_, &QUndoStack::canUndoChanged, undo_button, &QToolButton::setEnabled);
-  connect(&undo_, &QUndoStack::canRedoChanged, redo_button, &QToolButton::setEnabled);
-  connect(&undo_, &QUndoStack::undoTextChanged, undo_button,
+  connect(&undo_.group(), &QUndoGroup::canUndoChanged, undo_button, &QToolButton::setEnabled);
+  connect(&undo_.group(), &QUndoGroup::canRedoChanged, redo_button, &QToolButton::setEnabled);
+  connect(&undo_.group(), &QUndoGroup::undoTextChanged, undo_button,
           [undo_button](const QString& text) { undo_button->setToolTip(tr("Undo: %1").arg(text)); });
   tool("export", tr("Export pictures and tables of this page"),
        [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); });

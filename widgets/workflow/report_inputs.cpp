@@ -18,7 +18,7 @@ nlohmann::json reportedInputs(const SessionModel& session) {
   results.push_back(simulation == nullptr ? nlohmann::json(0)
                                           : nlohmann::json{simulation->id, currentSimulator(session)});
   return {{"warm", session.warmStatement().value_or(nlohmann::json())},
-          {"fit", session.setting("nine-parameter", nlohmann::json::object())},
+          {"fit", session.campaignSetting("nine-parameter", nlohmann::json::object())},
           {"results", results}};
 }
 

@@ -59,6 +59,44 @@ TEST_F(ArtefactEditorTest, ABarIsChangedSeenAppliedAndUndone) {
   exportAll();
 }
 
+TEST_F(ArtefactEditorTest, WhatIsNotAppliedSurvivesPagesCampaignsAndSessions) {
+  ArtefactEditor* editor = this->editor(probing_test::holeMachineText());
+  const std::int64_t first = window_->session().campaignId();
+  type(editor->fields()->field("material"), "Invar");
+  editor->fields()->features()->item(2, 1)->setText(QStringLiteral("not a number"));
+  const auto typed = [&] { return editor->fields()->features()->item(2, 1)->text(); };
+  const auto material = [&] { return editor->fields()->field("material")->text(); };
+  window_->workflow().goTo(StepId::WarmUp);
+  window_->workflow().goTo(StepId::Machine);
+  EXPECT_EQ(typed(), QStringLiteral("not a number"));
+  EXPECT_EQ(material(), QStringLiteral("Invar"));
+  EXPECT_TRUE(window_->session().campaign()->machine.artefacts.front().nominal_positions_mm.size() == 7U);
+
+  const std::int64_t second =
+      window_->session().session()->newCampaign("other", "2026-01-31T09:00:00Z", probing_test::holeMachineText());
+  window_->session().selectCampaign(second);
+  window_->workflow().goTo(StepId::Machine);
+  EXPECT_NE(typed(), QStringLiteral("not a number")) << "it belongs to the other campaign";
+  EXPECT_FALSE(editor->applyButton()->isEnabled());
+  window_->session().selectCampaign(first);
+  window_->workflow().goTo(StepId::Machine);
+  EXPECT_EQ(typed(), QStringLiteral("not a number"));
+
+  const QString folder = QString::fromStdString(window_->session().folder().string());
+  window_->closeSession();
+  window_->open(folder);
+  ASSERT_TRUE(waitForJobs(*window_, 60));
+  window_->workflow().goTo(StepId::Machine);
+  EXPECT_EQ(typed(), QStringLiteral("not a number"));
+  EXPECT_EQ(material(), QStringLiteral("Invar"));
+  editor->fields()->features()->item(2, 1)->setText(QStringLiteral("110.5"));
+  QTest::mouseClick(editor->applyButton(), Qt::LeftButton);
+  EXPECT_DOUBLE_EQ(window_->session().campaign()->machine.artefacts.front().nominal_positions_mm[2], 110.5);
+  // Applied: no draft is left that would come back.
+  window_->undoStack().undo();
+  EXPECT_EQ(typed(), QStringLiteral("101"));
+}
+
 TEST_F(ArtefactEditorTest, AWrongCellIsMarkedWithOneSentenceAndNothingIsApplied) {
   ArtefactEditor* editor = this->editor(probing_test::ballMachineText());
   ASSERT_TRUE(editor->findings().empty());

@@ -211,7 +211,7 @@ CompensationRequest CompensatePage::request() const {
   r.state = json.value("state", std::string());
   if (r.state.empty() && r.source == CompensationSource::NineParameters) {
     // What the user chose in Model; else the warmest.
-    const nlohmann::json fit = model.setting(fit_options_key, nlohmann::json::object());
+    const nlohmann::json fit = model.campaignSetting(fit_options_key, nlohmann::json::object());
     if (fit.is_object()) r.state = fit.value("state", std::string());
   }
   r.positions = json.value("positions", 11);
@@ -219,7 +219,7 @@ CompensationRequest CompensatePage::request() const {
     const auto v = json["reference_mm"].get<std::vector<double>>();
     if (v.size() == 3) r.reference_mm = Eigen::Vector3d(v[0], v[1], v[2]);
   }
-  const nlohmann::json fit = model.setting(fit_options_key, nlohmann::json::object());
+  const nlohmann::json fit = model.campaignSetting(fit_options_key, nlohmann::json::object());
   if (fit.is_object()) {
     if (fit.contains("points")) r.fit.points = fit["points"].get<std::vector<std::string>>();
     r.fit.robust = static_cast<RobustLoss>(fit.value("robust", 0));
@@ -234,7 +234,7 @@ nlohmann::json CompensatePage::dependencies() const {
   auto& model = const_cast<CompensatePage*>(this)->session();
   return {{"options", optionsJson()},
           {"source", std::string(toString(request().source))},
-          {"fit", model.setting(fit_options_key, nlohmann::json::object())},
+          {"fit", model.campaignSetting(fit_options_key, nlohmann::json::object())},
           {"discrepancy", DiscrepancyChoice::of(model).json()}};
 }
 
@@ -341,20 +341,19 @@ void CompensatePage::runPlan(bool store) {
   if (!observations ||
       !(hasSource(CompensationSource::NineParameters) || hasSource(CompensationSource::CompletedModel)))
     return;
-  const std::int64_t visit = session().visit();
   Job job;
   job.title = tr("Working out the corrections");
-  job.work = [this, store, visit, set = *observations, asked = request(), depends = dependencies(),
+  job.work = [this, store, set = *observations, asked = request(),
+              pending = session().begin(result_kind, {{"depends", dependencies()}}),
               choice = DiscrepancyChoice::of(session()), effects_file = DiscrepancyChoice::file(session()),
               data = session().snapshot().campaign](JobContext& progress) -> std::function<void()> {
     const CompensationPlan plan = planCompensation(*choice.applied(data, effects_file), set, asked, progress);
-    return [this, store, visit, plan, depends] {
-      if (session().visit() != visit) return;
+    return [this, store, plan, pending] {
+      if (store) session().finish(pending, plan.json());
+      if (!session().atHand(pending)) return;
       plan_ = plan;
-      if (store) {
-        session().storeResult(result_kind, {{"depends", depends}}, plan.json());
-        if (const auto stored = session().result(result_kind)) shown_result_ = stored->id;
-      }
+      if (const StoredResult* stored = session().latest(result_kind); store && stored != nullptr)
+        shown_result_ = stored->id;
       refresh();
     };
   };

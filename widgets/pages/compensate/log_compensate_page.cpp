@@ -124,18 +124,19 @@ void LogCompensatePage::compensate(bool store) {
   if (!model || context().jobs.busy()) return;
   run(tr("Running the compensator"),
       [this, stored = *model, store, snapshot = session().snapshot(),
+       pending = session().begin(result_kind, {{"model", model->id}}),
        observations = session().observations()](JobContext& job) -> std::function<void()> {
         const CampaignSeries all = campaignSeries(*snapshot.campaign, observations ? &*observations : nullptr, job);
         const auto thermal = std::make_shared<const ThermalModel>(
             ThermalModel::parse(JsonNode::parse(stored.payload.at("model").dump(), "model")));
         const auto result = std::make_shared<const CompensatorRun>(
             runCompensator(all.series, *thermal, testRange(stored, all.series), job));
-        return [this, result, thermal, store, id = stored.id] {
-          if (id != modelId()) return;
+        return [this, result, thermal, store, pending, id = stored.id] {
+          if (store) session().finish(pending, result->result.json());
+          if (!session().atHand(pending) || id != modelId()) return;
           result_ = result;
           model_ = thermal;
           result_model_ = id;
-          if (store) session().storeResult(result_kind, {{"model", id}}, result->result.json());
           refresh();
         };
       });

@@ -297,17 +297,14 @@ void DiscrepancyPage::search() {
   DiscrepancyOptions options;
   options.accept = choice.added;
   options.reject = choice.rejected;
-  const std::int64_t visit = session().visit();
   Job job;
   job.title = tr("Searching for what the simulation lacks");
-  job.work = [this, visit, options, choice, data = session().snapshot().campaign,
-              file = DiscrepancyChoice::file(session()),
+  job.work = [this, options, choice, pending = session().begin(result_kind, {{option_name, choice.json()}}),
+              data = session().snapshot().campaign, file = DiscrepancyChoice::file(session()),
               observations = *session().observations()](JobContext& progress) -> std::function<void()> {
     const DiscrepancyStory story = tellDiscrepancy(*choice.applied(data, file), observations, options, progress);
-    return [this, visit, choice, payload = story.json()] {
-      if (session().visit() != visit) return;
-      session().storeResult(result_kind, {{option_name, choice.json()}}, payload);
-      refresh();
+    return [this, pending, payload = story.json()] {
+      if (session().finish(pending, payload)) refresh();
     };
   };
   job.failed = [this](const QString& sentence) {

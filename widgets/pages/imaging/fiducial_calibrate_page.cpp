@@ -107,13 +107,13 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
 void FiducialCalibratePage::evaluate() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr) return;
-  run(tr("Evaluating the captures"), [this, snapshot](JobContext& job) -> std::function<void()> {
-    const CampaignEvaluation evaluation = evaluateCampaign(*snapshot.campaign, {}, job);
-    return [this, payload = payloadOf(evaluation)] {
-      session().storeResult("evaluate", nlohmann::json::object(), payload);
-      refresh();
-    };
-  });
+  run(tr("Evaluating the captures"),
+      [this, snapshot, pending = session().begin("evaluate")](JobContext& job) -> std::function<void()> {
+        const CampaignEvaluation evaluation = evaluateCampaign(*snapshot.campaign, {}, job);
+        return [this, pending, payload = payloadOf(evaluation)] {
+          if (session().finish(pending, payload)) refresh();
+        };
+      });
 }
 
 void FiducialCalibratePage::refresh() {

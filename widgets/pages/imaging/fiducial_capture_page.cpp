@@ -425,16 +425,16 @@ void FiducialCapturePage::toggleExcluded() {
 void FiducialCapturePage::checkAll() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr || captures_.empty()) return;
-  run(tr("Checking %1 captures").arg(captures_.size()), [this, snapshot](JobContext& job) -> std::function<void()> {
-    Campaign campaign = *snapshot.campaign;
-    campaign.excluded_captures = snapshot.excluded;
-    nlohmann::json payload = nlohmann::json::array();
-    for (const CheckedCapture& c : checkFiducialCaptures(campaign, job)) payload.push_back(c.json());
-    return [this, payload] {
-      session().storeResult("check", nlohmann::json::object(), {{"captures", payload}});
-      refresh();
-    };
-  });
+  run(tr("Checking %1 captures").arg(captures_.size()),
+      [this, snapshot, pending = session().begin("check")](JobContext& job) -> std::function<void()> {
+        Campaign campaign = *snapshot.campaign;
+        campaign.excluded_captures = snapshot.excluded;
+        nlohmann::json payload = nlohmann::json::array();
+        for (const CheckedCapture& c : checkFiducialCaptures(campaign, job)) payload.push_back(c.json());
+        return [this, pending, payload] {
+          if (session().finish(pending, {{"captures", payload}})) refresh();
+        };
+      });
 }
 
 std::vector<Exportable> FiducialCapturePage::exportables() {

@@ -183,7 +183,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
 }
 
 nlohmann::json NineParameterPage::optionsJson() const {
-  return const_cast<NineParameterPage*>(this)->session().setting(options_key, nlohmann::json::object());
+  return const_cast<NineParameterPage*>(this)->session().campaignSetting(options_key, nlohmann::json::object());
 }
 
 NineParameterOptions NineParameterPage::options() const {
@@ -202,7 +202,7 @@ void NineParameterPage::changeOptions(const QString& what, const nlohmann::json&
   nlohmann::json after = optionsJson();
   if (!after.is_object()) after = nlohmann::json::object();
   after.update(change);
-  context().undo.push(new OptionsCommand(session(), what, options_key, after, [this] {
+  context().undo.push(new OptionsCommand(session(), what, session().campaignKey(options_key), after, [this] {
     refresh();
     fit();
   }));
@@ -311,21 +311,22 @@ void NineParameterPage::fit() {
   const NineParameterOptions o = options();
   const nlohmann::json options_json = optionsJson();
   run(tr("Fitting the nine-parameter model"),
-      [this, set = *set, o, options_json](JobContext&) -> std::function<void()> {
+      [this, set = *set, o, pending = session().begin("fit", {{"model", "nine-parameter"}, {"options", options_json}})](
+          JobContext&) -> std::function<void()> {
         const NineParameterFit fitted = fitNineParameters(set, o);
-        return [this, fitted, options_json] {
-          result_ = fitted;
+        return [this, fitted, pending] {
           nlohmann::json parameters = nlohmann::json::object();
           for (int i = 0; i < nine_parameter_count; ++i) {
             parameters[std::string(nine_parameter_names[static_cast<std::size_t>(i)])] = {
                 {"value", jsonNumber(fitted.determined(i) ? fitted.parameters[i] : std::nan(""))},
                 {"standard_uncertainty", jsonNumber(fitted.standardUncertainty(i))}};
           }
-          session().storeResult("fit", {{"model", "nine-parameter"}, {"options", options_json}},
-                                {{"parameters", parameters},
-                                 {"state", fitted.state},
-                                 {"status", std::string(toString(fitted.status))},
-                                 {"message", fitted.message}});
+          const bool shown = session().finish(pending, {{"parameters", parameters},
+                                                        {"state", fitted.state},
+                                                        {"status", std::string(toString(fitted.status))},
+                                                        {"message", fitted.message}});
+          if (!shown) return;
+          result_ = fitted;
           showFit();
         };
       });

@@ -7,6 +7,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -21,6 +22,9 @@
 
 namespace spindrift::gui {
 namespace {
+
+constexpr auto draft_name = "artefacts";
+constexpr std::array edited_keys{"artefacts", "styli"};
 
 QString valueText(const nlohmann::json& value) {
   if (value.is_number()) return QString::fromStdString(exactNumber(value.get<double>()));
@@ -119,7 +123,7 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
     styli_->removeRow(styli_->currentRow());
     changed();
   });
-  connect(discard_, &QPushButton::clicked, this, &ArtefactEditor::refresh);
+  connect(discard_, &QPushButton::clicked, this, &ArtefactEditor::discard);
   connect(apply_, &QPushButton::clicked, this, &ArtefactEditor::apply);
 }
 
@@ -127,19 +131,33 @@ nlohmann::json& ArtefactEditor::current() {
   return machine_["artefacts"][static_cast<std::size_t>(choice_->currentIndex())];
 }
 
+nlohmann::json ArtefactEditor::partOf(const nlohmann::json& machine) {
+  nlohmann::json part = nlohmann::json::object();
+  for (const char* key : edited_keys) {
+    const auto found = machine.find(key);
+    part[key] = found != machine.end() && found->is_array() ? *found : nlohmann::json::array();
+  }
+  return part;
+}
+
 void ArtefactEditor::refresh() {
   const auto campaign = context_.session.campaign();
   if (campaign == nullptr) return;
   machine_ = campaign->machine.source;
-  for (const char* key : {"artefacts", "styli"}) {
-    if (!machine_.contains(key) || !machine_[key].is_array()) machine_[key] = nlohmann::json::array();
-  }
+  machine_.update(partOf(machine_));
+  const nlohmann::json draft = context_.session.draft(draft_name, partOf(machine_));
+  if (draft.is_object()) machine_.update(draft);
   view_->setMachine(campaign->machine);
   view_->setMachineVisible(false);
   showStyli();
   showArtefact(std::clamp(choice_->currentIndex(), 0, std::max(0, static_cast<int>(machine_["artefacts"].size()) - 1)));
-  apply_->setEnabled(false);
-  discard_->setEnabled(false);
+  discard_->setEnabled(draft.is_object());
+  check();
+}
+
+void ArtefactEditor::discard() {
+  context_.session.dropDraft(draft_name);
+  refresh();
 }
 
 void ArtefactEditor::showArtefact(int index) {
@@ -208,6 +226,7 @@ void ArtefactEditor::changed() {
   }
   machine_["styli"] = styli;
   discard_->setEnabled(true);
+  context_.session.keepDraft(draft_name, partOf(context_.session.campaign()->machine.source), partOf(machine_));
   check();
   showPreview();
 }
@@ -271,9 +290,10 @@ void ArtefactEditor::apply() {
     return;
   }
   nlohmann::json machine = machine_;
-  for (const char* key : {"artefacts", "styli"}) {
+  for (const char* key : edited_keys) {
     if (machine[key].empty()) machine.erase(key);
   }
+  context_.session.dropDraft(draft_name);
   context_.undo.push(new MachineCommand(context_.session, std::move(machine)));
 }
 

@@ -21,7 +21,7 @@ class ArtefactEditor : public QWidget {
   Q_OBJECT
  public:
   explicit ArtefactEditor(PageContext context, QWidget* parent = nullptr);
-  /// Shows the artefacts of the session's machine again; what was typed and not applied is dropped.
+  /// Shows the artefacts of the session's machine, with what was typed and not applied yet.
   void refresh();
   [[nodiscard]] const std::vector<ArtefactFinding>& findings() const { return findings_; }
   [[nodiscard]] ArtefactFields* fields() const { return fields_; }
@@ -38,6 +38,9 @@ class ArtefactEditor : public QWidget {
   void check();
   void showPreview();
   void apply();
+  void discard();
+  /// Artefacts and styli alone: what is edited here.
+  [[nodiscard]] static nlohmann::json partOf(const nlohmann::json& machine);
   [[nodiscard]] nlohmann::json& current();
 
   PageContext context_;

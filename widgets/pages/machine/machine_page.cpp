@@ -7,7 +7,6 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMessageBox>
 #include <QSpinBox>
 #include <QSplitter>
 #include <QTabWidget>
@@ -29,6 +28,12 @@
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
+namespace {
+
+constexpr auto draft_name = "machine";
+
+}  // namespace
+
 QStringList machineFindings(const MachineDescription& machine) {
   QStringList findings;
   QStringList no_resolution;
@@ -168,12 +173,9 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   });
   connect(suggest_, &QPushButton::clicked, this, &MachinePage::suggestPoints);
   connect(apply_, &QPushButton::clicked, this, &MachinePage::apply);
-  connect(discard_, &QPushButton::clicked, this, [this] {
-    edited_ = false;
-    refresh();
-  });
+  connect(discard_, &QPushButton::clicked, this, &MachinePage::discard);
   connect(original_, &QPushButton::clicked, this, [this] {
-    edited_ = false;
+    session().dropDraft(draft_name);
     context().undo.push(new MachineCommand(session(), nlohmann::json::object()));
   });
 }
@@ -181,11 +183,6 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
 void MachinePage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  if (noticeCampaign()) edited_ = false;
-  if (edited_) {  // what was typed and not applied stays
-    artefacts_->refresh();
-    return;
-  }
   const MachineDescription& machine = campaign->machine;
   filling_ = true;
   name_->setText(QString::fromStdString(machine.name));
@@ -215,15 +212,22 @@ void MachinePage::refresh() {
     shown.push_back(v);
   }
   showSensors();
+  const nlohmann::json draft = session().draft(draft_name, base());
+  if (draft.is_object()) showTyped(draft);
   filling_ = false;
   view_->setMachine(machine);
   view_->setPoints(std::move(shown));
   view_->setCaption(QString::fromStdString(machine.name));
-  apply_->setEnabled(false);
-  discard_->setEnabled(false);
+  apply_->setEnabled(draft.is_object());
+  discard_->setEnabled(draft.is_object());
   original_->setVisible(session().machineEdited());
   artefacts_->refresh();
-  showFindings();
+  if (draft.is_object()) {
+    callout()->setAction({}, {});
+    callout()->show(Tone::Attention, tr("What was typed here is not applied yet: apply the changes, or discard them."));
+  } else {
+    showFindings();
+  }
 }
 
 QWidget* MachinePage::makeSensorTab() {
@@ -287,9 +291,13 @@ void MachinePage::showSensors() {
 }
 
 void MachinePage::stateRole(int row) {
-  sensors_->item(row, 3)->setData(Qt::UserRole, true);
-  sensors_->item(row, 3)->setText(tr("this page"));
+  sayRoleIsStated(row);
   markEdited();
+}
+
+void MachinePage::sayRoleIsStated(int row) {
+  sensors_->item(row, 3)->setData(Qt::UserRole, true);
+  if (textAt(sensors_, row, 3) != tr("machine.json")) sensors_->item(row, 3)->setText(tr("this page"));
 }
 
 void MachinePage::showFindings() {
@@ -306,9 +314,66 @@ void MachinePage::showFindings() {
 
 void MachinePage::markEdited() {
   if (filling_) return;
-  edited_ = true;
   apply_->setEnabled(true);
   discard_->setEnabled(true);
+  session().keepDraft(draft_name, base(), typed());
+}
+
+void MachinePage::discard() {
+  session().dropDraft(draft_name);
+  refresh();
+}
+
+nlohmann::json MachinePage::base() const {
+  nlohmann::json machine = const_cast<MachinePage*>(this)->session().campaign()->machine.source;
+  for (const char* key : {"artefacts", "styli"}) machine.erase(key);
+  return machine;
+}
+
+nlohmann::json MachinePage::typed() const {
+  const auto cells = [](const QTableWidget* table) {
+    nlohmann::json rows = nlohmann::json::array();
+    for (int row = 0; row < table->rowCount(); ++row) {
+      nlohmann::json line = nlohmann::json::array();
+      for (int c = 0; c < table->columnCount(); ++c) line.push_back(textAt(table, row, c).toStdString());
+      rows.push_back(std::move(line));
+    }
+    return rows;
+  };
+  nlohmann::json roles = nlohmann::json::object();
+  for (int row = 0; row < sensors_->rowCount(); ++row) {
+    const auto* role = qobject_cast<QComboBox*>(sensors_->cellWidget(row, 2));
+    if (role == nullptr || !sensors_->item(row, 3)->data(Qt::UserRole).toBool()) continue;
+    roles[textAt(sensors_, row, 0).toStdString()] = role->currentData().toString().toStdString();
+  }
+  return {{"name", name_->text().toStdString()},
+          {"chain", chain_->text().toStdString()},
+          {"axes", cells(axes_)},
+          {"points", cells(points_)},
+          {"roles", roles}};
+}
+
+void MachinePage::showTyped(const nlohmann::json& typed) {
+  const auto fill = [](QTableWidget* table, const nlohmann::json& rows) {
+    table->setRowCount(static_cast<int>(rows.size()));
+    for (int row = 0; row < table->rowCount(); ++row) {
+      const nlohmann::json& line = rows[static_cast<std::size_t>(row)];
+      for (int c = 0; c < std::min(table->columnCount(), static_cast<int>(line.size())); ++c)
+        setText(table, row, c, fromCore(line[static_cast<std::size_t>(c)].get<std::string>()));
+    }
+  };
+  name_->setText(fromCore(typed.value("name", "")));
+  chain_->setText(fromCore(typed.value("chain", "")));
+  fill(axes_, typed.value("axes", nlohmann::json::array()));
+  fill(points_, typed.value("points", nlohmann::json::array()));
+  const nlohmann::json roles = typed.value("roles", nlohmann::json::object());
+  for (int row = 0; row < sensors_->rowCount(); ++row) {
+    const auto chosen = roles.find(textAt(sensors_, row, 0).toStdString());
+    auto* role = qobject_cast<QComboBox*>(sensors_->cellWidget(row, 2));
+    if (chosen == roles.end() || role == nullptr) continue;
+    role->setCurrentIndex(std::max(0, role->findData(fromCore(chosen->get<std::string>()))));
+    sayRoleIsStated(row);
+  }
 }
 
 nlohmann::json MachinePage::edited() const {
@@ -422,25 +487,8 @@ void MachinePage::apply() {
     callout()->show(Tone::Bad, QString::fromUtf8(e.what()));
     return;
   }
-  edited_ = false;
+  session().dropDraft(draft_name);
   context().undo.push(new MachineCommand(session(), machine));
-}
-
-bool MachinePage::mayBeLeft() {
-  if (!edited_) return true;
-  QMessageBox box(QMessageBox::Question, tr("Machine"), tr("The machine has changes that are not applied."),
-                  QMessageBox::Apply | QMessageBox::Discard | QMessageBox::Cancel, this);
-  box.setDefaultButton(QMessageBox::Apply);
-  switch (box.exec()) {
-    case QMessageBox::Apply:
-      apply();
-      return !edited_;
-    case QMessageBox::Discard:
-      edited_ = false;
-      return true;
-    default:
-      return false;
-  }
 }
 
 std::vector<Exportable> MachinePage::exportables() {

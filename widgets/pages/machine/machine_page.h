@@ -29,10 +29,14 @@ class MachinePage : public Page {
   /// Column of the log, what it is taken for, and from where that is known.
   [[nodiscard]] QTableWidget* sensors() const { return sensors_; }
 
-  [[nodiscard]] bool mayBeLeft() override;
-
  private:
   void markEdited();
+  void discard();
+  /// Everything that stands in the fields, whether it can be read or not; and back.
+  [[nodiscard]] nlohmann::json typed() const;
+  void showTyped(const nlohmann::json& typed);
+  /// What the fields of this page describe: the machine without what has an editor of its own.
+  [[nodiscard]] nlohmann::json base() const;
   void apply();
   void suggestPoints();
   void showSuggestion(const PlacementAnswer& answer);
@@ -41,6 +45,7 @@ class MachinePage : public Page {
   QWidget* makeSensorTab();
   void showSensors();
   void stateRole(int row);
+  void sayRoleIsStated(int row);
 
   QLineEdit* name_;
   QLineEdit* chain_;
@@ -56,7 +61,6 @@ class MachinePage : public Page {
   QPushButton* discard_;
   QPushButton* original_;
   bool filling_ = false;
-  bool edited_ = false;  ///< what is typed is not applied yet
 };
 
 /// Sentences about what the description lacks for which use.

@@ -148,19 +148,17 @@ void CycleModelPage::fit(bool store) {
   const auto list = results_.touches();
   if (snapshot.campaign == nullptr || list == nullptr) return;
   const HoleCycleOptions options = holeOptions();
+  const Artefact* artefact = artefactOf(*snapshot.campaign, list.get());
+  const char* model = artefact != nullptr && artefact->kind == "hole_bar" ? "hole-cycles" : "ball-cycles";
+  const PendingResult pending = session().begin("fit", {{"model", model}, {"options", optionsJson()}});
   run(tr("Fitting all cycles"),
-      [this, snapshot, list, options, store, json = optionsJson(),
-       key = results_.key()](JobContext& job) -> std::function<void()> {
+      [this, snapshot, list, options, store, pending, key = results_.key()](JobContext& job) -> std::function<void()> {
         auto evaluation =
             std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, options, {}, job));
-        return [this, evaluation, store, json, key] {
-          if (key != results_.key()) return refresh();  // of inputs that are no more
-          evaluation_ = evaluation;
-          if (const CycleEvaluation* cycles = cyclesOf(evaluation.get()); cycles != nullptr && store) {
-            session().storeResult(
-                "fit", {{"model", evaluation->hole_cycles.empty() ? "ball-cycles" : "hole-cycles"}, {"options", json}},
-                cyclesJson(*cycles));
-          }
+        return [this, evaluation, store, pending, key] {
+          const CycleEvaluation* cycles = cyclesOf(evaluation.get());
+          if (store && cycles != nullptr) session().finish(pending, cyclesJson(*cycles));
+          if (key == results_.key()) evaluation_ = evaluation;  // else of inputs that are no more
           refresh();
         };
       });

@@ -151,18 +151,18 @@ void TouchCapturePage::evaluate(bool store) {
   const auto list = results_.touches();
   if (snapshot.campaign == nullptr || list == nullptr) return;
   run(tr("Checking the touches"),
-      [this, snapshot, list, store, key = results_.key()](JobContext& job) -> std::function<void()> {
+      [this, snapshot, list, store, key = results_.key(),
+       pending = session().begin("check")](JobContext& job) -> std::function<void()> {
         auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, {}, {}, job));
-        return [this, evaluation, store, key] {
-          if (key != results_.key()) return refresh();  // of inputs that are no more
-          results_.set(key, evaluation);
+        return [this, evaluation, store, key, pending] {
+          if (key == results_.key()) results_.set(key, evaluation);  // else of inputs that are no more
           if (store) {
             nlohmann::json counts = nlohmann::json::object();
             for (const TouchVerdict& v : allVerdicts(*evaluation)) {
               const std::string name = stateName(v.state).toStdString();
               counts[name] = counts.value(name, 0) + 1;
             }
-            session().storeResult("check", nlohmann::json::object(), {{"touches", counts}});
+            session().finish(pending, {{"touches", counts}});
           }
           refresh();
         };

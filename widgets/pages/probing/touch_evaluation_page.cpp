@@ -123,16 +123,18 @@ void TouchEvaluationPage::evaluate() {
   const auto list = results_.touches();
   if (snapshot.campaign == nullptr || list == nullptr) return;
   run(tr("Evaluating the touches"),
-      [this, snapshot, list, key = results_.key()](JobContext& job) -> std::function<void()> {
+      [this, snapshot, list, key = results_.key(),
+       pending = session().begin("evaluate")](JobContext& job) -> std::function<void()> {
         JobContext first = job.part(0.0, 0.5);
         JobContext second = job.part(0.5, 1.0);
         const CampaignEvaluation evaluation = evaluateCampaign(*snapshot.campaign, {}, first);
         auto details = std::make_shared<Details>(detailsOf(snapshot, *list, second));
-        return [this, payload = payloadOf(evaluation), details, key] {
-          if (key != results_.key()) return refresh();  // of inputs that are no more
-          details_ = *details;
-          results_.set(key, details_.evaluation);
-          session().storeResult("evaluate", nlohmann::json::object(), payload);
+        return [this, payload = payloadOf(evaluation), details, key, pending] {
+          if (key == results_.key()) {  // else of inputs that are no more
+            details_ = *details;
+            results_.set(key, details_.evaluation);
+          }
+          session().finish(pending, payload);
           refresh();
         };
       });

@@ -123,7 +123,7 @@ ReportOptions ReportPage::options() const {
     o.story = std::make_shared<const nlohmann::json>(searched->payload);
   o.search.accept = choice.added;
   o.search.reject = choice.rejected;
-  const nlohmann::json fit = model.setting(fit_options_key, nlohmann::json::object());
+  const nlohmann::json fit = model.campaignSetting(fit_options_key, nlohmann::json::object());
   if (fit.is_object()) {
     if (fit.contains("points")) o.fit.points = fit["points"].get<std::vector<std::string>>();
     o.fit.robust = static_cast<RobustLoss>(fit.value("robust", 0));
@@ -270,24 +270,22 @@ void ReportPage::write() {
   if (!canReport(*session().campaign(), observations.has_value()) || context().jobs.busy()) return;
   session().setSetting("operator", operator_->text().trimmed().toStdString());
   const std::int64_t campaign = session().campaignId();
-  const std::int64_t visit = session().visit();
   const std::string name = "reports/report-" + std::to_string(campaign) + ".html";
   auto campaign_copy = std::make_shared<Campaign>(*session().snapshot().campaign);
   // What the user excluded is marked in the observations.
   if (campaign_copy->observations) campaign_copy->observations = observations;
   Job job;
   job.title = tr("Writing the report");
-  job.work = [this, visit, name, campaign_copy, asked = options(), depends = dependencies(),
+  job.work = [this, name, campaign_copy, asked = options(),
+              pending = session().begin(result_kind, {{"depends", dependencies()}}),
               choice = DiscrepancyChoice::of(session()), effects_file = DiscrepancyChoice::file(session()),
               target = session().folder() / name](JobContext& progress) -> std::function<void()> {
     const std::string html = campaignReportHtml(*choice.applied(campaign_copy, effects_file), asked, progress);
     progress.throwIfCancelled();
     std::filesystem::create_directories(target.parent_path());
     writeFileAtomically(target, html);
-    return [this, visit, name, depends, bytes = html.size()] {
-      if (session().visit() != visit) return;
-      session().storeResult(result_kind, {{"depends", depends}}, {{"file", name}, {"bytes", bytes}});
-      refresh();
+    return [this, name, pending, bytes = html.size()] {
+      if (session().finish(pending, {{"file", name}, {"bytes", bytes}})) refresh();
     };
   };
   job.failed = [this](const QString& sentence) {

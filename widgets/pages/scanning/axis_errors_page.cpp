@@ -144,16 +144,17 @@ void AxisErrorsPage::fit(bool store) {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr || !session().state("evaluate").there) return;
   run(tr("Finding the six errors"),
-      [this, snapshot, store, key = results_.key(), model = chosenModel()](JobContext& job) -> std::function<void()> {
+      [this, snapshot, store, key = results_.key(), model = chosenModel(),
+       pending = session().begin("fit", {{"model", "axis-errors"}, {"scan_model", chosenModel()}})](
+          JobContext& job) -> std::function<void()> {
         JobContext first = job.part(0.0, store ? 0.5 : 1.0);
         JobContext second = job.part(0.5, 1.0);
         auto evaluation = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, model, first));
         nlohmann::json payload;
         if (store) payload = evaluateScans(*snapshot.campaign, model, second).details;
-        return [this, evaluation, payload, store, key, model] {
-          if (key != results_.key()) return;
-          results_.set(model, evaluation);
-          if (store) session().storeResult("fit", {{"model", "axis-errors"}, {"scan_model", model}}, payload);
+        return [this, evaluation, payload, store, key, model, pending] {
+          if (key == results_.key()) results_.set(model, evaluation);  // else of inputs that are no more
+          if (store) session().finish(pending, payload);
           refresh();
         };
       });

@@ -70,17 +70,16 @@ void ProfilerCalibrationPage::evaluate(bool store) {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr) return;
   run(store ? tr("Evaluating the scans") : tr("Reading the evaluation"),
-      [this, snapshot, store, key = results_.key(),
+      [this, snapshot, store, key = results_.key(), pending = session().begin("evaluate"),
        model = results_.modelOfMachine()](JobContext& job) -> std::function<void()> {
         JobContext first = job.part(0.0, store ? 0.5 : 1.0);
         JobContext second = job.part(0.5, 1.0);
         auto details = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, "", first));
         nlohmann::json payload;
         if (store) payload = payloadOf(evaluateCampaign(*snapshot.campaign, {}, second));
-        return [this, details, payload, store, key, model] {
-          if (key != results_.key()) return;
-          results_.set(model, details);
-          if (store) session().storeResult("evaluate", nlohmann::json::object(), payload);
+        return [this, details, payload, store, key, model, pending] {
+          if (key == results_.key()) results_.set(model, details);  // else of inputs that are no more
+          if (store) session().finish(pending, payload);
           refresh();
         };
       });

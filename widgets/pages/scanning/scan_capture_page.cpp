@@ -131,13 +131,13 @@ std::string ScanCapturePage::referenceOf(const std::string& cloud) const {
 void ScanCapturePage::check() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr) return;
-  run(tr("Checking the scans"), [this, snapshot](JobContext& job) -> std::function<void()> {
-    const nlohmann::json payload = payloadOfScanChecks(checkScans(*snapshot.campaign, job));
-    return [this, payload] {
-      session().storeResult("check", nlohmann::json::object(), payload);
-      refresh();
-    };
-  });
+  run(tr("Checking the scans"),
+      [this, snapshot, pending = session().begin("check")](JobContext& job) -> std::function<void()> {
+        const nlohmann::json payload = payloadOfScanChecks(checkScans(*snapshot.campaign, job));
+        return [this, pending, payload] {
+          if (session().finish(pending, payload)) refresh();
+        };
+      });
 }
 
 void ScanCapturePage::refresh() {

@@ -7,13 +7,14 @@
 #include <QLineEdit>
 #include <QVBoxLayout>
 
+#include "widgets/commands/campaign_undo.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/scanning/cloud_painter.h"
 
 namespace spindrift::gui {
 
-ScanMaskBar::ScanMaskBar(View3D* view, SessionModel& session, QUndoStack& undo, QWidget* parent)
+ScanMaskBar::ScanMaskBar(View3D* view, SessionModel& session, CampaignUndo& undo, QWidget* parent)
     : QWidget(parent), session_(session), undo_(undo), painter_(new CloudPainter(view)) {
   auto* rows = new QVBoxLayout(this);
   rows->setContentsMargins(0, 0, 0, 0);

@@ -3,7 +3,6 @@
 // is kept in the session with its reason; results that used the scan turn outdated.
 #pragma once
 
-#include <QUndoStack>
 #include <QWidget>
 
 #include "core/scanning/painted_mask.h"
@@ -15,6 +14,7 @@ class QPushButton;
 
 namespace spindrift::gui {
 
+class CampaignUndo;
 class CloudPainter;
 class Segments;
 class View3D;
@@ -22,7 +22,7 @@ class View3D;
 class ScanMaskBar : public QWidget {
   Q_OBJECT
  public:
-  ScanMaskBar(View3D* view, SessionModel& session, QUndoStack& undo, QWidget* parent = nullptr);
+  ScanMaskBar(View3D* view, SessionModel& session, CampaignUndo& undo, QWidget* parent = nullptr);
   /// The scan that is shown, as the list names it; empty: none.
   void setCloud(const QString& cloud);
   /// Item and reason of the mask of the scan; empty if nothing was painted.
@@ -45,7 +45,7 @@ class ScanMaskBar : public QWidget {
   void refresh();
 
   SessionModel& session_;
-  QUndoStack& undo_;
+  CampaignUndo& undo_;
   QString cloud_;
   CloudPainter* painter_;
   Segments* tools_;

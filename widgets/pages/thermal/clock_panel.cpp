@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "widgets/commands/campaign_undo.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/models/session_model.h"
@@ -39,7 +40,7 @@ class ClockCommand : public QUndoCommand {
 
 }  // namespace
 
-ClockPanel::ClockPanel(SessionModel& session, QUndoStack& undo, QWidget* parent)
+ClockPanel::ClockPanel(SessionModel& session, CampaignUndo& undo, QWidget* parent)
     : QWidget(parent), session_(session), undo_(undo) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);

@@ -3,7 +3,6 @@
 // depends on them.
 #pragma once
 
-#include <QUndoStack>
 #include <QWidget>
 
 class QComboBox;
@@ -13,13 +12,14 @@ class QPushButton;
 namespace spindrift::gui {
 
 class Callout;
+class CampaignUndo;
 class RowsModel;
 class SessionModel;
 
 class ClockPanel : public QWidget {
   Q_OBJECT
  public:
-  ClockPanel(SessionModel& session, QUndoStack& undo, QWidget* parent = nullptr);
+  ClockPanel(SessionModel& session, CampaignUndo& undo, QWidget* parent = nullptr);
   void refresh();
   void estimate();
   [[nodiscard]] RowsModel* rows() const { return rows_; }
@@ -31,7 +31,7 @@ class ClockPanel : public QWidget {
   void change(double offset_s, double sigma_s, const QString& how);
 
   SessionModel& session_;
-  QUndoStack& undo_;
+  CampaignUndo& undo_;
   bool filling_ = false;
   QComboBox* source_;
   QDoubleSpinBox* offset_;

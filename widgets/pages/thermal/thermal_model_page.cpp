@@ -272,14 +272,15 @@ void ThermalModelPage::identify(bool store) {
   if (series_ == nullptr) return;
   const IdentifyRequest asked = request();
   run(tr("Identifying the model"),
-      [this, series = series_, asked, store, json = optionsJson(),
-       folder = loaded_](JobContext& job) -> std::function<void()> {
+      [this, series = series_, asked, store, json = optionsJson(), folder = loaded_,
+       pending = session().begin("thermal", {{"model", "thermal"}, {"options", optionsJson()}})](
+          JobContext& job) -> std::function<void()> {
         auto result = std::make_shared<IdentifyResult>(identifyThermalModel(*series, asked, job));
-        return [this, result, store, json, folder] {
+        return [this, result, store, json, folder, pending] {
+          if (store) session().finish(pending, result->json());
           if (folder != loaded_) return;
           result_ = result;
           result_options_ = json;
-          if (store) session().storeResult("thermal", {{"model", "thermal"}, {"options", json}}, result->json());
           refresh();
         };
       });

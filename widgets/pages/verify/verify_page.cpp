@@ -249,16 +249,16 @@ void VerifyPage::compare(bool store) {
   const bool same = folder == session().campaign()->folder;
   run(tr("Comparing before and after"),
       [this, json, folder, request, store, same, first = *before, snapshot = session().snapshot(),
-       campaign = session().campaign()->folder.string()](JobContext& job) -> std::function<void()> {
+       pending = session().begin("verify", {{"options", json}})](JobContext& job) -> std::function<void()> {
         const Campaign second = same ? *snapshot.campaign : Campaign::read(folder);
         const ObservationSet after = allObservationsOf(second, {}, {}, job);
         auto result =
             std::make_shared<VerifyResult>(verifyCampaigns(*snapshot.campaign, first, second, after, request));
-        return [this, result, json, store, campaign] {
-          if (session().campaign() == nullptr || campaign != session().campaign()->folder.string()) return;
+        return [this, result, json, store, pending] {
+          if (store) session().finish(pending, result->json());
+          if (!session().atHand(pending)) return;
           result_ = result;
           result_options_ = json;
-          if (store) session().storeResult("verify", {{"options", json}}, result->json());
           refresh();
         };
       });

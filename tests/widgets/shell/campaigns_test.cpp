@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Two campaigns in one session: what was worked out, changed or taken back for one never ends up in the other.
+#include <QPushButton>
+#include <QTest>
+
+#include "tests/widgets/pages/story_support.h"
+#include "widgets/commands/commands.h"
+#include "widgets/pages/page.h"
+#include "widgets/shell/tour.h"
+
+namespace spindrift::gui {
+namespace {
+
+const QString reading = QStringLiteral("M3/P2/EZ");
+
+class CampaignsTest : public StoryTest {
+ protected:
+  /// Opens both; the first is at hand.
+  void openTwo() {
+    open(writeStoryCampaign(folder_, Hidden::SpindleGrowth), StepId::Discrepancy);
+    first_ = session().campaignId();
+    const std::filesystem::path other = folder_ / "other";
+    std::filesystem::copy(session().campaign()->folder, other, std::filesystem::copy_options::recursive);
+    testing::writeFile(other / "note.txt", "so that its content is another");
+    window_->addCampaign(QString::fromStdString(other.string()));
+    wait();
+    second_ = session().campaignId();
+    ASSERT_NE(first_, second_);
+    ASSERT_EQ(session().campaigns().size(), 2U);
+    select(first_);
+  }
+  void select(std::int64_t campaign) {
+    session().selectCampaign(campaign);
+    QTest::qWait(1);
+  }
+  SessionModel& session() { return window_->session(); }
+
+  std::int64_t first_ = 0;
+  std::int64_t second_ = 0;
+};
+
+TEST_F(CampaignsTest, AResultIsFiledUnderTheCampaignItWasStartedFor) {
+  openTwo();
+  const PendingResult pending = session().begin("fit", {{"model", "test"}});
+  EXPECT_TRUE(session().atHand(pending));
+  select(second_);
+  EXPECT_FALSE(session().atHand(pending));
+  EXPECT_FALSE(session().finish(pending, {{"value", 1}})) << "nothing for the page at hand to show";
+  EXPECT_FALSE(session().state("fit").there) << "of the second campaign";
+  select(first_);
+  ASSERT_TRUE(session().state("fit").there);
+  EXPECT_TRUE(session().state("fit").current);
+  EXPECT_EQ(session().latest("fit")->payload.at("value"), 1);
+  EXPECT_EQ(session().latest("fit")->provenance.options.at("model"), "test");
+}
+
+TEST_F(CampaignsTest, WhatChangesWhileAResultIsWorkedOutMakesItOutdated) {
+  openTwo();
+  const PendingResult pending = session().begin("fit");
+  window_->undoStack().push(new ExcludeCommand(session(), {reading}, QStringLiteral("disturbed")));
+  EXPECT_TRUE(session().finish(pending, {{"value", 1}}));
+  EXPECT_TRUE(session().state("fit").there);
+  EXPECT_FALSE(session().state("fit").current) << "it was made from all readings";
+  window_->undoStack().undo();
+  EXPECT_TRUE(session().state("fit").current);
+}
+
+TEST_F(CampaignsTest, AnotherSessionGetsNothingOfWhatWasStartedBefore) {
+  openTwo();
+  const PendingResult pending = session().begin("fit");
+  const QString folder = QString::fromStdString(session().folder().string());
+  window_->closeSession();
+  EXPECT_FALSE(session().finish(pending, {{"value", 1}}));
+  window_->open(folder);
+  wait();
+  EXPECT_FALSE(session().finish(pending, {{"value", 1}})) << "opened again: what was given up stays given up";
+  EXPECT_FALSE(session().state("fit").there);
+}
+
+TEST_F(CampaignsTest, ACampaignThatIsGoneTakesNoResult) {
+  openTwo();
+  const PendingResult pending = session().begin("fit");
+  select(second_);
+  session().session()->removeCampaign(first_);
+  EXPECT_FALSE(session().finish(pending, {{"value", 1}}));
+  EXPECT_TRUE(session().session()->results(second_).empty());
+}
+
+TEST_F(CampaignsTest, ChoosingAnotherCampaignInTheMiddleOfAJobLosesAndMixesNothing) {
+  openTwo();
+  // Every step whose page works something out for this campaign.
+  int started = 0;
+  for (const StepId step : {StepId::Model, StepId::Discrepancy, StepId::Compensate, StepId::Report}) {
+    select(first_);
+    wait();
+    window_->workflow().goTo(step);
+    wait();
+    const std::size_t before = session().session()->results(first_).size();
+    window_->currentPage()->runAll();
+    if (!window_->jobs().busy()) continue;
+    ++started;
+    select(second_);
+    wait();
+    EXPECT_TRUE(session().session()->results(second_).empty()) << stepTitle(step).toStdString();
+    EXPECT_GT(session().session()->results(first_).size(), before) << stepTitle(step).toStdString() << " was lost";
+    select(first_);
+    wait();
+    for (const StoredResult& r : session().session()->results(first_))
+      EXPECT_TRUE(session().session()->isCurrent(r)) << r.kind;
+  }
+  EXPECT_GE(started, 3);
+}
+
+TEST_F(CampaignsTest, UndoBelongsToTheCampaignItWasDoneOn) {
+  openTwo();
+  window_->undoStack().push(new ExcludeCommand(session(), {reading}, QStringLiteral("disturbed")));
+  nlohmann::json machine = session().campaign()->machine.source;
+  machine["name"] = "changed";
+  window_->undoStack().push(new MachineCommand(session(), machine));
+  ASSERT_EQ(window_->undoStack().count(), 2);
+  select(second_);
+  EXPECT_EQ(window_->undoStack().count(), 0);
+  EXPECT_FALSE(window_->undoStack().canUndo());
+  window_->undoStack().push(new ExcludeCommand(session(), {reading}, QStringLiteral("of the second")));
+  select(first_);
+  ASSERT_EQ(window_->undoStack().count(), 2) << "what was done before is still there";
+  EXPECT_EQ(session().campaign()->machine.name, "changed");
+  window_->undoStack().undo();
+  window_->undoStack().undo();
+  EXPECT_NE(session().campaign()->machine.name, "changed");
+  EXPECT_TRUE(session().excluded().empty());
+  EXPECT_FALSE(window_->undoStack().canUndo());
+  select(second_);
+  EXPECT_TRUE(session().excluded().contains(reading)) << "the undo of the first left it alone";
+  EXPECT_FALSE(session().machineEdited());
+  // Adding a campaign chooses it; the changes of the one before must not be taken back on it.
+  window_->undoStack().push(new MachineCommand(session(), machine));
+  const std::filesystem::path third = folder_ / "third";
+  std::filesystem::copy(session().campaign()->folder, third, std::filesystem::copy_options::recursive);
+  testing::writeFile(third / "note.txt", "the third");
+  window_->addCampaign(QString::fromStdString(third.string()));
+  wait();
+  ASSERT_NE(session().campaignId(), second_);
+  EXPECT_FALSE(window_->undoStack().canUndo());
+}
+
+TEST_F(CampaignsTest, OptionsOfTheModelBelongToTheCampaign) {
+  openTwo();
+  session().setSetting("nine-parameter", {{"state", "M5"}});  // as earlier versions kept them
+  EXPECT_EQ(session().campaignSetting("nine-parameter", nullptr).at("state"), "M5");
+  session().setSetting(session().campaignKey("nine-parameter"), {{"state", "M7"}});
+  EXPECT_EQ(session().campaignSetting("nine-parameter", nullptr).at("state"), "M7");
+  select(second_);
+  EXPECT_EQ(session().campaignSetting("nine-parameter", nullptr).at("state"), "M5");
+}
+
+}  // namespace
+}  // namespace spindrift::gui
