@@ -36,9 +36,16 @@ function(spindrift_core_library name)
   add_library(spindrift_${name} STATIC ${ARG_SOURCES})
   add_library(Spindrift::${name} ALIAS spindrift_${name})
   target_link_libraries(spindrift_${name} PUBLIC spindrift_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  target_precompile_headers(spindrift_${name} REUSE_FROM spindrift_core_headers)
   if(ARG_SYSTEM)
     target_include_directories(spindrift_${name} SYSTEM PRIVATE ${ARG_SYSTEM})
   endif()
+endfunction()
+
+# Code of the tests themselves runs once. Not -O0: the linker may take a template that both a test and a library hold from the
+# test.
+function(spindrift_like_a_test name)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # spindrift_test(<name> SOURCES a_test.cpp ... LINK lib ... [TIMEOUT seconds] [LABELS l ...])
@@ -47,6 +54,8 @@ function(spindrift_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_test_support)
+  spindrift_like_a_test(${name})
+  target_precompile_headers(${name} REUSE_FROM spindrift_test_headers)
   target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
                                              SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
@@ -64,6 +73,10 @@ function(spindrift_benchmark name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_options)
+  # Qt's flags differ.
+  if(NOT Spindrift::widgets IN_LIST ARG_LINK)
+    target_precompile_headers(${name} REUSE_FROM spindrift_core_headers)
+  endif()
   target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
                                              SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/benchmarks)
