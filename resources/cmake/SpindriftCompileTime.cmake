@@ -73,15 +73,14 @@ set(SPINDRIFT_QT_HEADERS
     <QVBoxLayout>
     <QWidget>)
 
-# spindrift_precompiled(<name> HEADERS h ... LINK lib ... [OPTIONS o ...])
+# spindrift_precompiled(<name> HEADERS h ... LINK lib ...)
 # A target that holds nothing but a precompiled header, for targets of the same flags to reuse. g++ takes a precompiled header
 # only if every macro that was defined for it is defined alike, so LINK is what all of those targets have in common.
 function(spindrift_precompiled name)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LINK;OPTIONS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINK" ${ARGN})
   file(CONFIGURE OUTPUT ${name}.cpp CONTENT "// Made by CMake: a target needs a source.\n" @ONLY)
   add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   target_link_libraries(${name} PRIVATE spindrift_options ${ARG_LINK})
-  target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
   set_target_properties(${name} PROPERTIES AUTOMOC OFF AUTORCC OFF)
 endfunction()

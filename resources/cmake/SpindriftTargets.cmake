@@ -42,19 +42,12 @@ function(spindrift_core_library name)
   endif()
 endfunction()
 
-# Code of the tests themselves runs once. Not -O0: the linker may take a template that both a test and a library hold from the
-# test.
-function(spindrift_like_a_test name)
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-endfunction()
-
 # spindrift_test(<name> SOURCES a_test.cpp ... LINK lib ... [TIMEOUT seconds] [LABELS l ...])
 # One GoogleTest program, registered with ctest as <name>.
 function(spindrift_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;LABELS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_test_support)
-  spindrift_like_a_test(${name})
   target_precompile_headers(${name} REUSE_FROM spindrift_test_headers)
   target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
                                              SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")

@@ -3,7 +3,6 @@ find_package(Qt6 6.4 REQUIRED COMPONENTS Widgets Test)
 # Without Qt6::Test, which gives every folder a macro of its own.
 spindrift_precompiled(spindrift_widget_test_headers HEADERS ${SPINDRIFT_CORE_HEADERS} ${SPINDRIFT_TEST_HEADERS} ${SPINDRIFT_QT_HEADERS}
                       LINK Spindrift::theme Spindrift::base Qt6::Widgets GTest::gtest GTest::gmock)
-spindrift_like_a_test(spindrift_widget_test_headers)
 # A main() that makes a QApplication on the offscreen platform; stands in for that of spindrift_test_support.
 add_library(spindrift_widget_test_support STATIC ${CMAKE_SOURCE_DIR}/tests/widgets/support/widget_test_main.cpp
                                                   ${CMAKE_SOURCE_DIR}/tests/widgets/support/event_loop_watch.cpp
@@ -17,7 +16,6 @@ function(spindrift_widget_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_widget_test_support)
-  spindrift_like_a_test(${name})
   target_precompile_headers(${name} REUSE_FROM spindrift_widget_test_headers)
   target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
                                              SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
