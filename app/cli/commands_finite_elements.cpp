@@ -14,7 +14,7 @@
 namespace spindrift::cli {
 namespace {
 
-struct ImportArguments {
+struct MapArguments {
   std::string result;
   std::string map;
   std::string out;
@@ -39,7 +39,7 @@ std::pair<std::string, std::string> pointAndNodes(const std::string& text) {
   return {std::string(trimmed(text.substr(0, equals))), text.substr(equals + 1)};
 }
 
-void takeNodes(const ImportArguments& arguments, FeMap& map) {
+void takeNodes(const MapArguments& arguments, FeMap& map) {
   if (arguments.tools.empty() && arguments.tables.empty()) return;
   if (arguments.tools.empty() || arguments.tables.empty()) {
     throw InputError("only one of tool and table is named; allowed: --tool and --table.");
@@ -86,7 +86,7 @@ void takeNodes(const ImportArguments& arguments, FeMap& map) {
   }
 }
 
-FeMap mapOf(const ImportArguments& arguments) {
+FeMap mapOf(const MapArguments& arguments) {
   FeMap map;
   if (!arguments.map.empty()) map = FeMap::read(arguments.map);
   if (!arguments.result.empty()) map.result = arguments.result;
@@ -120,7 +120,7 @@ FeMap mapOf(const ImportArguments& arguments) {
   return map;
 }
 
-CommandResult import(const ImportArguments& arguments, const ReaderOfMap& open, JobContext& job) {
+CommandResult import(const MapArguments& arguments, const ReaderOfMap& open, JobContext& job) {
   const FeMap map = mapOf(arguments);
   const FeDeviation fe = feDeviation(
       map, [&](const std::filesystem::path& file) { return open(file, map); }, job);
@@ -153,7 +153,7 @@ CommandResult import(const ImportArguments& arguments, const ReaderOfMap& open, 
 void addFiniteElementCommands(CLI::App& app, CommandLine& line, const ReaderOfMap& open) {
   CLI::App* group = app.add_subcommand("simulation", "Results of other simulation programs");
   group->require_subcommand(1);
-  auto arguments = std::make_shared<ImportArguments>();
+  auto arguments = std::make_shared<MapArguments>();
   CLI::App* command = addCommand(*group, line, "import",
                                  "Write simulation.csv from displacements of finite elements: tool minus table, in MCF",
                                  [arguments, open](JobContext& job) { return import(*arguments, open, job); });

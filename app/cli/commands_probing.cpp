@@ -129,12 +129,12 @@ void addCycle(CLI::App& app, CommandLine& line) {
   command->add_flag("--from-below", a->plan.touch_from_below, "Touch balls from below too (no pole under them)");
 }
 
-struct ImportArguments {
+struct PrintedArguments {
   std::string printed, machine, pattern, out;
 };
 
 void addImport(CLI::App& app, CommandLine& line) {
-  auto a = std::make_shared<ImportArguments>();
+  auto a = std::make_shared<PrintedArguments>();
   CLI::App* command =
       addCommand(app, line, "import-touches", "Turn the text that a measuring programme printed into touches.csv",
                  [a](JobContext&) {
@@ -215,7 +215,7 @@ void addHealth(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
 }
 
-struct StudyArguments {
+struct CycleStudyArguments {
   std::string campaign, artefact, parameter, reference;
   RepeatabilityOptions options;
   std::vector<double> growth;
@@ -223,7 +223,7 @@ struct StudyArguments {
 };
 
 void addStudies(CLI::App& app, CommandLine& line) {
-  auto a = std::make_shared<StudyArguments>();
+  auto a = std::make_shared<CycleStudyArguments>();
   CLI::App* repeatability = addCommand(
       app, line, "repeatability-study", "Repeatability of a probing cycle from many cycles, slow drifts taken out",
       [a](JobContext& job) {
@@ -254,7 +254,7 @@ void addStudies(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   repeatability->add_option("-k,--coverage", a->options.coverage_factor, "Coverage factor")->capture_default_str();
 
-  auto b = std::make_shared<StudyArguments>();
+  auto b = std::make_shared<CycleStudyArguments>();
   CLI::App* compare = addCommand(
       app, line, "compare-reference", "Compare a parameter of the cycles with a reference instrument (grid encoder)",
       [b](JobContext& job) {
@@ -306,7 +306,7 @@ void addStudies(CLI::App& app, CommandLine& line) {
   compare->add_option("--parameter", b->parameter, "Parameter, for example EXX_um_per_m")->required();
   compare->add_option("--artefact", b->artefact, "Id of the artefact");
 
-  auto s = std::make_shared<StudyArguments>();
+  auto s = std::make_shared<CycleStudyArguments>();
   CLI::App* second = addCommand(
       app, line, "second-axis", "Hole bar: what an expanding second axis does, and the evaluation that removes it",
       [s](JobContext& job) {
@@ -351,7 +351,7 @@ void addStudies(CLI::App& app, CommandLine& line) {
       ->delimiter(',');
   second->add_option("--trust", s->trust_um_per_m, "Standard uncertainty of that growth, um/m")->capture_default_str();
 
-  auto g = std::make_shared<StudyArguments>();
+  auto g = std::make_shared<CycleStudyArguments>();
   auto count = std::make_shared<int>(0);
   CLI::App* groups = addCommand(
       app, line, "sensor-groups", "Group temperature sensors by the size of their change", [g, count](JobContext&) {

@@ -195,13 +195,13 @@ void addDesign(CLI::App& app, CommandLine& line) {
   command->add_option("--step", arguments->step_mm, "Size of the STL's facets, mm")->capture_default_str();
 }
 
-struct StudyArguments {
+struct CalibrationStudyArguments {
   std::string campaign;
   std::string scan_model;
   CalibrationStudyOptions options;
 };
 
-CommandResult studyCommand(const StudyArguments& a, JobContext& job) {
+CommandResult studyCommand(const CalibrationStudyArguments& a, JobContext& job) {
   const ScanEvaluation scans = evaluateScanCampaign(Campaign::read(a.campaign), a.scan_model, job);
   CommandResult out;
   out.json = {{"angle_sigma_rad", a.options.angle_sigma_rad},
@@ -260,7 +260,7 @@ CommandResult studyCommand(const StudyArguments& a, JobContext& job) {
 }
 
 void addStudy(CLI::App& app, CommandLine& line) {
-  auto a = std::make_shared<StudyArguments>();
+  auto a = std::make_shared<CalibrationStudyArguments>();
   CLI::App* command = addCommand(app, line, "study-calibration",
                                  "How much errors of the profiler's calibration change the six errors of the axis: "
                                  "Monte Carlo over every scan of a campaign, at the slide's origin and at the artefact",
