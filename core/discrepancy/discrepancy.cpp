@@ -100,6 +100,7 @@ struct Analysis {
   Remainder remainder;
   double clock_offset_s = 0.0;
   double clock_uncertainty_s = 0.0;
+  double simulation_error = 0.0;  ///< of its parts, as estimated
 };
 
 /// True if the noise is another one, so that effects have to be weighed again.
@@ -137,21 +138,12 @@ double simulationError(const ResidualProblem& problem, const ResidualProblem::Nu
   return std::clamp(std::sqrt(sum / static_cast<double>(sizes.size())), 0.5 * stated, largest);
 }
 
-Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
-                 const DiscrepancyPriors& priors, std::shared_ptr<DriverTable> drivers, std::vector<Effect> catalogue,
-                 JobContext& job) {
-  Analysis a{std::move(drivers), std::move(catalogue), {input.tangents.get(), input.observations}, {}, {}, {}, {}};
-  // Absolute values that are said to be predicted exactly: what deviates is none of the simulation's own scale.
-  const bool exact = input.absolute && !(input.simulation_gain_uncertainty > 0.0);
-  // Where a simulator says which of its parameters are uncertain, its parts are not doubted beyond what is stated.
-  const double parts_error = input.tangents ? 0.0 : priors.simulation_error;
-  std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(
-      exact ? 0.0 : std::max(input.simulation_gain_uncertainty, parts_error), priors.clock_s);
-  for (NuisanceColumn& column : a.hypotheses.nuisances(problem)) nuisances.push_back(std::move(column));
-  problem.setNuisances(nuisances);
+/// Noise and effects in turn, under the nuisances that the problem has, until neither changes.
+void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
+           const DiscrepancyPriors& priors, bool exact, JobContext& job) {
   const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);
   problem.setNoise(estimateNoise(problem, problem.y - first.values, false));
-  double simulation_error = exact ? 0.0 : std::max(input.simulation_gain_uncertainty, usual_simulation_error);
+  a.simulation_error = exact ? 0.0 : std::max(input.simulation_gain_uncertainty, usual_simulation_error);
   a.hypotheses.chooseWindows(a.catalogue, problem, [&](const std::string&) {
     return CandidateLibrary::Given{Eigen::MatrixXd(problem.projectedResidual().size(), 0), problem.projectedResidual()};
   });
@@ -160,7 +152,7 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
     job.report(0.1 + 0.25 * round, "weighing effects");
     a.search = std::make_unique<EffectSearch>(problem, *a.drivers, a.catalogue);
     const CandidateLibrary library(*a.search, problem, job);
-    const PosteriorSearch posterior(*a.search, problem, library, options, priors, simulation_error);
+    const PosteriorSearch posterior(*a.search, problem, library, options, priors, a.simulation_error);
     a.posterior = posterior.run(job);
     a.remainder = remainderOf(problem, posterior.given(a.posterior.fit));
     const auto finish = [&] { posterior.weighAgainstUnknown(a.posterior); };
@@ -186,9 +178,9 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
     Eigen::VectorXd left = problem.without(a.posterior.fit.contribution);
     const ResidualProblem::NuisancePart taken = problem.nuisancePart(left);
     left -= taken.values;
-    const double error_before = simulation_error;
-    if (!exact) simulation_error = simulationError(problem, taken, input.simulation_gain_uncertainty);
-    const bool other_error = std::abs(simulation_error - error_before) > 0.01;
+    const double error_before = a.simulation_error;
+    if (!exact) a.simulation_error = simulationError(problem, taken, input.simulation_gain_uncertainty);
+    const bool other_error = std::abs(a.simulation_error - error_before) > 0.01;
     const NoiseModel again = estimateNoise(problem, left, true);
     const bool other_clock = std::abs(a.clock_offset_s - clock_before) > 20.0;
     if (!differs(problem.noise, again) && !other_clock && !other_error && !other_window) {
@@ -196,6 +188,48 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
       break;
     }
     problem.setNoise(again);
+  }
+}
+
+Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
+                 const DiscrepancyPriors& priors, std::shared_ptr<DriverTable> drivers, std::vector<Effect> catalogue,
+                 JobContext& job) {
+  Analysis a{std::move(drivers), std::move(catalogue), {input.tangents.get(), input.observations}, {}, {}, {}, {}};
+  // Absolute values that are said to be predicted exactly: what deviates is none of the simulation's own scale.
+  const bool exact = input.absolute && !(input.simulation_gain_uncertainty > 0.0);
+  // Where a simulator says which of its parameters are uncertain, its parts are not doubted beyond what is stated.
+  const auto nuisancesOf = [&](double parts_error) {
+    std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(
+        exact ? 0.0 : std::max(input.simulation_gain_uncertainty, input.tangents ? 0.0 : parts_error), priors.clock_s);
+    for (NuisanceColumn& column : a.hypotheses.nuisances(problem)) nuisances.push_back(std::move(column));
+    return nuisances;
+  };
+  problem.setNuisances(nuisancesOf(priors.simulation_error));
+  weigh(a, input, problem, options, priors, exact, job);
+  if (exact || input.tangents || !(priors.rough_simulation_error > input.simulation_gain_uncertainty)) return a;
+  // Beside what is missing, an effect may be what a rough simulation leaves: a matter of size, not of something
+  // missing. One that stands alone is told all the same: then that is what is to be put right.
+  const auto sizes = [&] {
+    Eigen::MatrixXd parts(problem.size(), static_cast<Index>(a.posterior.fit.terms.size()));
+    for (Index t = 0; t < parts.cols(); ++t) parts.col(t) = a.posterior.fit.contribution[static_cast<std::size_t>(t)];
+    return Eigen::VectorXd(problem.projected(parts).colwise().squaredNorm());
+  };
+  const Eigen::VectorXd narrow = sizes();
+  const double evidence = a.posterior.evidence - problem.nuisanceLogDeterminant();
+  problem.setNuisances(nuisancesOf(priors.rough_simulation_error));
+  constexpr double followed = 0.6;
+  bool rough = narrow.size() > 1 && (sizes().array() < followed * narrow.array()).any();
+  if (rough) {
+    const CandidateLibrary library(*a.search, problem, job);
+    const PosteriorSearch search(*a.search, problem, library, options, priors, a.simulation_error);
+    const double odds = 2.0 * std::log(priors.rough_simulation / (1.0 - priors.rough_simulation));
+    const EffectPosterior other = search.run(job);
+    rough = !other.fit.terms.empty() && other.evidence - problem.nuisanceLogDeterminant() + odds > evidence;
+  }
+  if (rough) {
+    weigh(a, input, problem, options, priors, exact, job);
+  } else {
+    problem.setNuisances(nuisancesOf(priors.simulation_error));
   }
   return a;
 }

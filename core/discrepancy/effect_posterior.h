@@ -33,8 +33,11 @@ struct DiscrepancyPriors {
   double one_more = 0.4;
   /// Odds of an effect whose main driver is not in the log, beside one that shows what drives it.
   double without_driver = 0.5;
-  /// Standard deviation of the relative error of a part of the simulation that is not worth a name.
+  /// Standard deviation of the relative error of a part of the simulation that is not worth a name; the same of a
+  /// simulation all of whose parts are rough, and how probable such a one is.
   double simulation_error = 0.028;
+  double rough_simulation_error = 0.08;
+  double rough_simulation = 0.3;
   /// Odds of an effect that holds a simpler one as a special case, beside that one; and the part of its amplitude by
   /// which the simpler one may be off in just the way that the wider one can follow.
   double wider = 0.1;

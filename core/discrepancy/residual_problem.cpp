@@ -653,6 +653,7 @@ void ResidualProblem::setNuisances(const std::vector<NuisanceColumn>& columns) {
   // Gram-Schmidt, twice, dropping what depends on the columns before it.
   Eigen::MatrixXd basis(augmented.rows(), augmented.cols());
   Index used = 0;
+  nuisance_log_det_ = 0.0;
   for (Index c = 0; c < augmented.cols(); ++c) {
     Eigen::VectorXd v = augmented.col(c);
     for (int pass = 0; pass < 2; ++pass) {
@@ -661,6 +662,8 @@ void ResidualProblem::setNuisances(const std::vector<NuisanceColumn>& columns) {
     const double norm = v.norm();
     if (!(norm > 1e-7 * before[c]) || !(norm > 0.0)) continue;
     basis.col(used++) = v / norm;
+    const double prior_sigma = columns[static_cast<std::size_t>(c)].prior_sigma;
+    if (prior_sigma > 0.0) nuisance_log_det_ += 2.0 * std::log(norm * prior_sigma);
   }
   q_ = basis.leftCols(used);
   projected_y_ = projected(y);

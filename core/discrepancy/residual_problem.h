@@ -90,6 +90,9 @@ class ResidualProblem {
   /// Sets all nuisances besides the constants; recomputes the projected residual.
   void setNuisances(const std::vector<NuisanceColumn>& columns);
   [[nodiscard]] const std::vector<NuisanceColumn>& nuisances() const noexcept { return nuisances_; }
+  /// ln det(I + S N' P N S) of the whitened nuisances N free of the constants, with their prior standard deviations S:
+  /// what their freedom costs in evidence, to compare one set of priors with another under the same noise.
+  [[nodiscard]] double nuisanceLogDeterminant() const noexcept { return nuisance_log_det_; }
 
   /// Whitened, augmented and orthogonal to the nuisances.
   [[nodiscard]] Eigen::MatrixXd projected(const Eigen::MatrixXd& columns) const;
@@ -168,6 +171,7 @@ class ResidualProblem {
   std::vector<NuisanceColumn> nuisances_;
   Eigen::Index prior_rows_ = 0;
   Eigen::Index constant_count_ = 0;
+  double nuisance_log_det_ = 0.0;
   Eigen::MatrixXd q_;  ///< orthonormal basis of the nuisances, augmented
   Eigen::VectorXd projected_y_;
 };
