@@ -18,7 +18,9 @@
 #include "core/base/text.h"
 #include "core/discrepancy/comparable_rows.h"
 #include "core/discrepancy/discrepancy_numbers.h"
+#include "core/discrepancy/mechanism_choice.h"
 #include "core/discrepancy/places.h"
+#include "core/discrepancy/simulation_closure.h"
 #include "core/discrepancy/simulator_hypotheses.h"
 
 namespace spindrift {
@@ -26,7 +28,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t unit_limit = 3000;
 /// In whitened units: what a parameter may move within its uncertainty and is not worth a run.
 constexpr double not_worth_a_run = 0.3;
 /// The same of the error of a linear prediction, from which on derivatives are taken anew. Where they are a few per
@@ -40,6 +41,8 @@ constexpr double no_influence = 1e-6;
 constexpr double inseparable = 0.98;
 /// Uncertainty after the fit over that before, from which on nothing was learnt of a parameter.
 constexpr double nothing_learnt = 0.9;
+/// Change of a parameter in standard uncertainties from which on the data support it.
+constexpr double supported = 2.0;
 /// rms with the physics over that with the fitted term, up to which they close the gap as well.
 constexpr double as_well = 1.05;
 
@@ -61,61 +64,14 @@ struct Free {
   }
 };
 
-/// The simulator as a function of its free parameters, in whitened units.
-class Closure {
- public:
-  Closure(const DiscrepancyInput& input, const DiscrepancyResult& result, const Simulator& simulator,
-          const std::vector<std::size_t>& rows, JobContext& job)
-      : input_(&input), simulator_(&simulator), job_(&job), problem(input, rows, unit_limit) {
-    problem.setNuisances(problem.simulationNuisances(input.simulation_gain_uncertainty, 0.0));
-    if (result.noise_model) problem.setNoise(*result.noise_model);
-  }
+using Closure = SimulationClosure;
 
-  /// Mean over the units, um or urad.
-  [[nodiscard]] Eigen::VectorXd atUnits(const std::vector<double>& change) const {
-    Eigen::VectorXd out(problem.size());
-    for (Index u = 0; u < problem.size(); ++u) {
-      const std::vector<std::size_t>& rows = problem.unit_rows[static_cast<std::size_t>(u)];
-      double sum = 0.0;
-      for (const std::size_t row : rows) sum += change[row];
-      out[u] = sum / static_cast<double>(rows.size());
-    }
-    return out;
-  }
-  /// What a run changes against the present simulation, projected.
-  [[nodiscard]] Eigen::VectorXd projectedChange(const SimulatorRun& run) const {
-    std::vector<double> change(run.predicted.size());
-    std::size_t missing = 0;
-    for (std::size_t i = 0; i < change.size(); ++i) {
-      change[i] = run.predicted[i] - input_->predicted[i];
-      if (!std::isfinite(input_->predicted[i])) change[i] = 0.0;
-      missing += std::isfinite(change[i]) ? 0 : 1;
-    }
-    if (missing > 0) {
-      throw SimulatorFailed(fmt::format(
-          "the simulation gives no value for {} observations that it predicts with its own parameters.", missing));
-    }
-    return problem.projected(atUnits(change)).col(0);
-  }
-
-  [[nodiscard]] SimulatorRun runAt(const ParameterValues& values) {
-    ++runs;
-    return simulator_->run(values, input_->observations, *job_);
-  }
-  [[nodiscard]] SimulatorRuns runAllAt(const std::vector<ParameterValues>& sets) {
-    runs += sets.size();
-    return runAll(*simulator_, sets, input_->observations, *job_, "running the simulation");
-  }
-
- private:
-  const DiscrepancyInput* input_;
-  const Simulator* simulator_;
-  JobContext* job_;
-
- public:
-  ResidualProblem problem;
-  std::size_t runs = 0;
-};
+/// Throws SimulatorFailed.
+SimulatorRun runAt(Closure& closure, const ParameterValues& values) {
+  SimulatorRuns runs = closure.run({values});
+  if (!runs.failed[0].empty()) throw SimulatorFailed(runs.failed[0]);
+  return std::move(runs.runs[0]);
+}
 
 ParameterValues valuesOf(const std::vector<Free>& free, const double* scaled) {
   ParameterValues out;
@@ -132,7 +88,7 @@ class ClosureCost : public ceres::CostFunction {
   /// `slopes`: projected change per unit of each parameter, empty where it has to be found first.
   ClosureCost(Closure& closure, const std::vector<Free>& free, std::vector<Eigen::VectorXd> slopes)
       : closure_(&closure), free_(&free), slopes_(std::move(slopes)) {
-    set_num_residuals(static_cast<int>(closure.problem.projectedResidual().size() + static_cast<Index>(free.size())));
+    set_num_residuals(static_cast<int>(closure.residual().size() + static_cast<Index>(free.size())));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(free.size()));
   }
 
@@ -142,7 +98,7 @@ class ClosureCost : public ceres::CostFunction {
       const Index rows = change.size();
       const auto count = static_cast<Index>(free_->size());
       Eigen::Map<Eigen::VectorXd> out(residuals, rows + count);
-      out.head(rows) = closure_->problem.projectedResidual() - change;
+      out.head(rows) = closure_->residual() - change;
       for (Index k = 0; k < count; ++k) {
         const Free& f = (*free_)[static_cast<std::size_t>(k)];
         const double value = f.start + parameters[0][k] * f.scale();
@@ -177,7 +133,7 @@ class ClosureCost : public ceres::CostFunction {
   [[nodiscard]] Eigen::VectorXd changeAt(const double* scaled) const {
     const std::vector<double> at(scaled, scaled + free_->size());
     if (at == last_at_) return last_change_;
-    last_change_ = closure_->projectedChange(closure_->runAt(valuesOf(*free_, scaled)));
+    last_change_ = closure_->projectedChange(runAt(*closure_, valuesOf(*free_, scaled)));
     last_at_ = at;
     return last_change_;
   }
@@ -207,7 +163,7 @@ class ClosureCost : public ceres::CostFunction {
       value += (*free_)[k].step(value);
       sets.push_back(std::move(values));
     }
-    const SimulatorRuns runs = closure_->runAllAt(sets);
+    const SimulatorRuns runs = closure_->run(sets);
     for (std::size_t i = 0; i < which.size(); ++i) {
       if (!runs.failed[i].empty()) throw SimulatorFailed(runs.failed[i]);
       const Free& f = (*free_)[which[i]];
@@ -271,46 +227,6 @@ Solved solve(Closure& closure, const std::vector<Free>& free, std::vector<double
   return out;
 }
 
-/// The mechanisms behind the effects that were named; a sentence for each that has none.
-std::vector<std::string> mechanismsOf(const DiscrepancyInput& input, const DiscrepancyResult& result,
-                                      const Simulator& simulator, const Closure& closure,
-                                      std::vector<std::string>& warnings) {
-  std::vector<std::string> out;
-  const auto add = [&](const std::string& name) {
-    if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-  };
-  for (const FoundEffect& effect : result.effects) {
-    if (const SimulatorParameter* own = simulator.find(effect.id)) {
-      add(own->name);
-      continue;
-    }
-    // Of several mechanisms the one whose answer explains most of the gap.
-    const SimulatorParameter* best = nullptr;
-    double most = 0.0;
-    for (const SimulatorParameter& p : simulator.parameters()) {
-      if (std::find(p.effects.begin(), p.effects.end(), effect.id) == p.effects.end()) continue;
-      double gain = p.off() ? 1e-6 : 0.0;
-      for (const SimulatorTangent& tangent : input.tangents->tangents) {
-        if (tangent.parameter.name != p.name) continue;
-        const Eigen::VectorXd x = closure.problem.projected(closure.atUnits(tangent.per_unit)).col(0);
-        if (x.squaredNorm() > 0.0) gain += std::pow(x.dot(closure.problem.projectedResidual()), 2) / x.squaredNorm();
-      }
-      if (best != nullptr && gain <= most) continue;
-      best = &p;
-      most = gain;
-    }
-    if (best == nullptr) {
-      warnings.push_back(
-          fmt::format("No parameter of {} is said to cause {}: it stays a fitted term; allowed: a parameter with this "
-                      "id among its \"effects\".",
-                      simulator.file().filename().string(), effect.id));
-    } else {
-      add(best->name);
-    }
-  }
-  return out;
-}
-
 /// Where the fit starts: as the search found it, or by the tangent.
 double startOf(const SimulatorParameter& p, const DiscrepancyResult& result, const Closure& closure,
                const SimulatorTangents& tangents) {
@@ -321,8 +237,8 @@ double startOf(const SimulatorParameter& p, const DiscrepancyResult& result, con
   }
   for (const SimulatorTangent& tangent : tangents.tangents) {
     if (tangent.parameter.name != p.name) continue;
-    const Eigen::VectorXd x = closure.problem.projected(closure.atUnits(tangent.per_unit)).col(0);
-    const double gain = x.dot(closure.problem.projectedResidual()) / std::max(1e-12, x.squaredNorm());
+    const Eigen::VectorXd x = closure.projected(tangent.per_unit);
+    const double gain = x.dot(closure.residual()) / std::max(1e-12, x.squaredNorm());
     return std::clamp(p.value + gain, p.min, p.max);
   }
   return p.value;
@@ -435,6 +351,24 @@ void tellParameters(const std::vector<Free>& free, const Solved& solved, double 
   }
 }
 
+/// What was asked for and these data do not show.
+void tellUnsupported(const std::vector<std::string>& asked, const Simulator& simulator, SimulationUpdate& out) {
+  for (const std::string& name : asked) {
+    const SimulatorParameter* asked_for = simulator.find(name);
+    const auto fitted =
+        std::find_if(out.parameters.begin(), out.parameters.end(),
+                     [&](const FittedSimulatorParameter& p) { return p.parameter.name == asked_for->name; });
+    if (fitted == out.parameters.end() || fitted->no_influence) continue;
+    if (std::abs(fitted->value - fitted->parameter.value) > supported * fitted->standard_uncertainty) continue;
+    const std::string unit = fitted->parameter.printedUnit();
+    out.warnings.push_back(fmt::format(
+        "{} was asked for, but these data do not support it: {} is no more than {:g} standard uncertainties from the "
+        "{} before.",
+        fitted->parameter.name, withUncertainty(fitted->value, fitted->standard_uncertainty, unit), supported,
+        withUncertainty(fitted->parameter.value, 0.0, unit)));
+  }
+}
+
 /// Halves the way from the present values to where the fit starts while the simulator fails there; the sentence of the
 /// first failure, or none.
 std::string retreat(Closure& closure, std::vector<Free>& free) {
@@ -443,7 +377,7 @@ std::string retreat(Closure& closure, std::vector<Free>& free) {
   for (int halving = 0; halving <= most_halvings; ++halving) {
     try {
       const std::vector<double> zero(free.size(), 0.0);
-      static_cast<void>(closure.projectedChange(closure.runAt(valuesOf(free, zero.data()))));
+      static_cast<void>(closure.projectedChange(runAt(closure, valuesOf(free, zero.data()))));
       return failure;
     } catch (const SimulatorFailed& failed) {
       if (failure.empty()) failure = failed.what();
@@ -467,13 +401,13 @@ bool slopesHold(Closure& closure, const std::vector<Free>& free, const Solved& s
   try {
     const ParameterValues here = valuesOf(free, solved.scaled.data());
     const ParameterValues there = valuesOf(free, moved.data());
-    Eigen::VectorXd foretold = Eigen::VectorXd::Zero(closure.problem.projectedResidual().size());
+    Eigen::VectorXd foretold = Eigen::VectorXd::Zero(closure.residual().size());
     for (std::size_t k = 0; k < free.size(); ++k) {
       const std::string& name = free[k].parameter.name;
       foretold += solved.slopes[k] * (there.at(name) - here.at(name));
     }
     const Eigen::VectorXd change =
-        closure.projectedChange(closure.runAt(there)) - closure.projectedChange(closure.runAt(here));
+        closure.projectedChange(runAt(closure, there)) - closure.projectedChange(runAt(closure, here));
     return (change - foretold).norm() < std::max(not_linear, derivatives_hold * foretold.norm());
   } catch (const SimulatorFailed&) {
     return true;  // nothing to learn there
@@ -535,7 +469,9 @@ SimulationUpdate putIntoSimulation(const DiscrepancyInput& input, const Discrepa
                      fmt::format("has no parameter \"{}\"; allowed: {}.", name, joinedList(known, "or")));
   }
   if (options.mechanisms.empty()) {
-    out.mechanisms = mechanismsOf(input, result, simulator, closure, out.warnings);
+    MechanismChoice behind = mechanismsBehind(input, result, simulator);
+    out.mechanisms = std::move(behind.names);
+    out.warnings = std::move(behind.warnings);
   }
   if (out.mechanisms.empty()) {
     out.status = FitStatus::Degenerate;
@@ -574,7 +510,7 @@ SimulationUpdate putIntoSimulation(const DiscrepancyInput& input, const Discrepa
       const auto tangent = std::find_if(tangents.tangents.begin(), tangents.tangents.end(),
                                         [&](const SimulatorTangent& t) { return t.parameter.name == p.name; });
       if (tangent == tangents.tangents.end()) continue;
-      slope = closure.problem.projected(closure.atUnits(tangent->per_unit)).col(0);
+      slope = closure.projected(tangent->per_unit);
       if (slope.norm() * p.standard_uncertainty < not_worth_a_run) continue;
       f.prior_sigma = p.standard_uncertainty;
     }
@@ -605,7 +541,7 @@ SimulationUpdate putIntoSimulation(const DiscrepancyInput& input, const Discrepa
     }
   }
   out.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  out.runs = closure.runs;
+  out.runs = closure.runs();
   if (!solved.usable) {
     out.status = FitStatus::NoConvergence;
     out.message = solved.failure.empty() ? "The fit of the simulator's parameters did not settle: nothing was put in."
@@ -617,18 +553,19 @@ SimulationUpdate putIntoSimulation(const DiscrepancyInput& input, const Discrepa
     out.warnings.push_back("Not all values could be tried; what is found keeps to those that could. " + failure);
   // Priors are data too.
   const double dof =
-      std::max(1.0, static_cast<double>(closure.problem.degreesOfFreedom()) - static_cast<double>(free.size()));
+      std::max(1.0, static_cast<double>(closure.problem().degreesOfFreedom()) - static_cast<double>(free.size()));
   tellParameters(free, solved, std::sqrt(std::max(1.0, solved.cost / dof)), out);
-  SimulatorRun last = closure.runAt(out.values);
-  out.runs = closure.runs;
+  tellUnsupported(options.mechanisms, simulator, out);
+  SimulatorRun last = runAt(closure, out.values);
+  out.runs = closure.runs();
   out.after = last.predicted;
   out.rows = std::move(last.rows);
   tellFigures(input, result, rows, out);
   const DriverTable drivers(input.machine, input.log ? &*input.log : nullptr);
   SimulatorRun changed;
   changed.predicted = out.after;
-  const Eigen::VectorXd left = closure.problem.projectedResidual() - closure.projectedChange(changed);
-  out.where = findPlaces(closure.problem, drivers, left.head(closure.problem.size()));
+  const Eigen::VectorXd left = closure.residual() - closure.projectedChange(changed);
+  out.where = findPlaces(closure.problem(), drivers, left.head(closure.problem().size()));
   out.status = out.improves ? FitStatus::Converged : FitStatus::Rejected;
   out.message = sentenceOf(out);
   out.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
