@@ -583,7 +583,12 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   tellEffects(solution, result);
   tellNoise(problem, analysis.posterior.fit, analysis.remainder, input.observations.rows, result);
   result.noise_model = std::make_shared<const NoiseModel>(problem.noise);
-  analysis.hypotheses.warnAboutTwins(problem, result.warnings);
+  result.twins = analysis.hypotheses.twins(problem);
+  for (const auto& [a, b] : result.twins) {
+    result.warnings.push_back(fmt::format(
+        "{} and {} of the simulation do the same to these readings: no measurement of this kind can tell them apart.",
+        a, b));
+  }
   result.where = findPlaces(problem, *analysis.drivers, problem.projectedResidual().head(problem.size()));
   if (options.suggest && enough && result.verdict == DiscrepancyVerdict::Ambiguous) {
     std::vector<std::string> ambiguous;

@@ -231,6 +231,8 @@ struct DiscrepancyResult {
   std::vector<double> remaining;  ///< per row: what remains and is not noise, um or urad; 0 where nothing is known
   std::shared_ptr<const NoiseModel> noise_model;  ///< as found, for fits that go on from here
   double explained_fraction = 0.0;                ///< of the structured part of the residual
+  /// Names of parameters of the simulator that do the same to these readings, in pairs.
+  std::vector<std::pair<std::string, std::string>> twins;
 
   /// Noise of a component as found; nothing where the component was not fitted.
   [[nodiscard]] const NoiseEstimate* noiseOf(Component component) const;

@@ -145,6 +145,7 @@ nlohmann::json DiscrepancyResult::json() const {
                                                           {"evidence", jsonNumber(r.evidence)}};
   }
   out["remainder"] = remainder_json;
+  if (!twins.empty()) out["twins"] = twins;
   out["explained_fraction"] = jsonNumber(explained_fraction);
   return out;
 }

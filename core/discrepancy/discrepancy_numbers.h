@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks of the input and the numbers of a result: gains with their covariance, rms over rows. Internal to
-// core/discrepancy.
+// core/discrepancy; `evaluateRows` serves reports as well.
 #pragma once
 
 #include <string>

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The missing effect goes into the simulation itself: its mechanism is switched on, its physical parameters and the
-// uncertain others are fitted on the simulator, and the simulator's own new prediction is judged.
+// The missing effect goes into the simulation itself: its mechanism is switched
+// on, its physical parameters and the uncertain others are fitted on the
+// simulator, and the simulator's own new prediction is judged.
 //
-//   minimise  | W [observation - constant(series) - prediction(theta)] |^2 + sum ((theta_k - value_k) / u_k)^2
+//   minimise  | W [observation - constant(series) - prediction(theta)] |^2 +
+//   sum ((theta_k - value_k) / u_k)^2
 //
-// W: whitening under the noise that the search found, free of the constants and of the gain of the simulation within
-// its stated uncertainty. Mechanisms that are put in and parameters that were named are free within their bounds; all
-// others keep their value within the standard uncertainty u. Trust region (Levenberg-Marquardt with bounds, Ceres);
-// derivatives are differences of runs, in parallel, taken anew where the simulator is not linear. Covariance from the
-// Jacobian at the solution, widened by chi-squared where the physics leave more than noise (Birge 1932).
-// Source: Kennedy and O'Hagan 2001 (calibration); GUM 2008, 5.2 (correlated inputs).
+// W: whitening under the noise that the search found, free of the constants and
+// of the gain of the simulation within its stated uncertainty. Mechanisms that
+// are put in and parameters that were named are free within their bounds; all
+// others keep their value within the standard uncertainty u; those of which the
+// data teach nothing keep it as it is. Gauss-Newton with bounds in a trust
+// region, derivatives carried over from the search (simulation_fit.h).
+// Covariance from the Jacobian at the solution, widened by chi-squared where
+// the physics leave more than noise (Birge 1932). Source: Kennedy and O'Hagan
+// 2001 (calibration); GUM 2008, 5.2 (correlated inputs).
 #pragma once
 
 #include <Eigen/Core>
@@ -23,16 +28,18 @@
 namespace spindrift {
 
 struct IntoSimulationOptions {
-  /// Names of the parameters to free; empty: the mechanisms behind the effects named.
+  /// Names of the parameters to free; empty: the mechanisms behind the effects
+  /// named.
   std::vector<std::string> mechanisms;
-  int most_iterations = 12;  ///< of the trust region, in each of its two passes
+  int most_iterations = 12;  ///< of the trust region
 };
 
 struct FittedSimulatorParameter {
   SimulatorParameter parameter;
   double value = 0.0;
   double standard_uncertainty = 0.0;
-  bool put_in = false;        ///< a mechanism or a parameter that was named, with what belongs to it
+  bool put_in = false;        ///< a mechanism or a parameter that was named, with what
+                              ///< belongs to it
   bool at_bound = false;      ///< the data ask for more than is allowed
   bool no_influence = false;  ///< changes no prediction: kept at its value
 };
@@ -60,20 +67,23 @@ struct SimulationUpdate {
   bool improves = false;  ///< on what was held out (on the fitted rows where nothing was)
   bool as_well_as_fitted_term = false;
   std::vector<DisagreementPlace> where;  ///< what the new simulation still does not explain
-  std::size_t runs = 0;                  ///< of the simulator
+  std::size_t runs = 0;                  ///< of the simulator, for the fit
+  std::size_t runs_to_search = 0;        ///< and before it, to see what its parameters do
   double elapsed_s = 0.0;
 
   /// The object "into_simulation" of the JSON of `discrepancy`.
   [[nodiscard]] nlohmann::json json() const;
-  /// Reads what `json` wrote: without predictions, rows and places. Throws nlohmann::json::exception.
+  /// Reads what `json` wrote: without predictions, rows and places. Throws
+  /// nlohmann::json::exception.
   [[nodiscard]] static SimulationUpdate parse(const nlohmann::json& json);
   [[nodiscard]] std::string summary() const;
 };
 
-/// `result` is that of findDiscrepancy on `input`, whose predictions are the simulator's own. Status Converged:
-/// `values` may be used. Degenerate: nothing that was named has a mechanism. Rejected: what was held out is predicted
-/// no better. NoConvergence: the fit did not settle, or runs failed. Throws InputError for an unknown name among the
-/// mechanisms, Cancelled.
+/// `result` is that of findDiscrepancy on `input`, whose predictions are the
+/// simulator's own. Status Converged: `values` may be used. Degenerate: nothing
+/// that was named has a mechanism. Rejected: what was held out is predicted no
+/// better. NoConvergence: the fit did not settle, or runs failed. Throws
+/// InputError for an unknown name among the mechanisms, Cancelled.
 [[nodiscard]] SimulationUpdate putIntoSimulation(const DiscrepancyInput& input, const DiscrepancyResult& result,
                                                  const Simulator& simulator, const IntoSimulationOptions& options,
                                                  JobContext& job);

@@ -186,8 +186,9 @@ void SimulatorHypotheses::describe(FoundEffect& found, double gain, double gain_
   }
 }
 
-void SimulatorHypotheses::warnAboutTwins(const ResidualProblem& problem, std::vector<std::string>& warnings) const {
-  if (tangents_ == nullptr) return;
+std::vector<std::pair<std::string, std::string>> SimulatorHypotheses::twins(const ResidualProblem& problem) const {
+  std::vector<std::pair<std::string, std::string>> out;
+  if (tangents_ == nullptr) return out;
   std::vector<Eigen::VectorXd> columns;
   std::vector<const SimulatorParameter*> parameters;
   for (const SimulatorTangent& tangent : tangents_->tangents) {
@@ -201,12 +202,11 @@ void SimulatorHypotheses::warnAboutTwins(const ResidualProblem& problem, std::ve
   }
   for (std::size_t a = 0; a < columns.size(); ++a) {
     for (std::size_t b = a + 1; b < columns.size(); ++b) {
-      if (std::abs(columns[a].dot(columns[b])) < same_direction) continue;
-      warnings.push_back(fmt::format(
-          "{} and {} of the simulation do the same to these readings: no measurement of this kind can tell them apart.",
-          parameters[a]->name, parameters[b]->name));
+      if (std::abs(columns[a].dot(columns[b])) >= same_direction)
+        out.emplace_back(parameters[a]->name, parameters[b]->name);
     }
   }
+  return out;
 }
 
 }  // namespace spindrift

@@ -46,8 +46,8 @@ class SimulatorHypotheses {
   /// What an effect found says of its parameter: its value with uncertainty, and the window. `gain` and its
   /// uncertainty in units of the parameter.
   void describe(FoundEffect& found, double gain, double gain_uncertainty) const;
-  /// Two that do the same to these readings: a sentence for each pair.
-  void warnAboutTwins(const ResidualProblem& problem, std::vector<std::string>& warnings) const;
+  /// Names of parameters that do the same to these readings, in pairs.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> twins(const ResidualProblem& problem) const;
 
  private:
   const SimulatorTangents* tangents_;

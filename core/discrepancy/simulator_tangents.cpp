@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include "core/base/text.h"
 
@@ -23,6 +27,13 @@ double largestChange(const std::vector<double>& a, const std::vector<double>& b)
     if (std::isfinite(a[i]) && std::isfinite(b[i])) largest = std::max(largest, std::abs(a[i] - b[i]));
   }
   return largest;
+}
+
+/// Observations that are predicted in `base` only.
+std::size_t valuesLost(const std::vector<double>& moved, const std::vector<double>& base) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < base.size(); ++i) count += std::isfinite(base[i]) && !std::isfinite(moved[i]) ? 1 : 0;
+  return count;
 }
 
 std::vector<double> slope(const std::vector<double>& moved, const std::vector<double>& base, double step) {
@@ -51,7 +62,8 @@ std::shared_ptr<WindowedLoad> stepResponse(const SimulatorWindow& window, const 
   return load;
 }
 
-/// Fitted rows as one least-squares problem in stated sigmas, free of the constant of every series.
+/// Fitted rows as one least-squares problem in stated sigmas, free of the
+/// constant of every series.
 class QuickFit {
  public:
   QuickFit(const ObservationSet& observations, const std::vector<double>& base) : rows_(&observations.rows) {
@@ -101,7 +113,8 @@ class QuickFit {
   std::vector<double> residual_;
 };
 
-/// Secants for the parameters that explain most of the gap, if they have to change by much.
+/// Secants for the parameters that explain most of the gap, if they have to
+/// change by much.
 void goFar(const Simulator& simulator, const ObservationSet& observations, const JobContext& job,
            SimulatorTangents& tangents) {
   if (simulator.linear()) return;
@@ -109,6 +122,8 @@ void goFar(const Simulator& simulator, const ObservationSet& observations, const
   constexpr double worth_a_run = 30.0;  // in chi-squared
   constexpr double far_steps = 1.2;
   constexpr int most_rounds = 3;
+  // A run that far from the change wanted says enough of it.
+  constexpr double near_enough = 0.25;
   // Of what the best single parameter explains.
   constexpr double least_part = 0.5;
   const QuickFit fit(observations, tangents.base);
@@ -135,7 +150,8 @@ void goFar(const Simulator& simulator, const ObservationSet& observations, const
       const double wanted = fit.changeFor(t.per_unit_far.empty() ? t.per_unit : t.per_unit_far).size;
       const double change =
           std::clamp(t.parameter.value + wanted, t.parameter.min, t.parameter.max) - t.parameter.value;
-      if (std::abs(change) < 0.5 * std::abs(t.step) || std::abs(change - reached[i]) < 0.1 * std::abs(change)) continue;
+      if (std::abs(change) < 0.5 * std::abs(t.step) || std::abs(change - reached[i]) < near_enough * std::abs(change))
+        continue;
       sets.push_back({{t.parameter.name, t.parameter.value + change}});
       which.push_back(i);
       reached[i] = change;
@@ -145,11 +161,309 @@ void goFar(const Simulator& simulator, const ObservationSet& observations, const
     tangents.runs += sets.size();
     for (std::size_t i = 0; i < which.size(); ++i) {
       SimulatorTangent& t = tangents.tangents[order[which[i]].second];
-      if (!runs.failed[i].empty()) continue;  // the tangent nearby is as far as this simulation goes
+      // The tangent nearby is as far as this simulation goes.
+      if (!runs.failed[i].empty() || valuesLost(runs.runs[i].predicted, tangents.base) > 0) continue;
       t.per_unit_far = slope(runs.runs[i].predicted, tangents.base, reached[which[i]]);
     }
   }
 }
+
+/// The runs that show what parameters do.
+class TangentRuns {
+ public:
+  TangentRuns(const Simulator& simulator, const ObservationSet& observations, const JobContext& job)
+      : simulator_(&simulator), observations_(&observations), job_(&job) {
+    for (const Observation& o : observations.rows) {
+      first_s_ = std::min(first_s_, o.time_s);
+      last_s_ = std::max(last_s_, o.time_s);
+    }
+  }
+
+  SimulatorTangents tangents() {
+    runSingly();
+    if (!findWindowsTogether()) findWindowsSingly();
+    SimulatorTangents out;
+    out.base = base().predicted;
+    for (Moved& m : moved_) {
+      const SimulatorParameter& p = *m.parameter;
+      if (!m.failed.empty()) {
+        out.notes.push_back(fmt::format("What {} does is not known: {}", p.name, m.failed));
+        continue;
+      }
+      SimulatorTangent tangent;
+      tangent.parameter = p;
+      tangent.step = tangentStep(p);
+      tangent.window = m.window;
+      if (!m.run || largestChange(m.run->predicted, out.base) <= no_influence) {
+        out.mute.push_back(p.name);
+        continue;
+      }
+      tangent.per_unit = slope(m.run->predicted, out.base, tangent.step);
+      out.tangents.push_back(std::move(tangent));
+    }
+    out.runs = runs_;
+    goFar(*simulator_, *observations_, job_->part(1.0, 1.0), out);
+    return out;
+  }
+
+ private:
+  /// A parameter and what it does, moved by its step.
+  struct Moved {
+    const SimulatorParameter* parameter = nullptr;
+    std::optional<SimulatorRun> run;  ///< nothing: a time of a window whose load is off
+    std::string failed;
+    std::shared_ptr<WindowedLoad> window;
+  };
+
+  [[nodiscard]] const SimulatorRun& base() const { return base_; }
+  SimulatorRuns run(const std::vector<ParameterValues>& sets, double from, double to) {
+    runs_ += sets.size();
+    return runAll(*simulator_, sets, *observations_, job_->part(from, to), "running the simulation");
+  }
+  void openTo(const SimulatorWindow& w, double to_s, ParameterValues& values) const {
+    const SimulatorParameter* begin = simulator_->find(w.begin_s);
+    const SimulatorParameter* end = simulator_->find(w.end_s);
+    SPINDRIFT_ASSERT(begin != nullptr && end != nullptr, "a window between two parameters");
+    values[w.begin_s] = std::clamp(first_s_, begin->min, begin->max);
+    values[w.end_s] = std::clamp(to_s, end->min, end->max);
+  }
+  /// As the simulator stands, loads of this window act from the first
+  /// observation to the end.
+  [[nodiscard]] bool open(const SimulatorWindow& w) const {
+    ParameterValues values;
+    openTo(w, std::numeric_limits<double>::max(), values);
+    return std::all_of(values.begin(), values.end(),
+                       [&](const auto& v) { return simulator_->find(v.first)->value == v.second; });
+  }
+  [[nodiscard]] Moved* find(const std::string& name) {
+    const auto found =
+        std::find_if(moved_.begin(), moved_.end(), [&](const Moved& m) { return m.parameter->name == name; });
+    return found == moved_.end() ? nullptr : &*found;
+  }
+  [[nodiscard]] bool off(const Moved& m) const { return m.parameter->off() && m.failed.empty() && m.run; }
+
+  /// All that is uncertain or off, one at a time. Times of windows wait where
+  /// one run may tell of them all.
+  void runSingly() {
+    const std::vector<SimulatorWindow>& windows = simulator_->windows();
+    const bool any_off = std::any_of(simulator_->parameters().begin(), simulator_->parameters().end(),
+                                     [](const SimulatorParameter& p) { return p.off() && p.max > p.min; });
+    together_ = !windows.empty() && any_off &&
+                std::all_of(windows.begin(), windows.end(), [&](const SimulatorWindow& w) { return open(w); });
+    std::set<std::string> waiting;
+    for (const SimulatorWindow& w : windows) {
+      if (together_) waiting.insert({w.begin_s, w.end_s});
+    }
+    std::vector<ParameterValues> sets{{}};
+    std::vector<std::size_t> which;
+    for (const SimulatorParameter& p : simulator_->parameters()) {
+      if (!p.off() && !(p.standard_uncertainty > 0.0)) continue;
+      if (!(p.max > p.min)) continue;
+      moved_.push_back({&p, {}, {}, {}});
+      if (waiting.contains(p.name)) continue;
+      which.push_back(moved_.size() - 1);
+      sets.push_back({{p.name, p.value + tangentStep(p)}});
+    }
+    SimulatorRuns runs = run(sets, 0.0, 0.7);
+    if (!runs.failed[0].empty()) throw SimulatorFailed(runs.failed[0]);
+    base_ = std::move(runs.runs[0]);
+    take(which, runs, 1);
+  }
+  void take(const std::vector<std::size_t>& which, SimulatorRuns& runs, std::size_t first) {
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      Moved& m = moved_[which[i]];
+      m.failed = runs.failed[first + i];
+      if (!m.failed.empty()) continue;
+      m.run = std::move(runs.runs[first + i]);
+      const std::size_t lost = valuesLost(m.run->predicted, base_.predicted);
+      if (lost == 0) continue;
+      m.run.reset();
+      m.failed = fmt::format(
+          "with {} = {} the simulation gives no value for {} observations that it predicts with its own parameters.",
+          m.parameter->name, exactNumber(m.parameter->value + tangentStep(*m.parameter)), lost);
+    }
+  }
+
+  /// One run for each window: all loads that are off act at once, until half
+  /// way. What that differs from the sum of their answers is the answer to the
+  /// end of one of them, its own answer moved in time - if the simulator is
+  /// linear. False: that is not so, or cannot be seen; then nothing is known.
+  bool findWindowsTogether() {
+    if (!together_) return false;
+    std::vector<Moved*> loads;
+    for (Moved& m : moved_) {
+      if (off(m)) loads.push_back(&m);
+    }
+    std::vector<ParameterValues> sets;
+    std::vector<double> closed_s;
+    for (const SimulatorWindow& w : simulator_->windows()) {
+      ParameterValues values;
+      for (const Moved* m : loads) values[m->parameter->name] = m->parameter->value + tangentStep(*m->parameter);
+      closed_s.push_back(rowTimeNear(0.5 * (first_s_ + last_s_)));
+      openTo(w, closed_s.back(), values);
+      if (values[w.end_s] != closed_s.back()) return giveUp();
+      sets.push_back(std::move(values));
+    }
+    if (loads.empty() || base_.rows.empty()) return giveUp();
+    const SimulatorRuns runs = run(sets, 0.7, 0.8);
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      if (!runs.failed[i].empty()) return giveUp();
+      const std::optional<std::vector<bool>> belongs = whoEnds(loads, runs.runs[i], closed_s[i]);
+      if (!belongs) return giveUp();
+      for (std::size_t l = 0; l < loads.size(); ++l) {
+        if ((*belongs)[l]) loads[l]->window = responseOf(*loads[l], simulator_->windows()[i]);
+      }
+    }
+    return true;
+  }
+  bool giveUp() {
+    std::vector<ParameterValues> sets;
+    std::vector<std::size_t> which;
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      Moved& m = moved_[i];
+      m.window.reset();
+      if (m.run || !m.failed.empty()) continue;
+      which.push_back(i);
+      sets.push_back({{m.parameter->name, m.parameter->value + tangentStep(*m.parameter)}});
+    }
+    SimulatorRuns runs = run(sets, 0.8, 0.85);
+    take(which, runs, 0);
+    return false;
+  }
+  [[nodiscard]] double rowTimeNear(double time_s) const {
+    double nearest = time_s;
+    double distance = std::numeric_limits<double>::infinity();
+    for (const SimulationRow& row : base_.rows) {
+      if (std::abs(row.time_s - time_s) >= distance) continue;
+      distance = std::abs(row.time_s - time_s);
+      nearest = row.time_s;
+    }
+    return nearest;
+  }
+  [[nodiscard]] std::shared_ptr<WindowedLoad> responseOf(const Moved& m, const SimulatorWindow& w) const {
+    const double begin = std::max(first_s_, simulator_->find(w.begin_s)->min);
+    return stepResponse(w, *m.run, base_, tangentStep(*m.parameter), begin, last_s_);
+  }
+  /// Which of the loads end in `ended`, a run with all of them until `end_s`;
+  /// nothing where that cannot be told.
+  [[nodiscard]] std::optional<std::vector<bool>> whoEnds(const std::vector<Moved*>& loads, const SimulatorRun& ended,
+                                                         double end_s) const {
+    // Off by this part of the whole, a coefficient or what is left is not what
+    // a linear simulator gives.
+    constexpr double tolerance = 0.15;
+    const auto count = static_cast<Eigen::Index>(loads.size());
+    using Key = std::tuple<std::string, Component, double>;
+    std::map<Key, Eigen::Index> place;
+    for (const SimulationRow& row : base_.rows) place.emplace(Key{row.point, row.component, row.time_s}, place.size());
+    const auto rows = static_cast<Eigen::Index>(place.size());
+    const auto changeOf = [&](const SimulatorRun& run) {
+      Eigen::VectorXd out = Eigen::VectorXd::Zero(rows);
+      for (const SimulationRow& row : run.rows) {
+        const auto found = place.find(Key{row.point, row.component, row.time_s});
+        if (found != place.end()) out[found->second] = row.predicted;
+      }
+      return out;
+    };
+    const Eigen::VectorXd here = changeOf(base_);
+    Eigen::VectorXd left = changeOf(ended) - here;
+    Eigen::MatrixXd ends(rows, count);
+    for (Eigen::Index l = 0; l < count; ++l) {
+      const Moved& m = *loads[static_cast<std::size_t>(l)];
+      left -= changeOf(*m.run) - here;
+      const std::shared_ptr<WindowedLoad> response = responseOf(m, simulator_->windows().front());
+      for (const auto& [key, at] : place) {
+        ends(at, l) =
+            -tangentStep(*m.parameter) * response->at(std::get<2>(key) - end_s, std::get<0>(key), std::get<1>(key));
+      }
+    }
+    std::vector<bool> out(loads.size(), false);
+    if (!left.allFinite() || !ends.allFinite()) return std::nullopt;
+    const Eigen::VectorXd part = ends.colPivHouseholderQr().solve(left);
+    const double all = left.norm();
+    for (Eigen::Index l = 0; l < count; ++l) {
+      const double whole = std::clamp(std::round(part[l]), 0.0, 1.0);
+      // Of a load whose end would hardly be seen nothing is told.
+      if (std::abs(part[l] - whole) * ends.col(l).norm() > tolerance * all) return std::nullopt;
+      out[static_cast<std::size_t>(l)] = whole > 0.0;
+      left -= whole * ends.col(l);
+    }
+    double answers = 0.0;
+    for (Eigen::Index l = 0; l < count; ++l) {
+      if (out[static_cast<std::size_t>(l)]) answers += ends.col(l).squaredNorm();
+    }
+    // Times that belong to no load that is off act on one that is on.
+    if (!(answers > 0.0) || left.norm() > tolerance * std::sqrt(answers)) return std::nullopt;
+    return out;
+  }
+
+  /// For every load that is off: with all idle windows open, and with one of
+  /// them closed half way.
+  void findWindowsSingly() {
+    std::vector<const SimulatorWindow*> idle;
+    const auto changes = [&](const std::string& name) {
+      const Moved* m = find(name);
+      return m != nullptr && m->run && largestChange(m->run->predicted, base_.predicted) > no_influence;
+    };
+    for (const SimulatorWindow& w : simulator_->windows()) {
+      if (!changes(w.begin_s) && !changes(w.end_s)) idle.push_back(&w);
+    }
+    if (idle.empty()) return;
+    struct Trial {
+      Moved* moved = nullptr;
+      const SimulatorWindow* window = nullptr;  ///< closed half way; null: all open
+    };
+    std::vector<Trial> trials;
+    std::vector<ParameterValues> sets;
+    for (Moved& m : moved_) {
+      if (!off(m)) continue;
+      ParameterValues opened{{m.parameter->name, m.parameter->value + tangentStep(*m.parameter)}};
+      for (const SimulatorWindow* w : idle) openTo(*w, std::numeric_limits<double>::max(), opened);
+      const bool was_open = std::all_of(idle.begin(), idle.end(), [&](const SimulatorWindow* w) { return open(*w); });
+      if (!was_open) {
+        trials.push_back({&m, nullptr});
+        sets.push_back(opened);
+      }
+      for (const SimulatorWindow* w : idle) {
+        ParameterValues half = opened;
+        openTo(*w, 0.5 * (first_s_ + last_s_), half);
+        trials.push_back({&m, w});
+        sets.push_back(half);
+      }
+    }
+    SimulatorRuns runs = run(sets, 0.85, 1.0);
+    std::map<const Moved*, SimulatorRun> opened;
+    std::set<const Moved*> opened_failed;
+    for (std::size_t t = 0; t < trials.size(); ++t) {
+      if (trials[t].window != nullptr) continue;
+      if (runs.failed[t].empty()) {
+        opened[trials[t].moved] = std::move(runs.runs[t]);
+      } else {
+        opened_failed.insert(trials[t].moved);
+      }
+    }
+    for (std::size_t t = 0; t < trials.size(); ++t) {
+      Moved& m = *trials[t].moved;
+      if (trials[t].window == nullptr || !runs.failed[t].empty()) continue;
+      if (opened_failed.contains(&m)) continue;
+      const auto other = opened.find(&m);
+      const SimulatorRun& whole = other == opened.end() ? *m.run : other->second;
+      if (whole.rows.empty() || largestChange(runs.runs[t].predicted, whole.predicted) <= no_influence) continue;
+      if (other != opened.end()) m.run = std::move(other->second);
+      m.window = responseOf(m, *trials[t].window);
+      opened.erase(&m);
+    }
+  }
+
+  const Simulator* simulator_;
+  const ObservationSet* observations_;
+  const JobContext* job_;
+  double first_s_ = std::numeric_limits<double>::infinity();
+  double last_s_ = -std::numeric_limits<double>::infinity();
+  bool together_ = false;
+  std::vector<Moved> moved_;
+  SimulatorRun base_;
+  std::size_t runs_ = 0;
+};
 
 Effect effectOf(const SimulatorParameter& parameter) {
   Effect effect;
@@ -191,104 +505,7 @@ double tangentStep(const SimulatorParameter& p) {
 
 SimulatorTangents simulatorTangents(const Simulator& simulator, const ObservationSet& observations,
                                     const JobContext& job) {
-  SimulatorTangents out;
-  std::set<std::string> of_windows;
-  for (const SimulatorWindow& w : simulator.windows()) of_windows.insert({w.begin_s, w.end_s});
-  // All that is uncertain, one at a time; windows are opened for the loads that are off.
-  double first_s = std::numeric_limits<double>::infinity();
-  double last_s = -first_s;
-  for (const Observation& o : observations.rows) {
-    first_s = std::min(first_s, o.time_s);
-    last_s = std::max(last_s, o.time_s);
-  }
-  const auto openTo = [&](const SimulatorWindow& w, double to_s, ParameterValues& values) {
-    const SimulatorParameter* begin = simulator.find(w.begin_s);
-    const SimulatorParameter* end = simulator.find(w.end_s);
-    SPINDRIFT_ASSERT(begin != nullptr && end != nullptr, "a window between two parameters");
-    values[w.begin_s] = std::clamp(first_s, begin->min, begin->max);
-    values[w.end_s] = std::clamp(to_s, end->min, end->max);
-  };
-  std::vector<const SimulatorParameter*> moved;
-  std::vector<ParameterValues> sets{{}};
-  for (const SimulatorParameter& p : simulator.parameters()) {
-    if (!p.off() && !(p.standard_uncertainty > 0.0)) continue;
-    if (!(p.max > p.min)) continue;
-    moved.push_back(&p);
-    sets.push_back({{p.name, p.value + tangentStep(p)}});
-  }
-  SimulatorRuns runs = runAll(simulator, sets, observations, job.part(0.0, 0.6), "running the simulation");
-  if (!runs.failed[0].empty()) throw SimulatorFailed(runs.failed[0]);
-  out.runs = sets.size();
-  out.base = runs.runs[0].predicted;
-  // Windows that do nothing as the simulator stands: their loads are off.
-  std::vector<const SimulatorWindow*> idle;
-  const auto changes = [&](const std::string& name) {
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      if (moved[i]->name != name || !runs.failed[i + 1].empty()) continue;
-      return largestChange(runs.runs[i + 1].predicted, out.base) > no_influence;
-    }
-    return false;
-  };
-  for (const SimulatorWindow& w : simulator.windows()) {
-    if (!changes(w.begin_s) && !changes(w.end_s)) idle.push_back(&w);
-  }
-  // For every load that is off: with all idle windows open, and with one of them closed half way.
-  struct Trial {
-    std::size_t moved = 0;
-    const SimulatorWindow* window = nullptr;  ///< closed half way; null: all open
-  };
-  std::vector<Trial> trials;
-  std::vector<ParameterValues> more;
-  if (!idle.empty()) {
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      if (!moved[i]->off() || !runs.failed[i + 1].empty()) continue;
-      ParameterValues open = sets[i + 1];
-      for (const SimulatorWindow* w : idle) openTo(*w, std::numeric_limits<double>::max(), open);
-      trials.push_back({i, nullptr});
-      more.push_back(open);
-      for (const SimulatorWindow* w : idle) {
-        ParameterValues half = open;
-        openTo(*w, 0.5 * (first_s + last_s), half);
-        trials.push_back({i, w});
-        more.push_back(half);
-      }
-    }
-  }
-  const SimulatorRuns opened = runAll(simulator, more, observations, job.part(0.6, 1.0), "running the simulation");
-  out.runs += more.size();
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    const SimulatorParameter& p = *moved[i];
-    if (!runs.failed[i + 1].empty()) {
-      out.notes.push_back(fmt::format("What {} does is not known: {}", p.name, runs.failed[i + 1]));
-      continue;
-    }
-    SimulatorTangent tangent;
-    tangent.parameter = p;
-    tangent.step = tangentStep(p);
-    const std::vector<double>* answer = &runs.runs[i + 1].predicted;
-    std::size_t all_open = trials.size();
-    for (std::size_t t = 0; t < trials.size(); ++t) {
-      if (trials[t].moved != i || !opened.failed[t].empty()) continue;
-      if (trials[t].window == nullptr) {
-        all_open = t;
-        continue;
-      }
-      if (all_open == trials.size() || opened.runs[all_open].rows.empty()) continue;
-      if (largestChange(opened.runs[t].predicted, opened.runs[all_open].predicted) <= no_influence) continue;
-      const double begin = std::max(first_s, simulator.find(trials[t].window->begin_s)->min);
-      tangent.window =
-          stepResponse(*trials[t].window, opened.runs[all_open], runs.runs[0], tangent.step, begin, last_s);
-      answer = &opened.runs[all_open].predicted;
-    }
-    if (largestChange(*answer, out.base) <= no_influence) {
-      out.mute.push_back(p.name);
-      continue;
-    }
-    tangent.per_unit = slope(*answer, out.base, tangent.step);
-    out.tangents.push_back(std::move(tangent));
-  }
-  goFar(simulator, observations, job.part(1.0, 1.0), out);
-  return out;
+  return TangentRuns(simulator, observations, job).tangents();
 }
 
 Effect tangentEffect(const SimulatorTangent& tangent, const ObservationSet& observations, bool far) {

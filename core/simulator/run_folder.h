@@ -18,7 +18,8 @@ class RunFolder {
   RunFolder& operator=(const RunFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-  /// Only these files stay, for the user to look at.
+  /// Only these files stay, for the user to look at; no link and no empty folder does. Of folders that were kept the
+  /// newest 20 stay.
   void keep(const std::set<std::string>& relative);
 
  private:

@@ -13,6 +13,7 @@
 #include "core/discrepancy/catalogue.h"
 #include "core/discrepancy/effect_listing.h"
 #include "core/discrepancy/effect_model.h"
+#include "core/discrepancy/mechanism_choice.h"
 #include "core/discrepancy/simulator_tangents.h"
 #include "core/reporting/discrepancy_report.h"
 #include "core/reporting/simulation_update_report.h"
@@ -102,6 +103,7 @@ DiscrepancyRun searchDiscrepancy(const Campaign& campaign, ObservationSet observ
   run.input = discrepancyInput(campaign, std::move(observations), std::move(tangents));
   JobContext searching = job.part(0.6, 1.0);
   run.result = findDiscrepancy(run.input, asked, searching);
+  run.mechanisms = mechanismsBehind(run.input, run.result, simulator).names;
   return run;
 }
 

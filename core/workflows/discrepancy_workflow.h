@@ -28,6 +28,7 @@ struct DiscrepancyRun {
   DiscrepancyInput input;
   DiscrepancyResult result;
   std::vector<std::string> notes;          ///< what was left out and why
+  std::vector<std::string> mechanisms;     ///< parameters of the simulator that are behind what was named
   std::optional<SimulationUpdate> update;  ///< what was put into the simulation
 
   /// The JSON of FORMATS.md; `gap` also holds peak-to-peak and fit, as the report has them.

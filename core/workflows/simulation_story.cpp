@@ -113,6 +113,8 @@ SimulationStory SimulationStory::of(const DiscrepancyRun& run) {
   story.effects = run.result.effects;
   story.gap = run.result.gap;
   story.warnings = run.result.warnings;
+  story.mechanisms = run.mechanisms;
+  story.twins = run.result.twins;
   story.result = run.result.json();
   if (run.update) {
     story.update = run.update;
@@ -131,6 +133,8 @@ nlohmann::json SimulationStory::json() const {
           {"effects", found},
           {"gap", gapJson(gap)},
           {"warnings", warnings},
+          {"mechanisms", mechanisms},
+          {"twins", twins},
           {"update", update ? update->json() : nlohmann::json()},
           {"rows", rowsJson(rows)},
           {"result", result}};
@@ -147,6 +151,9 @@ SimulationStory SimulationStory::parse(const nlohmann::json& json) {
     for (const nlohmann::json& e : json.at("effects")) story.effects.push_back(effectOf(e));
     story.gap = gapOf(json.at("gap"));
     story.warnings = json.at("warnings").get<std::vector<std::string>>();
+    // Searches stored by earlier versions tell neither.
+    story.mechanisms = json.value("mechanisms", story.mechanisms);
+    story.twins = json.value("twins", story.twins);
     if (json.at("update").is_object()) story.update = SimulationUpdate::parse(json.at("update"));
     story.rows = rowsOf(json.at("rows"));
     story.result = json.at("result");

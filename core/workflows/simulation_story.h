@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/machine/campaign.h"
@@ -20,9 +21,11 @@ struct SimulationStory {
   std::vector<FoundEffect> effects;  ///< id, title, physics, drivers, rivals, confidence, parameters
   DiscrepancyGap gap;                ///< of the simulator's own prediction; after: with the effects as fitted terms
   std::vector<std::string> warnings;
-  std::optional<SimulationUpdate> update;  ///< without its predictions, which `rows` tells
-  std::vector<DiscrepancyReportRow> rows;  ///< before and after the update; empty without one
-  nlohmann::json result;                   ///< of the search, as FORMATS.md has it
+  std::vector<std::string> mechanisms;                     ///< parameters of the simulator behind the effects
+  std::vector<std::pair<std::string, std::string>> twins;  ///< parameters that do the same to the readings
+  std::optional<SimulationUpdate> update;                  ///< without its predictions, which `rows` tells
+  std::vector<DiscrepancyReportRow> rows;                  ///< before and after the update; empty without one
+  nlohmann::json result;                                   ///< of the search, as FORMATS.md has it
 
   /// Of a search, with the update of `run` if there is one.
   [[nodiscard]] static SimulationStory of(const DiscrepancyRun& run);

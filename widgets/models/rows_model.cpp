@@ -12,6 +12,7 @@ RowsModel::RowsModel(QStringList headers, QObject* parent)
     : QAbstractTableModel(parent), headers_(std::move(headers)) {}
 
 void RowsModel::setHeaders(const QStringList& headers) {
+  if (headers == headers_) return;
   beginResetModel();
   headers_ = headers;
   endResetModel();

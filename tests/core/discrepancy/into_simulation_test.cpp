@@ -8,6 +8,7 @@
 
 #include <thread>
 
+#include "core/discrepancy/mechanism_choice.h"
 #include "core/discrepancy/simulator_tangents.h"
 #include "tests/core/discrepancy/heated_column.h"
 
@@ -17,6 +18,7 @@ namespace {
 using namespace heated_column;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Told {
   DiscrepancyResult found;
@@ -111,6 +113,47 @@ TEST(IntoSimulation, NamesTheMechanismAndClosesTheGap) {
   }
 }
 
+TEST(IntoSimulation, TakesFewRunsAndCountsThem) {
+  struct Case {
+    const char* name;
+    ParameterValues truth;
+    ParameterValues simulator;
+    std::size_t most_to_fit;
+  };
+  const std::vector<Case> cases{{"sun", {{"sun_front", 120.0}, {"sun_on_s", 7500.0}, {"sun_off_s", 17000.0}}, {}, 9},
+                                {"friction", {{"friction", 9.0}}, {{"friction", 0.0}}, 9}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.name);
+    Column column = columnCampaign(c.truth, 11, 0.3, parametersWith(c.simulator));
+    const int before = column.simulator->runs;
+    const Told told = tell(column);
+    EXPECT_EQ(told.update.status, FitStatus::Converged) << told.update.message;
+    EXPECT_LE(static_cast<std::size_t>(column.simulator->runs - before),
+              told.update.runs_to_search + told.update.runs + 1)
+        << "what is told is what was run";
+    // As it stands, eight parameters, what goes far; a single run tells which load the sun's times belong to. To fit:
+    // the first guess, a look around it (each of the others again where what is put in changes what they do), the end.
+    EXPECT_LE(told.update.runs_to_search, 14U);
+    EXPECT_GE(told.update.runs_to_search, 10U);
+    EXPECT_LE(told.update.runs, c.most_to_fit);
+  }
+}
+
+TEST(SimulatorTangents, OneRunTellsWhichLoadAWindowBelongsTo) {
+  Column column = columnCampaign({}, 3, 0.3, parametersWith({{"friction", 0.0}}));
+  JobContext job;
+  const SimulatorTangents tangents = simulatorTangents(*column.simulator, column.input.observations, job);
+  for (const SimulatorTangent& t : tangents.tangents) {
+    if (!t.parameter.off()) continue;
+    EXPECT_EQ(t.window != nullptr, t.parameter.name == "sun_front") << t.parameter.name;
+    if (t.window) {
+      EXPECT_EQ(t.window->begin_s, "sun_on_s");
+    }
+  }
+  EXPECT_THAT(tangents.mute, Contains("sun_on_s"));
+  EXPECT_THAT(tangents.mute, Contains("sun_off_s"));
+}
+
 TEST(IntoSimulation, FindsBeginAndEndOfALoad) {
   Column column =
       columnCampaign({{"sun_front", 120.0}, {"sun_on_s", 7500.0}, {"sun_off_s", 17000.0}, {"h_air", 10.0}}, 5, 0.3);
@@ -203,6 +246,26 @@ TEST(IntoSimulation, SaysWhatCannotBe) {
     Column column = columnCampaign({{"friction", 9.0}}, 24, 0.3, parametersWith({{"friction", 0.0}}));
     EXPECT_THROW(static_cast<void>(tell(column, {{"moon"}})), InputError);
   }
+}
+
+TEST(IntoSimulation, SaysWhatIsAskedForAndNotSupported) {
+  Column column = columnCampaign({{"friction", 9.0}}, 33, 0.3, parametersWith({{"friction", 0.0}}));
+  const Told told = tell(column, {{"friction", "sun_front"}});
+  EXPECT_EQ(told.update.mechanisms, (std::vector<std::string>{"friction", "sun_front"}));
+  EXPECT_THAT(told.update.warnings, Contains(HasSubstr("sun_front was asked for, but these data do not support it")));
+  EXPECT_THAT(told.update.warnings, Not(Contains(HasSubstr("friction was asked for"))));
+  EXPECT_LT(trueGap(column, told.update.after), 0.15);
+}
+
+TEST(MechanismChoice, SaysWhyParametersCannotBePutInTogether) {
+  std::vector<SimulatorParameter> parameters = standardParameters();
+  const std::vector<SimulatorWindow> windows{{"sun_on_s", "sun_off_s"}};
+  const std::vector<std::pair<std::string, std::string>> twins{{"friction", "h_air"}};
+  EXPECT_EQ(whyNotTogether({"friction", "sun_front", "sun_on_s"}, parameters, windows, twins), "");
+  EXPECT_THAT(whyNotTogether({"sun_on_s"}, parameters, windows, twins), HasSubstr("together with that load"));
+  EXPECT_THAT(whyNotTogether({"h_air", "friction"}, parameters, windows, twins), HasSubstr("do the same"));
+  parameters.front().min = parameters.front().max = 9.0;
+  EXPECT_THAT(whyNotTogether({"h_air"}, parameters, windows, {}), HasSubstr("are both 9 W/m2/K"));
 }
 
 TEST(IntoSimulation, TellsTwoThatCannotBeToldApart) {

@@ -216,6 +216,27 @@ TEST_F(ProgramSimulatorTest, TellsInOneSentenceWhyARunFailed) {
   EXPECT_THAT(failureOf(0), HasSubstr("left no simulation.csv"));
 }
 
+TEST_F(ProgramSimulatorTest, KeepsFewFoldersAndNoLinks) {
+  const fs::path outside = temp.write("outside/precious.txt", "precious");
+  temp.write("sim/run.sh", fmt::format("ln -s {0} link.txt; ln -s {1} linked; mkdir -p deep/deeper; rm values.txt; "
+                                       "ln -s {0} values.txt; exit 3\n",
+                                       outside.string(), outside.parent_path().string()));
+  const auto simulator = open();
+  std::string last;
+  for (int run = 0; run < 25; ++run) last = failure([&] { (void)simulator->run({{"a", 0.1 * run}}, at, {}); });
+  EXPECT_EQ(foldersLeft(), 20u);
+  EXPECT_EQ(readFile(outside), "precious");
+  bool named = false;
+  for (const auto& entry : fs::directory_iterator(temp / "runs")) {
+    named = named || last.find(entry.path().string()) != std::string::npos;
+    for (const auto& inside : fs::recursive_directory_iterator(entry.path())) {
+      EXPECT_FALSE(inside.is_symlink()) << inside.path();
+      EXPECT_FALSE(inside.is_directory()) << inside.path();
+    }
+  }
+  EXPECT_TRUE(named) << "the newest stays: " << last;
+}
+
 TEST_F(ProgramSimulatorTest, FailsWhereTheNumberOfPredictionsChanges) {
   const auto simulator = open();
   (void)simulator->run({}, at, {});

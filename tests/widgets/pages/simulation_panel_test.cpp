@@ -9,6 +9,8 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QStyle>
+#include <QStyleOptionViewItem>
 #include <QTabWidget>
 #include <QTableView>
 #include <QTest>
@@ -32,6 +34,7 @@ namespace spindrift::gui {
 namespace {
 
 constexpr double true_growth_um = 9.0;
+constexpr int put_in_column = 5;
 
 /// What the spindle of the small story does after one micrometre.
 double growthPerUm(double t) {
@@ -45,20 +48,26 @@ class SimulationPanelTest : public StoryTest {
  protected:
   /// The small story with a table of sensitivities beside its simulation: the growth of the spindle is switched off,
   /// the drift along X is uncertain, the stiffness changes nothing.
-  std::filesystem::path writeCampaign(bool named = true) {
+  /// With a twin, the seal does to the readings what the spindle does.
+  std::filesystem::path writeCampaign(bool named = true, bool twin = false) {
     const std::filesystem::path campaign = writeStoryCampaign(folder_, Hidden::SpindleGrowth);
     if (named) {
       folder_.write("campaign/campaign.json", R"({"format":"spindrift-campaign","version":1,"name":"small story",)"
                                               R"("start_utc":"2026-03-01T08:00:00Z","simulation":"simulation.csv",)"
                                               R"("simulator":"sim/simulator.json"})");
     }
-    folder_.write("campaign/sim/simulator.json", R"({"format":"spindrift-simulator","version":1,
+    std::string file = R"({"format":"spindrift-simulator","version":1,
  "kind":"sensitivities","table":"d.csv","parameters":[
  {"name":"spindle_growth","value":0,"unit":"um","standard_uncertainty":5,"min":0,"max":40,
   "what":"growth of the spindle along Z when it has warmed up","effects":["spindle.growth.z"]},
  {"name":"drift_x","value":4,"unit":"um","standard_uncertainty":0.2,"min":0,"max":10,"what":"drift of the bed along X"},
- {"name":"drift_y","value":0.5,"unit":"um","standard_uncertainty":0.3,"min":-5,"max":5,"what":"drift of the bed along Y"}
-]})");
+ {"name":"drift_y","value":0.5,"unit":"um","standard_uncertainty":0.3,"min":-5,"max":5,"what":"drift of the bed along Y"})";
+    if (twin) {
+      file += R"(,
+ {"name":"seal","value":0,"unit":"um","standard_uncertainty":5,"min":0,"max":40,"what":"growth by the seal's friction",
+  "effects":["spindle.growth.z"]})";
+    }
+    folder_.write("campaign/sim/simulator.json", file + "\n]}");
     std::string table = "time_s,point,component,parameter,d_predicted\n";
     const ObservationSet at = ObservationSet::read(campaign / "observations.csv");
     for (const Observation& o : at.rows) {
@@ -67,6 +76,7 @@ class SimulationPanelTest : public StoryTest {
                              o.component == component ? value : 0.0);
       };
       add("spindle_growth", Component::EZ, growthPerUm(o.time_s));
+      if (twin) add("seal", Component::EZ, growthPerUm(o.time_s));
       add("drift_x", Component::EX, o.time_s / 28800.0);
       add("drift_y", Component::EY, o.time_s / 28800.0);
     }
@@ -77,14 +87,12 @@ class SimulationPanelTest : public StoryTest {
     open(campaign, StepId::Discrepancy);
     page_ = page<DiscrepancyPage>();
     ASSERT_NE(page_, nullptr);
-    page_->runAll();
-    wait();
-    ASSERT_NE(page_->story(), nullptr) << page_->callout()->sentence().toStdString();
     showPanel();
   }
   void showPanel() {
+    ASSERT_TRUE(QTest::qWaitFor([this] { return page_->simulation() != nullptr; }, 10'000));
     panel_ = page_->simulation();
-    ASSERT_NE(panel_, nullptr);
+    ASSERT_TRUE(page_->tabs()->isTabVisible(page_->tabs()->indexOf(panel_)));
     page_->tabs()->setCurrentWidget(panel_);
     settle();
   }
@@ -103,6 +111,32 @@ class SimulationPanelTest : public StoryTest {
         return table->model()->index(r, column).data().toString();
     }
     return {};
+  }
+  [[nodiscard]] QModelIndex tickOf(const char* parameter) const {
+    const QAbstractItemModel* model = panel_->parameterTable()->model();
+    for (int r = 0; r < model->rowCount(); ++r) {
+      if (model->index(r, 0).data().toString() == QLatin1String(parameter)) return model->index(r, put_in_column);
+    }
+    return {};
+  }
+  [[nodiscard]] bool ticked(const char* parameter) const {
+    return tickOf(parameter).data(Qt::CheckStateRole).toInt() == Qt::Checked;
+  }
+  /// A click of the mouse on the box.
+  void tick(const char* parameter) {
+    QTableView* table = panel_->parameterTable();
+    const QModelIndex at = tickOf(parameter);
+    ASSERT_TRUE(at.isValid()) << parameter;
+    ASSERT_FALSE(table->isColumnHidden(put_in_column));
+    table->scrollTo(at);
+    QStyleOptionViewItem option;
+    option.initFrom(table);
+    option.rect = table->visualRect(at);
+    option.features = QStyleOptionViewItem::HasCheckIndicator;
+    option.widget = table;
+    const QRect box = table->style()->subElementRect(QStyle::SE_ItemViewItemCheckIndicator, &option, table);
+    QTest::mouseClick(table->viewport(), Qt::LeftButton, {}, box.center());
+    settle();
   }
   [[nodiscard]] std::string sentence() const { return panel_->callout()->sentence().toStdString(); }
   /// Pictures for people to look at, where the environment names a folder for them.
@@ -131,7 +165,8 @@ TEST_F(SimulationPanelTest, NamesTheMechanismPutsItInStoresReportsAndUndoes) {
   EXPECT_TRUE(panel_->runs()->text().contains(QStringLiteral("Nothing is run")))
       << panel_->runs()->text().toStdString();
   EXPECT_EQ(panel_->story(), nullptr) << "nothing is run before somebody asks for it";
-  EXPECT_FALSE(panel_->putButton()->isVisible());
+  EXPECT_EQ(page_->story(), nullptr) << "the search of the page is not needed";
+  EXPECT_FALSE(ticked("spindle_growth"));
   picture("before");
 
   search();
@@ -142,6 +177,10 @@ TEST_F(SimulationPanelTest, NamesTheMechanismPutsItInStoresReportsAndUndoes) {
       << panel_->found()->text().toStdString();
   EXPECT_TRUE(panel_->putButton()->isVisible());
   EXPECT_TRUE(panel_->putButton()->isEnabled());
+  EXPECT_TRUE(ticked("spindle_growth")) << "what was found";
+  EXPECT_FALSE(ticked("drift_x"));
+  EXPECT_TRUE(cell(panel_->parameterTable(), QStringLiteral("spindle_growth"), 1).contains(QStringLiteral("Can cause")))
+      << cell(panel_->parameterTable(), QStringLiteral("spindle_growth"), 1).toStdString();
   picture("named");
 
   // The button asks for the folder and proposes one in the session.
@@ -193,7 +232,6 @@ TEST_F(SimulationPanelTest, NamesTheMechanismPutsItInStoresReportsAndUndoes) {
   wait();
   window_->workflow().goTo(StepId::Discrepancy);
   page_ = page<DiscrepancyPage>();
-  ASSERT_NE(page_->story(), nullptr);
   showPanel();
   ASSERT_NE(panel_->update(), nullptr);
   EXPECT_EQ(sentence(), told);
@@ -264,6 +302,99 @@ TEST_F(SimulationPanelTest, PutsInAfterReopeningAndRefusesTheCampaignFolder) {
   settle();
   ASSERT_NE(panel_->update(), nullptr) << sentence();
   EXPECT_EQ(panel_->update()->status, FitStatus::Converged) << sentence();
+}
+
+TEST_F(SimulationPanelTest, ThePutButtonRunsWhatIsMissing) {
+  openPanel(writeCampaign());
+  ASSERT_EQ(panel_->story(), nullptr);
+  ASSERT_TRUE(panel_->putButton()->isVisible());
+  ASSERT_TRUE(panel_->putButton()->isEnabled());
+  panel_->putInto(panel_->proposedFolder());
+  EXPECT_TRUE(window_->jobs().busy()) << "a job with progress and cancel";
+  wait();
+  settle();
+  ASSERT_NE(panel_->update(), nullptr) << sentence();
+  EXPECT_EQ(panel_->update()->mechanisms, std::vector<std::string>{"spindle_growth"});
+  EXPECT_EQ(panel_->callout()->tone(), Tone::Good) << sentence();
+  EXPECT_EQ(page_->story(), nullptr);
+}
+
+TEST_F(SimulationPanelTest, ACancelledPutChangesNothing) {
+  openPanel(writeCampaign());
+  const QString folder = panel_->proposedFolder();
+  panel_->putInto(folder);
+  window_->jobs().cancel();
+  wait();
+  settle();
+  EXPECT_EQ(panel_->update(), nullptr);
+  EXPECT_FALSE(std::filesystem::exists(folder.toStdString()));
+  EXPECT_TRUE(panel_->putButton()->isEnabled());
+}
+
+TEST_F(SimulationPanelTest, WhatIsTickedIsPutInAndItsSupportIsTold) {
+  openPanel(writeCampaign());
+  search();
+  ASSERT_TRUE(ticked("spindle_growth"));
+  tick("drift_x");
+  ASSERT_TRUE(ticked("drift_x"));
+  ASSERT_TRUE(panel_->putButton()->isEnabled());
+  panel_->putInto(panel_->proposedFolder());
+  wait();
+  settle();
+  ASSERT_NE(panel_->update(), nullptr) << sentence();
+  EXPECT_EQ(panel_->update()->mechanisms, (std::vector<std::string>{"spindle_growth", "drift_x"}));
+  EXPECT_TRUE(panel_->found()->text().contains(QStringLiteral("do not support")))
+      << panel_->found()->text().toStdString() << panel_->update()->summary();
+  EXPECT_FALSE(panel_->found()->text().contains(QStringLiteral("spindle_growth was asked for")));
+}
+
+TEST_F(SimulationPanelTest, WithoutATickThereIsNothingToPutIn) {
+  openPanel(writeCampaign());
+  search();
+  tick("spindle_growth");
+  EXPECT_FALSE(ticked("spindle_growth"));
+  EXPECT_FALSE(panel_->putButton()->isEnabled());
+  EXPECT_NE(sentence().find("Tick"), std::string::npos) << sentence();
+  panel_->putInto(panel_->proposedFolder());
+  EXPECT_FALSE(window_->jobs().busy());
+  EXPECT_NE(sentence().find("Tick"), std::string::npos) << sentence();
+  // Another one alone: the gap stays, and it says so.
+  tick("drift_y");
+  EXPECT_TRUE(panel_->putButton()->isEnabled()) << sentence();
+  panel_->putInto(panel_->proposedFolder());
+  wait();
+  settle();
+  ASSERT_NE(panel_->story(), nullptr);
+  ASSERT_TRUE(panel_->story()->update.has_value()) << sentence();
+  EXPECT_EQ(panel_->story()->update->mechanisms, std::vector<std::string>{"drift_y"});
+  EXPECT_NE(panel_->callout()->tone(), Tone::Good) << sentence();
+}
+
+TEST_F(SimulationPanelTest, TicksThatCannotBeCombinedSayWhy) {
+  openPanel(writeCampaign(true, true));
+  search();
+  ASSERT_NE(panel_->story(), nullptr) << sentence();
+  for (const char* name : {"spindle_growth", "seal"}) {
+    if (!ticked(name)) tick(name);
+  }
+  EXPECT_NE(sentence().find("do the same to these readings"), std::string::npos) << sentence();
+  EXPECT_EQ(panel_->callout()->tone(), Tone::Attention);
+  EXPECT_FALSE(panel_->putButton()->isEnabled());
+  tick("seal");
+  EXPECT_TRUE(panel_->putButton()->isEnabled()) << sentence();
+  EXPECT_EQ(sentence().find("do the same to these readings"), std::string::npos) << sentence();
+}
+
+TEST_F(SimulationPanelTest, StaysWithTheSearchOfThePage) {
+  openPanel(writeCampaign());
+  page_->runAll();
+  wait();
+  ASSERT_NE(page_->story(), nullptr) << page_->callout()->sentence().toStdString();
+  EXPECT_EQ(page_->tabs()->currentWidget(), panel_);
+  for (int i = 0; i < page_->tabs()->count(); ++i)
+    EXPECT_EQ(page_->tabs()->isTabVisible(i), page_->tabs()->widget(i)->objectName() != QStringLiteral("nothingYet"));
+  search();
+  ASSERT_NE(panel_->story(), nullptr) << sentence();
 }
 
 TEST_F(SimulationPanelTest, ASimulatorThatFailsSaysItsOneSentence) {

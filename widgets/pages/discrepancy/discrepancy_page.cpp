@@ -35,6 +35,7 @@ constexpr auto result_kind = "discrepancy";
 constexpr auto option_name = "discrepancy";
 
 constexpr qsizetype longest_large_sentence = 72;
+constexpr int between_panels_ms = 30;
 
 struct Sentence {
   QString text;
@@ -142,7 +143,7 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   auto* column = new QVBoxLayout(told);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(8);
-  auto* banner = new Card;
+  banner_ = new Card;
   auto* line = new QHBoxLayout;
   line->setSpacing(16);
   verdict_icon_ = new IconLabel(QStringLiteral("info"), Tone::Neutral, 32);
@@ -162,12 +163,15 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   remove_ = makeButton(tr("Take out again"), "undo");
   line->addWidget(remove_, 0, Qt::AlignVCenter);
   line->addWidget(add_, 0, Qt::AlignVCenter);
-  banner->body()->addLayout(line);
-  column->addWidget(banner);
+  banner_->body()->addLayout(line);
+  column->addWidget(banner_);
 
   tabs_ = makeTabs();
   where_ = new WherePanel;
   gap_ = new GapPanel;
+  nothing_yet_ = new EmptyState("discrepancy", {}, {});
+  nothing_yet_->setObjectName(QStringLiteral("nothingYet"));
+  tabs_->addTab(nothing_yet_, tr("What is missing"));
   tabs_->addTab(where_, tr("Where"));
   tabs_->addTab(gap_, tr("Gap before and after"));
   column->addWidget(tabs_, 1);
@@ -175,9 +179,7 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   content()->addWidget(stack_, 1);
   showHints(where_);
   showHints(gap_);
-  // The verdict is about the simulation as it is; where it is changed there is no room for it.
-  connect(tabs_, &QTabWidget::currentChanged, this,
-          [this, banner] { banner->setVisible(simulation_ == nullptr || tabs_->currentWidget() != simulation_); });
+  connect(tabs_, &QTabWidget::currentChanged, this, &DiscrepancyPage::arrangeTabs);
 
   connect(search_, &QPushButton::clicked, this, [this] {
     if (!mayBeLeft()) return;
@@ -238,24 +240,14 @@ void DiscrepancyPage::refresh() {
   const QString lacks = missing();
   callout()->setAction({}, {});
   if (!lacks.isEmpty()) {
-    story_.reset();
-    shown_result_ = 0;
-    empty_->setTexts(tr("Nothing to compare yet"), lacks);
-    showContent(0);
-    callout()->set(Tone::Neutral, {});
-    updateButtons();
+    showNothing(tr("Nothing to compare yet"), lacks);
     return;
   }
   const StoredResult* stored = session().latest(result_kind);
   if (!stored) {
-    story_.reset();
-    shown_result_ = 0;
-    empty_->setTexts(tr("What does the simulation lack?"),
-                     tr("Press Search: every effect of the catalogue is tried on what is left between measurement and "
-                        "simulation. It takes a few seconds, can be cancelled, and changes nothing."));
-    showContent(0);
-    callout()->set(Tone::Neutral, {});
-    updateButtons();
+    showNothing(tr("What does the simulation lack?"),
+                tr("Press Search: every effect of the catalogue is tried on what is left between measurement and "
+                   "simulation. It takes a few seconds, can be cancelled, and changes nothing."));
     return;
   }
   if (stored->id != shown_result_ || story_ == nullptr) {
@@ -263,16 +255,16 @@ void DiscrepancyPage::refresh() {
       story_ = std::make_shared<const DiscrepancyStory>(DiscrepancyStory::parse(stored->payload));
       shown_result_ = stored->id;
     } catch (const InputError& e) {
-      story_.reset();
-      callout()->show(Tone::Attention, QString::fromUtf8(e.what()));
-      showContent(0);
-      updateButtons();
+      const QString why = QString::fromUtf8(e.what());
+      showNothing(tr("What was found cannot be shown"), why);
+      callout()->show(Tone::Attention, why);
       return;
     }
     show();
   }
   showExcluded();
   if (simulation_ != nullptr) simulation_->refresh();
+  arrangeTabs();
   showContent(1);
   const bool same =
       stored->provenance.options.value(option_name, nlohmann::json()) == DiscrepancyChoice::of(session()).json();
@@ -442,8 +434,7 @@ void DiscrepancyPage::updateButtons() {
 }
 
 void DiscrepancyPage::makePanelsSoon() {
-  constexpr int between_ms = 30;
-  QTimer::singleShot(between_ms, this, [this] {
+  QTimer::singleShot(between_panels_ms, this, [this] {
     if (makePanel()) makePanelsSoon();
   });
 }
@@ -487,15 +478,59 @@ bool DiscrepancyPage::makePanel() {
       choose(remainder_->point(), remainder_->component());
     });
   } else if (simulation_ == nullptr) {
-    simulation_ = new SimulationPanel(context());
-    tabs_->addTab(simulation_, tr("Into the simulation"));
-    showHints(simulation_);
-    simulation_->refresh();
+    makeSimulationPanel();
   } else if (next_ == nullptr) {
     next_ = new NextPanel;
     tabs_->addTab(next_, tr("What to measure next"));
   }
+  arrangeTabs();
   return next_ == nullptr;
+}
+
+void DiscrepancyPage::makeSimulationPanel() {
+  simulation_ = new SimulationPanel(context());
+  tabs_->insertTab(tabs_->indexOf(gap_) + 1, simulation_, tr("Into the simulation"));
+  showHints(simulation_);
+  simulation_->refresh();
+}
+
+void DiscrepancyPage::showNothing(const QString& title, const QString& how) {
+  story_.reset();
+  shown_result_ = 0;
+  callout()->set(Tone::Neutral, {});
+  const bool measured = session().campaign() != nullptr && session().observations();
+  (measured ? nothing_yet_ : empty_)->setTexts(title, how);
+  if (measured) {
+    arrangeTabs();
+    if (simulation_ != nullptr) {
+      simulation_->refresh();
+    } else {
+      // Nobody looks at it yet.
+      QTimer::singleShot(between_panels_ms, this, [this] {
+        if (simulation_ != nullptr || session().campaign() == nullptr) return;
+        makeSimulationPanel();
+        arrangeTabs();
+      });
+    }
+  }
+  showContent(measured ? 1 : 0);
+  updateButtons();
+}
+
+void DiscrepancyPage::arrangeTabs() {
+  const bool told = story_ != nullptr;
+  QWidget* const first = told ? static_cast<QWidget*>(where_) : nothing_yet_;
+  if (tabs_->currentWidget() != simulation_ && told == (tabs_->currentWidget() == nothing_yet_)) {
+    tabs_->setTabVisible(tabs_->indexOf(first), true);
+    tabs_->setCurrentWidget(first);
+  }
+  for (int i = 0; i < tabs_->count(); ++i) {
+    const QWidget* tab = tabs_->widget(i);
+    const bool visible = tab == simulation_ || told == (tab != nothing_yet_);
+    if (visible != tabs_->isTabVisible(i)) tabs_->setTabVisible(i, visible);
+  }
+  // The verdict is about the simulation as it is; where it is changed there is no room for it.
+  banner_->setVisible(told && tabs_->currentWidget() != simulation_);
 }
 
 void DiscrepancyPage::show() {
@@ -570,7 +605,10 @@ std::vector<Exportable> DiscrepancyPage::exportables() {
   makePanels();
   std::vector<Exportable> items;
   if (effects_ != nullptr) items = effects_->exportables();
-  if (story_ == nullptr) return items;
+  if (story_ == nullptr) {
+    for (Exportable& item : simulation_->exportables()) items.push_back(std::move(item));
+    return items;
+  }
   for (auto&& list : {where_->exportables(), what_->exportables(), noise_->exportables(), remainder_->exportables(),
                       gap_->exportables(), simulation_->exportables(), next_->exportables()}) {
     items.insert(items.end(), list.begin(), list.end());

@@ -18,6 +18,7 @@ class QTabWidget;
 
 namespace spindrift::gui {
 
+class Card;
 class EffectsPanel;
 class EmptyState;
 class GapPanel;
@@ -73,6 +74,11 @@ class DiscrepancyPage : public Page {
   void add();
   void removeLast();
   void show();
+  /// In place of a story: why there is none. What is changed in the simulation itself needs none.
+  void showNothing(const QString& title, const QString& how);
+  /// The tabs that have something to show, and the verdict where it belongs.
+  void arrangeTabs();
+  void makeSimulationPanel();
   /// Panels that nobody sees before there is a result are made one at a turn of the event loop.
   void makePanelsSoon();
   /// All that are not there yet, at once.
@@ -95,6 +101,8 @@ class DiscrepancyPage : public Page {
   QPushButton* remove_;
   QStackedWidget* stack_;
   EmptyState* empty_;
+  EmptyState* nothing_yet_;  ///< a tab, where there is something to search
+  Card* banner_;
   IconLabel* verdict_icon_;
   QLabel* verdict_;
   QLabel* verdict_note_;

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/pages/discrepancy/simulation_panel.h"
 
-#include <QCoreApplication>
-#include <QDialog>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
-#include <QLineEdit>
 #include <QPointer>
 #include <QScrollArea>
 #include <QSplitter>
@@ -20,14 +17,15 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/reporting/report_wording.h"
-#include "core/simulator/simulator_file.h"
+#include "core/discrepancy/mechanism_choice.h"
 #include "core/workflows/open_simulator.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/discrepancy_choice.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/pages/discrepancy/parameter_card.h"
+#include "widgets/pages/discrepancy/put_in_dialog.h"
 #include "widgets/pages/discrepancy/simulation_views.h"
 #include "widgets/plots/plot.h"
 #include "widgets/workflow/simulator_choice.h"
@@ -42,62 +40,8 @@ constexpr int view_history = 1;
 constexpr int view_maps = 2;
 constexpr int height_for_words = 440;
 
-QString translated(const char* text) {
-  return QCoreApplication::translate("SimulationPanel", text);
-}
-
 QString text(const std::string& words) {
   return QString::fromStdString(words);
-}
-
-/// The programs that a simulator.json starts, each once, as it names them.
-QStringList programsOf(const SimulatorFile& file) {
-  QStringList out;
-  const auto run = file.root.find("run");
-  if (!run) return out;
-  for (const JsonNode& command : run->items()) {
-    const std::vector<JsonNode> words = command.items();
-    if (words.empty()) continue;
-    const QString program = text(words.front().string());
-    if (!out.contains(program)) out << program;
-  }
-  return out;
-}
-
-void tellKind(const SimulatorFile& file, OpenedSimulator& out) {
-  switch (file.kind) {
-    case SimulatorKind::Scenario:
-      out.kind = translated("scenario of the virtual machine");
-      out.runs = translated("It is run inside Spindrift: no other program is started.");
-      break;
-    case SimulatorKind::Sensitivities:
-      out.kind = translated("table of sensitivities");
-      out.runs = translated("Nothing is run: the table says what each parameter changes.");
-      break;
-    case SimulatorKind::Command:
-    case SimulatorKind::Calculix: {
-      out.kind = file.kind == SimulatorKind::Calculix ? translated("CalculiX") : translated("a program with templates");
-      const QStringList programs = programsOf(file);
-      out.runs = (programs.size() > 1 ? translated("Programs that will be run, each time in a folder of their own: %1.")
-                                      : translated("Program that will be run, each time in a folder of its own: %1."))
-                     .arg(programs.join(QStringLiteral(", "))) +
-                 QLatin1Char(' ') + translated("Nothing is started before you press Search with the simulator.");
-      break;
-    }
-  }
-}
-
-OpenedSimulator opened(const fs::path& file, const Campaign& campaign, const ObservationSet& observations) {
-  OpenedSimulator out;
-  try {
-    const SimulatorFile read = openSimulatorFile(file);
-    out.parameters = read.parameters;
-    tellKind(read, out);
-    out.parameters = openSimulator(file, campaign, observations)->parameters();
-  } catch (const std::exception& e) {
-    out.error = QString::fromUtf8(e.what());
-  }
-  return out;
 }
 
 /// A failed run is one sentence for the user, not a mistake of the program.
@@ -108,35 +52,6 @@ auto withSentences(const Work& work) {
   } catch (const SimulatorFailed& failed) {
     throw InputError(std::string(failed.what()));
   }
-}
-
-QString number(double value) {
-  return QString::number(value, 'g', 5).replace(QLatin1Char('-'), QChar(0x2212));
-}
-
-/// Plain numbers have no unit.
-QString unitOf(const SimulatorParameter& p) {
-  return p.unit == "1" ? QString() : text(printedUnits(p.unit));
-}
-
-QString withUnit(double value, const SimulatorParameter& p) {
-  const QString unit = unitOf(p);
-  return unit.isEmpty() ? number(value) : number(value) + QLatin1Char(' ') + unit;
-}
-
-Cell tipped(const QString& words) {
-  Cell cell{words};
-  cell.tip = words;
-  return cell;
-}
-
-QString effectsText(const std::vector<std::string>& effects) {
-  return effects.empty() ? QString() : effectTitles(effects, translated("or"));
-}
-
-QString valueText(const SimulatorParameter& p) {
-  if (p.off()) return translated("off");
-  return p.standard_uncertainty > 0.0 ? withError(p.value, p.standard_uncertainty, unitOf(p)) : withUnit(p.value, p);
 }
 
 }  // namespace
@@ -172,9 +87,6 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   search_ = makeButton(tr("Search with the simulator"), "play");
   search_->setToolTip(tr("Run the simulator and look for what is missing among its parameters as well"));
   put_ = makeButton(tr("Put it into the simulation…"), nullptr, "primary");
-  put_->setToolTip(
-      tr("Fit the physical parameters on the simulator and write its new version to a new folder; the present one "
-         "stays as it is"));
   views_ = new Segments({tr("Parameters"), tr("Over time"), tr("Over the table")}, tr("What is shown"));
   head_->addToTitle(views_);
   for (QPushButton* button : {choose_, search_, put_}) head_->addToTitle(button);
@@ -183,14 +95,7 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   column->addWidget(callout_);
 
   stack_ = new QStackedWidget;
-  parameters_ = new RowsModel({tr("Parameter"), tr("What it is"), tr("Value"), tr("Bounds"), tr("Can cause")}, this);
-  parameter_table_ = makeTable(parameters_, tr("Parameters of the simulator"),
-                               tr("Choose simulator.json: the parameters of the simulation appear here."));
-  stretchColumn(parameter_table_, 1);
-  parameter_table_->setWordWrap(true);
-  parameter_table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  auto* left = new Card(tr("Parameters"));
-  left->body()->addWidget(parameter_table_, 1);
+  parameters_ = new ParameterCard;
   found_card_ = new Card(tr("What was found"));
   found_ = new QLabel;
   found_->setWordWrap(true);
@@ -209,7 +114,7 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   figure_table_->setMinimumHeight(0);
   found_card_->body()->addWidget(figure_table_);
   found_card_->body()->addWidget(scroll, 1);
-  stack_->addWidget(makeSplitter(left, found_card_, 3, 2));
+  stack_->addWidget(makeSplitter(parameters_, found_card_, 3, 2));
   history_ = new SimulationHistory;
   stack_->addWidget(history_);
   column->addWidget(stack_, 1);
@@ -220,10 +125,18 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   });
   connect(search_, &QPushButton::clicked, this, &SimulationPanel::search);
   connect(put_, &QPushButton::clicked, this, &SimulationPanel::askForFolder);
+  connect(parameters_, &ParameterCard::ticksChanged, this, [this] {
+    showCallout();
+    updateButtons();
+  });
   connect(views_, &Segments::chosen, this, &SimulationPanel::showView);
   connect(history_, &SimulationHistory::hovered, this, &SimulationPanel::hovered);
   connect(&context_.jobs, &JobRunner::started, this, &SimulationPanel::updateButtons);
   connect(&context_.jobs, &JobRunner::finished, this, &SimulationPanel::updateButtons);
+}
+
+QTableView* SimulationPanel::parameterTable() const {
+  return parameters_->table();
 }
 
 const SimulationUpdate* SimulationPanel::update() const {
@@ -277,7 +190,10 @@ void SimulationPanel::refresh() {
     stored_ = {};
   }
   const std::string simulator = currentSimulator(session);
-  if (simulator != simulator_) failure_.clear();
+  if (simulator != simulator_) {
+    failure_.clear();
+    parameters_->forgetTicks();
+  }
   simulator_ = simulator;
   load();
   openSoon();
@@ -298,6 +214,7 @@ void SimulationPanel::load() {
   stored_ = simulationResult(context_.session, simulator_);
   if (stored_.id == shown_result_) return;
   shown_result_ = stored_.id;
+  parameters_->forgetTicks();
   story_.reset();
   if (stored_.id == 0) return;
   try {
@@ -324,7 +241,7 @@ void SimulationPanel::openSoon() {
   }
   // A snapshot: the page may show another campaign by then.
   opening_.ask([this, file = simulatorFile(session, simulator_), campaign, at = *observations] {
-    OpenedSimulator read = opened(file, *campaign, at);
+    OpenedSimulator read = OpenedSimulator::read(file, *campaign, at);
     return [this, read = std::move(read)] {
       opened_ = read;
       showParameters();
@@ -408,46 +325,32 @@ QString SimulationPanel::proposedFolder() const {
 }
 
 void SimulationPanel::askForFolder() {
-  QDialog dialog(this);
-  dialog.setWindowTitle(tr("Put it into the simulation"));
-  auto* column = new QVBoxLayout(&dialog);
-  column->setContentsMargins(24, 16, 24, 16);
-  column->setSpacing(12);
-  auto* words = new QLabel(
-      tr("The simulator is run until its parameters fit what was measured. Its new version is written to a new folder; "
-         "the present one stays as it is.") +
-      QLatin1Char(' ') + opened_.runs);
-  words->setWordWrap(true);
-  column->addWidget(words);
-  auto* line = new QHBoxLayout;
-  auto* folder = new QLineEdit(proposedFolder());
-  folder->setAccessibleName(tr("New folder"));
-  folder->setMinimumWidth(440);
-  auto* browse = makeButton(tr("Browse…"), "folder-open");
-  line->addWidget(folder, 1);
-  line->addWidget(browse);
-  column->addLayout(line);
-  auto* buttons = new QHBoxLayout;
-  buttons->addStretch(1);
-  auto* cancel = makeButton(tr("Cancel"), nullptr);
-  auto* accept = makeButton(tr("Put it in"), nullptr, "primary");
-  accept->setDefault(true);
-  buttons->addWidget(cancel);
-  buttons->addWidget(accept);
-  column->addLayout(buttons);
-  connect(browse, &QPushButton::clicked, &dialog, [&dialog, folder] {
-    const QString chosen = QFileDialog::getExistingDirectory(&dialog, tr("An empty folder"), folder->text());
-    if (!chosen.isEmpty()) folder->setText(chosen);
-  });
-  connect(folder, &QLineEdit::textChanged, accept,
-          [accept](const QString& path) { accept->setEnabled(!path.trimmed().isEmpty()); });
-  connect(cancel, &QPushButton::clicked, &dialog, &QDialog::reject);
-  connect(accept, &QPushButton::clicked, &dialog, &QDialog::accept);
-  if (dialog.exec() == QDialog::Accepted) putInto(folder->text().trimmed());
+  const QString folder = askForVersionFolder(this, proposedFolder(), opened_.runs);
+  if (!folder.isEmpty()) putInto(folder);
+}
+
+QString SimulationPanel::whyNotPut() const {
+  const std::vector<std::string> ticked = parameters_->ticked();
+  // Before a search what it finds is put in.
+  const bool searched = story_ != nullptr && current();
+  if (ticked.empty() && (searched || parameters_->ticksAreTheUsers())) {
+    return searched && story_->effects.empty() && !parameters_->ticksAreTheUsers()
+               ? tr("Nothing was found that could be put in. Tick a parameter in the column Put in to put it in all "
+                    "the "
+                    "same.")
+               : tr("Tick what is to be put in, in the column Put in.");
+  }
+  if (!parameters_->ticksAreTheUsers()) return {};
+  return text(whyNotTogether(ticked, opened_.parameters, opened_.windows,
+                             story_ != nullptr ? story_->twins : decltype(story_->twins)()));
 }
 
 void SimulationPanel::putInto(const QString& folder) {
-  if (context_.jobs.busy() || story_ == nullptr || simulator_.empty()) return;
+  if (context_.jobs.busy() || simulator_.empty() || !context_.session.observations()) return;
+  if (const QString why = whyNotPut(); !why.isEmpty()) {
+    callout_->show(Tone::Attention, why);
+    return;
+  }
   failure_.clear();
   const fs::path target = fs::absolute(folder.toStdString()).lexically_normal();
   const fs::path within =
@@ -457,11 +360,14 @@ void SimulationPanel::putInto(const QString& folder) {
     return;
   }
   const std::string version = simulatorName(context_.session, target / "simulator.json");
-  const bool kept =
-      searched_.run != nullptr && searched_.visit == context_.session.visit() && searched_.result == stored_.id;
+  // Anything else is searched anew, as part of the job.
+  const bool kept = searched_.run != nullptr && searched_.visit == context_.session.visit() &&
+                    searched_.result == stored_.id && current();
+  IntoSimulationOptions into;
+  if (parameters_->ticksAreTheUsers()) into.mechanisms = parameters_->ticked();
   Job job;
   job.title = tr("Putting it into the simulation");
-  job.work = [this, in = inputs(), options = choice(), target, version,
+  job.work = [this, in = inputs(), options = choice(), target, version, into,
               before = kept ? searched_.run : nullptr](JobContext& progress) -> std::function<void()> {
     const auto campaign = in.choice.applied(in.campaign, in.effects);
     const auto run = withSentences([&] {
@@ -471,7 +377,7 @@ void SimulationPanel::putInto(const QString& folder) {
       auto out =
           std::make_shared<DiscrepancyRun>(before != nullptr ? *before : in.search(*campaign, *simulator, searching));
       JobContext fitting = progress.part(before != nullptr ? 0.0 : 0.4, 1.0);
-      out->update = updateSimulation(*campaign, *out, *simulator, {}, target, fitting);
+      out->update = updateSimulation(*campaign, *out, *simulator, into, target, fitting);
       return out;
     });
     const bool written = run->update->status == FitStatus::Converged;
@@ -502,7 +408,7 @@ QString SimulationPanel::titleOf(const FoundEffect& effect) const {
   return !effect.title.empty() ? text(effect.title) : effectTitle(effect.id);
 }
 
-void SimulationPanel::showParameters() {
+void SimulationPanel::showHead() {
   const QString file = text(simulator_);
   head_->setTitle(simulator_.empty() ? tr("No simulator") : text(fs::path(simulator_).filename().string()));
   head_->setToolTip(file);
@@ -512,54 +418,11 @@ void SimulationPanel::showParameters() {
                      : tr("%1%2 %3")
                            .arg(file, opened_.kind.isEmpty() ? QString() : tr(", %1.").arg(opened_.kind), opened_.runs)
                            .trimmed());
-  std::vector<Row> rows;
-  const SimulationUpdate* done = update();
-  if (done != nullptr && !done->parameters.empty()) {
-    parameters_->setHeaders({tr("Parameter"), tr("What it is"), tr("Before"), tr("After"), QString()});
-    for (const FittedSimulatorParameter& p : done->parameters) {
-      Row row;
-      row.id = text(p.parameter.name);
-      Cell name = tipped(text(p.parameter.name));
-      name.bold = p.put_in;
-      Cell before{p.parameter.standard_uncertainty > 0.0 && !p.put_in
-                      ? withError(p.parameter.value, p.parameter.standard_uncertainty, unitOf(p.parameter))
-                      : withUnit(p.parameter.value, p.parameter)};
-      Cell after{p.no_influence ? QStringLiteral("–")
-                                : withError(p.value, p.standard_uncertainty, unitOf(p.parameter))};
-      after.bold = p.put_in;
-      Cell mark = p.no_influence                 ? Cell{tr("no influence")}
-                  : p.at_bound                   ? Cell{tr("at its bound"), Tone::Attention, "alert"}
-                  : p.put_in                     ? Cell{tr("put in"), Tone::Good, "check-circle"}
-                  : p.value == p.parameter.value ? Cell{tr("kept")}
-                                                 : Cell{tr("adjusted")};
-      if (!p.put_in && !p.no_influence) mark.tip = tr("adjusted within its stated uncertainty");
-      row.cells = {name, tipped(text(p.parameter.what)), before, after, mark};
-      row.faded = p.no_influence;
-      rows.push_back(std::move(row));
-    }
-  } else {
-    parameters_->setHeaders({tr("Parameter"), tr("What it is"), tr("Value"), tr("Bounds"), tr("Can cause")});
-    for (const SimulatorParameter& p : opened_.parameters) {
-      Row row;
-      row.id = text(p.name);
-      Cell name = tipped(text(p.name));
-      name.bold = story_ != nullptr && std::any_of(story_->effects.begin(), story_->effects.end(),
-                                                   [&](const FoundEffect& e) { return e.id == p.id(); });
-      Cell value{valueText(p)};
-      if (p.off()) {
-        value.icon = "stop";
-        value.tip = tr("A mechanism that the simulation does not have; it may well be %1.")
-                        .arg(withUnit(p.standard_uncertainty, p));
-      }
-      row.cells = {name, tipped(text(p.what)), value, Cell{tr("%1 to %2").arg(number(p.min), withUnit(p.max, p))},
-                   tipped(effectsText(p.effects))};
-      rows.push_back(std::move(row));
-    }
-  }
-  parameters_->setRows(std::move(rows));
-  // Beside what was found there is no room for all of it.
-  const bool narrow = story_ != nullptr && done == nullptr;
-  for (const int column : {3, 4}) parameter_table_->setColumnHidden(column, narrow);
+}
+
+void SimulationPanel::showParameters() {
+  showHead();
+  parameters_->show(opened_, story_.get(), update());
 }
 
 void SimulationPanel::showFound() {
@@ -640,7 +503,8 @@ void SimulationPanel::showCallout() {
     return;
   }
   if (story_ == nullptr) {
-    callout_->set(Tone::Neutral, {});
+    const QString why = parameters_->ticksAreTheUsers() ? whyNotPut() : QString();
+    callout_->set(Tone::Attention, why);
     return;
   }
   if (!current()) {
@@ -656,7 +520,9 @@ void SimulationPanel::showCallout() {
                    titledSentence(done->message));
     return;
   }
-  if (story_->verdict == DiscrepancyVerdict::None) {
+  if (const QString why = whyNotPut(); !why.isEmpty() && parameters_->ticksAreTheUsers()) {
+    callout_->show(Tone::Attention, why);
+  } else if (story_->verdict == DiscrepancyVerdict::None) {
     callout_->show(Tone::Good, tr("Measured and the simulator's own run agree within the noise."));
   } else if (story_->effects.empty()) {
     callout_->show(Tone::Attention, sentenceStart(titledSentence(story_->message)));
@@ -688,14 +554,21 @@ void SimulationPanel::updateButtons() {
   choose_->setEnabled(idle);
   search_->setVisible(!simulator_.empty());
   search_->setEnabled(idle && usable);
-  const bool named = story_ != nullptr && !story_->effects.empty() && update() == nullptr;
-  put_->setVisible(named);
-  put_->setEnabled(idle && usable && named && current());
+  put_->setVisible(!simulator_.empty() && update() == nullptr);
+  const QString why = whyNotPut();
+  put_->setEnabled(idle && usable && why.isEmpty());
+  put_->setToolTip(!why.isEmpty() ? why
+                   : story_ != nullptr && current()
+                       ? tr("Fit the physical parameters on the simulator and write its new version to a new folder; "
+                            "the present one stays as it is")
+                       : tr("Search with the simulator, put in what is found and write its new version to a new "
+                            "folder; the present one stays as it is"));
 }
 
 std::vector<Exportable> SimulationPanel::exportables() {
   std::vector<Exportable> items;
-  if (parameters_->rowCount() > 0) items.push_back(exportableOf(tr("Parameters of the simulator"), parameters_));
+  if (parameters_->model()->rowCount() > 0)
+    items.push_back(exportableOf(tr("Parameters of the simulator"), parameters_->model()));
   if (story_ == nullptr) return items;
   if (figures_->rowCount() > 0) {
     items.push_back(exportableOf(tr("Simulation before and after"), figures_));

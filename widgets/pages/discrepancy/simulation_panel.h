@@ -12,6 +12,7 @@
 #include "core/workflows/simulation_story.h"
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/latest_work.h"
+#include "widgets/pages/discrepancy/opened_simulator.h"
 #include "widgets/pages/page.h"
 
 class QLabel;
@@ -23,18 +24,11 @@ namespace spindrift::gui {
 
 class Callout;
 class Card;
+class ParameterCard;
 class RowsModel;
 class Segments;
 class SimulationHistory;
 class SimulationMaps;
-
-/// What simulator.json says without a run.
-struct OpenedSimulator {
-  std::vector<SimulatorParameter> parameters;
-  QString kind;   ///< "CalculiX"
-  QString runs;   ///< which programs will be run, one sentence
-  QString error;  ///< why it cannot be used; else empty
-};
 
 class SimulationPanel : public QWidget {
   Q_OBJECT
@@ -46,7 +40,8 @@ class SimulationPanel : public QWidget {
   void chooseSimulator(const QString& file);
   /// Runs the simulator.
   void search();
-  /// Puts what was named into the simulation; the new version goes to a new folder.
+  /// Puts what is ticked (what is found, where nobody has set a tick) into the simulation; the new version goes to a
+  /// new folder. A search that is missing is made first.
   void putInto(const QString& folder);
   /// A folder that does not exist yet, in the session.
   [[nodiscard]] QString proposedFolder() const;
@@ -58,7 +53,7 @@ class SimulationPanel : public QWidget {
   [[nodiscard]] Callout* callout() const { return callout_; }
   [[nodiscard]] QLabel* runs() const { return runs_; }
   [[nodiscard]] QLabel* found() const { return found_; }
-  [[nodiscard]] QTableView* parameterTable() const { return parameter_table_; }
+  [[nodiscard]] QTableView* parameterTable() const;
   [[nodiscard]] QTableView* figureTable() const { return figure_table_; }
   [[nodiscard]] SimulationHistory* history() const { return history_; }
   [[nodiscard]] SimulationMaps* maps() const { return maps_; }  ///< null before it was first shown
@@ -87,10 +82,13 @@ class SimulationPanel : public QWidget {
   [[nodiscard]] Inputs inputs();
   [[nodiscard]] nlohmann::json choice() const;
   void askForFolder();
+  /// Why what is ticked cannot be put in; empty: it can.
+  [[nodiscard]] QString whyNotPut() const;
   void openSoon();
   void load();
   void simulatorChanged();
   void fail(const QString& sentence);
+  void showHead();
   void showParameters();
   void showFound();
   void showFigures();
@@ -110,8 +108,7 @@ class SimulationPanel : public QWidget {
   Callout* callout_;
   Segments* views_;
   QStackedWidget* stack_;
-  RowsModel* parameters_;
-  QTableView* parameter_table_;
+  ParameterCard* parameters_;
   Card* found_card_;
   QWidget* found_scroll_;
   QLabel* found_;
