@@ -247,8 +247,8 @@ TEST(Compensator, TheInterfaceForCChecksLengthsSizesAndNames) {
   const testing::TempFolder folder;
   ThermalModel m = model();
   // Two names that agree for longer than any fixed buffer.
-  m.inputs[0].name = std::string(200, 'a') + "_rpm";
-  m.inputs[1].name = std::string(200, 'a') + "_degC";
+  m.inputs[0].name.assign(200, 'a').append("_rpm");
+  m.inputs[1].name.assign(200, 'a').append("_degC");
   m.outputs[0].verdict = ThermalVerdict{false, 0.0, 1.0, 2.0, "worse than nothing"};
   m.write(folder / "model.json");
   char message[300];

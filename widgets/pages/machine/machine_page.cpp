@@ -23,6 +23,7 @@
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/pages/common/cells.h"
 #include "widgets/pages/common/editor_table.h"
 #include "widgets/pages/machine/artefact_editor.h"
 #include "widgets/view3d/view3d.h"

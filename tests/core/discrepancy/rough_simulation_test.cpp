@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A simulation whose parts are all off by some per cent: that is no missing effect.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "core/discrepancy/discrepancy.h"
+#include "core/discrepancy/residual_problem.h"
+#include "core/simulation/study_campaigns.h"
+#include "tests/benchmarks/discrepancy/hidden_effect_scoring.h"
+
+namespace spindrift {
+namespace {
+
+struct Tally {
+  int right = 0;  ///< the hidden effect is named, and nothing else
+  int more = 0;   ///< something else is named as well
+  int campaigns = 0;
+};
+
+Tally tallyOf(const StudyConditions& conditions, std::uint64_t first_seed, int campaigns) {
+  Tally tally;
+  for (int k = 0; k < campaigns; ++k) {
+    StudyOptions study;
+    study.strength = 6.0;
+    study.conditions = conditions;
+    study.turn = static_cast<std::size_t>(k);
+    const StudyCase made = studyCase(study, first_seed + static_cast<std::uint64_t>(k));
+    JobContext job;
+    DiscrepancyOptions options;
+    options.suggest = false;
+    const DiscrepancyResult result = findDiscrepancy(study::inputOf(simulateStudy(made, job).campaign), options, job);
+    const auto hidden = [&](const FoundEffect& e) { return e.id == made.hidden.front(); };
+    const bool found = std::any_of(result.effects.begin(), result.effects.end(), hidden);
+    const bool others = !std::all_of(result.effects.begin(), result.effects.end(), hidden);
+    tally.right += found && !others ? 1 : 0;
+    tally.more += others ? 1 : 0;
+    ++tally.campaigns;
+  }
+  return tally;
+}
+
+TEST(RoughSimulation, ItsErrorsGetNoNameBesideWhatIsMissing) {
+  StudyConditions all_parts;
+  all_parts.base_error = 0.08;
+  const Tally tally = tallyOf(all_parts, 91'001, 12);
+  EXPECT_GE(tally.right, 11);
+  EXPECT_LE(tally.more, 1);
+}
+
+TEST(RoughSimulation, OnePartThatIsFarOffIsToldAllTheSame) {
+  StudyConditions one_part;
+  one_part.one_base_error = 0.3;
+  const Tally tally = tallyOf(one_part, 92'001, 8);
+  EXPECT_GE(tally.right, 6);
+}
+
+TEST(RoughSimulation, TheFreedomOfNuisancesCostsTheirDeterminant) {
+  const StudyCase made = studyCase({}, 93'001);
+  JobContext job;
+  const DiscrepancyInput input = study::inputOf(simulateStudy(made, job).campaign);
+  std::vector<std::size_t> rows;
+  for (std::size_t r = 0; r < input.observations.rows.size(); ++r) {
+    if (input.observations.rows[r].use == ObservationUse::Fit) rows.push_back(r);
+  }
+  ResidualProblem problem(input, rows, 4000);
+  const std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(0.08, 120.0);
+  ASSERT_GE(nuisances.size(), 4U);
+  problem.setNuisances(nuisances);
+  const auto count = static_cast<Eigen::Index>(nuisances.size());
+  Eigen::MatrixXd raw(problem.size(), count);
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const NuisanceColumn& column = nuisances[static_cast<std::size_t>(c)];
+    ASSERT_GT(column.prior_sigma, 0.0);
+    raw.col(c) = column.prior_sigma * column.values;
+  }
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(count, count);
+  for (std::size_t d = 0; d < problem.domains().size(); ++d) {
+    const ResidualProblem::Domain& domain = problem.domains()[d];
+    const Eigen::MatrixXd white = problem.withoutConstants(d, raw.middleRows(domain.from, domain.count));
+    gram += white.transpose() * white;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> llt(gram);
+  const double expected = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+  EXPECT_GT(expected, 1.0);
+  EXPECT_NEAR(problem.nuisanceLogDeterminant(), expected, 1e-6 * expected);
+}
+
+}  // namespace
+}  // namespace spindrift
