@@ -20,58 +20,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=500000>)
 endif()
 
-# Headers of other projects only: ours change, and each change would build everything again.
-set(SPINDRIFT_CORE_HEADERS
-    <algorithm>
-    <array>
-    <chrono>
-    <cmath>
-    <filesystem>
-    <functional>
-    <map>
-    <memory>
-    <mutex>
-    <numbers>
-    <optional>
-    <set>
-    <span>
-    <string>
-    <string_view>
-    <tuple>
-    <unordered_map>
-    <vector>
-    <fmt/format.h>
-    ${CMAKE_CURRENT_LIST_DIR}/precompiled_json.h
-    <Eigen/Cholesky>
-    <Eigen/Core>
-    <Eigen/Eigenvalues>
-    <Eigen/Geometry>
-    <Eigen/LU>
-    <Eigen/QR>
-    <Eigen/SVD>)
-set(SPINDRIFT_TEST_HEADERS <gmock/gmock.h> <gtest/gtest.h>)
-set(SPINDRIFT_QT_HEADERS
-    <QCheckBox>
-    <QComboBox>
-    <QCoreApplication>
-    <QDir>
-    <QDoubleSpinBox>
-    <QFileDialog>
-    <QHBoxLayout>
-    <QHeaderView>
-    <QImage>
-    <QLabel>
-    <QLineEdit>
-    <QPainter>
-    <QPushButton>
-    <QSettings>
-    <QSplitter>
-    <QStackedWidget>
-    <QTabWidget>
-    <QTableView>
-    <QTimer>
-    <QVBoxLayout>
-    <QWidget>)
+# The headers to be read once: of other projects only, for ours change, and each change would build everything again. They are
+# listed in files, for CMake does not notice a change of a list.
+set(SPINDRIFT_CORE_HEADERS ${CMAKE_SOURCE_DIR}/resources/precompiled/core.h)
+set(SPINDRIFT_TEST_HEADERS ${CMAKE_SOURCE_DIR}/resources/precompiled/tests.h)
+set(SPINDRIFT_QT_HEADERS ${CMAKE_SOURCE_DIR}/resources/precompiled/qt.h)
 
 # spindrift_precompiled(<name> HEADERS h ... LINK lib ...)
 # A target that holds nothing but a precompiled header, for targets of the same flags to reuse. g++ takes a precompiled header
