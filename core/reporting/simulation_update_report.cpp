@@ -4,44 +4,30 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 
 #include "core/base/text.h"
+#include "core/discrepancy/discrepancy_numbers.h"
 #include "core/reporting/discrepancy_figures.h"
 
 namespace spindrift {
 
 std::vector<DiscrepancyReportRow> simulationUpdateRows(const DiscrepancyInput& input, const SimulationUpdate& update) {
   const auto& rows = input.observations.rows;
-  struct Sums {
-    double weight = 0.0;
-    double before = 0.0;
-    double after = 0.0;
-  };
-  std::map<std::pair<std::string, Component>, Sums> series;
+  std::vector<std::size_t> fitted;
+  std::vector<double> change(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].use != ObservationUse::Fit || !std::isfinite(update.before[i]) || !std::isfinite(update.after[i]))
-      continue;
-    const double weight = 1.0 / (rows[i].sigma * rows[i].sigma);
-    Sums& sums = series[{rows[i].point, rows[i].component}];
-    sums.weight += weight;
-    sums.before += weight * (rows[i].value - update.before[i]);
-    sums.after += weight * (rows[i].value - update.after[i]);
+    change[i] = update.after[i] - update.before[i];
+    if (rows[i].use == ObservationUse::Fit && std::isfinite(change[i])) fitted.push_back(i);
   }
+  const RowResult before = evaluateRows(input, fitted, {}, std::vector<double>(rows.size(), 0.0));
+  const RowResult after = evaluateRows(input, fitted, {}, change);
   std::vector<DiscrepancyReportRow> out;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Observation& o = rows[i];
     if (o.use == ObservationUse::Exclude) continue;
-    const double none = std::nan("");
-    DiscrepancyReportRow row{
-        o.time_s, o.point, o.component, o.position_mm, o.sigma, none, none, o.use == ObservationUse::Holdout, o.value};
-    const auto sums = series.find({o.point, o.component});
-    if (sums != series.end() || input.absolute) {
-      const double weight = input.absolute ? 1.0 : sums->second.weight;
-      row.before = o.value - update.before[i] - (input.absolute ? 0.0 : sums->second.before / weight);
-      row.after = o.value - update.after[i] - (input.absolute ? 0.0 : sums->second.after / weight);
-    }
-    out.push_back(std::move(row));
+    out.push_back({o.time_s, o.point, o.component, o.position_mm, o.sigma,
+                   o.value - update.before[i] - before.constant[i], o.value - update.after[i] - after.constant[i],
+                   o.use == ObservationUse::Holdout, o.value});
   }
   return out;
 }
@@ -84,7 +70,8 @@ void addSimulationUpdate(HtmlDocument& document, const SimulationUpdate& update,
     addTimeHistories(document, rows, "new simulation");
   }
   for (const std::string& warning : update.warnings) document.paragraph("Note: " + warning);
-  document.paragraph(fmt::format("{} runs of the simulation, {:.0f} s.", update.runs, update.elapsed_s));
+  document.paragraph(fmt::format("{} runs of the simulation to search, {} to fit ({:.0f} s).", update.runs_to_search,
+                                 update.runs, update.elapsed_s));
 }
 
 }  // namespace spindrift

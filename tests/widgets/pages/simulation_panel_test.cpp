@@ -397,6 +397,24 @@ TEST_F(SimulationPanelTest, StaysWithTheSearchOfThePage) {
   ASSERT_NE(panel_->story(), nullptr) << sentence();
 }
 
+TEST_F(SimulationPanelTest, TheStoryOfACampaignFromElsewhere) {
+  // For pictures of a finite-element story, which takes minutes: a campaign that names its simulator.
+  const QString campaign = qEnvironmentVariable("SPINDRIFT_TEST_STORY");
+  if (campaign.isEmpty()) GTEST_SKIP() << "SPINDRIFT_TEST_STORY names no campaign";
+  openPanel(campaign.toStdString());
+  panel_->putInto(panel_->proposedFolder());
+  ASSERT_TRUE(waitForJobs(*window_, 900));
+  settle();
+  ASSERT_NE(panel_->update(), nullptr) << sentence();
+  EXPECT_EQ(panel_->update()->status, FitStatus::Converged) << sentence();
+  picture("story-parameters");
+  panel_->views()->button(1)->click();
+  picture("story-history");
+  panel_->views()->button(2)->click();
+  settle();
+  picture("story-maps");
+}
+
 TEST_F(SimulationPanelTest, ASimulatorThatFailsSaysItsOneSentence) {
   openPanel(writeCampaign(false));
   EXPECT_EQ(panel_->parameterTable()->model()->rowCount(), 0);

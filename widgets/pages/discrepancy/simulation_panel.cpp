@@ -146,6 +146,11 @@ const SimulationUpdate* SimulationPanel::update() const {
   return version.empty() || version == simulator_ ? &*story_->update : nullptr;
 }
 
+QString SimulationPanel::versionMade() const {
+  const std::string version = stored_.id != 0 ? stored_.provenance.options.value("version", "") : std::string();
+  return version.empty() ? QString() : text(simulatorFile(context_.session, version).string());
+}
+
 nlohmann::json SimulationPanel::choice() const {
   nlohmann::json out = DiscrepancyChoice::of(context_.session).json();
   out.erase("added");  // terms on top of the simulation are what the simulator is to make unnecessary
@@ -446,10 +451,12 @@ void SimulationPanel::showFound() {
   std::vector<std::string> warnings;
   if (const SimulationUpdate* done = update()) {
     warnings = done->warnings;
-    html +=
-        QStringLiteral("<p>%1</p>")
-            .arg(
-                tr("%1 runs of the simulation, %2 s.").arg(done->runs).arg(done->elapsed_s, 0, 'f', 0).toHtmlEscaped());
+    html += QStringLiteral("<p>%1</p>")
+                .arg(tr("%1 runs of the simulation to search, %2 to fit (%3 s).")
+                         .arg(done->runs_to_search)
+                         .arg(done->runs)
+                         .arg(done->elapsed_s, 0, 'f', 0)
+                         .toHtmlEscaped());
   } else {
     warnings = story_->warnings;
   }

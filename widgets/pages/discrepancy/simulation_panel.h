@@ -61,6 +61,8 @@ class SimulationPanel : public QWidget {
   [[nodiscard]] const SimulationStory* story() const { return story_.get(); }
   /// The update that is shown; null: none, or it was undone.
   [[nodiscard]] const SimulationUpdate* update() const;
+  /// simulator.json of the version that was written from the simulator at hand; empty: none.
+  [[nodiscard]] QString versionMade() const;
   /// simulator.json is being read.
   [[nodiscard]] bool busy() const { return opening_.busy(); }
 
