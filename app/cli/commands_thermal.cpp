@@ -95,8 +95,10 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
       ->check(nonNegativeNumber());
   command->add_option("--order", a->order, "na,nb,nk: poles, numerator coefficients per input, delay in samples");
   command
-      ->add_option("--method", a->request.method,
-                   "response (lags of all inputs, averaged priors), arx or oe; default by --order")
+      ->add_option(
+          "--method", a->request.method,
+          "response (lags of all inputs, averaged priors), arx or oe; default: arx with --order, else chosen by "
+          "free runs inside the training range among straight lines, few lags, ridge over lags and response")
       ->check(CLI::IsMember({"response", "arx", "oe"}));
   command
       ->add_option("--temperature-unit", a->request.temperature_unit,

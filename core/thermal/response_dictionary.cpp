@@ -35,7 +35,8 @@ void assignBlocks(Dictionary& d, const TimeSeries& series, const std::vector<std
     if (borders.empty() || s - borders.back() > shortest) borders.push_back(s);
   }
   d.block.assign(d.time_s.size(), 0);
-  if (borders.size() < 2 || borders.size() > 9) {
+  d.by_operation = borders.size() >= 2 && borders.size() <= 9;
+  if (!d.by_operation) {
     borders.clear();
     for (int k = 1; k < 5; ++k) borders.push_back(first + (last - first) * k / 5.0);
   }
@@ -193,6 +194,44 @@ std::vector<std::string> usableInputs(const TimeSeries& series, const std::strin
     }
   }
   return kept;
+}
+
+Whitened whiten(const Dictionary& d, double noise_tau_s) {
+  Whitened w;
+  const Index n = d.y.size();
+  w.phi = std::exp(-d.period_s / noise_tau_s);
+  w.X.resize(n, d.X.cols() + 1);
+  w.y.resize(n);
+  const double base = std::sqrt(1.0 - w.phi * w.phi);
+  w.X(0, 0) = base;
+  w.X.row(0).tail(d.X.cols()) = base * d.X.row(0);
+  w.y[0] = base * (d.y[0] - d.y_mean);
+  for (Index i = 1; i < n; ++i) {
+    const double gap = d.time_s[i] - d.time_s[i - 1];
+    const double phi = std::exp(-gap / noise_tau_s);
+    const double scale = base / std::sqrt(1.0 - phi * phi);
+    w.X(i, 0) = scale * (1.0 - phi);
+    w.X.row(i).tail(d.X.cols()) = scale * (d.X.row(i) - phi * d.X.row(i - 1));
+    w.y[i] = scale * ((d.y[i] - d.y_mean) - phi * (d.y[i - 1] - d.y_mean));
+  }
+  return w;
+}
+
+Eigen::VectorXd priorPrecision(const Dictionary& d, const std::vector<Index>& columns, double strength,
+                               double slow_preference, const ResponseFitOptions& options) {
+  // Gains are dealt with per `typical spread` of a temperature; the factor of the period keeps the balance between data
+  // and prior when the same record is binned finer. 90 s and 3000 s are only the units of that balance.
+  Eigen::VectorXd precision(static_cast<Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Feature& f = d.features[columns[k]];
+    const ThermalInput& input = d.inputs[f.input];
+    const double typical = isDriven(input.kind) ? d.typical_driven_spread : d.typical_spread;
+    double spread = std::sqrt(typical / f.spread) / typical;
+    if (isDriven(input.kind)) spread *= options.speed_freedom;
+    spread *= std::pow(std::max(f.tau_s, 600.0) / 3000.0, slow_preference);
+    precision[static_cast<Index>(k)] = strength * (d.period_s / 90.0) / (spread * spread);
+  }
+  return precision;
 }
 
 }  // namespace spindrift::response

@@ -32,6 +32,7 @@ struct Dictionary {
   double period_s = 0.0;
   std::vector<int> block;  ///< block of operation of each bin
   int blocks = 0;
+  bool by_operation = false;  ///< blocks begin where a speed or feed leaves zero; else equal parts
 };
 
 [[nodiscard]] bool isDriven(SignalKind kind);
@@ -45,5 +46,20 @@ struct Dictionary {
 [[nodiscard]] std::vector<std::string> usableInputs(const TimeSeries& series, const std::string& output,
                                                     const std::vector<std::string>& names, double from_s, double to_s,
                                                     std::vector<InputVerdict>& verdicts);
+
+/// Rows after removing the drift's correlation: (z_k - phi z_{k-1}), scaled where a gap makes phi smaller. Column 0 is
+/// the offset.
+struct Whitened {
+  Eigen::MatrixXd X;
+  Eigen::VectorXd y;
+  double phi = 0.0;
+};
+
+[[nodiscard]] Whitened whiten(const Dictionary& d, double noise_tau_s);
+
+/// Precision (inverse prior variance) of the gains of these columns of the dictionary, per innovation variance.
+[[nodiscard]] Eigen::VectorXd priorPrecision(const Dictionary& d, const std::vector<Eigen::Index>& columns,
+                                             double strength, double slow_preference,
+                                             const ResponseFitOptions& options);
 
 }  // namespace spindrift::response

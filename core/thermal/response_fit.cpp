@@ -21,35 +21,6 @@ namespace {
 using Eigen::Index;
 using namespace response;
 
-/// Rows after removing the drift's correlation: (z_k - phi z_{k-1}), scaled where a gap makes phi smaller. Column 0 is
-/// the offset.
-struct Whitened {
-  Eigen::MatrixXd X;
-  Eigen::VectorXd y;
-  double phi = 0.0;
-};
-
-Whitened whiten(const Dictionary& d, double noise_tau_s) {
-  Whitened w;
-  const Index n = d.y.size();
-  w.phi = std::exp(-d.period_s / noise_tau_s);
-  w.X.resize(n, d.X.cols() + 1);
-  w.y.resize(n);
-  const double base = std::sqrt(1.0 - w.phi * w.phi);
-  w.X(0, 0) = base;
-  w.X.row(0).tail(d.X.cols()) = base * d.X.row(0);
-  w.y[0] = base * (d.y[0] - d.y_mean);
-  for (Index i = 1; i < n; ++i) {
-    const double gap = d.time_s[i] - d.time_s[i - 1];
-    const double phi = std::exp(-gap / noise_tau_s);
-    const double scale = base / std::sqrt(1.0 - phi * phi);
-    w.X(i, 0) = scale * (1.0 - phi);
-    w.X.row(i).tail(d.X.cols()) = scale * (d.X.row(i) - phi * d.X.row(i - 1));
-    w.y[i] = scale * ((d.y[i] - d.y_mean) - phi * (d.y[i - 1] - d.y_mean));
-  }
-  return w;
-}
-
 struct Member {
   double power = 0.0;  ///< of the speeds; 0 if there are none
   double strength = 0.0;
@@ -68,23 +39,6 @@ std::vector<Index> columnsOf(const Dictionary& d, double power, const std::strin
     columns.push_back(static_cast<Index>(k));
   }
   return columns;
-}
-
-Eigen::VectorXd priorPrecision(const Dictionary& d, const std::vector<Index>& columns, const Member& member,
-                               const ResponseFitOptions& options) {
-  // Gains are dealt with per `typical spread` of a temperature; the factor of the period keeps the balance between data
-  // and prior when the same record is binned finer. 90 s and 3000 s are only the units of that balance.
-  Eigen::VectorXd precision(static_cast<Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    const Feature& f = d.features[columns[k]];
-    const ThermalInput& input = d.inputs[f.input];
-    const double typical = isDriven(input.kind) ? d.typical_driven_spread : d.typical_spread;
-    double spread = std::sqrt(typical / f.spread) / typical;
-    if (isDriven(input.kind)) spread *= options.speed_freedom;
-    spread *= std::pow(std::max(f.tau_s, 600.0) / 3000.0, member.slow);
-    precision[static_cast<Index>(k)] = member.strength * (d.period_s / 90.0) / (spread * spread);
-  }
-  return precision;
 }
 
 struct Gram {
@@ -224,7 +178,7 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
   const Member middle = members[members.size() / 2];
   {
     const std::vector<Index> columns = columnsOf(d, middle.power);
-    const Eigen::VectorXd precision = priorPrecision(d, columns, middle, options);
+    const Eigen::VectorXd precision = priorPrecision(d, columns, middle.strength, middle.slow, options);
     for (int round = 0; round < 2; ++round) {
       const Eigen::VectorXd solution = solve(gramOf(w, weights, d.block, -1), columns, precision, false).w;
       std::vector<double> innovation(d.y.size());
@@ -243,7 +197,8 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
   job.report(0.3, "comparing priors on blocks left out");
   parallelFor(members.size(), job, [&](std::size_t m) {
     const std::vector<Index> columns = columnsOf(d, members[m].power);
-    members[m].left_out = leftOutError(d, by_block, all, columns, priorPrecision(d, columns, members[m], options));
+    members[m].left_out = leftOutError(d, by_block, all, columns,
+                                       priorPrecision(d, columns, members[m].strength, members[m].slow, options));
   });
   double total = 0.0;
   double best = std::numeric_limits<double>::infinity();
@@ -262,7 +217,7 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
   for (Member& m : members) {
     m.weight /= total;
     const std::vector<Index> columns = columnsOf(d, m.power);
-    const Solution s = solve(all, columns, priorPrecision(d, columns, m, options), true);
+    const Solution s = solve(all, columns, priorPrecision(d, columns, m.strength, m.slow, options), true);
     Eigen::VectorXd full = Eigen::VectorXd::Zero(p + 1);
     full[0] = s.w[0];
     for (std::size_t k = 0; k < columns.size(); ++k) full[columns[k] + 1] = s.w[static_cast<Index>(k) + 1];
@@ -305,7 +260,8 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
     if (columns.empty()) {
       verdict.error_without_percent = std::numeric_limits<double>::quiet_NaN();
     } else {
-      const double without = leftOutError(d, by_block, all, columns, priorPrecision(d, columns, *leader, options));
+      const double without =
+          leftOutError(d, by_block, all, columns, priorPrecision(d, columns, leader->strength, leader->slow, options));
       verdict.error_without_percent = 100.0 * (std::sqrt(without / leader->left_out) - 1.0);
     }
     verdict.kept = verdict.contribution_rms >= 1e-3 * spread;

@@ -13,8 +13,10 @@
 #include "core/base/text.h"
 #include "core/math/distributions.h"
 #include "core/math/statistics.h"
+#include "core/thermal/autocorrelation.h"
 #include "core/thermal/baselines.h"
 #include "core/thermal/input_selection.h"
+#include "core/thermal/method_choice.h"
 #include "core/workflows/campaign_series.h"
 #include "core/workflows/compensated_data.h"
 #include "core/workflows/thermal_structures.h"
@@ -43,17 +45,11 @@ ResidualDiagnosis diagnose(const TimeSeries& series, const IdentifyResult& resul
   const double centre = mean(e);
   for (double& v : e) v -= centre;
   const auto n = e.size();
-  const auto autocorrelation = [n](const std::vector<double>& v, std::size_t lag) {
-    double zero = 0.0;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) zero += v[i] * v[i];
-    for (std::size_t i = lag; i < n; ++i) sum += v[i] * v[i - lag];
-    return zero > 0.0 ? sum / zero : 0.0;
-  };
   const std::size_t lags = std::min<std::size_t>(25, n / 4);
+  const std::vector<double> of_residual = autocorrelation(e, n / 4);
   double q = 0.0;
   for (std::size_t lag = 0; lag <= lags; ++lag) {
-    out.autocorrelation.push_back(autocorrelation(e, lag));
+    out.autocorrelation.push_back(of_residual[lag]);
     if (lag > 0) q += out.autocorrelation.back() * out.autocorrelation.back() / static_cast<double>(n - lag);
   }
   q *= static_cast<double>(n) * (static_cast<double>(n) + 2.0);
@@ -81,8 +77,9 @@ ResidualDiagnosis diagnose(const TimeSeries& series, const IdentifyResult& resul
       }
     }
     // Bartlett: variance of the cross-correlation of unrelated, autocorrelated signals.
+    const std::vector<double> of_input = autocorrelation(u, n / 4);
     double sum = 1.0;
-    for (std::size_t lag = 1; lag < n / 4; ++lag) sum += 2.0 * autocorrelation(e, lag) * autocorrelation(u, lag);
+    for (std::size_t lag = 1; lag < n / 4; ++lag) sum += 2.0 * of_residual[lag] * of_input[lag];
     cross.limit = std::min(1.0, 2.58 * std::sqrt(std::max(1.0, sum) / static_cast<double>(n)));
     out.cross.push_back(cross);
   }
@@ -172,7 +169,19 @@ IdentifyResult identifyThermalModel(const TimeSeries& all, const IdentifyRequest
   options.period_s = request.period_s;
   if (sparse) options.minimum_samples = sparse_minimum;
   std::vector<std::string> chosen = names;
-  if (!structured || request.inputs.empty()) {
+  const bool chosen_by_evidence = !structured && !sparse && request.method.empty();
+  if (chosen_by_evidence) {
+    MethodChoiceOptions choice;
+    choice.response = options;
+    MethodChoiceResult fit = chooseMethod(series, request.output, names, request.train.from_s, request.train.to_s,
+                                          choice, job.part(0.0, 0.8));
+    if (fit.status != FitStatus::Converged) throw InputError({series.file, ""}, fit.message);
+    result.model = std::move(fit.model);
+    result.verdicts = std::move(fit.verdicts);
+    result.methods = std::move(fit.methods);
+    result.left_out_rms = fit.left_out_rms;
+    result.notes.insert(result.notes.end(), fit.notes.begin(), fit.notes.end());
+  } else if (!structured) {
     ResponseFitResult fit = fitResponse(series, request.output, names, request.train.from_s, request.train.to_s,
                                         options, job.part(0.0, 0.8));
     if (fit.status != FitStatus::Converged) throw InputError({series.file, ""}, fit.message);
@@ -208,7 +217,8 @@ IdentifyResult identifyThermalModel(const TimeSeries& all, const IdentifyRequest
     if (std::find(result.inputs.begin(), result.inputs.end(), input.name) == result.inputs.end())
       result.inputs.push_back(input.name);
   ThermalPrediction prediction = result.model.predict(series, 0);
-  if (structured) prediction.value = std::move(simulated);
+  // What is judged is what is shipped; only a model without equivalent in lags is shown by its own simulation.
+  if (structured && result.model.outputs.front().terms.empty()) prediction.value = std::move(simulated);
   result.time_s = series.time_s;
   result.measured = output.values;
   result.predicted = std::move(prediction.value);
@@ -243,6 +253,10 @@ IdentifyResult identifyThermalModel(const TimeSeries& all, const IdentifyRequest
       result.notes.push_back(reason + ": do not compensate with it; train on a longer or more varied range.");
     }
   }
+  if (result.model.outputs.front().terms.empty()) {
+    result.good_enough = verdict.good_enough = false;
+    verdict.reason += std::string(verdict.reason.empty() ? "" : "; ") + "the model has no equivalent in lags";
+  }
   result.model.outputs.front().verdict = std::move(verdict);
   for (const std::string& name : result.inputs) result.step_responses.push_back(result.model.stepResponse(0, name));
   result.residual = diagnose(series, result, request.train);
@@ -265,6 +279,12 @@ nlohmann::json IdentifyResult::json() const {
                                 {"reason", v.reason},
                                 {"contribution_rms", jsonNumber(v.contribution_rms)},
                                 {"error_without_percent", jsonNumber(v.error_without_percent)}});
+  }
+  if (!methods.empty()) {
+    out["methods"] = nlohmann::json::array();
+    for (const MethodEvidence& m : methods)
+      out["methods"].push_back(
+          {{"method", m.method}, {"left_out_rms", jsonNumber(m.left_out_rms)}, {"weight", m.weight}});
   }
   out["plain_models"] = nlohmann::json::array();
   for (const ModelComparison& p : plain) {
@@ -315,6 +335,9 @@ std::string IdentifyResult::summary() const {
   text += "free run (no measured output is used after training):\n";
   line("this model", train, test);
   for (const ModelComparison& p : plain) line(p.name, p.train, p.test);
+  for (const MethodEvidence& m : methods)
+    text += fmt::format("  method {:<9} rms of runs left out inside training {:8.3f}, share of the model {:3.0f} %\n",
+                        m.method, m.left_out_rms, 100.0 * m.weight);
   for (const InputVerdict& v : verdicts)
     text += fmt::format("  {} {}: {}\n", v.kept ? "kept   " : "dropped", v.name, v.reason);
   const auto marked = static_cast<std::size_t>(std::count(outside.begin(), outside.end(), char{1}));

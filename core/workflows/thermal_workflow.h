@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/job_context.h"
+#include "core/thermal/method_choice.h"
 #include "core/thermal/response_fit.h"
 #include "core/thermal/thermal_model.h"
 #include "core/thermal/time_series.h"
@@ -36,9 +37,9 @@ struct IdentifyRequest {
   TimeRange test;
   double period_s = 0.0;                    ///< 0: automatic
   std::optional<std::array<int, 3>> order;  ///< na, nb, nk
-  std::string method;                       ///< "" (by order: arx, else response), "response", "arx", "oe"
-  std::string temperature_unit;             ///< "", "degC", "K", "degF"
-  bool peers = false;                       ///< also first-order ARX and ridge over lagged inputs (some 0.1 ... 1 s)
+  std::string method;            ///< "" (chosen by blocked evidence; arx with an order), "response", "arx", "oe"
+  std::string temperature_unit;  ///< "", "degC", "K", "degF"
+  bool peers = false;            ///< also first-order ARX and ridge over lagged inputs (some 0.1 ... 1 s)
 };
 
 /// Free-run quality over one range. p2p in the output's unit (P2 (4)), fit in % (P2 (5)), rmse in the output's unit.
@@ -76,6 +77,7 @@ struct IdentifyResult {
   ThermalModel model;
   std::vector<std::string> inputs;  ///< names kept
   std::vector<InputVerdict> verdicts;
+  std::vector<MethodEvidence> methods;  ///< empty if the method was asked for
   RunQuality train;
   RunQuality test;
   std::vector<ModelComparison> plain;

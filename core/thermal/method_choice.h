@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The choice between methods behind `--inputs auto`: which plain or dynamic model of one output the training data
+// support, found by free runs inside the training range, and the average of those that they do not tell apart.
+//
+// Candidates (all linear in lags of the inputs, core/thermal/thermal_model.h, so that any average of them is one model
+// that is stored, judged and run by the compensator as it is):
+//   line        offset and a gain for each of a few inputs, no memory;
+//   few lags    one time constant per input, chosen from a grid (the output-error structure with one pole per input);
+//   ridge       a dense grid of time constants per input, gains shrunk by a ridge of several strengths;
+//   response    core/thermal/response_fit.h: all inputs, drifting zero, physical prior of the gains.
+// The first three are tried on every set of inputs (up to four inputs) or along a forward selection.
+//
+// Evidence: every candidate is fitted to a part of the training range and runs free over the rest, for several rolling
+// origins (the past predicts the future) and for blocks left out (the rest predicts the block; the block of the first
+// warm-up is the one that leaves the range of the others). Each of these runs has its own scale: what counts is the
+// mean of ln(mean squared error) over them. Weights of candidates are a power of that geometric mean squared error,
+// times a prior that makes every further input less probable. The power is 1 (Bates and Granger 1969) where the errors
+// of the best candidate differ from run to run by factors of e and more, as in records that leave their range: there
+// sharper weights choose by chance; it rises to 4 as that scatter falls. Between that average and `response` the errors
+// of the averages themselves decide, each run predicted with weights from the other runs only (nothing is chosen by the
+// run that judges it); where commanded speeds cut the training into at least three blocks of operation, `response` is
+// favoured beforehand.
+// Uncertainty: posterior of every candidate plus their scatter, which grows where the inputs leave what was seen;
+// scaled by the ratio of actual to stated errors in the runs that judged. Source: Bates and Granger 1969; Yao et al.
+// 2018 (stacking and pseudo-BMA); Tashman 2000 (rolling origins).
+// Failure: InputError as fitResponse; FitStatus Degenerate if nothing could be determined.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/job_context.h"
+#include "core/thermal/response_fit.h"
+
+namespace spindrift {
+
+struct MethodChoiceOptions {
+  std::vector<double> taus_s = {0.0, 150.0, 300.0, 600.0, 1200.0, 2400.0, 4800.0, 9600.0};
+  std::vector<double> shrinkages = {1e-4, 1e-3, 1e-2, 1e-1};  ///< ridge relative to the variance of a lag
+  std::vector<double> origins = {0.4, 0.55, 0.7, 0.85};       ///< parts of the training range
+  double sharpness = 1.0;                                     ///< exponent at a scatter of 1 in ln(mean squared error)
+  double sharpest = 4.0;                                      ///< largest exponent; the least is 1
+  double input_penalty = 0.5;                                 ///< ln of the prior odds against each further input
+  double response_odds = 50.0;  ///< prior odds for `response` where speeds make blocks of operation
+  int maximum_inputs = 6;       ///< of the forward selection
+  ResponseFitOptions response;
+
+  /// Throws InputError.
+  void validate() const;
+};
+
+/// What blocked evidence says of one method.
+struct MethodEvidence {
+  std::string method;         ///< "line", "few lags", "ridge", "response"
+  double left_out_rms = 0.0;  ///< geometric mean over the runs inside the training range, unit of the output
+  double weight = 0.0;        ///< share of the model
+};
+
+struct MethodChoiceResult {
+  FitStatus status = FitStatus::NotRun;
+  std::string message;
+  ThermalModel model;  ///< one output
+  std::vector<InputVerdict> verdicts;
+  std::vector<MethodEvidence> methods;
+  double left_out_rms = 0.0;  ///< of the model, geometric mean over the runs
+  std::vector<std::string> notes;
+};
+
+/// Training rows: `from_s` <= t < `to_s`.
+[[nodiscard]] MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& output,
+                                              const std::vector<std::string>& inputs, double from_s, double to_s,
+                                              const MethodChoiceOptions& options, const JobContext& job);
+
+/// The model whose prediction is sum weight_k prediction_k, for models of one output of the same name. Its covariance
+/// is the weighted covariance plus the scatter of the models; empty if one of them has none.
+[[nodiscard]] ThermalModel weightedAverage(const std::vector<ThermalModel>& models, const std::vector<double>& weights);
+
+}  // namespace spindrift
