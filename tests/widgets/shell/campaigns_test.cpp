@@ -21,7 +21,7 @@ class CampaignsTest : public StoryTest {
     first_ = session().campaignId();
     const std::filesystem::path other = folder_ / "other";
     std::filesystem::copy(session().campaign()->folder, other, std::filesystem::copy_options::recursive);
-    testing::writeFile(other / "note.txt", "so that its content is another");
+    (void)folder_.write("other/note.txt", "so that its content is another");
     window_->addCampaign(QString::fromStdString(other.string()));
     wait();
     second_ = session().campaignId();
@@ -137,7 +137,7 @@ TEST_F(CampaignsTest, UndoBelongsToTheCampaignItWasDoneOn) {
   window_->undoStack().push(new MachineCommand(session(), machine));
   const std::filesystem::path third = folder_ / "third";
   std::filesystem::copy(session().campaign()->folder, third, std::filesystem::copy_options::recursive);
-  testing::writeFile(third / "note.txt", "the third");
+  (void)folder_.write("third/note.txt", "the third");
   window_->addCampaign(QString::fromStdString(third.string()));
   wait();
   ASSERT_NE(session().campaignId(), second_);

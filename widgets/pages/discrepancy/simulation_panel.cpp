@@ -157,6 +157,10 @@ nlohmann::json SimulationPanel::choice() const {
   return out;
 }
 
+nlohmann::json SimulationPanel::resultOptions(const std::string& version) const {
+  return {{"simulator", simulator_}, {"version", version}, {"choice", choice()}};
+}
+
 bool SimulationPanel::current() const {
   Session* store = context_.session.session();
   if (store == nullptr || stored_.id == 0 || !store->isCurrent(stored_)) return false;
@@ -299,21 +303,18 @@ void SimulationPanel::search() {
   failure_.clear();
   Job job;
   job.title = tr("Searching with the simulator");
-  job.work = [this, in = inputs(), options = choice()](JobContext& progress) -> std::function<void()> {
+  const PendingResult pending = context_.session.begin(simulation_result, resultOptions({}));
+  job.work = [this, in = inputs(), pending](JobContext& progress) -> std::function<void()> {
     const auto campaign = in.choice.applied(in.campaign, in.effects);
     const auto run = withSentences([&] {
       const auto simulator = openSimulator(in.file, *campaign, in.observations);
       return std::make_shared<const DiscrepancyRun>(in.search(*campaign, *simulator, progress));
     });
-    return
-        [this, run, options, visit = in.visit, simulator = in.simulator, payload = SimulationStory::of(*run).json()] {
-          if (context_.session.visit() != visit) return;
-          context_.session.storeResult(simulation_result,
-                                       {{"simulator", simulator}, {"version", ""}, {"choice", options}}, payload);
-          const StoredResult* kept = context_.session.latest(simulation_result);
-          searched_ = {visit, kept != nullptr ? kept->id : 0, run};
-          refresh();
-        };
+    return [this, run, pending, visit = in.visit, payload = SimulationStory::of(*run).json()] {
+      if (!context_.session.finish(pending, payload)) return;
+      searched_ = {visit, context_.session.latest(simulation_result)->id, run};
+      refresh();
+    };
   };
   job.failed = [this](const QString& sentence) { fail(sentence); };
   job.cancelled = [this] { refresh(); };
@@ -372,7 +373,9 @@ void SimulationPanel::putInto(const QString& folder) {
   if (parameters_->ticksAreTheUsers()) into.mechanisms = parameters_->ticked();
   Job job;
   job.title = tr("Putting it into the simulation");
-  job.work = [this, in = inputs(), options = choice(), target, version, into,
+  const PendingResult pending_written = context_.session.begin(simulation_result, resultOptions(version));
+  const PendingResult pending_refused = context_.session.begin(simulation_result, resultOptions({}));
+  job.work = [this, in = inputs(), pending_written, pending_refused, target, version, into,
               before = kept ? searched_.run : nullptr](JobContext& progress) -> std::function<void()> {
     const auto campaign = in.choice.applied(in.campaign, in.effects);
     const auto run = withSentences([&] {
@@ -386,12 +389,10 @@ void SimulationPanel::putInto(const QString& folder) {
       return out;
     });
     const bool written = run->update->status == FitStatus::Converged;
-    return [this, options, version = written ? version : std::string(), visit = in.visit, simulator = in.simulator,
+    return [this, pending = written ? pending_written : pending_refused, version = written ? version : std::string(),
             mechanisms = run->update->mechanisms, payload = SimulationStory::of(*run).json()] {
       SessionModel& session = context_.session;
-      if (session.visit() != visit) return;
-      session.storeResult(simulation_result, {{"simulator", simulator}, {"version", version}, {"choice", options}},
-                          payload);
+      if (!session.finish(pending, payload)) return;
       if (version.empty()) {
         refresh();
         return;
