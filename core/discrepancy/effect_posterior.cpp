@@ -55,26 +55,6 @@ bool driverless(const Effect& effect) {
          });
 }
 
-/// Neighbourhoods in which an effect moves the readings by more than a small part of what it does where it is largest.
-std::vector<bool> actsOn(const ResidualProblem& problem, const Eigen::VectorXd& contribution) {
-  std::vector<double> power(static_cast<std::size_t>(problem.neighbourhood_count), 0.0);
-  std::vector<double> count(power.size(), 0.0);
-  for (Index u = 0; u < problem.size(); ++u) {
-    const auto k = static_cast<std::size_t>(problem.neighbourhood[static_cast<std::size_t>(u)]);
-    power[k] += contribution[u] * contribution[u];
-    count[k] += 1.0;
-  }
-  double largest = 0.0;
-  for (std::size_t k = 0; k < power.size(); ++k) {
-    power[k] /= std::max(1.0, count[k]);
-    largest = std::max(largest, power[k]);
-  }
-  std::vector<bool> out(power.size());
-  constexpr double small = 0.1;
-  for (std::size_t k = 0; k < power.size(); ++k) out[k] = power[k] > small * small * largest;
-  return out;
-}
-
 bool sameShape(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   if (a.cols() != 1 || b.cols() != 1) return false;
   const double dot = a.col(0).dot(b.col(0));
@@ -115,15 +95,13 @@ double PosteriorSearch::imitationPrice(const JointFit& fit) const {
     std::array<double, 6> others{};
     std::array<double, 6> before{};
     double total = 0.0;
-    const std::vector<bool> acts = actsOn(*problem_, fit.contribution[t]);
     for (Index u = 0; u < problem_->size(); ++u) {
       const auto c = static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)]);
       const double z = white(u, static_cast<Index>(t));
       const double rest = white.row(u).sum() - z;
       own[c] += z * z;
       before[c] += std::pow(whole(u, static_cast<Index>(t)), 2);
-      if (acts[static_cast<std::size_t>(problem_->neighbourhood[static_cast<std::size_t>(u)])])
-        others[c] += rest * rest;
+      others[c] += rest * rest;
       total += z * z;
     }
     const EffectInput& first = fit.terms[t].variant.inputs[0];
@@ -131,8 +109,9 @@ double PosteriorSearch::imitationPrice(const JointFit& fit) const {
     const double part = onset ? priors_.further_onset_error : priors_.further_error;
     for (std::size_t c = 0; c < own.size(); ++c) {
       if (own[c] < 0.05 * total) continue;
-      // Where it acts: a slip of one point imitates nothing of the others.
-      price += part * part * others[c];
+      // As far as it acts there: a slip of one point imitates nothing of the others.
+      const double share = std::min(1.0, own[c] / std::max(1e-9, others[c]));
+      price += share * part * part * others[c];
       // What the nuisances of the simulation can follow has paid for its error already.
       const double beyond = std::min(1.0, own[c] / std::max(1e-9, before[c]));
       price += beyond * std::min(most_simulation_price, simulation_power_[c]);

@@ -191,7 +191,7 @@ TEST_F(MainWindowTest, WhatIsTypedOnTheMachinePageStaysUntilItIsAppliedOrDiscard
   };
   const auto button = [&](const QString& text) -> QPushButton* {
     for (auto* b : window_->currentPage()->findChildren<QPushButton*>()) {
-      if (b->text() == text && b->isVisible()) return b;
+      if (b->text().trimmed() == text && b->isVisibleTo(window_->currentPage())) return b;
     }
     return nullptr;
   };
@@ -221,7 +221,8 @@ TEST_F(MainWindowTest, WhatIsTypedOnTheMachinePageStaysUntilItIsAppliedOrDiscard
   QTest::keyClicks(nameField(), QStringLiteral("third"));
   QPushButton* apply = nullptr;
   for (auto* b : window_->currentPage()->findChildren<QPushButton*>()) {
-    if (b->text().startsWith(QStringLiteral("Apply")) && b->isVisible() && b->isEnabled()) apply = b;
+    if (b->text().startsWith(QStringLiteral("Apply")) && b->isVisibleTo(window_->currentPage()) && b->isEnabled())
+      apply = b;
   }
   ASSERT_NE(apply, nullptr);
   QTest::mouseClick(apply, Qt::LeftButton);
