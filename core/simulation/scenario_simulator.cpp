@@ -303,6 +303,9 @@ ScenarioSimulator::ScenarioSimulator(const SimulatorFile& file) : parts_(std::ma
   if (root.has("machine") && root.at("machine").value().is_string()) {
     parts.machine = (fs::path(parts.scenario).parent_path() / pathWithin(root.at("machine"))).generic_string();
   }
+  if (const auto sensors = file.root.find("sensor_values")) {
+    sensors->reject("no errors of sensors: the virtual machine makes its own temperatures and reads none of log.csv");
+  }
   parts.readTargets();
   // Values that the scenario does not take are told here, not in the middle of a search.
   (void)parts.parsed(parts.documentWith(parts.editsOf(completeValues(*this, {}))));

@@ -11,6 +11,10 @@
 //   observation (um, urad); absolute, and nothing for observations after the end of the scenario. "simulation" of the
 //   scenario, its instruments and sensors play no part.
 //
+// Nothing that was measured drives it: its temperatures are those of its own bodies and room, which come from physics,
+// programme and environment. So it has no parameters of sensors (sensor.<name>.gain, .offset, .lag): the error of one
+// would change the log and no prediction. They belong to programs whose loads are tables of log.csv (log_tables.h).
+//
 // Heat flow is run again only when something else than the setting of causes has changed.
 #pragma once
 

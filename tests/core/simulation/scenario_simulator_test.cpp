@@ -9,6 +9,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/simulation/virtual_campaign.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -17,19 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::refusal;
 
 nlohmann::json parameter(const std::string& name, double value, double min, double max) {
   return {{"name", name}, {"value", value}, {"standard_uncertainty", 0.1}, {"min", min}, {"max", max}};
-}
-
-template <typename Work>
-std::string refusal(const Work& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 /// The shipped scenario with fewer states, whose truth is known.
@@ -172,6 +164,11 @@ TEST_F(ScenarioSimulatorTest, RefusesPathsThatLeadNowhere) {
                            "instrument.sigma_um", "machine.name", "programme.segments.9.spindle_rpm", "seed"}) {
     EXPECT_THAT(said(name), AllOf(HasSubstr("$.parameters[1].name"), HasSubstr("the path of a number"))) << name;
   }
+  json["sensor_values"] = {{"sensor.T_room_degC.gain", 0.1}};
+  EXPECT_THAT(said("environment.ramp_K_per_h"),
+              AllOf(HasSubstr("$.sensor_values"), HasSubstr("makes its own temperatures")));
+  json.erase("sensor_values");
+  EXPECT_EQ(open()->find("sensor.T_ambient_degC.gain"), nullptr) << "none that could change a prediction";
   scenario["effects"]["spindle.drift.y"] = 1;
   EXPECT_THAT(said("effects.spindle.drift.y.size"), HasSubstr("the path of a number"));
   scenario["effects"].erase("spindle.drift.y");

@@ -48,7 +48,8 @@ TEST(ClosedGap, FrictionGoesIntoTheDeckAndTheSolverAgrees) {
     EXPECT_GT(p.standard_uncertainty, 0.0);
   }
   // Few runs: each counts on a real model.
-  EXPECT_LT(update.runs, 60U);
+  EXPECT_LE(update.runs_to_search, 20U);
+  EXPECT_LE(update.runs, 16U) << "once more for each parameter: friction changes what they do";
   EXPECT_EQ(readFile(folder / "machine/fe/simulator.json"), deck) << "the simulator in use is not touched";
   EXPECT_TRUE(std::filesystem::exists(folder / "closed/mesh.inp"));
   EXPECT_TRUE(std::filesystem::exists(folder / "closed/simulation.csv"));
