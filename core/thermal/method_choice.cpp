@@ -339,6 +339,9 @@ class Candidates {
     }
   }
 
+  /// Sets of inputs among which the runs themselves have chosen; 1 if all sets take part.
+  [[nodiscard]] std::size_t setsChosenFrom() const { return names_.size() > all_sets_up_to ? visited_.size() : 1; }
+
   std::vector<Candidate> all;
 
  private:
@@ -748,8 +751,10 @@ MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& out
   // ln of the odds: half of ln(mean squared error) per independent run. Rolling origins overlap with each other and
   // with the blocks, so that about every second run is independent.
   const double independent = 0.5 * static_cast<double>(evidence.runs().size());
-  const double odds =
-      0.5 * independent * (of_response - of_plain) - (d.by_operation ? std::log(options.response_odds) : 0.0);
+  // A forward selection has chosen by the runs that judge it: the prior is shared by the sets it has tried.
+  const double odds = 0.5 * independent * (of_response - of_plain) -
+                      (d.by_operation ? std::log(options.response_odds) : 0.0) -
+                      std::log(static_cast<double>(plain.setsChosenFrom()));
   double plain_weight = 1.0 / (1.0 + std::exp(-odds));
   // Averaged where nothing tells them apart (odds below two to one), else the better of both.
   if (plain_weight < 1.0 / 3.0) plain_weight = 0.0;

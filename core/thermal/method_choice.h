@@ -19,7 +19,7 @@
 // sharper weights choose by chance; it rises to 4 as that scatter falls. Between that average and `response` the errors
 // of the averages themselves decide, each run predicted with weights from the other runs only (nothing is chosen by the
 // run that judges it); where commanded speeds cut the training into at least three blocks of operation, `response` is
-// favoured beforehand.
+// favoured beforehand; where a forward selection chose among sets of inputs, the prior odds are shared by those sets.
 // Uncertainty: posterior of every candidate plus their scatter, which grows where the inputs leave what was seen;
 // scaled by the ratio of actual to stated errors in the runs that judged. Source: Bates and Granger 1969; Yao et al.
 // 2018 (stacking and pseudo-BMA); Tashman 2000 (rolling origins).

@@ -339,7 +339,9 @@ OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const
     const double variance = best.jacobian.rows() > 0 ? best.cost / static_cast<double>(y.size()) : 0.0;
     covariance = variance * (length.cwiseInverse().asDiagonal() * inverse * length.cwiseInverse().asDiagonal());
   }
-  result.degrees_of_freedom = inference.degrees_of_freedom.minCoeff();
+  // Where the noise could not be told from the model, the least that an interval can rest on.
+  const Eigen::VectorXd& degrees = inference.degrees_of_freedom;
+  result.degrees_of_freedom = degrees.allFinite() && degrees.minCoeff() > 0.0 ? degrees.minCoeff() : 1.0;
   // Order the lags of every input from slow to fast and refer the offset to u = 0.
   const Index p = problem.layout().parameters();
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(p, p);

@@ -175,6 +175,13 @@ TEST(ThermalChoice, AnArxModelWithRealPolesIsJudgedAsItIsShipped) {
   EXPECT_EQ(arx.predicted, arx.model.predict(series, 0).value);
 }
 
+TEST(ThermalChoice, OutputErrorThatTheDataDoNotDetermineEndsWithAModelOrASentence) {
+  const TimeSeries series = frameRun(34);
+  const IdentifyResult result = identifyThermalModel(series, request(series, "oe"), {});
+  EXPECT_GE(result.model.outputs.front().degrees_of_freedom, 1.0);
+  EXPECT_TRUE(std::isfinite(result.test.rmse));
+}
+
 TEST(Autocorrelation, EqualsTheSumOfProducts) {
   Random random(2);
   std::vector<double> v;
