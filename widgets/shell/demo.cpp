@@ -7,6 +7,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/discrepancy/effect_titles.h"
 #include "core/imaging/image.h"
 #include "core/simulation/scenario.h"
 #include "core/simulation/virtual_campaign.h"
@@ -54,12 +55,59 @@ void writeWarmUp(Scenario scenario, const std::filesystem::path& file, JobContex
   writeFileAtomically(file, warm_up.campaign.observations.value().csv());
 }
 
-Scenario demoScenario(const std::string& name) {
+std::string resourceOf(const std::string& name) {
+  return ":/scenarios/" + name + ".json";
+}
+
+std::string demoText(const std::string& name) {
   loadScenarios();
-  const std::string resource = ":/scenarios/" + name + ".json";
-  QFile file(QString::fromStdString(resource));
+  QFile file(QString::fromStdString(resourceOf(name)));
   if (!file.open(QIODevice::ReadOnly)) throw InternalError("the scenario of the demo " + name + " is missing");
-  return Scenario::parse(JsonNode::parse(file.readAll().toStdString(), resource), std::filesystem::path(resource));
+  return file.readAll().toStdString();
+}
+
+Scenario demoScenario(const std::string& name) {
+  const std::string resource = resourceOf(name);
+  return Scenario::parse(JsonNode::parse(demoText(name), resource), std::filesystem::path(resource));
+}
+
+/// The simulation of the campaign as one that can be run: the virtual machine without what is hidden in it. What it has
+/// may be off by a tenth; what it lacks, and three things that the machine does not do either, are switched off.
+void writeSimulator(const std::string& scenario_name, const std::filesystem::path& folder) {
+  constexpr double part_uncertain = 0.1;
+  constexpr double largest_factor = 5.0;
+  nlohmann::json scenario = nlohmann::json::parse(demoText(scenario_name));
+  const std::vector<std::string> known = scenario.at("simulation").at("effects");
+  scenario.erase("simulation");
+  nlohmann::json parameters = nlohmann::json::array();
+  nlohmann::json& effects = scenario.at("effects");
+  for (const char* more : {"spindle.growth.z", "external_heat.a", "table.expansion.xy"}) {
+    if (!effects.contains(more)) effects[more] = nlohmann::json::object();
+  }
+  for (auto& [id, setting] : effects.items()) {
+    const bool has = std::find(known.begin(), known.end(), id) != known.end();
+    if (!has) setting = {{"on", true}, {"size", 0.0}};
+    const double size = setting.at("size").get<double>();
+    parameters.push_back({{"name", "effects." + id + ".size"},
+                          {"value", size},
+                          {"unit", "1"},
+                          {"standard_uncertainty", has ? part_uncertain * size : 0.5},
+                          {"min", 0.0},
+                          {"max", has ? largest_factor * size : 50.0},
+                          {"what", effectTitle(id)},
+                          {"effects", has ? nlohmann::json::array() : nlohmann::json::array({id})}});
+  }
+  const nlohmann::json simulator{{"format", "spindrift-simulator"},
+                                 {"version", 1},
+                                 {"kind", "scenario"},
+                                 {"scenario", "scenario.json"},
+                                 {"parameters", parameters}};
+  std::filesystem::create_directories(folder / "simulator");
+  writeFileAtomically(folder / "simulator/scenario.json", scenario.dump(1) + "\n");
+  writeFileAtomically(folder / "simulator/simulator.json", simulator.dump(1) + "\n");
+  nlohmann::json campaign = nlohmann::json::parse(readFile(folder / "campaign.json"));
+  campaign["simulator"] = "simulator/simulator.json";
+  writeFileAtomically(folder / "campaign.json", campaign.dump(1) + "\n");
 }
 
 /// The same machine and physics with less to render: smaller images of four fiducials, coarser scans.
@@ -82,14 +130,18 @@ void makeSmall(Scenario& scenario) {
   }
 }
 
-Scenario scenarioOf(const std::string& name, bool small) {
+std::string scenarioNameOf(const std::string& name) {
   const auto found = std::find_if(demos().begin(), demos().end(), [&](const Demo& demo) { return demo.name == name; });
   if (found == demos().end()) {
     std::string known;
     for (const Demo& demo : demos()) known += (known.empty() ? "" : ", ") + demo.name;
     throw InputError("demo \"" + name + "\" is not known; allowed: " + known + ".");
   }
-  Scenario scenario = demoScenario(found->scenario);
+  return found->scenario;
+}
+
+Scenario scenarioOf(const std::string& name, bool small) {
+  Scenario scenario = demoScenario(scenarioNameOf(name));
   if (small) makeSmall(scenario);
   return scenario;
 }
@@ -119,6 +171,7 @@ void makeDemoCampaign(const std::string& name, const std::filesystem::path& fold
   const VirtualCampaign campaign = simulateCampaign(scenario, std::nullopt, simulating);
   JobContext writing = job.part(0.2, 1.0);
   writeCampaign(campaign, folder, writing);
+  if (scenario.simulation) writeSimulator(scenarioNameOf(name), folder);
   if (scenario.microscope) {
     spoil(folder);
     writeWarmUp(scenario, folder / "warm_up.csv", writing);

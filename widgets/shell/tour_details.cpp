@@ -14,6 +14,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "widgets/common/parts.h"
 #include "widgets/pages/capture/arriving_panel.h"
 #include "widgets/pages/capture/incoming_service.h"
 #include "widgets/pages/capture/new_capture_page.h"
@@ -25,6 +26,7 @@
 #include "widgets/pages/discrepancy/next_panel.h"
 #include "widgets/pages/discrepancy/noise_panel.h"
 #include "widgets/pages/discrepancy/remainder_panel.h"
+#include "widgets/pages/discrepancy/simulation_panel.h"
 #include "widgets/pages/discrepancy/what_panel.h"
 #include "widgets/pages/probing/reference_panel.h"
 #include "widgets/pages/verify/verify_page.h"
@@ -174,6 +176,55 @@ QWidget* showEffectEditor(MainWindow& window) {
   return nullptr;
 }
 
+/// The tab in which the simulation itself is changed, after its search; `closed`: after what was found has been put in.
+SimulationPanel* showSimulation(MainWindow& window, bool closed, int view) {
+  auto* page = qobject_cast<DiscrepancyPage*>(window.currentPage());
+  if (page == nullptr || page->simulation() == nullptr) return nullptr;
+  SimulationPanel& panel = *page->simulation();
+  page->tabs()->setCurrentWidget(&panel);
+  const auto settle = [&] {
+    QElapsedTimer timer;
+    timer.start();
+    (void)waitForJobs(window, search_seconds);
+    while (panel.busy() && timer.elapsed() < 1000LL * search_seconds) {
+      QEventLoop loop;
+      QTimer::singleShot(20, &loop, &QEventLoop::quit);
+      loop.exec();
+    }
+  };
+  settle();
+  if (!closed && panel.update() != nullptr) {
+    const auto campaign = window.session().campaign();
+    panel.chooseSimulator(QString::fromStdString(campaign->path(campaign->simulator.string()).string()));
+  }
+  if (panel.story() == nullptr) {
+    panel.search();
+    settle();
+  }
+  if (closed && panel.update() == nullptr) {
+    const QString version = panel.versionMade();
+    if (version.isEmpty()) {
+      panel.putInto(panel.proposedFolder());
+    } else {
+      panel.chooseSimulator(version);
+    }
+    settle();
+  }
+  if (closed && panel.update() != nullptr) panel.views()->button(view)->click();
+  settle();
+  return &panel;
+}
+
+TourDetail simulationTab(const char* name, bool closed, int view) {
+  return {StepId::Discrepancy,
+          name,
+          [closed, view](MainWindow& window) -> QWidget* {
+            (void)showSimulation(window, closed, view);
+            return nullptr;
+          },
+          {}};
+}
+
 /// Every tab behind the first; the gap before and after the effects found are added. The page is left as it was.
 std::vector<TourDetail> discrepancyTabs() {
   std::vector<TourDetail> tabs{
@@ -194,6 +245,13 @@ std::vector<TourDetail> discrepancyTabs() {
       setEffectsAdded(window, *page, false);
       page->tabs()->setCurrentIndex(0);
     }
+  };
+  tabs.push_back(simulationTab("simulation-found", false, 0));
+  tabs.push_back(simulationTab("simulation-closed", true, 0));
+  tabs.push_back(simulationTab("simulation-over-time", true, 1));
+  tabs.push_back(simulationTab("simulation-over-table", true, 2));
+  tabs.back().leave = [](MainWindow& window) {
+    if (auto* page = qobject_cast<DiscrepancyPage*>(window.currentPage())) page->tabs()->setCurrentIndex(0);
   };
   tabs.push_back({StepId::Discrepancy, "effects", showEffects, {}});
   tabs.push_back({StepId::Discrepancy, "effect-editor", showEffectEditor, [](MainWindow& window) {

@@ -13,6 +13,7 @@
 #include "core/discrepancy/log_gaps.h"
 #include "core/finite_elements/fe_simulation.h"
 #include "tests/core/discrepancy/small_plant.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -23,12 +24,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 
 std::string refusal(const DiscrepancyInput& input) {
-  try {
-    (void)run(input);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::refusal([&] { (void)run(input); });
 }
 
 /// The log again from the rows that `keep` wants, with the signals but those left out.

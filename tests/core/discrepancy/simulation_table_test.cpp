@@ -12,6 +12,7 @@
 #include "core/base/random.h"
 #include "core/discrepancy/drivers.h"
 #include "tests/core/discrepancy/small_plant.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -32,12 +33,7 @@ SimulationTable tableOf(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    (void)tableOf(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::refusal([&] { (void)tableOf(text); });
 }
 
 TEST(SimulationTable, IsLinearBetweenRowsAndNothingBeyond) {

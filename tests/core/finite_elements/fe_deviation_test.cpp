@@ -11,6 +11,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -50,12 +51,7 @@ double value(const FeDeviation& fe, double time_s, Component component, const st
 }
 
 std::string refusal(const FeMap& map) {
-  try {
-    (void)deviation(map);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::refusal([&] { (void)deviation(map); });
 }
 
 std::string mapRefusal(const std::string& json) {

@@ -7,6 +7,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/finite_elements/fe_result.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -14,18 +15,9 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::refusal;
 
 const std::filesystem::path data = std::filesystem::path(SPINDRIFT_TEST_DATA) / "finite_elements";
-
-template <typename Work>
-std::string refusal(const Work& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);

@@ -12,20 +12,10 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/simulator/simulator.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
-
-/// The sentence of a refusal; empty if there is none.
-template <typename Work>
-std::string refusal(const Work& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 template <typename Work>
 std::string failure(const Work& work) {

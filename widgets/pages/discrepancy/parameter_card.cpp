@@ -15,6 +15,7 @@
 namespace spindrift::gui {
 namespace {
 
+constexpr int width_for_words = 760;
 constexpr int column_what = 1;
 constexpr int column_bounds = 3;
 constexpr int column_effects = 4;
@@ -89,7 +90,8 @@ std::vector<std::string> ParameterCard::ticked() const {
 
 void ParameterCard::show(const OpenedSimulator& simulator, const SimulationStory* story,
                          const SimulationUpdate* update) {
-  const bool done = update != nullptr && !update->parameters.empty();
+  done_ = update != nullptr && !update->parameters.empty();
+  const bool done = done_;
   if (done) {
     showUpdate(*update);
   } else {
@@ -99,6 +101,19 @@ void ParameterCard::show(const OpenedSimulator& simulator, const SimulationStory
   const bool narrow = story != nullptr && !done;
   for (const int column : {column_bounds, column_effects}) table_->setColumnHidden(column, narrow);
   table_->setColumnHidden(column_put_in, done);
+  arrange();
+}
+
+void ParameterCard::resizeEvent(QResizeEvent* event) {
+  Card::resizeEvent(event);
+  arrange();
+}
+
+void ParameterCard::arrange() {
+  // In a narrow card what a parameter is stands in the tip of its name.
+  table_->setColumnHidden(column_what, done_ && width() < width_for_words);
+  // Words wrap by the width that the columns have now.
+  table_->resizeRowsToContents();
 }
 
 void ParameterCard::showChoice(const OpenedSimulator& simulator, const SimulationStory* story) {
@@ -135,10 +150,14 @@ void ParameterCard::showUpdate(const SimulationUpdate& update) {
     row.id = text(p.parameter.name);
     Cell name = tipped(text(p.parameter.name));
     name.bold = p.put_in;
+    name.tip += QLatin1Char('\n') + text(p.parameter.what);
+    // The unit stands once, below its number: some are long.
+    const QString unit = unitOf(p.parameter);
+    const QString below = unit.isEmpty() ? QString() : QLatin1Char('\n') + unit;
     Cell before{p.parameter.standard_uncertainty > 0.0 && !p.put_in
-                    ? withError(p.parameter.value, p.parameter.standard_uncertainty, unitOf(p.parameter))
-                    : withUnit(p.parameter.value, p.parameter)};
-    Cell after{p.no_influence ? QStringLiteral("–") : withError(p.value, p.standard_uncertainty, unitOf(p.parameter))};
+                    ? withError(p.parameter.value, p.parameter.standard_uncertainty, {})
+                    : number(p.parameter.value)};
+    Cell after{p.no_influence ? QStringLiteral("–") : withError(p.value, p.standard_uncertainty, {}) + below};
     after.bold = p.put_in;
     Cell mark = p.no_influence                 ? Cell{tr("no influence")}
                 : p.at_bound                   ? Cell{tr("at its bound"), Tone::Attention, "alert"}
@@ -150,6 +169,9 @@ void ParameterCard::showUpdate(const SimulationUpdate& update) {
     row.faded = p.no_influence;
     rows.push_back(std::move(row));
   }
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+    return (a.cells.front().bold && !a.faded) > (b.cells.front().bold && !b.faded);
+  });
   rows_->setRows(std::move(rows));
 }
 

@@ -41,12 +41,17 @@ class ParameterCard : public Card {
  Q_SIGNALS:
   void ticksChanged();
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  void arrange();
   void showChoice(const OpenedSimulator& simulator, const SimulationStory* story);
   void showUpdate(const SimulationUpdate& update);
 
   RowsModel* rows_;
   QTableView* table_;
+  bool done_ = false;                           ///< an update is shown
   std::optional<std::set<std::string>> ticks_;  ///< nothing: those of what was found
 };
 
