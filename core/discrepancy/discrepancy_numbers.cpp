@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/discrepancy/discrepancy_numbers.h"
 
-#include "core/discrepancy/own_effects.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/QR>
@@ -12,6 +10,10 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
+
+#include "core/discrepancy/own_effects.h"
+#include "core/math/distributions.h"
 
 namespace spindrift {
 namespace {
@@ -199,6 +201,7 @@ RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::siz
   const auto& rows = input.observations.rows;
   RowResult out;
   out.constant.assign(rows.size(), std::numeric_limits<double>::quiet_NaN());
+  out.left = out.constant;
   std::map<std::pair<std::string, int>, std::array<double, 2>> sums;
   for (const std::size_t row : fit_rows) {
     const Observation& o = rows[row];
@@ -221,6 +224,7 @@ RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::siz
     out.constant[row] = input.absolute ? 0.0 : found->second[1] / found->second[0];
     if (isRotation(o.component) != out.rotations) continue;
     const double r = o.value - input.predicted[row] - effect_part[row] - out.constant[row];
+    out.left[row] = r;
     if (fitted.contains(row)) {
       fit += r * r;
       fit_count += 1.0;
@@ -232,6 +236,24 @@ RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::siz
   if (fit_count > 0.0) out.fit_rms = std::sqrt(fit / fit_count);
   if (out.holdout_rows > 0) out.holdout_rms = std::sqrt(held / static_cast<double>(out.holdout_rows));
   return out;
+}
+
+double probabilityOfLeavingMore(const std::vector<Observation>& observations, const std::vector<std::size_t>& rows,
+                                const std::vector<double>& a, const std::vector<double>& b) {
+  std::map<std::pair<std::string, double>, double> more_by_state;
+  for (const std::size_t row : rows) {
+    const double more = a[row] * a[row] - b[row] * b[row];
+    const Observation& o = observations[row];
+    if (std::isfinite(more)) more_by_state[{o.state, o.state.empty() ? o.time_s : 0.0}] += more;
+  }
+  const auto states = static_cast<double>(more_by_state.size());
+  if (states < 2.0) return 0.5;
+  double mean = 0.0;
+  for (const auto& [state, more] : more_by_state) mean += more / states;
+  double square = 0.0;
+  for (const auto& [state, more] : more_by_state) square += (more - mean) * (more - mean);
+  if (!(square > 0.0)) return mean > 0.0 ? 1.0 : mean < 0.0 ? 0.0 : 0.5;
+  return studentCdf(mean / std::sqrt(square / (states - 1.0) / states), states - 1.0);
 }
 
 }  // namespace spindrift

@@ -45,12 +45,20 @@ struct RowResult {
   double fit_rms = 0.0;
   double holdout_rms = 0.0;
   std::size_t holdout_rows = 0;
-  bool rotations = false;  ///< no displacement was fitted: rms in urad
+  bool rotations = false;    ///< no displacement was fitted: rms in urad
+  std::vector<double> left;  ///< per row, of the components that count: measured less all that is explained, else NaN
 };
 
 /// Constants of the series from the fit rows (0 where values are absolute), and the rms of what is left in
 /// displacements (um), or in rotations (urad) where nothing else was fitted.
 [[nodiscard]] RowResult evaluateRows(const DiscrepancyInput& input, const std::vector<std::size_t>& fit_rows,
                                      const std::vector<std::size_t>& held_rows, const std::vector<double>& effect_part);
+
+/// How sure it is that `a` leaves more than `b` on `rows`: paired differences of squares, summed by state (values of
+/// one state share errors), one-sided Student t over the states; 0.5 where neither leaves more. Fewer than two states:
+/// 0.5. The comparison of forecasts of Diebold and Mariano (1995) with states as blocks.
+[[nodiscard]] double probabilityOfLeavingMore(const std::vector<Observation>& observations,
+                                              const std::vector<std::size_t>& rows, const std::vector<double>& a,
+                                              const std::vector<double>& b);
 
 }  // namespace spindrift

@@ -33,9 +33,10 @@ constexpr double inseparable = 0.98;
 /// Change of a parameter in standard uncertainties from which on the data
 /// support it.
 constexpr double supported = 2.0;
-/// rms with the physics over that with the fitted term, up to which they close
-/// the gap as well.
+/// The physics close the gap less well than the fitted term only if what they leave is larger by more than this factor
+/// of the rms, and larger with this probability.
 constexpr double as_well = 1.05;
+constexpr double surely_more = 0.95;
 
 bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -154,8 +155,11 @@ void tellFigures(const DiscrepancyInput& input, const DiscrepancyResult& result,
   out.p2p_after_um = peakToPeak(input, rows.fit, out.after, after.constant, after.rotations);
   out.noise_um = result.gap.noise_um;
   out.improves = held ? out.heldout_rms_after_um < out.heldout_rms_before_um : out.rms_after_um < out.rms_before_um;
-  out.as_well_as_fitted_term = held ? out.heldout_rms_after_um <= as_well * out.heldout_rms_fitted_term_um
-                                    : out.rms_after_um <= as_well * out.rms_fitted_term_um;
+  const bool more = held ? out.heldout_rms_after_um > as_well * out.heldout_rms_fitted_term_um
+                         : out.rms_after_um > as_well * out.rms_fitted_term_um;
+  out.as_well_as_fitted_term =
+      !more || probabilityOfLeavingMore(input.observations.rows, held ? rows.held_out : rows.fit, after.left,
+                                        term.left) < surely_more;
 }
 
 void tellParameters(const std::vector<FreeParameter>& free, const SimulationFit& solved, double widening,

@@ -8,6 +8,7 @@
 
 #include <thread>
 
+#include "core/discrepancy/discrepancy_numbers.h"
 #include "core/discrepancy/mechanism_choice.h"
 #include "core/discrepancy/simulator_tangents.h"
 #include "tests/core/discrepancy/heated_column.h"
@@ -111,6 +112,44 @@ TEST(IntoSimulation, NamesTheMechanismAndClosesTheGap) {
     EXPECT_GT(fitted.standard_uncertainty, 0.0);
     EXPECT_TRUE(told.update.as_well_as_fitted_term) << told.update.message;
   }
+}
+
+/// Share of 2,000 draws of `states` states with eight values each, a shift common to each state in them, in which the
+/// first of two predictions is said to leave more. `worse_um`: how much further from the truth it is.
+double shareSaidToLeaveMore(std::size_t states, double worse_um) {
+  Random random(17);
+  constexpr int draws = 2000;
+  int said = 0;
+  for (int draw = 0; draw < draws; ++draw) {
+    std::vector<Observation> observations;
+    std::vector<std::size_t> rows;
+    std::vector<double> a;
+    std::vector<double> b;
+    for (std::size_t state = 0; state < states; ++state) {
+      const double shift = random.normal();
+      const double wrong_a = random.normal();
+      const double wrong_b = random.normal();
+      for (int value = 0; value < 8; ++value) {
+        Observation o;
+        o.state = "M" + std::to_string(state);
+        rows.push_back(observations.size());
+        observations.push_back(o);
+        const double noise = shift + random.normal();
+        a.push_back(noise + std::hypot(0.3, worse_um) * wrong_a);
+        b.push_back(noise + 0.3 * wrong_b);
+      }
+    }
+    said += probabilityOfLeavingMore(observations, rows, a, b) > 0.95 ? 1 : 0;
+  }
+  return static_cast<double>(said) / draws;
+}
+
+TEST(IntoSimulation, TellsThatThePhysicsLeaveMoreAsOftenByChanceAsStated) {
+  EXPECT_NEAR(shareSaidToLeaveMore(10, 0.0), 0.05, 0.02);
+  EXPECT_NEAR(shareSaidToLeaveMore(40, 0.0), 0.05, 0.02);
+  EXPECT_GT(shareSaidToLeaveMore(40, 2.0), 0.95);
+  const std::vector<Observation> one(1);
+  EXPECT_EQ(probabilityOfLeavingMore(one, {0}, {3.0}, {1.0}), 0.5);
 }
 
 TEST(IntoSimulation, TakesFewRunsAndCountsThem) {
