@@ -101,6 +101,7 @@ struct Analysis {
   double clock_offset_s = 0.0;
   double clock_uncertainty_s = 0.0;
   double simulation_error = 0.0;  ///< of its parts, as estimated
+  std::vector<std::string> notes;
 };
 
 /// True if the noise is another one, so that effects have to be weighed again.
@@ -191,10 +192,62 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
   }
 }
 
+/// An effect of the catalogue that the simulation contains.
+struct SimulationPart {
+  std::string id;
+  Eigen::VectorXd values;  ///< what it contributes to the simulation over the units, um or urad
+};
+
+/// What the simulation is made of, as far as it is of effects of the catalogue: found as missing effects are, in the
+/// simulation in place of the residual.
+std::vector<SimulationPart> partsOfSimulation(const ResidualProblem& problem, const DriverTable& drivers,
+                                              const std::vector<Effect>& catalogue, const DiscrepancyPriors& priors,
+                                              const JobContext& job) {
+  ResidualProblem simulation = problem;
+  simulation.y = simulation.simulated;
+  simulation.setNuisances({});
+  const EffectSearch search(simulation, drivers, catalogue);
+  const CandidateLibrary library(search, simulation, job);
+  const DiscrepancyOptions nothing_by_hand;
+  const JointFit fit = PosteriorSearch(search, simulation, library, nothing_by_hand, priors, 0.0).run(job).fit;
+  std::vector<SimulationPart> out;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) out.push_back({fit.terms[t].effect->id, fit.contribution[t]});
+  return out;
+}
+
+/// By how much a part of the simulation is too large, relative to what it ought to be.
+struct PartError {
+  std::string id;
+  double relative = 0.0;
+  double uncertainty = 0.0;
+};
+
+/// Errors of those parts that account for most of what the nuisances take of `values`. `first`: the nuisance that
+/// stands for the first part.
+std::vector<PartError> partErrors(const ResidualProblem& problem, const std::vector<SimulationPart>& parts,
+                                  std::size_t first, const Eigen::VectorXd& values) {
+  const ResidualProblem::NuisancePart taken = problem.nuisancePart(values);
+  std::vector<double> size_um;
+  for (const SimulationPart& part : parts)
+    size_um.push_back(std::abs(taken.values.dot(part.values)) / part.values.norm());
+  std::vector<PartError> out;
+  constexpr double main_part = 0.5;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (size_um[p] < main_part * *std::max_element(size_um.begin(), size_um.end())) continue;
+    // What is missing, as a part of what the simulation has.
+    const double missing = taken.values.dot(parts[p].values) / parts[p].values.squaredNorm();
+    const double needed = std::max(1e-9, 1.0 + missing);
+    out.push_back(
+        {parts[p].id, -missing / needed, std::sqrt(std::max(0.0, taken.variances[first + p])) / (needed * needed)});
+  }
+  return out;
+}
+
 Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
                  const DiscrepancyPriors& priors, std::shared_ptr<DriverTable> drivers, std::vector<Effect> catalogue,
                  JobContext& job) {
-  Analysis a{std::move(drivers), std::move(catalogue), {input.tangents.get(), input.observations}, {}, {}, {}, {}};
+  Analysis a{
+      std::move(drivers), std::move(catalogue), {input.tangents.get(), input.observations}, {}, {}, {}, {}, {}, {}, {}};
   // Absolute values that are said to be predicted exactly: what deviates is none of the simulation's own scale.
   const bool exact = input.absolute && !(input.simulation_gain_uncertainty > 0.0);
   // Where a simulator says which of its parameters are uncertain, its parts are not doubted beyond what is stated.
@@ -207,29 +260,46 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
   problem.setNuisances(nuisancesOf(priors.simulation_error));
   weigh(a, input, problem, options, priors, exact, job);
   if (exact || input.tangents || !(priors.rough_simulation_error > input.simulation_gain_uncertainty)) return a;
-  // Beside what is missing, an effect may be what a rough simulation leaves: a matter of size, not of something
-  // missing. One that stands alone is told all the same: then that is what is to be put right.
+  // An effect may be what a rough simulation leaves: a part that is somewhat too large or too small, not one missing.
   const auto sizes = [&] {
     Eigen::MatrixXd parts(problem.size(), static_cast<Index>(a.posterior.fit.terms.size()));
     for (Index t = 0; t < parts.cols(); ++t) parts.col(t) = a.posterior.fit.contribution[static_cast<std::size_t>(t)];
     return Eigen::VectorXd(problem.projected(parts).colwise().squaredNorm());
   };
   const Eigen::VectorXd narrow = sizes();
+  if (narrow.size() == 0) return a;
   const double evidence = a.posterior.evidence - problem.nuisanceLogDeterminant();
-  problem.setNuisances(nuisancesOf(priors.rough_simulation_error));
+  std::vector<NuisanceColumn> nuisances = nuisancesOf(priors.simulation_error);
+  const std::size_t first_part = nuisances.size();
+  const std::vector<SimulationPart> parts = partsOfSimulation(problem, *a.drivers, a.catalogue, priors, job);
+  for (const SimulationPart& part : parts) nuisances.push_back({part.values, priors.rough_simulation_error, true});
+  problem.setNuisances(nuisances);
   constexpr double followed = 0.6;
-  bool rough = narrow.size() > 1 && (sizes().array() < followed * narrow.array()).any();
+  bool rough = (sizes().array() < followed * narrow.array()).any();
   if (rough) {
     const CandidateLibrary library(*a.search, problem, job);
     const PosteriorSearch search(*a.search, problem, library, options, priors, a.simulation_error);
     const double odds = 2.0 * std::log(priors.rough_simulation / (1.0 - priors.rough_simulation));
     const EffectPosterior other = search.run(job);
-    rough = !other.fit.terms.empty() && other.evidence - problem.nuisanceLogDeterminant() + odds > evidence;
+    rough = other.evidence - problem.nuisanceLogDeterminant() + odds > evidence;
+    const double limit = priors.rough_simulation_limit * priors.rough_simulation_error;
+    for (const PartError& error : partErrors(problem, parts, first_part, problem.without(other.fit.contribution)))
+      rough = rough && std::abs(error.relative) <= limit;
   }
-  if (rough) {
-    weigh(a, input, problem, options, priors, exact, job);
-  } else {
+  if (!rough) {
     problem.setNuisances(nuisancesOf(priors.simulation_error));
+    return a;
+  }
+  weigh(a, input, problem, options, priors, exact, job);
+  for (const PartError& error : partErrors(problem, parts, first_part, problem.without(a.posterior.fit.contribution))) {
+    if (std::abs(error.relative) < 2.0 * error.uncertainty) continue;
+    a.notes.push_back(
+        fmt::format("The simulation has {:.0f} ± {:.0f} % too {} of {}: no more than a rough simulation may be off by "
+                    "({:.0f} %), so "
+                    "it is taken as its error and not as a missing effect.",
+                    100.0 * std::abs(error.relative), std::max(1.0, 100.0 * error.uncertainty),
+                    error.relative > 0.0 ? "much" : "little", error.id,
+                    100.0 * priors.rough_simulation_limit * priors.rough_simulation_error));
   }
   return a;
 }
@@ -553,6 +623,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   if (!enough) effective.max_effects = 0;
   const DiscrepancyPriors priors;
   const Analysis analysis = analyse(input, problem, effective, priors, drivers, std::move(catalogue), job);
+  result.warnings.insert(result.warnings.end(), analysis.notes.begin(), analysis.notes.end());
   result.clock_offset_s = analysis.clock_offset_s;
   result.clock_offset_uncertainty_s = analysis.clock_uncertainty_s;
   if (std::abs(result.clock_offset_s) > 30.0) {

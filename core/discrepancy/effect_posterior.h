@@ -34,10 +34,12 @@ struct DiscrepancyPriors {
   /// Odds of an effect whose main driver is not in the log, beside one that shows what drives it.
   double without_driver = 0.5;
   /// Standard deviation of the relative error of a part of the simulation that is not worth a name; the same of a
-  /// simulation all of whose parts are rough, and how probable such a one is.
+  /// simulation all of whose parts are rough, how probable such a one is, and by how many of these deviations a part is
+  /// off at most that is no more than rough: what is further off is missing, and told.
   double simulation_error = 0.028;
   double rough_simulation_error = 0.08;
   double rough_simulation = 0.3;
+  double rough_simulation_limit = 3.0;
   /// Odds of an effect that holds a simpler one as a special case, beside that one; and the part of its amplitude by
   /// which the simpler one may be off in just the way that the wider one can follow.
   double wider = 0.1;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A simulation whose parts are all off by some per cent: that is no missing effect.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cstdio>
 
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/residual_problem.h"
@@ -12,6 +14,8 @@
 
 namespace spindrift {
 namespace {
+
+using ::testing::HasSubstr;
 
 struct Tally {
   int right = 0;  ///< the hidden effect is named, and nothing else
@@ -54,6 +58,54 @@ TEST(RoughSimulation, OnePartThatIsFarOffIsToldAllTheSame) {
   one_part.one_base_error = 0.3;
   const Tally tally = tallyOf(one_part, 92'001, 8);
   EXPECT_GE(tally.right, 6);
+}
+
+TEST(RoughSimulation, APartThatIsSomewhatOffIsAnErrorOfItsSizeAndNotMissing) {
+  constexpr int campaigns = 8;
+  int nothing_named = 0;
+  int told = 0;
+  for (int k = 0; k < campaigns; ++k) {
+    StudyOptions study;
+    study.strength = 6.0;
+    study.conditions.one_base_error = 0.18;
+    study.turn = static_cast<std::size_t>(k);
+    const StudyCase made = studyCase(study, 94'001 + static_cast<std::uint64_t>(k));
+    JobContext job;
+    DiscrepancyOptions options;
+    options.suggest = false;
+    const DiscrepancyResult result = findDiscrepancy(study::inputOf(simulateStudy(made, job).campaign), options, job);
+    nothing_named += result.verdict == DiscrepancyVerdict::None ? 1 : 0;
+    for (const std::string& warning : result.warnings) {
+      if (warning.find(" % too ") == std::string::npos) continue;
+      ++told;
+      const double error = made.scenario.simulation->size_errors.at(made.hidden.front());
+      EXPECT_THAT(warning, HasSubstr((error > 0.0 ? " % too much of " : " % too little of ") + made.hidden.front()));
+      double percent = 0.0;
+      double uncertainty = 0.0;
+      ASSERT_EQ(std::sscanf(warning.c_str(), "The simulation has %lf ± %lf", &percent, &uncertainty), 2) << warning;
+      EXPECT_NEAR(percent, 18.0, 3.0 * uncertainty);
+    }
+  }
+  EXPECT_GE(nothing_named, 6);
+  EXPECT_GE(told, 2);
+}
+
+TEST(RoughSimulation, NothingIsMissingWhereAllPartsAreSomewhatOff) {
+  constexpr int campaigns = 16;
+  int nothing_named = 0;
+  for (int k = 0; k < campaigns; ++k) {
+    StudyOptions study;
+    study.kind = StudyKind::Nothing;
+    study.conditions.base_error = 0.08;
+    study.turn = static_cast<std::size_t>(k);
+    JobContext job;
+    DiscrepancyOptions options;
+    options.suggest = false;
+    const DiscrepancyInput input =
+        study::inputOf(simulateStudy(studyCase(study, 95'001 + static_cast<std::uint64_t>(k)), job).campaign);
+    nothing_named += findDiscrepancy(input, options, job).verdict == DiscrepancyVerdict::None ? 1 : 0;
+  }
+  EXPECT_GE(nothing_named, campaigns - 1);
 }
 
 TEST(RoughSimulation, TheFreedomOfNuisancesCostsTheirDeterminant) {
