@@ -19,7 +19,7 @@ std::string withMinusSign(std::string text) {
 
 std::string withUncertainty(double value, double standard_uncertainty, std::string_view unit) {
   std::string text;
-  if (!std::isfinite(value)) {
+  if (!std::isfinite(value) || std::isinf(standard_uncertainty)) {
     text = "not determined";
     return text;
   }

@@ -124,6 +124,17 @@ std::vector<ModelEffect> modelEffects(const EffectSearch& search, const Residual
   const Eigen::VectorXd norm = x.colwise().norm();
   Eigen::MatrixXd scaled = x;
   for (Index c = 0; c < total; ++c) scaled.col(c) /= norm[c] > 0.0 ? norm[c] : 1.0;
+  // Gains that these readings cannot tell from others were left at zero by the fit: nothing is known of them.
+  std::vector<bool> dependent(static_cast<std::size_t>(total), false);
+  Index first = 0;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    for (Index g = 0; g < fit.gains[t].size(); ++g) {
+      const auto c = static_cast<std::size_t>(first + g);
+      dependent[c] = fit.gains[t][g] == 0.0 && !(prior[c] > 0.0);
+      if (dependent[c]) scaled.col(first + g).setZero();
+    }
+    first += parts[t].cols();
+  }
   Eigen::MatrixXd covariance;
   if (prior_sigma.empty()) {
     const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> cod(scaled);
@@ -149,6 +160,9 @@ std::vector<ModelEffect> modelEffects(const EffectSearch& search, const Residual
     e.covariance = covariance.block(at, at, parts[t].cols(), parts[t].cols());
     const Eigen::VectorXd sd = e.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
     e.gain_uncertainty = sd.head(e.gains.size());
+    for (Index g = 0; g < e.gains.size(); ++g) {
+      if (dependent[static_cast<std::size_t>(at + g)]) e.gain_uncertainty[g] = std::numeric_limits<double>::infinity();
+    }
     for (std::size_t p = 0; p < e.parameters.size(); ++p) {
       e.parameter_uncertainty.push_back(sd[e.gains.size() + static_cast<Index>(p)]);
     }

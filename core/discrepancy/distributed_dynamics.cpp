@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/discrepancy/distributed_dynamics.h"
-
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+
+#include "core/math/basic_solution.h"
 
 namespace spindrift {
 namespace {
@@ -268,9 +269,12 @@ DistributedFit distributedDynamics(const EffectSearch& search, const ResidualPro
   }
   for (Index c = 0; c < count; ++c) raw.col(free_count + c) = values[static_cast<std::size_t>(c)];
   const Eigen::MatrixXd x = problem.projected(raw);
-  const Eigen::MatrixXd free = x.leftCols(free_count);
+  Eigen::MatrixXd free = x.leftCols(free_count);
+  Eigen::VectorXd length = free.colwise().norm();
+  length = (length.array() > 0.0).select(length, 1.0);
+  free = free * length.cwiseInverse().asDiagonal();
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(free);
-  qr.setThreshold(3e-4);
+  qr.setThreshold(EffectSearch::dependent);
   const Eigen::VectorXd& y = problem.projectedResidual();
   const auto apart = [&](const Eigen::MatrixXd& m) { return Eigen::MatrixXd(m - free * qr.solve(m)); };
   const Eigen::MatrixXd c = apart(x.rightCols(count));
@@ -287,7 +291,7 @@ DistributedFit distributedDynamics(const EffectSearch& search, const ResidualPro
   out.log_evidence += found.log_evidence - 0.5 * rest.squaredNorm();
   gram.diagonal() += width.array().square().inverse().matrix();
   const Eigen::VectorXd weight = gram.ldlt().solve(b);
-  const Eigen::VectorXd free_gains = qr.solve(y - x.rightCols(count) * weight);
+  const Eigen::VectorXd free_gains = basicSolution(qr, y - x.rightCols(count) * weight).cwiseQuotient(length);
 
   at = 0;
   Index column = 0;

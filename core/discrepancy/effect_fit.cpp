@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/discrepancy/effect_search.h"
+#include "core/math/basic_solution.h"
 
 namespace spindrift {
 
@@ -40,8 +41,8 @@ JointFit EffectSearch::solve(const std::vector<ModelTerm>& terms) const {
     }
     x = x * scale.asDiagonal();
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
-    qr.setThreshold(3e-4);
-    const Eigen::VectorXd scaled = qr.solve(y);
+    qr.setThreshold(dependent);
+    const Eigen::VectorXd scaled = basicSolution(qr, y);
     beta = scale.cwiseProduct(scaled);
     rank = static_cast<int>(qr.rank());
     fit.chi2 = (y - x * scaled).squaredNorm();

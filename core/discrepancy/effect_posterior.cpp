@@ -191,7 +191,7 @@ double PosteriorSearch::evidenceOf(const JointFit& fit) const {
     if (norm > 0.0) x.col(c) /= norm;
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(x);
-  qr.setThreshold(3e-4);
+  qr.setThreshold(EffectSearch::dependent);
   const auto rank = qr.rank();
   const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(x.rows(), rank);
   const Eigen::VectorXd left = y - basis * (basis.transpose() * y);

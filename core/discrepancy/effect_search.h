@@ -34,6 +34,10 @@ struct JointFit {
 
 class EffectSearch {
  public:
+  /// Part of a column that the others do not follow, below which these readings do not tell it from them: its gain is 0
+  /// and not determined.
+  static constexpr double dependent = 3e-4;
+
   EffectSearch(const ResidualProblem& problem, const DriverTable& drivers, const std::vector<Effect>& catalogue);
 
   [[nodiscard]] const std::vector<Effect>& catalogue() const noexcept { return *catalogue_; }

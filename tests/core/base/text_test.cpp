@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 
 namespace spindrift {
 namespace {
@@ -18,6 +19,7 @@ TEST(Text, PValuesAreReadableAndPromiseNoMoreThanTheNoiseModelKnows) {
 }
 
 TEST(Text, DigitsFollowTheUncertainty) {
+  EXPECT_EQ(withUncertainty(0.0, std::numeric_limits<double>::infinity(), "um"), "not determined");
   EXPECT_EQ(withUncertainty(12.3456, 0.34, "um"), "12.3 \u00b1 0.3 um");
   EXPECT_EQ(withUncertainty(-0.0001, 0.02, "rad"), "0.000 ± 0.020 rad") << "no minus sign before nothing";
   EXPECT_EQ(withUncertainty(-12.3456, 0.123, "um"), "\u221212.35 \u00b1 0.12 um");

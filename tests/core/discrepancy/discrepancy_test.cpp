@@ -62,6 +62,28 @@ TEST(Discrepancy, DescribesAnUnknownCauseHoweverLargeItIs) {
   }
 }
 
+TEST(Discrepancy, GainsThatThePointsCannotTellApartAreNotDetermined) {
+  // All points at one height: what grows with the height looks like what does not.
+  DiscrepancyInput input = campaign(Hidden::Nothing, 31);
+  for (std::size_t i = 0; i < input.observations.rows.size(); ++i) {
+    Observation& o = input.observations.rows[i];
+    o.position_mm.z() = 12.5;
+    if (o.component == Component::EZ) o.value += 6.0 * (1.0 - std::exp(-o.time_s / 5000.0));
+  }
+  const DiscrepancyResult result = run(std::move(input));
+  ASSERT_FALSE(result.effects.empty());
+  for (const FoundEffect& effect : result.effects) {
+    for (const FittedParameter& p : effect.parameters) {
+      EXPECT_LT(std::abs(p.value), 1e6) << effect.id << ' ' << p.name;
+      if (!std::isfinite(p.standard_uncertainty)) {
+        EXPECT_EQ(p.value, 0.0) << effect.id << ' ' << p.name;
+      } else {
+        EXPECT_LT(p.standard_uncertainty, 1e6) << effect.id << ' ' << p.name;
+      }
+    }
+  }
+}
+
 TEST(Discrepancy, SaysThatNothingWasTried) {
   DiscrepancyOptions options;
   options.max_effects = 0;

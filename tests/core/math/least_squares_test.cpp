@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/math/basic_solution.h"
 
 namespace spindrift {
 namespace {
@@ -101,6 +103,36 @@ TEST(LeastSquares, BadlyScaledColumnsAreNotTakenForMissing) {
   const LinearFitResult fit = solveLinear(A, A * Eigen::Vector2d(1.0, 1e6), Eigen::VectorXd::Ones(4));
   ASSERT_EQ(fit.status, FitStatus::Converged);
   EXPECT_NEAR(fit.x(1) / 1e6, 1.0, 1e-6);
+}
+
+TEST(BasicSolution, ColumnsThatDependOnOthersGetNothing) {
+  Eigen::MatrixXd columns(40, 3);
+  Eigen::VectorXd y(40);
+  for (Eigen::Index i = 0; i < 40; ++i) {
+    const double t = static_cast<double>(i);
+    columns.row(i) << std::sin(0.3 * t), 0.37 * std::sin(0.3 * t) * (1.0 + 1e-9 * t), std::cos(0.2 * t);
+    y[i] = 2.0 * std::sin(0.3 * t) - std::cos(0.2 * t);
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  qr.setThreshold(1e-6);
+  const Eigen::VectorXd x = basicSolution(qr, y);
+  EXPECT_EQ(x[1], 0.0);
+  EXPECT_NEAR(x[0], 2.0, 1e-7);
+  EXPECT_NEAR(x[2], -1.0, 1e-7);
+}
+
+TEST(BasicSolution, OfFullRankIsTheLeastSquaresSolution) {
+  Eigen::MatrixXd columns(12, 4);
+  Eigen::VectorXd y(12);
+  for (Eigen::Index i = 0; i < 12; ++i) {
+    for (Eigen::Index c = 0; c < 4; ++c) columns(i, c) = std::cos(1.0 + 0.7 * static_cast<double>(i * (c + 1)));
+    y[i] = std::sin(static_cast<double>(i));
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  EXPECT_LT((basicSolution(qr, y) - (columns.transpose() * columns).ldlt().solve(columns.transpose() * y)).norm(),
+            1e-10);
+  EXPECT_EQ(basicSolution(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(Eigen::MatrixXd::Zero(5, 2)), y.head(5)).norm(),
+            0.0);
 }
 
 }  // namespace
