@@ -42,6 +42,7 @@ struct ComponentData {
   Eigen::MatrixXd shifts;  // indicator of the state
   Eigen::MatrixXd smooth;  // patterns in space times hats in time, each of mean square 1 where it is not zero
   double mean_sigma = 1.0;
+  double least_scale = 1e-4;       // own noise over what is stated: no instrument resolves less of what moves
   Eigen::MatrixXd hats;            // of a course in time that one series has for itself
   std::vector<double> own_course;  // size of it over the own noise, of each series; 0: none
 };
@@ -137,6 +138,8 @@ double objective(const ComponentData& data, const Products& products, const Para
   a.diagonal().head(s + m).array() += 1.0;
   // Constants of the series: a prior so wide that it is none; it keeps a series without weight from stopping all.
   if (constants) a.diagonal().segment(s + m, total - 1 - s - m).array() += 1e-12;
+  // Readings without any noise leave nothing behind but rounding, of either sign.
+  a(total - 1, total - 1) = a(total - 1, total - 1) * (1.0 + 1e-12) + 1e-9;
   Eigen::LLT<Eigen::MatrixXd> llt(a);
   if (llt.info() != Eigen::Success) return 1e300;
   const auto diagonal = llt.matrixLLT().diagonal();
@@ -161,6 +164,7 @@ double optimise(const ComponentData& data, const Products& products, bool consta
           Parameters trial = p;
           const double factor = std::exp(direction * step);
           if (which == 0) trial.log_scale += direction * step;
+          if (trial.log_scale < std::log(data.least_scale)) break;
           if (which == 1) trial.shift *= factor;
           if (which == 2) trial.smooth *= factor;
           const double value = objective(data, products, trial, constants);
@@ -179,6 +183,7 @@ Eigen::VectorXd withoutCommon(const ResidualProblem& problem, const ComponentDat
                               const Parameters& p) {
   Eigen::LLT<Eigen::MatrixXd> factor;
   objective(data, products, p, problem.free_constants, &factor);
+  if (factor.rows() == 0) return data.residual;  // beyond what numbers can tell apart: nothing is taken out
   const Index s = data.shifts.cols();
   const Index m = data.smooth.cols();
   const Index total = products.gram.cols();
@@ -319,6 +324,15 @@ ComponentData componentData(const ResidualProblem& problem, const Eigen::VectorX
     states.try_emplace(problem.epoch[static_cast<std::size_t>(u)], static_cast<Index>(states.size()));
   }
   out.mean_sigma = std::sqrt(out.sigma.squaredNorm() / static_cast<double>(n));
+  constexpr double least_part_of_motion = 5e-4;
+  double motion = 0.0;
+  for (const auto& [from, to] : out.series) {
+    const Index first = out.units[static_cast<std::size_t>(from)];
+    const Eigen::VectorXd values = problem.simulated.segment(first, to - from) + problem.y.segment(first, to - from);
+    motion += (values.array() - (problem.free_constants ? values.mean() : 0.0)).square().sum();
+  }
+  out.least_scale =
+      std::max(out.least_scale, least_part_of_motion * std::sqrt(motion / static_cast<double>(n)) / out.mean_sigma);
   out.own_course.assign(out.series.size(), 0.0);
   const double per_state = static_cast<double>(n) / static_cast<double>(states.size());
   if (problem.epochs_are_states && per_state >= 2.5 && out.series.size() >= 3) {
@@ -508,7 +522,7 @@ void estimateWithCourses(const ResidualProblem& problem, ComponentEstimate& e, b
   if (!again && !(e.p.part > 0.0)) {
     // Many courses hide each other: begin with what is noise without doubt.
     Parameters quick = e.p;
-    quick.log_scale = std::min(e.p.log_scale, std::log(std::max(1e-6, quickScale(problem, e.data, e.p))));
+    quick.log_scale = std::min(e.p.log_scale, std::log(std::max(e.data.least_scale, quickScale(problem, e.data, e.p))));
     if (findOwnCourses(problem, e.data, quick)) estimateAt(problem, e, true, careful);
   }
   constexpr int most_rounds = 4;
@@ -541,7 +555,7 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
         all.push_back(std::abs(rough[i]));
       }
     }
-    const double spread = std::max(1e-9, 1.4826 * median(all));
+    const double spread = std::max(e.data.least_scale, 1.4826 * median(all));
     for (Index i = 0; i < rough.size(); ++i) {
       const double z = std::abs(rough[i]) / spread;
       if (z > 6.0) e.data.weight[i] = 25.0 / (z * z);
@@ -590,7 +604,7 @@ NoiseModel estimateNoise(const ResidualProblem& problem, const Eigen::VectorXd& 
     const ComponentEstimate& e = estimates[c];
     if (!e.present) continue;
     ComponentNoise& n = out.component[c];
-    n.scale = std::exp(e.p.log_scale);
+    n.scale = std::max(e.data.least_scale, std::exp(e.p.log_scale));
     n.scale_uncertainty = e.uncertainty;
     n.common = e.p.shift;
     n.correlated_part = e.p.part;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "tests/core/discrepancy/small_plant.h"
@@ -53,6 +54,22 @@ TEST(AcceptedByHand, WhereNothingIsMissing) {
   ASSERT_EQ(result.effects.size(), 1u);
   EXPECT_TRUE(result.effects[0].forced);
   EXPECT_LT(result.gap.heldout_rms_after_um, 1.03 * result.gap.heldout_rms_before_um);
+}
+
+TEST(AcceptedByHand, InReadingsWithoutAnyNoise) {
+  DiscrepancyInput input = campaign(Hidden::SpindleDrift, 6);
+  for (std::size_t i = 0; i < input.observations.rows.size(); ++i)
+    input.observations.rows[i].value = input.predicted[i];
+  for (const char* id : {"spindle.drift.y", "ball_screw.expansion.x", "column.bending.b"}) {
+    DiscrepancyOptions options;
+    options.accept = {id};
+    const DiscrepancyResult result = run(input, options);
+    ASSERT_EQ(result.effects.size(), 1u) << id;
+    EXPECT_EQ(result.effects[0].id, id);
+    for (const FittedParameter& p : result.effects[0].parameters) EXPECT_TRUE(std::isfinite(p.value)) << id;
+    EXPECT_LT(result.gap.rms_after_um, 0.01) << id;
+    EXPECT_THAT(result.warnings, Contains(HasSubstr("do not support it")));
+  }
 }
 
 TEST(AcceptedByHand, InThePlaceOfAMoreProbableOneIsSaidToBe) {

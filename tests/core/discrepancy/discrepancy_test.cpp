@@ -36,6 +36,19 @@ TEST(Discrepancy, NamesOneHiddenEffect) {
   EXPECT_EQ(slip.effects[0].id, "fixture.slip.F3");
 }
 
+TEST(Discrepancy, NamesWhatIsMissingInReadingsWithoutAnyNoise) {
+  // Two virtual machines compared with each other.
+  DiscrepancyInput input = campaign(Hidden::SpindleDrift, 1);
+  const DiscrepancyResult noisy = run(input);
+  ASSERT_EQ(noisy.effects.size(), 1u);
+  for (std::size_t i = 0; i < input.observations.rows.size(); ++i)
+    input.observations.rows[i].value = input.predicted[i] + noisy.effect_part[i];
+  const DiscrepancyResult result = run(std::move(input));
+  ASSERT_GE(result.effects.size(), 1u) << result.message;
+  EXPECT_EQ(result.effects[0].id, "spindle.drift.y");
+  EXPECT_LT(result.gap.rms_after_um, 0.1 * result.gap.rms_before_um);
+}
+
 TEST(Discrepancy, NamesNothingWhenNothingIsMissing) {
   for (std::uint64_t seed = 11; seed <= 16; ++seed) {
     const DiscrepancyResult result = run(campaign(Hidden::Nothing, seed));
