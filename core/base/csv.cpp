@@ -186,11 +186,15 @@ SourcePlace CsvTable::place(std::size_t row, std::size_t column) const {
 std::string csvField(std::string_view plain) {
   double number = 0.0;
   const std::string text = (isFormula(plain) && !parseNumber(plain, number) ? "'" : "") + std::string(plain);
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return text;
+  // Plain, it would be read as several fields, without its blanks, or, at the beginning of a line, as a comment.
+  const bool plain_is_enough = text.find_first_of(",\"\r\n") == std::string_view::npos &&
+                               trimmed(text).size() == text.size() && !text.starts_with('#');
+  if (plain_is_enough) return text;
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"') quoted += '"';
-    quoted += c;
+    // A row is a line for whoever reads it.
+    quoted += c == '\r' || c == '\n' ? ' ' : c;
   }
   return quoted + '"';
 }

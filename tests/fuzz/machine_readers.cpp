@@ -18,7 +18,7 @@ void csv(std::string_view bytes) {
       // What is written is read back.
       const std::string again = csvField(table.text(row, column));
       const CsvTable back = CsvTable::parse("a,b\n" + again + ",1\n", "back.csv");
-      SPINDRIFT_ASSERT(back.rowCount() == 1 || again.find('\n') != std::string::npos, "a field is one field");
+      SPINDRIFT_ASSERT(back.rowCount() == 1 && back.text(0, 0) == table.text(row, column), "a field is read back");
     }
   }
   if (table.rowCount() > 0) (void)table.number(0, 0);
