@@ -106,6 +106,7 @@ spindrift::ThermalModel largeModel() {
   for (int o = 0; o < 6; ++o) {
     spindrift::ThermalOutput output;
     output.name = "output" + std::to_string(o);
+    output.unit = "um";
     for (int i = 0; i < 8; ++i)
       for (int k = 0; k < 3; ++k)
         output.terms.push_back({i, 200.0 * std::pow(4.0, k) * (1.0 + 0.01 * o), 0.3 - 0.02 * i});
@@ -118,7 +119,10 @@ void timeCompensator() {
   const spindrift::ThermalModel model = largeModel();
   spindrift::Compensator compensator;
   const std::string problem = compensator.load(model, 0.01);
-  if (!problem.empty()) std::printf("%s\n", problem.c_str());
+  if (!problem.empty()) {
+    std::printf("%s\n", problem.c_str());
+    std::exit(1);
+  }
   double inputs[8];
   double outputs[6];
   for (int i = 0; i < 8; ++i) inputs[i] = 22.0 + i;
@@ -143,7 +147,10 @@ void runLong(long steps) {
   spindrift::Compensator compensator;
   spindrift::CompensatorLimits limits;
   const std::string problem = compensator.load(largeModel(), 0.01, limits);
-  if (!problem.empty()) std::printf("%s\n", problem.c_str());
+  if (!problem.empty()) {
+    std::printf("%s\n", problem.c_str());
+    std::exit(1);
+  }
   spindrift::Random random(19);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double wild[] = {std::nan(""), infinity, -infinity, 1e308, -1e308, 5e-324};
