@@ -7,31 +7,10 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/text.h"
+#include "core/base/untrusted_text.h"
 
 namespace spindrift {
 namespace {
-
-/// Index of the first byte that is no UTF-8; npos if there is none.
-std::size_t firstInvalidUtf8(std::string_view text) noexcept {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  for (std::size_t i = 0; i < text.size();) {
-    const unsigned lead = byte(i);
-    const std::size_t length = lead < 0x80                    ? 1
-                               : lead >= 0xC2 && lead <= 0xDF ? 2
-                               : lead >= 0xE0 && lead <= 0xEF ? 3
-                               : lead >= 0xF0 && lead <= 0xF4 ? 4
-                                                              : 0;
-    if (length == 0 || length > text.size() - i) return i;
-    for (std::size_t k = 1; k < length; ++k)
-      if ((byte(i + k) & 0xC0U) != 0x80U) return i;
-    // No overlong forms, no surrogates, nothing above U+10FFFF.
-    if ((lead == 0xE0 && byte(i + 1) < 0xA0) || (lead == 0xED && byte(i + 1) > 0x9F) ||
-        (lead == 0xF0 && byte(i + 1) < 0x90) || (lead == 0xF4 && byte(i + 1) > 0x8F))
-      return i;
-    i += length;
-  }
-  return std::string_view::npos;
-}
 
 /// True for a text that a spreadsheet would run as a formula, however many marks (') stand before it.
 bool isFormula(std::string_view text) {
@@ -207,11 +186,15 @@ SourcePlace CsvTable::place(std::size_t row, std::size_t column) const {
 std::string csvField(std::string_view plain) {
   double number = 0.0;
   const std::string text = (isFormula(plain) && !parseNumber(plain, number) ? "'" : "") + std::string(plain);
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return text;
+  // Plain, it would be read as several fields, without its blanks, or, at the beginning of a line, as a comment.
+  const bool plain_is_enough = text.find_first_of(",\"\r\n") == std::string_view::npos &&
+                               trimmed(text).size() == text.size() && !text.starts_with('#');
+  if (plain_is_enough) return text;
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"') quoted += '"';
-    quoted += c;
+    // A row is a line for whoever reads it.
+    quoted += c == '\r' || c == '\n' ? ' ' : c;
   }
   return quoted + '"';
 }

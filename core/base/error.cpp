@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/untrusted_text.h"
+
 namespace spindrift {
 
 std::string SourcePlace::prefix() const {
@@ -13,7 +15,7 @@ std::string SourcePlace::prefix() const {
 }
 
 InputError::InputError(const SourcePlace& where, std::string_view sentence)
-    : std::runtime_error(where.prefix() + std::string(sentence)), where_(where) {}
+    : std::runtime_error(printable(where.prefix() + std::string(sentence))), where_(where) {}
 
 std::string_view toString(FitStatus status) noexcept {
   switch (status) {

@@ -9,6 +9,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/text.h"
+#include "core/base/untrusted_text.h"
 
 namespace spindrift {
 namespace {
@@ -29,7 +30,7 @@ SourcePlace placeOfByte(std::string_view text, std::size_t byte, const std::file
 std::string shortDump(const nlohmann::json& value) {
   if (value.is_object()) return "an object";
   std::string text = value.dump();
-  if (text.size() > 60) text = text.substr(0, 57) + "...";
+  if (text.size() > 60) text = std::string(beginning(text, 57)) + "...";
   return text;
 }
 
@@ -40,6 +41,11 @@ JsonNode JsonNode::read(const std::filesystem::path& file) {
 }
 
 JsonNode JsonNode::parse(std::string_view text, const std::filesystem::path& name) {
+  if (deepestJson(text) > most_levels_of_json) {
+    throw InputError({name, ""}, fmt::format("holds lists or objects more than {} deep in each other; allowed: at most "
+                                             "that.",
+                                             most_levels_of_json));
+  }
   std::vector<std::set<std::string>> keys;
   const auto watch = [&](int, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
     using Event = nlohmann::json::parse_event_t;

@@ -43,7 +43,7 @@ class MeshReader {
       if (keyword_ == "*NODE") {
         double id = 0.0;
         Eigen::Vector3d place = Eigen::Vector3d::Zero();
-        bool whole = fields.size() >= 2 && parseNumber(fields[0], id) && id >= 1.0;
+        bool whole = fields.size() >= 2 && parseNumber(fields[0], id) && id >= 1.0 && id <= largest_node;
         for (std::size_t i = 1; i < fields.size() && i < 4; ++i) {
           whole = whole && parseNumber(fields[i], place[static_cast<Eigen::Index>(i - 1)]);
         }
@@ -75,6 +75,14 @@ class MeshReader {
     if (keyword_ != "*NSET" && keyword_ != "*NODE") set_.clear();
   }
 
+  /// Before they are added: a few lines of sets of sets name any number of nodes.
+  template <typename Reject>
+  void count(double more, const Reject& reject) {
+    constexpr double most_members = 2e7;
+    members_ += more;
+    if (members_ > most_members) reject("brings the sets to more than 20 million nodes; allowed: at most that");
+  }
+
   template <typename Reject>
   void addMembers(const std::vector<std::string>& fields, const Reject& reject) {
     std::vector<NodeId>& members = mesh_.sets[set_];
@@ -82,10 +90,10 @@ class MeshReader {
       double range[3] = {0.0, 0.0, 1.0};
       bool whole = fields.size() >= 2 && fields.size() <= 3;
       for (std::size_t i = 0; whole && i < fields.size(); ++i) whole = parseNumber(fields[i], range[i]);
-      constexpr double most_nodes = 1e8;
-      if (!whole || range[0] < 1.0 || range[1] < range[0] || range[2] < 1.0 || range[1] > most_nodes) {
+      if (!whole || range[0] < 1.0 || range[1] < range[0] || range[2] < 1.0 || range[1] > largest_node) {
         reject("is no range of nodes; allowed: first, last, step");
       }
+      count((range[1] - range[0]) / range[2] + 1.0, reject);
       for (auto id = static_cast<NodeId>(range[0]); id <= static_cast<NodeId>(range[1]);
            id += static_cast<NodeId>(range[2])) {
         members.push_back(id);
@@ -95,12 +103,15 @@ class MeshReader {
     for (const std::string& field : fields) {
       double id = 0.0;
       if (parseNumber(field, id)) {
+        if (id < 1.0 || id > largest_node) reject("holds what is no number of a node");
+        count(1.0, reject);
         members.push_back(static_cast<NodeId>(id));
         continue;
       }
       const auto other = mesh_.sets.find(setName(field));
       if (other == mesh_.sets.end()) reject("holds neither numbers of nodes nor names of sets that stand above");
       const std::vector<NodeId> copy = other->second;
+      count(static_cast<double>(copy.size()), reject);
       members.insert(members.end(), copy.begin(), copy.end());
     }
   }
@@ -108,6 +119,7 @@ class MeshReader {
   FeMesh mesh_;
   std::string keyword_;
   std::string set_;
+  double members_ = 0.0;  ///< of all sets
   std::map<std::string, std::string> options_;
 };
 

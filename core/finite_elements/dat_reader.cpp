@@ -87,7 +87,8 @@ class DatReader : public FeResultReader {
       double id = 0.0;
       Eigen::Vector3d u = Eigen::Vector3d::Zero();
       const bool whole = fields.size() == 4 && parseNumber(fields[0], id) && parseNumber(fields[1], u[0]) &&
-                         parseNumber(fields[2], u[1]) && parseNumber(fields[3], u[2]) && id >= 1.0;
+                         parseNumber(fields[2], u[1]) && parseNumber(fields[3], u[2]) && id >= 1.0 &&
+                         id <= largest_node;
       if (!whole) {
         // A title of another table.
         if (!fields.empty() && !parseNumber(fields[0], id)) {

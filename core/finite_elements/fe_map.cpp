@@ -72,7 +72,7 @@ FeNodes FeNodes::parse(std::string_view text) {
   if (text.starts_with("nodes:")) {
     for (const std::string& field : splitList(text.substr(6))) {
       double id = 0.0;
-      if (!parseNumber(field, id) || id < 0.0) {
+      if (!parseNumber(field, id) || id < 0.0 || id > largest_node) {
         throw InputError(fmt::format("\"{}\" in \"{}\" is no number of a node; allowed: nodes:1,2,3.", field, text));
       }
       out.nodes.push_back(static_cast<NodeId>(id));
@@ -85,7 +85,7 @@ FeNodes FeNodes::parse(std::string_view text) {
     out.nearest_to_mm = placeOf(fields, text);
     if (fields.size() > 3) {
       double count = 0.0;
-      if (!parseNumber(fields[3], count) || count < 1.0) {
+      if (!parseNumber(fields[3], count) || count < 1.0 || count > 1e9) {
         throw InputError(fmt::format("\"{}\" in \"{}\" is no number of nodes; allowed: at least 1.", fields[3], text));
       }
       out.count = static_cast<int>(count);

@@ -16,6 +16,8 @@
 namespace spindrift {
 
 using NodeId = long;
+/// Numbers of nodes come as text and are whole up to here.
+inline constexpr double largest_node = 1e15;
 
 /// Nodes with their places, and sets of nodes by name. Either may be unknown to a result (a .dat has no places, a .frd
 /// no sets) and come from the mesh.

@@ -132,7 +132,7 @@ class FrdReader : public FeResultReader {
 
   [[nodiscard]] NodeId node(const Lines& lines, int width) const {
     const auto id = number(std::string_view(lines.text).substr(3, static_cast<std::size_t>(width)));
-    if (!id || *id < 1.0) reject(lines, "has no number of a node");
+    if (!id || *id < 1.0 || *id > largest_node) reject(lines, "has no number of a node");
     return static_cast<NodeId>(*id);
   }
 

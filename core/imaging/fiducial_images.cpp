@@ -7,18 +7,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <new>
 
 #include "core/base/atomic_file.h"
+#include "core/base/sha256.h"
 
 namespace spindrift {
 namespace {
-
-/// FNV-1a, 64 bits.
-std::uint64_t hashOf(std::string_view bytes) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return hash;
-}
 
 FiducialImage measureOne(const std::filesystem::path& folder, const FiducialCapture& capture,
                          const FiducialPattern& pattern) {
@@ -31,7 +26,7 @@ FiducialImage measureOne(const std::filesystem::path& folder, const FiducialCapt
       return result;
     }
     const std::string bytes = readFile(file);
-    result.hash = hashOf(bytes);
+    result.content = sha256(bytes);
     image = decodeImageBytes(bytes, capture.image);
   } catch (const InputError& error) {
     result.reason = error.what();
@@ -90,11 +85,11 @@ void rejectOddSizes(FiducialImages& result) {
 }
 
 void rejectRepeated(FiducialImages& result, const FiducialCaptureList& list) {
-  std::map<std::uint64_t, std::size_t> seen;
+  std::map<std::string, std::size_t> seen;
   for (std::size_t i = 0; i < result.images.size(); ++i) {
     FiducialImage& image = result.images[i];
     if (image.width == 0) continue;
-    const auto [first, unique] = seen.try_emplace(image.hash, i);
+    const auto [first, unique] = seen.try_emplace(image.content, i);
     if (unique || sameMoment(list.captures[first->second], list.captures[i])) continue;
     image.usable = false;
     image.reason = fmt::format("the image is the same as {}.", list.captures[first->second].image);
@@ -138,7 +133,13 @@ FiducialImages measureFiducialImages(const std::filesystem::path& folder, const 
   result.images.resize(list.captures.size());
   std::atomic<std::size_t> done{0};
   parallelFor(list.captures.size(), job, [&](std::size_t i) {
-    result.images[i] = measureOne(folder, list.captures[i], pattern);
+    try {
+      result.images[i] = measureOne(folder, list.captures[i], pattern);
+    } catch (const std::bad_alloc&) {
+      // One image too many or too large is no reason to lose the others.
+      result.images[i] = FiducialImage();
+      result.images[i].reason = "there is not enough memory for the image.";
+    }
     const std::size_t finished = done.fetch_add(1) + 1;
     job.report(static_cast<double>(finished) / static_cast<double>(list.captures.size()), "measuring images");
   });

@@ -22,8 +22,8 @@ struct FiducialImage {
   std::string reason;  ///< why not, one sentence
   int width = 0;
   int height = 0;
-  std::uint64_t hash = 0;  ///< of the file's bytes
-  FocusMeasure focus;      ///< role focus only
+  std::string content;  ///< SHA-256 of the file's bytes
+  FocusMeasure focus;   ///< role focus only
   std::vector<MarkPosition> marks;
   double k1_per_px2 = 0.0;
   double k1_sigma_per_px2 = 0.0;  ///< infinite if not determined

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <new>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -54,6 +55,9 @@ bool pngIsComplete(std::string_view bytes) {
   return false;
 }
 
+/// 16 bits and four channels for each of the pixels that are allowed.
+constexpr std::size_t largest_file = 800'000'000;
+
 struct StatedSize {
   double width = 0.0;
   double height = 0.0;
@@ -75,7 +79,8 @@ StatedSize jpegSize(std::string_view bytes) {
   return {};
 }
 
-/// Size that the header of any other format states, before anything is allocated for it; zero if it cannot be told.
+/// Size that the header states, before anything is allocated for it; zero if there is none, or if the format is not one
+/// of those that are read here. (OpenCV would try many more, each with a decoder of its own.)
 StatedSize statedSize(std::string_view bytes) {
   if (bytes.starts_with("\xFF\xD8")) return jpegSize(bytes);
   const auto number = [&](std::size_t i, std::size_t count, bool big) {
@@ -111,8 +116,8 @@ StatedSize statedSize(std::string_view bytes) {
       const std::size_t at = directory + 2 + 12 * k;
       const double tag = number(at, 2, big);
       const double value = number(at + 8, number(at + 2, 2, big) == 3.0 ? 2 : 4, big);
-      if (tag == 256.0) size.width = value;
-      if (tag == 257.0) size.height = value;
+      if (tag == 256.0) size.width = std::max(size.width, value);
+      if (tag == 257.0) size.height = std::max(size.height, value);
     }
     return size;
   }
@@ -159,14 +164,20 @@ GrayImage decodeImageBytes(std::string_view bytes, const std::filesystem::path& 
                      fmt::format("the {} is cut short: it ends after {} bytes without its end marker; copy it again.",
                                  jpeg ? "JPEG" : "PNG", bytes.size()));
   }
+  if (bytes.size() > largest_file)
+    throw InputError({name, ""}, fmt::format("the file has {} bytes; at most {} are allowed for an image.",
+                                             bytes.size(), largest_file));
   const StatedSize stated = statedSize(bytes);
   requireSize(name, stated.width, stated.height);
   cv::Mat mat;
-  try {
-    const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-    mat = cv::imdecode(buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    mat.release();
+  if (stated.width > 0.0 && stated.height > 0.0) {
+    try {
+      const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+      mat = cv::imdecode(buffer, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    } catch (const cv::Exception& failure) {
+      if (failure.code == cv::Error::StsNoMem) throw std::bad_alloc();
+      mat.release();
+    }
   }
   if (mat.empty()) {
     throw InputError({name, ""}, jpeg || png

@@ -3,9 +3,28 @@
 
 #include <fmt/format.h>
 
-#include <regex>
+#include <algorithm>
+#include <string_view>
+
+#include "core/base/inside_folder.h"
 
 namespace spindrift {
+namespace {
+
+/// "2026-01-31T08:00:00Z", with any number of decimals of the second.
+bool isUtc(std::string_view text) {
+  constexpr std::string_view form = "dddd-dd-ddTdd:dd:dd";
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (text.size() <= form.size() || text.back() != 'Z') return false;
+  for (std::size_t i = 0; i < form.size(); ++i) {
+    if (form[i] == 'd' ? !digit(text[i]) : text[i] != form[i]) return false;
+  }
+  const std::string_view decimals = text.substr(form.size(), text.size() - form.size() - 1);
+  return decimals.empty() ||
+         (decimals.size() > 1 && decimals.front() == '.' && std::all_of(decimals.begin() + 1, decimals.end(), digit));
+}
+
+}  // namespace
 
 Campaign Campaign::read(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) {
@@ -24,8 +43,13 @@ Campaign Campaign::read(const std::filesystem::path& folder) {
   campaign.name = root.at("name").name();
   const JsonNode start = root.at("start_utc");
   campaign.start_utc = start.string();
-  static const std::regex utc(R"(\d{4}-\d{2}-\d{2}T\d{2}:\d{2}:\d{2}(\.\d+)?Z)");
-  if (!std::regex_match(campaign.start_utc, utc)) start.reject("a UTC time such as \"2026-01-31T08:00:00Z\"");
+  if (!isUtc(campaign.start_utc)) start.reject("a UTC time such as \"2026-01-31T08:00:00Z\"");
+  // What the file names lies in the campaign, whoever wrote it.
+  InsideFolder inside(folder);
+  for (const char* key : {"simulation", "effects", "simulator"}) {
+    if (const auto named = root.find(key); named && !named->string().empty())
+      (void)inside.path(named->string(), named->place());
+  }
   campaign.simulation = root.stringOr("simulation", "");
   if (const auto gain = root.find("simulation_gain_uncertainty")) {
     campaign.simulation_gain_uncertainty = gain->nonNegativeNumber();

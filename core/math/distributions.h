@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distribution functions used by tests and intervals. Accuracy about 1e-12 relative in the body of each distribution.
-// Sources: Abramowitz and Stegun 6.5, 26.2, 26.5; continued fractions by Lentz's method.
+// Distribution functions used by tests and intervals, of Boost.Math: what is not defined is NaN.
+// Source: J. Maddock et al., Boost.Math, "Statistical Distributions and Functions".
 #pragma once
 
 namespace spindrift {

@@ -227,7 +227,11 @@ PrintedText readPrintedText(std::string_view text, const std::filesystem::path& 
     }
     t.approach /= length;
     const int count = numbered[fmt::format("{}|{}|{}", t.feature, t.stylus, t.c_deg)]++;
-    t.touch = static_cast<int>(number("touch", count));
+    const double touch = number("touch", count);
+    if (touch < 0.0 || touch > 1e6 || touch != std::floor(touch)) {
+      throw InputError(place("touch"), fmt::format("touch number {} is not allowed; allowed: 0, 1, 2, ...", touch));
+    }
+    t.touch = static_cast<int>(touch);
     if (values->contains("time")) {
       const double time = number("time", 0.0) * s_per_unit;
       if (!first_time) first_time = time;

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <charconv>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -13,12 +13,13 @@
 namespace spindrift {
 namespace {
 
-/// N of "line N" in an error about text, 0 if it names none.
-std::size_t lineOf(const std::string& sentence) {
-  const std::size_t at = sentence.find("line ");
-  if (at == std::string::npos || at + 5 >= sentence.size()) return 0;
-  if (std::isdigit(static_cast<unsigned char>(sentence[at + 5])) == 0) return 0;
-  return std::stoul(sentence.substr(at + 5));
+/// N of an error at "line N, ...", 0 if it names no line.
+std::size_t lineOf(const InputError& error) {
+  constexpr std::string_view word = "line ";
+  const std::string_view place = error.where().place;
+  std::size_t line = 0;
+  if (place.starts_with(word)) std::from_chars(place.data() + word.size(), place.data() + place.size(), line);
+  return line;
 }
 
 /// Overwrites a line (from 1) with blanks; false if there is none.
@@ -78,7 +79,7 @@ std::vector<Touch> TouchStream::readCsv(std::string_view complete) {
     } catch (const InputError& e) {
       std::string sentence = e.what();
       // The row was read by itself, as the second line of a text.
-      if (const std::size_t at = sentence.find("line 2"); at != std::string::npos) {
+      if (const std::size_t at = sentence.find("line 2", name_.string().size()); at != std::string::npos) {
         sentence.replace(at, 6, fmt::format("line {}", lines_));
       }
       problems_.push_back({lines_, sentence});
@@ -101,7 +102,7 @@ std::vector<Touch> TouchStream::readPrinted(std::string_view complete) {
       problems_ = problems;
       return fresh;
     } catch (const InputError& e) {
-      const std::size_t line = lineOf(e.what());
+      const std::size_t line = lineOf(e);
       if (line == 0) {
         if (std::string(e.what()).find("no line matches") != std::string::npos) {
           problems_ = problems;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <new>
 
 #include "core/base/error.h"
 #include "core/scanning/scan_points.h"
@@ -35,6 +36,8 @@ std::vector<ScanCheck> checkScans(const Campaign& campaign, const JobContext& jo
       if (check.profiles == 0) check.reason = "the points are in no order: profiles cannot be told apart";
     } catch (const InputError& error) {
       check.reason = error.what();
+    } catch (const std::bad_alloc&) {
+      check.reason = "there is not enough memory for the cloud";
     }
     const std::scoped_lock lock(mutex);
     job.report(static_cast<double>(++done) / static_cast<double>(checks.size()), "reading scans");

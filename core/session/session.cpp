@@ -121,10 +121,6 @@ Session Session::open(const std::filesystem::path& wanted) {
     throw InputError({folder, ""},
                      fmt::format("has lost its file {}; put it back from a copy of the session.", database_file));
   }
-  if (version < SessionDatabase::newest_version) {
-    std::filesystem::copy_file(folder / database_file, folder / fmt::format("session.version{}.sqlite", version),
-                               std::filesystem::copy_options::skip_existing);
-  }
   std::vector<std::string> messages;
   auto database = std::make_unique<SessionDatabase>(folder / database_file, messages);
   if (version < SessionDatabase::newest_version) {
@@ -374,8 +370,7 @@ void Session::setSetting(const std::string& key, const nlohmann::json& value) {
 }
 
 std::optional<nlohmann::json> Session::setting(const std::string& key) const {
-  const auto text = database_->setting(key);
-  return text ? std::optional(nlohmann::json::parse(*text)) : std::nullopt;
+  return database_->setting(key);
 }
 
 }  // namespace spindrift

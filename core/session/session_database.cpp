@@ -4,11 +4,16 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <stdexcept>
+#include <typeinfo>
+
 #include <soci/soci.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 
 #include "core/base/error.h"
 #include "core/base/inside_folder.h"
+#include "core/base/log.h"
+#include "core/base/untrusted_text.h"
 
 namespace spindrift {
 
@@ -61,6 +66,32 @@ std::filesystem::path keepCopy(const std::filesystem::path& file, int version) {
                                            version, error.message()));
 }
 
+/// What a failing disk leaves is found before anything is read from it or written to it. The first statement on the
+/// database has taken back what a crash left half done.
+void requireSound(soci::session& sql, const std::filesystem::path& file) {
+  std::string answer;
+  sql << "pragma quick_check(1)", soci::into(answer);
+  if (answer == "ok") return;
+  throw InputError({file, ""},
+                   fmt::format("the session's database is damaged ({}); take it from a copy of the session. "
+                               "The captures in the folder campaigns are not touched by that.",
+                               answer));
+}
+
+/// The file gives back what removed results took. One of an older program is laid out anew once.
+void shrinkFromNowOn(soci::session& sql) {
+  int mode = 0;
+  sql << "pragma auto_vacuum", soci::into(mode);
+  if (mode == 1) return;
+  try {
+    sql << "pragma auto_vacuum = full";
+    sql << "vacuum";
+  } catch (const soci::soci_error& failure) {
+    // No room for the second copy that this takes for a moment: another time.
+    log(LogLevel::Warning, std::string("the session's database stays as large as it is: ") + failure.what());
+  }
+}
+
 /// Runs `body` and turns what SOCI throws into the sentence a user gets.
 template <typename Body>
 auto guarded(const std::filesystem::path& file, Body body) -> decltype(body()) {
@@ -68,7 +99,25 @@ auto guarded(const std::filesystem::path& file, Body body) -> decltype(body()) {
     return body();
   } catch (const soci::soci_error& error) {
     throw InputError({file, ""}, fmt::format("the session's database cannot be used: {}.", error.get_error_message()));
+  } catch (const std::bad_cast&) {
+    throw InputError({file, ""}, "the session's database holds a value of another kind than its column.");
+  } catch (const std::invalid_argument&) {
+    throw InputError({file, ""}, "the session's database holds a key that is no number.");
+  } catch (const std::out_of_range&) {
+    throw InputError({file, ""}, "the session's database holds a key that is too large.");
   }
+}
+
+/// JSON of a column.
+nlohmann::json parsed(const std::filesystem::path& file, std::string_view text, std::string_view what) {
+  nlohmann::json out;
+  if (deepestJson(text) <= most_levels_of_json)
+    out = nlohmann::json::parse(text, nullptr, false);
+  else
+    out = nlohmann::json(nlohmann::json::value_t::discarded);
+  if (out.is_discarded())
+    throw InputError({file, ""}, fmt::format("the session's database holds {} that is no JSON.", what));
+  return out;
 }
 
 }  // namespace
@@ -88,6 +137,7 @@ SessionDatabase::SessionDatabase(const std::filesystem::path& file, std::vector<
                                    "it there or install the newer version.",
                                    version, newest_version));
     }
+    requireSound(sql, file_);
     if (version < newest_version) {
       const int before = version;
       const std::filesystem::path copy = before > 0 ? keepCopy(file_, before) : std::filesystem::path();
@@ -100,6 +150,7 @@ SessionDatabase::SessionDatabase(const std::filesystem::path& file, std::vector<
                                        before, newest_version, copy.filename().string()));
       }
     }
+    shrinkFromNowOn(sql);
     if (::stat(file_.c_str(), &connection_->identity) != 0) throw InputError({file_, ""}, "cannot be opened.");
   });
 }
@@ -210,7 +261,7 @@ nlohmann::json SessionDatabase::payload(std::int64_t result) const {
     const long long key = result;
     std::string text = "null";
     connection_->sql << "select payload from result where id = :i", soci::use(key), soci::into(text);
-    return nlohmann::json::parse(text);
+    return parsed(file_, text, "a result");
   });
 }
 
@@ -245,8 +296,8 @@ std::vector<StoredResult> SessionDatabase::selectResults(std::int64_t campaign, 
       result.provenance.program_version = row.get<std::string>(2);
       result.provenance.created_utc = row.get<std::string>(3);
       result.provenance.inputs_fingerprint = row.get<std::string>(4);
-      result.provenance.options = nlohmann::json::parse(row.get<std::string>(5));
-      result.payload = nlohmann::json::parse(row.get<std::string>(6));
+      result.provenance.options = parsed(file_, row.get<std::string>(5), "options");
+      result.payload = parsed(file_, row.get<std::string>(6), "a result");
       list.push_back(std::move(result));
     }
     return list;
@@ -347,13 +398,13 @@ void SessionDatabase::setSetting(const std::string& key, const std::string& json
   });
 }
 
-std::optional<std::string> SessionDatabase::setting(const std::string& key) const {
-  return guarded(file_, [&]() -> std::optional<std::string> {
+std::optional<nlohmann::json> SessionDatabase::setting(const std::string& key) const {
+  return guarded(file_, [&]() -> std::optional<nlohmann::json> {
     std::string value;
     soci::session& sql = connection_->sql;
     sql << "select value from setting where name = :n", soci::use(key), soci::into(value);
     if (!sql.got_data()) return std::nullopt;
-    return value;
+    return parsed(file_, value, fmt::format("a setting ({})", key));
   });
 }
 

@@ -53,7 +53,7 @@ class SessionDatabase {
   [[nodiscard]] std::vector<Note> notes(std::int64_t campaign) const;
 
   void setSetting(const std::string& key, const std::string& json);
-  [[nodiscard]] std::optional<std::string> setting(const std::string& key) const;
+  [[nodiscard]] std::optional<nlohmann::json> setting(const std::string& key) const;
 
  private:
   struct Connection;

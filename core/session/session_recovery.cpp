@@ -96,7 +96,7 @@ void refreshCaptureFingerprint(SessionDatabase& database, const CampaignRecord& 
   const auto base = database.setting(captureBaseKey(record.id));
   if (!base) return;
   Fingerprint fingerprint;
-  fingerprint.add(*base);
+  fingerprint.add(base->dump());
   for (const fs::path& list : captureLists(record.folder)) {
     fingerprint.add(list.filename().string()).addFile(list);
   }

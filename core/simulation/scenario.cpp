@@ -12,6 +12,11 @@
 namespace spindrift {
 namespace {
 
+/// What a campaign may hold; more is a slip of the pen that would take the whole memory.
+constexpr double most_states = 1e5;
+constexpr double most_log_rows = 1e7;
+constexpr int most_doors = 10000;
+
 constexpr std::array<char, 3> axes{'x', 'y', 'z'};
 
 double partOf(const JsonNode& node, std::string_view key, double otherwise) {
@@ -101,7 +106,9 @@ EnvironmentOptions parseEnvironment(const JsonNode& node) {
   }
   if (const auto count = node.find("random_doors")) {
     o.random_doors = count->integer();
-    if (o.random_doors < 0) count->reject("a whole number from 0");
+    if (o.random_doors < 0 || o.random_doors > most_doors) {
+      count->reject(fmt::format("a whole number from 0 to {}", most_doors));
+    }
   }
   return o;
 }
@@ -148,10 +155,10 @@ std::vector<double> parseTimes(const JsonNode& node, std::string_view count_key,
   const double first = nonNegative(node, "first_s", 0.0);
   const double every = node.at("every_s").positiveNumber();
   const auto count_node = node.find(count_key);
-  const int count = count_node ? count_node->integer() : static_cast<int>((duration_s - first) / every);
-  if (count < 1) node.reject(fmt::format("at least one of {}", count_key));
+  const double count = count_node ? count_node->integer() : std::floor((duration_s - first) / every);
+  if (!(count >= 1.0 && count <= most_states)) node.reject(fmt::format("1 to {:.0f} of {}", most_states, count_key));
   std::vector<double> list;
-  for (int i = 0; i < count; ++i) list.push_back(first + i * every);
+  for (int i = 0; i < static_cast<int>(count); ++i) list.push_back(first + i * every);
   return list;
 }
 
@@ -295,6 +302,9 @@ Scenario Scenario::parse(const JsonNode& root, const std::filesystem::path& file
   if (const auto period = root.find("log_period_s")) {
     s.log_period_s = period->positiveNumber();
     if (s.log_period_s > s.duration_s) period->reject("at most the duration");
+    if (s.duration_s / s.log_period_s > most_log_rows) {
+      period->reject(fmt::format("a period that makes at most {:.0f} rows of the duration", most_log_rows));
+    }
   }
   const JsonNode machine = root.at("machine");
   s.machine = machine.value().is_string() ? MachineDescription::read(file.parent_path() / machine.string())

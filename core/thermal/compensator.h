@@ -90,6 +90,7 @@ class Compensator {
     double inverse_scale = 1.0;
   };
   static double powered(double magnitude, double power) noexcept;
+  void sweep() noexcept;
 
   int inputs_ = 0;
   int outputs_ = 0;
@@ -122,6 +123,7 @@ class Compensator {
   alignas(64) std::array<double, maximum_lags> c_{};
   alignas(64) std::array<double, maximum_lags> rest_{};  ///< v at rest per unit of input
   alignas(64) std::array<double, maximum_lags> v_{};
+  int swept_ = 0;  ///< next lag that is looked at for having decayed to nothing
   std::array<int, maximum_lags> round_size_{};
   std::array<int, maximum_outputs + 1> first_{};        ///< first lag of each output
   std::array<int, maximum_outputs + 1> first_round_{};  ///< first round of each output

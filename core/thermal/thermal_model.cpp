@@ -280,8 +280,7 @@ nlohmann::json ThermalModel::json() const {
     }
     nlohmann::json lower = nlohmann::json::array();
     for (Eigen::Index r = 0; r < o.covariance.rows(); ++r)
-      for (Eigen::Index c = 0; c <= r; ++c)
-        lower.push_back(jsonNumber(static_cast<double>(static_cast<float>(o.covariance(r, c)))));
+      for (Eigen::Index c = 0; c <= r; ++c) lower.push_back(jsonNumber(o.covariance(r, c)));
     out["outputs"].push_back({{"name", o.name},
                               {"unit", o.unit},
                               {"offset", o.offset},

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <ctime>
+#include <new>
 
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
 #include "core/base/error.h"
+#include "core/base/sha256.h"
 #include "core/base/text.h"
 #include "core/imaging/capture_verdict.h"
 #include "core/imaging/evaluate_fiducials.h"
@@ -17,7 +19,6 @@
 #include "core/scanning/cloud_file.h"
 #include "core/scanning/scan_check.h"
 #include "core/scanning/scan_evaluation.h"
-#include "core/session/fingerprint.h"
 #include "core/session/session.h"
 
 namespace spindrift {
@@ -116,7 +117,7 @@ void addListed(const Campaign& campaign, const std::vector<IncomingItem>& journa
   for (const std::string& name : files) {
     const std::filesystem::path path(name);
     const std::string hash = hashInName(path);
-    if (!hash.empty()) context.known[hash] = path.filename().string();
+    if (!hash.empty()) context.known[hash].push_back({path.filename().string(), name, ""});
   }
 }
 
@@ -129,14 +130,18 @@ std::string safeName(const std::string& name) {
   return safe;
 }
 
-/// Copies into the campaign unless it is there already.
+/// Copies into the campaign unless it is there already. Another file of that name and hash, as far as the name carries
+/// it, keeps its place.
 void keep(const IncomingContext& context, IncomingItem& item, const std::string& folder, const std::string& stem,
           const std::string& ending, const std::string& bytes) {
-  item.stored = fmt::format("captures/{}/{}_{}{}", folder, stem, shortHash(item.hash), ending);
-  const std::filesystem::path target = context.campaign_folder / item.stored;
-  std::error_code error;
-  if (std::filesystem::file_size(target, error) == bytes.size() && !error) return;
-  writeFileAtomically(target, bytes);
+  for (const std::string& digits : {shortHash(item.hash), item.hash}) {
+    item.stored = fmt::format("captures/{}/{}_{}{}", folder, stem, digits, ending);
+    const std::filesystem::path target = context.campaign_folder / item.stored;
+    std::error_code error;
+    const bool there = std::filesystem::exists(target, error);
+    if (!there) return writeFileAtomically(target, bytes);
+    if (std::filesystem::file_size(target, error) == bytes.size() && !error && readFile(target) == bytes) return;
+  }
 }
 
 const PlannedItem* itemOf(const IncomingContext& context, const std::string& name, PlannedKind kind, bool& by_name) {
@@ -169,13 +174,26 @@ const PlannedItem* openItem(const IncomingContext& context, PlannedKind kind, Ex
   return planned;
 }
 
-bool foundTwice(const IncomingContext& context, IncomingItem& item) {
+/// Whether a known file with the same first digits of its hash has the same content indeed.
+bool sameContent(const IncomingContext& context, const KnownFile& known, const IncomingItem& item, std::size_t size) {
+  if (!known.hash.empty()) return known.hash == item.hash;
+  const std::filesystem::path copy = context.campaign_folder / known.stored;
+  std::error_code error;
+  if (std::filesystem::file_size(copy, error) != size || error) return false;
+  return sha256(readFile(copy)) == item.hash;
+}
+
+bool foundTwice(const IncomingContext& context, IncomingItem& item, std::size_t size) {
   const auto known = context.known.find(shortHash(item.hash));
   if (known == context.known.end()) return false;
-  item.state = IncomingState::Twice;
-  item.sentence = known->second == item.name ? std::string("It is there already.")
-                                             : fmt::format("It has the same content as {}.", known->second);
-  return true;
+  for (const KnownFile& file : known->second) {
+    if (!sameContent(context, file, item, size)) continue;
+    item.state = IncomingState::Twice;
+    item.sentence = file.name == item.name ? std::string("It is there already.")
+                                           : fmt::format("It has the same content as {}.", file.name);
+    return true;
+  }
+  return false;
 }
 
 SeenCapture seenOf(const PlannedItem& planned, const CaptureVerdict& verdict, const FiducialPattern& pattern) {
@@ -294,7 +312,7 @@ ExaminedFile begin(const std::string& bytes, const std::string& name, std::int64
                    const IncomingContext& context) {
   ExaminedFile out;
   out.item.name = name;
-  out.item.hash = Fingerprint().add(bytes).text();
+  out.item.hash = sha256(bytes);
   // Milliseconds are enough, and a row stays readable.
   out.item.time_s = std::round((static_cast<double>(written_ns / 1'000'000) - 1e3 * context.start_unix_s)) * 1e-3;
   return out;
@@ -328,33 +346,43 @@ IncomingContext incomingContext(const Campaign& campaign, const MeasurementPlan&
   context.printed = printed;
   addListed(campaign, journal, context);
   for (const IncomingItem& item : journal) {
-    if (!item.hash.empty() && item.kind != IncomingKind::Touches) context.known[shortHash(item.hash)] = item.name;
+    if (item.hash.empty() || item.kind == IncomingKind::Touches) continue;
+    std::vector<KnownFile>& known = context.known[shortHash(item.hash)];
+    // What the lists know by the name of its copy alone.
+    std::erase_if(known, [&](const KnownFile& file) { return file.stored == item.stored; });
+    known.push_back({item.name, item.stored, item.hash});
   }
   return context;
 }
 
-ExaminedFile examineArrival(const std::filesystem::path& file, const std::string& name, std::int64_t written_ns,
-                            const IncomingContext& context) {
+namespace {
+
+ExaminedFile unreadable(const std::string& name, const std::string& sentence) {
+  ExaminedFile out;
+  out.item.name = name;
+  out.unreadable = true;
+  out.item.state = IncomingState::Retake;
+  out.item.sentence = sentence;
+  return out;
+}
+
+ExaminedFile examine(const std::filesystem::path& file, const std::string& name, std::int64_t written_ns,
+                     const IncomingContext& context) {
   std::string bytes;
   try {
     bytes = readFile(file);
   } catch (const InputError& e) {
-    ExaminedFile out;
-    out.item.name = name;
-    out.unreadable = true;
-    out.item.state = IncomingState::Retake;
-    out.item.sentence = e.what();
-    return out;
+    return unreadable(name, e.what());
   }
   ExaminedFile out = begin(bytes, name, written_ns, context);
   out.item.kind = kindOf(file, context.printed);
   const std::string stem = std::filesystem::path(safeName(name)).stem().string();
   switch (out.item.kind) {
     case IncomingKind::Image:
-      if (!foundTwice(context, out.item)) examineImageBytes(bytes, endingOf(file), context, out);
+      if (!foundTwice(context, out.item, bytes.size())) examineImageBytes(bytes, endingOf(file), context, out);
       break;
     case IncomingKind::Cloud:
-      if (!foundTwice(context, out.item)) examineCloud(file, bytes, context, out);
+      if (!foundTwice(context, out.item, bytes.size())) examineCloud(file, bytes, context, out);
       break;
     case IncomingKind::Touches:
       // One copy a file, replaced as it grows.
@@ -371,11 +399,22 @@ ExaminedFile examineArrival(const std::filesystem::path& file, const std::string
   return out;
 }
 
+}  // namespace
+
+ExaminedFile examineArrival(const std::filesystem::path& file, const std::string& name, std::int64_t written_ns,
+                            const IncomingContext& context) {
+  try {
+    return examine(file, name, written_ns, context);
+  } catch (const std::bad_alloc&) {
+    return unreadable(name, "There is not enough memory to read it.");
+  }
+}
+
 ExaminedFile examineImage(const std::string& bytes, const std::string& name, std::int64_t written_ns,
                           const IncomingContext& context) {
   ExaminedFile out = begin(bytes, name, written_ns, context);
   out.item.kind = IncomingKind::Image;
-  if (!foundTwice(context, out.item)) examineImageBytes(bytes, ".png", context, out);
+  if (!foundTwice(context, out.item, bytes.size())) examineImageBytes(bytes, ".png", context, out);
   return out;
 }
 

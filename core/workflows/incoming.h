@@ -39,7 +39,7 @@ struct IncomingItem {
   IncomingKind kind = IncomingKind::Other;
   IncomingState state = IncomingState::Waiting;
   std::string sentence;
-  std::string hash;               ///< of the content
+  std::string hash;               ///< SHA-256 of the content
   std::string stored;             ///< where its copy lies, relative to the campaign folder
   std::string plan_item;          ///< which item of the plan it is
   double time_s = 0.0;            ///< when it was written, since the campaign start
@@ -58,15 +58,22 @@ struct ListedImage {
 };
 
 /// What a check needs to know, copied so that it can run anywhere.
+/// A file of which the campaign has a copy.
+struct KnownFile {
+  std::string name;    ///< under which it arrived
+  std::string stored;  ///< where its copy lies, relative to the campaign folder
+  std::string hash;    ///< SHA-256 of its content; empty: only its first 8 digits are known, from the name of the copy
+};
+
 struct IncomingContext {
   std::filesystem::path campaign_folder;
   double start_unix_s = 0.0;
   MeasurementPlan plan;
-  std::set<std::string> done;                  ///< items of the plan that are there
-  std::vector<ListedImage> images;             ///< of the list of the campaign
-  std::map<std::string, std::string> known;    ///< first 8 digits of the hash -> name of what arrived before
-  std::map<std::string, std::size_t> fullest;  ///< artefact -> points of its fullest scan so far
-  bool printed = false;                        ///< a template for printed text is set: .txt and .log hold touches
+  std::set<std::string> done;                           ///< items of the plan that are there
+  std::vector<ListedImage> images;                      ///< of the list of the campaign
+  std::map<std::string, std::vector<KnownFile>> known;  ///< by the first 8 digits of the hash
+  std::map<std::string, std::size_t> fullest;           ///< artefact -> points of its fullest scan so far
+  bool printed = false;  ///< a template for printed text is set: .txt and .log hold touches
 };
 /// Of a campaign with its plan and the journal of what arrived before.
 [[nodiscard]] IncomingContext incomingContext(const Campaign& campaign, const MeasurementPlan& plan,

@@ -65,7 +65,13 @@ std::vector<IncomingItem> incomingJournal(const Session& session, std::int64_t c
   std::vector<IncomingItem> items;
   const auto stored = session.setting(fmt::format("incoming/{}", campaign));
   if (!stored || !stored->is_array()) return items;
-  for (const nlohmann::json& entry : *stored) items.push_back(IncomingItem::parse(entry));
+  for (const nlohmann::json& entry : *stored) {
+    try {
+      items.push_back(IncomingItem::parse(entry));
+    } catch (const nlohmann::json::exception&) {
+      // Not written by this program. The capture itself stands in the lists of the campaign.
+    }
+  }
   return items;
 }
 
@@ -86,9 +92,9 @@ void recordArrival(Session& session, std::int64_t campaign, const ExaminedFile& 
   if (!journal.is_array()) journal = nlohmann::json::array();
   nlohmann::json entry = examined.item.json();
   for (nlohmann::json& known : journal) {
-    if (known.value("name", "") != examined.item.name) continue;
+    if (!known.is_object() || known.value("name", nlohmann::json()) != examined.item.name) continue;
     // The same file once more has no news: what was measured in it stays.
-    const bool same = known.value("hash", "") == examined.item.hash && !entry.contains("sharpness");
+    const bool same = known.value("hash", nlohmann::json()) == examined.item.hash && !entry.contains("sharpness");
     for (const char* measured : {"pose", "sharpness"}) {
       if (same && known.contains(measured)) entry[measured] = known[measured];
     }

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // ARX beside GNU Octave's arx (package control) in one run, on the same data; and the time of one step of the
-// compensator. Octave runs as a child process if it is installed; it times itself inside, so its start does not count.
+// compensator, with a long run of it. Octave runs as a child process if it is installed; it times itself inside, so its
+// start does not count.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "core/base/random.h"
@@ -92,7 +97,7 @@ void compareArx(const Case& c, const std::filesystem::path& folder) {
               worst);
 }
 
-void timeCompensator() {
+spindrift::ThermalModel largeModel() {
   spindrift::ThermalModel model;
   for (int i = 0; i < 8; ++i) {
     model.inputs.push_back(
@@ -101,14 +106,23 @@ void timeCompensator() {
   for (int o = 0; o < 6; ++o) {
     spindrift::ThermalOutput output;
     output.name = "output" + std::to_string(o);
+    output.unit = "um";
     for (int i = 0; i < 8; ++i)
       for (int k = 0; k < 3; ++k)
         output.terms.push_back({i, 200.0 * std::pow(4.0, k) * (1.0 + 0.01 * o), 0.3 - 0.02 * i});
     model.outputs.push_back(output);
   }
+  return model;
+}
+
+void timeCompensator() {
+  const spindrift::ThermalModel model = largeModel();
   spindrift::Compensator compensator;
   const std::string problem = compensator.load(model, 0.01);
-  if (!problem.empty()) std::printf("%s\n", problem.c_str());
+  if (!problem.empty()) {
+    std::printf("%s\n", problem.c_str());
+    std::exit(1);
+  }
   double inputs[8];
   double outputs[6];
   for (int i = 0; i < 8; ++i) inputs[i] = 22.0 + i;
@@ -126,14 +140,69 @@ void timeCompensator() {
   std::printf("compensator, 6 outputs, 8 inputs of order 3 (144 lags): %.0f ns per step (checksum %.3g)\n", best, sum);
 }
 
+/// Many steps with inputs that wander, stand still for long, fail, come back and are measured against: every output
+/// stays a number within its limits, and the time of a step stays the same. Steps that another process interrupted are
+/// in the last figures.
+void runLong(long steps) {
+  spindrift::Compensator compensator;
+  spindrift::CompensatorLimits limits;
+  const std::string problem = compensator.load(largeModel(), 0.01, limits);
+  if (!problem.empty()) {
+    std::printf("%s\n", problem.c_str());
+    std::exit(1);
+  }
+  spindrift::Random random(19);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double wild[] = {std::nan(""), infinity, -infinity, 1e308, -1e308, 5e-324};
+  double inputs[8];
+  double ages[8] = {};
+  double outputs[6];
+  for (double& input : inputs) input = 22.0;
+  std::vector<long> within_ns(100'000, 0);  // steps by their duration
+  long outside = 0;
+  long long slowest = 0;
+  const auto began = Clock::now();
+  for (long k = 0; k < steps; ++k) {
+    if (k % 1000 == 0) {
+      for (double& input : inputs) input = std::clamp(22.0 + random.normal(0.0, 3.0), 15.0, 45.0);
+      for (double& age : ages) age = 0.0;
+      const std::uint64_t event = random.index(10);
+      if (event == 0) inputs[random.index(8)] = wild[random.index(6)];
+      if (event == 1) ages[random.index(8)] = random.uniform(-10.0, 200.0);
+      if (event == 2)
+        (void)compensator.update(static_cast<int>(random.index(6)), random.uniform(0.0, 6.0), random.normal(0.0, 80.0));
+      if (event == 3 && random.index(100) == 0) compensator.reset();
+    }
+    const auto start = Clock::now();
+    (void)compensator.step(inputs, ages, outputs);
+    const long long ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
+    ++within_ns[static_cast<std::size_t>(std::min<long long>(ns, static_cast<long long>(within_ns.size()) - 1))];
+    slowest = std::max(slowest, ns);
+    for (const double output : outputs) outside += std::abs(output) <= limits.limit ? 0 : 1;
+  }
+  const auto quantile = [&](double part) {
+    long count = 0;
+    std::size_t ns = 0;
+    while (ns + 1 < within_ns.size() && static_cast<double>(count += within_ns[ns]) < part * static_cast<double>(steps))
+      ++ns;
+    return ns;
+  };
+  std::printf(
+      "compensator, %ld steps in %.0f s: %ld outputs outside of their limits; a step, with the clock, takes %zu ns "
+      "(median), %zu ns (99.9 %%), %zu ns (99.9999 %%), %lld ns (slowest, with interruptions)\n",
+      steps, milliseconds(began) * 1e-3, outside, quantile(0.5), quantile(0.999), quantile(0.999999), slowest);
+}
+
 }  // namespace
 
-int main() {
+/// thermal_speed [STEPS of the long run, 1e8]
+int main(int count, char** arguments) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "spindrift-thermal-speed";
   std::filesystem::create_directories(folder);
   compareArx({1, 2}, folder);
   compareArx({11, 4}, folder);
   timeCompensator();
+  runLong(count > 1 ? std::stol(arguments[1]) : 100'000'000L);
   std::error_code ignored;
   std::filesystem::remove_all(folder, ignored);
   return 0;

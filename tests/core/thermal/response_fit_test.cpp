@@ -157,8 +157,11 @@ TEST(ThermalModel, SurvivesAFile) {
   const auto b = back.predict(s, 0);
   for (std::size_t i = 0; i < a.value.size(); i += 100) {
     EXPECT_NEAR(a.value[i], b.value[i], 1e-9);
-    EXPECT_NEAR(a.sigma[i], b.sigma[i], 0.02 * a.sigma[i]);
+    EXPECT_NEAR(a.sigma[i], b.sigma[i], 1e-9 * a.sigma[i]);
   }
+  const Eigen::MatrixXd before = model.outputs[0].covariance.triangularView<Eigen::Lower>();
+  const Eigen::MatrixXd after = back.outputs[0].covariance.triangularView<Eigen::Lower>();
+  EXPECT_EQ(before, after) << "to the last digit";
   folder.write("bad.json", R"({"format":"spindrift-thermal-model","version":2})");
   EXPECT_THROW(static_cast<void>(ThermalModel::read(folder / "bad.json")), InputError);
 }

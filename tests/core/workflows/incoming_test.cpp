@@ -312,6 +312,36 @@ TEST_F(Incoming, ScansAreCompleteOrTakenAgain) {
   EXPECT_EQ(readScanList(campaign()).size(), 2U);
 }
 
+TEST_F(Incoming, TwoFilesAreTheSameOnlyIfAllOfTheirHashAgrees) {
+  plan(PlannedKind::Image);
+  IncomingItem before;
+  before.name = "other.png";
+  before.kind = IncomingKind::Image;
+  const auto file = folder_.write("a.png", "no image");
+  const auto examined = [&](const std::vector<IncomingItem>& journal) {
+    return examineArrival(file, "a.png", 0, incomingContext(campaign(), storedPlan(session_, id_), journal, false))
+        .item;
+  };
+  const IncomingItem first = examined({});
+  EXPECT_EQ(first.hash.size(), 64U);
+  before.hash = first.hash;
+  EXPECT_EQ(examined({before}).state, IncomingState::Twice);
+  // Eight digits, as the names of the copies carry them, are alike in one of 65,000 files.
+  before.hash.replace(8, before.hash.size() - 8, before.hash.size() - 8, '0');
+  EXPECT_NE(examined({before}).state, IncomingState::Twice);
+}
+
+TEST_F(Incoming, ACopyIsNeverTakenForAnother) {
+  plan(PlannedKind::Image);
+  const auto file = folder_.write("a.png", "no image");
+  const auto examined = [&] {
+    return examineArrival(file, "a.png", 0, incomingContext(campaign(), storedPlan(session_, id_), {}, false)).item;
+  };
+  const std::filesystem::path stored = campaign().folder / examined().stored;
+  writeFileAtomically(stored, "on image");  // of the same length
+  EXPECT_EQ(readFile(campaign().folder / examined().stored), "no image");
+}
+
 TEST_F(Incoming, WithoutAPlanNothingIsLost) {
   put("a.png", imageBytes(15));
   pass(3.0);

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/imaging/fiducial_images.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "core/base/random.h"
+#include "core/imaging/image.h"
+#include "core/imaging/pattern.h"
+#include "tests/support/child_process.h"
+#include "tests/support/refusal.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+FiducialCapture focusOf(const std::string& image, double time_s) {
+  FiducialCapture capture;
+  capture.time_s = time_s;
+  capture.state = "M0";
+  capture.fiducial = "F1";
+  capture.role = CaptureRole::Focus;
+  capture.image = image;
+  return capture;
+}
+
+/// A grey image of which the header is there and all pixels are zero, without a byte of them on the disk.
+void writeEmptyImage(const std::filesystem::path& file, int width, int height) {
+  std::ofstream(file) << "P5\n" << width << " " << height << "\n255\n";
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) + static_cast<std::size_t>(width) * height);
+}
+
+TEST(FiducialImagesTest, AnImageThatTheMemoryCannotHoldCostsItselfAndNotTheRun) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the sanitizer takes more address space than any limit";
+#endif
+  const testing::TempFolder folder;
+  GrayImage speckled(320, 240);
+  Random random(19);
+  for (int y = 0; y < 240; ++y)
+    for (int x = 0; x < 320; ++x) speckled.at(x, y) = static_cast<std::uint8_t>(random.index(256));
+  folder.write("small.png", encodePng(speckled));
+  writeEmptyImage(folder.path() / "large.pgm", 9000, 11000);
+  FiducialCaptureList list;
+  list.captures = {focusOf("large.pgm", 0.0), focusOf("small.png", 1.0)};
+  const std::string answer = testing::inChildProcess([&] {
+    long pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const auto now = static_cast<rlim_t>(pages) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+    const rlimit limit{now + 240'000'000, now + 240'000'000};
+    ::setrlimit(RLIMIT_AS, &limit);
+    const FiducialImages images = measureFiducialImages(folder.path(), list, standardPattern(), JobContext());
+    std::string text = images.images[1].usable ? "small is there" : "small is lost";
+    for (const RejectedCapture& rejected : images.rejected) text += "; " + rejected.capture + ": " + rejected.reason;
+    return text;
+  });
+  EXPECT_THAT(answer, AllOf(HasSubstr("small is there"), HasSubstr("large.pgm: "), HasSubstr("memory")));
+}
+
+TEST(ReadImage, OnlyTheFormatsThatAreNamedAreRead) {
+  // OpenCV would read these as well, each by a decoder that nobody looks after here.
+  for (const std::string& bytes :
+       {std::string("Pf\n2 2\n-1\n") + std::string(16, '\0'),
+        std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n") + std::string(16, '\1'),
+        std::string("\x59\xa6\x6a\x95\0\0\0\2\0\0\0\2\0\0\0\x08\0\0\0\4\0\0\0\1\0\0\0\0"
+                    "\0\0\0\0",
+                    32) +
+            "abcd"}) {
+    EXPECT_THAT(testing::refusal([&] { (void)decodeImageBytes(bytes, "a.img"); }),
+                HasSubstr("JPEG, PNG, TIFF, BMP or PGM"));
+  }
+}
+
+}  // namespace
+}  // namespace spindrift

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <set>
+
+#include "core/finite_elements/fe_map.h"
+#include "core/finite_elements/fe_result.h"
+#include "tests/fuzz/readers.h"
+
+namespace spindrift::testing {
+namespace {
+
+void result(const FeResultReader& reader) {
+  const FeMesh mesh = reader.mesh();
+  std::set<NodeId> wanted;
+  for (const auto& [id, place] : mesh.nodes) wanted.insert(id);
+  for (const auto& [name, nodes] : mesh.sets) wanted.insert(nodes.begin(), nodes.end());
+  (void)reader.states(wanted);
+}
+
+void frd(std::string_view bytes) {
+  result(*openFeResult(scratchFile("result.frd", bytes)));
+}
+void dat(std::string_view bytes) {
+  result(*openFeResult(scratchFile("result.dat", bytes)));
+}
+void mesh(std::string_view bytes) {
+  (void)readAbaqusMesh(scratchFile("mesh/mesh.inp", bytes));
+}
+void map(std::string_view bytes) {
+  FeMap::read(scratchFile("map.json", bytes)).validate();
+}
+
+constexpr Reader readers[] = {{"frd", frd}, {"dat", dat}, {"mesh", mesh}, {"fe_map", map}};
+
+}  // namespace
+
+std::span<const Reader> finiteElementReaders() {
+  return readers;
+}
+
+}  // namespace spindrift::testing

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/machine/machine_description.h"
+#include "core/probing/printed_text.h"
+#include "core/probing/touch.h"
+#include "core/probing/touch_stream.h"
+#include "tests/fuzz/readers.h"
+
+namespace spindrift::testing {
+namespace {
+
+const MachineDescription& machine() {
+  static const MachineDescription read =
+      MachineDescription::parse(JsonNode::parse(smallMachine(), "machine.json"), "machine.json");
+  return read;
+}
+
+void touches(std::string_view bytes) {
+  const TouchList read = TouchList::parse(std::string(bytes), "touches.csv");
+  const TouchList back = TouchList::parse(read.csv(), "back.csv");
+  SPINDRIFT_ASSERT(back.touches.size() == read.touches.size(), "every touch is written");
+}
+
+/// The file grows by halves.
+void stream(TouchStream all, std::string_view bytes) {
+  for (std::size_t part = 1; part <= 4; ++part) (void)all.update(bytes.substr(0, bytes.size() * part / 4));
+}
+
+void touchStream(std::string_view bytes) {
+  stream(TouchStream("touches.csv", machine()), bytes);
+}
+
+/// The template up to an empty line, then the text.
+void printed(std::string_view bytes) {
+  const std::size_t gap = bytes.find("\n\n");
+  const JsonNode pattern = JsonNode::parse(bytes.substr(0, gap), "template.json");
+  const std::string_view text = gap == std::string_view::npos ? std::string_view() : bytes.substr(gap + 2);
+  stream(TouchStream("printed.txt", machine(), pattern), text);
+  (void)readPrintedText(text, "printed.txt", pattern, machine());
+}
+
+constexpr Reader readers[] = {{"touches", touches}, {"touch_stream", touchStream}, {"printed", printed}};
+
+}  // namespace
+
+std::span<const Reader> probingReaders() {
+  return readers;
+}
+
+}  // namespace spindrift::testing
