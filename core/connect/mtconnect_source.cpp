@@ -194,30 +194,20 @@ class MtconnectSource final : public Source {
     stop_ = stop;
     wanted_.clear();
     for (std::uint32_t i = 0; i < items.size(); ++i) {
-      std::string address = items[i];
-      Wanted wanted{i, -1};
-      if (address.ends_with(']') && address.find('[') != std::string::npos) {
-        const std::size_t open = address.rfind('[');
-        double part = 0.0;
-        if (parseNumber(std::string_view(address).substr(open + 1, address.size() - open - 2), part) && part >= 0) {
-          wanted.part = static_cast<int>(part);
-          address.erase(open);
-        }
-      }
-      const auto found =
-          std::find_if(items_.begin(), items_.end(), [&](const DataItem& item) { return item.address == address; });
-      const auto named =
-          found != items_.end()
-              ? found
-              : std::find_if(items_.begin(), items_.end(), [&](const DataItem& item) { return item.name == address; });
-      if (named == items_.end()) {
+      const auto [item, part] = find(items[i]);
+      if (item == nullptr) {
         sink.note(fmt::format("{} has no data item \"{}\".", options_.url, items[i]));
       } else {
-        wanted_[named->address].push_back(wanted);
+        wanted_[item->address].push_back({i, part});
       }
     }
     if (next_ == 0) begin(sink);
     if (!stop.stop_requested()) openStream();
+  }
+
+  std::string unit(const std::string& address) const override {
+    const DataItem* item = find(address).first;
+    return item == nullptr ? std::string() : item->unit;
   }
 
   void poll(double wait_s, RecordSink& sink) override {
@@ -259,6 +249,25 @@ class MtconnectSource final : public Source {
   }
 
  private:
+  /// The data item of an address and the part of it, -1 for the whole.
+  [[nodiscard]] std::pair<const DataItem*, int> find(std::string address) const {
+    int part = -1;
+    if (const std::size_t open = address.rfind('['); open != std::string::npos && address.ends_with(']')) {
+      double number = 0.0;
+      if (parseNumber(std::string_view(address).substr(open + 1, address.size() - open - 2), number) && number >= 0.0) {
+        part = static_cast<int>(number);
+        address.erase(open);
+      }
+    }
+    for (const DataItem& item : items_) {
+      if (item.address == address) return {&item, part};
+    }
+    for (const DataItem& item : items_) {
+      if (item.name == address) return {&item, part};
+    }
+    return {nullptr, part};
+  }
+
   void gatherItems(const pugi::xml_node& component, const std::string& above) {
     std::string name = component.attribute("name").value();
     if (name.empty()) name = localName(component);

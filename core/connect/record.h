@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace spindrift {
 
@@ -57,9 +58,16 @@ struct Notice {
   std::string text;
 };
 
+/// The units of a subscription as the source says them, empty where it says none: before the first record.
+struct ItemUnits {
+  std::vector<std::string> units;
+};
+
+using Delivery = std::variant<Record, Notice, ItemUnits>;
+
 struct Arrival {
   std::uint32_t source = 0;  ///< index of the source
-  std::variant<Record, Notice> what;
+  Delivery what;
 };
 
 /// Our clock: UTC s, read from the computer once and then counted on.

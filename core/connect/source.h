@@ -44,6 +44,8 @@ class Source {
   [[nodiscard]] virtual std::vector<DataItem> list(double listen_s, const std::stop_token& stop) = 0;
   /// From now on `items` (addresses) are delivered; Record::item counts them. An item that is not there is noted.
   virtual void subscribe(const std::vector<std::string>& items, RecordSink& sink, const std::stop_token& stop) = 0;
+  /// The unit of an item as the source says it; empty if it says none. Connected only.
+  [[nodiscard]] virtual std::string unit(const std::string& /*address*/) const { return {}; }
   /// Waits for at most `wait_s` and delivers what has come.
   virtual void poll(double wait_s, RecordSink& sink) = 0;
   virtual void close() noexcept = 0;

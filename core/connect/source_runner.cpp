@@ -31,7 +31,7 @@ struct SourceRunner::Shared final : RecordSink {
   bool ended = false;
   std::thread thread;
 
-  bool push(std::variant<Record, Notice> what) { return queue->push({index, std::move(what)}, stop.get_token()); }
+  bool push(Delivery what) { return queue->push({index, std::move(what)}, stop.get_token()); }
 
   void record(Record record) override {
     const double now = localUtc();
@@ -77,6 +77,9 @@ struct SourceRunner::Shared final : RecordSink {
     if (token.stop_requested()) return;
     enter(SourceStatus::State::Live, "");
     (void)push(Notice{first ? Notice::Kind::Connected : Notice::Kind::Resumed, last_time_s, localUtc(), ""});
+    ItemUnits told;
+    for (const std::string& item : items) told.units.push_back(source->unit(item));
+    (void)push(std::move(told));
     source->subscribe(items, *this, token);
     while (!token.stop_requested()) source->poll(options.poll_s, *this);
   }

@@ -85,8 +85,8 @@ TEST(SourceRunner, ComesBackAfterEveryFaultAndLosesNothingDelivered) {
       if (const Record* record = std::get_if<Record>(&each.what)) {
         values.push_back(record->value);
         EXPECT_NEAR(record->time_s, localUtc(), 5.0);
-      } else {
-        const Notice::Kind kind = std::get<Notice>(each.what).kind;
+      } else if (const Notice* notice = std::get_if<Notice>(&each.what)) {
+        const Notice::Kind kind = notice->kind;
         lost += kind == Notice::Kind::Lost;
         resumed += kind == Notice::Kind::Resumed;
         missed += kind == Notice::Kind::Missed;
