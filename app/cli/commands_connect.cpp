@@ -129,7 +129,7 @@ void addConnectCommands(CLI::App& app, CommandLine& line) {
   command->add_option("--start", a->start, "UTC where time_s is 0; without it: now, or the campaign's start")
       ->type_name("TIME");
   command->add_option("--for", a->for_s, "End after this time in s")->check(positiveNumber());
-  command->add_option("--list", a->list, "Only list what is at this address (http://, ...)")->type_name("ADDRESS");
+  command->add_option("--list", a->list, "Only list what is at this address (http://, mqtt://, serial://, ...)")->type_name("ADDRESS");
   command->add_option("--listen", a->listen_s, "With --list: listen for this time in s where needed")
       ->check(positiveNumber())
       ->capture_default_str();

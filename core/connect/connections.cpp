@@ -3,13 +3,21 @@
 
 #include <fmt/format.h>
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <stdexcept>
 
+#include "core/base/atomic_file.h"
 #include "core/base/csv.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/connect/modbus_source.h"
+#include "core/connect/mqtt_source.h"
 #include "core/connect/mtconnect_source.h"
+#include "core/connect/text_source.h"
 #include "core/connect/unit_conversion.h"
 #include "core/machine/operating_log.h"
 #include "core/machine/sensor_role.h"
@@ -29,6 +37,83 @@ Maker mtconnect(const JsonNode& node, const std::string& url) {
   return [options] { return makeMtconnectSource(options); };
 }
 
+/// Of "password_env" or "password_file"; empty where neither is given.
+std::string secretOf(const JsonNode& node) {
+  if (const auto variable = node.find("password_env")) {
+    const char* value = std::getenv(variable->name().c_str());
+    if (value == nullptr) variable->reject("a variable that is set in the environment");
+    return value;
+  }
+  const auto file = node.find("password_file");
+  if (!file) return {};
+  const std::filesystem::path path = file->name();
+  struct stat state {};
+  if (::stat(path.c_str(), &state) != 0 || !S_ISREG(state.st_mode)) file->reject("a file that is there");
+  if ((state.st_mode & (S_IRWXG | S_IRWXO)) != 0) file->reject("a file that nobody but its owner can read (chmod 600)");
+  const std::string content = readFile(path);
+  return std::string(trimmed(content));
+}
+
+Maker mqtt(const JsonNode& node, const std::string& url) {
+  MqttOptions options;
+  options.url = url;
+  options.user = node.stringOr("user", "");
+  options.password = secretOf(node);
+  options.client_id = node.stringOr("client_id", "");
+  options.ca_file = node.stringOr("ca_file", "");
+  if (const auto will = node.find("will")) {
+    options.will_topic = will->at("topic").name();
+    options.will_text = will->at("text").string();
+  }
+  options.ask_rebirth = node.booleanOr("ask_rebirth", true);
+  return [options] { return makeMqttSource(options); };
+}
+
+char parityOf(const JsonNode& node) {
+  const auto given = node.find("parity");
+  const std::string word = given ? given->oneOf({"none", "even", "odd"}) : "none";
+  return word == "none" ? 'N' : word == "even" ? 'E' : 'O';
+}
+
+Maker modbus(const JsonNode& node, const std::string& url) {
+  ModbusOptions options;
+  options.url = url;
+  if (const auto given = node.find("unit_id")) {
+    options.unit_id = given->integer();
+    if (options.unit_id < 0 || options.unit_id > 247) given->reject("a unit from 0 to 247");
+  }
+  if (const auto given = node.find("interval_s")) options.interval_s = given->positiveNumber();
+  if (const auto given = node.find("answer_s")) options.answer_s = given->positiveNumber();
+  if (const auto given = node.find("baud")) options.baud = given->integer();
+  options.parity = parityOf(node);
+  if (const auto given = node.find("stop_bits")) {
+    options.stop_bits = given->integer();
+    if (options.stop_bits != 1 && options.stop_bits != 2) given->reject("1 or 2");
+  }
+  return [options] { return makeModbusSource(options); };
+}
+
+Maker text(const JsonNode& node, const std::string& url) {
+  TextSourceOptions options;
+  options.url = url;
+  if (const auto line = node.find("line")) {
+    if (line->value().is_array()) {
+      for (const JsonNode& each : line->items()) options.lines.emplace_back(each);
+    } else {
+      options.lines.emplace_back(*line);
+    }
+  }
+  options.save = node.stringOr("save", "");
+  if (const auto given = node.find("baud")) options.baud = given->integer();
+  options.parity = parityOf(node);
+  if (const auto given = node.find("data_bits")) {
+    options.data_bits = given->integer();
+    if (options.data_bits != 7 && options.data_bits != 8) given->reject("7 or 8");
+  }
+  options.decimal_comma = node.booleanOr("decimal_comma", false);
+  return [options] { return makeTextSource(options); };
+}
+
 struct Kind {
   std::string_view name;
   std::vector<std::string> schemes;  ///< the first is meant where an address has none
@@ -36,7 +121,10 @@ struct Kind {
 };
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all{{"mtconnect", {"http", "https"}, mtconnect}};
+  static const std::vector<Kind> all{{"mtconnect", {"http", "https"}, mtconnect},
+                                     {"mqtt", {"mqtt", "mqtts"}, mqtt},
+                                     {"modbus", {"modbus", "rtu"}, modbus},
+                                     {"text", {"serial", "tcp"}, text}};
   return all;
 }
 
@@ -90,6 +178,7 @@ SourceDescription readSource(const JsonNode& node) {
       *std::find_if(kinds().begin(), kinds().end(), [&](const Kind& k) { return k.name == source.kind; });
   if (std::find(kind.schemes.begin(), kind.schemes.end(), schemeOf(source.url)) == kind.schemes.end())
     url.reject(fmt::format("an address that begins with {}", beginnings(kind.schemes)));
+  if (source.kind == "text") (void)node.at("line");
   source.make = kind.make(node, source.url);
   return source;
 }
@@ -106,7 +195,15 @@ ColumnMapping readColumn(const JsonNode& node, const std::vector<SourceDescripti
   for (const SourceDescription& source : sources) names.push_back(source.name);
   const std::string source = node.at("source").oneOf(names);
   out.source = static_cast<std::uint32_t>(std::find(names.begin(), names.end(), source) - names.begin());
-  out.address = node.at("item").name();
+  const JsonNode item = node.at("item");
+  out.address = item.name();
+  if (sources[out.source].kind == "modbus") {
+    try {
+      checkModbusAddress(out.address);
+    } catch (const std::invalid_argument& allowed) {
+      item.reject(allowed.what());
+    }
+  }
   if (const auto unit = node.find("unit")) {
     out.unit = unit->name();
     if (!isKnownUnit(out.unit)) unit->reject("a unit such as CELSIUS, FAHRENHEIT, MILLIMETER, mm/s or rpm");

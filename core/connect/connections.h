@@ -2,7 +2,13 @@
 // connections.json: which sources there are, and which of their data items become which columns of log.csv.
 //
 // {"format":"spindrift-connections","version":1,
-//  "sources":[{"name":"mill","kind":"mtconnect","url":"http://192.168.1.20:5000"}, ...],
+//  "sources":[{"name":"mill","kind":"mtconnect","url":"http://192.168.1.20:5000"}, and
+//    {"name":"hall","kind":"mqtt","url":"mqtts://broker:8883","user":"me","password_env":"HALL_PASSWORD","ca_file":...,
+//     "client_id":...,"will":{"topic":...,"text":...},"ask_rebirth":true},
+//    {"name":"pt100","kind":"modbus","url":"modbus://192.168.1.30:502" or "rtu:///dev/ttyUSB0","unit_id":1,
+//     "interval_s":1,"baud":9600,"parity":"none","stop_bits":1},
+//    {"name":"logger","kind":"text","url":"serial:///dev/ttyS0" or "tcp://host:port","line":"T1={a} T2={b}",
+//     "save":"touches.txt","baud":9600,"decimal_comma":false}],
 //  "columns":[{"column":"T_spindle_degC","source":"mill","item":"Tspindle","unit":"FAHRENHEIT","scale":1,"offset":0,
 //    "dead_band":0.05,"reduce":"mean","role":"spindle_housing"},
 //    {"column":"coolant","source":"mill","item":"cool","values":{"ON":1,"OFF":0},"otherwise":0}],

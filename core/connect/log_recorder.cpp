@@ -161,9 +161,6 @@ void LogRecorder::comment(const std::string& text) {
 void LogRecorder::notice(std::uint32_t source, const Notice& notice) {
   const std::string& name = connections_.sources[source].name;
   const double time_s = notice.time_s - start_s_;
-  const auto unknownFrom = [&](double from_s) {
-    for (const std::uint32_t c : column_of_[source]) sample(c, from_s, std::numeric_limits<double>::quiet_NaN());
-  };
   switch (notice.kind) {
     case Notice::Kind::Connected:
       live_from_s_[source] = time_s;
@@ -179,7 +176,10 @@ void LogRecorder::notice(std::uint32_t source, const Notice& notice) {
       break;
     case Notice::Kind::Missed: {
       const double from_s = std::max(notice.from_s - start_s_, 0.0);
-      unknownFrom(time_s);
+      for (std::uint32_t i = 0; i < column_of_[source].size(); ++i) {
+        if (notice.items.empty() || std::find(notice.items.begin(), notice.items.end(), i) != notice.items.end())
+          sample(column_of_[source][i], time_s, std::numeric_limits<double>::quiet_NaN());
+      }
       comment(fmt::format("{}: values between {:.3f} s and {:.3f} s may be missing: {}", name, from_s, time_s,
                           notice.text));
       keep(status_.gaps, fmt::format("{}: {:.3f} s to {:.3f} s: {}", name, from_s, time_s, notice.text));

@@ -56,6 +56,7 @@ struct Notice {
   double from_s = 0.0;
   double time_s = 0.0;
   std::string text;
+  std::vector<std::uint32_t> items = {};  ///< of Missed: which; empty: all of the subscription
 };
 
 /// The units of a subscription as the source says them, empty where it says none: before the first record.

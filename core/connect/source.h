@@ -32,6 +32,8 @@ class RecordSink {
   virtual void record(Record record) = 0;
   /// Values between the last record and now may be missing.
   virtual void missed(const std::string& why) = 0;
+  /// The same of these items only.
+  virtual void missedOf(const std::vector<std::uint32_t>& items, const std::string& why) = 0;
   virtual void note(const std::string& sentence) = 0;
 };
 

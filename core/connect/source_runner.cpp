@@ -50,13 +50,15 @@ struct SourceRunner::Shared final : RecordSink {
     for (const auto& [number, each] : clocks) status.clock_steps += each.steps();
   }
 
-  void missed(const std::string& why) override {
+  void missed(const std::string& why) override { missedOf({}, why); }
+
+  void missedOf(const std::vector<std::uint32_t>& which, const std::string& why) override {
     const double now = localUtc();
     {
       const std::scoped_lock lock(mutex);
       ++status.missed;
     }
-    (void)push(Notice{Notice::Kind::Missed, last_time_s > 0.0 ? last_time_s : now, now, why});
+    (void)push(Notice{Notice::Kind::Missed, last_time_s > 0.0 ? last_time_s : now, now, why, which});
   }
 
   void note(const std::string& sentence) override {

@@ -15,6 +15,7 @@ namespace spindrift::testing {
 struct Collected final : RecordSink {
   void record(Record record) override { records.push_back(std::move(record)); }
   void missed(const std::string& why) override { missings.push_back(why); }
+  void missedOf(const std::vector<std::uint32_t>&, const std::string& why) override { missings.push_back(why); }
   void note(const std::string& sentence) override { notes.push_back(sentence); }
 
   /// Values of an item in the order of delivery.

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "core/connect/unit_conversion.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
@@ -48,7 +50,7 @@ TEST(Connections, EveryFaultIsOneSentenceWithItsPlace) {
   const std::vector<Fault> faults{
       {"/format", "other", {"$.format", "spindrift-connections"}},
       {"/sources", nlohmann::json::array(), {"$.sources", "at least one source"}},
-      {"/sources/0/kind", "opcua", {"$.sources[0].kind", "opcua", "mtconnect"}},
+      {"/sources/0/kind", "opcua", {"$.sources[0].kind", "opcua", "mtconnect", "mqtt"}},
       {"/sources/0/url", "ftp://x", {"$.sources[0].url", "ftp://x", "http://"}},
       {"/sources/0/url", "http://me:word@x", {"$.sources[0].url", "password_env"}},
       {"/sources/0/password", "word", {"$.sources[0].password", "password_file"}},
@@ -75,6 +77,42 @@ TEST(Connections, EveryFaultIsOneSentenceWithItsPlace) {
     EXPECT_THAT(said, Not(HasSubstr("\n")));
     for (const std::string& part : fault.parts) EXPECT_THAT(said, HasSubstr(part)) << fault.pointer;
   }
+}
+
+TEST(Connections, SecretsComeFromTheEnvironmentOrFromAFileOfTheUserOnly) {
+  const TempFolder folder;
+  nlohmann::json json = good();
+  json["sources"][0] = {{"name", "mill"}, {"kind", "mqtt"}, {"url", "mqtts://broker"}, {"user", "me"}};
+  json["sources"][0]["password_env"] = "SPINDRIFT_TEST_WORD";
+  const auto said = [&] { return refusal([&] { (void)Connections::read(folder.write("c.json", json.dump())); }); };
+  ::unsetenv("SPINDRIFT_TEST_WORD");
+  EXPECT_THAT(said(), AllOf(HasSubstr("$.sources[0].password_env"), HasSubstr("is set in the environment")));
+  ::setenv("SPINDRIFT_TEST_WORD", "very-secret", 1);
+  EXPECT_EQ(said(), "");
+  json["sources"][0].erase("password_env");
+  const std::filesystem::path word = folder.write("word", "very-secret\n");
+  json["sources"][0]["password_file"] = word.string();
+  std::filesystem::permissions(word, std::filesystem::perms(0644));
+  EXPECT_THAT(said(), AllOf(HasSubstr("$.sources[0].password_file"), HasSubstr("chmod 600"), Not(HasSubstr("very"))));
+  std::filesystem::permissions(word, std::filesystem::perms(0600));
+  EXPECT_EQ(said(), "");
+}
+
+TEST(Connections, RegistersAndLinesAreCheckedWhenTheFileIsRead) {
+  const TempFolder folder;
+  nlohmann::json json = good();
+  json["sources"][0] = {{"name", "mill"}, {"kind", "modbus"}, {"url", "modbus://127.0.0.1"}};
+  json["columns"] = {{{"column", "T_a_degC"}, {"source", "mill"}, {"item", "input:3:float64"}}};
+  const auto said = [&] { return refusal([&] { (void)Connections::read(folder.write("c.json", json.dump())); }); };
+  EXPECT_THAT(said(), AllOf(HasSubstr("$.columns[0].item"), HasSubstr("input:3:float64"), HasSubstr("float32")));
+  json["columns"][0]["item"] = "input:3:float32:cdab";
+  EXPECT_EQ(said(), "");
+  json["sources"][0] = {{"name", "mill"}, {"kind", "text"}, {"url", "serial:///dev/ttyS0"}};
+  EXPECT_THAT(said(), HasSubstr("line"));
+  json["sources"][0]["line"] = "T={a";
+  EXPECT_THAT(said(), AllOf(HasSubstr("$.sources[0].line"), HasSubstr("every {")));
+  json["sources"][0]["line"] = {"T={a}", "U={b}"};
+  EXPECT_EQ(said(), "");
 }
 
 TEST(Connections, UnitsBecomeThoseOfTheColumn) {
