@@ -48,6 +48,7 @@ int runSelected(CommandLine& line);
 
 void addCaptureCommands(CLI::App& app, CommandLine& line);
 void addCompensationCommands(CLI::App& app, CommandLine& line);
+void addConnectCommands(CLI::App& app, CommandLine& line);
 void addDiscrepancyCommands(CLI::App& app, CommandLine& line);
 void addEvaluateCommands(CLI::App& app, CommandLine& line);
 void addImagingCommands(CLI::App& app, CommandLine& line);

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   app.get_formatter()->column_width(36);
   spindrift::cli::CommandLine line;
   spindrift::cli::addCaptureCommands(app, line);
+  spindrift::cli::addConnectCommands(app, line);
   spindrift::cli::addImagingCommands(app, line);
   spindrift::cli::addEvaluateCommands(app, line);
   spindrift::cli::addKinematicsCommands(app, line);

@@ -4,20 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "core/base/line_pattern.h"
 #include "core/base/text.h"
 
 namespace spindrift {
 namespace {
-
-struct Piece {
-  bool place = false;
-  std::string text;  ///< literal, or name of the place
-};
 
 const std::set<std::string, std::less<>>& knownPlaces() {
   static const std::set<std::string, std::less<>> places{
@@ -25,87 +20,14 @@ const std::set<std::string, std::less<>>& knownPlaces() {
   return places;
 }
 
-std::vector<Piece> compile(const JsonNode& node) {
-  const std::string pattern = node.name();
-  std::vector<Piece> pieces;
-  std::size_t i = 0;
-  while (i < pattern.size()) {
-    if (pattern[i] == '{') {
-      const std::size_t close = pattern.find('}', i);
-      if (close == std::string::npos) node.reject("a pattern in which every { has its }");
-      Piece piece{true, pattern.substr(i + 1, close - i - 1)};
-      if (!knownPlaces().contains(piece.text)) {
-        const std::vector<std::string> names(knownPlaces().begin(), knownPlaces().end());
-        throw InputError(node.place(),
-                         fmt::format("place {{{}}} is not known; allowed: {}.", piece.text, joinedList(names, "or")));
-      }
-      pieces.push_back(piece);
-      i = close + 1;
-    } else {
-      const std::size_t open = std::min(pattern.find('{', i), pattern.size());
-      pieces.push_back({false, pattern.substr(i, open - i)});
-      i = open;
-    }
-  }
-  return pieces;
-}
-
-bool isBlank(char c) {
-  return std::isspace(static_cast<unsigned char>(c)) != 0;
-}
-
-/// Values of the places, or nothing if the line does not match.
-std::optional<std::map<std::string, std::string>> match(const std::vector<Piece>& pieces, std::string_view line) {
-  std::map<std::string, std::string> values;
-  std::size_t at = 0;
-  const auto skipBlanks = [&] {
-    while (at < line.size() && isBlank(line[at])) ++at;
-  };
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    if (!pieces[p].place) {
-      for (const char c : pieces[p].text) {
-        if (isBlank(c)) {
-          skipBlanks();
-          continue;
-        }
-        if (at >= line.size() || line[at] != c) {
-          skipBlanks();  // controls pad fields with blanks
-          if (at >= line.size() || line[at] != c) return std::nullopt;
-        }
-        ++at;
-      }
-      continue;
-    }
-    skipBlanks();
-    // Up to a blank or to the first visible character of the next literal.
-    char stop = '\0';
-    if (p + 1 < pieces.size()) {
-      for (const char c : pieces[p + 1].text) {
-        if (!isBlank(c)) {
-          stop = c;
-          break;
-        }
-        break;
-      }
-    }
-    std::size_t end = at;
-    while (end < line.size() && !isBlank(line[end]) && !(stop != '\0' && line[end] == stop)) ++end;
-    if (end == at) return std::nullopt;
-    values[pieces[p].text] = std::string(line.substr(at, end - at));
-    at = end;
-  }
-  skipBlanks();
-  return at == line.size() ? std::optional(values) : std::nullopt;
-}
-
 }  // namespace
 
 PrintedText readPrintedText(std::string_view text, const std::filesystem::path& name, const JsonNode& pattern,
                             const MachineDescription& machine) {
   pattern.requireFormat("spindrift-printed-text", 1);
-  const std::vector<Piece> touch_line = compile(pattern.at("touch_line"));
-  const std::vector<Piece> cycle_line =
-      pattern.has("cycle_line") ? compile(pattern.at("cycle_line")) : std::vector<Piece>{};
+  const LinePattern touch_line(pattern.at("touch_line"), knownPlaces());
+  const std::optional<LinePattern> cycle_line =
+      pattern.has("cycle_line") ? std::optional(LinePattern(pattern.at("cycle_line"), knownPlaces())) : std::nullopt;
   const std::string prefix = pattern.stringOr("cycle_prefix", "");
   const std::string artefact = pattern.stringOr("artefact", "");
   const std::string only_stylus = pattern.stringOr("stylus", "");
@@ -157,8 +79,8 @@ PrintedText readPrintedText(std::string_view text, const std::filesystem::path& 
     const auto place = [&](const std::string& what) {
       return SourcePlace{name, fmt::format("line {}, {}", line_number, what)};
     };
-    if (!cycle_line.empty()) {
-      if (const auto values = match(cycle_line, line)) {
+    if (cycle_line) {
+      if (const auto values = cycle_line->match(line)) {
         std::string label = values->contains("cycle") ? values->at("cycle") : std::to_string(cycles);
         double number = 0.0;
         if (parseNumber(label, number)) label = exactNumber(number);
@@ -171,7 +93,7 @@ PrintedText readPrintedText(std::string_view text, const std::filesystem::path& 
         continue;
       }
     }
-    const auto values = match(touch_line, line);
+    const auto values = touch_line.match(line);
     if (!values) {
       ++result.ignored_lines;
       continue;

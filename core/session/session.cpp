@@ -289,6 +289,16 @@ void Session::addCaptureRows(std::int64_t id, const std::string& list, const std
   refreshCaptureFingerprint(*database_, record);
 }
 
+std::filesystem::path Session::recordsLog(std::int64_t id) {
+  database_->requireInPlace();
+  const CampaignRecord record = campaign(id);
+  if (!database_->setting(captureBaseKey(id)))
+    database_->setSetting(captureBaseKey(id), nlohmann::json(record.fingerprint).dump());
+  database_->setSetting(recordedLogKey(id), nlohmann::json(true).dump());
+  refreshCaptureFingerprint(*database_, record);
+  return record.folder / "log.csv";
+}
+
 std::string Session::inputsFingerprint(std::int64_t id, const nlohmann::json& options) const {
   Fingerprint fingerprint;
   fingerprint.add(campaign(id).fingerprint).add(options.dump()).add(SPINDRIFT_VERSION);

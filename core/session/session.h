@@ -141,6 +141,8 @@ class Session {
   /// already are not added again. All of them are there afterwards, or none. Throws InputError: disk full, folder gone.
   void addCaptureRows(std::int64_t campaign, const std::string& list, const std::string& header,
                       const std::vector<std::string>& rows);
+  /// log.csv of the campaign grows, or has grown: what was made from it is outdated. Where to write it is returned.
+  std::filesystem::path recordsLog(std::int64_t campaign);
 
   // Results -------------------------------------------------------------------------------------------------------
   /// What a result of this campaign with these options depends on: files, exclusions, options, program version.

@@ -92,6 +92,10 @@ std::string captureBaseKey(std::int64_t campaign) {
   return fmt::format("capture_base/{}", campaign);
 }
 
+std::string recordedLogKey(std::int64_t campaign) {
+  return fmt::format("recorded_log/{}", campaign);
+}
+
 void refreshCaptureFingerprint(SessionDatabase& database, const CampaignRecord& record) {
   const auto base = database.setting(captureBaseKey(record.id));
   if (!base) return;
@@ -100,6 +104,8 @@ void refreshCaptureFingerprint(SessionDatabase& database, const CampaignRecord& 
   for (const fs::path& list : captureLists(record.folder)) {
     fingerprint.add(list.filename().string()).addFile(list);
   }
+  const fs::path log = record.folder / "log.csv";
+  if (database.setting(recordedLogKey(record.id)) && fs::exists(log)) fingerprint.add("log.csv").addFile(log);
   if (fingerprint.text() != record.fingerprint) database.setCampaignFingerprint(record.id, fingerprint.text());
 }
 

@@ -33,6 +33,8 @@ RecoveryReport putInOrder(const std::filesystem::path& session_folder, SessionDa
 
 /// Setting that keeps the fingerprint a campaign had before its first capture.
 [[nodiscard]] std::string captureBaseKey(std::int64_t campaign);
+/// Setting that says that log.csv of a campaign is recorded into.
+[[nodiscard]] std::string recordedLogKey(std::int64_t campaign);
 /// Stores the fingerprint of a campaign that is captured into: that before the first capture and the lists as they are
 /// on the disk. Whenever the program ends, the next opening finds the same.
 void refreshCaptureFingerprint(SessionDatabase& database, const CampaignRecord& record);

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Commands: record.
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "app/cli/command.h"
+#include "core/base/count_text.h"
+#include "core/base/error.h"
+#include "core/connect/recording.h"
+#include "core/connect/utc_time.h"
+#include "core/session/session.h"
+
+namespace spindrift::cli {
+namespace {
+
+struct RecordArguments {
+  std::string connections;
+  std::string out;
+  std::string session;
+  std::string start;
+  double for_s = 0.0;
+  std::string list;
+  double listen_s = 3.0;
+};
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+CommandResult listItems(const RecordArguments& a) {
+  const SourceDescription description = sourceForAddress(a.list);
+  const std::unique_ptr<Source> source = description.make();
+  std::vector<DataItem> items;
+  try {
+    source->connect({});
+    items = source->list(a.listen_s, {});
+    source->close();
+  } catch (const ConnectionError& error) {
+    throw InputError(error.what());
+  }
+  CommandResult result;
+  result.json["kind"] = description.kind;
+  result.json["items"] = nlohmann::json::array();
+  for (const DataItem& item : items) {
+    result.json["items"].push_back({{"item", item.address},
+                                    {"name", item.name},
+                                    {"component", item.component},
+                                    {"category", item.category},
+                                    {"type", item.type},
+                                    {"unit", item.unit},
+                                    {"value", item.example}});
+    result.summary += fmt::format("{:<24} {:<28} {:<20} {:<20} {}{}\n", item.address, item.type, item.unit,
+                                  item.example, item.component, item.name.empty() ? "" : " (" + item.name + ")");
+  }
+  result.summary += countOf(items.size(), "item") + "\n";
+  if (items.empty()) result.exit_status = NotGoodEnough;
+  return result;
+}
+
+CommandResult record(const RecordArguments& a, JobContext& job) {
+  if (!a.list.empty()) return listItems(a);
+  if (a.connections.empty() || a.out.empty() == a.session.empty())
+    throw InputError("record needs CONNECTIONS and one of --out FILE and --session FOLDER, or --list ADDRESS.");
+  const Connections connections = Connections::read(a.connections);
+  double start_s = localUtc();
+  if (!a.start.empty()) {
+    const std::optional<double> given = parseUtc(a.start);
+    if (!given)
+      throw InputError(fmt::format("--start \"{}\" is no time; allowed: UTC such as 2026-01-31T08:00:00Z.", a.start));
+    start_s = *given;
+  }
+  std::filesystem::path log = a.out;
+  std::optional<Session> session;
+  std::int64_t campaign = 0;
+  if (!a.session.empty()) {
+    session = Session::open(a.session);
+    const std::vector<CampaignRecord> campaigns = session->campaigns();
+    if (campaigns.empty())
+      throw InputError({a.session, ""}, "holds no campaign to record into; allowed: a session with a campaign.");
+    campaign = campaigns.back().id;
+    start_s = parseUtc(Campaign::read(campaigns.back().folder).start_utc).value_or(start_s);
+    log = session->recordsLog(campaign);
+  }
+  Recording recording(connections, log, start_s);
+  const auto begin = std::chrono::steady_clock::now();
+  // An interruption is the ordinary end of a recording without --for.
+  while (!job.cancelled() && (a.for_s <= 0.0 || secondsSince(begin) < a.for_s)) {
+    recording.turn(0.1);
+    const std::string stage = fmt::format("recording, {}", countOf(recording.log().rows, "row"));
+    job.report(a.for_s > 0.0 ? secondsSince(begin) / a.for_s : 0.0, stage);
+  }
+  recording.finish();
+  if (session) (void)session->recordsLog(campaign);
+  CommandResult result;
+  result.json = recording.json();
+  result.json["log"] = log.string();
+  result.summary = fmt::format("{}: {}\n", log.string(), countOf(recording.log().rows, "row"));
+  const std::vector<SourceStatus> states = recording.sources();
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    result.summary +=
+        fmt::format("{}: {}, {}, missed {}\n", connections.sources[s].name, countOf(states[s].records, "value"),
+                    countOf(states[s].connections, "connection"), countOf(states[s].missed, "time"));
+  }
+  for (const std::string& sentence : recording.log().gaps) result.summary += "gap: " + sentence + "\n";
+  for (const std::string& sentence : recording.shortcomings()) {
+    result.summary += sentence + "\n";
+    result.exit_status = NotGoodEnough;
+  }
+  return noted(std::move(result), recording.log().sentences);
+}
+
+}  // namespace
+
+void addConnectCommands(CLI::App& app, CommandLine& line) {
+  auto a = std::make_shared<RecordArguments>();
+  CLI::App* command = addCommand(
+      app, line, "record",
+      "Record data of machines and sensors straight into a log (connections.json says which data item becomes which "
+      "column), until --for has passed or an interruption (Ctrl+C). Only reads. Exit status 1: a source was never "
+      "reached, "
+      "a column has no value, or the disk is full",
+      [a](JobContext& job) { return record(*a, job); });
+  command->add_option("CONNECTIONS", a->connections, "connections.json");
+  command->add_option("--out", a->out, "The log; one that is there with the same columns is gone on with")
+      ->type_name("FILE");
+  command->add_option("--session", a->session, "Record into log.csv of the newest campaign of this session")
+      ->type_name("FOLDER");
+  command->add_option("--start", a->start, "UTC where time_s is 0; without it: now, or the campaign's start")
+      ->type_name("TIME");
+  command->add_option("--for", a->for_s, "End after this time in s")->check(positiveNumber());
+  command->add_option("--list", a->list, "Only list what is at this address (http://, mqtt://, serial://, ...)")->type_name("ADDRESS");
+  command->add_option("--listen", a->listen_s, "With --list: listen for this time in s where needed")
+      ->check(positiveNumber())
+      ->capture_default_str();
+}
+
+}  // namespace spindrift::cli
