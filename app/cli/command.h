@@ -56,6 +56,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line);
 void addProbingCommands(CLI::App& app, CommandLine& line);
 void addReportingCommands(CLI::App& app, CommandLine& line);
 void addScanningCommands(CLI::App& app, CommandLine& line);
+void addSessionCommands(CLI::App& app, CommandLine& line);
 void addSimulationCommands(CLI::App& app, CommandLine& line);
 void addThermalCommands(CLI::App& app, CommandLine& line);
 void addThermalReplayCommands(CLI::App& thermal, CommandLine& line);

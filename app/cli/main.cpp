@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
                                              return spindrift::openFeResult(file);
                                            });
   spindrift::cli::addReportingCommands(app, line);
+  spindrift::cli::addSessionCommands(app, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -7,19 +7,14 @@
 #include <vector>
 
 #include "core/base/atomic_file.h"
+#include "core/simulator/sha256.h"
 
 namespace spindrift {
 
-void Fingerprint::mix(std::string_view bytes) {
-  for (const char c : bytes) {
-    state_ ^= static_cast<unsigned char>(c);
-    state_ *= 0x100000001b3ULL;
-  }
-}
-
 Fingerprint& Fingerprint::add(std::string_view part) {
-  mix(part);
-  mix(fmt::format("|{}|", part.size()));
+  // A long part by its own name: what is kept stays short.
+  parts_ += part.size() > 64 ? sha256(part) : std::string(part);
+  parts_ += fmt::format("|{}|", part.size());
   return *this;
 }
 
@@ -28,19 +23,32 @@ Fingerprint& Fingerprint::addFile(const std::filesystem::path& file) {
 }
 
 std::string Fingerprint::text() const {
-  return fmt::format("{:016x}", state_);
+  return sha256(parts_);
 }
 
-std::string fingerprintOfFolder(const std::filesystem::path& folder) {
+FileFingerprints fingerprintsOfFiles(const std::filesystem::path& folder, const JobContext& job) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file()) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
-  Fingerprint fingerprint;
-  for (const auto& file : files)
-    fingerprint.add(std::filesystem::relative(file, folder).generic_string()).addFile(file);
-  return fingerprint.text();
+  FileFingerprints found;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    job.report(static_cast<double>(i) / static_cast<double>(files.size()), "reading the files");
+    job.throwIfCancelled();
+    found[files[i].lexically_relative(folder).generic_string()] = sha256(readFile(files[i]));
+  }
+  return found;
+}
+
+std::string fingerprintOf(const FileFingerprints& files) {
+  Fingerprint all;
+  for (const auto& [name, content] : files) all.add(name).add(content);
+  return all.text();
+}
+
+std::string fingerprintOfFolder(const std::filesystem::path& folder) {
+  return fingerprintOf(fingerprintsOfFiles(folder, {}));
 }
 
 }  // namespace spindrift

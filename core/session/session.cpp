@@ -14,6 +14,7 @@
 #include "core/base/inside_folder.h"
 #include "core/base/json_reader.h"
 #include "core/base/log.h"
+#include "core/session/campaign_files.h"
 #include "core/session/fingerprint.h"
 #include "core/session/session_database.h"
 #include "core/session/session_lock.h"
@@ -138,9 +139,9 @@ Session Session::open(const std::filesystem::path& wanted) {
 
 namespace {
 
-std::string fingerprintOfSource(const std::filesystem::path& source) {
+FileFingerprints filesOfSource(const std::filesystem::path& source, const JobContext& job) {
   try {
-    return fingerprintOfFolder(source);
+    return fingerprintsOfFiles(source, job);
   } catch (const std::filesystem::filesystem_error& failure) {
     throw InputError({source, ""}, fmt::format("cannot be read: {}.", failure.code().message()));
   }
@@ -150,13 +151,14 @@ std::string fingerprintOfSource(const std::filesystem::path& source) {
 
 StagedCampaign::StagedCampaign(const std::filesystem::path& session_folder, const std::filesystem::path& source,
                                JobContext& job)
-    : source_(source), name_(Campaign::read(source).name), fingerprint_(fingerprintOfSource(source)) {
+    : source_(source), name_(Campaign::read(source).name), files_(filesOfSource(source, job.part(0.0, 0.3))) {
   const std::filesystem::path parent = session_folder / "campaigns";
   copy_ = parent / (".importing-" + freshFolder(parent, name_).filename().string());
   std::error_code error;
   std::filesystem::remove_all(copy_, error);
   try {
-    copyFolder(source, copy_, job);
+    JobContext copying = job.part(0.3, 1.0);
+    copyFolder(source, copy_, copying);
   } catch (const std::filesystem::filesystem_error& failure) {
     std::filesystem::remove_all(copy_, error);
     throw InputError({source, ""}, fmt::format("cannot be copied into the session: {}.", failure.code().message()));
@@ -173,7 +175,7 @@ StagedCampaign::~StagedCampaign() {
 
 std::int64_t Session::importCampaign(const std::filesystem::path& source, JobContext& job) {
   database_->requireInPlace();
-  const std::string fingerprint = fingerprintOfSource(source);
+  const std::string fingerprint = fingerprintOf(filesOfSource(source, job.part(0.0, 0.3)));
   for (const CampaignRecord& record : campaigns()) {
     if (record.fingerprint == fingerprint) return record.id;
   }
@@ -183,8 +185,9 @@ std::int64_t Session::importCampaign(const std::filesystem::path& source, JobCon
 
 std::int64_t Session::adoptCampaign(StagedCampaign& staged) {
   database_->requireInPlace();
+  const std::string fingerprint = fingerprintOf(staged.files_);
   for (const CampaignRecord& record : campaigns()) {
-    if (record.fingerprint == staged.fingerprint_) return record.id;
+    if (record.fingerprint == fingerprint) return record.id;
   }
   const std::filesystem::path target = freshFolder(folder_ / "campaigns", staged.name_);
   try {
@@ -194,8 +197,9 @@ std::int64_t Session::adoptCampaign(StagedCampaign& staged) {
                      fmt::format("cannot be copied into the session: {}.", failure.code().message()));
   }
   staged.copy_.clear();
-  const std::int64_t id = database_->addCampaign(
-      staged.name_, std::filesystem::relative(target, folder_).generic_string(), staged.fingerprint_);
+  const std::int64_t id =
+      database_->addCampaign(staged.name_, std::filesystem::relative(target, folder_).generic_string(), fingerprint);
+  takeFiles(id, staged.files_);
   log(LogLevel::Info, fmt::format("imported campaign \"{}\" from {}", staged.name_, staged.source_.string()));
   return id;
 }
@@ -215,8 +219,11 @@ std::int64_t Session::newCampaign(const std::string& name, const std::string& st
     std::filesystem::remove_all(target, ignored);
     throw;
   }
-  return database_->addCampaign(name, std::filesystem::relative(target, folder_).generic_string(),
-                                fingerprintOfFolder(target));
+  const FileFingerprints files = fingerprintsOfFiles(target, {});
+  const std::int64_t id =
+      database_->addCampaign(name, std::filesystem::relative(target, folder_).generic_string(), fingerprintOf(files));
+  takeFiles(id, files);
+  return id;
 }
 
 std::vector<CampaignRecord> Session::campaigns() const {
@@ -263,11 +270,10 @@ void Session::addCapture(std::int64_t id, const std::string& list, const std::st
       throw InputError({stored, ""}, "is there already with another content; allowed: a new name for a new capture.");
     }
   }
-  if (!database_->setting(captureBaseKey(id))) {
-    database_->setSetting(captureBaseKey(id), nlohmann::json(record.fingerprint).dump());
-  }
   if (!there) writeFileAtomically(list_file, text + row + "\n");
-  refreshCaptureFingerprint(*database_, record);
+  std::vector<std::string> written{"captures/" + list};
+  if (!source.empty()) written.push_back("captures/" + relative_name);
+  recordFiles(*database_, record, written);
 }
 
 void Session::addCaptureRows(std::int64_t id, const std::string& list, const std::string& header,
@@ -282,28 +288,43 @@ void Session::addCaptureRows(std::int64_t id, const std::string& list, const std
                      fmt::format("has the columns \"{}\"; allowed for capturing into it: \"{}\".", columns, header));
   }
   const std::string after = withRows(before.empty() ? header + "\n" : before, rows);
-  if (!database_->setting(captureBaseKey(id))) {
-    database_->setSetting(captureBaseKey(id), nlohmann::json(record.fingerprint).dump());
-  }
   if (after != before) writeFileAtomically(list_file, after);
-  refreshCaptureFingerprint(*database_, record);
+  std::vector<std::string> files = filesNamedIn(record.folder, rows);
+  files.push_back("captures/" + list);
+  recordFiles(*database_, record, files);
 }
 
 std::filesystem::path Session::recordsLog(std::int64_t id) {
   database_->requireInPlace();
   const CampaignRecord record = campaign(id);
-  if (!database_->setting(captureBaseKey(id)))
-    database_->setSetting(captureBaseKey(id), nlohmann::json(record.fingerprint).dump());
   database_->setSetting(recordedLogKey(id), nlohmann::json(true).dump());
-  refreshCaptureFingerprint(*database_, record);
+  if (std::filesystem::exists(record.folder / "log.csv")) recordFiles(*database_, record, {"log.csv"});
   return record.folder / "log.csv";
 }
 
-std::string Session::inputsFingerprint(std::int64_t id, const nlohmann::json& options) const {
-  Fingerprint fingerprint;
-  fingerprint.add(campaign(id).fingerprint).add(options.dump()).add(SPINDRIFT_VERSION);
-  for (const Exclusion& exclusion : exclusions(id)) fingerprint.add(exclusion.item);
-  return fingerprint.text();
+FileCheck Session::takeFiles(std::int64_t id, const FileFingerprints& found) {
+  return spindrift::takeFiles(*database_, campaign(id), found);
+}
+
+std::string Session::machineKey(std::int64_t id) {
+  return fmt::format("machine/{}", id);
+}
+
+std::string Session::clocksKey(std::int64_t id) {
+  return fmt::format("time-offsets/{}", id);
+}
+
+nlohmann::json Session::inputs(std::int64_t id) const {
+  nlohmann::json items = nlohmann::json::array();
+  for (const Exclusion& exclusion : exclusions(id)) items.push_back(exclusion.item);
+  // Nothing edited and edited back are the same.
+  const nlohmann::json machine = setting(machineKey(id)).value_or(nlohmann::json());
+  const nlohmann::json clocks = setting(clocksKey(id)).value_or(nlohmann::json());
+  return {{"files", campaign(id).fingerprint},
+          {"exclusions", items},
+          {"machine", machine.empty() ? std::string() : Fingerprint().add(machine.dump()).text()},
+          {"clocks", clocks.empty() ? nlohmann::json::object() : clocks},
+          {"program", SPINDRIFT_VERSION}};
 }
 
 std::int64_t Session::addResult(std::int64_t id, const std::string& kind, const nlohmann::json& options,
@@ -311,8 +332,11 @@ std::int64_t Session::addResult(std::int64_t id, const std::string& kind, const 
   return keepResult(originOf(id, kind, options), payload)->id;
 }
 
-ResultOrigin Session::originOf(std::int64_t id, const std::string& kind, const nlohmann::json& options) const {
-  return {id, kind, options, inputsFingerprint(id, options)};
+ResultOrigin Session::originOf(std::int64_t id, const std::string& kind, const nlohmann::json& options,
+                               const nlohmann::json& made_from) const {
+  ResultOrigin origin{id, kind, options, inputs(id)};
+  origin.inputs.update(made_from);
+  return origin;
 }
 
 std::optional<StoredResult> Session::keepResult(const ResultOrigin& origin, nlohmann::json payload) {
@@ -322,13 +346,19 @@ std::optional<StoredResult> Session::keepResult(const ResultOrigin& origin, nloh
   result.campaign = origin.campaign;
   result.kind = origin.kind;
   result.payload = std::move(payload);
-  result.provenance = {SPINDRIFT_VERSION, utcNow(), origin.inputs_fingerprint, origin.options};
+  result.provenance = {SPINDRIFT_VERSION, utcNow(),
+                       Fingerprint().add(origin.inputs.dump()).add(origin.options.dump()).text(), origin.options,
+                       origin.inputs};
   result.id = database_->addResult(result);
   return result;
 }
 
 std::optional<StoredResult> Session::latestResult(std::int64_t id, const std::string& kind) const {
   return database_->latestResult(id, kind);
+}
+
+std::optional<StoredResult> Session::latestHead(std::int64_t id, const std::string& kind) const {
+  return database_->latestResult(id, kind, false);
 }
 
 std::vector<StoredResult> Session::resultHeads(std::int64_t id, const std::string& kind) const {
@@ -351,7 +381,11 @@ void Session::removeResult(std::int64_t result) {
 }
 
 bool Session::isCurrent(const StoredResult& result) const {
-  return result.provenance.inputs_fingerprint == inputsFingerprint(result.campaign, result.provenance.options);
+  const nlohmann::json now = inputs(result.campaign);
+  const nlohmann::json& then = result.provenance.inputs;
+  return std::all_of(now.items().begin(), now.items().end(), [&](const auto& input) {
+    return then.contains(input.key()) && then[input.key()] == input.value();
+  });
 }
 
 void Session::exclude(std::int64_t id, const std::string& item, const std::string& reason) {

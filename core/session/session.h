@@ -19,16 +19,19 @@
 
 #include "core/base/job_context.h"
 #include "core/machine/campaign.h"
+#include "core/session/fingerprint.h"
 
 namespace spindrift {
 
-/// Where a result comes from. A result is current while `inputs_fingerprint` is what `Session::inputsFingerprint` gives
-/// for the same campaign and options now.
+/// Where a result comes from. A result is current while `inputs` and `options` are what they would be now.
 struct Provenance {
   std::string program_version;
   std::string created_utc;
   std::string inputs_fingerprint;
   nlohmann::json options = nlohmann::json::object();  ///< everything that influenced the result, seed included
+  /// What it was made from, by name: Session::inputs, and other results by their kind. Empty for results of versions
+  /// that did not write it down.
+  nlohmann::json inputs = nlohmann::json::object();
 };
 
 /// What a result is made from, taken when the work on it starts. Files, exclusions or options that change while it is
@@ -37,7 +40,7 @@ struct ResultOrigin {
   std::int64_t campaign = 0;
   std::string kind;
   nlohmann::json options = nlohmann::json::object();
-  std::string inputs_fingerprint;
+  nlohmann::json inputs = nlohmann::json::object();
 };
 
 struct StoredResult {
@@ -52,7 +55,7 @@ struct CampaignRecord {
   std::int64_t id = 0;
   std::string name;
   std::filesystem::path folder;  ///< absolute; inside the session unless the campaign is only referred to
-  std::string fingerprint;       ///< of the content at import (capture adds to it as it goes)
+  std::string fingerprint;       ///< of the content of its files, as far as results are made from them
   std::string imported_utc;
 };
 
@@ -71,6 +74,14 @@ struct Note {
   std::string item;  ///< what it is about within the step, such as a capture; empty: the step
 };
 
+/// Files of a campaign that are not what they were, by their names in the campaign folder.
+struct FileCheck {
+  std::vector<std::string> changed, missing, added;
+  [[nodiscard]] bool same() const { return changed.empty() && missing.empty() && added.empty(); }
+  /// "log.csv has another content; captures/a.jpg and 2 more are missing"
+  [[nodiscard]] std::string sentence() const;
+};
+
 /// A campaign that has been checked and copied into a session's folder, and is not part of it yet. Takes its copy away
 /// again if it never becomes one.
 class StagedCampaign {
@@ -86,7 +97,7 @@ class StagedCampaign {
   std::filesystem::path source_;
   std::filesystem::path copy_;
   std::string name_;
-  std::string fingerprint_;
+  FileFingerprints files_;
 };
 
 class SessionDatabase;
@@ -144,12 +155,18 @@ class Session {
   /// log.csv of the campaign grows, or has grown: what was made from it is outdated. Where to write it is returned.
   std::filesystem::path recordsLog(std::int64_t campaign);
 
+  /// Holds what was found on the disk (`fingerprintsOfFiles` of the campaign folder, on any thread) against what the
+  /// session knows. What is other becomes known: results made from it turn outdated.
+  FileCheck takeFiles(std::int64_t campaign, const FileFingerprints& found);
+
   // Results -------------------------------------------------------------------------------------------------------
-  /// What a result of this campaign with these options depends on: files, exclusions, options, program version.
-  [[nodiscard]] std::string inputsFingerprint(std::int64_t campaign, const nlohmann::json& options) const;
-  /// To be called when the work starts, on the inputs that it is given.
-  [[nodiscard]] ResultOrigin originOf(std::int64_t campaign, const std::string& kind,
-                                      const nlohmann::json& options) const;
+  /// What results of this campaign are made from now, by name: "files", "exclusions", "machine" and "clocks" (as the
+  /// user edited them), "program".
+  [[nodiscard]] nlohmann::json inputs(std::int64_t campaign) const;
+  /// To be called when the work starts, on the inputs that it is given. `made_from` adds to `inputs` what else it is
+  /// made from: results by their kind.
+  [[nodiscard]] ResultOrigin originOf(std::int64_t campaign, const std::string& kind, const nlohmann::json& options,
+                                      const nlohmann::json& made_from = nlohmann::json::object()) const;
   /// Files a result under the campaign that it was started for; nothing if that is no longer in the session. Returns
   /// what was stored, without reading it again.
   std::optional<StoredResult> keepResult(const ResultOrigin& origin, nlohmann::json payload);
@@ -157,6 +174,8 @@ class Session {
   std::int64_t addResult(std::int64_t campaign, const std::string& kind, const nlohmann::json& options,
                          const nlohmann::json& payload);
   [[nodiscard]] std::optional<StoredResult> latestResult(std::int64_t campaign, const std::string& kind) const;
+  /// The same without its payload, which may be large.
+  [[nodiscard]] std::optional<StoredResult> latestHead(std::int64_t campaign, const std::string& kind) const;
   [[nodiscard]] std::vector<StoredResult> results(std::int64_t campaign) const;
   /// All results of a kind without their payloads (those may be large), oldest first; `payload` fetches one.
   [[nodiscard]] std::vector<StoredResult> resultHeads(std::int64_t campaign, const std::string& kind) const;
@@ -164,7 +183,8 @@ class Session {
   /// The kinds of which there is at least one result.
   [[nodiscard]] std::vector<std::string> resultKinds(std::int64_t campaign) const;
   void removeResult(std::int64_t result);
-  /// False: inputs, exclusions, options or program have changed since.
+  /// False: something of `inputs` has changed since. Options and other results are known to the tasks
+  /// (core/tasks/task_graph.h) alone.
   [[nodiscard]] bool isCurrent(const StoredResult& result) const;
 
   // Exclusions, notes, settings -------------------------------------------------------------------------------------
@@ -177,6 +197,9 @@ class Session {
   [[nodiscard]] std::vector<Note> notes(std::int64_t campaign) const;
   void setSetting(const std::string& key, const nlohmann::json& value);
   [[nodiscard]] std::optional<nlohmann::json> setting(const std::string& key) const;
+  /// Keys of what the user put in place of a file's: the edited machine, and offsets between clocks.
+  [[nodiscard]] static std::string machineKey(std::int64_t campaign);
+  [[nodiscard]] static std::string clocksKey(std::int64_t campaign);
 
  private:
   Session(std::filesystem::path folder, std::unique_ptr<SessionLock> lock, std::unique_ptr<SessionDatabase> database);

@@ -46,8 +46,15 @@ void makeVersion2(soci::session& sql) {
   sql << "alter table note add column item text not null default ''";
 }
 
+/// Version 3: what a result was made from, by name, and what was in each file of a campaign.
+void makeVersion3(soci::session& sql) {
+  sql << "alter table result add column inputs text not null default '{}'";
+  sql << "create table file (campaign integer not null references campaign(id) on delete cascade, name text not null, "
+         "content text not null, counts integer not null, primary key (campaign, name))";
+}
+
 using Migration = void (*)(soci::session&);
-constexpr Migration migrations[] = {makeVersion1, makeVersion2};
+constexpr Migration migrations[] = {makeVersion1, makeVersion2, makeVersion3};
 static_assert(std::size(migrations) == SessionDatabase::newest_version);
 
 /// What a user gets back to the older program with. Throws InputError if it cannot be written; an older copy of the
@@ -185,10 +192,37 @@ std::int64_t SessionDatabase::addCampaign(const std::string& name, const std::st
   });
 }
 
-void SessionDatabase::setCampaignFingerprint(std::int64_t id, const std::string& fingerprint) {
+void SessionDatabase::setFiles(std::int64_t id, const KnownFiles& files, const std::string& fingerprint) {
   writing([&] {
     const long long key = id;
-    connection_->sql << "update campaign set fingerprint = :p where id = :i", soci::use(fingerprint), soci::use(key);
+    soci::session& sql = connection_->sql;
+    soci::transaction transaction(sql);
+    std::string name;
+    std::string content;
+    int counts = 1;
+    soci::statement insert =
+        (sql.prepare << "insert into file (campaign, name, content, counts) values (:c, :n, :f, :k) on conflict "
+                        "(campaign, name) do update set content = excluded.content, counts = excluded.counts",
+         soci::use(key), soci::use(name), soci::use(content), soci::use(counts));
+    for (const auto& [named, file] : files) {
+      name = named;
+      content = file.content;
+      counts = file.counts ? 1 : 0;
+      insert.execute(true);
+    }
+    sql << "update campaign set fingerprint = :p where id = :i", soci::use(fingerprint), soci::use(key);
+    transaction.commit();
+  });
+}
+
+KnownFiles SessionDatabase::files(std::int64_t id) const {
+  return guarded(file_, [&] {
+    const long long key = id;
+    KnownFiles found;
+    const soci::rowset<soci::row> rows =
+        (connection_->sql.prepare << "select name, content, counts from file where campaign = :c", soci::use(key));
+    for (const soci::row& row : rows) found[row.get<std::string>(0)] = {row.get<std::string>(1), row.get<int>(2) != 0};
+    return found;
   });
 }
 
@@ -229,13 +263,14 @@ std::int64_t SessionDatabase::addResult(const StoredResult& result) {
   return writing([&] {
     const long long campaign = result.campaign;
     const std::string options = result.provenance.options.dump();
+    const std::string inputs = result.provenance.inputs.dump();
     const std::string payload = result.payload.dump();
     soci::session& sql = connection_->sql;
-    sql << "insert into result (campaign, kind, program_version, created_utc, inputs_fingerprint, options, payload) "
-           "values (:c, :k, :v, :t, :f, :o, :p)",
+    sql << "insert into result (campaign, kind, program_version, created_utc, inputs_fingerprint, inputs, options, "
+           "payload) values (:c, :k, :v, :t, :f, :i, :o, :p)",
         soci::use(campaign), soci::use(result.kind), soci::use(result.provenance.program_version),
-        soci::use(result.provenance.created_utc), soci::use(result.provenance.inputs_fingerprint), soci::use(options),
-        soci::use(payload);
+        soci::use(result.provenance.created_utc), soci::use(result.provenance.inputs_fingerprint), soci::use(inputs),
+        soci::use(options), soci::use(payload);
     long long id = 0;
     sql << "select last_insert_rowid()", soci::into(id);
     return static_cast<std::int64_t>(id);
@@ -246,8 +281,9 @@ std::vector<StoredResult> SessionDatabase::results(std::int64_t campaign, const 
   return selectResults(campaign, kind, "order by id");
 }
 
-std::optional<StoredResult> SessionDatabase::latestResult(std::int64_t campaign, const std::string& kind) const {
-  std::vector<StoredResult> list = selectResults(campaign, kind, "order by id desc limit 1");
+std::optional<StoredResult> SessionDatabase::latestResult(std::int64_t campaign, const std::string& kind,
+                                                          bool with_payload) const {
+  std::vector<StoredResult> list = selectResults(campaign, kind, "order by id desc limit 1", with_payload);
   if (list.empty()) return std::nullopt;
   return std::move(list.front());
 }
@@ -283,7 +319,7 @@ std::vector<StoredResult> SessionDatabase::selectResults(std::int64_t campaign, 
     std::vector<StoredResult> list;
     const soci::rowset<soci::row> rows =
         (connection_->sql.prepare << std::string("select cast(id as text), kind, program_version, created_utc, "
-                                                 "inputs_fingerprint, options") +
+                                                 "inputs_fingerprint, inputs, options") +
                                          (with_payload ? ", payload" : ", 'null'") +
                                          std::string(" from result where campaign = :c and (:k1 = '' or kind = :k2) ") +
                                          order,
@@ -296,8 +332,9 @@ std::vector<StoredResult> SessionDatabase::selectResults(std::int64_t campaign, 
       result.provenance.program_version = row.get<std::string>(2);
       result.provenance.created_utc = row.get<std::string>(3);
       result.provenance.inputs_fingerprint = row.get<std::string>(4);
-      result.provenance.options = parsed(file_, row.get<std::string>(5), "options");
-      result.payload = parsed(file_, row.get<std::string>(6), "a result");
+      result.provenance.inputs = parsed(file_, row.get<std::string>(5), "inputs");
+      result.provenance.options = parsed(file_, row.get<std::string>(6), "options");
+      result.payload = parsed(file_, row.get<std::string>(7), "a result");
       list.push_back(std::move(result));
     }
     return list;

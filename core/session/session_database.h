@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/session/campaign_files.h"
 #include "core/session/session.h"
 
 namespace spindrift {
@@ -15,7 +16,7 @@ namespace spindrift {
 class SessionDatabase {
  public:
   /// Newest schema this program writes.
-  static constexpr int newest_version = 2;
+  static constexpr int newest_version = 3;
 
   /// Opens or makes the database file and brings it to `newest_version`; `messages` receives what a migration did. The
   /// old database is copied to `<file>.version-<n>` first; a migration that fails leaves it as it was.
@@ -30,13 +31,16 @@ class SessionDatabase {
 
   /// `folder` is stored relative to the session.
   std::int64_t addCampaign(const std::string& name, const std::string& folder, const std::string& fingerprint);
-  void setCampaignFingerprint(std::int64_t id, const std::string& fingerprint);
+  /// Stores these files of a campaign (others stay) and the fingerprint of all together, or nothing.
+  void setFiles(std::int64_t id, const KnownFiles& files, const std::string& fingerprint);
+  [[nodiscard]] KnownFiles files(std::int64_t id) const;
   [[nodiscard]] std::vector<CampaignRecord> campaigns() const;
   void removeCampaign(std::int64_t id);
 
   std::int64_t addResult(const StoredResult& result);
   [[nodiscard]] std::vector<StoredResult> results(std::int64_t campaign, const std::string& kind) const;
-  [[nodiscard]] std::optional<StoredResult> latestResult(std::int64_t campaign, const std::string& kind) const;
+  [[nodiscard]] std::optional<StoredResult> latestResult(std::int64_t campaign, const std::string& kind,
+                                                         bool with_payload = true) const;
   /// All of a kind without their payloads, oldest first.
   [[nodiscard]] std::vector<StoredResult> resultHeads(std::int64_t campaign, const std::string& kind) const;
   [[nodiscard]] nlohmann::json payload(std::int64_t result) const;

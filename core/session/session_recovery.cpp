@@ -8,7 +8,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/inside_folder.h"
-#include "core/session/fingerprint.h"
+#include "core/session/campaign_files.h"
 #include "core/session/session_database.h"
 
 namespace spindrift {
@@ -29,16 +29,6 @@ std::string folderName(const std::string& name) {
     }
   }
   return safe.empty() ? "campaign" : safe.substr(0, 60);
-}
-
-std::vector<fs::path> captureLists(const fs::path& campaign) {
-  std::vector<fs::path> lists;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(campaign / "captures", ignored)) {
-    if (entry.path().extension() == ".csv" && entry.is_regular_file(ignored)) lists.push_back(entry.path());
-  }
-  std::sort(lists.begin(), lists.end());
-  return lists;
 }
 
 /// Rows of a list, without its header and comments.
@@ -88,25 +78,8 @@ std::string RecoveryReport::sentence() const {
   return text;
 }
 
-std::string captureBaseKey(std::int64_t campaign) {
-  return fmt::format("capture_base/{}", campaign);
-}
-
 std::string recordedLogKey(std::int64_t campaign) {
   return fmt::format("recorded_log/{}", campaign);
-}
-
-void refreshCaptureFingerprint(SessionDatabase& database, const CampaignRecord& record) {
-  const auto base = database.setting(captureBaseKey(record.id));
-  if (!base) return;
-  Fingerprint fingerprint;
-  fingerprint.add(base->dump());
-  for (const fs::path& list : captureLists(record.folder)) {
-    fingerprint.add(list.filename().string()).addFile(list);
-  }
-  const fs::path log = record.folder / "log.csv";
-  if (database.setting(recordedLogKey(record.id)) && fs::exists(log)) fingerprint.add("log.csv").addFile(log);
-  if (fingerprint.text() != record.fingerprint) database.setCampaignFingerprint(record.id, fingerprint.text());
 }
 
 RecoveryReport putInOrder(const fs::path& session_folder, SessionDatabase& database) {
@@ -118,9 +91,16 @@ RecoveryReport putInOrder(const fs::path& session_folder, SessionDatabase& datab
   for (CampaignRecord& record : database.campaigns()) {
     record.folder = session_folder / record.folder;
     known.insert(record.folder.filename());
-    for (const fs::path& list : captureLists(record.folder)) report.captures += rowsOf(list);
+    std::vector<std::string> lists = captureLists(record.folder);
+    for (const std::string& list : lists) report.captures += rowsOf(record.folder / list);
+    if (database.setting(recordedLogKey(record.id)) && fs::exists(record.folder / "log.csv")) lists.push_back("log.csv");
     report.results += database.countResults(record.id);
-    refreshCaptureFingerprint(database, record);
+    if (database.files(record.id).empty()) {
+      // A session of a version that did not write down the files.
+      takeFiles(database, record, fingerprintsOfFiles(record.folder, {}));
+    } else {
+      recordFiles(database, record, lists);
+    }
   }
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(session_folder / "campaigns", ignored)) {

@@ -31,13 +31,8 @@ struct RecoveryReport {
 /// To be called with the lock held. Failures to tidy up (a read-only file) are ignored: they hinder nothing.
 RecoveryReport putInOrder(const std::filesystem::path& session_folder, SessionDatabase& database);
 
-/// Setting that keeps the fingerprint a campaign had before its first capture.
-[[nodiscard]] std::string captureBaseKey(std::int64_t campaign);
-/// Setting that says that log.csv of a campaign is recorded into.
+/// Setting that says that log.csv of a campaign is recorded into: whatever a recording left there is the campaign's.
 [[nodiscard]] std::string recordedLogKey(std::int64_t campaign);
-/// Stores the fingerprint of a campaign that is captured into: that before the first capture and the lists as they are
-/// on the disk. Whenever the program ends, the next opening finds the same.
-void refreshCaptureFingerprint(SessionDatabase& database, const CampaignRecord& record);
 
 /// A folder in `parent` that does not exist yet, named after `name` with letters that are safe everywhere.
 [[nodiscard]] std::filesystem::path freshFolder(const std::filesystem::path& parent, const std::string& name);

@@ -42,6 +42,8 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
     t["reporting"] = below;
     below.insert("reporting");
     t["workflows"] = below;
+    below.insert("workflows");
+    t["tasks"] = below;
     return t;
   }();
   return table;

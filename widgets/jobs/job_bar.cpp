@@ -10,7 +10,7 @@
 
 namespace spindrift::gui {
 
-JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent) {
+JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(runner) {
   setProperty("role", QStringLiteral("bar"));
   setFixedHeight(52);
   auto* line = new QHBoxLayout(this);
@@ -35,7 +35,15 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent) {
   line->addWidget(hint_);
   line->addWidget(progress_);
   line->addWidget(cancel_);
+  activity_ = makeButton(tr("Messages"), "note");
+  activity_->setToolTip(tr("Jobs that run and wait, and all messages so far"));
+  line->addWidget(activity_);
 
+  connect(activity_, &QPushButton::clicked, this, &JobBar::activityWanted);
+  connect(&runner_, &JobRunner::changed, this, [this] {
+    const int waiting = runner_.waiting();
+    activity_->setText(QChar(0x2009) + (waiting == 0 ? tr("Messages") : tr("%n waiting", nullptr, waiting)));
+  });
   connect(cancel_, &QPushButton::clicked, this, [this, &runner] {
     runner.cancel();
     cancel_->setEnabled(false);
@@ -59,16 +67,13 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent) {
           [this](const QString& title, JobOutcome outcome, const QString& sentence) {
             switch (outcome) {
               case JobOutcome::Done:
-                icon_->set(QStringLiteral("check-circle"), Tone::Good);
-                text_->setText(tr("%1: done").arg(title));
+                showText(QStringLiteral("check-circle"), Tone::Good, tr("%1: done").arg(title));
                 break;
               case JobOutcome::Failed:
-                icon_->set(QStringLiteral("error"), Tone::Bad);
-                text_->setText(sentence);
+                showText(QStringLiteral("error"), Tone::Bad, sentence);
                 break;
               case JobOutcome::Cancelled:
-                icon_->set(QStringLiteral("info"), Tone::Neutral);
-                text_->setText(tr("%1: cancelled, nothing was changed").arg(title));
+                showText(QStringLiteral("info"), Tone::Neutral, tr("%1: cancelled, nothing was changed").arg(title));
                 break;
             }
             // The next one, if it is to be seen, shows them again.
@@ -81,9 +86,14 @@ void JobBar::setHint(const QString& text) {
   hint_->setText(text);
 }
 
-void JobBar::setMessage(const QString& text) {
-  icon_->set(QStringLiteral("info"), Tone::Neutral);
+void JobBar::showText(const QString& icon, Tone tone, const QString& text) {
+  icon_->set(icon, tone);
   text_->setText(text);
+  log_.add(tone, text);
+}
+
+void JobBar::setMessage(const QString& text) {
+  showText(QStringLiteral("info"), Tone::Neutral, text);
 }
 
 QString JobBar::message() const {

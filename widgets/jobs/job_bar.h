@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bar at the bottom of the window: what runs, how far it is, cancel; and the last thing that happened.
+// The bar at the bottom of the window: what runs, how far it is, cancel; and the last thing that happened. All of it
+// can be read again in the list of jobs and messages (activity_dialog.h).
 #pragma once
 
 #include <QFrame>
 
 #include "widgets/jobs/job_runner.h"
+#include "widgets/jobs/message_log.h"
 
 class QLabel;
 class QProgressBar;
@@ -23,12 +25,24 @@ class JobBar : public QFrame {
   void setMessage(const QString& text);
   [[nodiscard]] QPushButton* cancelButton() const { return cancel_; }
   [[nodiscard]] QString message() const;
+  /// Everything it has said.
+  [[nodiscard]] MessageLog& log() { return log_; }
+  [[nodiscard]] QPushButton* activityButton() const { return activity_; }
+
+ Q_SIGNALS:
+  /// The user wants to see jobs and messages.
+  void activityWanted();
 
  private:
+  void showText(const QString& icon, Tone tone, const QString& text);
+
+  JobRunner& runner_;
+  MessageLog log_;
   IconLabel* icon_;
   QLabel* text_;
   QProgressBar* progress_;
   QPushButton* cancel_;
+  QPushButton* activity_;
   QLabel* hint_;
 };
 

@@ -3,7 +3,7 @@
 
 #include <QCoreApplication>
 #include <QMetaObject>
-#include <atomic>
+#include <algorithm>
 
 #include "core/base/error.h"
 #include "core/base/log.h"
@@ -18,18 +18,19 @@ class JobRunner::Sink : public ProgressSink {
     fraction_ = fraction;
     stage_.assign(stage);
   }
-  [[nodiscard]] std::pair<double, QString> read() {
+  [[nodiscard]] std::pair<double, QString> read() const {
     const std::lock_guard lock(mutex_);
     return {fraction_, QString::fromStdString(stage_)};
   }
 
  private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   double fraction_ = 0.0;
   std::string stage_;
 };
 
 struct JobRunner::Running {
+  int id = 0;
   Job job;
   Sink sink;
   std::function<void()> apply;
@@ -41,38 +42,100 @@ struct JobRunner::Running {
 JobRunner::JobRunner(QObject* parent) : QObject(parent) {
   poll_.setInterval(60);
   connect(&poll_, &QTimer::timeout, this, [this] {
-    if (current_ == nullptr) return;
-    const auto [fraction, stage] = current_->sink.read();
-    Q_EMIT progressed(fraction, stage);
+    if (const Running* running = shown()) {
+      const auto [fraction, stage] = running->sink.read();
+      Q_EMIT progressed(fraction, stage);
+    }
+    Q_EMIT changed();
   });
 }
 
 JobRunner::~JobRunner() {
-  queue_.clear();
-  if (current_ != nullptr) current_->thread.request_stop();
+  for (Lane& lane : lanes_) {
+    lane.queue.clear();
+    if (lane.current != nullptr) lane.current->thread.request_stop();
+  }
+}
+
+bool JobRunner::busy() const {
+  return std::any_of(lanes_.begin(), lanes_.end(),
+                     [](const Lane& lane) { return lane.current != nullptr || !lane.queue.empty(); });
+}
+
+bool JobRunner::working() const {
+  const Lane& work = lanes_[static_cast<std::size_t>(JobQueue::Work)];
+  return work.current != nullptr || !work.queue.empty();
+}
+
+/// What the job bar tells of: long work before what is only to be shown.
+const JobRunner::Running* JobRunner::shown() const {
+  for (const Lane& lane : lanes_)
+    if (lane.current != nullptr && !lane.current->job.quiet) return lane.current.get();
+  return nullptr;
 }
 
 QString JobRunner::title() const {
-  return current_ != nullptr ? current_->job.title : QString();
+  const Running* running = shown();
+  return running != nullptr ? running->job.title : QString();
 }
 
-void JobRunner::run(Job job) {
-  queue_.push_back(std::move(job));
-  if (current_ == nullptr) startNext();
+int JobRunner::waiting() const {
+  int count = 0;
+  for (const Lane& lane : lanes_)
+    for (const Waiting& waiting : lane.queue) count += waiting.job.quiet ? 0 : 1;
+  return count;
 }
 
-void JobRunner::startNext() {
-  if (queue_.empty()) return;
-  current_ = std::make_unique<Running>();
-  current_->job = std::move(queue_.front());
-  queue_.pop_front();
-  Running* running = current_.get();
+std::vector<JobEntry> JobRunner::entries() const {
+  std::vector<JobEntry> all;
+  for (const Lane& lane : lanes_) {
+    if (lane.current == nullptr || lane.current->job.quiet) continue;
+    const auto [fraction, stage] = lane.current->sink.read();
+    all.push_back({lane.current->id, lane.current->job.title, true, fraction, stage});
+  }
+  for (const Lane& lane : lanes_)
+    for (const Waiting& waiting : lane.queue)
+      if (!waiting.job.quiet) all.push_back({waiting.id, waiting.job.title, false, 0.0, {}});
+  return all;
+}
+
+int JobRunner::run(Job job) {
+  const JobQueue queue = job.queue;
+  Lane& own = lane(queue);
+  if (!job.key.empty()) {
+    // What is asked for now makes what was asked for before pointless.
+    for (auto it = own.queue.begin(); it != own.queue.end();) {
+      if (it->job.key != job.key) {
+        ++it;
+        continue;
+      }
+      const std::function<void()> cancelled = std::move(it->job.cancelled);
+      it = own.queue.erase(it);
+      if (cancelled) cancelled();
+    }
+    if (own.current != nullptr && own.current->job.key == job.key) own.current->thread.request_stop();
+  }
+  const int id = ++last_id_;
+  own.queue.push_back({id, std::move(job)});
+  if (own.current == nullptr) startNext(queue);
+  Q_EMIT changed();
+  return id;
+}
+
+void JobRunner::startNext(JobQueue queue) {
+  Lane& own = lane(queue);
+  if (own.queue.empty()) return;
+  own.current = std::make_unique<Running>();
+  own.current->id = own.queue.front().id;
+  own.current->job = std::move(own.queue.front().job);
+  own.queue.pop_front();
+  Running* running = own.current.get();
   if (!running->job.quiet) {
     log(LogLevel::Info, running->job.title.toStdString());
-    Q_EMIT started(running->job.title);
+    if (shown() == running) Q_EMIT started(running->job.title);
     poll_.start();
   }
-  running->thread = std::jthread([this, running](std::stop_token token) {
+  running->thread = std::jthread([this, running, queue](std::stop_token token) {
     JobContext context(token, &running->sink);
     try {
       running->apply = running->job.work(context);
@@ -89,14 +152,19 @@ void JobRunner::startNext() {
                               .arg(QString::fromUtf8(e.what()));
     }
     QMetaObject::invokeMethod(
-        this, [this] { complete(); }, Qt::QueuedConnection);
+        this, [this, queue] { complete(queue); }, Qt::QueuedConnection);
   });
 }
 
-void JobRunner::complete() {
-  if (current_ == nullptr) return;
-  const std::unique_ptr<Running> done = std::move(current_);
-  poll_.stop();
+void JobRunner::complete(JobQueue queue) {
+  Lane& own = lane(queue);
+  if (own.current == nullptr) return;
+  const bool was_shown = shown() == own.current.get();
+  const std::unique_ptr<Running> done = std::move(own.current);
+  if (shown() == nullptr) poll_.stop();
+  // Stopped, or replaced by another, when it was all but done.
+  if (done->outcome == JobOutcome::Done && done->thread.get_stop_token().stop_requested())
+    done->outcome = JobOutcome::Cancelled;
   if (done->thread.joinable()) done->thread.join();
   switch (done->outcome) {
     case JobOutcome::Done:
@@ -116,17 +184,38 @@ void JobRunner::complete() {
       if (done->job.cancelled) done->job.cancelled();
       break;
   }
-  if (!done->job.quiet) Q_EMIT finished(done->job.title, done->outcome, done->sentence);
-  if (current_ == nullptr) startNext();
+  if (was_shown) Q_EMIT finished(done->job.title, done->outcome, done->sentence);
+  if (own.current == nullptr) startNext(queue);
+  // The other queue may have something to show again.
+  if (const Running* other = shown(); was_shown && other != nullptr && &own != &lane(other->job.queue))
+    Q_EMIT started(other->job.title);
+  Q_EMIT changed();
 }
 
 void JobRunner::cancel() {
-  if (current_ != nullptr) current_->thread.request_stop();
+  if (const Running* running = shown()) cancel(running->id);
+}
+
+void JobRunner::cancel(int id) {
+  for (Lane& lane : lanes_) {
+    if (lane.current != nullptr && lane.current->id == id) lane.current->thread.request_stop();
+    const auto found =
+        std::find_if(lane.queue.begin(), lane.queue.end(), [id](const Waiting& waiting) { return waiting.id == id; });
+    if (found == lane.queue.end()) continue;
+    const std::function<void()> cancelled = std::move(found->job.cancelled);
+    lane.queue.erase(found);
+    if (cancelled) cancelled();
+    Q_EMIT changed();
+    return;
+  }
 }
 
 void JobRunner::cancelAll() {
-  queue_.clear();
-  cancel();
+  for (Lane& lane : lanes_) {
+    lane.queue.clear();
+    if (lane.current != nullptr) lane.current->thread.request_stop();
+  }
+  Q_EMIT changed();
 }
 
 }  // namespace spindrift::gui

@@ -4,22 +4,29 @@
 //   GUI thread    run(job) ------------------------------------------> apply()  (or failed(sentence), cancelled())
 //   worker                  work(context) = compute on copies, return apply
 //
-// Jobs run one after another. Cancelling a job that waits takes it out; one that runs is asked to stop, and nothing of
-// it is applied.
+// Two queues, each with a thread of its own: long work runs one after another, and what is only to be shown (a picture
+// that was chosen) never waits for it. A job with the `key` of an older one of its queue takes its place: the older is
+// not wanted any more. Cancelling a job that waits takes it out; one that runs is asked to stop, and nothing of it is
+// applied.
 #pragma once
 
 #include <QObject>
 #include <QString>
 #include <QTimer>
+#include <array>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "core/base/job_context.h"
 
 namespace spindrift::gui {
+
+enum class JobQueue { Work, Display };
 
 struct Job {
   QString title;  ///< "Evaluating 104 images"
@@ -30,9 +37,20 @@ struct Job {
   std::function<void(const QString&)> failed;
   std::function<void()> cancelled;  ///< may be empty
   bool quiet = false;               ///< a short helper: not shown in the job bar
+  JobQueue queue = JobQueue::Work;
+  std::string key;  ///< what it is for; empty: takes nobody's place
 };
 
 enum class JobOutcome { Done, Failed, Cancelled };
+
+/// A job that runs or waits.
+struct JobEntry {
+  int id = 0;
+  QString title;
+  bool running = false;
+  double fraction = 0.0;
+  QString stage;
+};
 
 class JobRunner : public QObject {
   Q_OBJECT
@@ -41,26 +59,45 @@ class JobRunner : public QObject {
   /// Cancels what runs and waits for it.
   ~JobRunner() override;
 
-  void run(Job job);
-  void cancel();  ///< the running job
+  /// The id by which it can be cancelled.
+  int run(Job job);
+  void cancel();  ///< the running job of the long ones, else the one that is shown
+  void cancel(int id);
   void cancelAll();
-  [[nodiscard]] bool busy() const { return current_ != nullptr || !queue_.empty(); }
+  [[nodiscard]] bool busy() const;
+  /// Long work runs or waits.
+  [[nodiscard]] bool working() const;
   [[nodiscard]] QString title() const;
-  [[nodiscard]] int waiting() const { return static_cast<int>(queue_.size()); }
+  [[nodiscard]] int waiting() const;
+  /// Running ones first, then in the order in which they will run; quiet ones are left out.
+  [[nodiscard]] std::vector<JobEntry> entries() const;
 
  Q_SIGNALS:
   void started(const QString& title);
   void progressed(double fraction, const QString& stage);
   void finished(const QString& title, spindrift::gui::JobOutcome outcome, const QString& sentence);
+  /// `entries` is another: something runs, waits, got on or ended.
+  void changed();
 
  private:
   class Sink;
   struct Running;
-  void startNext();
-  void complete();
+  struct Waiting {
+    int id = 0;
+    Job job;
+  };
+  struct Lane {
+    std::deque<Waiting> queue;
+    std::unique_ptr<Running> current;
+  };
 
-  std::deque<Job> queue_;
-  std::unique_ptr<Running> current_;
+  [[nodiscard]] Lane& lane(JobQueue queue) { return lanes_[static_cast<std::size_t>(queue)]; }
+  [[nodiscard]] const Running* shown() const;
+  void startNext(JobQueue queue);
+  void complete(JobQueue queue);
+
+  std::array<Lane, 2> lanes_;
+  int last_id_ = 0;
   QTimer poll_;
 };
 

@@ -7,23 +7,11 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/tasks/task_options.h"
 #include "core/workflows/compensated_data.h"
-#include "core/workflows/log_campaign.h"
 
 namespace spindrift::gui {
 namespace {
-
-std::string machineKey(std::int64_t campaign) {
-  return "machine/" + std::to_string(campaign);
-}
-
-std::string clocksKey(std::int64_t campaign) {
-  return "time-offsets/" + std::to_string(campaign);
-}
-
-std::string overTimeKey(std::int64_t campaign) {
-  return "model-over-time/" + std::to_string(campaign);
-}
 
 /// All of a LoadedSession but the session itself.
 LoadedSession readForPages(const Session& session, std::int64_t wanted) {
@@ -37,13 +25,13 @@ LoadedSession readForPages(const Session& session, std::int64_t wanted) {
   const CampaignRecord& record = found != all.end() ? *found : all.back();
   loaded.campaign_id = record.id;
   auto campaign = std::make_shared<Campaign>(Campaign::read(record.folder));
-  const auto edited = session.setting(machineKey(record.id));
+  const auto edited = session.setting(Session::machineKey(record.id));
   if (edited && edited->is_object() && !edited->empty()) {
     campaign->machine =
         MachineDescription::parse(JsonNode::parse(edited->dump(), "machine as edited"), campaign->path("machine.json"));
     loaded.machine_edited = true;
   }
-  if (const auto offsets = session.setting(clocksKey(record.id)))
+  if (const auto offsets = session.setting(Session::clocksKey(record.id)))
     applyClockOffsets(*campaign, clockOffsetsFrom(*offsets));
   loaded.campaign = std::move(campaign);
   for (const Exclusion& e : session.exclusions(record.id)) {
@@ -77,6 +65,7 @@ void SessionModel::createSession(const std::filesystem::path& folder) {
   auto made = std::make_unique<Session>(Session::create(folder));
   session_ = std::move(made);
   ++opened_;
+  ledger_ = {};
   latest_.clear();
   campaign_.reset();
   campaign_id_ = 0;
@@ -89,6 +78,7 @@ void SessionModel::createSession(const std::filesystem::path& folder) {
 void SessionModel::close() {
   session_.reset();
   ++opened_;
+  ledger_ = {};
   latest_.clear();
   campaign_.reset();
   campaign_id_ = 0;
@@ -113,6 +103,7 @@ void SessionModel::adopt(std::unique_ptr<Session> session, std::int64_t campaign
 void SessionModel::adopt(LoadedSession loaded) {
   take(std::move(loaded));
   ++opened_;
+  ledger_ = {};
   ++visit_;
   if (campaign_id_ != 0) setSetting("campaign", campaign_id_);
   Q_EMIT sessionChanged();
@@ -148,40 +139,39 @@ std::vector<CampaignRecord> SessionModel::campaigns() const {
 
 bool SessionModel::has(Instrument instrument) const {
   if (campaign_ == nullptr) return false;
+  const CampaignFacts facts = CampaignFacts::of(*campaign_);
   switch (instrument) {
     case Instrument::Microscope:
-      return campaign_->captureList("fiducials.csv").has_value();
+      return facts.images;
     case Instrument::TouchProbe:
-      return campaign_->captureList("touches.csv").has_value();
+      return facts.touches;
     case Instrument::Profiler:
-      return campaign_->captureList("scans.csv").has_value();
+      return facts.scans;
   }
   return false;
 }
 
 bool SessionModel::isLogOnly() const {
-  return campaign_ != nullptr && campaign_->log && !campaign_->observations && hasOutputSignals(*campaign_->log) &&
-         !has(Instrument::Microscope) && !has(Instrument::TouchProbe) && !has(Instrument::Profiler);
+  return campaign_ != nullptr && CampaignFacts::of(*campaign_).log_only;
 }
 
 bool SessionModel::modelOverTime() const {
-  if (campaign_ == nullptr || !campaign_->log) return false;
-  return isLogOnly() || setting(overTimeKey(campaign_id_), false) == true;
+  return campaign_ != nullptr && tasks().overTime();
 }
 
 void SessionModel::setModelOverTime(bool over_time) {
   if (modelOverTime() == over_time) return;
-  setSetting(overTimeKey(campaign_id_), over_time);
+  setSetting(campaignKey(option_keys::over_time), over_time);
   Q_EMIT campaignChanged();
 }
 
 ClockOffsets SessionModel::clockOffsets() const {
-  return clockOffsetsFrom(setting(clocksKey(campaign_id_), nlohmann::json::object()));
+  return clockOffsetsFrom(setting(Session::clocksKey(campaign_id_), nlohmann::json::object()));
 }
 
 void SessionModel::setClockOffsets(const ClockOffsets& offsets) {
   if (session_ == nullptr || campaign_ == nullptr) return;
-  session_->setSetting(clocksKey(campaign_id_), toJson(offsets));
+  session_->setSetting(Session::clocksKey(campaign_id_), toJson(offsets));
   load(campaign_id_);
   Q_EMIT campaignChanged();
   Q_EMIT inputsChanged();
@@ -264,24 +254,50 @@ void SessionModel::setMachine(const nlohmann::json& machine_json) {
     // Refuse what cannot be read before anything is stored.
     (void)MachineDescription::parse(JsonNode::parse(machine_json.dump(), "machine as edited"), "machine as edited");
   }
-  session_->setSetting(machineKey(campaign_id_), machine_json.is_null() ? nlohmann::json::object() : machine_json);
+  session_->setSetting(Session::machineKey(campaign_id_),
+                       machine_json.is_null() ? nlohmann::json::object() : machine_json);
   load(campaign_id_);
   Q_EMIT campaignChanged();
   Q_EMIT inputsChanged();
 }
 
-nlohmann::json SessionModel::commonOptions() const {
-  nlohmann::json options = nlohmann::json::object();
-  if (machine_edited_) options["machine"] = campaign_->machine.source;
-  if (const ClockOffsets offsets = clockOffsets(); !offsets.empty()) options["time_offsets"] = toJson(offsets);
-  return options;
+std::string SessionModel::inputsKey() const {
+  if (session_ == nullptr || campaign_ == nullptr) return {};
+  return std::to_string(opened_) + "/" + std::to_string(campaign_id_) + session_->inputs(campaign_id_).dump();
+}
+
+TaskGraph SessionModel::tasks() const {
+  return {*session_, campaign_id_, campaign_, [this](const std::string& kind) { return latest(kind); }, ledger_};
 }
 
 PendingResult SessionModel::begin(const std::string& kind, const nlohmann::json& options) const {
   if (session_ == nullptr || campaign_ == nullptr) return {};
-  nlohmann::json all = commonOptions();
-  all.update(options);
-  return {opened_, session_->originOf(campaign_id_, kind, all)};
+  return {opened_, tasks().origin(kind, options)};
+}
+
+void SessionModel::workStarted(const PendingResult& pending) {
+  if (pending.session != opened_ || pending.origin.kind.empty()) return;
+  ledger_.started(pending.origin);
+  Q_EMIT workChanged();
+}
+
+void SessionModel::workEnded(const PendingResult& pending) {
+  if (pending.session != opened_) return;
+  ledger_.ended(pending.origin);
+  Q_EMIT workChanged();
+}
+
+void SessionModel::workFailed(const PendingResult& pending, const QString& sentence) {
+  if (pending.session != opened_ || pending.origin.kind.empty()) return;
+  ledger_.failed(pending.origin, sentence.toStdString());
+  Q_EMIT workChanged();
+}
+
+FileCheck SessionModel::takeFiles(std::int64_t campaign, const FileFingerprints& found) {
+  if (session_ == nullptr) return {};
+  FileCheck check = session_->takeFiles(campaign, found);
+  if (!check.same() && campaign == campaign_id_) Q_EMIT inputsChanged();
+  return check;
 }
 
 bool SessionModel::atHand(const PendingResult& pending) const {
@@ -317,13 +333,12 @@ std::optional<StoredResult> SessionModel::result(const std::string& kind) const 
 ResultState SessionModel::state(const std::string& kind) const {
   ResultState state;
   if (const StoredResult* found = latest(kind)) {
+    const TaskStatus status = tasks().status(kind);
     state.there = true;
-    const nlohmann::json now = commonOptions();
-    state.current = session_->isCurrent(*found);
-    for (const char* key : {"machine", "time_offsets"}) {
-      state.current =
-          state.current && found->provenance.options.value(key, nlohmann::json()) == now.value(key, nlohmann::json());
-    }
+    state.current = status.current;
+    QStringList changed;
+    for (const std::string& what : status.changed) changed << QString::fromStdString(what);
+    state.changed = changed.join(QStringLiteral(", "));
     state.created_utc = found->provenance.created_utc;
     state.program_version = found->provenance.program_version;
   }
@@ -403,7 +418,7 @@ void SessionModel::setSetting(const std::string& key, const nlohmann::json& valu
 }
 
 std::string SessionModel::warmStatementKey() const {
-  return "warm-statement/" + std::to_string(campaign_id_);
+  return campaignKey(option_keys::warm_statement);
 }
 
 std::optional<nlohmann::json> SessionModel::warmStatement() const {
@@ -420,11 +435,11 @@ nlohmann::json SessionModel::setting(const std::string& key, const nlohmann::jso
 }
 
 std::string SessionModel::campaignKey(const std::string& key) const {
-  return key + "/" + std::to_string(campaign_id_);
+  return spindrift::campaignKey(key, campaign_id_);
 }
 
 nlohmann::json SessionModel::campaignSetting(const std::string& key, const nlohmann::json& otherwise) const {
-  return setting(campaignKey(key), setting(key, otherwise));
+  return session_ == nullptr ? otherwise : spindrift::campaignSetting(*session_, campaign_id_, key, otherwise);
 }
 
 nlohmann::json SessionModel::draft(const std::string& name, const nlohmann::json& base) const {

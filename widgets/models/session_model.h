@@ -16,6 +16,7 @@
 #include "core/machine/campaign.h"
 #include "core/machine/instrument_evaluation.h"
 #include "core/session/session.h"
+#include "core/tasks/task_graph.h"
 #include "core/workflows/clock_offsets.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "core/workflows/incoming.h"
@@ -56,6 +57,7 @@ struct PendingResult {
 struct ResultState {
   bool there = false;
   bool current = false;
+  QString changed;  ///< what is other than it was when this was made: "2 exclusions more, the options"
   std::string created_utc;
   std::string program_version;
 };
@@ -122,7 +124,8 @@ class SessionModel : public QObject {
   // Results. `kind` names what was computed ("evaluate", "fit", "check").
   //
   // begin() when the work starts, finish() when it is done: whatever the user does meanwhile, the result is filed under
-  // the campaign it was started for, as made from what it was made from.
+  // the campaign it was started for, as made from what it was made from. The options of a task are those that the
+  // session keeps for it (core/tasks); `options` adds to them.
   [[nodiscard]] PendingResult begin(const std::string& kind,
                                     const nlohmann::json& options = nlohmann::json::object()) const;
   /// True if the page at hand shows the campaign of this result. A result whose session or campaign is gone is dropped.
@@ -136,16 +139,25 @@ class SessionModel : public QObject {
   /// campaign.
   [[nodiscard]] const StoredResult* latest(const std::string& kind) const;
   [[nodiscard]] ResultState state(const std::string& kind) const;
+  /// All tasks of the campaign at hand, which there must be. For the moment: not to be kept.
+  [[nodiscard]] TaskGraph tasks() const;
+  /// Tells the tasks that work on a result has been asked for, and how it ended when nothing is stored; see taskJob().
+  void workStarted(const PendingResult& pending);
+  void workEnded(const PendingResult& pending);
+  void workFailed(const PendingResult& pending, const QString& sentence);
   /// The last evaluation, whether it is current or not; null if there is none.
   [[nodiscard]] std::shared_ptr<const StoredEvaluation> evaluation() const;
   /// Observations to fit: the campaign's own, else those of the last evaluation; what the user excluded is marked so.
   [[nodiscard]] std::optional<ObservationSet> observations() const;
-  /// Options every result depends on (the edited machine), to be merged into its own.
-  [[nodiscard]] nlohmann::json commonOptions() const;
+  /// What every result of the campaign at hand is made from now, as one text to recognise it by.
+  [[nodiscard]] std::string inputsKey() const;
 
   // Captures that arrive. Both throw InputError (disk full, folder gone).
   /// Takes over what was examined: its row into the list, its answer into the journal.
   void recordArrival(const ExaminedFile& examined);
+  /// What was found on the disk for a campaign (`fingerprintsOfFiles`, any thread): results made from files that are
+  /// not what they were turn outdated. Returns what was other.
+  FileCheck takeFiles(std::int64_t campaign, const FileFingerprints& found);
   /// Rows of a list without files (touches).
   void addCaptureRows(const std::string& list, const std::string& header, const std::vector<std::string>& rows);
   /// Counts up whenever a capture was added: lists read before are to be read again.
@@ -183,6 +195,8 @@ class SessionModel : public QObject {
   void sessionChanged();
   void campaignChanged();
   void resultChanged(const QString& kind);
+  /// Work on a result has begun, or ended without one.
+  void workChanged();
   /// Something results depend on changed: exclusions, machine, options.
   void inputsChanged();
   /// Something could not be stored (disk full, folder gone): the sentence for the user. What is shown stays as it was.
@@ -194,6 +208,7 @@ class SessionModel : public QObject {
   void capturesChanged(bool first);
 
   std::unique_ptr<Session> session_;
+  TaskLedger ledger_;
   std::int64_t campaign_id_ = 0;
   std::int64_t visit_ = 0;
   std::int64_t opened_ = 0;  ///< sessions so far

@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 
 #include "widgets/common/parts.h"
+#include "widgets/jobs/task_job.h"
 
 namespace spindrift::gui {
 
@@ -65,11 +66,26 @@ bool Page::noticeCampaign() {
   return true;
 }
 
-void Page::run(const QString& title, std::function<std::function<void()>(JobContext&)> work) {
+Job Page::jobOf(const QString& title, Work work) {
   Job job;
   job.title = title;
   job.work = std::move(work);
   job.failed = [this](const QString& sentence) { callout_->show(Tone::Bad, sentence); };
+  return job;
+}
+
+void Page::run(const QString& title, const PendingResult& pending, Work work) {
+  context_.jobs.run(taskJob(context_.session, pending, jobOf(title, std::move(work))));
+}
+
+void Page::run(const QString& title, Work work) {
+  context_.jobs.run(jobOf(title, std::move(work)));
+}
+
+void Page::display(const QString& title, Work work) {
+  Job job = jobOf(title, std::move(work));
+  job.queue = JobQueue::Display;
+  job.key = (stepTitle(step_) + QLatin1Char('/') + title).toStdString();
   context_.jobs.run(std::move(job));
 }
 

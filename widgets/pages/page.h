@@ -61,11 +61,16 @@ class Page : public QWidget {
   void addAction(QWidget* widget);
   /// A button that switches the step Model between the model of the instrument and the one over time.
   void addModelSwitch(bool over_time);
-  /// Runs a job whose failure is shown in the page's callout.
   /// For the beginning of refresh(): when another campaign is shown than last time (SessionModel::visit, not its
   /// number), tabs go back to the first and the answer is true, so that the page takes away what belongs to the other.
   bool noticeCampaign();
-  void run(const QString& title, std::function<std::function<void()>(JobContext&)> work);
+  using Work = std::function<std::function<void()>(JobContext&)>;
+  /// Works on a result, which `work` stores with session().finish(); a failure is shown in the page's callout.
+  void run(const QString& title, const PendingResult& pending, Work work);
+  /// Work that leaves no result of the campaign: a proposal, a programme, a file.
+  void run(const QString& title, Work work);
+  /// Reads or works out again what is only to be shown, in place of what was to be shown before.
+  void display(const QString& title, Work work);
   /// Wires a hover signal to the hint line.
   template <class View>
   void showHints(View* view) {
@@ -75,6 +80,8 @@ class Page : public QWidget {
   }
 
  private:
+  [[nodiscard]] Job jobOf(const QString& title, Work work);
+
   std::int64_t seen_visit_ = -1;
   PageContext context_;
   StepId step_;

@@ -27,11 +27,13 @@
 #include <QTemporaryDir>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "core/base/error.h"
 #include "core/workflows/log_campaign.h"
 #include "widgets/common/parts.h"
 #include "widgets/export/exportable.h"
+#include "widgets/jobs/activity_dialog.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/help_panel.h"
@@ -57,6 +59,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   column->addWidget(stack_, 1);
   job_bar_ = new JobBar(jobs_);
   column->addWidget(job_bar_);
+  connect(job_bar_, &JobBar::activityWanted, this, &MainWindow::openActivity);
   setCentralWidget(centre);
 
   welcome_ = new WelcomePage;
@@ -104,6 +107,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   connect(next_, &QPushButton::clicked, &workflow_, &Workflow::next);
   connect(&workflow_, &Workflow::currentChanged, this, &MainWindow::showStep);
   connect(&session_, &SessionModel::sessionChanged, this, [this] {
+    jobs_.cancelAll();  // of a session that nobody looks at any more
+    verifyFiles();
     welcome_->offerRecovery({});
     refreshTitle();
     refreshCampaigns();
@@ -257,6 +262,47 @@ void MainWindow::openSession(const QString& folder) {
   };
   job.failed = [this](const QString& sentence) { tell(sentence); };
   jobs_.run(std::move(job));
+}
+
+/// Files are held against what the session knows of them, in the background: results of a campaign whose files were
+/// changed by another program must not look current.
+void MainWindow::verifyFiles() {
+  if (!session_.isOpen()) return;
+  Job job;
+  job.title = tr("Looking whether files have changed");
+  job.quiet = true;
+  job.queue = JobQueue::Display;
+  job.key = "files";
+  job.work = [this, campaigns = session_.campaigns(),
+              session = session_.sessionNumber()](JobContext& context) -> std::function<void()> {
+    std::vector<std::pair<CampaignRecord, FileFingerprints>> found;
+    for (const CampaignRecord& record : campaigns)
+      found.emplace_back(record, fingerprintsOfFiles(record.folder, context));
+    return [this, session, found] {
+      if (session != session_.sessionNumber()) return;
+      for (const auto& [record, files] : found) {
+        // Captured meanwhile: what was read is no longer what there is.
+        const std::vector<CampaignRecord> now = session_.campaigns();
+        const bool same = std::any_of(now.begin(), now.end(), [&record = record](const CampaignRecord& r) {
+          return r.id == record.id && r.fingerprint == record.fingerprint;
+        });
+        if (!same) continue;
+        const FileCheck check = session_.takeFiles(record.id, files);
+        if (!check.same())
+          tell(tr("Files of the campaign %1 are not what they were when results were made from them: %2.")
+                   .arg(QString::fromStdString(record.name), QString::fromStdString(check.sentence())));
+      }
+    };
+  };
+  job.failed = [this](const QString& sentence) { tell(sentence); };
+  jobs_.run(std::move(job));
+}
+
+ActivityDialog* MainWindow::openActivity() {
+  if (activity_ == nullptr) activity_ = new ActivityDialog(jobs_, job_bar_->log(), this);
+  activity_->show();
+  activity_->raise();
+  return activity_;
 }
 
 /// After the job bar has had its word about the job that ended.

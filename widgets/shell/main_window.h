@@ -19,6 +19,7 @@ class QToolButton;
 
 namespace spindrift::gui {
 
+class ActivityDialog;
 class HelpPanel;
 class JobBar;
 class NotesDialog;
@@ -63,8 +64,9 @@ class MainWindow : public QMainWindow {
   void saveLog(const QString& file);  ///< what `diagnosticsText` says, by a file
   /// A new session with an empty campaign of this machine (machine.json), at the step Machine.
   void startMeasurement(const nlohmann::json& machine);
-  NotesDialog* openNotes();  ///< null if nothing is open
-  void openEffects();        ///< the list of effects of the step Discrepancy
+  NotesDialog* openNotes();        ///< null if nothing is open
+  void openEffects();              ///< the list of effects of the step Discrepancy
+  ActivityDialog* openActivity();  ///< jobs and messages; stays open beside the work
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -82,6 +84,7 @@ class MainWindow : public QMainWindow {
   void restoreSplitters(Page& page);
   void tell(const QString& sentence);
   void about();
+  void verifyFiles();
   void importInBackground(const QString& title, std::function<std::filesystem::path(JobContext&)> source,
                           const QString& name);
 
@@ -100,6 +103,7 @@ class MainWindow : public QMainWindow {
   PageStack* page_stack_;
   StepList* steps_;
   JobBar* job_bar_;
+  ActivityDialog* activity_ = nullptr;
   QLabel* session_name_;
   QComboBox* campaign_;
   QToolButton* theme_button_;

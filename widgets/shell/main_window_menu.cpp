@@ -70,6 +70,7 @@ void MainWindow::buildMenu() {
   edit->addAction(redo);
   edit->addSeparator();
   add(edit, tr("&Notes …"), "note", QKeySequence(tr("Ctrl+M")), [this] { openNotes(); });
+  add(edit, tr("&Jobs and messages …"), "in-progress", QKeySequence(tr("Ctrl+J")), [this] { openActivity(); });
 
   QMenu* go = menuBar()->addMenu(tr("&Go"));
   add(go, tr("&Back"), "chevron-left", QKeySequence(tr("Alt+Left")), [this] { workflow_.back(); });

@@ -22,7 +22,8 @@ StepButton::StepButton(StepId step, QWidget* parent) : QAbstractButton(parent), 
 
 void StepButton::setStatus(const StepStatus& status) {
   status_ = status;
-  setAccessibleName(stepTitle(step_) + QStringLiteral(", ") + stateWord(status.state));
+  setAccessibleName(stepTitle(step_) + QStringLiteral(", ") + stateWord(status.state) +
+                    (status.number.isEmpty() ? QString() : QStringLiteral(", ") + status.number));
   setAccessibleDescription(status.sentence);
   setToolTip(status.sentence);
   update();
@@ -66,7 +67,8 @@ void StepButton::paintEvent(QPaintEvent*) {
   painter.setPen(tone);
   painter.setFont(textFont(sizes::font_secondary));
   painter.drawText(QRectF(box.left() + 65, box.bottom() - 24, box.width() - 68, 18), Qt::AlignVCenter,
-                   stateWord(status_.state));
+                   status_.number.isEmpty() ? stateWord(status_.state)
+                                            : stateWord(status_.state) + QStringLiteral(" · ") + status_.number);
 }
 
 StepList::StepList(Workflow& workflow, QWidget* parent) : QFrame(parent), workflow_(workflow) {

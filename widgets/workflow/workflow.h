@@ -5,29 +5,19 @@
 #include <QObject>
 #include <QString>
 #include <array>
+#include <string>
 
+#include "core/tasks/steps.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
 
 class SessionModel;
 
-enum class StepId { Machine, WarmUp, Capture, Calibrate, Model, Discrepancy, Compensate, Verify, Review, Report };
-inline constexpr std::array all_steps{StepId::Machine, StepId::WarmUp,      StepId::Capture,    StepId::Calibrate,
-                                      StepId::Model,   StepId::Discrepancy, StepId::Compensate, StepId::Verify,
-                                      StepId::Review,  StepId::Report};
-
-enum class StepState {
-  NotStarted,
-  InProgress,
-  Current,   ///< done, and nothing it depends on has changed since
-  Outdated,  ///< done, but something it depends on has changed
-  Blocked,   ///< cannot be done yet; the sentence says why
-};
-
 struct StepStatus {
   StepState state = StepState::NotStarted;
-  QString sentence;  ///< how far it is, or why it is blocked
+  QString sentence;  ///< how far it is, what is wrong, what has changed, or why it is blocked
+  QString number;    ///< "12 of 40", empty where nothing is counted
   [[nodiscard]] bool operator==(const StepStatus&) const = default;
 };
 
@@ -54,16 +44,18 @@ class Workflow : public QObject {
   void refresh();
 
  Q_SIGNALS:
-  void currentChanged(spindrift::gui::StepId step);
+  void currentChanged(spindrift::StepId step);
   void statusChanged();
 
  private:
-  [[nodiscard]] StepStatus evaluate(StepId step) const;
-  [[nodiscard]] StepStatus compensatorStatus() const;
+  /// Lists are read again when there is something new in them.
+  [[nodiscard]] const CaptureCounts& counts(const TaskGraph& tasks);
 
   SessionModel& session_;
   StepId current_ = StepId::Machine;
   std::array<StepStatus, all_steps.size()> status_{};
+  std::string counted_;
+  CaptureCounts counts_;
 };
 
 }  // namespace spindrift::gui

@@ -23,6 +23,7 @@ const std::vector<std::vector<std::string>> every_command = {{"plan"},
                                                              {"discrepancy"},
                                                              {"compensate"},
                                                              {"report"},
+                                                             {"session"},
                                                              {"import-touches"},
                                                              {"cycle"}};
 

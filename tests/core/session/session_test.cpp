@@ -234,7 +234,7 @@ TEST(Session, OneOfAnOlderVersionIsMigratedAndLosesNothing) {
   {
     Session session = Session::open(folder / "old");
     ASSERT_EQ(session.migrationMessages().size(), 1U);
-    EXPECT_THAT(session.migrationMessages()[0], HasSubstr("version 1 to 2"));
+    EXPECT_THAT(session.migrationMessages()[0], HasSubstr("version 1 to 3"));
     ASSERT_EQ(session.campaigns().size(), 1U);
     EXPECT_EQ(Campaign::read(session.campaigns()[0].folder).machine.name, "mill");
     EXPECT_EQ(session.latestResult(1, "fit")->payload.at("rms_um"), 1.5);
@@ -392,6 +392,88 @@ TEST(Session, ALinkInPlaceOfItsCampaignsIsRefused) {
   std::filesystem::create_directory_symlink(folder / "mine", folder / "s/campaigns");
   EXPECT_THAT(complaintAbout(folder / "s", "select 1"), HasSubstr("leads out of its folder by a link"));
   EXPECT_EQ(readFile(folder / "mine/work/keep.txt"), "x");
+}
+
+TEST(Session, AFileThatIsChangedOnTheDiskMakesResultsOutdatedUntilItIsPutBack) {
+  const TempFolder folder;
+  JobContext job;
+  Session session = Session::create(folder / "s");
+  const auto id = session.importCampaign(writeCampaign(folder, "source"), job);
+  session.addCapture(id, "fiducials.csv", "time_s,image", "0,captures/b.jpg", folder.write("b.jpg", "b"), "b.jpg");
+  session.addResult(id, "evaluate", nlohmann::json::object(), 1);
+  const auto stored = session.latestResult(id, "evaluate").value();
+  const std::filesystem::path place = session.campaign(id).folder;
+  const auto look = [&] { return session.takeFiles(id, fingerprintsOfFiles(place, job)); };
+  EXPECT_TRUE(look().same());
+  EXPECT_TRUE(session.isCurrent(stored));
+
+  folder.write("s/campaigns/warm-up_1/captures/b.jpg", "B");
+  FileCheck check = look();
+  EXPECT_THAT(check.changed, ElementsAre("captures/b.jpg"));
+  EXPECT_THAT(check.sentence(), HasSubstr("captures/b.jpg has another content"));
+  EXPECT_FALSE(session.isCurrent(stored));
+  EXPECT_TRUE(look().same()) << "said once";
+
+  std::filesystem::remove(place / "captures/b.jpg");
+  EXPECT_THAT(look().missing, ElementsAre("captures/b.jpg"));
+  EXPECT_FALSE(session.isCurrent(stored));
+  folder.write("s/campaigns/warm-up_1/captures/b.jpg", "b");
+  EXPECT_FALSE(look().same());
+  EXPECT_TRUE(session.isCurrent(stored)) << "the same content again";
+  EXPECT_THAT(session.latestResult(id, "evaluate")->provenance.inputs.at("files").get<std::string>(),
+              ::testing::SizeIs(64))
+      << "SHA-256";
+}
+
+TEST(Session, AFileThatNoListNamesChangesNothing) {
+  const TempFolder folder;
+  Session session = Session::create(folder / "s");
+  const auto id = session.newCampaign("c", "2026-01-31T08:00:00Z", machine_json);
+  folder.write("s/campaigns/c/captures/images/a.jpg", "a");
+  folder.write("s/campaigns/c/captures/images/b.jpg", "b");
+  session.addCaptureRows(id, "fiducials.csv", "time_s,image", {"0,captures/images/a.jpg"});
+  session.addResult(id, "evaluate", nlohmann::json::object(), 1);
+  const auto stored = session.latestResult(id, "evaluate").value();
+  const std::filesystem::path place = session.campaign(id).folder;
+  EXPECT_TRUE(session.takeFiles(id, fingerprintsOfFiles(place, {})).same());
+  EXPECT_TRUE(session.isCurrent(stored));
+  folder.write("s/campaigns/c/captures/images/a.jpg", "another");
+  EXPECT_THAT(session.takeFiles(id, fingerprintsOfFiles(place, {})).changed, ElementsAre("captures/images/a.jpg"));
+  EXPECT_FALSE(session.isCurrent(stored));
+  folder.write("s/campaigns/c/log.csv", "time_s,t\n0,1\n");
+  EXPECT_THAT(session.takeFiles(id, fingerprintsOfFiles(place, {})).added, ElementsAre("log.csv"));
+}
+
+TEST(Session, AResultKnowsWhatItWasMadeFrom) {
+  const TempFolder folder;
+  JobContext job;
+  Session session = Session::create(folder / "s");
+  const auto id = session.importCampaign(writeCampaign(folder, "source"), job);
+  session.exclude(id, "captures/images/a.jpg", "blurred");
+  session.keepResult(session.originOf(id, "fit", {{"robust", 1}}, {{"evaluate", "abc"}}), 1);
+  {
+    const auto head = session.latestHead(id, "fit").value();
+    EXPECT_TRUE(head.payload.is_null());
+    const nlohmann::json& inputs = head.provenance.inputs;
+    EXPECT_EQ(inputs.at("exclusions"), nlohmann::json({"captures/images/a.jpg"}));
+    EXPECT_EQ(inputs.at("evaluate"), "abc");
+    EXPECT_EQ(inputs.at("files"), session.campaign(id).fingerprint);
+    EXPECT_TRUE(session.isCurrent(head));
+  }
+  const auto stored = session.latestResult(id, "fit").value();
+  for (const std::string& key : {Session::machineKey(id), Session::clocksKey(id)}) {
+    session.setSetting(key, {{"edited", 1}});
+    EXPECT_FALSE(session.isCurrent(stored)) << key;
+    session.setSetting(key, nlohmann::json::object());
+    EXPECT_TRUE(session.isCurrent(stored)) << key;
+  }
+}
+
+TEST(Fingerprint, IsSha256OfTheContent) {
+  const TempFolder folder;
+  folder.write("a", "abc");
+  EXPECT_EQ(fingerprintsOfFiles(folder.path(), {}).at("a"),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
 TEST(Fingerprint, TellsPartsApart) {

@@ -52,7 +52,7 @@ TEST_F(CompensatePageTest, CorrectsWhatWasMeasuredAndWritesFiles) {
   QTest::mouseClick(page_->primaryButton(), Qt::LeftButton);
   wait();
   ASSERT_NE(page_->plan(), nullptr) << page_->callout()->sentence().toStdString();
-  EXPECT_EQ(window_->workflow().status(StepId::Compensate).state, StepState::Current);
+  EXPECT_EQ(window_->workflow().status(StepId::Compensate).state, StepState::Attention);
   // State M10, in the middle of the run: growth of 9 um (1 - exp(-(12000 - 1800) / 2400)).
   page_->stateBox()->setCurrentIndex(page_->stateBox()->findText(QStringLiteral("M10")));
   Q_EMIT page_->stateBox()->activated(page_->stateBox()->currentIndex());
@@ -108,14 +108,14 @@ TEST_F(CompensatePageTest, TurnsOutdatedWhenTheModelChangesAndComesBackWithUndo)
   addGrowth();
   page_->runAll();
   wait();
-  EXPECT_EQ(window_->workflow().status(StepId::Compensate).state, StepState::Current);
+  EXPECT_EQ(window_->workflow().status(StepId::Compensate).state, StepState::Attention);
   window_->workflow().goTo(StepId::Discrepancy);
   window_->undoStack().undo();  // take the effect out again
   wait();
   EXPECT_EQ(window_->workflow().status(StepId::Compensate).state, StepState::Blocked);
   window_->undoStack().redo();
   wait();
-  EXPECT_EQ(window_->workflow().status(StepId::Compensate).state, StepState::Current);
+  EXPECT_EQ(window_->workflow().status(StepId::Compensate).state, StepState::Attention);
 }
 
 TEST_F(CompensatePageTest, NineParametersOfAStateCompensateToo) {

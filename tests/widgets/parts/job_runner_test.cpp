@@ -5,12 +5,17 @@
 
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QTableView>
 #include <QTest>
 #include <atomic>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "core/base/error.h"
+#include "widgets/jobs/activity_dialog.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/models/rows_model.h"
 
 namespace spindrift::gui {
 namespace {
@@ -99,6 +104,86 @@ TEST(JobRunner, ClosingWhileAJobRunsIsSafe) {
     while (!started) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_FALSE(applied);
+}
+
+/// Runs until it is stopped or let go.
+Job lasting(std::atomic<bool>& go_on, std::vector<std::string>& applied, const std::string& name) {
+  Job job;
+  job.title = QString::fromStdString(name);
+  job.work = [&go_on, &applied, name](JobContext& context) -> std::function<void()> {
+    while (!go_on) {
+      context.throwIfCancelled();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return [&applied, name] { applied.push_back(name); };
+  };
+  return job;
+}
+
+TEST(JobRunner, WhatIsToBeShownDoesNotWaitForLongWork) {
+  JobRunner runner;
+  std::atomic<bool> go_on{false};
+  std::vector<std::string> applied;
+  runner.run(lasting(go_on, applied, "long"));
+  std::atomic<int> shown{0};
+  Job job = counting(shown);
+  job.queue = JobQueue::Display;
+  runner.run(std::move(job));
+  EXPECT_TRUE(QTest::qWaitFor([&] { return shown == 1; }, 10000));
+  EXPECT_TRUE(applied.empty());
+  EXPECT_TRUE(runner.working());
+  EXPECT_EQ(runner.title(), QStringLiteral("long"));
+  go_on = true;
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
+  EXPECT_EQ(applied, std::vector<std::string>{"long"});
+}
+
+TEST(JobRunner, TheLatestOfAKeyWins) {
+  for (const JobQueue queue : {JobQueue::Work, JobQueue::Display}) {
+    JobRunner runner;
+    std::atomic<bool> go_on{false};
+    std::vector<std::string> applied;
+    int given_up = 0;
+    for (const char* name : {"first", "second", "third"}) {
+      Job job = lasting(go_on, applied, name);
+      job.queue = queue;
+      job.key = "picture";
+      job.cancelled = [&] { ++given_up; };
+      runner.run(std::move(job));
+    }
+    go_on = true;
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
+    EXPECT_EQ(applied, std::vector<std::string>{"third"});
+    EXPECT_EQ(given_up, 2) << "whoever asked is told";
+  }
+}
+
+TEST(ActivityDialog, ListsWhatRunsAndWaitsAndCancelsOne) {
+  JobRunner runner;
+  JobBar bar(runner);
+  std::atomic<bool> go_on{false};
+  std::vector<std::string> applied;
+  for (const char* name : {"first", "second", "third"}) runner.run(lasting(go_on, applied, name));
+  ActivityDialog dialog(runner, bar.log());
+  dialog.show();
+  ASSERT_EQ(dialog.jobs()->rowCount(), 3);
+  EXPECT_EQ(dialog.jobs()->rows()[1].cells[1].text, QStringLiteral("waits"));
+  EXPECT_TRUE(bar.activityButton()->text().contains(QStringLiteral("2")));
+  dialog.jobTable()->selectRow(1);
+  QTest::mouseClick(dialog.cancelButton(), Qt::LeftButton);
+  EXPECT_EQ(dialog.jobs()->rowCount(), 2);
+  go_on = true;
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
+  EXPECT_EQ(applied, (std::vector<std::string>{"first", "third"}));
+  EXPECT_EQ(dialog.jobs()->rowCount(), 0);
+  // Both ends are still to be read, the newest first; so is what the next message overwrote in the bar.
+  bar.setMessage(QStringLiteral("one"));
+  bar.setMessage(QStringLiteral("two"));
+  ASSERT_EQ(dialog.messages()->rowCount(), 4);
+  EXPECT_EQ(dialog.messages()->rows()[1].cells[1].text, QStringLiteral("one"));
+  EXPECT_TRUE(dialog.messages()->rows()[3].cells[1].text.contains(QStringLiteral("first")));
+  if (const QString folder = qEnvironmentVariable("SPINDRIFT_PICTURES"); !folder.isEmpty())
+    dialog.grab().save(folder + QStringLiteral("/activity.png"));
 }
 
 }  // namespace

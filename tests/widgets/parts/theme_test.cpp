@@ -46,8 +46,8 @@ TEST(Theme, EveryStepAndStateHasAnIcon) {
     EXPECT_FALSE(stepTitle(step).isEmpty());
     EXPECT_FALSE(stepInstruction(step).isEmpty());
   }
-  for (const StepState state :
-       {StepState::NotStarted, StepState::InProgress, StepState::Current, StepState::Outdated, StepState::Blocked}) {
+  for (const StepState state : {StepState::NotStarted, StepState::InProgress, StepState::Attention, StepState::Current,
+                                StepState::Outdated, StepState::Blocked}) {
     EXPECT_TRUE(QFile::exists(QStringLiteral(":/icons/%1.svg").arg(QString::fromLatin1(stateIcon(state)))));
     EXPECT_FALSE(stateWord(state).isEmpty());
   }

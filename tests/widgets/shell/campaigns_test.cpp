@@ -41,7 +41,7 @@ class CampaignsTest : public StoryTest {
 
 TEST_F(CampaignsTest, AResultIsFiledUnderTheCampaignItWasStartedFor) {
   openTwo();
-  const PendingResult pending = session().begin("fit", {{"model", "test"}});
+  const PendingResult pending = session().begin("fit", {{"seed", "test"}});
   EXPECT_TRUE(session().atHand(pending));
   select(second_);
   EXPECT_FALSE(session().atHand(pending));
@@ -51,7 +51,7 @@ TEST_F(CampaignsTest, AResultIsFiledUnderTheCampaignItWasStartedFor) {
   ASSERT_TRUE(session().state("fit").there);
   EXPECT_TRUE(session().state("fit").current);
   EXPECT_EQ(session().latest("fit")->payload.at("value"), 1);
-  EXPECT_EQ(session().latest("fit")->provenance.options.at("model"), "test");
+  EXPECT_EQ(session().latest("fit")->provenance.options.at("seed"), "test");
 }
 
 TEST_F(CampaignsTest, WhatChangesWhileAResultIsWorkedOutMakesItOutdated) {

@@ -23,9 +23,11 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/tasks/task_options.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
+#include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
@@ -35,7 +37,6 @@ namespace spindrift::gui {
 namespace {
 
 constexpr auto result_kind = "compensation";
-constexpr auto fit_options_key = "nine-parameter";  // of the Model step
 constexpr std::array<const char*, 3> axis_names{"X", "Y", "Z"};
 
 }  // namespace
@@ -202,40 +203,7 @@ bool CompensatePage::hasSource(CompensationSource source) const {
 
 CompensationRequest CompensatePage::request() const {
   auto& model = const_cast<CompensatePage*>(this)->session();
-  const nlohmann::json json = optionsJson();
-  CompensationRequest r;
-  const CompensationSource first = hasSource(CompensationSource::CompletedModel) ? CompensationSource::CompletedModel
-                                                                                 : CompensationSource::NineParameters;
-  r.source = static_cast<CompensationSource>(json.value("source", static_cast<int>(first)));
-  if (!hasSource(r.source)) r.source = first;
-  r.state = json.value("state", std::string());
-  if (r.state.empty() && r.source == CompensationSource::NineParameters) {
-    // What the user chose in Model; else the warmest.
-    const nlohmann::json fit = model.campaignSetting(fit_options_key, nlohmann::json::object());
-    if (fit.is_object()) r.state = fit.value("state", std::string());
-  }
-  r.positions = json.value("positions", 11);
-  if (json.contains("reference_mm")) {
-    const auto v = json["reference_mm"].get<std::vector<double>>();
-    if (v.size() == 3) r.reference_mm = Eigen::Vector3d(v[0], v[1], v[2]);
-  }
-  const nlohmann::json fit = model.campaignSetting(fit_options_key, nlohmann::json::object());
-  if (fit.is_object()) {
-    if (fit.contains("points")) r.fit.points = fit["points"].get<std::vector<std::string>>();
-    r.fit.robust = static_cast<RobustLoss>(fit.value("robust", 0));
-  }
-  const DiscrepancyChoice choice = DiscrepancyChoice::of(model);
-  r.added = choice.added;
-  r.reject = choice.rejected;
-  return r;
-}
-
-nlohmann::json CompensatePage::dependencies() const {
-  auto& model = const_cast<CompensatePage*>(this)->session();
-  return {{"options", optionsJson()},
-          {"source", std::string(toString(request().source))},
-          {"fit", model.campaignSetting(fit_options_key, nlohmann::json::object())},
-          {"discrepancy", DiscrepancyChoice::of(model).json()}};
+  return compensationRequest(*model.session(), model.campaignId(), hasSource(CompensationSource::NineParameters));
 }
 
 void CompensatePage::changeOptions(const QString& what, const nlohmann::json& change) {
@@ -312,10 +280,8 @@ void CompensatePage::refresh() {
     callout()->show(Tone::Accent, tr("Choose model and state, then press Work out the corrections."));
     return;
   }
-  const bool same = stored->provenance.options.value("depends", nlohmann::json()) == dependencies();
-  if (!session().state(result_kind).current || !same) {
-    callout()->show(Tone::Outdated, tr("The model, its options or the observations have changed since the corrections "
-                                       "were worked out."));
+  if (const ResultState state = session().state(result_kind); !state.current) {
+    callout()->show(Tone::Outdated, tr("Changed since the corrections were worked out: %1.").arg(state.changed));
     callout()->setAction(tr("Work out again"), [this] { compute(); });
   } else {
     // A correction from a model that does not describe the state must not be given away unnoticed.
@@ -341,11 +307,11 @@ void CompensatePage::runPlan(bool store) {
   if (!observations ||
       !(hasSource(CompensationSource::NineParameters) || hasSource(CompensationSource::CompletedModel)))
     return;
+  const PendingResult pending = session().begin(result_kind);
   Job job;
   job.title = tr("Working out the corrections");
-  job.work = [this, store, set = *observations, asked = request(),
-              pending = session().begin(result_kind, {{"depends", dependencies()}}),
-              choice = DiscrepancyChoice::of(session()), effects_file = DiscrepancyChoice::file(session()),
+  job.work = [this, store, set = *observations, asked = request(), pending, choice = DiscrepancyChoice::of(session()),
+              effects_file = DiscrepancyChoice::file(session()),
               data = session().snapshot().campaign](JobContext& progress) -> std::function<void()> {
     const CompensationPlan plan = planCompensation(*choice.applied(data, effects_file), set, asked, progress);
     return [this, store, plan, pending] {
@@ -363,7 +329,13 @@ void CompensatePage::runPlan(bool store) {
     callout()->setAction({}, {});
     callout()->show(Tone::Bad, sentence);
   };
-  context().jobs.run(std::move(job));
+  if (store) {
+    context().jobs.run(taskJob(session(), pending, std::move(job)));
+  } else {
+    job.queue = JobQueue::Display;
+    job.key = result_kind;
+    context().jobs.run(std::move(job));
+  }
 }
 
 void CompensatePage::exportFiles(const QString& folder) {

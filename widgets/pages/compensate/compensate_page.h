@@ -49,7 +49,6 @@ class CompensatePage : public Page {
   void changeOptions(const QString& what, const nlohmann::json& change);
   [[nodiscard]] nlohmann::json optionsJson() const;
   /// Everything the result depends on besides the files.
-  [[nodiscard]] nlohmann::json dependencies() const;
   [[nodiscard]] CompensationRequest request() const;
   [[nodiscard]] bool hasSource(CompensationSource source) const;
   void fillChoices();

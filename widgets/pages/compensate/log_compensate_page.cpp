@@ -121,25 +121,26 @@ std::int64_t LogCompensatePage::modelId() {
 
 void LogCompensatePage::compensate(bool store) {
   const auto model = session().result("thermal");
-  if (!model || context().jobs.busy()) return;
-  run(tr("Running the compensator"),
-      [this, stored = *model, store, snapshot = session().snapshot(),
-       pending = session().begin(result_kind, {{"model", model->id}}),
-       observations = session().observations()](JobContext& job) -> std::function<void()> {
-        const CampaignSeries all = campaignSeries(*snapshot.campaign, observations ? &*observations : nullptr, job);
-        const auto thermal = std::make_shared<const ThermalModel>(
-            ThermalModel::parse(JsonNode::parse(stored.payload.at("model").dump(), "model")));
-        const auto result = std::make_shared<const CompensatorRun>(
-            runCompensator(all.series, *thermal, testRange(stored, all.series), job));
-        return [this, result, thermal, store, pending, id = stored.id] {
-          if (store) session().finish(pending, result->result.json());
-          if (!session().atHand(pending) || id != modelId()) return;
-          result_ = result;
-          model_ = thermal;
-          result_model_ = id;
-          refresh();
-        };
-      });
+  if (!model) return;
+  const PendingResult pending = session().begin(result_kind);
+  const Work work = [this, stored = *model, store, snapshot = session().snapshot(), pending,
+                     observations = session().observations()](JobContext& job) -> std::function<void()> {
+    const CampaignSeries all = campaignSeries(*snapshot.campaign, observations ? &*observations : nullptr, job);
+    const auto thermal = std::make_shared<const ThermalModel>(
+        ThermalModel::parse(JsonNode::parse(stored.payload.at("model").dump(), "model")));
+    const auto result = std::make_shared<const CompensatorRun>(
+        runCompensator(all.series, *thermal, testRange(stored, all.series), job));
+    return [this, result, thermal, store, pending, id = stored.id] {
+      if (store) session().finish(pending, result->result.json());
+      if (!session().atHand(pending) || id != modelId()) return;
+      result_ = result;
+      model_ = thermal;
+      result_model_ = id;
+      refresh();
+    };
+  };
+  if (store) return run(tr("Running the compensator"), pending, work);
+  display(tr("Reading the compensation"), work);
 }
 
 void LogCompensatePage::refresh() {
@@ -151,10 +152,10 @@ void LogCompensatePage::refresh() {
   const StepStatus& status = context().workflow.status(StepId::Compensate);
   if (model == 0) {
     callout()->show(Tone::Attention, status.sentence);
-  } else if (result_ == nullptr && status.state == StepState::Current) {
+  } else if (result_ == nullptr && state.current) {
     compensate(false);
     return;
-  } else if (result_ == nullptr || status.state == StepState::Outdated) {
+  } else if (result_ == nullptr || !state.current) {
     callout()->show(state.there ? Tone::Outdated : Tone::Accent, status.sentence);
   } else {
     const QString unit = fromCore(unitOfSignal(result_->output));

@@ -18,6 +18,7 @@
 #include "core/base/json_reader.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/jobs/task_job.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/discrepancy/effects_panel.h"
 #include "widgets/pages/discrepancy/gap_panel.h"
@@ -266,11 +267,8 @@ void DiscrepancyPage::refresh() {
   if (simulation_ != nullptr) simulation_->refresh();
   arrangeTabs();
   showContent(1);
-  const bool same =
-      stored->provenance.options.value(option_name, nlohmann::json()) == DiscrepancyChoice::of(session()).json();
-  if (!session().state(result_kind).current || !same) {
-    callout()->show(Tone::Outdated,
-                    tr("Observations, exclusions, the machine or the effects have changed since this was found."));
+  if (const ResultState state = session().state(result_kind); !state.current) {
+    callout()->show(Tone::Outdated, tr("Changed since this was found: %1.").arg(state.changed));
     callout()->setAction(tr("Search again"), [this] { search(); });
   } else if (!story_->warnings.empty()) {
     QString text = titledSentence(story_->warnings.front());
@@ -284,15 +282,16 @@ void DiscrepancyPage::refresh() {
 
 void DiscrepancyPage::search() {
   makePanelsSoon();  // while the search runs
-  if (context().jobs.busy() || !missing().isEmpty()) return;
+  if (!missing().isEmpty()) return;
   const DiscrepancyChoice choice = DiscrepancyChoice::of(session());
   DiscrepancyOptions options;
   options.accept = choice.added;
   options.reject = choice.rejected;
+  const PendingResult pending = session().begin(result_kind);
   Job job;
   job.title = tr("Searching for what the simulation lacks");
-  job.work = [this, options, choice, pending = session().begin(result_kind, {{option_name, choice.json()}}),
-              data = session().snapshot().campaign, file = DiscrepancyChoice::file(session()),
+  job.work = [this, options, choice, pending, data = session().snapshot().campaign,
+              file = DiscrepancyChoice::file(session()),
               observations = *session().observations()](JobContext& progress) -> std::function<void()> {
     const DiscrepancyStory story = tellDiscrepancy(*choice.applied(data, file), observations, options, progress);
     return [this, pending, payload = story.json()] {
@@ -309,7 +308,7 @@ void DiscrepancyPage::search() {
     context().workflow.refresh();
     refresh();
   };
-  context().jobs.run(std::move(job));
+  context().jobs.run(taskJob(session(), pending, std::move(job)));
 }
 
 void DiscrepancyPage::change(const QString& what, const DiscrepancyChoice& after) {
@@ -324,8 +323,8 @@ bool DiscrepancyPage::showStored() {
   const std::vector<StoredResult> all = store->resultHeads(session().campaignId(), result_kind);
   for (auto it = all.rbegin(); it != all.rend(); ++it) {
     if (it->provenance.options.value(option_name, nlohmann::json()) != wanted) continue;
-    if (!store->isCurrent(*it)) continue;
-    session().storeResult(result_kind, {{option_name, wanted}}, store->payload(it->id));
+    if (!session().tasks().holds(*it)) continue;
+    session().storeResult(result_kind, {}, store->payload(it->id));
     refresh();
     return true;
   }
@@ -391,7 +390,7 @@ void DiscrepancyPage::choiceChanged() {
   context().workflow.refresh();
   refresh();
   search();
-  if (context().jobs.busy()) {
+  if (context().jobs.working()) {
     callout()->setAction({}, {});
     callout()->show(Tone::Accent, tr("Fitting again with the effects as they are now. What is shown is of before."));
   }
@@ -418,7 +417,7 @@ void DiscrepancyPage::removeLast() {
 }
 
 void DiscrepancyPage::updateButtons() {
-  const bool idle = !context().jobs.busy();
+  const bool idle = !context().jobs.working();
   search_->setEnabled(idle && missing().isEmpty());
   const bool proposes = story_ != nullptr && what_ != nullptr &&
                         (story_->nextProposal() != nullptr || (!what_->chosen().empty() && !what_->chosenIsAdded()));

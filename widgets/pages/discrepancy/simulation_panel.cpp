@@ -164,11 +164,7 @@ nlohmann::json SimulationPanel::resultOptions(const std::string& version) const 
 bool SimulationPanel::current() const {
   Session* store = context_.session.session();
   if (store == nullptr || stored_.id == 0 || !store->isCurrent(stored_)) return false;
-  const nlohmann::json now = context_.session.commonOptions();
-  const nlohmann::json& then = stored_.provenance.options;
-  for (const char* key : {"machine", "time_offsets"})
-    if (then.value(key, nlohmann::json()) != now.value(key, nlohmann::json())) return false;
-  return then.value("choice", nlohmann::json()) == choice();
+  return stored_.provenance.options.value("choice", nlohmann::json()) == choice();
 }
 
 void SimulationPanel::showEvent(QShowEvent* event) {
@@ -299,7 +295,7 @@ void SimulationPanel::fail(const QString& sentence) {
 }
 
 void SimulationPanel::search() {
-  if (context_.jobs.busy() || simulator_.empty() || !context_.session.observations()) return;
+  if (context_.jobs.working() || simulator_.empty() || !context_.session.observations()) return;
   failure_.clear();
   Job job;
   job.title = tr("Searching with the simulator");
@@ -352,7 +348,7 @@ QString SimulationPanel::whyNotPut() const {
 }
 
 void SimulationPanel::putInto(const QString& folder) {
-  if (context_.jobs.busy() || simulator_.empty() || !context_.session.observations()) return;
+  if (context_.jobs.working() || simulator_.empty() || !context_.session.observations()) return;
   if (const QString why = whyNotPut(); !why.isEmpty()) {
     callout_->show(Tone::Attention, why);
     return;
@@ -557,7 +553,7 @@ void SimulationPanel::showView(int index) {
 }
 
 void SimulationPanel::updateButtons() {
-  const bool idle = !context_.jobs.busy();
+  const bool idle = !context_.jobs.working();
   const bool usable = !simulator_.empty() && opened_.error.isEmpty();
   choose_->setEnabled(idle);
   search_->setVisible(!simulator_.empty());

@@ -107,13 +107,13 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
 void FiducialCalibratePage::evaluate() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr) return;
-  run(tr("Evaluating the captures"),
-      [this, snapshot, pending = session().begin("evaluate")](JobContext& job) -> std::function<void()> {
-        const CampaignEvaluation evaluation = evaluateCampaign(*snapshot.campaign, {}, job);
-        return [this, pending, payload = payloadOf(evaluation)] {
-          if (session().finish(pending, payload)) refresh();
-        };
-      });
+  const PendingResult pending = session().begin("evaluate");
+  run(tr("Evaluating the captures"), pending, [this, snapshot, pending](JobContext& job) -> std::function<void()> {
+    const CampaignEvaluation evaluation = evaluateCampaign(*snapshot.campaign, {}, job);
+    return [this, pending, payload = payloadOf(evaluation)] {
+      if (session().finish(pending, payload)) refresh();
+    };
+  });
 }
 
 void FiducialCalibratePage::refresh() {
@@ -132,8 +132,7 @@ void FiducialCalibratePage::refresh() {
     return;
   }
   if (!state.current) {
-    callout()->show(Tone::Outdated,
-                    tr("Captures, exclusions or the machine have changed since this was evaluated. Evaluate again."));
+    callout()->show(Tone::Outdated, tr("Changed since this was evaluated: %1. Evaluate again.").arg(state.changed));
   } else if (!evaluation->good_enough || !evaluation->warnings.empty()) {
     QStringList sentences;
     for (const std::string& w : evaluation->warnings) sentences << QString::fromStdString(w);

@@ -374,6 +374,8 @@ void FiducialCapturePage::showImage(const QString& image) {
   const int request = ++request_;
   const std::filesystem::path file = session().campaign()->path(image.toStdString());
   Job job;
+  job.queue = JobQueue::Display;
+  job.key = "image";
   job.quiet = true;
   job.title = tr("Decoding %1").arg(QString::fromStdString(file.filename().string()));
   job.work = [this, file, request](JobContext&) -> std::function<void()> {
@@ -425,8 +427,9 @@ void FiducialCapturePage::toggleExcluded() {
 void FiducialCapturePage::checkAll() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr || captures_.empty()) return;
-  run(tr("Checking %1 captures").arg(captures_.size()),
-      [this, snapshot, pending = session().begin("check")](JobContext& job) -> std::function<void()> {
+  const PendingResult pending = session().begin("check");
+  run(tr("Checking %1 captures").arg(captures_.size()), pending,
+      [this, snapshot, pending](JobContext& job) -> std::function<void()> {
         Campaign campaign = *snapshot.campaign;
         campaign.excluded_captures = snapshot.excluded;
         nlohmann::json payload = nlohmann::json::array();

@@ -16,6 +16,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/tasks/task_options.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
@@ -25,7 +26,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto options_key = "nine-parameter";
+constexpr auto options_key = option_keys::nine_parameters;
 
 QString parameterName(int i) {
   static const std::array<const char*, nine_parameter_count> names{"EX", "EY",   "EZ", "EA", "EB",
@@ -187,14 +188,7 @@ nlohmann::json NineParameterPage::optionsJson() const {
 }
 
 NineParameterOptions NineParameterPage::options() const {
-  const nlohmann::json json = optionsJson();
-  NineParameterOptions o;
-  if (json.is_object()) {
-    o.state = json.value("state", std::string());
-    if (json.contains("points")) o.points = json["points"].get<std::vector<std::string>>();
-    o.robust = static_cast<RobustLoss>(json.value("robust", 0));
-  }
-  return o;
+  return nineParameterOptions(optionsJson());
 }
 
 void NineParameterPage::changeOptions(const QString& what, const nlohmann::json& change) {
@@ -235,7 +229,7 @@ void NineParameterPage::refresh() {
     result_.reset();
   } else if (!result_) {
     // A stored fit is worked out again from its options: it takes milliseconds.
-    if (session().state("fit").there) {
+    if (session().state("fit").current) {
       try {
         result_ = fitNineParameters(*set, options());
       } catch (const InputError&) {
@@ -247,7 +241,7 @@ void NineParameterPage::refresh() {
   showFit();
   const ResultState stored = session().state("fit");
   if (result_ && stored.there && !stored.current)
-    callout()->show(Tone::Outdated, tr("What was fitted has changed since. Fit the model again."));
+    callout()->show(Tone::Outdated, tr("Changed since this was fitted: %1. Fit the model again.").arg(stored.changed));
 }
 
 void NineParameterPage::fillPoints() {
@@ -309,10 +303,9 @@ void NineParameterPage::fit() {
   const auto set = session().observations();
   if (!set) return;
   const NineParameterOptions o = options();
-  const nlohmann::json options_json = optionsJson();
-  run(tr("Fitting the nine-parameter model"),
-      [this, set = *set, o, pending = session().begin("fit", {{"model", "nine-parameter"}, {"options", options_json}})](
-          JobContext&) -> std::function<void()> {
+  const PendingResult pending = session().begin("fit");
+  run(tr("Fitting the nine-parameter model"), pending,
+      [this, set = *set, o, pending](JobContext&) -> std::function<void()> {
         const NineParameterFit fitted = fitNineParameters(set, o);
         return [this, fitted, pending] {
           nlohmann::json parameters = nlohmann::json::object();

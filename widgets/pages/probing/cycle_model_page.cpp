@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include "core/base/atomic_file.h"
+#include "core/tasks/task_options.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
@@ -27,7 +28,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto options_key = "cycle-model";
+constexpr auto options_key = option_keys::cycles;
 const std::array<const char*, 3> group_units{"um", "urad", "um/m"};
 
 /// "gZ +0.64, aX −0.62": the names without their units.
@@ -148,20 +149,19 @@ void CycleModelPage::fit(bool store) {
   const auto list = results_.touches();
   if (snapshot.campaign == nullptr || list == nullptr) return;
   const HoleCycleOptions options = holeOptions();
-  const Artefact* artefact = artefactOf(*snapshot.campaign, list.get());
-  const char* model = artefact != nullptr && artefact->kind == "hole_bar" ? "hole-cycles" : "ball-cycles";
-  const PendingResult pending = session().begin("fit", {{"model", model}, {"options", optionsJson()}});
-  run(tr("Fitting all cycles"),
-      [this, snapshot, list, options, store, pending, key = results_.key()](JobContext& job) -> std::function<void()> {
-        auto evaluation =
-            std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, options, {}, job));
-        return [this, evaluation, store, pending, key] {
-          const CycleEvaluation* cycles = cyclesOf(evaluation.get());
-          if (store && cycles != nullptr) session().finish(pending, cyclesJson(*cycles));
-          if (key == results_.key()) evaluation_ = evaluation;  // else of inputs that are no more
-          refresh();
-        };
-      });
+  const PendingResult pending = session().begin("fit");
+  const Work work = [this, snapshot, list, options, store, pending,
+                     key = results_.key()](JobContext& job) -> std::function<void()> {
+    auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, options, {}, job));
+    return [this, evaluation, store, pending, key] {
+      const CycleEvaluation* cycles = cyclesOf(evaluation.get());
+      if (store && cycles != nullptr) session().finish(pending, cyclesJson(*cycles));
+      if (key == results_.key()) evaluation_ = evaluation;  // else of inputs that are no more
+      refresh();
+    };
+  };
+  if (store) return run(tr("Fitting all cycles"), pending, work);
+  display(tr("Reading the cycles"), work);
 }
 
 void CycleModelPage::clear() {
@@ -210,8 +210,11 @@ void CycleModelPage::refresh() {
   const ResultState state = session().state("fit");
   const CycleEvaluation* cycles = cyclesOf(evaluation_.get());
   if (cycles == nullptr) {
-    if (state.there) {
+    if (state.current) {
       fit(false);
+    } else if (state.there) {
+      clear();
+      callout()->show(Tone::Outdated, tr("Changed since: %1. Fit all cycles again.").arg(state.changed));
     } else {
       callout()->show(Tone::Accent, tr("Press Fit all cycles. One least squares over all touches separates the errors; "
                                        "everything is relative to the first cycle."));
@@ -219,7 +222,7 @@ void CycleModelPage::refresh() {
     return;
   }
   if (!state.current) {
-    callout()->show(Tone::Outdated, tr("Touches, exclusions or the machine have changed since. Fit all cycles again."));
+    callout()->show(Tone::Outdated, tr("Changed since: %1. Fit all cycles again.").arg(state.changed));
   } else if (cycles->status == FitStatus::Converged && cycles->warnings.empty()) {
     callout()->show(
         Tone::Good,

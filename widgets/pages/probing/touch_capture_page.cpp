@@ -150,23 +150,25 @@ void TouchCapturePage::evaluate(bool store) {
   const CampaignSnapshot snapshot = session().snapshot();
   const auto list = results_.touches();
   if (snapshot.campaign == nullptr || list == nullptr) return;
-  run(tr("Checking the touches"),
-      [this, snapshot, list, store, key = results_.key(),
-       pending = session().begin("check")](JobContext& job) -> std::function<void()> {
-        auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, {}, {}, job));
-        return [this, evaluation, store, key, pending] {
-          if (key == results_.key()) results_.set(key, evaluation);  // else of inputs that are no more
-          if (store) {
-            nlohmann::json counts = nlohmann::json::object();
-            for (const TouchVerdict& v : allVerdicts(*evaluation)) {
-              const std::string name = stateName(v.state).toStdString();
-              counts[name] = counts.value(name, 0) + 1;
-            }
-            session().finish(pending, {{"touches", counts}});
-          }
-          refresh();
-        };
-      });
+  const PendingResult pending = session().begin("check");
+  const Work work = [this, snapshot, list, store, key = results_.key(),
+                     pending](JobContext& job) -> std::function<void()> {
+    auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, {}, {}, job));
+    return [this, evaluation, store, key, pending] {
+      if (key == results_.key()) results_.set(key, evaluation);  // else of inputs that are no more
+      if (store) {
+        nlohmann::json counts = nlohmann::json::object();
+        for (const TouchVerdict& v : allVerdicts(*evaluation)) {
+          const std::string name = stateName(v.state).toStdString();
+          counts[name] = counts.value(name, 0) + 1;
+        }
+        session().finish(pending, {{"touches", counts}});
+      }
+      refresh();
+    };
+  };
+  if (store) return run(tr("Checking the touches"), pending, work);
+  display(tr("Reading the touches"), work);
 }
 
 void TouchCapturePage::refresh() {
@@ -221,7 +223,7 @@ void TouchCapturePage::refresh() {
                                      "with all others and says which to take again.")
                                       .arg(verdicts_.size()));
   } else if (!state.current || !results_.current()) {
-    callout()->show(Tone::Outdated, tr("Exclusions or the machine have changed since. Check the touches again."));
+    callout()->show(Tone::Outdated, tr("Changed since: %1. Check the touches again.").arg(state.changed));
   } else if (first_bad != nullptr) {
     callout()->setAction(tr("Show it"),
                          [this, cycle = fromCore(first_bad->touch.cycle), id = fromCore(first_bad->touch.id())] {

@@ -122,9 +122,9 @@ void TouchEvaluationPage::evaluate() {
   const CampaignSnapshot snapshot = session().snapshot();
   const auto list = results_.touches();
   if (snapshot.campaign == nullptr || list == nullptr) return;
-  run(tr("Evaluating the touches"),
-      [this, snapshot, list, key = results_.key(),
-       pending = session().begin("evaluate")](JobContext& job) -> std::function<void()> {
+  const PendingResult pending = session().begin("evaluate");
+  run(tr("Evaluating the touches"), pending,
+      [this, snapshot, list, key = results_.key(), pending](JobContext& job) -> std::function<void()> {
         JobContext first = job.part(0.0, 0.5);
         JobContext second = job.part(0.5, 1.0);
         const CampaignEvaluation evaluation = evaluateCampaign(*snapshot.campaign, {}, first);
@@ -144,16 +144,16 @@ void TouchEvaluationPage::restore() {
   const CampaignSnapshot snapshot = session().snapshot();
   const auto list = results_.touches();
   if (snapshot.campaign == nullptr || list == nullptr) return;
-  run(tr("Reading the evaluation"),
-      [this, snapshot, list, key = results_.key()](JobContext& job) -> std::function<void()> {
-        auto details = std::make_shared<Details>(detailsOf(snapshot, *list, job));
-        return [this, details, key] {
-          if (key != results_.key()) return;
-          details_ = *details;
-          results_.set(key, details_.evaluation);
-          refresh();
-        };
-      });
+  display(tr("Reading the evaluation"),
+          [this, snapshot, list, key = results_.key()](JobContext& job) -> std::function<void()> {
+            auto details = std::make_shared<Details>(detailsOf(snapshot, *list, job));
+            return [this, details, key] {
+              if (key != results_.key()) return;
+              details_ = *details;
+              results_.set(key, details_.evaluation);
+              refresh();
+            };
+          });
 }
 
 void TouchEvaluationPage::clear() {
@@ -186,8 +186,7 @@ void TouchEvaluationPage::refresh() {
   }
   const ResultState state = session().state("evaluate");
   if (!state.current) {
-    callout()->show(Tone::Outdated,
-                    tr("Touches, exclusions or the machine have changed since this was evaluated. Evaluate again."));
+    callout()->show(Tone::Outdated, tr("Changed since this was evaluated: %1. Evaluate again.").arg(state.changed));
   } else if (!stored->good_enough || !stored->warnings.empty()) {
     QStringList sentences;
     for (const std::string& w : stored->warnings) sentences << fromCore(w);

@@ -41,9 +41,7 @@ std::shared_ptr<const TouchList> TouchResults::touches() {
 }
 
 std::string TouchResults::key() const {
-  std::string text = std::to_string(session_.campaignId()) + "/" + std::to_string(session_.captureGeneration());
-  for (const auto& [item, reason] : session_.excluded()) text += "|" + item.toStdString();
-  return text + "|" + session_.commonOptions().dump();
+  return session_.inputsKey();
 }
 
 std::shared_ptr<const TouchEvaluation> TouchResults::last() {

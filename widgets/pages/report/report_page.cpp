@@ -19,20 +19,21 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/tasks/task_options.h"
+#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/report/page_view.h"
 #include "widgets/pages/report/report_pages.h"
-#include "widgets/workflow/report_inputs.h"
 #include "widgets/workflow/simulator_choice.h"
 
 namespace spindrift::gui {
 namespace {
 
 constexpr auto result_kind = "report";
-constexpr auto fit_options_key = "nine-parameter";  // of the Model step
 
 }  // namespace
 
@@ -59,12 +60,24 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   left->body()->addWidget(operator_);
   connect(operator_, &QLineEdit::editingFinished, this, [this] {
     if (session().campaign() == nullptr) return;
-    session().setSetting("operator", operator_->text().trimmed().toStdString());
+    const std::string name = operator_->text().trimmed().toStdString();
+    if (session().setting(option_keys::operator_name, "") == name) return;
+    session().setSetting(option_keys::operator_name, name);
+    context().workflow.refresh();
+    refresh();
     if (session().result(result_kind)) refresh();
   });
   discrepancy_ = new QCheckBox(tr("Tell the discrepancy"));
   discrepancy_->setToolTip(tr("Search for what the simulation lacks and tell it with the effects that were added"));
   left->body()->addWidget(discrepancy_);
+  connect(discrepancy_, &QCheckBox::clicked, this, [this](bool tell) {
+    context().undo.push(
+        new OptionsCommand(session(), tell ? tr("tell the discrepancy") : tr("leave the discrepancy out"),
+                           session().campaignKey(option_keys::report), {{"tells_discrepancy", tell}}, [this] {
+                             context().workflow.refresh();
+                             refresh();
+                           }));
+  });
   facts_ = makeLabel({}, "secondaryText");
   facts_->setWordWrap(true);
   left->body()->addWidget(facts_);
@@ -118,16 +131,12 @@ ReportOptions ReportPage::options() const {
   const DiscrepancyChoice choice = DiscrepancyChoice::of(model);
   // A search that still holds is told, not made again.
   const StoredResult* searched = model.latest("discrepancy");
-  if (searched != nullptr && model.state("discrepancy").current &&
-      searched->provenance.options.value("discrepancy", nlohmann::json()) == choice.json())
+  if (searched != nullptr && model.state("discrepancy").current)
     o.story = std::make_shared<const nlohmann::json>(searched->payload);
   o.search.accept = choice.added;
   o.search.reject = choice.rejected;
-  const nlohmann::json fit = model.campaignSetting(fit_options_key, nlohmann::json::object());
-  if (fit.is_object()) {
-    if (fit.contains("points")) o.fit.points = fit["points"].get<std::vector<std::string>>();
-    o.fit.robust = static_cast<RobustLoss>(fit.value("robust", 0));
-  }
+  o.fit = nineParameterOptions(model.campaignSetting(option_keys::nine_parameters, nlohmann::json::object()));
+  o.fit.state.clear();
   for (const auto& [item, reason] : model.excluded())
     o.exclusions.emplace_back(item.toStdString(), reason.toStdString());
   if (Session* store = model.session()) {
@@ -158,15 +167,6 @@ StoredResults ReportPage::stored() const {
   return out;
 }
 
-nlohmann::json ReportPage::dependencies() const {
-  auto& model = const_cast<ReportPage*>(this)->session();
-  nlohmann::json out = reportedInputs(model);
-  out.update({{"discrepancy", DiscrepancyChoice::of(model).json()},
-              {"tells_discrepancy", discrepancy_->isChecked()},
-              {"operator", operator_->text().trimmed().toStdString()}});
-  return out;
-}
-
 std::filesystem::path ReportPage::file() const {
   auto& model = const_cast<ReportPage*>(this)->session();
   const auto stored = model.result(result_kind);
@@ -181,13 +181,14 @@ void ReportPage::refresh() {
   const bool possible = canReport(*session().campaign(), session().observations().has_value());
   write_->setEnabled(possible);
   discrepancy_->setVisible(!session().campaign()->simulation.empty());
+  const ReportTaskOptions asked = ReportTaskOptions::of(*session().session(), session().campaignId());
+  if (!operator_->hasFocus()) operator_->setText(QString::fromStdString(asked.operator_name));
+  discrepancy_->setChecked(asked.tells_discrepancy);
   const auto stored = session().result(result_kind);
   for (QPushButton* button : {browser_, save_pdf_, save_html_}) button->setEnabled(stored.has_value());
   if (!stored) {
     shown_result_ = 0;
     showDocument(nullptr);
-    operator_->setText(QString::fromStdString(session().setting("operator", std::string()).get<std::string>()));
-    discrepancy_->setChecked(true);
     empty_->setTexts(possible ? tr("The report will appear here") : tr("There is nothing to report yet"),
                      possible ? tr("Press Write the report: machine, conditions, observations, models with their "
                                    "uncertainties, the discrepancy and where everything came from, on pages to sign.")
@@ -197,14 +198,10 @@ void ReportPage::refresh() {
   }
   if (stored->id != shown_result_) {
     shown_result_ = stored->id;
-    const nlohmann::json then = stored->provenance.options.value("depends", nlohmann::json::object());
-    operator_->setText(QString::fromStdString(then.value("operator", std::string())));
-    discrepancy_->setChecked(then.value("tells_discrepancy", true));
     openDocument();
   }
-  nlohmann::json then = stored->provenance.options.value("depends", nlohmann::json::object());
-  if (!session().state(result_kind).current || then != dependencies()) {
-    callout()->show(Tone::Outdated, tr("What the report tells has changed since it was written."));
+  if (const ResultState state = session().state(result_kind); !state.current) {
+    callout()->show(Tone::Outdated, tr("Changed since the report was written: %1.").arg(state.changed));
     callout()->setAction(tr("Write again"), [this] { write(); });
   } else {
     callout()->set(Tone::Neutral, {});
@@ -267,18 +264,17 @@ void ReportPage::showDocument(std::shared_ptr<ReportPages> document) {
 
 void ReportPage::write() {
   const auto observations = session().observations();
-  if (!canReport(*session().campaign(), observations.has_value()) || context().jobs.busy()) return;
-  session().setSetting("operator", operator_->text().trimmed().toStdString());
+  if (!canReport(*session().campaign(), observations.has_value())) return;
   const std::int64_t campaign = session().campaignId();
   const std::string name = "reports/report-" + std::to_string(campaign) + ".html";
   auto campaign_copy = std::make_shared<Campaign>(*session().snapshot().campaign);
   // What the user excluded is marked in the observations.
   if (campaign_copy->observations) campaign_copy->observations = observations;
+  const PendingResult pending = session().begin(result_kind);
   Job job;
   job.title = tr("Writing the report");
-  job.work = [this, name, campaign_copy, asked = options(),
-              pending = session().begin(result_kind, {{"depends", dependencies()}}),
-              choice = DiscrepancyChoice::of(session()), effects_file = DiscrepancyChoice::file(session()),
+  job.work = [this, name, campaign_copy, asked = options(), pending, choice = DiscrepancyChoice::of(session()),
+              effects_file = DiscrepancyChoice::file(session()),
               target = session().folder() / name](JobContext& progress) -> std::function<void()> {
     const std::string html = campaignReportHtml(*choice.applied(campaign_copy, effects_file), asked, progress);
     progress.throwIfCancelled();
@@ -292,7 +288,7 @@ void ReportPage::write() {
     callout()->setAction({}, {});
     callout()->show(Tone::Bad, sentence);
   };
-  context().jobs.run(std::move(job));
+  context().jobs.run(taskJob(session(), pending, std::move(job)));
 }
 
 void ReportPage::openInBrowser() {

@@ -52,7 +52,6 @@ class ReportPage : public Page {
   void showFacts();
   [[nodiscard]] ReportOptions options() const;
   [[nodiscard]] StoredResults stored() const;
-  [[nodiscard]] nlohmann::json dependencies() const;
 
   QPushButton* write_;
   QPushButton* browser_;

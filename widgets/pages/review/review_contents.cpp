@@ -90,33 +90,34 @@ void ReviewPage::showAll() {
     requests.push_back(std::move(r));
   }
   const int request = ++*states_request_;
-  run(tr("Comparing states"),
-      [this, requests, request, latest = states_request_](JobContext& job) -> std::function<void()> {
-        if (latest->load() != request) return [] {};
-        const auto answers = std::make_shared<std::vector<PaneAnswer>>(answersTo(requests, job));
-        return [this, answers, request] {
-          if (request != states_request_->load()) return;
-          double limit = 0.01;
-          for (const PaneAnswer& a : *answers)
-            if (a.picture) limit = std::max(limit, a.picture->largest);
-          for (int pass = 0; pass < (arrows_->isChecked() ? 2 : 1);
-               ++pass) {  // arrows: the factor is that of all panes
-            for (std::size_t i = 0; i < panes_.size(); ++i) {
-              if (!(*answers)[i].picture) continue;
-              panes_[i]->show(*(*answers)[i].picture, limit, arrows_->isChecked(), exaggeration(),
-                              machine_->isChecked(), count_->current() == 0);
-              panes_[i]->view()->setSelected(selected_);
-            }
-          }
-          for (std::size_t i = 0; i < panes_.size(); ++i)
-            if (!(*answers)[i].problem.isEmpty()) panes_[i]->showMessage(tr("Nothing to show"), (*answers)[i].problem);
-          // Only now the panes have the sizes that they keep.
-          if (std::exchange(refit_, false))
-            panes_[0]->view()->resetCamera(machine_->isChecked() ? StandardView::Isometric : StandardView::Top);
-          showTable();
-          showSection();
-        };
-      });
+  display(tr("Comparing states"),
+          [this, requests, request, latest = states_request_](JobContext& job) -> std::function<void()> {
+            if (latest->load() != request) return [] {};
+            const auto answers = std::make_shared<std::vector<PaneAnswer>>(answersTo(requests, job));
+            return [this, answers, request] {
+              if (request != states_request_->load()) return;
+              double limit = 0.01;
+              for (const PaneAnswer& a : *answers)
+                if (a.picture) limit = std::max(limit, a.picture->largest);
+              for (int pass = 0; pass < (arrows_->isChecked() ? 2 : 1);
+                   ++pass) {  // arrows: the factor is that of all panes
+                for (std::size_t i = 0; i < panes_.size(); ++i) {
+                  if (!(*answers)[i].picture) continue;
+                  panes_[i]->show(*(*answers)[i].picture, limit, arrows_->isChecked(), exaggeration(),
+                                  machine_->isChecked(), count_->current() == 0);
+                  panes_[i]->view()->setSelected(selected_);
+                }
+              }
+              for (std::size_t i = 0; i < panes_.size(); ++i)
+                if (!(*answers)[i].problem.isEmpty())
+                  panes_[i]->showMessage(tr("Nothing to show"), (*answers)[i].problem);
+              // Only now the panes have the sizes that they keep.
+              if (std::exchange(refit_, false))
+                panes_[0]->view()->resetCamera(machine_->isChecked() ? StandardView::Isometric : StandardView::Top);
+              showTable();
+              showSection();
+            };
+          });
   showScans();
 }
 
@@ -160,7 +161,7 @@ void ReviewPage::showScans() {
   }
   const int request = ++*request_;
   if (wanted.empty()) return;
-  run(tr("Comparing scans"), [this, wanted, request, latest = request_](JobContext& job) -> std::function<void()> {
+  display(tr("Comparing scans"), [this, wanted, request, latest = request_](JobContext& job) -> std::function<void()> {
     auto pictures = std::make_shared<std::vector<ScanPicture>>();
     for (const Wanted& w : wanted) {
       if (latest->load() != request) return [] {};

@@ -13,6 +13,7 @@
 #include "core/base/units.h"
 #include "core/scanning/evaluate_scans.h"
 #include "core/scanning/scan_evaluation.h"
+#include "core/tasks/task_options.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
@@ -24,7 +25,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto options_key = "scan-model";
+constexpr auto options_key = option_keys::scan_model;
 constexpr std::array<const char*, 2> models{"rigid", "push_broom"};
 
 double factorOf(int component) {
@@ -143,21 +144,22 @@ void AxisErrorsPage::setComponent(int index) {
 void AxisErrorsPage::fit(bool store) {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr || !session().state("evaluate").there) return;
-  run(tr("Finding the six errors"),
-      [this, snapshot, store, key = results_.key(), model = chosenModel(),
-       pending = session().begin("fit", {{"model", "axis-errors"}, {"scan_model", chosenModel()}})](
-          JobContext& job) -> std::function<void()> {
-        JobContext first = job.part(0.0, store ? 0.5 : 1.0);
-        JobContext second = job.part(0.5, 1.0);
-        auto evaluation = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, model, first));
-        nlohmann::json payload;
-        if (store) payload = evaluateScans(*snapshot.campaign, model, second).details;
-        return [this, evaluation, payload, store, key, model, pending] {
-          if (key == results_.key()) results_.set(model, evaluation);  // else of inputs that are no more
-          if (store) session().finish(pending, payload);
-          refresh();
-        };
-      });
+  const PendingResult pending = session().begin("fit");
+  const Work work = [this, snapshot, store, key = results_.key(), model = chosenModel(),
+                     pending](JobContext& job) -> std::function<void()> {
+    JobContext first = job.part(0.0, store ? 0.5 : 1.0);
+    JobContext second = job.part(0.5, 1.0);
+    auto evaluation = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, model, first));
+    nlohmann::json payload;
+    if (store) payload = evaluateScans(*snapshot.campaign, model, second).details;
+    return [this, evaluation, payload, store, key, model, pending] {
+      if (key == results_.key()) results_.set(model, evaluation);  // else of inputs that are no more
+      if (store) session().finish(pending, payload);
+      refresh();
+    };
+  };
+  if (store) return run(tr("Finding the six errors"), pending, work);
+  display(tr("Reading the six errors"), work);
 }
 
 void AxisErrorsPage::clear() {
@@ -189,12 +191,17 @@ void AxisErrorsPage::refresh() {
     return;
   }
   const auto evaluation = results_.last(chosenModel());
-  if (evaluation == nullptr) {
+  if (evaluation == nullptr && state.current) {
     fit(false);
     return;
   }
+  if (evaluation == nullptr) {
+    clear();
+    callout()->show(Tone::Outdated, tr("Changed since: %1. Find the errors again.").arg(state.changed));
+    return;
+  }
   if (!state.current) {
-    callout()->show(Tone::Outdated, tr("Scans, exclusions or the machine have changed since. Find the errors again."));
+    callout()->show(Tone::Outdated, tr("Changed since: %1. Find the errors again.").arg(state.changed));
   } else if (chosenModel() != results_.modelOfMachine()) {
     callout()->show(Tone::Attention, tr("The machine description says that its scans are %1. Under another scan model "
                                         "the numbers below are wrong by more than they say.")

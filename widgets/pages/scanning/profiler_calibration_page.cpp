@@ -69,20 +69,22 @@ ProfilerCalibrationPage::ProfilerCalibrationPage(PageContext page_context, QWidg
 void ProfilerCalibrationPage::evaluate(bool store) {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr) return;
-  run(store ? tr("Evaluating the scans") : tr("Reading the evaluation"),
-      [this, snapshot, store, key = results_.key(), pending = session().begin("evaluate"),
-       model = results_.modelOfMachine()](JobContext& job) -> std::function<void()> {
-        JobContext first = job.part(0.0, store ? 0.5 : 1.0);
-        JobContext second = job.part(0.5, 1.0);
-        auto details = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, "", first));
-        nlohmann::json payload;
-        if (store) payload = payloadOf(evaluateCampaign(*snapshot.campaign, {}, second));
-        return [this, details, payload, store, key, model, pending] {
-          if (key == results_.key()) results_.set(model, details);  // else of inputs that are no more
-          if (store) session().finish(pending, payload);
-          refresh();
-        };
-      });
+  const PendingResult pending = session().begin("evaluate");
+  const Work work = [this, snapshot, store, key = results_.key(), pending,
+                     model = results_.modelOfMachine()](JobContext& job) -> std::function<void()> {
+    JobContext first = job.part(0.0, store ? 0.5 : 1.0);
+    JobContext second = job.part(0.5, 1.0);
+    auto details = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, "", first));
+    nlohmann::json payload;
+    if (store) payload = payloadOf(evaluateCampaign(*snapshot.campaign, {}, second));
+    return [this, details, payload, store, key, model, pending] {
+      if (key == results_.key()) results_.set(model, details);  // else of inputs that are no more
+      if (store) session().finish(pending, payload);
+      refresh();
+    };
+  };
+  if (store) return run(tr("Evaluating the scans"), pending, work);
+  display(tr("Reading the evaluation"), work);
 }
 
 void ProfilerCalibrationPage::clear() {
@@ -106,8 +108,7 @@ void ProfilerCalibrationPage::refresh() {
   }
   const ResultState state = session().state("evaluate");
   if (!state.current) {
-    callout()->show(Tone::Outdated,
-                    tr("Scans, exclusions or the machine have changed since this was evaluated. Evaluate again."));
+    callout()->show(Tone::Outdated, tr("Changed since this was evaluated: %1. Evaluate again.").arg(state.changed));
   } else if (!stored->good_enough || !stored->warnings.empty()) {
     QStringList sentences;
     for (const std::string& w : stored->warnings) {

@@ -131,13 +131,13 @@ std::string ScanCapturePage::referenceOf(const std::string& cloud) const {
 void ScanCapturePage::check() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr) return;
-  run(tr("Checking the scans"),
-      [this, snapshot, pending = session().begin("check")](JobContext& job) -> std::function<void()> {
-        const nlohmann::json payload = payloadOfScanChecks(checkScans(*snapshot.campaign, job));
-        return [this, pending, payload] {
-          if (session().finish(pending, payload)) refresh();
-        };
-      });
+  const PendingResult pending = session().begin("check");
+  run(tr("Checking the scans"), pending, [this, snapshot, pending](JobContext& job) -> std::function<void()> {
+    const nlohmann::json payload = payloadOfScanChecks(checkScans(*snapshot.campaign, job));
+    return [this, pending, payload] {
+      if (session().finish(pending, payload)) refresh();
+    };
+  });
 }
 
 void ScanCapturePage::refresh() {
@@ -176,7 +176,8 @@ void ScanCapturePage::refresh() {
                                      "which to take again.")
                                       .arg(captures.size()));
   } else if (!session().state("check").current) {
-    callout()->show(Tone::Outdated, tr("Exclusions or the machine have changed since. Check the scans again."));
+    callout()->show(Tone::Outdated,
+                    tr("Changed since: %1. Check the scans again.").arg(session().state("check").changed));
   } else if (!bad.isEmpty()) {
     callout()->setAction(tr("Show it"), [this, first_bad] { select(first_bad); });
     callout()->show(Tone::Attention, tr("%1 of %2 scans are incomplete or cannot be used (%3). Scan again, or exclude "
@@ -305,12 +306,11 @@ void ScanCapturePage::loadCloud() {
   const std::string reference = referenceOf(cloud);
   const ScanModel model = scanModelFromString(results_.modelOfMachine());
   Job job;
+  job.queue = JobQueue::Display;
+  job.key = "scan";
   job.title = tr("Reading %1").arg(QFileInfo(id).fileName());
-  latest_->store(request);
-  job.work = [this, snapshot, cloud, reference, colouring, model, request, part, both,
-              latest = latest_](JobContext& job_context) -> std::function<void()> {
-    // A scan chosen in the meantime makes this one pointless.
-    if (latest->load() != request) return [] {};
+  job.work = [this, snapshot, cloud, reference, colouring, model, request, part,
+              both](JobContext& job_context) -> std::function<void()> {
     auto picture = std::make_shared<ScanPicture>(
         pictureOfScan(*snapshot.campaign, cloud, reference, colouring, model, job_context, part));
     auto before = std::make_shared<ScanPicture>();

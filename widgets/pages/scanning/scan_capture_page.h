@@ -2,7 +2,6 @@
 // Step Capture for a laser profiler: the list of scans with a verdict each, the cloud in 3D and profile by profile.
 #pragma once
 
-#include <atomic>
 #include <memory>
 
 #include "core/scanning/scan_check.h"
@@ -60,7 +59,6 @@ class ScanCapturePage : public Page {
   ScanPicture picture_;
   QString shown_;
   int request_ = 0;
-  std::shared_ptr<std::atomic<int>> latest_ = std::make_shared<std::atomic<int>>(0);  ///< of request_, for jobs
   bool filling_ = false;
   QPushButton* check_;
   RowsModel* rows_;

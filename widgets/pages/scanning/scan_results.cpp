@@ -50,9 +50,7 @@ void ScanResults::set(const std::string& scan_model, std::shared_ptr<const ScanE
 }
 
 std::string ScanResults::key() const {
-  std::string text = std::to_string(session_.campaignId()) + "/" + std::to_string(session_.captureGeneration());
-  for (const auto& [item, reason] : session_.excluded()) text += "|" + item.toStdString();
-  return text + "|" + session_.commonOptions().dump();
+  return session_.inputsKey();
 }
 
 std::string ScanResults::modelOfMachine() const {

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/tasks/task_options.h"
 #include "core/thermal/response_fit.h"
 #include "core/workflows/campaign_series.h"
 #include "widgets/commands/commands.h"
@@ -28,7 +29,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto options_key = "thermal-model";
+constexpr auto options_key = option_keys::thermal;
 constexpr double seconds_per_hour = 3600.0;
 constexpr std::array<const char*, 3> methods{"response", "arx", "oe"};
 
@@ -226,10 +227,8 @@ IdentifyRequest ThermalModelPage::request() const {
 }
 
 std::string ThermalModelPage::inputsKey() {
-  std::string key = session().campaign()->folder.string() + session().commonOptions().dump();
-  for (const auto& [item, reason] : session().excluded()) key += "|" + item.toStdString();
   const auto evaluated = session().evaluation();
-  return key + "|" + std::to_string(evaluated == nullptr ? 0 : evaluated->id);
+  return session().inputsKey() + "|" + std::to_string(evaluated == nullptr ? 0 : evaluated->id);
 }
 
 void ThermalModelPage::load() {
@@ -238,29 +237,29 @@ void ThermalModelPage::load() {
   result_.reset();
   failure_.clear();
   clear();
-  run(tr("Reading the log"),
-      [this, snapshot = session().snapshot(), observations = session().observations(),
-       key = loaded_](JobContext& job) -> std::function<void()> {
-        auto series = std::make_shared<TimeSeries>();
-        std::map<std::string, double> sigma;
-        std::string failure;
-        try {
-          CampaignSeries all = campaignSeries(*snapshot.campaign, observations ? &*observations : nullptr, job);
-          *series = std::move(all.series);
-          sigma = std::move(all.sigma);
-          if (series->time_s.size() < 2) failure = "the log has a single row.";
-        } catch (const InputError& e) {
-          failure = e.what();
-        }
-        return [this, series, sigma, failure, key] {
-          if (key != loaded_) return;
-          failure_ = QString::fromStdString(failure);
-          sigma_ = sigma;
-          if (failure.empty()) series_ = series;
-          refresh();
-          if (std::exchange(wanted_, false)) identify(true);
-        };
-      });
+  display(tr("Reading the log"),
+          [this, snapshot = session().snapshot(), observations = session().observations(),
+           key = loaded_](JobContext& job) -> std::function<void()> {
+            auto series = std::make_shared<TimeSeries>();
+            std::map<std::string, double> sigma;
+            std::string failure;
+            try {
+              CampaignSeries all = campaignSeries(*snapshot.campaign, observations ? &*observations : nullptr, job);
+              *series = std::move(all.series);
+              sigma = std::move(all.sigma);
+              if (series->time_s.size() < 2) failure = "the log has a single row.";
+            } catch (const InputError& e) {
+              failure = e.what();
+            }
+            return [this, series, sigma, failure, key] {
+              if (key != loaded_) return;
+              failure_ = QString::fromStdString(failure);
+              sigma_ = sigma;
+              if (failure.empty()) series_ = series;
+              refresh();
+              if (std::exchange(wanted_, false)) identify(true);
+            };
+          });
 }
 
 void ThermalModelPage::runAll() {
@@ -271,19 +270,20 @@ void ThermalModelPage::runAll() {
 void ThermalModelPage::identify(bool store) {
   if (series_ == nullptr) return;
   const IdentifyRequest asked = request();
-  run(tr("Identifying the model"),
-      [this, series = series_, asked, store, json = optionsJson(), folder = loaded_,
-       pending = session().begin("thermal", {{"model", "thermal"}, {"options", optionsJson()}})](
-          JobContext& job) -> std::function<void()> {
-        auto result = std::make_shared<IdentifyResult>(identifyThermalModel(*series, asked, job));
-        return [this, result, store, json, folder, pending] {
-          if (store) session().finish(pending, result->json());
-          if (folder != loaded_) return;
-          result_ = result;
-          result_options_ = json;
-          refresh();
-        };
-      });
+  const PendingResult pending = session().begin("thermal");
+  const Work work = [this, series = series_, asked, store, json = optionsJson(), folder = loaded_,
+                     pending](JobContext& job) -> std::function<void()> {
+    auto result = std::make_shared<IdentifyResult>(identifyThermalModel(*series, asked, job));
+    return [this, result, store, json, folder, pending] {
+      if (store) session().finish(pending, result->json());
+      if (folder != loaded_) return;
+      result_ = result;
+      result_options_ = json;
+      refresh();
+    };
+  };
+  if (store) return run(tr("Identifying the model"), pending, work);
+  display(tr("Reading the model"), work);
 }
 
 void ThermalModelPage::clear() {
@@ -308,21 +308,18 @@ void ThermalModelPage::refresh() {
   const auto sigma = sigma_.find(request().output);
   updates_->set(series_, result_, sigma == sigma_.end() ? 0.5 : sigma->second);
   const ResultState state = session().state("thermal");
-  if (result_ == nullptr && state.there) {
-    const nlohmann::json options = session().result("thermal")->provenance.options.value("options", nlohmann::json());
-    if (state.current && options == optionsJson()) {
-      identify(false);
-      showSeries();
-      return;
-    }
+  if (result_ == nullptr && state.current) {
+    identify(false);
+    showSeries();
+    return;
   }
   if (result_ == nullptr) {
     callout()->show(state.there ? Tone::Outdated : Tone::Accent,
-                    state.there ? tr("Ranges or choices have changed since. Identify the model again.")
+                    state.there ? tr("Changed since: %1. Identify the model again.").arg(state.changed)
                                 : tr("Drag the edges of the training and the test range, then press Identify the "
                                      "model. Nothing measured in the test range is used."));
   } else if (!state.current || result_options_ != optionsJson()) {
-    callout()->show(Tone::Outdated, tr("Ranges or choices have changed since. Identify the model again."));
+    callout()->show(Tone::Outdated, tr("Changed since: %1. Identify the model again.").arg(state.changed));
   } else if (!result_->good_enough) {
     callout()->show(Tone::Attention, tr("In the test range the model is no better than the plain ones. Train on a "
                                         "longer or livelier part, or choose other inputs."));

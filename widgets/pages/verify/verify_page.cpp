@@ -15,6 +15,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/tasks/task_options.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
@@ -195,11 +196,8 @@ std::string VerifyPage::optionsKey() const {
 }
 
 nlohmann::json VerifyPage::optionsJson() const {
-  nlohmann::json all{{"goal_um", 5.0}, {"goal_urad", 0.0}, {"criterion", "largest"}, {"after", ""}};
-  const nlohmann::json stored =
-      const_cast<VerifyPage*>(this)->session().setting(optionsKey(), nlohmann::json::object());
-  if (stored.is_object()) all.update(stored);
-  return all;
+  auto& model = const_cast<VerifyPage*>(this)->session();
+  return VerifyOptions::of(*model.session(), model.campaignId()).json();
 }
 
 void VerifyPage::changeOptions(const QString& what, const nlohmann::json& change) {
@@ -241,27 +239,25 @@ void VerifyPage::compare(bool store) {
   const std::filesystem::path folder = json["after"].get<std::string>();
   const auto before = session().observations();
   if (folder.empty() || !before) return;
-  VerifyRequest request;
-  request.goal_um = json["goal_um"].get<double>();
-  request.goal_urad = json["goal_urad"].get<double>();
-  request.criterion = json["criterion"] == "rms" ? VerifyCriterion::Rms : VerifyCriterion::Largest;
+  const VerifyRequest request = VerifyOptions::of(*session().session(), session().campaignId()).request;
   // One campaign may hold both: then what was taken while compensating must not be left out of the second set.
   const bool same = folder == session().campaign()->folder;
-  run(tr("Comparing before and after"),
-      [this, json, folder, request, store, same, first = *before, snapshot = session().snapshot(),
-       pending = session().begin("verify", {{"options", json}})](JobContext& job) -> std::function<void()> {
-        const Campaign second = same ? *snapshot.campaign : Campaign::read(folder);
-        const ObservationSet after = allObservationsOf(second, {}, {}, job);
-        auto result =
-            std::make_shared<VerifyResult>(verifyCampaigns(*snapshot.campaign, first, second, after, request));
-        return [this, result, json, store, pending] {
-          if (store) session().finish(pending, result->json());
-          if (!session().atHand(pending)) return;
-          result_ = result;
-          result_options_ = json;
-          refresh();
-        };
-      });
+  const PendingResult pending = session().begin("verify");
+  const Work work = [this, json, folder, request, store, same, first = *before, snapshot = session().snapshot(),
+                     pending](JobContext& job) -> std::function<void()> {
+    const Campaign second = same ? *snapshot.campaign : Campaign::read(folder);
+    const ObservationSet after = allObservationsOf(second, {}, {}, job);
+    auto result = std::make_shared<VerifyResult>(verifyCampaigns(*snapshot.campaign, first, second, after, request));
+    return [this, result, json, store, pending] {
+      if (store) session().finish(pending, result->json());
+      if (!session().atHand(pending)) return;
+      result_ = result;
+      result_options_ = json;
+      refresh();
+    };
+  };
+  if (store) return run(tr("Comparing before and after"), pending, work);
+  display(tr("Reading the comparison"), work);
 }
 
 void VerifyPage::refresh() {
@@ -279,8 +275,7 @@ void VerifyPage::refresh() {
   const ResultState state = session().state("verify");
   if (!measured) {
     callout()->set(Tone::Neutral, context().workflow.status(StepId::Verify).sentence);
-  } else if (result_ == nullptr && state.there && state.current && chosen &&
-             session().result("verify")->provenance.options.value("options", nlohmann::json()) == now) {
+  } else if (result_ == nullptr && state.current && chosen) {
     compare(false);
     return;
   } else if (!chosen) {
@@ -290,7 +285,7 @@ void VerifyPage::refresh() {
   } else if (result_ == nullptr) {
     callout()->show(state.there ? Tone::Outdated : Tone::Accent, tr("Press Compare before and after."));
   } else if (result_options_ != now || !state.current) {
-    callout()->show(Tone::Outdated, tr("Goal, campaign or data have changed since. Compare again."));
+    callout()->show(Tone::Outdated, tr("Changed since: %1. Compare again.").arg(state.changed));
   } else {
     QString text = fromCore(result_->reason);
     for (const std::string& note : result_->notes) text += QLatin1Char(' ') + fromCore(note);
@@ -363,14 +358,14 @@ void VerifyPage::showMaps() {
   const auto component = componentFromString(component_->currentText().toStdString());
   if (!component) return;
   const double goal = isRotation(*component) ? result_->request.goal_urad : result_->request.goal_um;
-  run(tr("Drawing before and after"),
-      [this, result = result_, campaign = session().campaign(), component = *component, state = maps_->state(),
-       goal](JobContext&) -> std::function<void()> {
-        auto map = std::make_shared<VerifyMap>(verifyMap(*result, campaign->machine, component, state));
-        return [this, result, campaign, map, goal] {
-          if (result == result_) maps_->show(*map, campaign->machine, goal);
-        };
-      });
+  display(tr("Drawing before and after"),
+          [this, result = result_, campaign = session().campaign(), component = *component, state = maps_->state(),
+           goal](JobContext&) -> std::function<void()> {
+            auto map = std::make_shared<VerifyMap>(verifyMap(*result, campaign->machine, component, state));
+            return [this, result, campaign, map, goal] {
+              if (result == result_) maps_->show(*map, campaign->machine, goal);
+            };
+          });
 }
 
 void VerifyPage::showPlot() {

@@ -64,7 +64,7 @@ TEST_F(ProbingPages, CaptureSaysWhatBecameOfEveryTouch) {
   EXPECT_EQ(window_->workflow().status(StepId::Capture).state, StepState::NotStarted);
   EXPECT_TRUE(page->callout()->sentence().contains(QStringLiteral("none is checked")));
   press();
-  EXPECT_EQ(window_->workflow().status(StepId::Capture).state, StepState::Current);
+  EXPECT_EQ(window_->workflow().status(StepId::Capture).state, StepState::Attention);
   EXPECT_EQ(cell(*page->cycleRows(), QStringLiteral("M2"), 3), QStringLiteral("1"));
   EXPECT_EQ(cell(*page->cycleRows(), QStringLiteral("M3"), 4), QStringLiteral("1"));
   EXPECT_EQ(cell(*page->cycleRows(), QStringLiteral("M1"), 3), QStringLiteral("0"));
@@ -135,7 +135,7 @@ TEST_F(ProbingPages, EvaluationListsFeaturesAndWhatWasLeftOut) {
   ASSERT_NE(page, nullptr);
   EXPECT_TRUE(page->deviations()->empty());
   press();
-  EXPECT_EQ(window_->workflow().status(StepId::Calibrate).state, StepState::Current);
+  EXPECT_EQ(window_->workflow().status(StepId::Calibrate).state, StepState::Attention);
   EXPECT_EQ(page->features()->rowCount(), 12);  // four balls, three styli
   ASSERT_EQ(page->leftOut()->rowCount(), 1);
   EXPECT_EQ(page->leftOut()->idAt(0), bad_);

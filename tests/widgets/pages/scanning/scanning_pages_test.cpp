@@ -81,7 +81,7 @@ TEST_F(ScanningPages, CaptureNamesTheIncompleteScanAndShowsClouds) {
   ASSERT_NE(page, nullptr);
   EXPECT_EQ(page->scans()->rowCount(), 6);
   press();
-  EXPECT_EQ(window_->workflow().status(StepId::Capture).state, StepState::Current);
+  EXPECT_EQ(window_->workflow().status(StepId::Capture).state, StepState::Attention);
   const auto bad = cells(*page->scans(), QString::fromLatin1(bad_scan));
   EXPECT_EQ(bad[2].text, QStringLiteral("incomplete"));
   EXPECT_NEAR(bad[4].text.toDouble(), 66, 4);

@@ -187,8 +187,11 @@ TEST_F(ThermalPages, TheCompensatorIsRunOverALog) {
   EXPECT_LT(page->result()->after_rms, 1.05 * model_rmse);
   EXPECT_EQ(page->plot()->series().size(), 3U);
   exportAll();
-  // Another model: to be run again.
+  // The same model again changes nothing; another one: to be run again.
   go<ThermalModelPage>(StepId::Model);
+  press();
+  EXPECT_EQ(workflow.status(StepId::Compensate).state, StepState::Current);
+  window_->session().setSetting(window_->session().campaignKey("thermal-model"), {{"method", "arx"}});
   press();
   EXPECT_EQ(workflow.status(StepId::Compensate).state, StepState::Outdated);
   // What a log alone cannot have says so, and what would be needed.

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/cli/command.h"
+#include "core/base/error.h"
+#include "core/session/session.h"
+#include "core/tasks/steps.h"
+
+namespace spindrift::cli {
+namespace {
+
+struct SessionArguments {
+  std::string folder;
+  std::string campaign;
+};
+
+nlohmann::json stepsOf(const Session& session, const CampaignRecord& record, std::string& summary) {
+  std::map<std::string, std::optional<StoredResult>> results;
+  const TaskLedger nothing_runs;
+  const TaskGraph graph(
+      session, record.id, std::make_shared<Campaign>(Campaign::read(record.folder)),
+      [&](const std::string& kind) -> const StoredResult* {
+        auto found = results.find(kind);
+        if (found == results.end()) found = results.emplace(kind, session.latestResult(record.id, kind)).first;
+        return found->second ? &*found->second : nullptr;
+      },
+      nothing_runs);
+  const CaptureCounts counts = CaptureCounts::of(graph);
+  nlohmann::json steps = nlohmann::json::array();
+  for (const StepId step : all_steps) {
+    const StepReport report = stepReport(graph, step, counts);
+    nlohmann::json entry = {{"step", toString(step)}, {"state", toString(report.state)}, {"sentence", report.sentence}};
+    if (report.of > 0) {
+      entry["count"] = report.count;
+      entry["of"] = report.of;
+    }
+    if (const std::string task = taskOfStep(graph, step); !task.empty()) {
+      entry["task"] = task;
+      entry["changed"] = graph.status(task).changed;
+    }
+    steps.push_back(std::move(entry));
+    summary += fmt::format("  {:<12} {:<12} {}\n", toString(step), toString(report.state), report.sentence);
+  }
+  return steps;
+}
+
+CommandResult stateOf(const SessionArguments& arguments, JobContext& job) {
+  Session session = Session::open(arguments.folder);
+  CommandResult result;
+  result.json["campaigns"] = nlohmann::json::array();
+  for (const CampaignRecord& record : session.campaigns()) {
+    if (!arguments.campaign.empty() && record.name != arguments.campaign) continue;
+    const FileCheck files = session.takeFiles(record.id, fingerprintsOfFiles(record.folder, job));
+    result.summary += record.name + "\n";
+    if (!files.same()) result.warnings.push_back(record.name + ": " + files.sentence() + ".");
+    nlohmann::json steps = stepsOf(session, record, result.summary);
+    result.json["campaigns"].push_back(
+        {{"name", record.name}, {"files_changed", files.sentence()}, {"steps", std::move(steps)}});
+  }
+  if (result.json["campaigns"].empty()) {
+    throw InputError({arguments.folder, ""}, arguments.campaign.empty()
+                                                 ? "holds no campaign."
+                                                 : fmt::format("holds no campaign \"{}\".", arguments.campaign));
+  }
+  return result;
+}
+
+}  // namespace
+
+void addSessionCommands(CLI::App& app, CommandLine& line) {
+  auto arguments = std::make_shared<SessionArguments>();
+  CLI::App* command = addCommand(app, line, "session",
+                                 "Say how far every campaign of a session of the desktop program is: what is done, "
+                                 "what is outdated and why, what is blocked; files are held against what results were "
+                                 "made from",
+                                 [arguments](JobContext& job) { return stateOf(*arguments, job); });
+  command->add_option("SESSION", arguments->folder, "Folder of the session; must not be open in the program")
+      ->required();
+  command->add_option("--campaign", arguments->campaign, "Only the campaign of this name")->type_name("NAME");
+}
+
+}  // namespace spindrift::cli

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/session/campaign_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/atomic_file.h"
+#include "core/session/session_database.h"
+#include "core/simulator/sha256.h"
+
+namespace spindrift {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isAmongCaptures(const std::string& name) {
+  return name.starts_with("captures/");
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text = names.front();
+  if (names.size() > 1) text += fmt::format(" and {} more", names.size() - 1);
+  return text;
+}
+
+}  // namespace
+
+std::string FileCheck::sentence() const {
+  std::string text;
+  const auto add = [&](const std::vector<std::string>& names, const char* one, const char* many) {
+    if (names.empty()) return;
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", listed(names), names.size() == 1 ? one : many);
+  };
+  add(changed, "has another content", "have another content");
+  add(missing, "is missing", "are missing");
+  add(added, "was added", "were added");
+  return text;
+}
+
+std::string fingerprintOf(const KnownFiles& files) {
+  FileFingerprints counted;
+  for (const auto& [name, file] : files)
+    if (file.counts) counted[name] = file.content;
+  return fingerprintOf(counted);
+}
+
+void recordFiles(SessionDatabase& database, const CampaignRecord& record, const std::vector<std::string>& names) {
+  KnownFiles all = database.files(record.id);
+  KnownFiles changed;
+  for (const std::string& name : names) {
+    const fs::path file = record.folder / name;
+    KnownFile now{fs::is_regular_file(file) ? sha256(readFile(file)) : std::string(), true};
+    const auto known = all.find(name);
+    if (known != all.end() && known->second.counts && known->second.content == now.content) continue;
+    all[name] = now;
+    changed[name] = std::move(now);
+  }
+  if (!changed.empty()) database.setFiles(record.id, changed, fingerprintOf(all));
+}
+
+FileCheck takeFiles(SessionDatabase& database, const CampaignRecord& record, const FileFingerprints& found) {
+  KnownFiles all = database.files(record.id);
+  const bool first = all.empty();
+  KnownFiles changed;
+  FileCheck check;
+  for (const auto& [name, content] : found) {
+    const auto known = all.find(name);
+    if (known == all.end()) {
+      const bool counts = first || !isAmongCaptures(name);
+      changed[name] = {content, counts};
+      if (counts && !first) check.added.push_back(name);
+    } else if (known->second.content != content) {
+      changed[name] = {content, true};
+      check.changed.push_back(name);
+    }
+  }
+  for (const auto& [name, file] : all) {
+    if (found.contains(name) || file.content.empty()) continue;
+    changed[name] = {"", file.counts};
+    if (file.counts) check.missing.push_back(name);
+  }
+  if (changed.empty()) return check;
+  for (const auto& [name, file] : changed) all[name] = file;
+  database.setFiles(record.id, changed, fingerprintOf(all));
+  return check;
+}
+
+std::vector<std::string> captureLists(const fs::path& campaign) {
+  std::vector<std::string> lists;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(campaign / "captures", ignored)) {
+    if (entry.path().extension() == ".csv" && entry.is_regular_file(ignored))
+      lists.push_back("captures/" + entry.path().filename().string());
+  }
+  std::sort(lists.begin(), lists.end());
+  return lists;
+}
+
+std::vector<std::string> filesNamedIn(const fs::path& campaign, const std::vector<std::string>& rows) {
+  std::vector<std::string> found;
+  std::error_code ignored;
+  for (const std::string& row : rows) {
+    for (std::size_t begin = 0; begin <= row.size();) {
+      const std::size_t end = std::min(row.find(',', begin), row.size());
+      const fs::path named = fs::path(row.substr(begin, end - begin)).lexically_normal();
+      begin = end + 1;
+      if (named.empty() || named.is_absolute() || *named.begin() == ".." || !named.has_extension()) continue;
+      if (fs::is_regular_file(campaign / named, ignored)) found.push_back(named.generic_string());
+    }
+  }
+  return found;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/tasks/steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/base/count_text.h"
+#include "core/base/csv.h"
+#include "core/base/error.h"
+#include "core/tasks/task_options.h"
+#include "core/workflows/measurement_plan.h"
+
+namespace spindrift {
+namespace {
+
+StepReport report(StepState state, std::string sentence) {
+  return {state, std::move(sentence), 0, 0};
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+/// What a step says of its task; what the result says for itself is asked for when it holds.
+StepReport ofTask(const TaskGraph& graph, const std::string& task, const char* how) {
+  const TaskStatus status = graph.status(task);
+  switch (status.state) {
+    case TaskState::NotRun:
+      return report(StepState::NotStarted, how);
+    case TaskState::Blocked:
+      return report(StepState::Blocked, status.reason);
+    case TaskState::Running:
+      return report(StepState::InProgress, "It is being worked out.");
+    case TaskState::Failed:
+      return report(StepState::Attention, status.reason);
+    case TaskState::Outdated:
+      return report(StepState::Outdated, fmt::format("Changed since: {}. Run it again.", joined(status.changed)));
+    case TaskState::Current:
+      break;
+  }
+  return report(StepState::Current, {});
+}
+
+std::set<std::string> excludedItems(const TaskGraph& graph) {
+  std::set<std::string> items;
+  for (const Exclusion& exclusion : graph.session().exclusions(graph.campaign())) items.insert(exclusion.item);
+  return items;
+}
+
+struct Checked {
+  std::size_t all = 0;
+  std::size_t bad = 0;
+  const char* what = "capture";
+};
+
+/// What the last check found. Payloads: {"captures": [{image, good}]}, {"scans": [{cloud, usable, reason}]},
+/// {"touches": {"plausible": 40, "rejected": 1, "missing": 2, "excluded": 0}}.
+Checked checked(const TaskGraph& graph) {
+  Checked out;
+  const nlohmann::json& payload = graph.latest("check")->payload;
+  const std::set<std::string> excluded = excludedItems(graph);
+  const auto count = [&](const char* list, const char* name, auto isGood) {
+    for (const nlohmann::json& entry : payload.value(list, nlohmann::json::array())) {
+      ++out.all;
+      if (!isGood(entry) && !excluded.contains(entry.value(name, std::string()))) ++out.bad;
+    }
+  };
+  count("captures", "image", [](const nlohmann::json& e) { return e.value("good", true); });
+  if (payload.contains("scans")) out.what = "scan";
+  count("scans", "cloud",
+        [](const nlohmann::json& e) { return e.value("usable", true) && e.value("reason", std::string()).empty(); });
+  if (payload.contains("touches")) {
+    out.what = "touch";
+    for (const auto& [state, number] : payload["touches"].items()) {
+      out.all += number.get<std::size_t>();
+      if (state == "rejected" || state == "missing") out.bad += number.get<std::size_t>();
+    }
+  }
+  return out;
+}
+
+std::string counted(const Checked& c, const char* which) {
+  const std::string_view many = std::string_view(c.what) == "touch" ? "touches" : "";
+  return fmt::format("{} of {} {}", c.bad, countOf(c.all, c.what, many), which);
+}
+
+StepReport capture(const TaskGraph& graph, const CaptureCounts& counts) {
+  const CampaignFacts& facts = graph.facts();
+  if (facts.log_only) return report(StepState::Current, "The campaign is a log over time: nothing to capture.");
+  if (counts.planned > 0 && counts.taken < counts.planned) {
+    return {counts.taken == 0 && counts.listed == 0 ? StepState::NotStarted : StepState::InProgress,
+            fmt::format("{} of {} planned captures are taken.", counts.taken, counts.planned), counts.taken,
+            counts.planned};
+  }
+  if (!facts.captures())
+    return facts.own_observations ? report(StepState::Current, "The campaign holds finished observations.")
+                                  : report(StepState::NotStarted, "No captures yet.");
+  const char* how = facts.touches ? "Check the touches." : facts.scans ? "Check the scans." : "Check the captures.";
+  StepReport step = ofTask(graph, "check", how);
+  if (graph.latest("check") == nullptr) return step;
+  const Checked found = checked(graph);
+  if (step.state == StepState::Outdated && counts.listed > found.all) {
+    return {StepState::InProgress, fmt::format("{} of {} captures are checked.", found.all, counts.listed), found.all,
+            counts.listed};
+  }
+  if (step.state != StepState::Current) return step;
+  if (found.bad == 0) return report(StepState::Current, "All captures are checked.");
+  return {StepState::Attention, counted(found, "cannot be used. Take them again, or exclude them."), found.bad,
+          found.all};
+}
+
+StepReport calibrate(const TaskGraph& graph, const CaptureCounts& counts) {
+  const CampaignFacts& facts = graph.facts();
+  if (facts.log_only) return report(StepState::Current, "The campaign is a log over time: nothing to calibrate.");
+  if (!facts.captures() && facts.own_observations)
+    return report(StepState::Current, "The campaign holds finished observations.");
+  const char* how = facts.touches ? "Evaluate the touches."
+                    : facts.scans ? "Evaluate the scans."
+                                  : "Evaluate the captures.";
+  StepReport step = ofTask(graph, "evaluate", how);
+  if (step.state != StepState::Current) return step;
+  const nlohmann::json& payload = graph.latest("evaluate")->payload;
+  const nlohmann::json details = payload.value("json", nlohmann::json::object());
+  const std::size_t rejected = details.value("rejected", nlohmann::json::array()).size();
+  if (rejected > 0) {
+    return {StepState::Attention,
+            fmt::format("{} of {} captures could not be used and were left out.", rejected,
+                        std::max(counts.listed, rejected)),
+            rejected, std::max(counts.listed, rejected)};
+  }
+  if (!payload.value("good_enough", true)) {
+    const nlohmann::json warnings = details.value("warnings", nlohmann::json::array());
+    return report(StepState::Attention,
+                  warnings.empty() ? "What was found is not good enough." : warnings.front().get<std::string>());
+  }
+  step.sentence = "Captures are evaluated.";
+  return step;
+}
+
+StepReport model(const TaskGraph& graph) {
+  const CampaignFacts& facts = graph.facts();
+  const bool over_time = graph.overTime();
+  const char* task = over_time ? "thermal" : "fit";
+  const char* how = over_time       ? "Identify a model over time."
+                    : facts.touches ? "Separate the errors in every cycle."
+                    : facts.scans   ? "Find the six errors of the axis."
+                                    : "Fit the error model.";
+  StepReport step = ofTask(graph, task, how);
+  if (step.state != StepState::Current) return step;
+  const nlohmann::json& payload = graph.latest(task)->payload;
+  if (over_time) {
+    if (payload.value("good_enough", true)) return report(StepState::Current, "The model is identified.");
+    return report(StepState::Attention, "In the test range the model is no better than the plain ones.");
+  }
+  const std::string status = payload.value("status", std::string("converged"));
+  if (status != "converged") return report(StepState::Attention, payload.value("message", status));
+  step.sentence = "The model is fitted.";
+  return step;
+}
+
+StepReport discrepancy(const TaskGraph& graph) {
+  StepReport step = ofTask(graph, "discrepancy", "Search for what the simulation lacks.");
+  if (step.state != StepState::Current) return step;
+  const nlohmann::json result = graph.latest("discrepancy")->payload.value("result", nlohmann::json::object());
+  if (result.value("verdict", std::string()) == "unknown")
+    return report(StepState::Attention, "Something is missing, and no effect of the catalogue explains it.");
+  step.sentence = "Searched.";
+  return step;
+}
+
+StepReport compensate(const TaskGraph& graph) {
+  const bool log_only = graph.facts().log_only;
+  const char* task = log_only ? "log-compensation" : "compensation";
+  StepReport step = ofTask(graph, task, log_only ? "Run the compensator over the log." : "Work out the corrections.");
+  if (step.state != StepState::Current) return step;
+  const nlohmann::json warnings = graph.latest(task)->payload.value("warnings", nlohmann::json::array());
+  if (!warnings.empty()) return report(StepState::Attention, warnings.front().get<std::string>());
+  step.sentence = log_only ? "The compensator was run over the log." : "Corrections are worked out.";
+  return step;
+}
+
+StepReport verify(const TaskGraph& graph) {
+  StepReport step = ofTask(graph, "verify", "Measure again with the compensation on.");
+  if (step.state != StepState::Current) return step;
+  const nlohmann::json& payload = graph.latest("verify")->payload;
+  const std::string verdict = payload.value("verdict", std::string());
+  if (verdict == "not met" || verdict == "cannot be decided")
+    return report(StepState::Attention, payload.value("reason", "The goal: " + verdict + "."));
+  step.sentence = "Before and after are compared.";
+  return step;
+}
+
+StepReport warmUp(const TaskGraph& graph) {
+  if (graph.facts().log_only)
+    return report(StepState::Current, "The campaign is a log over time: no instrument to warm up.");
+  const nlohmann::json given =
+      graph.session().setting(campaignKey(option_keys::warm_statement, graph.campaign())).value_or(nlohmann::json());
+  if (given.is_object() && given.contains("by"))
+    return report(StepState::Current, "You stated that the instrument was warm.");
+  // Versions before kept the statement as a result; an empty object takes it back.
+  if (given.is_null() && graph.latest("warm-up") != nullptr)
+    return report(StepState::Current, "You stated that the instrument was warm.");
+  return report(StepState::NotStarted, graph.hasObservations()
+                                           ? "Not checked: a drift of the instrument would stand in every deviation "
+                                             "as if the machine had moved."
+                                           : "Check whether the instrument had settled.");
+}
+
+StepReport review(const TaskGraph& graph) {
+  if (graph.facts().log_only)
+    return report(StepState::Blocked, "A log over time has no points to compare; Model compares models of it.");
+  if (!graph.hasObservations() && !graph.facts().scans)
+    return report(StepState::Blocked, "There is nothing to compare yet.");
+  return report(StepState::Current, "Look at it whenever you like.");
+}
+
+std::size_t rowsOf(const Campaign& campaign, const char* list) {
+  const auto file = campaign.captureList(list);
+  if (!file) return 0;
+  try {
+    return CsvTable::read(*file).rowCount();
+  } catch (const InputError&) {
+    return 0;
+  }
+}
+
+}  // namespace
+
+std::string_view toString(StepId step) noexcept {
+  constexpr std::array names{"Machine",     "Warm-up",    "Capture", "Calibrate", "Model",
+                             "Discrepancy", "Compensate", "Verify",  "Review",    "Report"};
+  return names[static_cast<std::size_t>(step)];
+}
+
+std::string_view toString(StepState state) noexcept {
+  constexpr std::array names{"not started", "in progress", "attention", "done", "outdated", "blocked"};
+  return names[static_cast<std::size_t>(state)];
+}
+
+CaptureCounts CaptureCounts::of(const TaskGraph& graph) {
+  CaptureCounts counts;
+  for (const char* list : {"fiducials.csv", "touches.csv", "scans.csv"}) counts.listed += rowsOf(graph.data(), list);
+  const auto kept = graph.session().setting(campaignKey(option_keys::plan, graph.campaign()));
+  if (!kept || !kept->is_object() || kept->empty()) return counts;
+  try {
+    const MeasurementPlan plan = MeasurementPlan::parse(JsonNode::parse(kept->dump(), "the plan of the session"));
+    counts.planned = plan.items.size();
+    counts.taken = capturedItems(plan, graph.data()).size();
+  } catch (const InputError&) {
+    counts.planned = counts.taken = 0;
+  }
+  return counts;
+}
+
+StepReport stepReport(const TaskGraph& graph, StepId step, const CaptureCounts& counts) {
+  switch (step) {
+    case StepId::Machine: {
+      const nlohmann::json edited =
+          graph.session().setting(Session::machineKey(graph.campaign())).value_or(nlohmann::json());
+      return report(StepState::Current, edited.empty() ? "As in machine.json." : "Edited in this session.");
+    }
+    case StepId::WarmUp:
+      return warmUp(graph);
+    case StepId::Capture:
+      return capture(graph, counts);
+    case StepId::Calibrate:
+      return calibrate(graph, counts);
+    case StepId::Model:
+      return model(graph);
+    case StepId::Discrepancy:
+      return discrepancy(graph);
+    case StepId::Compensate:
+      return compensate(graph);
+    case StepId::Verify:
+      return verify(graph);
+    case StepId::Review:
+      return review(graph);
+    case StepId::Report: {
+      StepReport step_report = ofTask(graph, "report", "Write the report.");
+      if (step_report.state == StepState::Current) step_report.sentence = "The report is written.";
+      return step_report;
+    }
+  }
+  return {};
+}
+
+std::string taskOfStep(const TaskGraph& graph, StepId step) {
+  switch (step) {
+    case StepId::Capture:
+      return "check";
+    case StepId::Calibrate:
+      return "evaluate";
+    case StepId::Model:
+      return graph.overTime() ? "thermal" : "fit";
+    case StepId::Discrepancy:
+      return "discrepancy";
+    case StepId::Compensate:
+      return graph.facts().log_only ? "log-compensation" : "compensation";
+    case StepId::Verify:
+      return "verify";
+    case StepId::Report:
+      return "report";
+    default:
+      return {};
+  }
+}
+
+}  // namespace spindrift

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which work there is on a campaign, what each result is made from, and whether it still holds. Pages, the list of
+// steps, reports and the command line ask here and nowhere else.
+//
+//   files, exclusions, machine, clocks, program      Session::inputs
+//        |
+//      check   evaluate ---+--- fit ---+--- compensation ---+
+//                          +--- thermal --- log-compensation +--- report
+//                          +--- discrepancy                 |
+//                          +--- verify ---------------------+
+//
+// A result is current if every input is what it was when the work on it started, and every result that it was made from
+// is current itself. An input of another result is that result's own fingerprint: evaluating again with nothing changed
+// leaves a fit current, evaluating again with other captures does not, whichever of the two ran first.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/machine/campaign.h"
+#include "core/session/session.h"
+#include "core/tasks/campaign_facts.h"
+
+namespace spindrift {
+
+enum class TaskState {
+  NotRun,
+  Blocked,  ///< cannot be run yet; `reason` says why
+  Running,
+  Current,
+  Outdated,  ///< `changed` says what
+  Failed,    ///< with the inputs as they are; `reason` says why
+};
+[[nodiscard]] std::string_view toString(TaskState state) noexcept;
+
+struct TaskStatus {
+  TaskState state = TaskState::NotRun;
+  std::int64_t result = 0;           ///< the latest; 0: there is none. Stays while the task runs or has failed
+  bool current = false;              ///< that result holds, whatever is being done now
+  std::vector<std::string> changed;  ///< "2 exclusions", "the options": what it was made from and is other now
+  std::string reason;
+};
+
+/// What runs and what went wrong, of all campaigns of a session. In memory: nothing runs any more when a program
+/// starts.
+class TaskLedger {
+ public:
+  void started(const ResultOrigin& origin);
+  /// Done or given up.
+  void ended(const ResultOrigin& origin);
+  void failed(const ResultOrigin& origin, const std::string& sentence);
+  [[nodiscard]] bool running(std::int64_t campaign, const std::string& task) const;
+  /// Why it failed with exactly these inputs and options; null if it did not.
+  [[nodiscard]] const std::string* failure(const ResultOrigin& now) const;
+
+ private:
+  struct Entry {
+    int running = 0;
+    ResultOrigin failed_with;
+    std::string failure;
+  };
+  std::map<std::pair<std::int64_t, std::string>, Entry> entries_;
+};
+
+/// The tasks of one campaign; cheap to make, holds nothing of its own.
+class TaskGraph {
+ public:
+  /// The latest result of a kind, null if there is none. Payloads are read by the steps alone.
+  using Latest = std::function<const StoredResult*(const std::string&)>;
+
+  TaskGraph(const Session& session, std::int64_t campaign, std::shared_ptr<const Campaign> data, Latest latest,
+            const TaskLedger& ledger);
+
+  /// The tasks that this campaign has, each after those it is made from.
+  [[nodiscard]] std::vector<std::string> tasks() const;
+  [[nodiscard]] TaskStatus status(const std::string& task) const;
+  /// Whether a result, the latest or an earlier one, is what the task would give now.
+  [[nodiscard]] bool holds(const StoredResult& result) const;
+  /// What the task would be run on now; to be called when its work starts. `options` are added to those that the
+  /// session keeps for the task.
+  [[nodiscard]] ResultOrigin origin(const std::string& task,
+                                    const nlohmann::json& options = nlohmann::json::object()) const;
+  /// What has to be run, in this order, so that the task is current; empty if it is. Throws InputError: blocked.
+  [[nodiscard]] std::vector<std::string> needed(const std::string& task) const;
+
+  [[nodiscard]] const StoredResult* latest(const std::string& kind) const { return latest_(kind); }
+  [[nodiscard]] const CampaignFacts& facts() const { return facts_; }
+  [[nodiscard]] const Session& session() const { return session_; }
+  [[nodiscard]] std::int64_t campaign() const { return campaign_; }
+  [[nodiscard]] const Campaign& data() const { return *data_; }
+  [[nodiscard]] bool hasObservations() const;
+  /// Whether the model of this campaign is one over time in place of that of the instrument.
+  [[nodiscard]] bool overTime() const;
+
+ private:
+  [[nodiscard]] nlohmann::json options(const std::string& task) const;
+  [[nodiscard]] std::vector<std::string> madeFrom(const std::string& task) const;
+  [[nodiscard]] nlohmann::json inputsOfResults(const std::string& task) const;
+  [[nodiscard]] std::string blockedBecause(const std::string& task) const;
+  [[nodiscard]] std::vector<std::string> changes(const StoredResult& result) const;
+
+  const Session& session_;
+  std::int64_t campaign_;
+  std::shared_ptr<const Campaign> data_;
+  CampaignFacts facts_;
+  Latest latest_;
+  const TaskLedger& ledger_;
+};
+
+}  // namespace spindrift

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/tasks/task_options.h"
+
+#include <fmt/format.h>
+
+namespace spindrift {
+
+std::string campaignKey(const std::string& key, std::int64_t campaign) {
+  return fmt::format("{}/{}", key, campaign);
+}
+
+nlohmann::json campaignSetting(const Session& session, std::int64_t campaign, const std::string& key,
+                               const nlohmann::json& otherwise) {
+  // Undo leaves null where there was nothing.
+  for (const std::string& name : {campaignKey(key, campaign), key}) {
+    const auto kept = session.setting(name);
+    if (kept && !kept->is_null()) return *kept;
+  }
+  return otherwise;
+}
+
+namespace {
+
+nlohmann::json objectOf(const Session& session, std::int64_t campaign, const std::string& key) {
+  nlohmann::json value = session.setting(campaignKey(key, campaign)).value_or(nlohmann::json::object());
+  return value.is_object() ? value : nlohmann::json::object();
+}
+
+}  // namespace
+
+EffectOptions EffectOptions::of(const Session& session, std::int64_t campaign) {
+  const nlohmann::json json = objectOf(session, campaign, option_keys::discrepancy);
+  return {json.value("added", std::vector<std::string>()), json.value("rejected", std::vector<std::string>()),
+          json.value("effects", nlohmann::json())};
+}
+
+nlohmann::json EffectOptions::json() const {
+  nlohmann::json out{{"added", added}, {"rejected", rejected}};
+  if (effects.is_object()) out["effects"] = effects;
+  return out;
+}
+
+NineParameterOptions nineParameterOptions(const nlohmann::json& json) {
+  NineParameterOptions options;
+  if (!json.is_object()) return options;
+  options.state = json.value("state", std::string());
+  options.points = json.value("points", std::vector<std::string>());
+  options.robust = static_cast<RobustLoss>(json.value("robust", 0));
+  return options;
+}
+
+CompensationRequest compensationRequest(const Session& session, std::int64_t campaign, bool fitted) {
+  const nlohmann::json json = objectOf(session, campaign, option_keys::compensation);
+  const EffectOptions effects = EffectOptions::of(session, campaign);
+  const auto possible = [&](CompensationSource source) {
+    return source == CompensationSource::NineParameters ? fitted : !effects.added.empty();
+  };
+  CompensationRequest request;
+  const CompensationSource first = possible(CompensationSource::CompletedModel) ? CompensationSource::CompletedModel
+                                                                                : CompensationSource::NineParameters;
+  request.source = static_cast<CompensationSource>(json.value("source", static_cast<int>(first)));
+  if (!possible(request.source)) request.source = first;
+  const NineParameterOptions fit =
+      nineParameterOptions(campaignSetting(session, campaign, option_keys::nine_parameters, nlohmann::json::object()));
+  request.state = json.value("state", std::string());
+  // What the user chose for the fit; else the warmest.
+  if (request.state.empty() && request.source == CompensationSource::NineParameters) request.state = fit.state;
+  request.positions = json.value("positions", 11);
+  if (json.contains("reference_mm")) {
+    const auto at = json["reference_mm"].get<std::vector<double>>();
+    if (at.size() == 3) request.reference_mm = Eigen::Vector3d(at[0], at[1], at[2]);
+  }
+  request.fit.points = fit.points;
+  request.fit.robust = fit.robust;
+  request.added = effects.added;
+  request.reject = effects.rejected;
+  return request;
+}
+
+VerifyOptions VerifyOptions::of(const Session& session, std::int64_t campaign) {
+  const nlohmann::json json = objectOf(session, campaign, option_keys::verify);
+  VerifyOptions options;
+  options.request.goal_um = json.value("goal_um", options.request.goal_um);
+  options.request.goal_urad = json.value("goal_urad", options.request.goal_urad);
+  options.request.criterion = json.value("criterion", "") == "rms" ? VerifyCriterion::Rms : VerifyCriterion::Largest;
+  options.after = json.value("after", std::string());
+  return options;
+}
+
+nlohmann::json VerifyOptions::json() const {
+  return {{"goal_um", request.goal_um},
+          {"goal_urad", request.goal_urad},
+          {"criterion", request.criterion == VerifyCriterion::Rms ? "rms" : "largest"},
+          {"after", after}};
+}
+
+ReportTaskOptions ReportTaskOptions::of(const Session& session, std::int64_t campaign) {
+  ReportTaskOptions options;
+  const nlohmann::json name = session.setting(option_keys::operator_name).value_or(nlohmann::json());
+  if (name.is_string()) options.operator_name = name.get<std::string>();
+  options.tells_discrepancy = objectOf(session, campaign, option_keys::report).value("tells_discrepancy", true);
+  return options;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of every task, as the session keeps them for a campaign: what a task would be run with now. Pages edit
+// them (with undo), the task graph compares them with those a result was made with.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/machine/nine_parameter_model.h"
+#include "core/session/session.h"
+#include "core/workflows/compensation_workflow.h"
+#include "core/workflows/verify_compensation.h"
+
+namespace spindrift {
+
+/// What is kept for one campaign alone. Sessions of earlier versions kept some of it for all campaigns together: that
+/// stands where a campaign has nothing of its own.
+[[nodiscard]] std::string campaignKey(const std::string& key, std::int64_t campaign);
+[[nodiscard]] nlohmann::json campaignSetting(const Session& session, std::int64_t campaign, const std::string& key,
+                                             const nlohmann::json& otherwise);
+
+/// Keys of the options of the tasks.
+namespace option_keys {
+inline constexpr auto nine_parameters = "nine-parameter";
+inline constexpr auto cycles = "cycle-model";
+inline constexpr auto scan_model = "scan-model";
+inline constexpr auto thermal = "thermal-model";
+inline constexpr auto over_time = "model-over-time";
+inline constexpr auto discrepancy = "discrepancy";
+inline constexpr auto compensation = "compensation";
+inline constexpr auto verify = "verify";
+inline constexpr auto report = "report-options";
+inline constexpr auto plan = "plan";
+inline constexpr auto warm_statement = "warm-statement";
+inline constexpr auto simulator = "discrepancy/simulator";
+inline constexpr auto operator_name = "operator";  ///< of the session, not of a campaign
+}  // namespace option_keys
+
+/// Effects that the user put into the model, left out, or edited.
+struct EffectOptions {
+  std::vector<std::string> added;
+  std::vector<std::string> rejected;
+  nlohmann::json effects;  ///< effects.json as edited; null: as campaign.json names it
+  [[nodiscard]] static EffectOptions of(const Session& session, std::int64_t campaign);
+  [[nodiscard]] nlohmann::json json() const;
+};
+
+/// Of the model of one thermal state.
+[[nodiscard]] NineParameterOptions nineParameterOptions(const nlohmann::json& json);
+
+/// What is asked of the compensation; `fitted` says whether there is a fit to compensate with.
+[[nodiscard]] CompensationRequest compensationRequest(const Session& session, std::int64_t campaign, bool fitted);
+
+struct VerifyOptions {
+  VerifyRequest request;
+  std::string after;  ///< folder of the second campaign; empty: not chosen
+  [[nodiscard]] static VerifyOptions of(const Session& session, std::int64_t campaign);
+  [[nodiscard]] nlohmann::json json() const;
+};
+
+struct ReportTaskOptions {
+  std::string operator_name;
+  bool tells_discrepancy = true;
+  [[nodiscard]] static ReportTaskOptions of(const Session& session, std::int64_t campaign);
+};
+
+}  // namespace spindrift

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `session`: what the desktop program shows as its steps, on the command line.
+#include <gmock/gmock.h>
+
+#include "core/session/session.h"
+#include "tests/app/cli/child_process.h"
+#include "tests/support/temp_folder.h"
+
+namespace spindrift::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+nlohmann::json stepOf(const nlohmann::json& answer, const std::string& name) {
+  for (const nlohmann::json& step : answer.at("campaigns").at(0).at("steps"))
+    if (step.at("step") == name) return step;
+  return {};
+}
+
+TEST(SessionCommand, SaysHowFarEveryStepIsAndWhatChanged) {
+  const TempFolder folder;
+  const std::string place = (folder / "s").string();
+  {
+    Session session = Session::create(place);
+    const auto id = session.newCampaign("c", "2026-01-31T08:00:00Z",
+                                        R"({"format":"spindrift-machine","version":1,"name":"mill",
+                                            "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]}]})");
+    session.addCapture(id, "fiducials.csv", "time_s,image", "0,captures/a.jpg", folder.write("a.jpg", "a"), "a.jpg");
+    session.addResult(id, "check", nlohmann::json::object(),
+                      {{"captures", {{{"image", "captures/a.jpg"}, {"good", false}}}}});
+    session.addResult(id, "evaluate", nlohmann::json::object(), {{"json", nlohmann::json::object()}});
+  }
+  nlohmann::json answer = jsonOf({"session", place});
+  EXPECT_EQ(stepOf(answer, "Capture").at("state"), "attention");
+  EXPECT_EQ(stepOf(answer, "Capture").at("count"), 1);
+  EXPECT_EQ(stepOf(answer, "Calibrate").at("state"), "done");
+  EXPECT_EQ(stepOf(answer, "Model").at("state"), "not started");
+  EXPECT_EQ(stepOf(answer, "Discrepancy").at("state"), "blocked");
+  // Another program changes a capture.
+  (void)folder.write("s/campaigns/c/captures/a.jpg", "b");
+  const Outcome said = runCli({"session", place});
+  EXPECT_EQ(said.status, 0);
+  EXPECT_THAT(said.error, HasSubstr("captures/a.jpg has another content"));
+  answer = jsonOf({"session", place});
+  EXPECT_EQ(stepOf(answer, "Calibrate").at("state"), "outdated");
+  EXPECT_EQ(stepOf(answer, "Calibrate").at("changed"), nlohmann::json({"files of the campaign"}));
+  expectBadInput({"session", place, "--campaign", "none"}, {"no campaign \"none\""});
+  expectBadInput({"session", folder.path().string()}, {"is not a session"});
+}
+
+}  // namespace
+}  // namespace spindrift::testing

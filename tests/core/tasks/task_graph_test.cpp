@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/tasks/task_graph.h"
+
+#include <gmock/gmock.h>
+
+#include "core/base/error.h"
+#include "tests/core/tasks/tasks_support.h"
+
+namespace spindrift {
+namespace {
+
+using ::spindrift::testing::TaskSession;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(TaskGraph, WhatIsNeededRunsFirstAndWhatHoldsIsNotRunAgain) {
+  TaskSession s;
+  EXPECT_EQ(s.status("evaluate").state, TaskState::NotRun);
+  EXPECT_EQ(s.status("fit").state, TaskState::Blocked);
+  EXPECT_THAT(s.status("fit").reason, HasSubstr("Evaluate the captures first"));
+  EXPECT_THAT(s.graph().needed("fit"), ElementsAre("evaluate", "fit"));
+  s.run("evaluate");
+  EXPECT_THAT(s.graph().needed("fit"), ElementsAre("fit"));
+  s.run("fit");
+  EXPECT_THAT(s.graph().needed("fit"), IsEmpty());
+  EXPECT_THAT(s.graph().needed("compensation"), ElementsAre("compensation"));
+  s.session_.exclude(s.id_, "captures/images/0.jpg", "blurred");
+  EXPECT_THAT(s.graph().needed("fit"), ElementsAre("evaluate", "fit"));
+  EXPECT_THROW((void)s.graph().needed("discrepancy"), InputError) << "there is no simulation";
+}
+
+TEST(TaskGraph, AResultIsOutdatedByWhatItWasMadeFromAndSaysByWhat) {
+  TaskSession s;
+  s.run("evaluate");
+  s.run("fit");
+  ASSERT_TRUE(s.status("fit").current);
+  const auto changedBy = [&](auto change, auto back) {
+    change();
+    const TaskStatus status = s.status("fit");
+    EXPECT_EQ(status.state, TaskState::Outdated);
+    back();
+    EXPECT_EQ(s.status("fit").state, TaskState::Current) << "taken back";
+    return status.changed.empty() ? std::string() : status.changed.front();
+  };
+  EXPECT_EQ(changedBy([&] { s.session_.exclude(s.id_, "a", "x"); }, [&] { s.session_.restore(s.id_, "a"); }),
+            "1 exclusion more");
+  EXPECT_EQ(changedBy(
+                [&] {
+                  s.option("nine-parameter", {{"robust", 1}});
+                },
+                [&] { s.option("nine-parameter", nlohmann::json::object()); }),
+            "the options");
+  EXPECT_EQ(changedBy(
+                [&] {
+                  s.session_.setSetting(Session::machineKey(s.id_), {{"name", "other"}});
+                },
+                [&] { s.session_.setSetting(Session::machineKey(s.id_), nlohmann::json::object()); }),
+            "the machine");
+  EXPECT_TRUE(s.status("evaluate").current) << "options of a fit are no business of the evaluation";
+  s.capture(1);
+  EXPECT_THAT(s.status("evaluate").changed, ElementsAre("files of the campaign"));
+}
+
+// The one that comparing each result with the files alone cannot see.
+TEST(TaskGraph, AFitOfAnOldEvaluationStaysOutdatedWhenTheCapturesAreEvaluatedAgain) {
+  TaskSession s;
+  s.run("evaluate");
+  s.session_.exclude(s.id_, "captures/images/0.jpg", "blurred");
+  s.run("fit");  // of the observations that are there: those of the old evaluation
+  TaskStatus fit = s.status("fit");
+  EXPECT_EQ(fit.state, TaskState::Outdated);
+  EXPECT_THAT(fit.changed, ElementsAre("the evaluation is outdated"));
+  s.run("evaluate");
+  fit = s.status("fit");
+  EXPECT_EQ(fit.state, TaskState::Outdated) << "it was made from the other evaluation";
+  EXPECT_THAT(fit.changed, ElementsAre("the evaluation"));
+  s.run("fit");
+  EXPECT_TRUE(s.status("fit").current);
+  s.run("evaluate");  // the same once more
+  EXPECT_TRUE(s.status("fit").current);
+}
+
+TEST(TaskGraph, WhatChangesWhileTheWorkGoesOnMakesTheResultOutdated) {
+  TaskSession s;
+  const ResultOrigin started = s.graph().origin("evaluate");
+  s.ledger_.started(started);
+  EXPECT_EQ(s.status("evaluate").state, TaskState::Running);
+  s.capture(1);
+  s.session_.keepResult(started, 1);
+  s.ledger_.ended(started);
+  EXPECT_EQ(s.status("evaluate").state, TaskState::Outdated);
+}
+
+TEST(TaskGraph, AFailureHoldsForTheInputsItFailedWith) {
+  TaskSession s;
+  const ResultOrigin started = s.graph().origin("evaluate");
+  s.ledger_.started(started);
+  s.ledger_.failed(started, "no image can be read.");
+  EXPECT_EQ(s.status("evaluate").state, TaskState::Failed);
+  EXPECT_EQ(s.status("evaluate").reason, "no image can be read.");
+  s.session_.exclude(s.id_, "captures/images/0.jpg", "blurred");
+  EXPECT_EQ(s.status("evaluate").state, TaskState::NotRun);
+  s.session_.restore(s.id_, "captures/images/0.jpg");
+  EXPECT_EQ(s.status("evaluate").state, TaskState::Failed);
+  s.run("evaluate");
+  EXPECT_EQ(s.status("evaluate").state, TaskState::Current);
+}
+
+TEST(TaskGraph, AReportHasToBeWrittenAgainWhenItWouldTellAnotherResult) {
+  TaskSession s;
+  s.run("evaluate");
+  s.run("report");
+  EXPECT_TRUE(s.status("report").current);
+  s.run("verify", {{"verdict", "met"}});
+  EXPECT_THAT(s.status("report").changed, ElementsAre("verify"));
+  s.run("report");
+  EXPECT_TRUE(s.status("report").current);
+  s.option(option_keys::warm_statement, {{"settled", true}, {"by", "operator"}});
+  EXPECT_FALSE(s.status("report").current);
+}
+
+TEST(TaskGraph, TheSecondCampaignOfAVerificationIsAnInput) {
+  TaskSession s;
+  s.run("evaluate");
+  const auto other = s.session_.newCampaign("after", "2026-01-31T08:00:00Z",
+                                            R"({"format":"spindrift-machine","version":1,"name":"mill",
+                                                "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]}]})");
+  s.option(option_keys::verify, {{"after", s.session_.campaign(other).folder.string()}});
+  s.run("verify");
+  EXPECT_TRUE(s.status("verify").current);
+  s.session_.addCaptureRows(other, "touches.csv", "time_s", {"1"});
+  EXPECT_THAT(s.status("verify").changed, ElementsAre("the second campaign"));
+}
+
+TEST(TaskGraph, AResultThatDoesNotSayWhatItWasMadeFromIsNotTakenForCurrent) {
+  TaskSession s;
+  ResultOrigin origin = s.graph().origin("evaluate");
+  origin.inputs = nlohmann::json::object();  // as sessions of earlier versions hold it
+  s.session_.keepResult(origin, 1);
+  EXPECT_EQ(s.status("evaluate").state, TaskState::Outdated);
+  EXPECT_THAT(s.status("evaluate").changed, ElementsAre(HasSubstr("not known")));
+}
+
+}  // namespace
+}  // namespace spindrift
