@@ -7,6 +7,7 @@
 #include "app/cli/command.h"
 #include "core/base/count_text.h"
 #include "core/base/error.h"
+#include "core/connect/genicam_camera.h"
 #include "core/connect/recording.h"
 #include "core/connect/utc_time.h"
 #include "core/session/session.h"
@@ -28,7 +29,27 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+CommandResult listCameras() {
+  CommandResult result;
+  result.json["kind"] = "genicam";
+  result.json["items"] = nlohmann::json::array();
+  for (const GenicamDescription& camera : listGenicamCameras()) {
+    result.json["items"].push_back({{"item", camera.id},
+                                    {"vendor", camera.vendor},
+                                    {"model", camera.model},
+                                    {"serial", camera.serial},
+                                    {"address", camera.address},
+                                    {"protocol", camera.protocol}});
+    result.summary +=
+        fmt::format("{:<32} {} {} {} ({})\n", camera.id, camera.vendor, camera.model, camera.address, camera.protocol);
+  }
+  result.summary += countOf(result.json["items"].size(), "camera") + "\n";
+  if (result.json["items"].empty()) result.exit_status = NotGoodEnough;
+  return result;
+}
+
 CommandResult listItems(const RecordArguments& a) {
+  if (a.list == "genicam:") return listCameras();
   const SourceDescription description = sourceForAddress(a.list);
   const std::unique_ptr<Source> source = description.make();
   std::vector<DataItem> items;
@@ -129,7 +150,10 @@ void addConnectCommands(CLI::App& app, CommandLine& line) {
   command->add_option("--start", a->start, "UTC where time_s is 0; without it: now, or the campaign's start")
       ->type_name("TIME");
   command->add_option("--for", a->for_s, "End after this time in s")->check(positiveNumber());
-  command->add_option("--list", a->list, "Only list what is at this address (http://, mqtt://, serial://, ...)")->type_name("ADDRESS");
+  command
+      ->add_option("--list", a->list,
+                   "Only list what is at this address (http://, mqtt://, serial://, ...); genicam: asks for cameras")
+      ->type_name("ADDRESS");
   command->add_option("--listen", a->listen_s, "With --list: listen for this time in s where needed")
       ->check(positiveNumber())
       ->capture_default_str();

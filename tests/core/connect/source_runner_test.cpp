@@ -172,5 +172,48 @@ TEST(SourceRunner, AnAgentKilledAgainAndAgainLosesNothingItKeeps) {
   EXPECT_EQ(runner.status().missed, 0U);
 }
 
+TEST(SourceRunner, AClockThatIsSetAndANetworkThatIsPausedMoveNoValue) {
+  SmallAgent agent;
+  MtconnectOptions options;
+  options.url = agent.url();
+  options.interval_s = 0.01;
+  options.heartbeat_s = 1.0;  // a pause of half of three is no loss
+  auto queue = std::make_shared<RecordQueue>();
+  SourceRunner runner(0, makeMtconnectSource(options), {"S1"}, queue, quick());
+  EXPECT_TRUE(waitUntil([&] { return agent.requests("/sample") > 0; }));
+  std::vector<double> made;
+  const auto observe = [&](int count, double clock_s) {
+    for (int i = 0; i < count; ++i) {
+      made.push_back(localUtc());
+      agent.observe("S1", std::to_string(made.size()), made.back() + clock_s);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  };
+  observe(20, 0.0);
+  agent.freeze(true);
+  observe(75, 0.0);
+  agent.freeze(false);
+  observe(20, 0.0);
+  observe(20, 3600.0);
+  observe(20, 0.0);
+  std::vector<Record> records;
+  std::vector<Arrival> taken;
+  EXPECT_TRUE(waitUntil([&] {
+    queue->take(taken, 0.05);
+    for (const Arrival& each : taken) {
+      if (const Record* record = std::get_if<Record>(&each.what)) records.push_back(*record);
+    }
+    return records.size() >= made.size();
+  }));
+  ASSERT_EQ(records.size(), made.size());
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    EXPECT_EQ(records[i].value, static_cast<double>(i + 1));
+    EXPECT_NEAR(records[i].time_s, made[i], 0.8) << i;
+  }
+  EXPECT_EQ(runner.status().clock_steps, 2);
+  EXPECT_EQ(runner.status().connections, 1U);
+  EXPECT_TRUE(runner.stop());
+}
+
 }  // namespace
 }  // namespace spindrift::testing
