@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "core/base/atomic_file.h"
+#include "core/base/sha256.h"
 #include "core/session/session_database.h"
-#include "core/simulator/sha256.h"
 
 namespace spindrift {
 namespace {

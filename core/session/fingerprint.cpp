@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/atomic_file.h"
-#include "core/simulator/sha256.h"
+#include "core/base/sha256.h"
 
 namespace spindrift {
 

@@ -13,11 +13,11 @@
 #include <set>
 
 #include "core/base/atomic_file.h"
+#include "core/base/sha256.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/simulation/virtual_campaign.h"
 #include "core/simulator/answer_cache.h"
-#include "core/simulator/sha256.h"
 
 namespace spindrift {
 namespace {

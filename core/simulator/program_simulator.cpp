@@ -14,6 +14,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
+#include "core/base/sha256.h"
 #include "core/base/text.h"
 #include "core/finite_elements/fe_deviation.h"
 #include "core/machine/simulation_table.h"
@@ -23,7 +24,6 @@
 #include "core/simulator/deck_template.h"
 #include "core/simulator/log_tables.h"
 #include "core/simulator/run_folder.h"
-#include "core/simulator/sha256.h"
 
 namespace spindrift {
 namespace {

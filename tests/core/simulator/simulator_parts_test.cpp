@@ -6,10 +6,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/base/sha256.h"
 #include "core/simulator/json_edit.h"
 #include "core/simulator/log_tables.h"
 #include "core/simulator/program_simulator.h"
-#include "core/simulator/sha256.h"
 #include "tests/core/simulator/small_simulator.h"
 
 namespace spindrift {
