@@ -74,18 +74,18 @@ TEST(Record, ASessionKeepsTheLogOnTheClockOfItsCampaign) {
   agent.observe("EXEC", "READY", localUtc());
   const std::string file = folder.write("connections.json", connectionsFor(agent)).string();
   std::int64_t id = 0;
-  std::string before;
+  nlohmann::json before;
   {
     Session session = Session::create(folder / "session");
     id = session.newCampaign("warm-up", utcNow(), R"({"format":"spindrift-machine","version":1,"name":"mill",
       "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,300]},
       {"name":"Z","travel_mm":[0,300]}]})");
-    before = session.inputsFingerprint(id, {});
+    before = session.inputs(id);
   }
   (void)jsonOf({"record", file, "--session", (folder / "session").string(), "--for", "3"});
   (void)jsonOf({"record", file, "--session", (folder / "session").string(), "--for", "3"});
   Session session = Session::open(folder / "session");
-  EXPECT_NE(session.inputsFingerprint(id, {}), before);
+  EXPECT_NE(session.inputs(id), before);
   const Campaign campaign = Campaign::read(session.campaign(id).folder);
   ASSERT_TRUE(campaign.log.has_value());
   EXPECT_EQ(campaign.log->at("spindle_rpm", 100.0), 600.0);

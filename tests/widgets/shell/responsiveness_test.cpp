@@ -33,7 +33,7 @@ namespace spindrift::gui {
 namespace {
 
 constexpr double allowed_ms = 100.0;
-constexpr int most_walks = 3;
+constexpr int most_walks = 5;
 
 class ResponsivenessTest : public StoryTest {
  protected:
