@@ -28,6 +28,7 @@ std::string Fingerprint::text() const {
 
 FileFingerprints fingerprintsOfFiles(const std::filesystem::path& folder, const JobContext& job) {
   std::vector<std::filesystem::path> files;
+  if (!std::filesystem::is_directory(folder)) return {};
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.is_regular_file()) files.push_back(entry.path());
   }

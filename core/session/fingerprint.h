@@ -28,7 +28,8 @@ class Fingerprint {
 /// Fingerprint of the content of each file, by its name relative to the campaign folder ("captures/images/a.jpg").
 using FileFingerprints = std::map<std::string, std::string>;
 
-/// Of all files in a folder. Throws InputError (a file cannot be read), filesystem_error, Cancelled.
+/// Of all files in a folder; nothing where there is no folder. Throws InputError (a file cannot be read),
+/// filesystem_error, Cancelled.
 [[nodiscard]] FileFingerprints fingerprintsOfFiles(const std::filesystem::path& folder, const JobContext& job);
 /// One for all of them together.
 [[nodiscard]] std::string fingerprintOf(const FileFingerprints& files);
