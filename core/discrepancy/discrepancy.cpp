@@ -267,7 +267,6 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
     return Eigen::VectorXd(problem.projected(parts).colwise().squaredNorm());
   };
   const Eigen::VectorXd narrow = sizes();
-  if (narrow.size() == 0) return a;
   const double evidence = a.posterior.evidence - problem.nuisanceLogDeterminant();
   std::vector<NuisanceColumn> nuisances = nuisancesOf(priors.simulation_error);
   const std::size_t first_part = nuisances.size();
@@ -275,7 +274,7 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
   for (const SimulationPart& part : parts) nuisances.push_back({part.values, priors.rough_simulation_error, true});
   problem.setNuisances(nuisances);
   constexpr double followed = 0.6;
-  bool rough = (sizes().array() < followed * narrow.array()).any();
+  bool rough = narrow.size() == 0 || (sizes().array() < followed * narrow.array()).any();
   if (rough) {
     const CandidateLibrary library(*a.search, problem, job);
     const PosteriorSearch search(*a.search, problem, library, options, priors, a.simulation_error);

@@ -164,8 +164,9 @@ double PosteriorSearch::priceOf(const JointFit& fit) const {
     if (wide(*fit.terms[t].effect)) price += 2.0 * std::log(1.0 / priors_.wider);
     if (warmStart(fit.terms[t].variant)) price += warm_price;
     if (fit.terms[t].effect->driver_missing) price += 2.0 * std::log(1.0 / priors_.without_driver);
+    const double missing = t == 0 ? priors_.one_missing : priors_.one_more;
     price += library_->choicePrice(*fit.terms[t].effect) + 2.0 * std::log(effects) +
-             2.0 * std::log((1.0 - priors_.one_more) / priors_.one_more);
+             2.0 * std::log((1.0 - missing) / missing);
   }
   return price;
 }

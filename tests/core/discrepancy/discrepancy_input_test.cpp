@@ -142,7 +142,7 @@ TEST(DiscrepancyInput, NamesAnEffectThoughTheLogHasAGapOfTwoHours) {
     const DiscrepancyResult result = run(input);
     EXPECT_THAT(result.warnings, Contains(HasSubstr("what the machine did in it is not known")));
     ASSERT_EQ(result.effects.size(), 1u) << "seed " << seed << ": " << result.summary();
-    EXPECT_EQ(result.effects[0].id, "spindle.drift.y") << "seed " << seed;
+    EXPECT_EQ(result.effects[0].id, "spindle.drift.y") << "seed " << seed << ": " << result.summary();
   }
 }
 
