@@ -153,7 +153,7 @@ void ArrivingPanel::refresh() {
     }
     row.cells.front().tip = item.plan_item.empty() ? row.id : row.id + QStringLiteral(": ") + fromCore(item.plan_item);
     // Beside what was found, what the machine did at that moment.
-    const bool capture = item.state == IncomingState::Accepted || item.state == IncomingState::Retake;
+    const bool capture = item.state != IncomingState::Waiting && item.kind != IncomingKind::Other;
     const QString machine = capture ? ConnectionsService::of(context_.session).machineAt(item.time_s) : QString();
     if (!machine.isEmpty())
       row.cells.back().text +=

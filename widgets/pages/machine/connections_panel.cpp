@@ -133,7 +133,7 @@ ConnectionsPanel::ConnectionsPanel(PageContext page_context, QWidget* parent)
   column->addWidget(state_);
   auto* left = makeSplitter(makeSourcesCard(), makeItemsCard(), 2, 5, Qt::Vertical);
   auto* right = makeSplitter(makeColumnsCard(), makePlotCard(), 4, 3, Qt::Vertical);
-  column->addWidget(makeSplitter(left, right, 4, 7), 1);
+  column->addWidget(makeSplitter(left, right, 1, 2), 1);
 
   connect(look_, &QPushButton::clicked, this, [this] { lookAt(address_->text().trimmed()); });
   connect(address_, &QLineEdit::returnPressed, look_, &QPushButton::click);
@@ -706,7 +706,7 @@ void ConnectionsPanel::showColumns() {
   // The header's own mode looks at texts alone, not at the boxes in the cells.
   columns_->horizontalHeader()->setSectionResizeMode(
       Role, role_width > 0 ? QHeaderView::Fixed : QHeaderView::ResizeToContents);
-  if (role_width > 0) columns_->horizontalHeader()->resizeSection(Role, std::min(role_width, 190));
+  if (role_width > 0) columns_->horizontalHeader()->resizeSection(Role, std::min(role_width, 170));
   if (selected >= 0 && selected < columns_->rowCount()) columns_->setCurrentCell(selected, ColumnName);
   filling_ = false;
 }

@@ -9,13 +9,19 @@
 #include <QTableWidget>
 
 #include "core/base/atomic_file.h"
+#include "core/connect/genicam_camera.h"
+#include "core/imaging/image.h"
 #include "core/thermal/thermal_model.h"
 #include "tests/core/connect/broker.h"
 #include "tests/core/connect/small_agent.h"
 #include "tests/widgets/pages/page_test.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/capture/arriving_panel.h"
+#include "widgets/pages/capture/camera_panel.h"
+#include "widgets/pages/capture/incoming_service.h"
 #include "widgets/pages/capture/machine_state_line.h"
+#include "widgets/pages/capture/new_capture_page.h"
 #include "widgets/pages/common/fields_dialog.h"
 #include "widgets/pages/compensate/live_compensation_panel.h"
 #include "widgets/pages/compensate/log_compensate_page.h"
@@ -266,6 +272,81 @@ TEST_F(ConnectionsTest, ABrokerIsListedAndAnAddressWithoutAPeerIsSaid) {
   EXPECT_EQ(page->state()->tone(), Tone::Bad);
   lookAt(page, "ftp://x");
   EXPECT_TRUE(page->state()->sentence().contains(QStringLiteral("http://")));
+}
+
+TEST_F(ConnectionsTest, ACaptureSaysWhatTheMachineDidWhenItWasTaken) {
+  SmallAgent agent;
+  agent.observe("S1", "450", localUtc());
+  agent.observe("T1", "24.25", localUtc());
+  ConnectionsPanel* page = panel();
+  lookAt(page, agent.url());
+  tick(page, QStringLiteral("S1"));
+  tick(page, QStringLiteral("T1"));
+  QTest::mouseClick(page->recordButton(), Qt::LeftButton);
+  ASSERT_TRUE(
+      waitUntil([&] { return service().snapshot().columns[1].known && service().snapshot().columns[0].known; }));
+  auto* capture = go<NewCapturePage>(StepId::Capture);
+  ArrivingPanel* arriving = capture->arriving();
+  IncomingService::of(window_->session()).setPace(50, 0.1, 1.0);
+  const std::filesystem::path folder = folder_ / "arriving";
+  std::filesystem::create_directories(folder);
+  arriving->watch(QString::fromStdString(folder.string()));
+  QTest::qWait(1200);  // times of files are of whole seconds here and there
+  writeFileAtomically(folder / "M0_F1.png", encodePng(GrayImage(640, 480, 90)));
+  ASSERT_TRUE(waitUntil([&] {
+    const auto& items = IncomingService::of(window_->session()).items();
+    return !items.empty() && items.front().state != IncomingState::Waiting;
+  }));
+  ASSERT_TRUE(waitUntil([&] { return !arriving->arrived()->rows().empty(); }));
+  const QString found = arriving->arrived()->rows().front().cells.back().text;
+  EXPECT_TRUE(found.contains(QStringLiteral("Machine: spindle 450 rpm, spindle 24.25 °C"))) << found.toStdString();
+  picture(QStringLiteral("connections-capture-row"));
+}
+
+TEST_F(ConnectionsTest, ACameraByGenicamIsShown) {
+  enableFakeCamera();
+  (void)panel();
+  auto* capture = go<NewCapturePage>(StepId::Capture);
+  CameraPanel* camera = capture->camera();
+  capture->findChild<QTabWidget*>()->setCurrentWidget(camera);
+  camera->open(QStringLiteral("genicam:no such camera"));
+  ASSERT_TRUE(waitUntil([&] { return camera->state()->tone() == Tone::Bad; }));
+  EXPECT_TRUE(camera->state()->sentence().contains(QStringLiteral("no such camera")));
+  camera->open(QStringLiteral("genicam:Fake_1"));
+  ASSERT_TRUE(waitUntil([&] { return camera->frames() >= 3; })) << camera->state()->sentence().toStdString();
+  EXPECT_TRUE(camera->running());
+  camera->close();
+  EXPECT_FALSE(camera->running());
+}
+
+TEST_F(ConnectionsTest, LinesAndRegistersAreAddedByTheirAddress) {
+  ConnectionsPanel* page = panel();
+  lookAt(page, "tcp://127.0.0.1:1");
+  lookAt(page, "modbus://127.0.0.1:1");
+  ASSERT_EQ(page->sources()->rows().size(), 2U) << page->state()->sentence().toStdString();
+  EXPECT_EQ(page->sources()->rows()[1].id, QStringLiteral("127.0.0.1 2"));
+  // The second is the one that is shown.
+  page->tick(QStringLiteral("nonsense"), true);
+  EXPECT_EQ(page->columns()->rowCount(), 0);
+  EXPECT_EQ(page->state()->tone(), Tone::Bad);
+  EXPECT_TRUE(page->state()->sentence().contains(QStringLiteral("nonsense")));
+  page->tick(QStringLiteral("input:0:int16"), true);
+  ASSERT_EQ(page->columns()->rowCount(), 1) << page->state()->sentence().toStdString();
+  page->columns()->setCurrentCell(0, 0);
+  FieldsDialog* dialog = page->editColumn();
+  ASSERT_NE(dialog, nullptr);
+  dialog->field("column")->setText(QStringLiteral("T_bed_degC"));
+  dialog->field("scale")->setText(QStringLiteral("ten"));
+  dialog->accept();
+  EXPECT_TRUE(dialog->isVisible());  // refused, and nothing is lost
+  EXPECT_FALSE(service().description()["columns"][0].contains("scale"));
+  dialog->field("scale")->setText(QStringLiteral("0.1"));
+  picture(QStringLiteral("connections-column"), dialog);
+  dialog->accept();
+  EXPECT_EQ(service().description()["columns"][0]["scale"], 0.1);
+  EXPECT_EQ(cell(page, 0, 0), QStringLiteral("T_bed_degC"));
+  window_->undoStack().undo();
+  EXPECT_FALSE(service().description()["columns"][0].contains("scale"));
 }
 
 TEST_F(ConnectionsTest, NoSecretIsTakenIntoTheSession) {
