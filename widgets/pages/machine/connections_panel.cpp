@@ -133,7 +133,7 @@ ConnectionsPanel::ConnectionsPanel(PageContext page_context, QWidget* parent)
   column->addWidget(state_);
   auto* left = makeSplitter(makeSourcesCard(), makeItemsCard(), 2, 5, Qt::Vertical);
   auto* right = makeSplitter(makeColumnsCard(), makePlotCard(), 4, 3, Qt::Vertical);
-  column->addWidget(makeSplitter(left, right, 1, 2), 1);
+  column->addWidget(makeSplitter(left, right, 4, 8), 1);
 
   connect(look_, &QPushButton::clicked, this, [this] { lookAt(address_->text().trimmed()); });
   connect(address_, &QLineEdit::returnPressed, look_, &QPushButton::click);
