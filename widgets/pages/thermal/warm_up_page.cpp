@@ -97,20 +97,26 @@ void WarmUpPage::readRecorded() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
   since_read_.start();
-  display(tr("Reading the log that is being recorded"),
-          [this, file = campaign->path("log.csv"), visit = session().visit()](JobContext&) -> std::function<void()> {
-            std::shared_ptr<const OperatingLog> log;
-            try {
-              log = std::make_shared<const OperatingLog>(OperatingLog::read(file));
-            } catch (const InputError&) {
-              return [] {};  // no row yet
-            }
-            return [this, log, visit] {
-              recorded_ = log;
-              recorded_visit_ = visit;
-              showTemperatures();
-            };
-          });
+  // Every minute: nothing to be told about.
+  Job job;
+  job.title = tr("Reading the log that is being recorded");
+  job.quiet = true;
+  job.queue = JobQueue::Display;
+  job.key = "recorded-log";
+  job.work = [this, file = campaign->path("log.csv"), visit = session().visit()](JobContext&) -> std::function<void()> {
+    std::shared_ptr<const OperatingLog> log;
+    try {
+      log = std::make_shared<const OperatingLog>(OperatingLog::read(file));
+    } catch (const InputError&) {
+      return [] {};  // no row yet
+    }
+    return [this, log, visit] {
+      recorded_ = log;
+      recorded_visit_ = visit;
+      showTemperatures();
+    };
+  };
+  context().jobs.run(std::move(job));
 }
 
 void WarmUpPage::showTemperatures() {
