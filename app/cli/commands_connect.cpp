@@ -11,6 +11,7 @@
 #include "core/connect/recording.h"
 #include "core/connect/utc_time.h"
 #include "core/session/session.h"
+#include "core/tasks/task_options.h"
 
 namespace spindrift::cli {
 namespace {
@@ -79,11 +80,24 @@ CommandResult listItems(const RecordArguments& a) {
   return result;
 }
 
+/// As they were put together in the window, page Machine.
+Connections keptConnections(const Session& session, std::int64_t campaign) {
+  const nlohmann::json kept = campaignSetting(session, campaign, option_keys::connections, nlohmann::json());
+  if (kept.is_object()) {
+    Connections connections = Connections::parse(JsonNode::parse(kept.dump(), "connections of the campaign"));
+    if (!connections.columns.empty()) return connections;
+  }
+  throw InputError({session.folder(), ""},
+                   "has no connections for its newest campaign; allowed: map some (Machine, Connections), or name a "
+                   "connections.json.");
+}
+
 CommandResult record(const RecordArguments& a, JobContext& job) {
   if (!a.list.empty()) return listItems(a);
-  if (a.connections.empty() || a.out.empty() == a.session.empty())
+  if (a.out.empty() == a.session.empty() || (a.connections.empty() && a.session.empty()))
     throw InputError("record needs CONNECTIONS and one of --out FILE and --session FOLDER, or --list ADDRESS.");
-  const Connections connections = Connections::read(a.connections);
+  std::optional<Connections> connections;
+  if (!a.connections.empty()) connections = Connections::read(a.connections);
   double start_s = localUtc();
   if (!a.start.empty()) {
     const std::optional<double> given = parseUtc(a.start);
@@ -101,9 +115,10 @@ CommandResult record(const RecordArguments& a, JobContext& job) {
       throw InputError({a.session, ""}, "holds no campaign to record into; allowed: a session with a campaign.");
     campaign = campaigns.back().id;
     start_s = parseUtc(Campaign::read(campaigns.back().folder).start_utc).value_or(start_s);
+    if (!connections) connections = keptConnections(*session, campaign);
     log = session->recordsLog(campaign);
   }
-  Recording recording(connections, log, start_s);
+  Recording recording(*connections, log, start_s);
   const auto begin = std::chrono::steady_clock::now();
   // An interruption is the ordinary end of a recording without --for.
   while (!job.cancelled() && (a.for_s <= 0.0 || secondsSince(begin) < a.for_s)) {
@@ -120,7 +135,7 @@ CommandResult record(const RecordArguments& a, JobContext& job) {
   const std::vector<SourceStatus> states = recording.sources();
   for (std::size_t s = 0; s < states.size(); ++s) {
     result.summary +=
-        fmt::format("{}: {}, {}, missed {}\n", connections.sources[s].name, countOf(states[s].records, "value"),
+        fmt::format("{}: {}, {}, missed {}\n", connections->sources[s].name, countOf(states[s].records, "value"),
                     countOf(states[s].connections, "connection"), countOf(states[s].missed, "time"));
   }
   for (const std::string& sentence : recording.log().gaps) result.summary += "gap: " + sentence + "\n";
@@ -142,7 +157,8 @@ void addConnectCommands(CLI::App& app, CommandLine& line) {
       "reached, "
       "a column has no value, or the disk is full",
       [a](JobContext& job) { return record(*a, job); });
-  command->add_option("CONNECTIONS", a->connections, "connections.json");
+  command->add_option("CONNECTIONS", a->connections,
+                      "connections.json; with --session it may be left out: those of the page Machine are used then");
   command->add_option("--out", a->out, "The log; one that is there with the same columns is gone on with")
       ->type_name("FILE");
   command->add_option("--session", a->session, "Record into log.csv of the newest campaign of this session")

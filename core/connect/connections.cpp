@@ -58,7 +58,6 @@ Maker mqtt(const JsonNode& node, const std::string& url) {
   MqttOptions options;
   options.url = url;
   options.user = node.stringOr("user", "");
-  options.password = secretOf(node);
   options.client_id = node.stringOr("client_id", "");
   options.ca_file = node.stringOr("ca_file", "");
   if (const auto will = node.find("will")) {
@@ -66,7 +65,12 @@ Maker mqtt(const JsonNode& node, const std::string& url) {
     options.will_text = will->at("text").string();
   }
   options.ask_rebirth = node.booleanOr("ask_rebirth", true);
-  return [options] { return makeMqttSource(options); };
+  // Looked up when it is needed: connections can be put together where the secret is not.
+  return [options, node] {
+    MqttOptions with_secret = options;
+    with_secret.password = secretOf(node);
+    return makeMqttSource(with_secret);
+  };
 }
 
 char parityOf(const JsonNode& node) {
@@ -241,8 +245,17 @@ std::string_view toString(Reduction reduction) noexcept {
 Connections Connections::read(const std::filesystem::path& file) {
   const JsonNode root = JsonNode::read(file);
   root.requireFormat("spindrift-connections", 1);
-  Connections out;
+  if (const JsonNode sources = root.at("sources"); sources.items().empty()) sources.reject("at least one source");
+  Connections out = parse(root);
   out.file = file;
+  if (out.columns.empty()) root.at("columns").reject("at least one column");
+  for (const SourceDescription& source : out.sources) (void)source.make();  // secrets that are not there
+  return out;
+}
+
+Connections Connections::parse(const JsonNode& root) {
+  root.requireFormat("spindrift-connections", 1);
+  Connections out;
   const JsonNode sources = root.at("sources");
   for (const JsonNode& node : sources.items()) {
     SourceDescription source = readSource(node);
@@ -251,7 +264,6 @@ Connections Connections::read(const std::filesystem::path& file) {
     }
     out.sources.push_back(std::move(source));
   }
-  if (out.sources.empty()) sources.reject("at least one source");
   const JsonNode columns = root.at("columns");
   for (const JsonNode& node : columns.items()) {
     ColumnMapping column = readColumn(node, out.sources);
@@ -262,7 +274,6 @@ Connections Connections::read(const std::filesystem::path& file) {
     }
     out.columns.push_back(std::move(column));
   }
-  if (out.columns.empty()) columns.reject("at least one column");
   if (const auto given = root.find("interval_s")) out.interval_s = given->positiveNumber();
   if (const auto given = root.find("settle_s")) out.settle_s = given->nonNegativeNumber();
   if (const auto given = root.find("longest_s")) out.longest_s = given->positiveNumber();
@@ -279,12 +290,15 @@ std::vector<std::string> Connections::itemsOf(std::uint32_t source) const {
 }
 
 SourceDescription sourceForAddress(const std::string& url) {
+  return sourceForAddress(url, JsonNode::parse("{}", ""));
+}
+
+SourceDescription sourceForAddress(const std::string& url, const JsonNode& options) {
   if (holdsPassword(url)) throw InputError(fmt::format("The address {}", password_rule));
   const std::string scheme = schemeOf(url);
   for (const Kind& kind : kinds()) {
     if (std::find(kind.schemes.begin(), kind.schemes.end(), scheme) == kind.schemes.end()) continue;
-    const JsonNode nothing = JsonNode::parse("{}", "");
-    return {url, std::string(kind.name), url, kind.make(nothing, url)};
+    return {url, std::string(kind.name), url, kind.make(options, url)};
   }
   throw InputError(
       fmt::format("\"{}\" is no address that can be listed; allowed: one that begins with {}.", url, allBeginnings()));

@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/json_reader.h"
 #include "core/connect/source.h"
 
 namespace spindrift {
@@ -78,6 +79,8 @@ struct Connections {
 
   /// Throws InputError: the file, the JSON path, what was found and what is allowed.
   [[nodiscard]] static Connections read(const std::filesystem::path& file);
+  /// The same of what is still being put together: there may be no source and no column yet.
+  [[nodiscard]] static Connections parse(const JsonNode& root);
   /// The addresses that a source is asked for, in the order of ColumnMapping::item.
   [[nodiscard]] std::vector<std::string> itemsOf(std::uint32_t source) const;
 };
@@ -85,5 +88,7 @@ struct Connections {
 /// For listing what is there: the kind follows from the address (http, https: MTConnect; mqtt, mqtts; modbus, rtu;
 /// serial, tcp: lines of text). Throws InputError for any other, and for one that holds a password.
 [[nodiscard]] SourceDescription sourceForAddress(const std::string& url);
+/// The same with the options of an entry of "sources" ("user", "unit_id", ...); a pattern of lines may be missing.
+[[nodiscard]] SourceDescription sourceForAddress(const std::string& url, const JsonNode& options);
 
 }  // namespace spindrift

@@ -10,7 +10,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
 #include "core/base/text.h"
-#include "core/connect/unit_conversion.h"
+#include "core/base/untrusted_text.h"
 #include "core/connect/utc_time.h"
 #include "core/machine/operating_log.h"
 
@@ -46,15 +46,14 @@ void keep(std::vector<std::string>& list, const std::string& sentence) {
 
 LogRecorder::LogRecorder(const Connections& connections, const std::filesystem::path& log, double start_utc_s,
                          double now_utc_s)
-    : connections_(connections), log_(log), start_s_(start_utc_s) {
+    : connections_(connections),
+      log_(log),
+      start_s_(start_utc_s),
+      reader_(connections, [this](const std::string& sentence) { tell(sentence); }) {
   states_.resize(connections_.columns.size());
   status_.columns.resize(connections_.columns.size());
-  column_of_.resize(connections_.sources.size());
+  for (std::size_t c = 0; c < status_.columns.size(); ++c) status_.columns[c].conversion = reader_.conversion(c);
   live_from_s_.assign(connections_.sources.size(), never);
-  for (std::uint32_t c = 0; c < connections_.columns.size(); ++c)
-    column_of_[connections_.columns[c].source].push_back(c);
-  for (std::uint32_t s = 0; s < connections_.sources.size(); ++s)
-    setUnits(s, std::vector<std::string>(column_of_[s].size()));
   open(now_utc_s);
 }
 
@@ -121,41 +120,12 @@ void LogRecorder::open(double now_utc_s) {
   if (std::isfinite(last_s)) comment(fmt::format("recording goes on after {:.3f} s", last_s));
 }
 
-void LogRecorder::setUnits(std::uint32_t source, const std::vector<std::string>& units) {
-  for (std::size_t i = 0; i < column_of_[source].size() && i < units.size(); ++i) {
-    const std::uint32_t c = column_of_[source][i];
-    const ColumnMapping& mapping = connections_.columns[c];
-    const std::string unit = mapping.unit.empty() ? units[i] : mapping.unit;
-    const auto conversion = conversionInto(mapping.column, unit);
-    ColumnState& state = states_[c];
-    if (!conversion) {
-      if (state.usable) {
-        tell(fmt::format("{} {} is in {}, which cannot become {}: column {} stays empty.",
-                         connections_.sources[source].name, mapping.address, unit, unitOfColumn(mapping.column),
-                         mapping.column));
-      }
-      state.usable = false;
-      continue;
-    }
-    state.usable = true;
-    state.scale = conversion->scale * mapping.scale;
-    state.offset = conversion->offset * mapping.scale + mapping.offset;
-    std::string& stated = status_.columns[c].conversion;
-    stated = unit.empty() ? "as the source gives it" : unit;
-    if (state.scale != 1.0 || state.offset != 0.0)
-      stated += fmt::format(": {} x + {}", shortNumber(state.scale), shortNumber(state.offset));
-  }
-}
-
 void LogRecorder::tell(const std::string& sentence) {
   keep(status_.sentences, sentence);
 }
 
 void LogRecorder::comment(const std::string& text) {
-  std::string one_line = text;
-  std::replace_if(
-      one_line.begin(), one_line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  write("# " + one_line + "\n");
+  write("# " + printable(text) + "\n");
 }
 
 void LogRecorder::notice(std::uint32_t source, const Notice& notice) {
@@ -176,9 +146,9 @@ void LogRecorder::notice(std::uint32_t source, const Notice& notice) {
       break;
     case Notice::Kind::Missed: {
       const double from_s = std::max(notice.from_s - start_s_, 0.0);
-      for (std::uint32_t i = 0; i < column_of_[source].size(); ++i) {
+      for (std::uint32_t i = 0; i < reader_.columnsOf(source).size(); ++i) {
         if (notice.items.empty() || std::find(notice.items.begin(), notice.items.end(), i) != notice.items.end())
-          sample(column_of_[source][i], time_s, std::numeric_limits<double>::quiet_NaN());
+          sample(reader_.columnsOf(source)[i], time_s, std::numeric_limits<double>::quiet_NaN());
       }
       comment(fmt::format("{}: values between {:.3f} s and {:.3f} s may be missing: {}", name, from_s, time_s,
                           notice.text));
@@ -197,46 +167,23 @@ void LogRecorder::take(const Arrival& arrival) {
     return;
   }
   if (const ItemUnits* units = std::get_if<ItemUnits>(&arrival.what)) {
-    setUnits(arrival.source, units->units);
+    reader_.setUnits(arrival.source, units->units);
+    for (const std::uint32_t c : reader_.columnsOf(arrival.source))
+      status_.columns[c].conversion = reader_.conversion(c);
     return;
   }
   const Record& record = std::get<Record>(arrival.what);
-  if (record.item >= column_of_[arrival.source].size()) return;
-  const std::uint32_t c = column_of_[arrival.source][record.item];
-  const ColumnMapping& mapping = connections_.columns[c];
-  ColumnState& state = states_[c];
-  RecorderStatus::Column& told = status_.columns[c];
-  double value = std::numeric_limits<double>::quiet_NaN();
-  const auto word = mapping.values.find(record.text);
-  if (record.quality == Quality::Good) {
-    value = state.scale * record.value + state.offset;
-  } else if (record.quality == Quality::Text) {
-    if (word != mapping.values.end()) {
-      value = word->second;
-    } else if (mapping.otherwise) {
-      value = *mapping.otherwise;
-    }
-  }
-  if (!state.usable || (!std::isfinite(value) && record.quality != Quality::Unavailable)) {
-    value = std::numeric_limits<double>::quiet_NaN();
-    ++told.refused;
-    if (!state.word_told && state.usable) {
-      tell(record.quality == Quality::Text
-               ? fmt::format("{} {} says \"{}\", which is no number and not among \"values\" of column {}.",
-                             connections_.sources[arrival.source].name, mapping.address, record.text.substr(0, 80),
-                             mapping.column)
-               : fmt::format("{} {} gives a number that is not finite; column {} is empty there.",
-                             connections_.sources[arrival.source].name, mapping.address, mapping.column));
-      state.word_told = true;
-    }
-  }
-  if (std::isfinite(value)) {
+  const auto reading = reader_.read(arrival.source, record);
+  if (!reading) return;
+  RecorderStatus::Column& told = status_.columns[reading->column];
+  told.refused += reading->refused;
+  told.known = std::isfinite(reading->value);
+  if (told.known) {
     ++told.records;
-    told.last_value = value;
+    told.last_value = reading->value;
     told.last_s = record.time_s;
   }
-  told.known = std::isfinite(value);
-  sample(c, record.time_s - start_s_, value);
+  sample(reading->column, record.time_s - start_s_, reading->value);
 }
 
 void LogRecorder::sample(std::size_t column, double time_s, double value) {

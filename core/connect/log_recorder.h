@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "core/connect/append_file.h"
+#include "core/connect/column_reader.h"
 #include "core/connect/connections.h"
 #include "core/connect/record.h"
 
@@ -49,6 +50,9 @@ class LogRecorder {
   /// Throws InputError: not writable, other columns, a log that begins elsewhere or ends in the future.
   LogRecorder(const Connections& connections, const std::filesystem::path& log, double start_utc_s, double now_utc_s);
 
+  LogRecorder(const LogRecorder&) = delete;
+  LogRecorder& operator=(const LogRecorder&) = delete;
+
   void take(const Arrival& arrival);
   /// Closes what is due and writes it.
   void advance(double now_utc_s);
@@ -71,19 +75,15 @@ class LogRecorder {
     std::vector<std::vector<Sample>> samples;  ///< per column
   };
   struct ColumnState {
-    double scale = 1.0, offset = 0.0;
-    bool usable = true;                                         ///< false: its unit cannot become that of the column
     double held = std::numeric_limits<double>::quiet_NaN();     ///< the newest value; NaN: unknown
     double reduced = std::numeric_limits<double>::quiet_NaN();  ///< of the last closed bin
     double written = std::numeric_limits<double>::quiet_NaN();  ///< the last value in the log
     double written_s = -std::numeric_limits<double>::infinity();
     double newest_s = -std::numeric_limits<double>::infinity();  ///< of the newest sample
-    bool word_told = false;
   };
 
   void open(double now_s);
   [[nodiscard]] std::string header() const;
-  void setUnits(std::uint32_t source, const std::vector<std::string>& units);
   void notice(std::uint32_t source, const Notice& notice);
   void sample(std::size_t column, double time_s, double value);
   void closeBin();
@@ -101,7 +101,8 @@ class LogRecorder {
   double start_s_;
   std::unique_ptr<AppendFile> file_;
   std::unique_ptr<AppendFile> late_;
-  std::vector<std::vector<std::uint32_t>> column_of_;  ///< source, item -> column
+  RecorderStatus status_;  ///< before reader_, which tells into it
+  ColumnReader reader_;
   std::vector<ColumnState> states_;
   std::vector<double> live_from_s_;  ///< per source; infinite while it is lost
   std::deque<Bin> bins_;             ///< from bin first_bin_ on
@@ -112,7 +113,6 @@ class LogRecorder {
   double synced_s_ = 0.0;
   double next_trial_s_ = 0.0;
   double now_s_ = 0.0;
-  RecorderStatus status_;
 };
 
 }  // namespace spindrift

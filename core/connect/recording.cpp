@@ -30,31 +30,38 @@ std::string_view toString(SourceStatus::State state) {
 
 Recording::Recording(const Connections& connections, const std::filesystem::path& log, double start_utc_s,
                      const RunnerOptions& options)
-    : connections_(connections),
-      recorder_(connections, log, start_utc_s, localUtc()),
-      queue_(std::make_shared<RecordQueue>()) {
+    : connections_(connections), start_s_(start_utc_s), queue_(std::make_shared<RecordQueue>()) {
+  unrecorded_.columns.resize(connections_.columns.size());
+  if (!log.empty()) recorder_ = std::make_unique<LogRecorder>(connections_, log, start_utc_s, localUtc());
   for (std::uint32_t s = 0; s < connections_.sources.size(); ++s) {
     runners_.push_back(
         std::make_unique<SourceRunner>(s, connections_.sources[s].make(), connections_.itemsOf(s), queue_, options));
   }
 }
 
-void Recording::turn(double wait_s) {
-  if (recorder_.accepts()) {
+void Recording::takeAll(const Onlooker& onlooker) {
+  for (const Arrival& arrival : taken_) {
+    if (onlooker) onlooker(arrival);
+    if (recorder_) recorder_->take(arrival);
+  }
+}
+
+void Recording::turn(double wait_s, const Onlooker& onlooker) {
+  if (!recorder_ || recorder_->accepts()) {
     queue_->take(taken_, wait_s);
-    for (const Arrival& arrival : taken_) recorder_.take(arrival);
+    takeAll(onlooker);
   } else {
     std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
   }
-  recorder_.advance(localUtc());
+  if (recorder_) recorder_->advance(localUtc());
 }
 
-void Recording::finish() {
+void Recording::finish(const Onlooker& onlooker) {
   for (const auto& runner : runners_) runner->requestStop();
   for (const auto& runner : runners_) runner->stop();
   queue_->take(taken_, 0.0);
-  for (const Arrival& arrival : taken_) recorder_.take(arrival);
-  recorder_.finish(localUtc());
+  takeAll(onlooker);
+  if (recorder_) recorder_->finish(localUtc());
 }
 
 std::vector<SourceStatus> Recording::sources() const {
@@ -116,7 +123,7 @@ nlohmann::json Recording::json() const {
   out["rows"] = log_state.rows;
   out["late"] = log_state.late;
   out["rotations"] = log_state.rotations;
-  out["start_utc"] = utcText(recorder_.startUtc());
+  out["start_utc"] = utcText(startUtc());
   out["gaps"] = log_state.gaps;
   out["messages"] = log_state.sentences;
   out["shortcomings"] = shortcomings();

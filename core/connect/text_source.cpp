@@ -13,6 +13,7 @@
 #include <map>
 
 #include "core/base/text.h"
+#include "core/base/untrusted_text.h"
 #include "core/connect/append_file.h"
 #include "core/connect/tcp_connection.h"
 
@@ -50,7 +51,8 @@ class TextSource final : public Source {
     for (double waited = 0.0; waited < listen_s && !stop.stop_requested(); waited += 0.05) {
       read(0.05, [&](const std::string& line) {
         if (items.size() < 100)
-          items.push_back({fmt::format("line {}", items.size() + 1), "", "", "", "text", "", line.substr(0, 120)});
+          items.push_back(
+              {fmt::format("line {}", items.size() + 1), "", "", "", "text", "", printable(beginning(line, 120))});
       });
     }
     return items;

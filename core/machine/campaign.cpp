@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <string>
 #include <string_view>
 
 #include "core/base/inside_folder.h"
@@ -22,6 +24,17 @@ bool isUtc(std::string_view text) {
   const std::string_view decimals = text.substr(form.size(), text.size() - form.size() - 1);
   return decimals.empty() ||
          (decimals.size() > 1 && decimals.front() == '.' && std::all_of(decimals.begin() + 1, decimals.end(), digit));
+}
+
+/// A log that a recording has begun (core/connect/log_recorder.h: its first line says where time_s is 0) and that has
+/// its header and remarks, and no row yet: the campaign is as good as without.
+bool hasJustBegun(const std::filesystem::path& log) {
+  std::ifstream in(log);
+  std::string line;
+  if (!std::getline(in, line) || !line.starts_with("# time_s counts from ")) return false;
+  int rows = 0;
+  while (rows < 2 && std::getline(in, line)) rows += !line.empty() && line.front() != '#' && line.front() != '\r';
+  return rows < 2;  // the first is the header
 }
 
 }  // namespace
@@ -60,7 +73,8 @@ Campaign Campaign::read(const std::filesystem::path& folder) {
   if (const auto effects = root.find("effects")) campaign.effects = effects->name();
   if (const auto simulator = root.find("simulator")) campaign.simulator = simulator->name();
   campaign.machine = MachineDescription::read(folder / "machine.json");
-  if (std::filesystem::exists(folder / "log.csv")) campaign.log = OperatingLog::read(folder / "log.csv");
+  if (std::filesystem::exists(folder / "log.csv") && !hasJustBegun(folder / "log.csv"))
+    campaign.log = OperatingLog::read(folder / "log.csv");
   if (std::filesystem::exists(folder / "observations.csv")) {
     campaign.observations = ObservationSet::read(folder / "observations.csv");
     campaign.observations->absolute = campaign.absolute;

@@ -35,7 +35,8 @@ inline constexpr auto report = "report-options";
 inline constexpr auto plan = "plan";
 inline constexpr auto warm_statement = "warm-statement";
 inline constexpr auto simulator = "discrepancy/simulator";
-inline constexpr auto operator_name = "operator";  ///< of the session, not of a campaign
+inline constexpr auto connections = "connections";  ///< connections.json of the campaign
+inline constexpr auto operator_name = "operator";   ///< of the session, not of a campaign
 }  // namespace option_keys
 
 /// Effects that the user put into the model, left out, or edited.

@@ -7,6 +7,7 @@
 #include <QPushButton>
 
 #include "widgets/common/parts.h"
+#include "widgets/theme/icons.h"
 
 namespace spindrift::gui {
 
@@ -35,6 +36,10 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(run
   line->addWidget(hint_);
   line->addWidget(progress_);
   line->addWidget(cancel_);
+  connections_ = makeButton({}, "check-circle", "quiet");
+  connections_->hide();
+  line->addWidget(connections_);
+  connect(connections_, &QPushButton::clicked, this, &JobBar::connectionsWanted);
   activity_ = makeButton(tr("Messages"), "note");
   activity_->setToolTip(tr("Jobs that run and wait, and all messages so far"));
   line->addWidget(activity_);
@@ -94,6 +99,26 @@ void JobBar::showText(const QString& icon, Tone tone, const QString& text) {
 
 void JobBar::setMessage(const QString& text) {
   showText(QStringLiteral("info"), Tone::Neutral, text);
+}
+
+void JobBar::setMessage(Tone tone, const QString& text) {
+  showText(QString::fromLatin1(toneIcon(tone)), tone, text);
+}
+
+void JobBar::setConnections(Tone tone, const QString& text, const QString& tip) {
+  connections_->setVisible(!text.isEmpty());
+  if (text.isEmpty()) {
+    connections_->setText({});
+    return;
+  }
+  connections_->setText(QChar(0x2009) + text);
+  connections_->setAccessibleName(text);
+  connections_->setIcon(icon(toneIcon(tone), theme().tone(tone)));
+  connections_->setToolTip(tip);
+}
+
+QString JobBar::connections() const {
+  return connections_->text().trimmed();
 }
 
 QString JobBar::message() const {

@@ -23,6 +23,11 @@ class JobBar : public QFrame {
   /// A short text at the right end (the value under the cursor).
   void setHint(const QString& text);
   void setMessage(const QString& text);
+  /// The same with a meaning of its own.
+  void setMessage(Tone tone, const QString& text);
+  /// What is connected, as long as it is: stands beside whatever else is said. `text` empty: nothing is.
+  void setConnections(Tone tone, const QString& text, const QString& tip);
+  [[nodiscard]] QString connections() const;
   [[nodiscard]] QPushButton* cancelButton() const { return cancel_; }
   [[nodiscard]] QString message() const;
   /// Everything it has said.
@@ -32,6 +37,8 @@ class JobBar : public QFrame {
  Q_SIGNALS:
   /// The user wants to see jobs and messages.
   void activityWanted();
+  /// The user wants to see the connections.
+  void connectionsWanted();
 
  private:
   void showText(const QString& icon, Tone tone, const QString& text);
@@ -44,6 +51,7 @@ class JobBar : public QFrame {
   QPushButton* cancel_;
   QPushButton* activity_;
   QLabel* hint_;
+  QPushButton* connections_;
 };
 
 }  // namespace spindrift::gui

@@ -24,6 +24,7 @@
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QStandardPaths>
+#include <QTabWidget>
 #include <QTemporaryDir>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -35,6 +36,7 @@
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/activity_dialog.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/pages/machine/connections_service.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/new_measurement_dialog.h"
@@ -102,6 +104,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
 
   buildMenu();
   showHelp();
+  watchConnections();
 
   connect(back_, &QPushButton::clicked, &workflow_, &Workflow::back);
   connect(next_, &QPushButton::clicked, &workflow_, &Workflow::next);
@@ -177,6 +180,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
 }
 
 MainWindow::~MainWindow() {
+  finishRecording();
   jobs_.cancelAll();
   // Pages hold references to what stands below them in this class.
   for (const auto& [entry, page] : pages_) delete page;
@@ -252,6 +256,7 @@ void MainWindow::openSession(const QString& folder) {
     auto loaded =
         std::make_shared<LoadedSession>(loadSession(std::make_unique<Session>(Session::open(folder.toStdString()))));
     return [this, folder, loaded] {
+      finishRecording();
       session_.adopt(std::move(*loaded));
       remember(folder);
       workflow_.goTo(StepId::Machine);
@@ -298,6 +303,50 @@ void MainWindow::verifyFiles() {
   jobs_.run(std::move(job));
 }
 
+/// What is connected, and what is lost, is said on every page.
+void MainWindow::watchConnections() {
+  ConnectionsService& service = ConnectionsService::of(session_);
+  connect(&service, &ConnectionsService::changed, this, &MainWindow::showConnections);
+  connect(&service, &ConnectionsService::told, this,
+          [this](Tone tone, const QString& sentence) { job_bar_->setMessage(tone, sentence); });
+  connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, &MainWindow::showConnections);
+  connect(job_bar_, &JobBar::connectionsWanted, this, [this] {
+    if (session_.campaign() == nullptr) return;
+    workflow_.goTo(StepId::Machine);
+    if (auto* tabs = page_->findChild<QTabWidget*>(QStringLiteral("machineTabs")))
+      tabs->setCurrentIndex(tabs->count() - 1);
+  });
+}
+
+/// The log is whole and known before its session goes.
+void MainWindow::finishRecording() {
+  ConnectionsService::of(session_).finishNow();
+}
+
+void MainWindow::showConnections() {
+  const ConnectionsService& service = ConnectionsService::of(session_);
+  if (!service.running()) {
+    job_bar_->setConnections(Tone::Neutral, {}, {});
+    return;
+  }
+  QStringList lost;
+  for (const LiveSource& source : service.snapshot().sources) {
+    if (source.status.state == SourceStatus::State::Lost) lost << QString::fromStdString(source.name);
+  }
+  const QString problem = QString::fromStdString(service.snapshot().problem);
+  if (!problem.isEmpty()) {
+    job_bar_->setConnections(Tone::Bad, tr("Not written"), problem);
+  } else if (!lost.isEmpty()) {
+    job_bar_->setConnections(
+        Tone::Bad, lost.size() == 1 ? tr("%1 lost").arg(lost.front().left(24)) : tr("%1 sources lost").arg(lost.size()),
+        service.lost());
+  } else if (service.recording()) {
+    job_bar_->setConnections(Tone::Good, tr("Recording"), tr("%1 rows of log.csv").arg(service.snapshot().rows));
+  } else {
+    job_bar_->setConnections(Tone::Good, tr("Live"), tr("Connected; nothing is written"));
+  }
+}
+
 ActivityDialog* MainWindow::openActivity() {
   if (activity_ == nullptr) activity_ = new ActivityDialog(jobs_, job_bar_->log(), this);
   activity_->show();
@@ -327,6 +376,7 @@ void MainWindow::importInBackground(const QString& title, std::function<std::fil
       const std::int64_t id = (*session)->importCampaign(campaign_folder, second);
       auto loaded = std::make_shared<LoadedSession>(loadSession(std::move(*session), id));
       return [this, loaded, folder] {
+        finishRecording();
         session_.adopt(std::move(*loaded));
         remember(QString::fromStdString(folder.string()));
         workflow_.goTo(StepId::Machine);
@@ -409,6 +459,7 @@ void MainWindow::startDemo(const QString& name, bool small) {
 }
 
 void MainWindow::closeSession() {
+  finishRecording();
   session_.close();
   page_ = nullptr;
 }
@@ -449,6 +500,7 @@ void MainWindow::startMeasurement(const nlohmann::json& machine) {
         std::make_unique<Session>(Session::create(newSessionFolder(QString::fromStdString(description.name))));
     const std::int64_t id = session->newCampaign(description.name, utcNow(), description.source.dump(1));
     const QString folder = QString::fromStdString(session->folder().string());
+    finishRecording();
     session_.adopt(std::move(session), id);
     remember(folder);
     workflow_.goTo(StepId::Machine);
@@ -512,6 +564,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   }
   QSettings().setValue(QStringLiteral("window"), saveGeometry());
   jobs_.cancelAll();
+  finishRecording();
   event->accept();
 }
 

@@ -85,6 +85,9 @@ class MainWindow : public QMainWindow {
   void tell(const QString& sentence);
   void about();
   void verifyFiles();
+  void watchConnections();
+  void showConnections();
+  void finishRecording();
   void importInBackground(const QString& title, std::function<std::filesystem::path(JobContext&)> source,
                           const QString& name);
 

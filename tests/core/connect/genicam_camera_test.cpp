@@ -7,8 +7,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 
 #include "core/connect/source.h"
+#include "core/imaging/artwork.h"
+#include "core/imaging/decoder.h"
+#include "core/simulation/virtual_microscope.h"
 #include "tests/core/connect/collected.h"
 
 namespace spindrift::testing {
@@ -66,23 +70,47 @@ class FakeGigeCamera {
   FakeGigeCamera(const FakeGigeCamera&) = delete;
   FakeGigeCamera& operator=(const FakeGigeCamera&) = delete;
   [[nodiscard]] bool running() const { return arv_gv_fake_camera_is_running(camera_) != 0; }
+  /// Every frame shows this picture, which has the size of the camera's frames, from now on.
+  void show(GrayImage picture) {
+    picture_ = std::move(picture);
+    arv_fake_camera_set_fill_pattern(
+        arv_gv_fake_camera_get_fake_camera(camera_),
+        [](ArvBuffer* buffer, void* self, guint32, guint32, ArvPixelFormat) {
+          const GrayImage& shown = static_cast<FakeGigeCamera*>(self)->picture_;
+          // What is told as the size is what the last frame sent; the memory is that of the payload.
+          std::size_t told = 0;
+          const void* data = arv_buffer_get_data(buffer, &told);
+          const std::size_t payload = arv_fake_camera_get_payload(
+              arv_gv_fake_camera_get_fake_camera(static_cast<FakeGigeCamera*>(self)->camera_));
+          const auto pixels = static_cast<std::size_t>(shown.width()) * static_cast<std::size_t>(shown.height());
+          std::memcpy(const_cast<void*>(data), shown.data(), std::min(payload, pixels));
+        },
+        this);
+  }
 
  private:
   ArvGvFakeCamera* camera_;
+  GrayImage picture_;
 };
 
-TEST(Genicam, IncompleteFramesAreCountedAndNeverGivenOut) {
-  const FakeGigeCamera peer("GVS01", 0.005);
-  ASSERT_TRUE(peer.running());
+std::unique_ptr<GenicamCamera> connectedTo(const std::string& name) {
   std::unique_ptr<GenicamCamera> camera;
-  ASSERT_TRUE(waitUntil([&] {
+  (void)waitUntil([&] {
     try {
-      camera = std::make_unique<GenicamCamera>("127.0.0.1");
+      camera = std::make_unique<GenicamCamera>(name);
       return true;
     } catch (const ConnectionError&) {
       return false;
     }
-  }));
+  });
+  return camera;
+}
+
+TEST(Genicam, IncompleteFramesAreCountedAndNeverGivenOut) {
+  const FakeGigeCamera peer("GVS01", 0.005);
+  ASSERT_TRUE(peer.running());
+  const std::unique_ptr<GenicamCamera> camera = connectedTo("127.0.0.1");
+  ASSERT_NE(camera, nullptr);
   std::uint64_t given = 0;
   ASSERT_TRUE(waitUntil(
       [&] {
@@ -102,6 +130,39 @@ TEST(Genicam, IncompleteFramesAreCountedAndNeverGivenOut) {
       },
       30.0));
   EXPECT_EQ(given, camera->counts().complete);
+}
+
+TEST(Genicam, FiducialsAreDecodedFromWholeFramesWhilePacketsAreLost) {
+  constexpr int width = 512, height = 512;
+  MicroscopeScene scene;
+  scene.width_px = width;
+  scene.height_px = height;
+  scene.map = poseAt(width, height, 2.2, 0.4, {1230, 1310}, {256, 256});
+  const GrayImage picture = renderFiducial(standardPattern(), scene, 7);
+  const DecodeResult expected = decodeImage(picture);
+  ASSERT_TRUE(expected.usable()) << expected.message;
+  FakeGigeCamera peer("GVS02", 0.005);
+  ASSERT_TRUE(peer.running());
+  peer.show(picture);
+  const std::unique_ptr<GenicamCamera> camera = connectedTo("127.0.0.1");
+  ASSERT_NE(camera, nullptr);
+  ASSERT_EQ(camera->region().width, width);
+  ASSERT_EQ(camera->region().height, height);
+  int decoded = 0;
+  ASSERT_TRUE(waitUntil(
+      [&] {
+        if (const auto image = camera->read(0.5)) {
+          const DecodeResult seen = decodeImage(*image);
+          EXPECT_TRUE(seen.usable()) << seen.message;
+          EXPECT_EQ(seen.subpatterns.size(), expected.subpatterns.size());
+          EXPECT_NEAR(seen.map.tilt_rad, scene.map.tilt_rad, 1e-3);
+          ++decoded;
+        }
+        return camera->counts().incomplete >= 3 && decoded >= 5;
+      },
+      40.0))
+      << decoded << " decoded, " << camera->counts().incomplete << " incomplete";
+  EXPECT_EQ(static_cast<std::uint64_t>(decoded), camera->counts().complete);
 }
 
 }  // namespace

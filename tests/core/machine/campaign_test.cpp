@@ -31,6 +31,23 @@ TEST(Campaign, ReadsWhatIsThereAndNoMore) {
   EXPECT_TRUE(campaign.captureList("touches.csv"));
 }
 
+TEST(Campaign, ALogWhoseRecordingHasJustBegunIsNoneYet) {
+  const testing::TempFolder folder;
+  folder.write("campaign.json",
+               R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z"})");
+  folder.write("machine.json", machine);
+  const std::string begun = "# time_s counts from 2026-01-31T08:00:00.000Z\n# spindle_rpm: mill S1\n";
+  folder.write("log.csv", begun);
+  EXPECT_FALSE(Campaign::read(folder.path()).log);
+  folder.write("log.csv", begun + "time_s,spindle_rpm\n# mill lost at 3.000 s: no answer\n");
+  EXPECT_FALSE(Campaign::read(folder.path()).log);
+  folder.write("log.csv", begun + "time_s,spindle_rpm\n# mill lost at 3.000 s: no answer\n4.000,600\n");
+  EXPECT_EQ(Campaign::read(folder.path()).log->at("spindle_rpm", 4.0), 600.0);
+  // One that nobody records has lost its rows.
+  folder.write("log.csv", "time_s,spindle_rpm\n");
+  EXPECT_THROW((void)Campaign::read(folder.path()), InputError);
+}
+
 TEST(Campaign, BadFilesAreNamed) {
   const testing::TempFolder folder;
   const auto complaint = [&](const char* text) -> std::string {

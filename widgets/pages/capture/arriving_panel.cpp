@@ -14,9 +14,11 @@
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/incoming_service.h"
 #include "widgets/pages/capture/live_touch_panel.h"
+#include "widgets/pages/capture/machine_state_line.h"
 #include "widgets/pages/capture/plan_panel.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/pages/machine/connections_service.h"
 
 namespace spindrift::gui {
 namespace {
@@ -65,6 +67,7 @@ ArrivingPanel::ArrivingPanel(PageContext page_context, Instrument instrument, QW
   state_ = new Callout;
   retake_ = new Callout;
   column->addWidget(state_);
+  column->addWidget(new MachineStateLine(context_.session));
   column->addWidget(retake_);
 
   arrived_ = new Card(tr("Arrived"));
@@ -149,7 +152,13 @@ void ArrivingPanel::refresh() {
           QPixmap::fromImage(picture.scaled(thumbnail_size, Qt::KeepAspectRatio, Qt::SmoothTransformation));
     }
     row.cells.front().tip = item.plan_item.empty() ? row.id : row.id + QStringLiteral(": ") + fromCore(item.plan_item);
-    row.cells.back().tip = fromCore(item.sentence);
+    // Beside what was found, what the machine did at that moment.
+    const bool capture = item.state != IncomingState::Waiting && item.kind != IncomingKind::Other;
+    const QString machine = capture ? ConnectionsService::of(context_.session).machineAt(item.time_s) : QString();
+    if (!machine.isEmpty())
+      row.cells.back().text +=
+          (item.sentence.empty() ? QString() : QStringLiteral("\n")) + tr("Machine: %1").arg(machine);
+    row.cells.back().tip = row.cells.back().text;
     rows.push_back(std::move(row));
   }
   table_->setColumnHidden(2, table_->width() < width_for_capture);

@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/pages/capture/camera_panel.h"
 
+#include <fmt/format.h>
+
 #include <QHBoxLayout>
 #include <QLineEdit>
 #include <QSplitter>
 #include <QVBoxLayout>
 #include <chrono>
+#include <optional>
+#include <string_view>
 
 #include "core/base/error.h"
+#include "core/connect/genicam_camera.h"
+#include "core/connect/source.h"
 #include "core/imaging/camera.h"
 #include "widgets/common/parts.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/pages/capture/incoming_service.h"
+#include "widgets/pages/capture/machine_state_line.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/imaging/decode_marks.h"
 #include "widgets/plots/plot.h"
@@ -20,6 +27,8 @@ namespace spindrift::gui {
 namespace {
 
 constexpr std::size_t history_length = 300;
+/// "genicam:" alone is the first camera that answers.
+constexpr const char* genicam_prefix = "genicam:";
 
 }  // namespace
 
@@ -31,7 +40,7 @@ CameraPanel::CameraPanel(PageContext page_context, QWidget* parent)
   auto* line = new QHBoxLayout;
   source_ = new QLineEdit;
   source_->setAccessibleName(tr("Camera"));
-  source_->setPlaceholderText(tr("Device number (0), video file, or address (rtsp://…)"));
+  source_->setPlaceholderText(tr("Device number (0), genicam:NAME, video file, or address (rtsp://…)"));
   source_->setMinimumHeight(sizes::control_height);
   open_ = makeButton(tr("Open camera"), "play");
   take_ = makeButton(tr("Take picture"), nullptr, "primary");
@@ -43,6 +52,7 @@ CameraPanel::CameraPanel(PageContext page_context, QWidget* parent)
   column->addLayout(line);
   state_ = new Callout;
   column->addWidget(state_);
+  column->addWidget(new MachineStateLine(context_.session));
   state_->show(Tone::Neutral, tr("Open the camera of the microscope: focus while the sharpness rises, then take the "
                                  "picture. The plan says which one it is."));
   auto* left = new Card(tr("Live"));
@@ -106,27 +116,49 @@ void CameraPanel::close() {
 
 /// On the reader's thread: the newest picture is decoded, those that come meanwhile are passed over.
 void CameraPanel::readFrames(std::stop_token stop, const std::string& source) {
+  const auto show = [this](GrayImage image) {
+    Frame frame;
+    frame.image = std::make_shared<GrayImage>(std::move(image));
+    frame.verdict = judgeCapture(*frame.image, false);
+    const std::lock_guard lock(mutex_);
+    latest_ = std::move(frame);
+  };
+  const auto fail = [this](const char* sentence) {
+    const std::lock_guard lock(mutex_);
+    failure_ = QString::fromUtf8(sentence);
+  };
   try {
-    CameraSource camera = CameraSource::open(source);
-    const double rate = camera.framesPerSecond();
-    while (!stop.stop_requested()) {
-      const auto began = std::chrono::steady_clock::now();
-      auto image = camera.read();
-      if (!image) break;
-      Frame frame;
-      frame.image = std::make_shared<GrayImage>(std::move(*image));
-      frame.verdict = judgeCapture(*frame.image, false);
-      {
-        const std::lock_guard lock(mutex_);
-        latest_ = std::move(frame);
+    if (source.starts_with(genicam_prefix)) {
+      GenicamCamera camera(source.substr(std::string_view(genicam_prefix).size()));
+      constexpr double patience_s = 5.0;
+      double waited_s = 0.0;
+      while (!stop.stop_requested() && waited_s < patience_s) {
+        // Frames of which packets are missing are counted, and never shown or taken.
+        std::optional<GrayImage> image = camera.read(0.25);
+        waited_s = image ? 0.0 : waited_s + 0.25;
+        if (image) show(std::move(*image));
       }
-      if (camera.isFile() && rate > 0.0) {
-        std::this_thread::sleep_until(began + std::chrono::duration<double>(1.0 / rate));
+      if (!stop.stop_requested())
+        throw ConnectionError(
+            fmt::format("The camera has sent no whole frame for {:.0f} s, and {} with packets missing.", patience_s,
+                        camera.counts().incomplete));
+    } else {
+      CameraSource camera = CameraSource::open(source);
+      const double rate = camera.framesPerSecond();
+      while (!stop.stop_requested()) {
+        const auto began = std::chrono::steady_clock::now();
+        auto image = camera.read();
+        if (!image) break;
+        show(std::move(*image));
+        if (camera.isFile() && rate > 0.0) {
+          std::this_thread::sleep_until(began + std::chrono::duration<double>(1.0 / rate));
+        }
       }
     }
   } catch (const InputError& e) {
-    const std::lock_guard lock(mutex_);
-    failure_ = QString::fromUtf8(e.what());
+    fail(e.what());
+  } catch (const ConnectionError& e) {
+    fail(e.what());
   }
   ended_ = true;
 }

@@ -2,6 +2,7 @@
 #include "widgets/pages/compensate/log_compensate_page.h"
 
 #include <QHBoxLayout>
+#include <QTabWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "core/workflows/campaign_series.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/compensate/live_compensation_panel.h"
 #include "widgets/plots/plot.h"
 
 namespace spindrift::gui {
@@ -105,8 +107,14 @@ LogCompensatePage::LogCompensatePage(PageContext page_context, QWidget* parent)
   plot_->setEmptyText(tr("Measured, correction and what is left will appear here"),
                       tr("Identify a model (Model), then press Run the compensator."));
   card->body()->addWidget(plot_, 1);
-  content()->addWidget(card, 1);
+  auto* tabs = makeTabs();
+  tabs->setObjectName(QStringLiteral("compensatorTabs"));
+  tabs->addTab(card, tr("Over the log"));
+  live_ = new LiveCompensationPanel(session());
+  tabs->addTab(live_, tr("Live"));
+  content()->addWidget(tabs, 1);
   showHints(plot_);
+  showHints(live_->plot());
   connect(run_button_, &QPushButton::clicked, this, [this] { compensate(true); });
   connect(&session(), &SessionModel::campaignChanged, this, [this] {
     result_.reset();
@@ -145,6 +153,7 @@ void LogCompensatePage::compensate(bool store) {
 
 void LogCompensatePage::refresh() {
   if (session().campaign() == nullptr) return;
+  live_->refresh();
   const std::int64_t model = modelId();
   run_button_->setEnabled(model != 0);
   if (result_model_ != model) result_.reset();
@@ -207,7 +216,10 @@ void LogCompensatePage::showResult() {
 }
 
 std::vector<Exportable> LogCompensatePage::exportables() {
-  if (result_ == nullptr) return {};
+  if (result_ == nullptr) {
+    if (live_->plot()->empty()) return {};
+    return {exportableOf(tr("Prediction and measurement, live"), live_->plot())};
+  }
   const auto result = result_;
   const auto model = model_;
   return {{tr("Thermal model"),

@@ -12,6 +12,7 @@
 namespace spindrift::gui {
 
 class EmptyState;
+class LiveCompensationPanel;
 class NumberTile;
 class Plot;
 
@@ -40,6 +41,7 @@ class LogCompensatePage : public Page {
   void runAll() override { compensate(true); }
   [[nodiscard]] Plot* plot() const { return plot_; }
   [[nodiscard]] const std::shared_ptr<const CompensatorRun>& result() const { return result_; }
+  [[nodiscard]] LiveCompensationPanel* live() const { return live_; }
 
  private:
   void compensate(bool store);
@@ -54,6 +56,7 @@ class LogCompensatePage : public Page {
   NumberTile* after_;
   NumberTile* largest_;
   Plot* plot_;
+  LiveCompensationPanel* live_;
 };
 
 }  // namespace spindrift::gui

@@ -26,6 +26,7 @@
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/common/editor_table.h"
 #include "widgets/pages/machine/artefact_editor.h"
+#include "widgets/pages/machine/connections_panel.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -140,11 +141,14 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   artefacts_ = new ArtefactEditor(context());
   tabs->addTab(artefacts_, tr("Artefacts and styli"));
   tabs->addTab(makeSensorTab(), tr("Temperature sensors"));
+  connections_ = new ConnectionsPanel(context());
+  tabs->addTab(connections_, tr("Connections"));
   content()->addWidget(tabs, 1);
   // Each tab has its own changes to apply.
   connect(tabs, &QTabWidget::currentChanged, this, [this](int index) {
-    apply_->setVisible(index != 1);
-    discard_->setVisible(index != 1);
+    const bool description = index == 0 || index == 2;
+    apply_->setVisible(description);
+    discard_->setVisible(description);
   });
 
   connect(name_, &QLineEdit::textEdited, this, &MachinePage::markEdited);
@@ -223,6 +227,7 @@ void MachinePage::refresh() {
   discard_->setEnabled(draft.is_object());
   original_->setVisible(session().machineEdited());
   artefacts_->refresh();
+  connections_->refresh();
   if (draft.is_object()) {
     callout()->setAction({}, {});
     callout()->show(Tone::Attention, tr("What was typed here is not applied yet: apply the changes, or discard them."));
@@ -493,10 +498,12 @@ void MachinePage::apply() {
 }
 
 std::vector<Exportable> MachinePage::exportables() {
-  return {exportableOf(tr("Machine"), view_),
-          {tr("Machine description"), {QStringLiteral("json")}, [this](const QString& file) {
-             writeFileAtomically(file.toStdString(), edited().dump(1) + "\n");
-           }}};
+  std::vector<Exportable> items{exportableOf(tr("Machine"), view_),
+                                {tr("Machine description"), {QStringLiteral("json")}, [this](const QString& file) {
+                                   writeFileAtomically(file.toStdString(), edited().dump(1) + "\n");
+                                 }}};
+  for (Exportable& item : connections_->exportables()) items.push_back(std::move(item));
+  return items;
 }
 
 }  // namespace spindrift::gui

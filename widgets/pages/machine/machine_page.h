@@ -17,6 +17,7 @@ namespace spindrift::gui {
 
 class ArtefactEditor;
 class Badge;
+class ConnectionsPanel;
 class View3D;
 
 class MachinePage : public Page {
@@ -28,6 +29,7 @@ class MachinePage : public Page {
   [[nodiscard]] ArtefactEditor* artefacts() const { return artefacts_; }
   /// Column of the log, what it is taken for, and from where that is known.
   [[nodiscard]] QTableWidget* sensors() const { return sensors_; }
+  [[nodiscard]] ConnectionsPanel* connections() const { return connections_; }
 
  private:
   void markEdited();
@@ -53,6 +55,7 @@ class MachinePage : public Page {
   QTableWidget* points_;
   QTableWidget* sensors_;
   ArtefactEditor* artefacts_;
+  ConnectionsPanel* connections_;
   View3D* view_;
   QSpinBox* suggest_count_;
   QComboBox* suggest_goal_;

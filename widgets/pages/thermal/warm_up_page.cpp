@@ -5,6 +5,8 @@
 #include <QSplitter>
 #include <QTabWidget>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "core/base/error.h"
@@ -13,6 +15,8 @@
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/capture/machine_state_line.h"
+#include "widgets/pages/machine/connections_service.h"
 #include "widgets/pages/thermal/clock_panel.h"
 #include "widgets/pages/thermal/resolution_check_panel.h"
 #include "widgets/plots/plot.h"
@@ -65,7 +69,14 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
                              tr("They come from log.csv of the campaign; this one has none."));
   temperature_->setMinimumHeight(165);  // the drift above needs the room more
   temperature->body()->addWidget(temperature_, 1);
+  content()->addWidget(new MachineStateLine(session()));
   content()->addWidget(makeSplitter(instrument, temperature, 3, 2, Qt::Vertical), 1);
+  ConnectionsService& live = ConnectionsService::of(session());
+  connect(&live, &ConnectionsService::changed, this, [this, &live] {
+    if (!isVisible() || !live.running()) return;
+    if (live.recording() && (!since_read_.isValid() || since_read_.elapsed() > 60'000)) readRecorded();
+    if (!since_shown_.isValid() || since_shown_.elapsed() >= 1000) showTemperatures();
+  });
   showHints(drift_);
   showHints(temperature_);
   connect(confirm_, &QPushButton::clicked, this, &WarmUpPage::confirm);
@@ -82,24 +93,59 @@ void WarmUpPage::confirm() {
       }));
 }
 
-void WarmUpPage::refresh() {
+void WarmUpPage::readRecorded() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
-  noticeCampaign();
-  std::vector<Series> temperatures;
-  if (campaign->log) {
-    const OperatingLog& log = *campaign->log;
-    const auto& time = log.time_s();
-    const TimeUnit unit = timeUnit(time.empty() ? 0 : time.back() - time.front());
-    int colour = 0;
-    for (const std::string& name : log.temperatureNames()) {
-      Series s;
-      QString label = QString::fromStdString(name);
-      if (label.startsWith(QLatin1String("T_"))) label.remove(0, 2);
-      if (label.endsWith(QLatin1String("_degC"))) label.chop(5);
-      s.name = label.replace(QLatin1Char('_'), QLatin1Char(' '));
+  since_read_.start();
+  // Every minute: nothing to be told about.
+  Job job;
+  job.title = tr("Reading the log that is being recorded");
+  job.quiet = true;
+  job.queue = JobQueue::Display;
+  job.key = "recorded-log";
+  job.work = [this, file = campaign->path("log.csv"), visit = session().visit()](JobContext&) -> std::function<void()> {
+    std::shared_ptr<const OperatingLog> log;
+    try {
+      log = std::make_shared<const OperatingLog>(OperatingLog::read(file));
+    } catch (const InputError&) {
+      return [] {};  // no row yet
+    }
+    return [this, log, visit] {
+      recorded_ = log;
+      recorded_visit_ = visit;
+      showTemperatures();
+    };
+  };
+  context().jobs.run(std::move(job));
+}
+
+void WarmUpPage::showTemperatures() {
+  const auto campaign = session().campaign();
+  if (campaign == nullptr) return;
+  since_shown_.start();
+  const ConnectionsService& live = ConnectionsService::of(session());
+  const OperatingLog* log = campaign->log ? &*campaign->log : nullptr;
+  if (live.recording() && recorded_ != nullptr && recorded_visit_ == session().visit()) log = recorded_.get();
+  const double log_ends_s =
+      log == nullptr || log->empty() ? -std::numeric_limits<double>::infinity() : log->time_s().back();
+  struct Curve {
+    std::vector<double> time_s, value;
+  };
+  std::vector<std::string> names;
+  if (log != nullptr) names = log->temperatureNames();
+  for (const LiveColumn& column : live.snapshot().columns) {
+    if (OperatingLog::isTemperature(column.column) &&
+        std::find(names.begin(), names.end(), column.column) == names.end())
+      names.push_back(column.column);
+  }
+  std::vector<Curve> curves;
+  double first_s = std::numeric_limits<double>::infinity(), last_s = -first_s;
+  for (const std::string& name : names) {
+    Curve curve;
+    if (log != nullptr && log->has(name)) {
+      const std::vector<double>& time = log->time_s();
+      const std::vector<double>& values = *log->signal(name);
       // Temperatures are slow and the plot is a thousand pixels wide: means of rows, one point a pixel or more.
-      const std::vector<double>& values = *log.signal(name);
       const std::size_t stride = 1 + time.size() / most_plotted_rows;
       for (std::size_t i = 0; i < time.size(); i += stride) {
         const std::size_t end = std::min(time.size(), i + stride);
@@ -109,17 +155,49 @@ void WarmUpPage::refresh() {
           at += time[k] / static_cast<double>(end - i);
           value += values[k] / static_cast<double>(end - i);
         }
-        s.x.push_back(at / unit.seconds);
-        s.y.push_back(value);
+        curve.time_s.push_back(at);
+        curve.value.push_back(value);
       }
+    }
+    const auto& columns = live.snapshot().columns;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      if (columns[c].column != name) continue;
+      for (const LivePoint& point : live.history(c)) {
+        const double at = point.time_s - live.startUtc();
+        if (at <= log_ends_s) continue;
+        curve.time_s.push_back(at);
+        curve.value.push_back(point.value);
+      }
+    }
+    if (!curve.time_s.empty()) {
+      first_s = std::min(first_s, curve.time_s.front());
+      last_s = std::max(last_s, curve.time_s.back());
+    }
+    curves.push_back(std::move(curve));
+    if (curves.size() >= 6) break;
+  }
+  std::vector<Series> temperatures;
+  if (first_s <= last_s) {
+    const TimeUnit unit = timeUnit(last_s - first_s);
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      Series s;
+      s.name = columnTitle(names[i]);
+      for (const double t : curves[i].time_s) s.x.push_back(t / unit.seconds);
+      s.y = curves[i].value;
       s.style = SeriesStyle::Line;
-      s.colour = colour++;
+      s.colour = static_cast<int>(i);
       temperatures.push_back(std::move(s));
-      if (colour >= 6) break;
     }
     temperature_->setAxes(tr("Time / %1").arg(unit.name), tr("Temperature / °C"));
   }
   temperature_->setContent(std::move(temperatures));
+}
+
+void WarmUpPage::refresh() {
+  const auto campaign = session().campaign();
+  if (campaign == nullptr) return;
+  noticeCampaign();
+  showTemperatures();
 
   // The point that was measured most often, judged by its drift and not by a fixed time.
   std::vector<Series> drift;

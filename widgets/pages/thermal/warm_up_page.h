@@ -2,6 +2,10 @@
 // Step Warm-up: has the instrument settled? Temperatures and the drift of what was measured again and again.
 #pragma once
 
+#include <QElapsedTimer>
+#include <memory>
+
+#include "core/machine/operating_log.h"
 #include "widgets/pages/page.h"
 
 class QTabWidget;
@@ -22,10 +26,19 @@ class WarmUpPage : public Page {
   [[nodiscard]] ResolutionCheckPanel* jogs() const { return jogs_; }
   [[nodiscard]] ClockPanel* clocks() const { return clocks_; }
   [[nodiscard]] ResolutionCheckPanel* repeatability() const { return repeatability_; }
+  [[nodiscard]] Plot* temperatures() const { return temperature_; }
 
  private:
   void confirm();
+  /// Of the log, and what has come since it was read.
+  void showTemperatures();
+  /// What was recorded so far, read beside the window.
+  void readRecorded();
 
+  std::shared_ptr<const OperatingLog> recorded_;
+  std::int64_t recorded_visit_ = -1;
+  QElapsedTimer since_read_;
+  QElapsedTimer since_shown_;
   QPushButton* confirm_;
   QTabWidget* tabs_;
   ResolutionCheckPanel* jogs_;
