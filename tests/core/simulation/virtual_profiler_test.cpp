@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -123,6 +124,29 @@ TEST(VirtualProfiler, AScanThatStartedElsewhereIsTheSameScan) {
   for (std::size_t k = 0; k < after.scans.size(); ++k)
     EXPECT_LT((after.scans[k].registration.translation_mm - before.scans[k].registration.translation_mm).norm(), 2e-5)
         << before.scans[k].capture.cloud;
+}
+
+TEST(VirtualProfiler, ScansOfOneArtefactAtTheSameTimeGiveTheSame) {
+  const testing::TempFolder folder;
+  JobContext job;
+  VirtualScanCampaign plan = smallCampaign("push_broom");
+  plan.artefacts.resize(1);
+  writeVirtualScanCampaign(plan, folder.path(), 5, job);
+  const auto with = [&](const char* threads) {
+    ::setenv("SPINDRIFT_THREADS", threads, 1);
+    ScanEvaluation e = evaluateScanCampaign(Campaign::read(folder.path()), "", job);
+    ::unsetenv("SPINDRIFT_THREADS");
+    return e;
+  };
+  const ScanEvaluation one = with("1");
+  const ScanEvaluation several = with("3");
+  ASSERT_EQ(one.scans.size(), 3U);
+  ASSERT_EQ(several.scans.size(), one.scans.size());
+  for (std::size_t k = 0; k < one.scans.size(); ++k) {
+    EXPECT_EQ(several.scans[k].capture.cloud, one.scans[k].capture.cloud);
+    EXPECT_EQ(several.scans[k].registration.translation_mm, one.scans[k].registration.translation_mm);
+    EXPECT_EQ(several.scans[k].axis.covariance, one.scans[k].axis.covariance);
+  }
 }
 
 /// The same campaign on a machine whose axes are called otherwise: profiler along `axis`, `turn` into machine axes.
