@@ -13,6 +13,7 @@
 
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/math/least_squares.h"
 
 namespace spindrift {
 namespace {
@@ -37,27 +38,53 @@ struct Rows {
   Eigen::VectorXd v;  ///< Q^T v
 };
 
-Rows rowsOf(const NineParameterFit& fit, const std::string& without_point) {
-  Rows rows;
-  for (std::size_t i = 0; i < fit.residuals.size(); ++i) {
-    const NineParameterResidual& r = fit.residuals[i];
-    if (r.used && (without_point.empty() || r.point != without_point)) rows.index.push_back(i);
-  }
-  const auto n = static_cast<Eigen::Index>(rows.index.size());
+/// Fitted points, of many every n-th: more say no more about a few coefficients, and cost their number cubed.
+std::vector<std::string> pointsOf(const NineParameterFit& fit) {
+  constexpr std::size_t most_points = 100;
+  std::vector<std::string> points;
+  std::set<std::string> seen;
+  for (const NineParameterResidual& r : fit.residuals)
+    if (r.used && seen.insert(r.point).second) points.push_back(r.point);
+  const std::size_t stride = (points.size() + most_points - 1) / most_points;
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(stride, 1)) kept.push_back(points[i]);
+  return kept;
+}
+
+std::vector<std::size_t> rowsAt(const NineParameterFit& fit, const std::set<std::string>& points) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < fit.residuals.size(); ++i)
+    if (fit.residuals[i].used && points.contains(fit.residuals[i].point)) rows.push_back(i);
+  return rows;
+}
+
+Eigen::MatrixXd covarianceOf(const NineParameterFit& fit, const std::vector<std::size_t>& index) {
+  const auto n = static_cast<Eigen::Index>(index.size());
   Eigen::MatrixXd covariance(n, n);
-  Eigen::VectorXd value(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const std::size_t a = rows.index[static_cast<std::size_t>(i)];
-    value(i) = fit.residuals[a].value_um;
+    const auto a = static_cast<Eigen::Index>(index[static_cast<std::size_t>(i)]);
     for (Eigen::Index j = 0; j < n; ++j) {
-      covariance(i, j) = fit.value_covariance(static_cast<Eigen::Index>(a),
-                                              static_cast<Eigen::Index>(rows.index[static_cast<std::size_t>(j)]));
+      covariance(i, j) = fit.value_covariance(a, static_cast<Eigen::Index>(index[static_cast<std::size_t>(j)]));
     }
     // A row of which the robust fit thought little counts as little here.
-    covariance(i, i) +=
-        fit.residuals[a].sigma_um * fit.residuals[a].sigma_um * (1.0 / std::max(fit.residuals[a].weight, 1e-6) - 1.0);
+    const NineParameterResidual& r = fit.residuals[static_cast<std::size_t>(a)];
+    covariance(i, i) += r.sigma_um * r.sigma_um * (1.0 / std::max(r.weight, 1e-6) - 1.0);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(covariance);
+  return covariance;
+}
+
+Eigen::VectorXd valuesOf(const NineParameterFit& fit, const std::vector<std::size_t>& index) {
+  Eigen::VectorXd value(static_cast<Eigen::Index>(index.size()));
+  for (std::size_t i = 0; i < index.size(); ++i) value(static_cast<Eigen::Index>(i)) = fit.residuals[index[i]].value_um;
+  return value;
+}
+
+Rows rowsOf(const NineParameterFit& fit) {
+  Rows rows;
+  const std::vector<std::string> points = pointsOf(fit);
+  rows.index = rowsAt(fit, {points.begin(), points.end()});
+  const Eigen::VectorXd value = valuesOf(fit, rows.index);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(covarianceOf(fit, rows.index));
   rows.turn = modes.eigenvectors().transpose();
   rows.lambda = modes.eigenvalues().cwiseMax(1e-12 * std::max(modes.eigenvalues().maxCoeff(), 1e-12));
   rows.v = rows.turn * value;
@@ -90,13 +117,13 @@ Solution solveAt(const Rows& rows, const Eigen::MatrixXd& turned, double varianc
   return out;
 }
 
-/// Columns of the basis for the rows, turned; empty if the rows do not determine them.
-Eigen::MatrixXd columnsOf(const NineParameterFit& fit, const Rows& rows, const TableBasis& basis) {
-  const auto n = static_cast<Eigen::Index>(rows.index.size());
+/// Columns of the basis for some rows; empty if these do not determine them.
+Eigen::MatrixXd columnsOf(const NineParameterFit& fit, const std::vector<std::size_t>& index, const TableBasis& basis) {
+  const auto n = static_cast<Eigen::Index>(index.size());
   if (n < basis.size()) return {};
   Eigen::MatrixXd A(n, basis.size());
   for (Eigen::Index i = 0; i < n; ++i) {
-    const NineParameterResidual& r = fit.residuals[rows.index[static_cast<std::size_t>(i)]];
+    const NineParameterResidual& r = fit.residuals[index[static_cast<std::size_t>(i)]];
     A.row(i) = basis.row(r.position_mm, r.component).transpose();
   }
   const Eigen::VectorXd norms = A.colwise().norm();
@@ -104,7 +131,7 @@ Eigen::MatrixXd columnsOf(const NineParameterFit& fit, const Rows& rows, const T
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(A * norms.cwiseInverse().asDiagonal());
   const auto& s = svd.singularValues();
   if (!(s(s.size() - 1) > rank_tolerance * s(0))) return {};
-  return rows.turn * A;
+  return A;
 }
 
 /// s^2 of largest likelihood, by golden section in ln s between a thousandth and the whole of the scatter.
@@ -259,17 +286,23 @@ LeftOut predictLeftOut(const NineParameterFit& fit, const TableOrders& orders) {
   LeftOut out;
   const Frame frame = frameOf(fit);
   const TableBasis basis(orders, frame.centre_mm, frame.length_mm);
-  std::set<std::string> points;
-  for (const NineParameterResidual& r : fit.residuals)
-    if (r.used) points.insert(r.point);
+  const Rows all = rowsOf(fit);
+  const Eigen::MatrixXd A_all = columnsOf(fit, all.index, basis);
+  if (A_all.size() == 0) return out;
+  const double lack = unbiasedVariance(all, all.turn * A_all);
+  const std::vector<std::string> points = pointsOf(fit);
   for (const std::string& point : points) {
-    const Rows rows = rowsOf(fit, point);
-    const Eigen::MatrixXd A = columnsOf(fit, rows, basis);
+    std::set<std::string> others(points.begin(), points.end());
+    others.erase(point);
+    const std::vector<std::size_t> index = rowsAt(fit, others);
+    const Eigen::MatrixXd A = columnsOf(fit, index, basis);
     if (A.size() == 0) continue;
-    const Solution solution = solveAt(rows, A, unbiasedVariance(rows, A));
-    for (std::size_t i = 0; i < fit.residuals.size(); ++i) {
+    Eigen::MatrixXd covariance = covarianceOf(fit, index);
+    covariance.diagonal().array() += lack;
+    const LinearFitResult solution = solveLinearCorrelated(A, valuesOf(fit, index), covariance);
+    if (!solution.usable()) continue;
+    for (const std::size_t i : rowsAt(fit, {point})) {
       const NineParameterResidual& r = fit.residuals[i];
-      if (!r.used || r.point != point) continue;
       out.rows.push_back(i);
       out.predicted_um.push_back(basis.row(r.position_mm, r.component).dot(solution.x));
     }
@@ -285,7 +318,7 @@ TableOrderChoice chooseTableOrder(const NineParameterFit& fit) {
     return choice;
   }
   const Frame frame = frameOf(fit);
-  const Rows rows = rowsOf(fit, {});
+  const Rows rows = rowsOf(fit);
   const auto n = static_cast<double>(rows.index.size());
   for (int x = 1; x <= highest_order; ++x) {
     for (int y = 1; y <= highest_order; ++y) {
@@ -293,8 +326,9 @@ TableOrderChoice chooseTableOrder(const NineParameterFit& fit) {
         const TableBasis basis({x, y, z}, frame.centre_mm, frame.length_mm);
         const bool first = x + y + z == 3;
         if (!first && static_cast<int>(rows.index.size()) < basis.size() + spare_rows) continue;
-        const Eigen::MatrixXd A = columnsOf(fit, rows, basis);
-        if (A.size() == 0) continue;
+        const Eigen::MatrixXd columns = columnsOf(fit, rows.index, basis);
+        if (columns.size() == 0) continue;
+        const Eigen::MatrixXd A = rows.turn * columns;
         Solution best;
         const double variance = likeliestVariance(rows, A, best);
         TableCandidate candidate;
@@ -362,7 +396,7 @@ TableOrderChoice chooseTableOrder(const NineParameterFit& fit) {
     choice.left_out_chosen_um = choice.left_out_nine_um;
   }
   TableBasis basis(choice.orders, frame.centre_mm, frame.length_mm);
-  const Eigen::MatrixXd A = columnsOf(fit, rows, basis);
+  const Eigen::MatrixXd A = rows.turn * columnsOf(fit, rows.index, basis);
   const double variance = unbiasedVariance(rows, A);
   Solution solution = solveAt(rows, A, variance, true);
   choice.lack_of_fit_um = std::sqrt(variance);

@@ -14,9 +14,12 @@ Eigen::VectorXd lackOfFitVariance(const Eigen::MatrixXd& A, const Eigen::VectorX
   SPINDRIFT_ASSERT(A.rows() == n && gain.cols() == n && gain.rows() == A.cols() && covariance.rows() == n &&
                        static_cast<Eigen::Index>(group.size()) == n && groups >= 1,
                    "sizes of a lack of fit do not match");
-  const Eigen::MatrixXd R = Eigen::MatrixXd::Identity(n, n) - A * gain;
-  const Eigen::VectorXd r = R * y;
-  const Eigen::VectorXd explained = (R * covariance).cwiseProduct(R).rowwise().sum();
+  // (R V R^T)_ii without a product of n x n matrices.
+  const Eigen::VectorXd r = y - A * (gain * y);
+  const Eigen::MatrixXd gained = gain * covariance;
+  const Eigen::VectorXd explained = covariance.diagonal() - 2.0 * A.cwiseProduct(gained.transpose()).rowwise().sum() +
+                                    (A * (gained * gain.transpose())).cwiseProduct(A).rowwise().sum();
+  const Eigen::MatrixXd hat = A * gain;
   Eigen::VectorXd excess = Eigen::VectorXd::Zero(groups);
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(groups, groups);
   Eigen::VectorXd scale = Eigen::VectorXd::Zero(groups);
@@ -28,7 +31,8 @@ Eigen::VectorXd lackOfFitVariance(const Eigen::MatrixXd& A, const Eigen::VectorX
     scale(g) += 1.0 / variance;
     for (Eigen::Index j = 0; j < n; ++j) {
       const int h = group[static_cast<std::size_t>(j)];
-      if (h >= 0) M(g, h) += R(i, j) * R(i, j) / variance;
+      const double R = (i == j ? 1.0 : 0.0) - hat(i, j);
+      if (h >= 0) M(g, h) += R * R / variance;
     }
   }
   std::vector<Eigen::Index> active;

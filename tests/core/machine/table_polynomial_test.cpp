@@ -137,6 +137,14 @@ TEST(TablePolynomial, ADisturbedPointIsNoHigherOrder) {
   EXPECT_FALSE(choice.richer()) << choice.reason;
 }
 
+TEST(TablePolynomial, ManyPointsCostNoMoreThanAHundred) {
+  Random random(9);
+  const NineParameterFit fit = fitNineParameters(measured(sagging, random, 25, 12));
+  const TableOrderChoice choice = chooseTableOrder(fit);
+  EXPECT_EQ(choice.orders, (TableOrders{1, 1, 2})) << choice.reason;
+  EXPECT_EQ(predictLeftOut(fit, choice.orders).rows.size(), 3U * 100U);
+}
+
 TEST(TablePolynomial, FewPointsAskForNothing) {
   Random random(7);
   const TableOrderChoice choice = chooseTableOrder(fitNineParameters(measured(sagging, random, 2, 2)));
