@@ -26,6 +26,7 @@ struct CompensationArguments {
 CommandResult runCompensate(const CompensationArguments& a, JobContext& job) {
   CompensationRequest request = a.request;
   if (a.model == "completed") request.source = CompensationSource::CompletedModel;
+  if (a.model == "higher-order") request.source = CompensationSource::HigherOrder;
   request.fit.points = splitList(a.points);
   if (!a.reference.empty()) {
     const std::vector<std::string> parts = splitList(a.reference);
@@ -103,8 +104,9 @@ void addCompensationCommands(CLI::App& app, CommandLine& line) {
       ->type_name("FILE");
   command
       ->add_option("--model", a->model,
-                   "nine-parameter: fitted to one state; completed: the simulation with the effects of --accept")
-      ->check(CLI::IsMember({"nine-parameter", "completed"}))
+                   "nine-parameter: fitted to one state; higher-order: the same with the terms in x and y that the "
+                   "evidence asks for (see fit); completed: the simulation with the effects of --accept")
+      ->check(CLI::IsMember({"nine-parameter", "higher-order", "completed"}))
       ->capture_default_str();
   command->add_option("--state", a->request.state,
                       "Thermal state; else the warmest one: largest rms of the measured deviations");

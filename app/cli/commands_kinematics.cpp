@@ -36,6 +36,7 @@ struct FitArguments {
   std::string lattice;
   std::string fixed;
   double margin_mm = 15.0;
+  double distance_mm = -1.0;
   double sigma_xy_um = 0.5;
   double sigma_z_um = 1.0;
   // checks
@@ -84,7 +85,9 @@ CommandResult runFit(const FitArguments& a, JobContext& job) {
   std::vector<std::string> notes;
   const ObservationSet observations = observationsOf(campaign, a.observations, {}, job, &notes);
   const NineParameterFit fit = fitNineParameters(observations, fitOptions(a));
-  return noted({toJson(fit), summaryOf(fit), fit.status == FitStatus::Converged ? Done : NotGoodEnough}, notes);
+  const TableOrderChoice choice = chooseTableOrder(fit);
+  return noted({toJson(fit, choice), summaryOf(fit, choice), fit.status == FitStatus::Converged ? Done : NotGoodEnough},
+               notes);
 }
 
 CommandResult runHeatmap(const FitArguments& a, JobContext& job) {
@@ -153,6 +156,7 @@ CommandResult runPlacement(const FitArguments& a, JobContext& job) {
   request.fixed = splitList(a.fixed);
   request.options.count = a.count;
   request.options.criterion = a.criterion == "D" ? PlacementCriterion::D : PlacementCriterion::I;
+  if (a.distance_mm >= 0.0) request.options.least_distance_mm = a.distance_mm;
   request.options.sigma_xy_um = a.sigma_xy_um;
   request.options.sigma_z_um = a.sigma_z_um;
   const PlacementAnswer answer = placeFiducials(campaign.machine, request, job);
@@ -166,7 +170,7 @@ CommandResult runCheck(const FitArguments& a, JobContext& job, const std::string
   if (which == "warm-up") {
     WarmUpOptions options;
     options.drift_limit_um_per_h = a.drift_limit_um_per_h;
-    result = checkWarmUp(observations, a.point, options);
+    result = checkWarmUp(observations, a.point, options, campaign.log ? &*campaign.log : nullptr);
   } else if (which == "validate-jogs") {
     result = checkJogs(observations, campaign.machine);
   } else {
@@ -224,6 +228,12 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
     command->add_option("--lattice", a->lattice, "Candidates on a lattice over the table; else the machine's fiducials")
         ->type_name("NX,NY");
     command->add_option("--margin", a->margin_mm, "Distance of the lattice from the border of the table in mm");
+    command
+        ->add_option(
+            "--distance", a->distance_mm,
+            "Least distance between two fiducials in mm; else a tenth of the diagonal of the table, or what the "
+            "candidates allow")
+        ->check(nonNegativeNumber());
     command->add_option("--keep", a->fixed, "Points of the machine that are measured anyway, such as F1,F2");
     command->add_option("--sigma-xy", a->sigma_xy_um, "Standard uncertainty of a displacement in the plane in um");
     command->add_option("--sigma-z", a->sigma_z_um, "Standard uncertainty of a height in um");

@@ -191,7 +191,8 @@ void addCompensate(CLI::App& parent, CommandLine& line) {
                    const CompensateResult result = compensateLog(a->request, job);
                    if (!a->out.empty()) result.write(a->out);
                    bool worse = false;
-                   for (const auto& o : result.outputs) worse = worse || o.rms_after >= o.rms_before;
+                   for (const auto& o : result.outputs)
+                     worse = worse || o.rms_after >= o.rms_before || o.unseen.rms_after >= o.unseen.rms_before;
                    std::string summary = result.summary();
                    if (worse) summary += "not good enough: an output is no better compensated than left alone\n";
                    return CommandResult{result.json(), summary, worse ? NotGoodEnough : Done, result.warnings};
@@ -226,6 +227,7 @@ void addIso230(CLI::App& parent, CommandLine& line) {
     std::string observations;
     std::string columns;
     std::string svg;
+    std::string range;
   };
   auto a = std::make_shared<Arguments>();
   CLI::App* command =
@@ -233,6 +235,7 @@ void addIso230(CLI::App& parent, CommandLine& line) {
         a->request.log = a->log;
         a->request.observations = a->observations;
         a->request.columns = splitList(a->columns);
+        if (!a->range.empty()) a->request.range = TimeRange::parse(a->range, "--range");
         const Iso230Result result = evaluateIso230Test(a->request, job);
         if (!a->svg.empty()) writeFileAtomically(a->svg, result.svg);
         return CommandResult{result.json(), result.summary(), Done};
@@ -246,6 +249,8 @@ void addIso230(CLI::App& parent, CommandLine& line) {
   command->add_option("--columns", a->columns,
                       "Displacements and tilts, separated by commas; default: all _um and _urad columns");
   command->add_option("--ambient", a->request.ambient, "Column of the ambient temperature (etve)");
+  command->add_option("--range", a->range, "Only these seconds of the log, such as one of several steps of speed")
+      ->type_name("FROM:TO");
   command->add_option("--fraction", a->request.fraction, "Part of the end value to which the time is given (spindle)")
       ->check(CLI::Range(0.01, 0.99))
       ->capture_default_str();

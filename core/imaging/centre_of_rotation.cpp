@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "core/math/distributions.h"
 #include "core/math/least_squares.h"
@@ -58,6 +60,27 @@ double poolingTest(const LinearFitResult& pooled, const LinearFitResult& freer, 
       (options.expected_weight * options.expected_repeatability_um * options.expected_repeatability_um + freer.chi2) /
       dof;
   return fisherTail(std::max(0.0, pooled.chi2 - freer.chi2) / restrictions / variance, restrictions, dof);
+}
+
+/// Where every mark that all images show was measured in each of them: undistorted, about c, without the commanded
+/// offset. Empty with fewer than three images.
+std::vector<std::vector<Eigen::Vector2d>> measuredTracks(const RotationSet& set) {
+  if (set.images.size() < 3) return {};
+  const auto key = [](const MarkPosition& mark) {
+    return std::pair(std::lround(mark.pattern_um.x()), std::lround(mark.pattern_um.y()));
+  };
+  std::map<std::pair<long, long>, std::vector<Eigen::Vector2d>> of_mark;
+  for (const RotationImage& image : set.images) {
+    const Eigen::Matrix2d pixel_per_um = image.pose.patternPerPixel().inverse();
+    for (const MarkPosition& mark : image.marks) {
+      of_mark[key(mark)].push_back(image.pose.undistorted(mark.pixel) + pixel_per_um * image.offset_um);
+    }
+  }
+  std::vector<std::vector<Eigen::Vector2d>> tracks;
+  for (auto& [mark, track] : of_mark) {
+    if (track.size() == set.images.size()) tracks.push_back(std::move(track));
+  }
+  return tracks;
 }
 
 }  // namespace
@@ -154,19 +177,9 @@ CentreResult fitCentreOfRotation(const std::vector<RotationSet>& sets, const Cen
     const auto rows = 2 * static_cast<Eigen::Index>(set.images.size());
     centre.rms_um = std::sqrt(fit->residuals.segment(row, rows).squaredNorm() / static_cast<double>(rows));
     row += rows;
-    // The paper's algebraic circles, through the four corners of a square of marks as every image shows them.
-    std::vector<std::vector<Eigen::Vector2d>> tracks;
-    for (const double dx : {-700.0, 700.0}) {
-      for (const double dy : {-700.0, 700.0}) {
-        std::vector<Eigen::Vector2d> track;
-        for (const RotationImage& image : set.images) {
-          const Eigen::Vector2d p = centre.place_um + Eigen::Vector2d(dx, dy);
-          track.push_back(image.pose.patternPerPixel().inverse() * (p + image.offset_um) + image.pose.origin_px);
-        }
-        tracks.push_back(std::move(track));
-      }
-    }
-    if (set.images.size() >= 3) centre.algebraic_centre_px = first.distorted(algebraicCentre(tracks));
+    const auto tracks = measuredTracks(set);
+    centre.algebraic_tracks = static_cast<int>(tracks.size());
+    if (!tracks.empty()) centre.algebraic_centre_px = first.distorted(algebraicCentre(tracks));
     result.sets.push_back(centre);
   }
   result.status = FitStatus::Converged;

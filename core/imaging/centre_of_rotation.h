@@ -13,6 +13,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct RotationImage {
   ImagePose pose;
   Eigen::Vector2d offset_um = Eigen::Vector2d::Zero();  ///< R(-psi)(c_j - c): commanded, in FCF; zero if all are at one
   double spindle_deg = 0.0;
+  std::vector<MarkPosition> marks;  ///< as measured, for the comparison with the paper's circles; may be empty
 };
 
 /// The images of one fiducial in one state; at least three different orientations.
@@ -51,12 +53,15 @@ struct SetCentre {
   std::string state;
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< the one that was used (pooled)
   Eigen::Vector2d centre_sigma_px = Eigen::Vector2d::Zero();
-  Eigen::Vector2d own_centre_px = Eigen::Vector2d::Zero();        ///< from this set alone
-  double own_centre_sigma_px = 0.0;                               ///< per coordinate
-  Eigen::Vector2d algebraic_centre_px = Eigen::Vector2d::Zero();  ///< P0 (6)-(9), for comparison
-  Eigen::Vector2d place_um = Eigen::Vector2d::Zero();             ///< s: where the axis meets the fiducial
-  double place_sigma_um = 0.0;                                    ///< per coordinate, with that of the centre
-  double rms_um = 0.0;                                            ///< of the images about s, per coordinate
+  Eigen::Vector2d own_centre_px = Eigen::Vector2d::Zero();  ///< from this set alone
+  double own_centre_sigma_px = 0.0;                         ///< per coordinate
+  /// P0 (6)-(9) through the measured tracks of the marks that all images show, for comparison: noise pulls the centre
+  /// of such short arcs towards them. Empty without three images or without marks.
+  std::optional<Eigen::Vector2d> algebraic_centre_px;
+  int algebraic_tracks = 0;
+  Eigen::Vector2d place_um = Eigen::Vector2d::Zero();  ///< s: where the axis meets the fiducial
+  double place_sigma_um = 0.0;                         ///< per coordinate, with that of the centre
+  double rms_um = 0.0;                                 ///< of the images about s, per coordinate
 };
 
 struct CentreResult {

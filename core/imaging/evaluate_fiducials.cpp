@@ -25,10 +25,29 @@ nlohmann::json centreJson(const SetCentre& c) {
           {"y_px", withSigma(c.centre_px.y(), c.centre_sigma_px.y())},
           {"own_px", pair(c.own_centre_px)},
           {"own_sigma_px", jsonNumber(c.own_centre_sigma_px)},
-          {"algebraic_px", pair(c.algebraic_centre_px)},
+          {"algebraic_px", c.algebraic_centre_px ? pair(*c.algebraic_centre_px) : nlohmann::json()},
+          {"algebraic_tracks", c.algebraic_tracks},
           {"x_fcf_um", withSigma(c.place_um.x(), c.place_sigma_um)},
           {"y_fcf_um", withSigma(c.place_um.y(), c.place_sigma_um)},
           {"rms_um", jsonNumber(c.rms_um)}};
+}
+
+/// The paper's circles (P0 (6)-(9)) on the measured tracks beside the joint evaluation: what their bias is here.
+nlohmann::json algebraicJson(const CentreResult& centres, double pixel_length_um) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Vector2d squares = Eigen::Vector2d::Zero();
+  double count = 0.0;
+  for (const SetCentre& c : centres.sets) {
+    if (!c.algebraic_centre_px) continue;
+    const Eigen::Vector2d difference = (*c.algebraic_centre_px - c.centre_px) * pixel_length_um;
+    sum += difference;
+    squares += difference.cwiseAbs2();
+    count += 1.0;
+  }
+  if (count == 0.0) return nullptr;
+  const Eigen::Vector2d mean = sum / count;
+  const Eigen::Vector2d spread = (squares / count - mean.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+  return {{"sets", count}, {"mean", pair(mean)}, {"standard_deviation", pair(spread)}};
 }
 
 nlohmann::json axisJson(const AxisDirection& a) {
@@ -109,6 +128,7 @@ nlohmann::json detailsOf(const FiducialCaptureList& list, const FiducialImages& 
     centre["p_value_per_state"] = jsonNumber(d.centres.p_value_per_state);
     centre["spindle_repeatability_um"] = jsonNumber(d.centres.repeatability_um);
     centre["degrees_of_freedom"] = d.centres.degrees_of_freedom;
+    if (count > 0.0) centre["algebraic_minus_joint_um"] = algebraicJson(d.centres, pixel_length / count);
   }
   nlohmann::json focus{{"status", toString(d.focus.status)}};
   if (d.focus.status == FitStatus::Converged) {
@@ -155,7 +175,8 @@ std::string summaryOf(const FiducialDisplacement& d) {
 
 std::shared_ptr<const FiducialPattern> campaignPattern(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "pattern.json";
-  if (std::filesystem::exists(file)) return std::make_shared<const FiducialPattern>(readPattern(file));
+  if (!folder.empty() && std::filesystem::exists(file))
+    return std::make_shared<const FiducialPattern>(readPattern(file));
   // The standard one lives as long as the program: a pointer that owns nothing keeps its address, which decoding knows.
   return {std::shared_ptr<const FiducialPattern>(), &standardPattern()};
 }

@@ -186,6 +186,7 @@ RotationSet rotationSet(const FiducialCaptureList& list, const FiducialImages& i
     image.pose = images.images[i].pose;
     image.offset_um = turned(-psi_rad) * (list.captures[i].position_mm.head<2>() - commanded_mm) * um_per_mm;
     image.spindle_deg = list.captures[i].spindle_deg;
+    image.marks = images.images[i].marks;
     set.images.push_back(std::move(image));
   }
   return set;

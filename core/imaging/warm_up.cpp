@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/base/text.h"
@@ -209,6 +210,72 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
     result.reason = fmt::format("not known yet: the drift {} may still exceed {} um/h; measure longer.",
                                 joinedList(unsure), options.drift_limit_um_per_h);
   }
+  return result;
+}
+
+WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& point, const WarmUpOptions& options,
+                         const OperatingLog* log, double steady_K) {
+  WarmUpResult result = judgeWarmUp(observations, point, options);
+  if (result.status != FitStatus::Converged || result.settled) return result;
+  double from = std::numeric_limits<double>::infinity();
+  double to = -from;
+  for (const WarmUpAxis& axis : result.axes) {
+    if (axis.time_s.empty()) continue;
+    from = std::min(from, axis.time_s.front());
+    to = std::max(to, axis.time_s.back());
+  }
+  constexpr const char* advice =
+      "measure one point of the machine at rest again and again, or state that the instrument was warm";
+  if (log == nullptr || log->empty() || log->time_s().front() > from || log->time_s().back() < to) {
+    result.cause_reason = fmt::format(
+        "No log says what the machine did meanwhile: its own thermal course and a drift of the instrument cannot be "
+        "told "
+        "apart; {}.",
+        advice);
+    return result;
+  }
+  // Rows within the series, and the state that held when it began.
+  std::vector<std::string> at_work;
+  std::vector<std::string> warming;
+  bool motion_logged = false;
+  for (const std::string& name : log->names()) {
+    const bool temperature = OperatingLog::isTemperature(name);
+    const bool motion = name.ends_with("_rpm") || name.starts_with("feed_");
+    if (!temperature && !motion) continue;
+    motion_logged = motion_logged || motion;
+    double low = log->at(name, from);
+    double high = low;
+    const auto take = [&](double value) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    };
+    take(log->at(name, to));
+    const std::vector<double>& values = *log->signal(name);
+    for (std::size_t r = 0; r < values.size(); ++r) {
+      if (log->time_s()[r] >= from && log->time_s()[r] <= to) take(values[r]);
+    }
+    constexpr double creep = 1.0;  // rpm or mm/min
+    if (motion && std::max(std::abs(low), std::abs(high)) > creep) at_work.push_back(name);
+    if (temperature && high - low > steady_K) warming.push_back(fmt::format("{} by {:.1f} K", name, high - low));
+  }
+  if (at_work.empty() && warming.empty() && motion_logged) {
+    result.cause = WarmUpCause::Instrument;
+    result.cause_reason = "The machine stood and its temperatures held meanwhile: it is the instrument that drifts.";
+    return result;
+  }
+  constexpr std::size_t most_named = 3;
+  if (warming.size() > most_named) warming.resize(most_named);
+  std::string why = "nothing in the log says whether it stood";
+  if (!at_work.empty() && !warming.empty()) {
+    why = fmt::format("it was at work ({}), {} changed", joinedList(at_work), joinedList(warming));
+  } else if (!at_work.empty()) {
+    why = fmt::format("it was at work ({})", joinedList(at_work));
+  } else if (!warming.empty()) {
+    why = fmt::format("{} changed", joinedList(warming));
+  }
+  result.cause_reason = fmt::format(
+      "The machine's own thermal course and a drift of the instrument cannot be told apart here, because {}; {}.", why,
+      advice);
   return result;
 }
 

@@ -15,6 +15,7 @@
 
 #include "core/base/error.h"
 #include "core/machine/observation.h"
+#include "core/machine/operating_log.h"
 
 namespace spindrift {
 
@@ -40,16 +41,29 @@ struct WarmUpAxis {
   std::optional<double> settled_after_s;  ///< when the fitted exponential's drift falls below the limit
 };
 
+/// What a drift may be of.
+enum class WarmUpCause {
+  Instrument,  ///< the machine stood and its temperatures held: nothing else drifts
+  Unknown,     ///< the machine was at work or grew warm, or nobody logged whether it was: its own course looks the same
+};
+
 struct WarmUpResult {
   FitStatus status = FitStatus::NotRun;  ///< Degenerate: too few measurements
   std::string point;
   std::array<WarmUpAxis, 3> axes;  ///< EX, EY, EZ
   bool settled = false;
   std::string reason;  ///< one sentence
+  WarmUpCause cause = WarmUpCause::Unknown;
+  std::string cause_reason;  ///< one sentence; of a series that has settled there is nothing to tell apart: empty
 };
 
 /// `point` empty: the one with most rows. Throws InputError for a point that is not there.
 [[nodiscard]] WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& point,
                                        const WarmUpOptions& options = {});
+
+/// The same, and whether a drift is the instrument's: `log` (may be null) says if the machine stood (no spindle, table
+/// or feed) and if every temperature held within `steady_K` while the point was measured.
+[[nodiscard]] WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& point,
+                                       const WarmUpOptions& options, const OperatingLog* log, double steady_K = 0.5);
 
 }  // namespace spindrift

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "core/base/random.h"
 #include "core/machine/nine_parameter_model.h"
@@ -131,6 +132,10 @@ void PlacementOptions::validate(std::size_t candidates) const {
     throw InputError(fmt::format("{} fixed positions are more than the {} to be chosen.", fixed.size(), count));
   }
   for (const std::size_t i : fixed) SPINDRIFT_ASSERT(i < candidates, "a fixed position must be a candidate");
+  if (least_distance_mm && !(*least_distance_mm >= 0.0)) {
+    throw InputError(
+        fmt::format("a distance of {:g} mm between positions is not allowed; allowed: 0 or more.", *least_distance_mm));
+  }
   if (!(sigma_xy_um > 0.0) || !(sigma_z_um > 0.0)) {
     throw InputError("the uncertainties of a measured position must be greater than zero um.");
   }
@@ -144,19 +149,30 @@ PlacementResult judgeMeasuringPoints(const std::vector<Eigen::Vector3d>& candida
   return Design(candidates_mm, options).judge(chosen);
 }
 
-PlacementResult chooseMeasuringPoints(const std::vector<Eigen::Vector3d>& candidates_mm,
-                                      const PlacementOptions& options, const JobContext& job) {
-  options.validate(candidates_mm.size());
-  const Design design(candidates_mm, options);
+namespace {
+
+/// The best choice in which free positions keep a distance from each other and from the fixed ones; nothing if there is
+/// none that determines all parameters.
+std::optional<PlacementResult> bestApart(const std::vector<Eigen::Vector3d>& candidates_mm,
+                                         const PlacementOptions& options, const Design& design, double distance_mm,
+                                         const JobContext& job) {
   NineMatrix base = NineMatrix::Zero();
   for (const std::size_t i : options.fixed) base += design.information(i);
+  const auto apart = [&](std::size_t a, std::size_t b) {
+    return (candidates_mm[a] - candidates_mm[b]).norm() >= distance_mm - 1e-9;
+  };
   std::vector<std::size_t> free;
   for (std::size_t i = 0; i < candidates_mm.size(); ++i) {
-    if (std::find(options.fixed.begin(), options.fixed.end(), i) == options.fixed.end()) free.push_back(i);
+    if (std::find(options.fixed.begin(), options.fixed.end(), i) != options.fixed.end()) continue;
+    if (std::all_of(options.fixed.begin(), options.fixed.end(), [&](std::size_t f) { return apart(i, f); })) {
+      free.push_back(i);
+    }
   }
   const std::size_t wanted = static_cast<std::size_t>(options.count) - options.fixed.size();
+  if (free.size() < wanted) return std::nullopt;
   double best_cost = std::numeric_limits<double>::infinity();
-  std::vector<std::size_t> best(free.begin(), free.begin() + static_cast<std::ptrdiff_t>(wanted));
+  std::vector<std::size_t> best;
+  bool found = false;
   const bool exhaustive = choices(free.size(), wanted) <= static_cast<double>(options.exhaustive_limit);
   if (exhaustive) {
     // Depth first, ascending indices; the sums of information along the path are kept.
@@ -166,14 +182,19 @@ PlacementResult chooseMeasuringPoints(const std::vector<Eigen::Vector3d>& candid
     const auto descend = [&](auto&& self, std::size_t depth, std::size_t from) -> void {
       if (depth == wanted) {
         const double cost = design.cost(sum[depth]);
-        if (cost < best_cost) {
+        if (cost < best_cost || !found) {
           best_cost = cost;
-          for (std::size_t k = 0; k < wanted; ++k) best[k] = free[pick[k]];
+          best.clear();
+          for (std::size_t k = 0; k < wanted; ++k) best.push_back(free[pick[k]]);
+          found = true;
         }
         if (++tried % 4096 == 0) job.throwIfCancelled();
         return;
       }
       for (std::size_t i = from; i + (wanted - depth) <= free.size(); ++i) {
+        bool keeps = true;
+        for (std::size_t k = 0; k < depth && keeps; ++k) keeps = apart(free[i], free[pick[k]]);
+        if (!keeps) continue;
         pick[depth] = i;
         sum[depth + 1] = sum[depth] + design.information(free[i]);
         self(self, depth + 1, i + 1);
@@ -188,6 +209,14 @@ PlacementResult chooseMeasuringPoints(const std::vector<Eigen::Vector3d>& candid
       std::vector<std::size_t> order(free.size());
       std::iota(order.begin(), order.end(), std::size_t{0});
       for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.index(i)]);
+      // The first ones of a random order that keep the distance go to its front.
+      std::size_t taken = 0;
+      for (std::size_t i = 0; i < order.size() && taken < wanted; ++i) {
+        bool keeps = true;
+        for (std::size_t k = 0; k < taken && keeps; ++k) keeps = apart(free[order[i]], free[order[k]]);
+        if (keeps) std::swap(order[taken++], order[i]);
+      }
+      if (taken < wanted) continue;
       NineMatrix sum = base;
       for (std::size_t k = 0; k < wanted; ++k) sum += design.information(free[order[k]]);
       double cost = design.cost(sum);
@@ -199,9 +228,14 @@ PlacementResult chooseMeasuringPoints(const std::vector<Eigen::Vector3d>& candid
         for (std::size_t k = 0; k < wanted; ++k) {
           const NineMatrix without = sum - design.information(free[order[k]]);
           for (std::size_t i = wanted; i < order.size(); ++i) {
-            const double other = design.cost(without + design.information(free[order[i]]));
-            if (other < lowest - 1e-12 * std::abs(lowest) || (std::isinf(lowest) && std::isfinite(other))) {
-              lowest = other;
+            bool keeps = true;
+            for (std::size_t other = 0; other < wanted && keeps; ++other) {
+              keeps = other == k || apart(free[order[i]], free[order[other]]);
+            }
+            if (!keeps) continue;
+            const double cost_with = design.cost(without + design.information(free[order[i]]));
+            if (cost_with < lowest - 1e-12 * std::abs(lowest) || (std::isinf(lowest) && std::isfinite(cost_with))) {
+              lowest = cost_with;
               out = k;
               in = i;
               improved = true;
@@ -215,16 +249,43 @@ PlacementResult chooseMeasuringPoints(const std::vector<Eigen::Vector3d>& candid
           cost = lowest;
         }
       }
-      if (cost < best_cost) {
+      if (cost < best_cost || !found) {
         best_cost = cost;
-        for (std::size_t k = 0; k < wanted; ++k) best[k] = free[order[k]];
+        best.clear();
+        for (std::size_t k = 0; k < wanted; ++k) best.push_back(free[order[k]]);
+        found = true;
       }
     }
   }
+  if (!found) return std::nullopt;
   best.insert(best.end(), options.fixed.begin(), options.fixed.end());
   PlacementResult result = design.judge(best);
   result.exhaustive = exhaustive;
+  result.least_distance_mm = distance_mm;
   return result;
+}
+
+}  // namespace
+
+PlacementResult chooseMeasuringPoints(const std::vector<Eigen::Vector3d>& candidates_mm,
+                                      const PlacementOptions& options, const JobContext& job) {
+  options.validate(candidates_mm.size());
+  const Design design(candidates_mm, options);
+  double distance_mm = options.least_distance_mm.value_or(0.1 * (options.region_to_mm - options.region_from_mm).norm());
+  std::optional<PlacementResult> best = bestApart(candidates_mm, options, design, distance_mm, job);
+  // Not asked for by anybody: as far apart as the candidates allow.
+  constexpr int halvings = 4;
+  for (int i = 0; i <= halvings && !options.least_distance_mm; ++i) {
+    if (best && best->status == FitStatus::Converged) break;
+    distance_mm = i < halvings ? 0.5 * distance_mm : 0.0;
+    best = bestApart(candidates_mm, options, design, distance_mm, job);
+  }
+  if (best) return *best;
+  PlacementResult none;
+  none.status = FitStatus::Degenerate;
+  none.message = fmt::format("no choice of {} positions among the candidates keeps {:g} mm between any two",
+                             options.count, distance_mm);
+  return none;
 }
 
 }  // namespace spindrift

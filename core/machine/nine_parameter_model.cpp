@@ -14,6 +14,7 @@
 
 #include "core/base/text.h"
 #include "core/math/distributions.h"
+#include "core/math/lack_of_fit.h"
 #include "core/math/least_squares.h"
 
 namespace spindrift {
@@ -23,6 +24,8 @@ namespace {
 constexpr double null_space_tolerance = 1e-6;
 /// Efficiency of Huber's and Tukey's estimators at their usual thresholds on normal errors: variance = 1/efficiency.
 constexpr double robust_efficiency = 0.95;
+/// p-value of chi-squared below which a model is called rejected.
+constexpr double rejection_level = 1e-3;
 
 std::vector<std::string> namesOf(const std::vector<int>& parameters) {
   std::vector<std::string> names;
@@ -233,6 +236,32 @@ WeightedFit solveWeighted(const Eigen::MatrixXd& A, const Eigen::VectorXd& v, co
   return fit;
 }
 
+/// Per component where its own residuals tell, else of all together.
+Eigen::Vector3d lackOfFitOf(const std::vector<NineParameterResidual>& rows, const std::vector<Eigen::Index>& used,
+                            const Eigen::MatrixXd& A, const Eigen::VectorXd& v, const Eigen::MatrixXd& covariance,
+                            const WeightedFit& fit) {
+  constexpr double chance_level = 0.05;
+  constexpr double outlier_weight = 0.5;
+  constexpr double enough_freedom = 3.0;
+  const int dof = fit.linear.degrees_of_freedom;
+  if (dof < 1 || chiSquaredTail(fit.linear.chi2, dof) >= chance_level) return Eigen::Vector3d::Zero();
+  const Eigen::VectorXd freedom = Eigen::VectorXd::Ones(v.size()) - (A * fit.gain).diagonal();
+  Eigen::Vector3d of_component = Eigen::Vector3d::Zero();
+  std::vector<int> component(used.size());
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    component[k] = static_cast<int>(rows[static_cast<std::size_t>(used[k])].component);
+    of_component[component[k]] += freedom(static_cast<Eigen::Index>(k));
+  }
+  const bool each = (of_component.array() == 0.0 || of_component.array() >= enough_freedom).all();
+  std::vector<int> group(used.size());
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    const bool outlier = fit.weight(static_cast<Eigen::Index>(k)) < outlier_weight;
+    group[k] = outlier ? -1 : each ? component[k] : 0;
+  }
+  const Eigen::VectorXd variance = lackOfFitVariance(A, v, covariance, fit.gain, group, each ? 3 : 1);
+  return each ? Eigen::Vector3d(variance.cwiseSqrt()) : Eigen::Vector3d::Constant(std::sqrt(variance(0)));
+}
+
 }  // namespace
 
 std::string_view nineParameterUnit(int parameter) {
@@ -269,11 +298,13 @@ NineVector nineParameterRow(const Eigen::Vector3d& position_mm, Component compon
 }
 
 NineParameterModel::NineParameterModel(const NineVector& parameters, const NineMatrix& covariance,
-                                       std::string description, Eigen::MatrixXd null_space)
+                                       std::string description, Eigen::MatrixXd null_space,
+                                       Eigen::Vector3d lack_of_fit_um)
     : parameters_(parameters),
       covariance_(covariance),
       description_(std::move(description)),
-      null_space_(std::move(null_space)) {}
+      null_space_(std::move(null_space)),
+      lack_of_fit_um_(std::move(lack_of_fit_um)) {}
 
 PredictedComponent NineParameterModel::predict(const DeviationQuery& query, Component component) const {
   const NineVector row = nineParameterRow(query.position_mm, component);
@@ -292,6 +323,7 @@ PredictedComponent NineParameterModel::predict(const DeviationQuery& query, Comp
       if (row(i) != 0.0 && row(j) != 0.0) variance += row(i) * covariance_(i, j) * row(j);
     }
   }
+  if (!isRotation(component)) variance += std::pow(lack_of_fit_um_[static_cast<int>(component)], 2);
   predicted.sigma = std::sqrt(std::max(variance, 0.0));
   return predicted;
 }
@@ -314,6 +346,20 @@ NineParameterModel NineParameterFit::model() const {
   std::string from = reference_state.empty() ? fmt::format("state {}", state)
                                              : fmt::format("the change from state {} to {}", reference_state, state);
   return {parameters, estimable_covariance, fmt::format("nine-parameter model of {}", from), null_space};
+}
+
+bool NineParameterFit::rejected() const {
+  return p_value && *p_value < rejection_level;
+}
+
+NineParameterModel NineParameterFit::predictingModel() const {
+  if (lack_of_fit_um.isZero()) return model();
+  Eigen::VectorXd extra(static_cast<Eigen::Index>(residuals.size()));
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    extra(static_cast<Eigen::Index>(i)) = std::pow(lack_of_fit_um[static_cast<int>(residuals[i].component)], 2);
+  }
+  const NineMatrix covariance_with = estimable_covariance + gain * extra.asDiagonal() * gain.transpose();
+  return {parameters, covariance_with, model().description() + " with its lack of fit", null_space, lack_of_fit_um};
 }
 
 namespace {
@@ -417,7 +463,7 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
   fit.degrees_of_freedom = linear.degrees_of_freedom;
   if (options.robust == RobustLoss::None && !options.scale_by_residuals && fit.degrees_of_freedom > 0) {
     fit.p_value = chiSquaredTail(fit.chi2, fit.degrees_of_freedom);
-    if (*fit.p_value < 1e-3) {
+    if (fit.rejected()) {
       fit.warnings.push_back(
           fmt::format("the residuals are larger than the stated uncertainties allow (chi-squared {:.1f} with {} "
                       "degrees of freedom, "
@@ -425,6 +471,7 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
                       fit.chi2, fit.degrees_of_freedom, pValueText(*fit.p_value)));
     }
   }
+  fit.lack_of_fit_um = lackOfFitOf(fit.residuals, used, A, v, covariance, weighted);
   fit.value_covariance = change.covariance;
   fit.gain = Eigen::MatrixXd::Zero(nine_parameter_count, count);
   for (Eigen::Index k = 0; k < rows; ++k) {

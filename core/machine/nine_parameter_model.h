@@ -45,9 +45,10 @@ using NineMatrix = Eigen::Matrix<double, nine_parameter_count, nine_parameter_co
 class NineParameterModel final : public ErrorModel {
  public:
   /// `null_space`: columns are directions of the parameters that are not determined (may have no columns). A prediction
-  /// that depends on one of them has an infinite sigma.
+  /// that depends on one of them has an infinite sigma. `lack_of_fit_um`: standard deviation of what the model does not
+  /// describe of EX, EY, EZ; part of the sigma of every prediction of them.
   NineParameterModel(const NineVector& parameters, const NineMatrix& covariance, std::string description,
-                     Eigen::MatrixXd null_space = {});
+                     Eigen::MatrixXd null_space = {}, Eigen::Vector3d lack_of_fit_um = Eigen::Vector3d::Zero());
 
   [[nodiscard]] std::string description() const override { return description_; }
   [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override;
@@ -59,6 +60,7 @@ class NineParameterModel final : public ErrorModel {
   NineMatrix covariance_;
   std::string description_;
   Eigen::MatrixXd null_space_;
+  Eigen::Vector3d lack_of_fit_um_;
 };
 
 enum class RobustLoss { None, Huber, Tukey };
@@ -107,6 +109,9 @@ struct NineParameterFit {
   double chi2 = 0.0;
   int degrees_of_freedom = 0;
   std::optional<double> p_value;  ///< of chi2; small: the model or the sigmas do not hold
+  /// Standard deviation of what the model leaves of EX, EY, EZ beyond the stated uncertainties, um; zero where chi2 is
+  /// what chance allows (5 %). See core/math/lack_of_fit.h.
+  Eigen::Vector3d lack_of_fit_um = Eigen::Vector3d::Zero();
   std::vector<NineParameterResidual> residuals;
   std::optional<double> rms_fit_um;
   std::optional<double> rms_validation_um;
@@ -117,6 +122,11 @@ struct NineParameterFit {
   [[nodiscard]] bool determined(int parameter) const;
   [[nodiscard]] double standardUncertainty(int parameter) const;
   [[nodiscard]] NineParameterModel model() const;
+  /// The values and sigmas of `residuals` do not hold for a model that was rejected (p below 0.001).
+  [[nodiscard]] bool rejected() const;
+  /// The same values with the uncertainty of a prediction: the lack of fit stays at every place and makes the
+  /// parameters less certain. What is compensated with.
+  [[nodiscard]] NineParameterModel predictingModel() const;
 };
 
 /// Names all states of an absolute set together, unless a state is called so.

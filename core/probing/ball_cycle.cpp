@@ -5,12 +5,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/geometry/rigid_transform.h"
+#include "core/math/statistics.h"
+#include "core/probing/artefact_certificate.h"
 
 namespace spindrift {
 namespace {
@@ -20,16 +23,6 @@ const ArtefactBall& ballOf(const Artefact& artefact, const std::string& id) {
       std::find_if(artefact.balls.begin(), artefact.balls.end(), [&](const ArtefactBall& b) { return b.id == id; });
   SPINDRIFT_ASSERT(found != artefact.balls.end(), "touches were checked against the machine");
   return *found;
-}
-
-/// Temperature of the artefact at a time, if anything tells it.
-std::optional<double> artefactTemperature(const Artefact& artefact, const OperatingLog* log, double time_s) {
-  if (log != nullptr && !log->empty()) {
-    for (const std::string& name : {fmt::format("T_{}_degC", artefact.id), std::string("T_artefact_degC")}) {
-      if (log->has(name)) return log->at(name, time_s);
-    }
-  }
-  return artefact.temperature_degC;
 }
 
 /// Rotation of the artefact in MCF: certified vectors to measured ones (Kabsch), by the first ball.
@@ -43,6 +36,39 @@ Eigen::Matrix3d artefactRotation(const std::vector<Eigen::Vector3d>& certified,
   }
   if (from.cols() < 3) return Eigen::Matrix3d::Identity();
   return Eigen::umeyama(from, to, false).topLeftCorner<3, 3>();
+}
+
+/// Where each ball stands from the first one in MCF, as the touches of all cycles imply it (median, some 0.01 mm): the
+/// artefact may be turned in any way. Balls that were not touched: turned as the others are.
+std::map<std::string, Eigen::Vector3d> ballArms(const TouchList& list, const MachineDescription& machine,
+                                                const Artefact& artefact) {
+  std::map<std::string, Eigen::Vector3d> centre;
+  for (const ArtefactBall& ball : artefact.balls) {
+    std::array<std::vector<double>, 3> implied;
+    for (const Touch& t : list.touches) {
+      if (t.artefact != artefact.id || t.feature != ball.id) continue;
+      const double stand_off = 0.5 * ball.diameter_mm + machine.findStylus(t.stylus)->radius_mm;
+      const Eigen::Vector3d at = t.position_mm + stand_off * t.approach;
+      for (std::size_t i = 0; i < 3; ++i) implied[i].push_back(at(static_cast<Eigen::Index>(i)));
+    }
+    if (implied[0].empty()) continue;
+    centre[ball.id] = {median(implied[0]), median(implied[1]), median(implied[2])};
+  }
+  std::vector<Eigen::Vector3d> certified;
+  std::vector<Eigen::Vector3d> measured;
+  for (const auto& [id, at] : centre) {
+    certified.push_back(ballOf(artefact, id).certified_mm);
+    measured.push_back(at);
+  }
+  const Eigen::Matrix3d turn = artefactRotation(certified, measured);
+  const auto origin = centre.find(artefact.balls.front().id);
+  std::map<std::string, Eigen::Vector3d> arms;
+  for (const ArtefactBall& ball : artefact.balls) {
+    const auto at = centre.find(ball.id);
+    const bool seen = origin != centre.end() && at != centre.end();
+    arms[ball.id] = seen ? Eigen::Vector3d(at->second - origin->second) : Eigen::Vector3d(turn * ball.certified_mm);
+  }
+  return arms;
 }
 
 }  // namespace
@@ -86,10 +112,11 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
         "spindle drift by the expansion times the distance to the real bearing.",
         joinedList(without_bearing)));
   }
-  // Growth of the artefact itself moves the balls; taken off beforehand, from the first ball, along the certified
-  // vectors.
+  // Growth of the artefact itself moves the balls; taken off beforehand, from the first ball, along the artefact as it
+  // lies in the machine.
   TouchList corrected = list;
-  const double alpha = artefact.expansion_um_per_m_K.value_or(0.0) / um_per_m_per_unit;
+  const ArtefactCertificate certificate = ArtefactCertificate::of(machine, artefact);
+  const double alpha = certificate.expansion_per_K.value_or(0.0);
   double first_time = 0.0;
   for (const Touch& t : list.touches) {
     if (t.artefact == artefact.id) {
@@ -98,11 +125,14 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
     }
   }
   const auto first_temperature = artefactTemperature(artefact, log, first_time);
-  if (alpha != 0.0 && first_temperature) {
+  const bool grows = alpha != 0.0 && first_temperature.has_value();
+  const std::map<std::string, Eigen::Vector3d> arm_mm =
+      grows ? ballArms(list, machine, artefact) : std::map<std::string, Eigen::Vector3d>{};
+  if (grows) {
     for (Touch& t : corrected.touches) {
       if (t.artefact != artefact.id) continue;
       const double warmer = *artefactTemperature(artefact, log, t.time_s) - *first_temperature;
-      t.position_mm -= alpha * warmer * ballOf(artefact, t.feature).certified_mm;
+      t.position_mm -= alpha * warmer * arm_mm.at(t.feature);
     }
   }
 
@@ -121,6 +151,22 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
     return 0.5 * ballOf(artefact, feature).diameter_mm + machine.findStylus(stylus)->radius_mm;
   };
   evaluateCycles(corrected, machine, artefact, assembly, result);
+
+  ArtefactGrowth growth;
+  if (grows) {
+    growth = artefactGrowth(certificate, artefact, log, result.cycle_time_s);
+    if (!certificate.taken_as_exact.empty()) {
+      double largest = 0.0;
+      for (const double strain : growth.strain) largest = std::max(largest, std::abs(strain));
+      if (largest > 0.0) {
+        result.warnings.push_back(fmt::format(
+            "the machine file states no uncertainty of {} of {}: taken as exact, though up to {:.1f} um/m were taken "
+            "off.",
+            joinedList(certificate.taken_as_exact), artefact.id, largest * um_per_m_per_unit));
+      }
+    }
+    addGrowthUncertainty(corrected, growth.factors, arm_mm, result);
+  }
 
   // (13): distances against the certificate, with the artefact as warm as it is.
   const double certificate_um = artefact.certificate_uncertainty_um.value_or(0.0);
@@ -153,9 +199,7 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
           d.to = fb.feature;
           const Eigen::Vector3d v = fb.centre_mm - fa.centre_mm;
           double stretch = 1.0;
-          if (alpha != 0.0 && first_temperature) {
-            stretch += alpha * (*first_temperature - machine.reference_temperature_degC);
-          }
+          if (grows) stretch += alpha * (*first_temperature - certificate.reference_degC);
           const Eigen::Vector3d w = stretch * (certified[b] - certified[a]);
           d.measured_mm = v.norm();
           d.certified_mm = w.norm();
@@ -163,7 +207,17 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
           d.components_um = (v - turn * w) * um_per_mm;
           const Eigen::Vector3d e = v.normalized();
           const double touches = e.dot((fa.covariance + fb.covariance) * e) * um_per_mm * um_per_mm;
-          d.standard_uncertainty_um = std::sqrt(touches + 2.0 * certificate_um * certificate_um);
+          // The whole way from the reference temperature to that of this cycle is the artefact's.
+          double expansion = 0.0;
+          if (grows) {
+            const auto k = static_cast<std::size_t>(std::find(result.cycles.begin(), result.cycles.end(), cycle) -
+                                                    result.cycles.begin());
+            const double warmer = growth.temperature_degC[k] - certificate.reference_degC;
+            expansion = (std::pow(warmer * certificate.expansion_sigma_per_K, 2) +
+                         std::pow(alpha * certificate.temperature_sigma_K, 2)) *
+                        std::pow(d.certified_mm * um_per_mm, 2);
+          }
+          d.standard_uncertainty_um = std::sqrt(touches + 2.0 * certificate_um * certificate_um + expansion);
           if (std::abs(d.measured_mm - d.certified_mm) > worst_mm) {
             worst_mm = std::abs(d.measured_mm - d.certified_mm);
             worst_pair = fmt::format("{} to {} in {}", d.from, d.to, cycle);

@@ -9,8 +9,9 @@
 // Why (7)-(9) are not enough: three styli on one ball touch the same place, so they see a x tip as a translation, and
 // the closed forms ignore translations. See star_stylus.h.
 // Temperature of the artefact: a column T_<artefact>_degC of the log (or T_artefact_degC) with the expansion
-// coefficient of the machine file moves the balls away from the first one; certified distances hold at the reference
-// temperature. Source: P4 (1)-(13) as PAPERS.md corrects them.
+// coefficient of the machine file moves the balls away from the first one, along the artefact as it lies in the
+// machine; certified distances hold at the reference temperature. The uncertainties of coefficient and temperature
+// enter the covariances (artefact_certificate.h). Source: P4 (1)-(13) as PAPERS.md corrects them.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,7 +36,7 @@ struct BallDistance {
   double measured_mm = 0.0;
   double certified_mm = 0.0;                                ///< at the temperature of the artefact
   double error_um = 0.0;                                    ///< measured minus certified
-  double standard_uncertainty_um = 0.0;                     ///< touches and certificate
+  double standard_uncertainty_um = 0.0;                     ///< touches, certificate, coefficient and temperature
   Eigen::Vector3d components_um = Eigen::Vector3d::Zero();  ///< measured minus certified vector, MCF
 };
 

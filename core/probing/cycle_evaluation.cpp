@@ -480,6 +480,55 @@ void evaluateCycles(const TouchList& list, const MachineDescription& machine, co
   Assembler(list, machine, artefact, assembly, result).run();
 }
 
+void addGrowthUncertainty(const TouchList& list, Eigen::MatrixXd factors, std::map<std::string, Eigen::Vector3d> arm_mm,
+                          CycleEvaluation& result) {
+  if (factors.isZero(0.0)) return;
+  const auto& rows = result.problem.rows;
+  Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()), factors.cols());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto arm = arm_mm.find(list.touches[result.row_touch[r]].feature);
+    if (arm == arm_mm.end()) continue;
+    shift.row(static_cast<Eigen::Index>(r)) = result.row_normal[r].dot(arm->second) * factors.row(rows[r].cycle);
+  }
+  addCauses(result.problem, shift, result.fit);
+  for (std::size_t k = 0; k < result.parameters.size(); ++k) {
+    for (std::size_t p = 0; p < result.names.size(); ++p) {
+      const auto e = static_cast<Eigen::Index>(p);
+      result.parameters[k][p].standard_uncertainty = std::sqrt(result.fit.cycles[k].covariance(e, e)) * result.unit[p];
+    }
+  }
+  result.growth_factors = std::move(factors);
+  result.growth_arm_mm = std::move(arm_mm);
+}
+
+namespace {
+
+/// The growth that was taken off moved all values of a feature alike: sigmas and covariances of the rows. `cause(i,
+/// q)`: what cause q does to row i, um.
+void addGrowth(ObservationSet& set, const Eigen::MatrixXd& cause) {
+  std::map<std::pair<std::size_t, std::size_t>, double> covariance;
+  for (const CovarianceEntry& entry : set.covariance) covariance[{entry.row, entry.column}] = entry.covariance;
+  const Eigen::VectorXd own = cause.rowwise().squaredNorm();
+  for (std::size_t i = 0; i < set.rows.size(); ++i) {
+    set.rows[i].sigma = std::sqrt(set.rows[i].sigma * set.rows[i].sigma + own(static_cast<Eigen::Index>(i)));
+  }
+  constexpr double negligible = 1e-3;  // of the product of the sigmas
+  for (Eigen::Index j = 0; j < cause.rows(); ++j) {
+    if (own(j) == 0.0) continue;
+    for (Eigen::Index i = 0; i < j; ++i) {
+      if (own(i) == 0.0) continue;
+      const double common = cause.row(i).dot(cause.row(j));
+      const auto a = static_cast<std::size_t>(i);
+      const auto b = static_cast<std::size_t>(j);
+      if (std::abs(common) > negligible * set.rows[a].sigma * set.rows[b].sigma) covariance[{a, b}] += common;
+    }
+  }
+  set.covariance.clear();
+  for (const auto& [place, value] : covariance) set.covariance.push_back({place.first, place.second, value});
+}
+
+}  // namespace
+
 ObservationSet cycleObservations(const CycleEvaluation& evaluation, const TouchList& list,
                                  const MachineDescription& machine, const Artefact& artefact) {
   ObservationSet set;
@@ -511,6 +560,7 @@ ObservationSet cycleObservations(const CycleEvaluation& evaluation, const TouchL
     double common;
   };
   std::map<std::pair<std::string, int>, std::vector<Placed>> placed;
+  std::vector<Eigen::RowVectorXd> growth;  // per row, um
   for (const std::vector<Member>& members : groups) {
     const Touch& first = list.touches[evaluation.row_touch[members.front().row]];
     const auto n = static_cast<Eigen::Index>(members.size());
@@ -575,7 +625,18 @@ ObservationSet cycleObservations(const CycleEvaluation& evaluation, const TouchL
       own_rows.push_back(row);
       own_axis.push_back(axis);
       set.rows.push_back(std::move(o));
+      const auto arm = evaluation.growth_arm_mm.find(first.feature);
+      if (arm != evaluation.growth_arm_mm.end()) {
+        const int cycle = rows[members.front().row].cycle;
+        growth.emplace_back(-um_per_mm * arm->second(axis) * evaluation.growth_factors.row(cycle));
+      }
     }
+  }
+  if (!growth.empty()) {
+    SPINDRIFT_ASSERT(growth.size() == set.rows.size(), "every feature of an artefact that grows has an arm");
+    Eigen::MatrixXd cause(static_cast<Eigen::Index>(growth.size()), evaluation.growth_factors.cols());
+    for (std::size_t i = 0; i < growth.size(); ++i) cause.row(static_cast<Eigen::Index>(i)) = growth[i];
+    addGrowth(set, cause);
   }
   return set;
 }

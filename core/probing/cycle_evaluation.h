@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,10 @@ struct CycleEvaluation {
   std::vector<RejectedTouch> rejected;
   std::vector<std::string> warnings;
   std::vector<ProbedFeature> features;
+  /// Growth of the artefact that was taken off: cycles x causes (strain), and the arm of each feature along which it
+  /// moves (MCF, mm). Empty: none was.
+  Eigen::MatrixXd growth_factors;
+  std::map<std::string, Eigen::Vector3d> growth_arm_mm;
 
   /// Covariance of two parameters of one cycle, in the units of their names.
   [[nodiscard]] double covariance(int cycle, int a, int b) const;
@@ -79,6 +84,10 @@ struct CycleAssembly {
 /// Finds misplaced touches, builds the problem, solves it, rejects bad touches and fills `result`.
 void evaluateCycles(const TouchList& list, const MachineDescription& machine, const Artefact& artefact,
                     const CycleAssembly& assembly, CycleEvaluation& result);
+
+/// Puts the uncertainty of the growth that was taken off into the covariances and the parameters of `result`.
+void addGrowthUncertainty(const TouchList& list, Eigen::MatrixXd factors, std::map<std::string, Eigen::Vector3d> arm_mm,
+                          CycleEvaluation& result);
 
 /// Deviations as observations: per feature, stylus and table angle, EX, EY, EZ in every cycle = minus the change of the
 /// measured position since the first cycle. `point` = feature ("H2"), "H1@90" at a turned table, "B1/p0" for styli. The

@@ -35,8 +35,35 @@ std::string combinationText(const Eigen::VectorXd& combination, const std::vecto
 }
 
 Eigen::MatrixXd CycleFitResult::covarianceBetween(int cycle_a, int cycle_b) const {
-  return from_constant[static_cast<std::size_t>(cycle_a)] * constant_covariance *
-         from_constant[static_cast<std::size_t>(cycle_b)].transpose();
+  const auto a = static_cast<std::size_t>(cycle_a);
+  const auto b = static_cast<std::size_t>(cycle_b);
+  Eigen::MatrixXd common = from_constant[a] * constant_covariance * from_constant[b].transpose();
+  if (!causes.empty()) common += causes[a] * causes[b].transpose();
+  return common;
+}
+
+void addCauses(const CycleProblem& problem, const Eigen::MatrixXd& shift_mm, CycleFitResult& fit) {
+  SPINDRIFT_ASSERT(shift_mm.rows() == static_cast<Eigen::Index>(problem.rows.size()), "causes and rows do not match");
+  const auto n = static_cast<Eigen::Index>(problem.parameters.size());
+  fit.causes.assign(fit.cycles.size(), Eigen::MatrixXd::Zero(n, shift_mm.cols()));
+  for (std::size_t r = 0; r < problem.rows.size(); ++r) {
+    const CycleRow& row = problem.rows[r];
+    if (!fit.used[r] || row.cycle == problem.reference_cycle) continue;
+    // A value counts against its constant: d theta / d y = -d theta / d b.
+    const auto k = static_cast<std::size_t>(row.cycle);
+    fit.causes[k] -= fit.from_constant[k].col(row.key) * shift_mm.row(static_cast<Eigen::Index>(r));
+  }
+  for (std::size_t k = 0; k < fit.cycles.size(); ++k) {
+    CycleSolution& solution = fit.cycles[k];
+    const Eigen::MatrixXd more = fit.causes[k] * fit.causes[k].transpose();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const bool determined =
+            solution.determined[static_cast<std::size_t>(i)] && solution.determined[static_cast<std::size_t>(j)];
+        if (determined) solution.covariance(i, j) += more(i, j);
+      }
+    }
+  }
 }
 
 namespace {

@@ -86,10 +86,17 @@ struct CycleFitResult {
   Eigen::VectorXd constant_mm;                 ///< b
   Eigen::MatrixXd constant_covariance;         ///< cov(b)
   std::vector<Eigen::MatrixXd> from_constant;  ///< per cycle: d theta / d b, for covariances between cycles
+  /// Per cycle, parameters x causes: what one standard uncertainty of a cause that the touches do not show (growth of
+  /// the artefact) does to theta; empty: none. Part of `covariance` of the cycle.
+  std::vector<Eigen::MatrixXd> causes;
 
-  /// Covariance between the parameters of two different cycles (the common first cycle).
+  /// Covariance between the parameters of two different cycles: the common first cycle, and common causes.
   [[nodiscard]] Eigen::MatrixXd covarianceBetween(int cycle_a, int cycle_b) const;
 };
+
+/// Adds causes that move rows of all cycles: `shift_mm(row, cause)` is what one standard uncertainty of a cause does to
+/// the value of a row. Covariances of the cycles grow by them.
+void addCauses(const CycleProblem& problem, const Eigen::MatrixXd& shift_mm, CycleFitResult& fit);
 
 [[nodiscard]] CycleFitResult fitCycles(const CycleProblem& problem, const CycleFitOptions& options = {});
 

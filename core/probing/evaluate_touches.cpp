@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/math/statistics.h"
+#include "core/probing/star_stylus.h"
 
 namespace spindrift {
 namespace {
@@ -70,6 +71,93 @@ void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, co
                     parameter.determined ? withUncertainty(parameter.value, parameter.standard_uncertainty, unit)
                                          : std::string("not determined"));
   }
+}
+
+/// Lengths of the bar against its certificate, per cycle.
+nlohmann::json certificateJson(const HoleCycleResult& holes) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const CertifiedLengths& c : holes.against_certificate) {
+    nlohmann::json features = nlohmann::json::array();
+    for (const CertifiedLengths::Hole& h : c.holes) {
+      features.push_back({{"feature", h.feature},
+                          {"certified_mm", h.certified_mm},
+                          {"error_um", jsonNumber(h.error_um)},
+                          {"standard_uncertainty_um", jsonNumber(h.standard_uncertainty_um)}});
+    }
+    list.push_back({{"cycle", c.cycle},
+                    {"axis", holes.setup.linear},
+                    {"temperature_degC", jsonNumber(c.temperature_degC)},
+                    {"slope_um_per_m",
+                     {{"value", jsonNumber(c.slope_um_per_m)},
+                      {"standard_uncertainty", jsonNumber(c.standard_uncertainty_um_per_m)}}},
+                    {"chi2", jsonNumber(c.chi2)},
+                    {"degrees_of_freedom", c.degrees_of_freedom},
+                    {"holes", features}});
+  }
+  return list;
+}
+
+/// P4 (7)-(10) as printed, through the centres that each stylus measured, beside the joint evaluation: they take every
+/// translation for a rotation.
+nlohmann::json closedFormsJson(const BallCycleResult& balls, const MachineDescription& machine) {
+  nlohmann::json list = nlohmann::json::array();
+  if (machine.styli.size() < 3 || balls.cycles.empty()) return list;
+  const auto centreOf = [&](const std::string& cycle, const std::string& ball,
+                            const std::string& stylus) -> const Eigen::Vector3d* {
+    for (const ProbedFeature& f : balls.features) {
+      if (f.cycle == cycle && f.feature == ball && f.stylus == stylus && f.status == FitStatus::Converged) {
+        return &f.centre_mm;
+      }
+    }
+    return nullptr;
+  };
+  StylusCentres before;
+  for (std::size_t i = 0; i < 3; ++i) before[i] = machine.styli[i].offset_mm;
+  const auto reference = static_cast<std::size_t>(balls.problem.reference_cycle);
+  for (std::size_t k = 0; k < balls.cycles.size(); ++k) {
+    if (k == reference) continue;
+    for (const ArtefactBall& ball : machine.findArtefact(balls.artefact)->balls) {
+      StylusCentres after = before;
+      bool all = true;
+      for (std::size_t i = 0; i < 3 && all; ++i) {
+        const Eigen::Vector3d* cold = centreOf(balls.cycles[reference], ball.id, machine.styli[i].id);
+        const Eigen::Vector3d* warm = centreOf(balls.cycles[k], ball.id, machine.styli[i].id);
+        all = cold != nullptr && warm != nullptr;
+        // The tip has moved by minus what the machine reads of the ball.
+        if (all) after[i] -= *warm - *cold;
+      }
+      if (!all) continue;
+      const HeadRotation head = closedFormRotation(before, after);
+      nlohmann::json joint = nlohmann::json::array();
+      for (std::size_t p = 0; p < 3; ++p) joint.push_back(jsonNumber(balls.parameters[k][p].value));
+      nlohmann::json entry{{"cycle", balls.cycles[k]},
+                           {"ball", ball.id},
+                           {"head_rotation_urad", nullptr},
+                           {"joint_head_rotation_urad", joint},
+                           {"spindle_drift_um", spindleDrift(before[0], after[0]) * um_per_mm},
+                           {"message", head.message}};
+      if (head.status == FitStatus::Converged) {
+        const Eigen::Vector3d r = head.rotation_rad * urad_per_rad;
+        entry["head_rotation_urad"] = {jsonNumber(r.x()), jsonNumber(r.y()), jsonNumber(r.z())};
+      }
+      list.push_back(std::move(entry));
+    }
+  }
+  return list;
+}
+
+nlohmann::json growthJson(const HoleCycleResult& holes) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const ExpectedGrowth& g : holes.growth) {
+    list.push_back({{"cycle", g.cycle},
+                    {"expected_um_per_m",
+                     {{"value", jsonNumber(g.expected_um_per_m)},
+                      {"standard_uncertainty", jsonNumber(g.expected_sigma_um_per_m)}}},
+                    {"measured_um_per_m",
+                     {{"value", jsonNumber(g.measured_um_per_m)},
+                      {"standard_uncertainty", jsonNumber(g.measured_sigma_um_per_m)}}}});
+  }
+  return list;
 }
 
 }  // namespace
@@ -166,8 +254,8 @@ TouchEvaluation evaluateTouchList(const Campaign& campaign, TouchList touches, c
     job.report(static_cast<double>(i) / static_cast<double>(artefacts.size()), "evaluating touches");
     const Artefact& artefact = *campaign.machine.findArtefact(artefacts[i]);
     if (artefact.kind == "hole_bar") {
-      evaluation.hole_cycles.push_back(
-          evaluateHoleCycles(evaluation.touches, campaign.machine, artefact, hole_options));
+      evaluation.hole_cycles.push_back(evaluateHoleCycles(evaluation.touches, campaign.machine, artefact, hole_options,
+                                                          campaign.log ? &*campaign.log : nullptr));
     } else {
       evaluation.ball_cycles.push_back(evaluateBallCycles(evaluation.touches, campaign.machine, artefact,
                                                           campaign.log ? &*campaign.log : nullptr, ball_options));
@@ -193,6 +281,16 @@ InstrumentEvaluation describeTouches(const TouchEvaluation& evaluation, const Ma
                            {"noise_um", d.sigma_um}});
     }
     details["deviation_from_line"] = linearity;
+    details["against_certificate"] = certificateJson(holes);
+    details["growth_expected"] = growthJson(holes);
+    if (!holes.against_certificate.empty()) {
+      const CertifiedLengths& last = holes.against_certificate.back();
+      out.summary += fmt::format(
+          "  against the certificate, in {}: {} deviates by {}{}\n", last.cycle, holes.setup.linear,
+          withUncertainty(last.slope_um_per_m, last.standard_uncertainty_um_per_m, "um/m"),
+          last.temperature_degC ? fmt::format(" (bar at {:.2f} degC)", *last.temperature_degC)
+                                : std::string(" (temperature of the bar not known: taken as that of the certificate)"));
+    }
     const SecondAxisBias bias = secondAxisBias(holes, evaluation.touches);
     nlohmann::json per = nlohmann::json::object();
     for (std::size_t p = 0; p < bias.names.size(); ++p) per[bias.names[p]] = bias.bias_per_um_per_m[p];
@@ -212,6 +310,7 @@ InstrumentEvaluation describeTouches(const TouchEvaluation& evaluation, const Ma
                            {"standard_uncertainty_um", jsonNumber(d.standard_uncertainty_um)}});
     }
     details["ball_distances"] = distances;
+    details["closed_forms"] = closedFormsJson(balls, machine);
   }
   return out;
 }

@@ -8,9 +8,11 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/math/least_squares.h"
 #include "core/math/statistics.h"
+#include "core/probing/artefact_certificate.h"
 
 namespace spindrift {
 namespace {
@@ -174,8 +176,110 @@ Eigen::MatrixXd HoleBarSetup::deviationJacobian(const std::string& feature, doub
   return J;
 }
 
+namespace {
+
+std::vector<CertifiedLengths> compareWithCertificate(const HoleCycleResult& result, const Artefact& artefact,
+                                                     const ArtefactCertificate& certificate, const OperatingLog* log) {
+  std::vector<CertifiedLengths> out;
+  if (!artefact.certificate_uncertainty_um) return out;
+  const double alpha = certificate.expansion_per_K.value_or(0.0);
+  const std::string& reference_hole = artefact.reference_hole;
+  for (std::size_t k = 0; k < result.cycles.size(); ++k) {
+    std::vector<const ProbedFeature*> holes;
+    const ProbedFeature* reference = nullptr;
+    for (const ProbedFeature& f : result.features) {
+      if (f.cycle != result.cycles[k] || f.c_deg != 0.0 || f.status != FitStatus::Converged) continue;
+      if (f.feature == reference_hole) {
+        reference = &f;
+      } else {
+        holes.push_back(&f);
+      }
+    }
+    if (reference == nullptr || holes.size() < 2) continue;
+    CertifiedLengths lengths;
+    lengths.cycle = result.cycles[k];
+    lengths.temperature_degC = artefactTemperature(artefact, log, result.cycle_time_s[k]);
+    const double warmer = lengths.temperature_degC.value_or(certificate.reference_degC) - certificate.reference_degC;
+    const auto n = static_cast<Eigen::Index>(holes.size());
+    Eigen::MatrixXd A(n, 1);
+    Eigen::VectorXd y(n);
+    Eigen::MatrixXd covariance(n, n);
+    const Eigen::Vector3d& along = result.setup.direction_at_c0;
+    const double reference_variance =
+        along.dot(reference->covariance * along) + certificate.place_sigma_mm * certificate.place_sigma_mm;
+    const double strain_variance =
+        std::pow(warmer * certificate.expansion_sigma_per_K, 2) + std::pow(alpha * certificate.temperature_sigma_K, 2);
+    Eigen::VectorXd s(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      s(i) =
+          result.setup
+              .along_mm[static_cast<std::size_t>(HoleBarSetup::holeIndex(holes[static_cast<std::size_t>(i)]->feature))];
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const ProbedFeature& hole = *holes[static_cast<std::size_t>(i)];
+      const Eigen::Vector3d measured = hole.centre_mm - reference->centre_mm;
+      // In the plane of the table: a bar that lies a little skew is not longer for it.
+      const Eigen::Vector3d& axis = result.setup.rotary_direction;
+      const double length = (measured - axis * axis.dot(measured)).norm() * (s(i) < 0.0 ? -1.0 : 1.0);
+      const double certified = s(i) * (1.0 + alpha * warmer);
+      y(i) = length - certified;
+      A(i, 0) = -s(i);
+      for (Eigen::Index j = 0; j < n; ++j) covariance(i, j) = reference_variance + strain_variance * s(i) * s(j);
+      covariance(i, i) += along.dot(hole.covariance * along) + certificate.place_sigma_mm * certificate.place_sigma_mm;
+      lengths.holes.push_back({hole.feature, certified, y(i) * um_per_mm, std::sqrt(covariance(i, i)) * um_per_mm});
+    }
+    const LinearFitResult fit = solveLinearCorrelated(A, y, covariance);
+    if (!fit.usable()) continue;
+    lengths.slope_um_per_m = fit.x(0) * um_per_m_per_unit;
+    lengths.standard_uncertainty_um_per_m = fit.standardUncertainty(0) * um_per_m_per_unit;
+    lengths.chi2 = fit.chi2;
+    lengths.degrees_of_freedom = fit.degrees_of_freedom;
+    out.push_back(std::move(lengths));
+  }
+  return out;
+}
+
+/// The growth that coefficient and temperature expect; a warning where the measured one is another.
+void compareGrowth(const Artefact& artefact, const ArtefactCertificate& certificate, const OperatingLog* log,
+                   HoleCycleResult& result) {
+  const ArtefactGrowth growth = artefactGrowth(certificate, artefact, log, result.cycle_time_s);
+  if (growth.strain.empty()) return;
+  constexpr Eigen::Index eme = 8;
+  double worst = 0.0;
+  const ExpectedGrowth* worst_cycle = nullptr;
+  result.growth.reserve(result.cycles.size());
+  for (std::size_t k = 0; k < result.cycles.size(); ++k) {
+    if (static_cast<int>(k) == result.problem.reference_cycle) continue;
+    const CycleParameter& measured = result.parameters[k][static_cast<std::size_t>(eme)];
+    if (!measured.determined) continue;
+    ExpectedGrowth g;
+    g.cycle = result.cycles[k];
+    g.expected_um_per_m = growth.strain[k] * um_per_m_per_unit;
+    g.expected_sigma_um_per_m = growth.factors.row(static_cast<Eigen::Index>(k)).norm() * um_per_m_per_unit;
+    g.measured_um_per_m = measured.value;
+    g.measured_sigma_um_per_m = measured.standard_uncertainty;
+    result.growth.push_back(g);
+    const double z = std::abs(g.measured_um_per_m - g.expected_um_per_m) /
+                     std::hypot(g.measured_sigma_um_per_m, g.expected_sigma_um_per_m);
+    if (z <= worst) continue;
+    worst = z;
+    worst_cycle = &result.growth.back();
+  }
+  constexpr double many_sigma = 4.0;
+  if (worst <= many_sigma) return;
+  result.warnings.push_back(fmt::format(
+      "{} grew by {} in {}, but its expansion coefficient and temperature say {}: another coefficient, a sensor that "
+      "is "
+      "not on the bar, or a second axis that expands.",
+      artefact.id, withUncertainty(worst_cycle->measured_um_per_m, worst_cycle->measured_sigma_um_per_m, "um/m"),
+      worst_cycle->cycle,
+      withUncertainty(worst_cycle->expected_um_per_m, worst_cycle->expected_sigma_um_per_m, "um/m")));
+}
+
+}  // namespace
+
 HoleCycleResult evaluateHoleCycles(const TouchList& list, const MachineDescription& machine, const Artefact& artefact,
-                                   const HoleCycleOptions& options) {
+                                   const HoleCycleOptions& options, const OperatingLog* log) {
   HoleCycleResult result;
   result.setup = HoleBarSetup::of(machine, artefact);
   const HoleBarSetup& setup = result.setup;
@@ -226,6 +330,9 @@ HoleCycleResult evaluateHoleCycles(const TouchList& list, const MachineDescripti
     assembly.priors.push_back(prior);
   }
   evaluateCycles(list, machine, artefact, assembly, result);
+  const ArtefactCertificate certificate = ArtefactCertificate::of(machine, artefact);
+  result.against_certificate = compareWithCertificate(result, artefact, certificate, log);
+  compareGrowth(artefact, certificate, log, result);
 
   // What a straight line leaves over along the bar at c = 0.
   for (const std::string& feature : assembly.features) {

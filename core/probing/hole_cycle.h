@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "core/machine/operating_log.h"
 #include "core/probing/cycle_evaluation.h"
 #include "core/probing/touch.h"
 
@@ -85,16 +86,48 @@ struct LinearityDeviation {
   double sigma_um = 0.0;  ///< noise of one value
 };
 
+/// The bar against its certificate in one cycle at c = 0: what the linear axis reads of lengths that are known.
+///   measured - certified (1 + alpha (T - 20 degC)) = -slope s + e,  s along the bar from the reference hole
+/// slope: deviation of the linear axis per metre, absolute (EXX counts from the first cycle). e: touches, certificate
+/// of each hole and of the reference hole (common), coefficient and temperature (common, growing with s).
+struct CertifiedLengths {
+  struct Hole {
+    std::string feature;
+    double certified_mm = 0.0;  ///< from the reference hole, at the temperature of the bar
+    double error_um = 0.0;      ///< measured minus certified
+    double standard_uncertainty_um = 0.0;
+  };
+  std::string cycle;
+  std::vector<Hole> holes;
+  double slope_um_per_m = 0.0;
+  double standard_uncertainty_um_per_m = 0.0;
+  double chi2 = 0.0;  ///< of the holes about the slope
+  int degrees_of_freedom = 0;
+  std::optional<double> temperature_degC;  ///< of the bar; nothing: taken as that of the certificate
+};
+
+/// Growth of the bar since the first cycle as its coefficient and temperature say, beside the EME that was measured.
+struct ExpectedGrowth {
+  std::string cycle;
+  double expected_um_per_m = 0.0;
+  double expected_sigma_um_per_m = 0.0;
+  double measured_um_per_m = 0.0;
+  double measured_sigma_um_per_m = 0.0;
+};
+
 struct HoleCycleResult : CycleEvaluation {
   HoleBarSetup setup;
+  std::vector<CertifiedLengths> against_certificate;  ///< empty without "certificate_uncertainty_um"
+  std::vector<ExpectedGrowth> growth;                 ///< empty without coefficient or temperature
   std::vector<LinearityDeviation> linearity;
   double largest_nonlinearity_um = 0.0;
 };
 
-/// Touches of one hole bar over all cycles. Throws InputError if the machine file lacks what is needed; missing touches
-/// and bad touches are handled and told.
+/// Touches of one hole bar over all cycles. `log` (may be null) tells the temperature of the bar. Throws InputError if
+/// the machine file lacks what is needed; missing touches and bad touches are handled and told.
 [[nodiscard]] HoleCycleResult evaluateHoleCycles(const TouchList& list, const MachineDescription& machine,
-                                                 const Artefact& artefact, const HoleCycleOptions& options = {});
+                                                 const Artefact& artefact, const HoleCycleOptions& options = {},
+                                                 const OperatingLog* log = nullptr);
 
 /// What an unmodelled expansion of the second axis by 1 um/m does to each parameter (in its unit), for the touches of
 /// one cycle; `with_stable_length` gives the same for the extended evaluation (zero up to the trust in the length).

@@ -27,7 +27,7 @@ struct ScanCovariance {
   Eigen::Matrix<double, 6, 6> spread;  ///< calibrationSpread
 };
 
-nlohmann::json scanJson(const ScanResult& s, const Eigen::Matrix<double, 6, 6>& calibration) {
+nlohmann::json scanJson(const ScanResult& s, const std::string& axis, const Eigen::Matrix<double, 6, 6>& calibration) {
   nlohmann::json parameters = nlohmann::json::object();
   nlohmann::json at_artefact = nlohmann::json::object();
   nlohmann::json not_observed = nlohmann::json::array();
@@ -35,7 +35,7 @@ nlohmann::json scanJson(const ScanResult& s, const Eigen::Matrix<double, 6, 6>& 
     const int i = static_cast<int>(k);
     const double f = unitFactor(k);
     const bool known = s.axis.determined(i);
-    parameters[fmt::format("{}Y_{}", toString(k), unitOf(k))] = {
+    parameters[fmt::format("{}{}_{}", toString(k), axis, unitOf(k))] = {
         {"value", known ? nlohmann::json(valueOf(s.axis.error, k)) : nlohmann::json(nullptr)},
         {"standard_uncertainty", known ? jsonNumber(f * std::sqrt(s.axis.covariance(i, i))) : nlohmann::json(nullptr)}};
     const bool seen = std::isfinite(s.registration.covariance(i, i));
@@ -101,7 +101,7 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
     ScanCovariance c;
     c.own = s.registration.covariance;
     if (s.reference) c.own = 2.0 * common;
-    c.spread = calibrationSpread(s.registration, evaluation.mounting.calibration);
+    c.spread = s.calibration_spread;
     const Eigen::Matrix<double, 6, 6> calibration = c.spread * c.spread.transpose();
     for (const Component k : all_components) {
       const int i = static_cast<int>(k);
@@ -114,7 +114,8 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
       if (const MachinePoint* point = campaign.machine.findPoint(s.capture.artefact)) {
         o.position_mm = point->position_mm;
       } else {
-        o.position_mm = Eigen::Vector3d(0.0, s.capture.y_mm + s.registration.centroid_mm.y(), 0.0);
+        o.position_mm =
+            evaluation.machine_from_scan * Eigen::Vector3d(0.0, s.capture.y_mm + s.registration.centroid_mm.y(), 0.0);
         placed_by_scan.insert(s.capture.artefact);
       }
       o.value = valueOf(SmallError{s.registration.translation_mm, s.registration.rotation_rad}, k);
@@ -126,7 +127,7 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
       rows.push_back({n, i});
     }
     covariances.push_back(c);
-    cycles.push_back(scanJson(s, calibration));
+    cycles.push_back(scanJson(s, evaluation.axis, calibration));
   }
   // Beyond the diagonal: within a scan its registration, between scans of an artefact the reference and the
   // calibration.
@@ -148,10 +149,11 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
     }
   }
   if (!placed_by_scan.empty())
-    out.warnings.push_back(
-        fmt::format("machine.json has no point for {}: the position is taken from the scan, x and z as 0.",
-                    joinedList(std::vector<std::string>(placed_by_scan.begin(), placed_by_scan.end()))));
+    out.warnings.push_back(fmt::format(
+        "machine.json has no point for {}: the position is taken from the scan, 0 across {}.",
+        joinedList(std::vector<std::string>(placed_by_scan.begin(), placed_by_scan.end())), evaluation.axis));
   out.details["cycles"] = cycles;
+  out.details["axis"] = evaluation.axis;
   out.details["scan_model"] = toString(evaluation.scan_model);
   out.details["calibration"] = calibrationJson(evaluation.mounting.calibration);
   std::size_t compared = 0;

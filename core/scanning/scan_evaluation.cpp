@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -74,12 +75,90 @@ std::optional<std::string> twoSurfaces(const CellGrid& grid) {
   return std::nullopt;
 }
 
+/// Axes of the scan frame: a permutation of the machine's with signs.
+struct ScanFrame {
+  std::string axis = "Y";
+  int travel = 1;  ///< index of the axis
+  Eigen::Matrix3d machine_from_scan = Eigen::Matrix3d::Identity();
+
+  [[nodiscard]] static ScanFrame of(const MachineDescription& machine);
+  /// Results of a scan, worked out in the scan frame, into machine axes. No products: what is not determined is
+  /// infinite.
+  void intoMachine(ScanResult& result) const;
+};
+
+ScanFrame ScanFrame::of(const MachineDescription& machine) {
+  ScanFrame frame;
+  frame.axis = machine.profiler->axis;
+  const std::size_t travel = std::string("XYZ").find(frame.axis);
+  if (frame.axis.size() != 1 || travel == std::string::npos) {
+    throw InputError({machine.file, "$.profiler.axis"},
+                     fmt::format("found '{}'; allowed: X, Y or Z, the axis that carries the profiler.", frame.axis));
+  }
+  frame.travel = static_cast<int>(travel);
+  std::string height = frame.axis == "Z" ? "-Y" : "Z";
+  const auto profiler = JsonNode::parse(machine.source.dump(), machine.file.string()).find("profiler");
+  const auto stated = profiler ? profiler->find("height_axis") : std::nullopt;
+  if (stated) height = stated->oneOf({"X", "Y", "Z", "-X", "-Y", "-Z"});
+  const auto up = static_cast<Eigen::Index>(std::string("XYZ").find(height.back()));
+  if (up == frame.travel) {
+    stated->reject(fmt::format("an axis across {}, along which the profiler travels", frame.axis));
+  }
+  const Eigen::Vector3d y = Eigen::Vector3d::Unit(frame.travel);
+  const Eigen::Vector3d z = (height.front() == '-' ? -1.0 : 1.0) * Eigen::Vector3d::Unit(up);
+  frame.machine_from_scan << y.cross(z), y, z;
+  return frame;
+}
+
+void ScanFrame::intoMachine(ScanResult& result) const {
+  if (machine_from_scan.isIdentity(0.0)) return;
+  std::array<Eigen::Index, 6> from{};  // of the scan frame, for each component in machine axes
+  std::array<double, 6> sign{};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    Eigen::Index j = 0;
+    machine_from_scan.row(i).cwiseAbs().maxCoeff(&j);
+    const auto at = static_cast<std::size_t>(i);
+    from[at] = j;
+    from[at + 3] = j + 3;
+    sign[at] = sign[at + 3] = machine_from_scan(i, j);
+  }
+  const auto turned = [&](const Eigen::Matrix<double, 6, 6>& m, bool both) {
+    Eigen::Matrix<double, 6, 6> out;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      for (Eigen::Index j = 0; j < 6; ++j) {
+        const auto a = static_cast<std::size_t>(i);
+        const auto b = static_cast<std::size_t>(j);
+        out(i, j) = both ? sign[a] * sign[b] * m(from[a], from[b]) : sign[a] * m(from[a], j);
+      }
+    }
+    return out;
+  };
+  RegistrationResult& r = result.registration;
+  r.translation_mm = machine_from_scan * r.translation_mm;
+  r.rotation_rad = machine_from_scan * r.rotation_rad;
+  r.commanded_mm = machine_from_scan * r.commanded_mm;
+  r.drift_mm = machine_from_scan * r.drift_mm;
+  r.covariance = turned(r.covariance, true);
+  r.white_covariance = turned(r.white_covariance, true);
+  result.calibration_spread = turned(result.calibration_spread, false);
+  result.axis.error.translation_mm = machine_from_scan * result.axis.error.translation_mm;
+  result.axis.error.rotation_rad = machine_from_scan * result.axis.error.rotation_rad;
+  result.axis.covariance = turned(result.axis.covariance, true);
+  for (auto& [component, reason] : result.not_observed) {
+    const auto in_scan = static_cast<Eigen::Index>(component);
+    const auto to = std::find(from.begin(), from.end(), in_scan) - from.begin();
+    component = static_cast<Component>(to);
+    // Directions are named by the axes of the scan frame.
+    if (reason.find("leaves it free") != std::string::npos) reason = "the surface does not determine it.";
+  }
+}
+
 /// All scans of one artefact.
 class ArtefactEvaluator {
  public:
-  ArtefactEvaluator(const Campaign& campaign, const ProfilerMounting& mounting, ScanModel model,
+  ArtefactEvaluator(const Campaign& campaign, const ProfilerMounting& mounting, ScanModel model, int travel,
                     std::vector<ScanCapture> captures)
-      : campaign_(campaign), mounting_(mounting), captures_(std::move(captures)) {
+      : campaign_(campaign), mounting_(mounting), travel_(travel), captures_(std::move(captures)) {
     options_.scan_model = model;
     options_.machine_from_profiler = mounting.calibration.rotation();
     // Errors of the axis make about one wave over its travel, no more.
@@ -87,7 +166,9 @@ class ArtefactEvaluator {
       options_.smooth_length_mm = (axis->travel_mm[1] - axis->travel_mm[0]) / (2.0 * std::numbers::pi);
   }
 
-  void run(const JobContext& job) {
+  /// `parallel`: scans at the same time, else on this thread.
+  void run(const JobContext& job, bool parallel) {
+    parallel_ = parallel;
     // The first scan is the reference. If most others do not fit it, it may be the first that is wrong: try the next.
     std::vector<ScanResult> best;
     std::vector<RejectedCapture> best_rejected;
@@ -109,29 +190,59 @@ class ArtefactEvaluator {
   std::vector<RejectedCapture> rejected;
 
  private:
+  /// What came of one scan: a result, or why there is none.
+  struct Outcome {
+    std::optional<ScanResult> result;
+    std::optional<RejectedCapture> rejected;
+  };
+
+  template <typename Work>
+  static Outcome outcomeOf(const ScanCapture& capture, const Work& work) {
+    Outcome outcome;
+    try {
+      work(outcome);
+    } catch (const InputError& error) {
+      outcome.rejected = {capture.cloud, error.what()};
+    } catch (const std::bad_alloc&) {
+      outcome.rejected = {capture.cloud, capture.cloud + ": there is not enough memory for the cloud."};
+    }
+    return outcome;
+  }
+
   void attempt(std::size_t first, const JobContext& job) {
     std::unique_ptr<RegistrationTarget> target;
-    for (std::size_t i = 0; i < captures_.size(); ++i) {
+    std::vector<Outcome> outcomes(captures_.size());
+    // The reference is the first usable scan from `first` on; earlier ones are compared with it afterwards.
+    std::size_t next = 0;
+    for (; next < captures_.size() && !target; ++next) {
       job.throwIfCancelled();
-      // The reference is the first usable scan from `first` on; earlier ones are compared with it afterwards.
-      const std::size_t k = (first + i) % captures_.size();
-      const ScanCapture& capture = captures_[k];
-      try {
-        PointCloud cloud = readScanPoints(campaign_, capture.cloud).used();
-        if (!target) {
-          target = makeReference(cloud, capture);
-          continue;
-        }
-        compare(std::move(cloud), capture, *target);
-      } catch (const InputError& error) {
-        rejected.push_back({capture.cloud, error.what()});
-      } catch (const std::bad_alloc&) {
-        rejected.push_back({capture.cloud, capture.cloud + ": there is not enough memory for the cloud."});
-      }
+      const ScanCapture& capture = captures_[(first + next) % captures_.size()];
+      outcomes[next] = outcomeOf(capture, [&](Outcome& outcome) {
+        const PointCloud cloud = readScanPoints(campaign_, capture.cloud).used();
+        target = makeReference(cloud, capture, outcome);
+      });
+    }
+    const auto one = [&](std::size_t i) {
+      job.throwIfCancelled();
+      const ScanCapture& capture = captures_[(first + next + i) % captures_.size()];
+      outcomes[next + i] = outcomeOf(capture, [&](Outcome& outcome) {
+        outcome = compare(readScanPoints(campaign_, capture.cloud).used(), capture, *target);
+      });
+    };
+    const std::size_t rest = captures_.size() - next;
+    if (parallel_) {
+      parallelFor(rest, job, one);
+    } else {
+      for (std::size_t i = 0; i < rest; ++i) one(i);
+    }
+    for (Outcome& outcome : outcomes) {
+      if (outcome.result) scans.push_back(std::move(*outcome.result));
+      if (outcome.rejected) rejected.push_back(std::move(*outcome.rejected));
     }
   }
 
-  std::unique_ptr<RegistrationTarget> makeReference(const PointCloud& cloud, const ScanCapture& capture) {
+  std::unique_ptr<RegistrationTarget> makeReference(const PointCloud& cloud, const ScanCapture& capture,
+                                                    Outcome& outcome) {
     auto target = std::make_unique<RegistrationTarget>(cloud);
     if (const auto gap = twoSurfaces(target->grid()))
       throw InputError(
@@ -151,7 +262,7 @@ class ArtefactEvaluator {
     result.registration.message.clear();
     noteFree(result);
     result.axis = axisError(result.registration, mounting_);
-    scans.push_back(std::move(result));
+    outcome.result = std::move(result);
     return target;
   }
 
@@ -159,13 +270,16 @@ class ArtefactEvaluator {
   void placeAtPoint(const ScanCapture& capture) {
     options_.at_y_mm.reset();
     if (const MachinePoint* point = campaign_.machine.findPoint(capture.artefact)) {
-      const double along = point->position_mm.y() - capture.y_mm;
+      const double along = point->position_mm[travel_] - capture.y_mm;
       const double from = reference_extent_.low.y(), length = reference_extent_.size.y();
       if (along >= from && along <= from + length) options_.at_y_mm = along;
     }
   }
 
-  void compare(PointCloud cloud, const ScanCapture& capture, const RegistrationTarget& target) {
+  [[nodiscard]] Outcome compare(PointCloud cloud, const ScanCapture& capture, const RegistrationTarget& target) const {
+    const auto reject = [&](std::string reason) {
+      return Outcome{std::nullopt, RejectedCapture{capture.cloud, std::move(reason)}};
+    };
     ScanResult result;
     result.capture = capture;
     // A scan that started elsewhere: its y counts from there.
@@ -181,26 +295,20 @@ class ArtefactEvaluator {
     r.commanded_mm = commanded;
     const bool degenerate = r.status == FitStatus::Degenerate;
     if (!r.usable() && !degenerate) {
-      rejected.push_back({capture.cloud, fmt::format("{}: {}", capture.cloud, r.message)});
-      return;
+      return reject(fmt::format("{}: {}", capture.cloud, r.message));
     }
     if (r.translation_mm.norm() > options_.search_mm) {
-      rejected.push_back(
-          {capture.cloud,
-           fmt::format(
-               "{}: the scan fits the reference only {:.1f} mm away from where it was taken, on {:.0f} % of the "
-               "surface; allowed: {:.1f} mm. Something lies over it, or it is another artefact.",
-               capture.cloud, r.translation_mm.norm(), 100.0 * r.overlap * r.inliers, options_.search_mm)});
-      return;
+      return reject(
+          fmt::format("{}: the scan fits the reference only {:.1f} mm away from where it was taken, on {:.0f} % of the "
+                      "surface; allowed: {:.1f} mm. Something lies over it, or it is another artefact.",
+                      capture.cloud, r.translation_mm.norm(), 100.0 * r.overlap * r.inliers, options_.search_mm));
     }
     const CellGrid grid = compressCloud(cloud);
     const Eigen::Vector2d size = extentOf(grid).size;
     if ((size - 1.3 * reference_extent_.size).maxCoeff() > 2.0) {
       if (const auto gap = twoSurfaces(grid)) {
-        rejected.push_back(
-            {capture.cloud, fmt::format("{} holds two separate surfaces ({}); allowed: one artefact per cloud.",
-                                        capture.cloud, *gap)});
-        return;
+        return reject(
+            fmt::format("{} holds two separate surfaces ({}); allowed: one artefact per cloud.", capture.cloud, *gap));
       }
     }
     const auto warn = [&](std::string sentence) {
@@ -222,11 +330,11 @@ class ArtefactEvaluator {
                       r.misfit_ratio));
     noteFree(result);
     result.axis = axisError(r, mounting_);
-    scans.push_back(std::move(result));
+    return Outcome{std::move(result), std::nullopt};
   }
 
   /// Components without information, with the reason.
-  void noteFree(ScanResult& result) {
+  static void noteFree(ScanResult& result) {
     RegistrationResult& r = result.registration;
     for (const Component k : all_components) {
       const int i = static_cast<int>(k);
@@ -250,6 +358,8 @@ class ArtefactEvaluator {
 
   const Campaign& campaign_;
   const ProfilerMounting& mounting_;
+  int travel_;
+  bool parallel_ = false;
   std::vector<ScanCapture> captures_;
   RegistrationOptions options_;
   Extent reference_extent_;
@@ -274,7 +384,7 @@ std::array<std::optional<std::array<double, 2>>, 3> knownAngles(const MachineDes
 }
 
 ProfilerCalibration calibrationOf(const Campaign& campaign, const ProfilerDescription& profiler, ScanModel model,
-                                  std::vector<std::string>& warnings) {
+                                  const ScanFrame& frame, std::vector<std::string>& warnings) {
   CalibrationOptions options;
   options.scan_model = model;
   options.known_angles_rad = knownAngles(campaign.machine);
@@ -283,10 +393,14 @@ ProfilerCalibration calibrationOf(const Campaign& campaign, const ProfilerDescri
     reason = "machine.json names no calibration_cloud with its calibration_circle";
   } else {
     try {
+      std::array<double, 4> circle = *profiler.calibration_circle_mm;
+      const Eigen::Vector3d centre =
+          frame.machine_from_scan.transpose() * Eigen::Vector3d(circle[0], circle[1], circle[2]);
+      for (std::size_t i = 0; i < 3; ++i) circle[i] = centre[static_cast<Eigen::Index>(i)];
       const ProfilerCalibration c = calibrateProfiler(
           readCloud(InsideFolder(campaign.folder)
                         .path(profiler.calibration_cloud, {campaign.machine.file, "$.profiler.calibration_cloud"})),
-          *profiler.calibration_circle_mm, options);
+          circle, options);
       if (c.usable()) {
         if (!c.message.empty()) warnings.push_back("Calibration of the profiler: " + c.message);
         return c;
@@ -314,8 +428,7 @@ void warnUndetermined(ScanEvaluation& evaluation) {
   double worst = 0.0;
   const ScanResult* where = nullptr;
   for (const ScanResult& s : evaluation.scans) {
-    const double shift =
-        calibrationSpread(s.registration, calibration).topRows<3>().rowwise().norm().maxCoeff() * um_per_mm;
+    const double shift = s.calibration_spread.topRows<3>().rowwise().norm().maxCoeff() * um_per_mm;
     if (shift > worst) {
       worst = shift;
       where = &s;
@@ -340,16 +453,16 @@ ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string&
   if (!campaign.machine.profiler)
     throw InputError({campaign.machine.file, "$.profiler"}, "is missing; scans cannot be evaluated without it.");
   const ProfilerDescription& profiler = *campaign.machine.profiler;
-  if (profiler.axis != "Y")
-    throw InputError(
-        {campaign.machine.file, "$.profiler.axis"},
-        fmt::format("found '{}'; allowed: Y (the profiler looks along X and travels along Y).", profiler.axis));
+  const ScanFrame frame = ScanFrame::of(campaign.machine);
   ScanEvaluation evaluation;
+  evaluation.axis = frame.axis;
+  evaluation.machine_from_scan = frame.machine_from_scan;
   evaluation.scan_model = scanModelFromString(scan_model.empty() ? profiler.scan_model : scan_model);
   job.report(0.0, "calibrating the profiler");
   evaluation.mounting.lift_mm = profiler.lift_mm;
-  evaluation.mounting.lever_mm = profiler.lever_mm;
-  evaluation.mounting.calibration = calibrationOf(campaign, profiler, evaluation.scan_model, evaluation.warnings);
+  evaluation.mounting.lever_mm = frame.machine_from_scan.transpose() * profiler.lever_mm;
+  evaluation.mounting.calibration =
+      calibrationOf(campaign, profiler, evaluation.scan_model, frame, evaluation.warnings);
 
   std::vector<std::string> order;
   std::map<std::string, std::vector<ScanCapture>> by_artefact;
@@ -359,21 +472,31 @@ ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string&
   }
   std::vector<std::unique_ptr<ArtefactEvaluator>> evaluators;
   for (const std::string& id : order)
-    evaluators.push_back(
-        std::make_unique<ArtefactEvaluator>(campaign, evaluation.mounting, evaluation.scan_model, by_artefact[id]));
+    evaluators.push_back(std::make_unique<ArtefactEvaluator>(campaign, evaluation.mounting, evaluation.scan_model,
+                                                             frame.travel, by_artefact[id]));
   std::mutex mutex;
   std::size_t done = 0;
-  parallelFor(evaluators.size(), job, [&](std::size_t i) {
-    evaluators[i]->run(job);
+  const bool many = evaluators.size() >= threadCount();
+  const auto run = [&](std::size_t i) {
+    evaluators[i]->run(job, !many);
     const std::scoped_lock lock(mutex);
     job.report(static_cast<double>(++done) / static_cast<double>(evaluators.size()), "registering scans");
-  });
+  };
+  if (many) {
+    parallelFor(evaluators.size(), job, run);
+  } else {
+    for (std::size_t i = 0; i < evaluators.size(); ++i) run(i);
+  }
   for (auto& e : evaluators) {
     for (ScanResult& s : e->scans) evaluation.scans.push_back(std::move(s));
     for (RejectedCapture& r : e->rejected) evaluation.rejected.push_back(std::move(r));
   }
   std::stable_sort(evaluation.scans.begin(), evaluation.scans.end(),
                    [](const ScanResult& a, const ScanResult& b) { return a.capture.time_s < b.capture.time_s; });
+  for (ScanResult& s : evaluation.scans) {
+    s.calibration_spread = calibrationSpread(s.registration, evaluation.mounting.calibration);
+    frame.intoMachine(s);
+  }
   warnUndetermined(evaluation);
   for (const ScanResult& s : evaluation.scans)
     for (const std::string& w : s.warnings) evaluation.warnings.push_back(w);

@@ -2,7 +2,14 @@
 // A whole campaign of scans evaluated: calibration, registration of every scan onto the first of its artefact, six
 // errors. For pages and reports; evaluate_scans.h turns it into observations.
 //
-// Clouds are streamed: at any time every thread holds one cloud and one prepared reference.
+// Clouds are streamed: at any time every thread holds one cloud and one prepared reference. Artefacts are evaluated at
+// the same time; of fewer artefacts than threads the scans are.
+//
+// The scan frame has y along the axis that carries the profiler ("profiler.axis": X, Y or Z) and z along the heights
+// ("profiler.height_axis" of machine.json, such as "Z" or "-Y": an axis across; Z where it is missing, -Y for an axis
+// Z), x = y x z. For an axis Y it is the machine's frame. Everything is worked out in it; lever and calibration circle
+// are taken from machine axes into it, and results are given in machine axes. Angles of the mounting are about its
+// axes.
 #pragma once
 
 #include <optional>
@@ -32,13 +39,17 @@ struct ScanResult {
   RegistrationResult registration;
   AxisError axis;
   std::vector<std::pair<Component, std::string>> not_observed;  ///< and why
+  /// calibrationSpread of (u, w): machine axes, as everything here but what is said to be in the profiler's frame.
+  Eigen::Matrix<double, 6, 6> calibration_spread = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<std::string> warnings;
 };
 
 struct ScanEvaluation {
   ScanModel scan_model = ScanModel::Rigid;
-  ProfilerMounting mounting;
-  std::vector<ScanResult> scans;  ///< in order of time
+  std::string axis = "Y";                                           ///< that carries the profiler
+  Eigen::Matrix3d machine_from_scan = Eigen::Matrix3d::Identity();  ///< axes of the scan frame in machine axes
+  ProfilerMounting mounting;                                        ///< in the scan frame
+  std::vector<ScanResult> scans;                                    ///< in order of time
   std::vector<RejectedCapture> rejected;
   std::vector<std::string> warnings;
 };

@@ -53,7 +53,7 @@ CompensationRequest compensationRequest(const Session& session, std::int64_t cam
   const nlohmann::json json = objectOf(session, campaign, option_keys::compensation);
   const EffectOptions effects = EffectOptions::of(session, campaign);
   const auto possible = [&](CompensationSource source) {
-    return source == CompensationSource::NineParameters ? fitted : !effects.added.empty();
+    return source == CompensationSource::CompletedModel ? !effects.added.empty() : fitted;
   };
   CompensationRequest request;
   const CompensationSource first = possible(CompensationSource::CompletedModel) ? CompensationSource::CompletedModel
@@ -64,7 +64,7 @@ CompensationRequest compensationRequest(const Session& session, std::int64_t cam
       nineParameterOptions(campaignSetting(session, campaign, option_keys::nine_parameters, nlohmann::json::object()));
   request.state = json.value("state", std::string());
   // What the user chose for the fit; else the warmest.
-  if (request.state.empty() && request.source == CompensationSource::NineParameters) request.state = fit.state;
+  if (request.state.empty() && request.source != CompensationSource::CompletedModel) request.state = fit.state;
   request.positions = json.value("positions", 11);
   if (json.contains("reference_mm")) {
     const auto at = json["reference_mm"].get<std::vector<double>>();

@@ -13,6 +13,8 @@
 namespace spindrift {
 namespace {
 
+constexpr double creep_rpm = 1.0;  ///< what an encoder shows of a spindle that stands
+
 double readingSigma(const ComponentSeries& c) {
   if (c.reading_sigma > 0.0) return c.reading_sigma;
   // Second differences remove what is smooth; their variance is six times that of a reading.
@@ -109,7 +111,6 @@ AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, do
 }  // namespace
 
 void requireSpindleAtRest(const TimeSeries& series) {
-  constexpr double creep_rpm = 1.0;  // what an encoder shows of a spindle that stands
   for (const Signal& signal : series.signals) {
     if (signal.kind != SignalKind::Speed) continue;
     for (std::size_t row = 0; row < signal.values.size(); ++row) {
@@ -120,6 +121,57 @@ void requireSpindleAtRest(const TimeSeries& series) {
                                    signal.values[row], series.time_s[row]));
     }
   }
+}
+
+std::string requireOneSpeedStep(const TimeSeries& series, const std::string& column, std::span<const double> speed) {
+  SPINDRIFT_ASSERT(speed.size() == series.time_s.size(), "speed and time differ in length");
+  constexpr double tolerance = 0.05;      // of the level: control and encoder
+  constexpr double transition_s = 120.0;  // to come up to speed, and single rows that are off
+  const auto runs = [&](std::size_t row) { return std::abs(speed[row]) > creep_rpm; };
+  std::size_t first = 0;
+  while (first < speed.size() && !runs(first)) ++first;
+  if (first == speed.size()) return {};  // the evaluation says so
+  std::size_t last = speed.size() - 1;
+  while (!runs(last)) --last;
+  // A state holds until the next row.
+  const auto lasts_s = [&](std::size_t row) {
+    return row + 1 < speed.size() ? series.time_s[row + 1] - series.time_s[row] : 0.0;
+  };
+  std::vector<std::pair<double, double>> level_for;
+  double running_s = 0.0;
+  for (std::size_t row = first; row <= last; ++row) {
+    if (!runs(row)) continue;
+    level_for.emplace_back(std::abs(speed[row]), lasts_s(row));
+    running_s += lasts_s(row);
+  }
+  std::sort(level_for.begin(), level_for.end());
+  double level_rpm = level_for.back().first;
+  double sum_s = 0.0;
+  for (const auto& [rpm, for_s] : level_for) {
+    sum_s += for_s;
+    if (sum_s < 0.5 * running_s) continue;
+    level_rpm = rpm;
+    break;
+  }
+  double off_s = 0.0;
+  std::size_t off_from = 0;
+  for (std::size_t row = first; row <= last; ++row) {
+    if (std::abs(std::abs(speed[row]) - level_rpm) <= tolerance * level_rpm) {
+      off_s = 0.0;
+      continue;
+    }
+    if (off_s == 0.0) off_from = row;
+    off_s += lasts_s(row);
+    if (off_s <= transition_s) continue;
+    const std::string what = runs(off_from) ? fmt::format("turns at {:g} rpm", speed[off_from]) : std::string("stands");
+    throw InputError(
+        {series.file, fmt::format("column {}", column)},
+        fmt::format("the spindle {} at {:g} s, but at {:g} rpm for most of its run: these are several steps "
+                    "of speed, not one test; allowed: a record of one step, or --range FROM:TO around it.",
+                    what, series.time_s[off_from], level_rpm));
+  }
+  if (first > 0) return {};
+  return "the record begins with a running spindle: changes count from its first row, not from the cold machine.";
 }
 
 EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<ComponentSeries>& components,

@@ -63,6 +63,11 @@ struct SpindleResult {
   double fraction = 0.0;
   std::vector<SpindleComponent> components;
 };
+/// The test is one step of speed: off, one level, off. Throws InputError where the spindle stands in between or runs at
+/// another speed for longer than two minutes (a spectrum of speeds is another test). `speed` without gaps, of the
+/// column named; returns a sentence where the record begins with a running spindle, so that no cold state is in it.
+[[nodiscard]] std::string requireOneSpeedStep(const TimeSeries& series, const std::string& column,
+                                              std::span<const double> speed);
 /// The running period is from the first row with speed above zero to the last one.
 [[nodiscard]] SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<const double> speed_rpm,
                                                     const std::vector<ComponentSeries>& components,

@@ -10,6 +10,8 @@
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/discrepancy/effect_model.h"
+#include "core/machine/table_polynomial.h"
+#include "core/math/distributions.h"
 
 namespace spindrift {
 namespace {
@@ -44,10 +46,70 @@ std::string chosenState(const ObservationSet& observations, const std::string& a
   return asked;
 }
 
+/// A model with what it does not describe of EX, EY, EZ in the sigma of every prediction.
+class LackingModel final : public ErrorModel {
+ public:
+  LackingModel(std::shared_ptr<const ErrorModel> model, Eigen::Vector3d lack_um)
+      : model_(std::move(model)), lack_um_(std::move(lack_um)) {}
+  [[nodiscard]] std::string description() const override { return model_->description(); }
+  [[nodiscard]] PredictedComponent predict(const DeviationQuery& query, Component component) const override {
+    PredictedComponent predicted = model_->predict(query, component);
+    if (!isRotation(component)) predicted.sigma = std::hypot(predicted.sigma, lack_um_[static_cast<int>(component)]);
+    return predicted;
+  }
+
+ private:
+  std::shared_ptr<const ErrorModel> model_;
+  Eigen::Vector3d lack_um_;
+};
+
 struct Prepared {
   std::shared_ptr<const ErrorModel> everywhere;  ///< what the grid and the tables are made of
   DeviationQuery conditions;
 };
+
+void noteLack(CompensationPlan& plan) {
+  if (!(plan.lack_of_fit_um.maxCoeff() > 0.0)) return;
+  plan.warnings.push_back(fmt::format(
+      "what the model does not describe ({:.2g}, {:.2g}, {:.2g} um of X, Y, Z) is part of the uncertainty of "
+      "every correction.",
+      plan.lack_of_fit_um.x(), plan.lack_of_fit_um.y(), plan.lack_of_fit_um.z()));
+}
+
+/// What remains on values that trained nothing, of a fit of one state.
+void addUnseen(const NineParameterFit& fit, const ErrorModel& model, const TableOrders& orders,
+               CompensationPlan& plan) {
+  std::vector<std::string> held_out;
+  double before = 0.0, after = 0.0, count = 0.0;
+  const auto add = [&](const NineParameterResidual& r, double predicted_um) {
+    before += r.value_um * r.value_um;
+    after += std::pow(r.value_um - predicted_um, 2);
+    count += 1.0;
+  };
+  for (const NineParameterResidual& r : fit.residuals) {
+    if (r.used || isRotation(r.component)) continue;
+    if (std::find(held_out.begin(), held_out.end(), r.point) == held_out.end()) held_out.push_back(r.point);
+    DeviationQuery query;
+    query.state = fit.state;
+    query.position_mm = r.position_mm;
+    add(r, model.predict(query, r.component).value);
+  }
+  if (count > 0.0) {
+    plan.unseen = fmt::format("at {}, held out",
+                              held_out.size() > 6 ? fmt::format("{} points", held_out.size()) : joinedList(held_out));
+  } else {
+    const LeftOut left_out = predictLeftOut(fit, orders);
+    for (std::size_t i = 0; i < left_out.rows.size(); ++i) {
+      add(fit.residuals[left_out.rows[i]], left_out.predicted_um[i]);
+    }
+    plan.unseen = count > 0.0 ? "at every point, predicted without it"
+                              : "no point was held out, and none can be left out: how the correction does elsewhere is "
+                                "not known";
+  }
+  if (count == 0.0) return;
+  plan.rms_before_unseen_um = std::sqrt(before / count);
+  plan.rms_after_unseen_um = std::sqrt(after / count);
+}
 
 void finishPoint(CompensationPoint& p) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -64,9 +126,25 @@ Prepared prepareNineParameters(const ObservationSet& observations, const Compens
     throw InputError(fmt::format("state {} cannot be compensated: {}", fit.state, fit.message));
   }
   plan.reference = fit.reference_state.empty() ? "zero" : "state " + fit.reference_state;
-  plan.model = fmt::format("Nine-parameter model of state {} against {}", fit.state, plan.reference);
   plan.warnings = fit.warnings;
-  auto model = std::make_shared<NineParameterModel>(fit.model());
+  const TableOrderChoice choice = chooseTableOrder(fit);
+  std::shared_ptr<const ErrorModel> model;
+  TableOrders orders{1, 1, 1};
+  if (request.source == CompensationSource::HigherOrder) {
+    if (!choice.richer()) plan.warnings.push_back("a model of higher order is not supported: " + choice.reason);
+    orders = choice.orders;
+    model = choice.model;
+    plan.lack_of_fit_um.setConstant(choice.lack_of_fit_um);
+    plan.model = fmt::format("Model of {} of state {} against {}", orderText(orders), fit.state, plan.reference);
+  } else {
+    model = std::make_shared<NineParameterModel>(fit.predictingModel());
+    plan.lack_of_fit_um = fit.lack_of_fit_um;
+    plan.model = fmt::format("Nine-parameter model of state {} against {}", fit.state, plan.reference);
+    if (choice.richer()) plan.richer_model = choice.reason;
+  }
+  noteLack(plan);
+  if (!plan.richer_model.empty()) plan.warnings.push_back("a richer model fits better: " + plan.richer_model);
+  addUnseen(fit, *model, orders, plan);
   Prepared out{model, {}};
   out.conditions.state = fit.state;
   std::map<std::string, std::size_t> index;
@@ -145,6 +223,34 @@ void addMeasuredRows(const DiscrepancyRun& run, CompensationPlan& plan, Deviatio
   }
 }
 
+/// What remains at the points beyond the uncertainty of the readings, per component (of all where one has few values);
+/// zero where chance explains it.
+Eigen::Vector3d lackAtPoints(const std::vector<CompensationPoint>& points) {
+  constexpr double chance_level = 0.05;
+  constexpr double enough_values = 3.0;
+  Eigen::Vector3d excess = Eigen::Vector3d::Zero();
+  Eigen::Vector3d count = Eigen::Vector3d::Zero();
+  double chi2 = 0.0;
+  for (const CompensationPoint& p : points) {
+    for (int i = 0; i < 3; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (!p.used || !p.measured_um[at]) continue;
+      const double remains = *p.measured_um[at] + p.correction_um[i];
+      const double variance = std::pow(p.measured_sigma_um[at], 2);
+      chi2 += remains * remains / variance;
+      excess[i] += remains * remains - variance;
+      count[i] += 1.0;
+    }
+  }
+  if (count.sum() < 1.0 || chiSquaredTail(chi2, count.sum()) >= chance_level) return Eigen::Vector3d::Zero();
+  const double pooled = excess.sum() / count.sum();
+  Eigen::Vector3d lack;
+  for (int i = 0; i < 3; ++i) {
+    lack[i] = std::sqrt(std::max(0.0, count[i] >= enough_values ? excess[i] / count[i] : pooled));
+  }
+  return lack;
+}
+
 Prepared prepareCompleted(const Campaign& campaign, const ObservationSet& observations,
                           const CompensationRequest& request, CompensationPlan& plan, JobContext& job) {
   DiscrepancyOptions options;
@@ -162,11 +268,17 @@ Prepared prepareCompleted(const Campaign& campaign, const ObservationSet& observ
   Prepared out;
   out.conditions.state = plan.state;
   addMeasuredRows(run, plan, out.conditions);
+  plan.lack_of_fit_um = lackAtPoints(plan.points);
+  for (CompensationPoint& p : plan.points) {
+    p.sigma_um = (p.sigma_um.array().square() + plan.lack_of_fit_um.array().square()).sqrt();
+  }
+  noteLack(plan);
   if (run.input.base != nullptr) {
-    out.everywhere =
-        std::make_shared<SumModel>(run.input.base, run.input.simulation_gain_uncertainty, run.result.model);
+    out.everywhere = std::make_shared<LackingModel>(
+        std::make_shared<SumModel>(run.input.base, run.input.simulation_gain_uncertainty, run.result.model),
+        plan.lack_of_fit_um);
   } else {
-    out.everywhere = run.result.model;
+    out.everywhere = std::make_shared<LackingModel>(run.result.model, plan.lack_of_fit_um);
     plan.limitation = fmt::format(
         "The simulation is a table ({}) and knows only the measured points. Grid and tables hold the effects added "
         "alone: use them where the control already compensates what was simulated.",
@@ -223,15 +335,17 @@ void makeFiles(const MachineDescription& machine, const Prepared& prepared, cons
              measured)});
     if (!measured.extendsAlong(axis[0] - 'X')) {
       plan.warnings.push_back(
-          fmt::format("nothing was measured along {}: no component error of that axis is stated, and "
-                      "its screw compensation is a constant.",
+          fmt::format("nothing was measured along {}: no component error of that axis is stated, and there is no screw "
+                      "compensation for it.",
                       axis));
+      continue;
     }
     plan.files.push_back(
         {fmt::format("linuxcnc_{}.comp", axis), fmt::format("LinuxCNC screw compensation of {}", axis),
          fmt::format("Nominal, forward, reverse in mm (COMP_FILE_TYPE = 0): where the axis really is; LinuxCNC "
-                     "subtracts by itself. {}{}.",
-                     static_cast<char>(std::toupper(relative[0])), relative.substr(1)),
+                     "subtracts by itself. {}{}. Measured from {:g} to {:g} mm; beyond that it is extrapolated.",
+                     static_cast<char>(std::toupper(relative[0])), relative.substr(1), measured.low_mm[axis[0] - 'X'],
+                     measured.high_mm[axis[0] - 'X']),
          linuxcncCompensation(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions)});
   }
 }
@@ -258,10 +372,36 @@ void addNumbers(CompensationPlan& plan) {
   }
 }
 
+/// Of the points whose values of this state were held out.
+void addHeldOut(CompensationPlan& plan) {
+  double before = 0.0, after = 0.0, count = 0.0;
+  for (const CompensationPoint& p : plan.points) {
+    for (std::size_t i = 0; i < 3 && !p.used; ++i) {
+      if (!p.measured_um[i]) continue;
+      before += *p.measured_um[i] * *p.measured_um[i];
+      after += *p.remains_um[i] * *p.remains_um[i];
+      count += 1.0;
+    }
+  }
+  plan.unseen = count > 0.0 ? "at the points held out"
+                            : "nothing of this state was held out: how the correction does elsewhere is not known";
+  if (count == 0.0) return;
+  plan.rms_before_unseen_um = std::sqrt(before / count);
+  plan.rms_after_unseen_um = std::sqrt(after / count);
+}
+
 }  // namespace
 
 std::string_view toString(CompensationSource source) noexcept {
-  return source == CompensationSource::NineParameters ? "nine-parameter" : "completed";
+  switch (source) {
+    case CompensationSource::NineParameters:
+      return "nine-parameter";
+    case CompensationSource::CompletedModel:
+      return "completed";
+    case CompensationSource::HigherOrder:
+      return "higher-order";
+  }
+  return "";
 }
 
 std::string warmestState(const ObservationSet& observations) {
@@ -322,10 +462,11 @@ CompensationPlan planCompensation(const Campaign& campaign, const ObservationSet
   }
   if (request.reference_mm) plan.reference_mm = *request.reference_mm;
   JobContext fitting = job.part(0.0, 0.7);
-  const Prepared prepared = request.source == CompensationSource::NineParameters
-                                ? prepareNineParameters(observations, request, plan)
-                                : prepareCompleted(campaign, observations, request, plan, fitting);
+  const Prepared prepared = request.source == CompensationSource::CompletedModel
+                                ? prepareCompleted(campaign, observations, request, plan, fitting)
+                                : prepareNineParameters(observations, request, plan);
   addNumbers(plan);
+  if (request.source == CompensationSource::CompletedModel) addHeldOut(plan);
   job.throwIfCancelled();
   job.report(0.7, "writing the tables");
   makeFiles(campaign.machine, prepared, request, plan);
@@ -361,6 +502,12 @@ nlohmann::json CompensationPlan::json() const {
           {"rms_before_um", jsonNumber(rms_before_um)},
           {"rms_after_um", jsonNumber(rms_after_um)},
           {"standard_uncertainty_um", jsonNumber(rms_sigma_um)},
+          {"lack_of_fit_um", {lack_of_fit_um.x(), lack_of_fit_um.y(), lack_of_fit_um.z()}},
+          {"unseen",
+           {{"rms_before_um", jsonNumber(rms_before_unseen_um)},
+            {"rms_after_um", jsonNumber(rms_after_unseen_um)},
+            {"what", unseen}}},
+          {"richer_model", richer_model.empty() ? nlohmann::json() : nlohmann::json(richer_model)},
           {"largest_correction_um", jsonNumber(largest_um)},
           {"limitation", limitation.empty() ? nlohmann::json() : nlohmann::json(limitation)},
           {"points", list},
@@ -372,8 +519,14 @@ std::string CompensationPlan::summary() const {
   std::string text = fmt::format(
       "{}, relative to {}\n  rms of the measured deviations of state {}: {:.2f} um before, {:.2f} um with the "
       "correction "
-      "(model uncertainty {:.2f} um), largest correction {:.2f} um\n",
+      "(uncertainty of the correction {:.2f} um), largest correction {:.2f} um\n",
       model, reference, state, rms_before_um, rms_after_um, rms_sigma_um, largest_um);
+  if (rms_after_unseen_um) {
+    text += fmt::format("  on values that trained nothing ({}): {:.2f} um before, {:.2f} um with the correction\n",
+                        unseen, *rms_before_unseen_um, *rms_after_unseen_um);
+  } else {
+    text += fmt::format("  {}\n", unseen);
+  }
   if (!limitation.empty()) text += fmt::format("  note: {}\n", limitation);
   for (const std::string& w : warnings) text += fmt::format("  note: {}\n", w);
   for (const CompensationFile& f : files) text += fmt::format("  {}: {} {}\n", f.name, f.title, f.convention);

@@ -2,10 +2,11 @@
 // What a fitted model would make a control command: at every measured point, what would remain, and the tables that
 // controls read. Compensation = -deviation (FORMATS.md). Units um and urad, mm in MCF, s.
 //
-// Two models can be used: the nine parameters of one thermal state (change from the reference state), and the completed
-// model of a discrepancy, simulation plus the effects that were added, at the time of a state (change since the start
-// of the log). A simulation that is a table knows only the points and times it lists: corrections at the measured
-// points then stand, a grid over the volume can be made of the added effects alone and says so.
+// Three models can be used: the nine parameters of one thermal state (change from the reference state), the model of
+// higher order that the evidence asks for of the same state, and the completed model of a discrepancy, simulation plus
+// the effects that were added, at the time of a state (change since the start of the log). A simulation that is a table
+// knows only the points and times it lists: corrections at the measured points then stand, a grid over the volume can
+// be made of the added effects alone and says so.
 #pragma once
 
 #include <array>
@@ -21,7 +22,7 @@
 
 namespace spindrift {
 
-enum class CompensationSource { NineParameters, CompletedModel };
+enum class CompensationSource { NineParameters, CompletedModel, HigherOrder };
 [[nodiscard]] std::string_view toString(CompensationSource source) noexcept;
 
 struct CompensationRequest {
@@ -64,9 +65,17 @@ struct CompensationPlan {
   std::vector<CompensationPoint> points;
   double rms_before_um = 0.0;  ///< of the measured deviations, all displacements
   double rms_after_um = 0.0;   ///< of what remains of them
-  double rms_sigma_um = 0.0;   ///< of the expected error
-  double largest_um = 0.0;     ///< largest correction at a measured point, as a vector
-  std::string limitation;      ///< what the grid and the tables do not hold; empty: nothing
+  double rms_sigma_um = 0.0;   ///< of the expected error: of the parameters, and of what the model does not describe
+  /// The same before and after on values that trained nothing: those held out, else each point predicted by a fit
+  /// without it; empty where there are none. `unseen` says which.
+  std::optional<double> rms_before_unseen_um;
+  std::optional<double> rms_after_unseen_um;
+  std::string unseen;
+  Eigen::Vector3d lack_of_fit_um = Eigen::Vector3d::Zero();  ///< part of every sigma: what the model does not describe
+  /// A model that describes the state better, with the reason; empty if there is none or it is in use.
+  std::string richer_model;
+  double largest_um = 0.0;  ///< largest correction at a measured point, as a vector
+  std::string limitation;   ///< what the grid and the tables do not hold; empty: nothing
   Eigen::Vector3d reference_mm = Eigen::Vector3d::Zero();
   std::array<int, 3> nodes{};  ///< of the grid
   std::vector<CompensationFile> files;

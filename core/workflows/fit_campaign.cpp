@@ -73,6 +73,8 @@ nlohmann::json toJson(const NineParameterFit& fit) {
   out["chi2"] = jsonNumber(fit.chi2);
   out["degrees_of_freedom"] = fit.degrees_of_freedom;
   out["p_value"] = jsonNumber(fit.p_value);
+  out["lack_of_fit_um"] = {
+      {"EX", fit.lack_of_fit_um.x()}, {"EY", fit.lack_of_fit_um.y()}, {"EZ", fit.lack_of_fit_um.z()}};
   out["warnings"] = fit.warnings;
   return out;
 }
@@ -93,6 +95,27 @@ std::string summaryOf(const NineParameterFit& fit) {
   if (std::isfinite(fit.condition_number)) text += fmt::format("condition number {:.1f}\n", fit.condition_number);
   if (fit.status != FitStatus::Converged) text += fmt::format("{}: {}\n", toString(fit.status), fit.message);
   for (const std::string& warning : fit.warnings) text += fmt::format("note: {}\n", warning);
+  return text;
+}
+
+nlohmann::json toJson(const NineParameterFit& fit, const TableOrderChoice& choice) {
+  nlohmann::json out = toJson(fit);
+  out["higher_order"] = choice.json();
+  return out;
+}
+
+std::string summaryOf(const NineParameterFit& fit, const TableOrderChoice& choice) {
+  std::string text = summaryOf(fit);
+  if (choice.status != FitStatus::Converged) return text;
+  text += fmt::format("higher order: {}\n", choice.reason);
+  if (!choice.richer()) return text;
+  const std::vector<std::string> names = choice.model->basis().names();
+  for (std::size_t i = nine_parameter_count; i < names.size(); ++i) {
+    const auto e = static_cast<Eigen::Index>(i);
+    text +=
+        fmt::format("  {:<9}{}\n", names[i].substr(0, names[i].size() - 3),
+                    withUncertainty(choice.model->parameters()(e), std::sqrt(choice.model->covariance()(e, e)), "um"));
+  }
   return text;
 }
 
@@ -251,6 +274,7 @@ nlohmann::json PlacementAnswer::json() const {
                      {"message", result.message},
                      {"candidates", ids.size()},
                      {"exhaustive", result.exhaustive},
+                     {"least_distance_mm", jsonNumber(result.least_distance_mm)},
                      {"positions", positions}};
   if (result.status != FitStatus::Converged) return out;
   out["log_det"] = jsonNumber(result.log_det);
@@ -266,8 +290,8 @@ nlohmann::json PlacementAnswer::json() const {
 
 std::string PlacementAnswer::summary() const {
   if (result.status != FitStatus::Converged) return result.message + "\n";
-  std::string text = fmt::format("{} of {} positions{}\n", result.chosen.size(), ids.size(),
-                                 result.exhaustive ? ", all choices tried" : ", by exchange");
+  std::string text = fmt::format("{} of {} positions{}, at least {:.3g} mm apart\n", result.chosen.size(), ids.size(),
+                                 result.exhaustive ? ", all choices tried" : ", by exchange", result.least_distance_mm);
   for (const std::size_t i : result.chosen) {
     text += fmt::format("  {:<8}x {:8.1f} mm   y {:8.1f} mm\n", ids[i], candidates_mm[i].x(), candidates_mm[i].y());
   }

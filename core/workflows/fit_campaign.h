@@ -14,6 +14,7 @@
 #include "core/machine/field.h"
 #include "core/machine/measuring_points.h"
 #include "core/machine/nine_parameter_model.h"
+#include "core/machine/table_polynomial.h"
 
 namespace spindrift {
 
@@ -23,6 +24,11 @@ namespace spindrift {
 [[nodiscard]] nlohmann::json toJson(const NineParameterFit& fit);
 /// A few lines for people.
 [[nodiscard]] std::string summaryOf(const NineParameterFit& fit);
+
+/// The same with the key `higher_order`: what the evidence says of terms beyond the nine parameters
+/// (core/machine/table_polynomial.h).
+[[nodiscard]] nlohmann::json toJson(const NineParameterFit& fit, const TableOrderChoice& choice);
+[[nodiscard]] std::string summaryOf(const NineParameterFit& fit, const TableOrderChoice& choice);
 
 [[nodiscard]] nlohmann::json toJson(const NineParameterComparison& comparison);
 [[nodiscard]] std::string summaryOf(const NineParameterComparison& comparison);

@@ -35,8 +35,9 @@ CheckResult resultOf(const ResolutionCheck& check) {
 
 }  // namespace
 
-CheckResult checkWarmUp(const ObservationSet& observations, const std::string& point, const WarmUpOptions& options) {
-  const WarmUpResult warm_up = judgeWarmUp(observations, point, options);
+CheckResult checkWarmUp(const ObservationSet& observations, const std::string& point, const WarmUpOptions& options,
+                        const OperatingLog* log) {
+  const WarmUpResult warm_up = judgeWarmUp(observations, point, options, log);
   CheckResult result;
   result.passed = warm_up.settled;
   nlohmann::json axes = nlohmann::json::array();
@@ -57,7 +58,12 @@ CheckResult checkWarmUp(const ObservationSet& observations, const std::string& p
                                   axis.settled ? "settled" : "not settled");
   }
   result.summary += warm_up.reason + "\n";
+  if (!warm_up.cause_reason.empty()) result.summary += warm_up.cause_reason + "\n";
   result.json = {{"point", warm_up.point},
+                 {"cause", warm_up.settled                            ? nlohmann::json()
+                           : warm_up.cause == WarmUpCause::Instrument ? nlohmann::json("instrument")
+                                                                      : nlohmann::json("unknown")},
+                 {"cause_reason", warm_up.cause_reason},
                  {"settled", warm_up.settled},
                  {"reason", warm_up.reason},
                  {"status", toString(warm_up.status)},

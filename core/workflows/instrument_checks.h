@@ -16,8 +16,9 @@ struct CheckResult {
   bool passed = false;
 };
 
+/// `log` may be null: then nobody can tell a drift of the instrument from the machine's own.
 [[nodiscard]] CheckResult checkWarmUp(const ObservationSet& observations, const std::string& point,
-                                      const WarmUpOptions& options);
+                                      const WarmUpOptions& options, const OperatingLog* log);
 /// Limit: one resolution of the axis.
 [[nodiscard]] CheckResult checkJogs(const ObservationSet& observations, const MachineDescription& machine);
 /// Limit: half a resolution of the axis.

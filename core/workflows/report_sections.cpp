@@ -350,16 +350,28 @@ void addIso230(HtmlDocument& document, const Campaign& campaign) {
   for (const std::string& note : result.notes) document.paragraph(note);
 }
 
+/// What remains where nothing was fitted: "2.10 um (before 24.30 um), at F6, held out".
+std::string unseenText(const nlohmann::json& plan) {
+  const nlohmann::json unseen = plan.value("unseen", nlohmann::json());
+  if (!unseen.is_object()) return "not known";
+  const std::string what = textOf(unseen, "what");
+  if (!unseen.value("rms_after_um", nlohmann::json()).is_number()) return what;
+  return fmt::format("{} (before {}), {}", numberText(numberOf(unseen, "rms_after_um"), "um", 2),
+                     numberText(numberOf(unseen, "rms_before_um"), "um", 2), what);
+}
+
 void addCompensation(HtmlDocument& document, const nlohmann::json& plan) {
   if (!plan.is_object() || !plan.contains("points")) return;
   document.section("Compensation");
   document.paragraph(fmt::format("{}, relative to {}. Compensation = −deviation: what is added to the command.",
                                  textOf(plan, "model"), textOf(plan, "reference")));
-  document.facts({{"State", textOf(plan, "state")},
-                  {"rms of the measured deviations before", numberText(numberOf(plan, "rms_before_um"), "um", 2)},
-                  {"rms expected with the correction", numberText(numberOf(plan, "rms_after_um"), "um", 2)},
-                  {"Standard uncertainty of the model", numberText(numberOf(plan, "standard_uncertainty_um"), "um", 2)},
-                  {"Largest correction", numberText(numberOf(plan, "largest_correction_um"), "um", 2)}});
+  document.facts(
+      {{"State", textOf(plan, "state")},
+       {"rms of the measured deviations before", numberText(numberOf(plan, "rms_before_um"), "um", 2)},
+       {"rms expected with the correction", numberText(numberOf(plan, "rms_after_um"), "um", 2)},
+       {"The same on values that trained nothing", unseenText(plan)},
+       {"Standard uncertainty of the correction", numberText(numberOf(plan, "standard_uncertainty_um"), "um", 2)},
+       {"Largest correction", numberText(numberOf(plan, "largest_correction_um"), "um", 2)}});
   std::vector<std::vector<std::string>> rows;
   for (const nlohmann::json& p : plan["points"]) {
     std::vector<std::string> row{textOf(p, "point")};
@@ -397,13 +409,18 @@ void addLogCompensation(HtmlDocument& document, const nlohmann::json& run) {
   std::vector<std::vector<std::string>> rows;
   for (const nlohmann::json& o : run["outputs"]) {
     const SignalTitle title = signalTitle(textOf(o, "name"));
-    rows.push_back({title.unit.empty() ? title.name : title.name + " / " + title.unit,
-                    numberText(numberOf(o, "rms_before"), "", 2), numberText(numberOf(o, "rms_after"), "", 2),
-                    numberText(numberOf(o, "reduction_percent"), "%", 0),
+    // Rows that trained the model flatter it.
+    const nlohmann::json unseen = o.value("unseen", nlohmann::json::object());
+    const bool known = unseen.value("reduction_percent", nlohmann::json()).is_number();
+    const nlohmann::json& shown = known ? unseen : o;
+    rows.push_back({title.unit.empty() ? title.name : title.name + " / " + title.unit, known ? "unseen" : "all",
+                    numberText(numberOf(shown, "rms_before"), "", 2), numberText(numberOf(shown, "rms_after"), "", 2),
+                    numberText(numberOf(shown, "reduction_percent"), "%", 0),
                     numberText(numberOf(o, "largest_compensation"), "", 1)});
   }
-  document.table({"Output", "rms before", "rms after", "Reduction", "Largest compensation"}, rows,
+  document.table({"Output", "Rows", "rms before", "rms after", "Reduction", "Largest compensation"}, rows,
                  "What the compensation leaves of the measured deviations; a reduction is positive where it helps");
+  if (const std::string unseen = textOf(run, "unseen"); !unseen.empty()) document.paragraph("Unseen: " + unseen + ".");
   for (const nlohmann::json& w : run.value("warnings", nlohmann::json::array()))
     document.verdict("attention", w.get<std::string>());
 }

@@ -82,7 +82,36 @@ Iso230Result evaluateIso230Test(const Iso230Request& request, const JobContext& 
   return evaluateIso230Test(readTimeSeries(request.log), request);
 }
 
-Iso230Result evaluateIso230Test(const TimeSeries& series, const Iso230Request& request) {
+namespace {
+
+TimeSeries rowsWithin(const TimeSeries& series, const TimeRange& range) {
+  TimeSeries part;
+  part.file = series.file;
+  part.notes = series.notes;
+  std::vector<std::size_t> rows;
+  for (std::size_t r = 0; r < series.time_s.size(); ++r) {
+    if (series.time_s[r] < range.from_s || series.time_s[r] >= range.to_s) continue;
+    rows.push_back(r);
+    part.time_s.push_back(series.time_s[r]);
+  }
+  if (rows.empty()) {
+    throw InputError({series.file, "column time_s"},
+                     fmt::format("no row lies from {:g} to {:g} s; allowed: a part of {:g} to {:g} s.", range.from_s,
+                                 range.to_s, series.time_s.front(), series.time_s.back()));
+  }
+  for (const Signal& signal : series.signals) {
+    Signal cut = signal;
+    cut.values.clear();
+    for (const std::size_t r : rows) cut.values.push_back(signal.values[r]);
+    part.signals.push_back(std::move(cut));
+  }
+  return part;
+}
+
+}  // namespace
+
+Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& request) {
+  const TimeSeries series = request.range ? rowsWithin(whole, *request.range) : whole;
   Iso230Result result;
   result.test = request.test;
   result.notes = series.notes;
@@ -125,8 +154,9 @@ Iso230Result evaluateIso230Test(const TimeSeries& series, const Iso230Request& r
       if (speed == nullptr && s.kind == SignalKind::Speed) speed = &s;
     if (speed == nullptr)
       throw InputError({series.file, "header"}, "there is no speed column (..._rpm); allowed: spindle_rpm.");
-    result.spindle = evaluateRotatingSpindle(series.time_s, bridged(series.time_s, speed->values, true), components,
-                                             request.fraction);
+    const std::vector<double> rpm = bridged(series.time_s, speed->values, true);
+    if (std::string note = requireOneSpeedStep(series, speed->name, rpm); !note.empty()) result.notes.push_back(note);
+    result.spindle = evaluateRotatingSpindle(series.time_s, rpm, components, request.fraction);
     result.svg = drawCurves("Rotating spindle, um or urad", curves);
   }
   return result;

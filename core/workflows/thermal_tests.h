@@ -11,6 +11,7 @@
 #include "core/base/job_context.h"
 #include "core/thermal/iso230_3.h"
 #include "core/thermal/time_series.h"
+#include "core/workflows/thermal_workflow.h"
 
 namespace spindrift {
 
@@ -22,6 +23,7 @@ struct Iso230Request {
   std::string ambient;                 ///< column; empty: T_room, T_ambient or none
   std::string axis = "X";              ///< of the moving axis test
   double fraction = 0.9;               ///< of the end value
+  std::optional<TimeRange> range;      ///< etve, spindle: only these rows; times stay those of the log
 };
 
 struct Iso230Result {

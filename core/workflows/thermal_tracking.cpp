@@ -27,6 +27,31 @@ double spreadOf(const std::vector<double>& values) {
   return rootMeanSquare(finite);
 }
 
+/// Mean and number of the finite values of some rows.
+std::pair<double, std::size_t> meanOfRows(const std::vector<double>& values, const std::vector<char>& rows,
+                                          char which) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < values.size(); ++r) {
+    if (rows[r] != which || !std::isfinite(values[r])) continue;
+    sum += values[r];
+    ++count;
+  }
+  return {count > 0 ? sum / static_cast<double>(count) : std::nan(""), count};
+}
+
+/// rms of the rows that trained nothing, about a zero that none of them sets.
+double rmsUnseen(const std::vector<double>& values, const std::vector<char>& trained) {
+  double zero = meanOfRows(values, trained, 1).first;
+  std::vector<double> unseen;
+  for (std::size_t r = 0; r < values.size(); ++r) {
+    if (!std::isfinite(values[r])) continue;
+    if (std::isnan(zero)) zero = values[r];
+    if (trained[r] == 0) unseen.push_back(values[r] - zero);
+  }
+  return unseen.empty() ? std::nan("") : rootMeanSquare(unseen);
+}
+
 /// Columns scaled to -1 ... 1 by their range over the record.
 std::vector<std::vector<double>> contextOf(const TimeSeries& series, const TrackRequest& request) {
   if (!request.context.empty() && request.update != UpdateKind::Kalman)
@@ -275,6 +300,23 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
     for (std::size_t o = 0; o < out.size(); ++o) result.outputs[o].compensation.push_back(out[o]);
     if (k % 10000 == 0) job.report(static_cast<double>(k) / static_cast<double>(steps), "compensating");
   }
+  // Times mean the same rows only in the log that the model was identified from.
+  const bool same_log = std::filesystem::path(model.source).filename() == series.file.filename() || series.file.empty();
+  std::vector<char> trained(series.time_s.size(), 0);
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < trained.size() && same_log; ++r) {
+    trained[r] = series.time_s[r] >= model.train_from_s && series.time_s[r] < model.train_to_s ? 1 : 0;
+    count += trained[r] != 0 ? 1U : 0U;
+  }
+  const std::string from_log = model.source.empty() ? "another log" : model.source;
+  if (!same_log) {
+    result.unseen = fmt::format("the model was identified from {}, so no row of this log trained it", from_log);
+  } else if (count == trained.size()) {
+    result.unseen = "every row of this log trained the model: what it does on others is not known";
+  } else {
+    result.unseen = fmt::format("rows outside {:.6g} to {:.6g} s, where the model was identified", model.train_from_s,
+                                model.train_to_s);
+  }
   for (CompensateResult::Output& output : result.outputs) {
     for (const double v : output.compensation) output.largest = std::max(output.largest, std::abs(v));
     output.rms_before = output.rms_after = output.reduction_percent = std::nan("");
@@ -289,6 +331,11 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
     output.rms_before = spreadOf(measured->values);
     output.rms_after = spreadOf(after);
     output.reduction_percent = 100.0 * (1.0 - output.rms_after / output.rms_before);
+    CompensateResult::Output::Unseen& unseen = output.unseen;
+    unseen.rows = meanOfRows(measured->values, trained, 0).second;
+    unseen.rms_before = rmsUnseen(measured->values, trained);
+    unseen.rms_after = rmsUnseen(after, trained);
+    unseen.reduction_percent = 100.0 * (1.0 - unseen.rms_after / unseen.rms_before);
   }
   return result;
 }
@@ -300,6 +347,7 @@ nlohmann::json CompensateResult::json() const {
       {"holding_steps", holding},
       {"fallback_steps", fallback},
       {"warnings", warnings},
+      {"unseen", unseen},
       {"sign_convention",
        "compensation = minus the predicted deviation, to be added to the command; deviation = actual minus commanded, "
        "as "
@@ -310,6 +358,11 @@ nlohmann::json CompensateResult::json() const {
                               {"rms_before", jsonNumber(o.rms_before)},
                               {"rms_after", jsonNumber(o.rms_after)},
                               {"reduction_percent", jsonNumber(o.reduction_percent)},
+                              {"unseen",
+                               {{"rows", o.unseen.rows},
+                                {"rms_before", jsonNumber(o.unseen.rms_before)},
+                                {"rms_after", jsonNumber(o.unseen.rms_after)},
+                                {"reduction_percent", jsonNumber(o.unseen.reduction_percent)}}},
                               {"largest_compensation", o.largest}});
   }
   return out;
@@ -320,14 +373,19 @@ std::string CompensateResult::summary() const {
                                  holding, fallback);
   for (const Output& o : outputs) {
     text += fmt::format("  {}: ", o.name);
+    if (std::isfinite(o.unseen.reduction_percent)) {
+      text += fmt::format("rms {:.3f} before, {:.3f} after ({:.0f} % {}) on rows that trained nothing, ",
+                          o.unseen.rms_before, o.unseen.rms_after, std::abs(o.unseen.reduction_percent),
+                          o.unseen.reduction_percent < 0.0 ? "more" : "less");
+    }
     if (std::isfinite(o.reduction_percent)) {
-      text += fmt::format("rms {:.3f} before, {:.3f} after ({:.0f} % {}), ", o.rms_before, o.rms_after,
-                          std::abs(o.reduction_percent), o.reduction_percent < 0.0 ? "more" : "less");
+      text += fmt::format("{:.3f} before, {:.3f} after over all rows, ", o.rms_before, o.rms_after);
     } else {
       text += "not measured in this log, ";
     }
     text += fmt::format("largest compensation {:.2f}\n", o.largest);
   }
+  text += fmt::format("{}\n", unseen);
   text += "compensation = minus the predicted deviation, to be added to the command\n";
   return text;
 }

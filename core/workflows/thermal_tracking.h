@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -65,6 +66,16 @@ struct CompensateResult {
     double rms_before = 0.0;  ///< of the measured deviation about its mean where it is measured; NaN if it is not
     double rms_after = 0.0;   ///< of measured deviation plus compensation, about its mean
     double reduction_percent = 0.0;  ///< of the rms; positive where it became smaller
+    /// The same on rows that the model was not identified from, which alone show what it is worth. Values count from
+    /// their mean over the rows of training (without such rows from the first): nothing of these rows goes into their
+    /// zero. NaN without such rows.
+    struct Unseen {
+      std::size_t rows = 0;
+      double rms_before = std::numeric_limits<double>::quiet_NaN();
+      double rms_after = std::numeric_limits<double>::quiet_NaN();
+      double reduction_percent = std::numeric_limits<double>::quiet_NaN();
+    };
+    Unseen unseen;
     double largest = 0.0;
     std::vector<double> compensation;  ///< minus the predicted deviation, to be added to the command
   };
@@ -74,6 +85,7 @@ struct CompensateResult {
   std::size_t holding = 0;
   std::size_t fallback = 0;
   std::vector<std::string> warnings;  ///< a model that was called not good enough when it was identified
+  std::string unseen;                 ///< which rows trained nothing, one sentence
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string summary() const;
   void write(const std::filesystem::path& file) const;

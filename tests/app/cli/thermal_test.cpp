@@ -313,6 +313,16 @@ TEST_F(Thermal, CompensationIsMinusThePredictedDeviation) {
   EXPECT_NE(j["sign_convention"].get<std::string>().find("minus the predicted deviation"), std::string::npos);
   // The compensator begins at rest while this spindle begins cold: not more than this.
   EXPECT_GT(j["outputs"][0]["reduction_percent"].get<double>(), 30.0);
+  // What it is worth is what it does on rows that it was not identified from.
+  const nlohmann::json& unseen = j["outputs"][0]["unseen"];
+  EXPECT_GT(unseen["rows"].get<int>(), 100);
+  EXPECT_LT(unseen["rows"].get<std::size_t>(), linesOf(log).size() - 1);
+  EXPECT_GT(unseen["rms_before"].get<double>(), unseen["rms_after"].get<double>());
+  EXPECT_NE(j["unseen"].get<std::string>().find("rows outside"), std::string::npos) << j["unseen"];
+  const auto copy = folder / "another.csv";
+  writeText(copy, textOf(log));
+  const nlohmann::json other = jsonOf({"thermal", "compensate", copy.string(), "--model", model});
+  EXPECT_NE(other["unseen"].get<std::string>().find("no row of this log trained it"), std::string::npos);
   // The spindle has grown upwards: the command goes down.
   const auto lines = linesOf(out);
   double lowest = 0.0;

@@ -155,5 +155,43 @@ TEST(ResolutionCheck, NeedsStatesAndResolution) {
   EXPECT_THROW((void)checkAgainstResolution(states(0.0), MachineDescription{}, 1.0), InputError);
 }
 
+OperatingLog logOf(double spindle_rpm, double warmer_K) {
+  std::vector<double> time, speed, temperature;
+  for (double t = -600.0; t <= 9000.0; t += 60.0) {
+    time.push_back(t);
+    speed.push_back(t > 600.0 ? spindle_rpm : 0.0);
+    temperature.push_back(20.0 + warmer_K * std::max(0.0, t) / 9000.0);
+  }
+  OperatingLog log(time);
+  log.setSignal("spindle_rpm", speed);
+  log.setSignal("T_column_degC", temperature);
+  return log;
+}
+
+TEST(WarmUp, TellsTheInstrumentFromTheMachineOrSaysThatItCannot) {
+  Random random(8);
+  const ObservationSet drifting = warmUp(random, 45.0);
+  const OperatingLog rest = logOf(0.0, 0.2);
+  const WarmUpResult instrument = judgeWarmUp(drifting, "", {}, &rest);
+  EXPECT_FALSE(instrument.settled);
+  EXPECT_EQ(instrument.cause, WarmUpCause::Instrument);
+  EXPECT_THAT(instrument.cause_reason, HasSubstr("it is the instrument"));
+  const OperatingLog work = logOf(3000.0, 8.0);
+  const WarmUpResult unknown = judgeWarmUp(drifting, "", {}, &work);
+  EXPECT_EQ(unknown.cause, WarmUpCause::Unknown);
+  EXPECT_THAT(unknown.cause_reason, HasSubstr("at work (spindle_rpm)"));
+  EXPECT_THAT(unknown.cause_reason, HasSubstr("cannot be told apart"));
+  const OperatingLog warm = logOf(0.0, 8.0);
+  EXPECT_THAT(judgeWarmUp(drifting, "", {}, &warm).cause_reason, HasSubstr("T_column_degC by 2.4 K changed"));
+  EXPECT_THAT(judgeWarmUp(drifting, "", {}, nullptr).cause_reason, HasSubstr("No log says"));
+  OperatingLog temperatures_only({-600.0, 9000.0});
+  temperatures_only.setSignal("T_column_degC", {20.0, 20.1});
+  EXPECT_EQ(judgeWarmUp(drifting, "", {}, &temperatures_only).cause, WarmUpCause::Unknown);
+  // What has settled leaves nothing to tell apart.
+  const WarmUpResult settled = judgeWarmUp(warmUp(random, 240.0), "", {}, &work);
+  EXPECT_TRUE(settled.settled);
+  EXPECT_EQ(settled.cause_reason, "");
+}
+
 }  // namespace
 }  // namespace spindrift

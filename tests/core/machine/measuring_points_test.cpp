@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace spindrift {
 namespace {
 
@@ -81,6 +84,53 @@ TEST(MeasuringPoints, CandidatesOnALineAreDegenerate) {
 TEST(MeasuringPoints, RefusesWhatCannotBe) {
   EXPECT_THROW((void)chooseMeasuringPoints(lattice(3, 2), tableOptions(2, PlacementCriterion::D), {}), InputError);
   EXPECT_THROW((void)chooseMeasuringPoints(lattice(3, 2), tableOptions(7, PlacementCriterion::D), {}), InputError);
+}
+
+double nearest(const std::vector<Eigen::Vector3d>& candidates, const PlacementResult& result) {
+  double least = 1e300;
+  for (const std::size_t a : result.chosen)
+    for (const std::size_t b : result.chosen)
+      if (a != b) least = std::min(least, (candidates[a] - candidates[b]).norm());
+  return least;
+}
+
+TEST(MeasuringPoints, KeepADistance) {
+  // 5 mm from candidate to candidate: without a distance the criterion puts several into one corner.
+  const std::vector<Eigen::Vector3d> candidates = lattice(61, 27);
+  PlacementOptions options = tableOptions(7, PlacementCriterion::I);
+  options.starts = 2;
+  options.least_distance_mm = 0.0;
+  EXPECT_LT(nearest(candidates, chooseMeasuringPoints(candidates, options, {})), 10.0);
+  options.least_distance_mm.reset();
+  const PlacementResult apart = chooseMeasuringPoints(candidates, options, {});
+  ASSERT_EQ(apart.status, FitStatus::Converged);
+  EXPECT_NEAR(apart.least_distance_mm, 0.1 * std::hypot(300.0, 130.0), 1e-9);
+  EXPECT_GE(nearest(candidates, apart), apart.least_distance_mm - 1e-6);
+  // Trying all keeps it, too, and from what is fixed.
+  PlacementOptions few = tableOptions(5, PlacementCriterion::D);
+  few.least_distance_mm = 80.0;
+  few.fixed = {7};
+  const std::vector<Eigen::Vector3d> coarse = lattice(5, 4);
+  const PlacementResult tried = chooseMeasuringPoints(coarse, few, {});
+  EXPECT_TRUE(tried.exhaustive);
+  EXPECT_GE(nearest(coarse, tried), 80.0 - 1e-6);
+}
+
+TEST(MeasuringPoints, ADistanceThatCannotBeKeptIsSaid) {
+  PlacementOptions options = tableOptions(5, PlacementCriterion::I);
+  options.least_distance_mm = 200.0;
+  const PlacementResult none = chooseMeasuringPoints(lattice(5, 4), options, {});
+  EXPECT_EQ(none.status, FitStatus::Degenerate);
+  EXPECT_EQ(none.message, "no choice of 5 positions among the candidates keeps 200 mm between any two");
+  // Fiducials that stand close together: as far apart as they allow.
+  std::vector<Eigen::Vector3d> close;
+  for (const Eigen::Vector3d& p : lattice(3, 2)) close.push_back(0.05 * p);
+  options.least_distance_mm.reset();
+  const PlacementResult best = chooseMeasuringPoints(close, options, {});
+  EXPECT_EQ(best.status, FitStatus::Converged);
+  EXPECT_LT(best.least_distance_mm, 10.0);
+  options.least_distance_mm = -1.0;
+  EXPECT_THROW((void)chooseMeasuringPoints(close, options, {}), InputError);
 }
 
 }  // namespace

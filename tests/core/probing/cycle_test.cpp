@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "core/math/least_squares.h"
 #include "tests/core/probing/probing_machines.h"
@@ -311,6 +314,209 @@ TEST(BallCycle, GrowthOfAWarmArtefactIsTakenOff) {
       EXPECT_LT(std::abs(d.error_um), 0.5);
     }
   }
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+/// The artefact stands turned on the machine: its certificate is in its own frame.
+Eigen::Matrix3d clamping() {
+  return (Eigen::AngleAxisd(1.3, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+MachineDescription turned(MachineDescription machine) {
+  for (ArtefactBall& b : machine.artefacts.front().balls) b.certified_mm = clamping() * b.certified_mm;
+  return machine;
+}
+
+void grow(TouchList& list, const MachineDescription& standing, const std::function<double(double)>& strain) {
+  for (Touch& t : list.touches) {
+    for (const ArtefactBall& b : standing.artefacts.front().balls) {
+      if (b.id == t.feature) t.position_mm += strain(t.time_s) * b.certified_mm;
+    }
+  }
+}
+
+TEST(BallCycle, GrowthIsTakenOffAlongTheArtefactAsItStands) {
+  const MachineDescription m =
+      machineFrom(replaced(ballMachineText(), "\"certificate_uncertainty_um\":0.4",
+                           "\"certificate_uncertainty_um\":0.4,\"expansion_um_per_m_K\":11.5,"
+                           "\"expansion_uncertainty_um_per_m_K\":0,\"temperature_uncertainty_K\":0"));
+  const MachineDescription standing = turned(m);
+  VirtualProbeOptions options;
+  options.noise_um = 0.0;
+  options.first_ball_mm = {320.0, 120.0, 60.0};
+  VirtualRun run = runCycles(standing, 3, options, 2);
+  OperatingLog log({0.0, 600.0, 1200.0, 1800.0});
+  log.setSignal("T_balls_degC", {20.0, 22.0, 24.0, 24.0});
+  grow(run.list, standing, [&](double t) { return 11.5e-6 * (log.at("T_balls_degC", t) - 20.0); });
+  const BallCycleResult result = evaluateBallCycles(run.list, m, m.artefacts.front(), &log);
+  for (std::size_t p = 0; p < 12; ++p) {
+    EXPECT_NEAR(result.parameters[2][p].value, run.truth[2][p], 0.05) << result.names[p];
+  }
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
+}
+
+TEST(BallCycle, UncertaintyOfCoefficientAndTemperatureIsInEveryValue) {
+  const MachineDescription m =
+      machineFrom(replaced(ballMachineText(), "\"certificate_uncertainty_um\":0.4",
+                           "\"certificate_uncertainty_um\":0.4,\"expansion_um_per_m_K\":11.5,"
+                           "\"expansion_uncertainty_um_per_m_K\":0.6,\"temperature_uncertainty_K\":0.05"));
+  const MachineDescription standing = turned(m);
+  VirtualProbeOptions options;
+  options.noise_um = 0.2;
+  options.first_ball_mm = {320.0, 120.0, 60.0};
+  int inside = 0, inside_without = 0, inside_difference = 0, inside_row = 0, count = 0, differences = 0, rows = 0;
+  constexpr int seeds = 120;
+  for (int seed = 0; seed < seeds; ++seed) {
+    VirtualRun run = runCycles(standing, 3, options, 1000 + static_cast<std::uint64_t>(seed));
+    Random random(5000 + static_cast<std::uint64_t>(seed));
+    const double alpha = random.normal(11.5e-6, 0.6e-6);
+    const std::array<double, 3> warm{0.0, 5.0, 8.0};
+    std::array<double, 3> read{};
+    for (std::size_t k = 0; k < 3; ++k) read[k] = 20.0 + warm[k] + random.normal(0.0, 0.05);
+    grow(run.list, standing, [&](double t) { return alpha * warm[static_cast<std::size_t>(t / 600.0)]; });
+    OperatingLog log({0.0, 599.0, 600.0, 1199.0, 1200.0, 1799.0});
+    log.setSignal("T_balls_degC", {read[0], read[0], read[1], read[1], read[2], read[2]});
+    const BallCycleResult result = evaluateBallCycles(run.list, m, m.artefacts.front(), &log);
+    for (int p = 9; p < 12; ++p) {
+      const auto i = static_cast<std::size_t>(p);
+      for (std::size_t k = 1; k < 3; ++k) {
+        const double error = result.parameters[k][i].value - run.truth[k][i];
+        inside += std::abs(error) < 1.96 * result.parameters[k][i].standard_uncertainty ? 1 : 0;
+        const double touches = std::sqrt(result.covariance(static_cast<int>(k), p, p) -
+                                         std::pow(result.fit.causes[k].row(p).norm() * result.unit[i], 2));
+        inside_without += std::abs(error) < 1.96 * touches ? 1 : 0;
+        ++count;
+      }
+      // Both cycles share the coefficient and the first temperature: their difference is known better than either.
+      const double variance = result.covariance(1, p, p) + result.covariance(2, p, p) -
+                              2.0 * result.fit.covarianceBetween(1, 2)(p, p) * result.unit[i] * result.unit[i];
+      const double error =
+          (result.parameters[2][i].value - run.truth[2][i]) - (result.parameters[1][i].value - run.truth[1][i]);
+      inside_difference += std::abs(error) < 1.96 * std::sqrt(variance) ? 1 : 0;
+      ++differences;
+    }
+    const ObservationSet set = cycleObservations(result, run.list, m, m.artefacts.front());
+    for (const Observation& o : set.rows) {
+      if (o.state != "M2" || !o.point.starts_with("B4/")) continue;
+      const TipDeviation deviation = ballDeviation(m, run.truth[2]);
+      const Eigen::Vector3d d = deviation({o.time_s, o.position_mm, o.tool_offset_mm, 0.0, "B4", {}});
+      inside_row += std::abs(o.value - 1e3 * d(axisIndex(o.component))) < 1.96 * o.sigma ? 1 : 0;
+      ++rows;
+    }
+  }
+  EXPECT_GT(inside, 0.92 * count);
+  EXPECT_LT(inside, 0.98 * count);
+  EXPECT_LT(inside_without, 0.75 * count) << "the touches alone do not know it";
+  EXPECT_GT(inside_difference, 0.92 * differences);
+  EXPECT_LT(inside_difference, 0.985 * differences);
+  EXPECT_GT(inside_row, 0.91 * rows);
+}
+
+TEST(BallCycle, AnUncertaintyThatIsNotStatedIsSaid) {
+  const MachineDescription m =
+      machineFrom(replaced(ballMachineText(), "\"certificate_uncertainty_um\":0.4", "\"expansion_um_per_m_K\":11.5"));
+  const VirtualRun run = runCycles(m, 2, {}, 2);
+  OperatingLog log({0.0, 599.0, 600.0, 1200.0});
+  log.setSignal("T_balls_degC", {20.0, 20.0, 24.0, 24.0});
+  const BallCycleResult result = evaluateBallCycles(run.list, m, m.artefacts.front(), &log);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_EQ(
+      result.warnings.back(),
+      "the machine file states no uncertainty of the expansion coefficient and the temperature of balls: taken as "
+      "exact, though up to 46.0 um/m were taken off.");
+}
+
+TEST(HoleCycle, LengthsAgainstTheCertificateKnowWhatTheyRestOn) {
+  const std::string text = replaced(holeMachineText(), "\"hole_diameter_mm\":12",
+                                    "\"hole_diameter_mm\":12,\"certificate_uncertainty_um\":0.5,"
+                                    "\"expansion_um_per_m_K\":11.5,\"expansion_uncertainty_um_per_m_K\":0.6,"
+                                    "\"temperature_uncertainty_K\":0.1");
+  const MachineDescription m = machineFrom(text);
+  VirtualProbeOptions options;
+  options.noise_um = options.surface_noise_um = 0.2;
+  constexpr double slope = 15.0;  // um/m of the cold axis
+  constexpr double warm_K = 6.0;  // of the bar above 20 degC
+  int inside = 0, inside_touches = 0;
+  constexpr int seeds = 150;
+  for (int seed = 0; seed < seeds; ++seed) {
+    Random random(300 + static_cast<std::uint64_t>(seed));
+    const double strain = random.normal(11.5e-6, 0.6e-6) * warm_K;
+    const double read = 20.0 + warm_K + random.normal(0.0, 0.1);
+    MachineDescription real = m;
+    for (double& s : real.artefacts.front().nominal_positions_mm) {
+      s = s * (1.0 + strain) + random.normal(0.0, 0.5e-3);
+    }
+    const VirtualRun run = runCycles(real, 2, options, 700 + static_cast<std::uint64_t>(seed),
+                                     [&](int, Random&) { return std::vector<double>{slope, 0, 0, 0, 0, 0, 0, 0, 0}; });
+    OperatingLog log({0.0, 5000.0});
+    log.setSignal("T_bar_degC", {read, read});
+    const HoleCycleResult result = evaluateHoleCycles(run.list, m, m.artefacts.front(), {}, &log);
+    ASSERT_EQ(result.against_certificate.size(), 2U);
+    const CertifiedLengths& lengths = result.against_certificate.front();
+    EXPECT_EQ(lengths.holes.size(), 6U);
+    EXPECT_NEAR(*lengths.temperature_degC, read, 1e-9);
+    inside += std::abs(lengths.slope_um_per_m - slope) < 1.96 * lengths.standard_uncertainty_um_per_m ? 1 : 0;
+    inside_touches += std::abs(lengths.slope_um_per_m - slope) < 1.96 * 1.0 ? 1 : 0;
+    // Without the temperature the bar would be 69 um/m too long.
+    EXPECT_GT(lengths.standard_uncertainty_um_per_m, 3.5);
+  }
+  EXPECT_GT(inside, 0.91 * seeds);
+  EXPECT_LT(inside, 0.99 * seeds);
+  EXPECT_LT(inside_touches, 0.6 * seeds);
+}
+
+TEST(HoleCycle, AGrowthThatCoefficientAndTemperatureDoNotExplainIsSaid) {
+  const MachineDescription m = machineFrom(replaced(holeMachineText(), "\"hole_diameter_mm\":12",
+                                                    "\"hole_diameter_mm\":12,\"expansion_um_per_m_K\":11.5,"
+                                                    "\"expansion_uncertainty_um_per_m_K\":0.5,"
+                                                    "\"temperature_uncertainty_K\":0.1"));
+  const auto evaluated = [&](double growth_um_per_m) {
+    const VirtualRun run = runCycles(m, 3, {}, 9, [&](int k, Random&) {
+      return std::vector<double>{0, 0, 0, 0, 0, 0, 0, 0, k == 0 ? 0.0 : growth_um_per_m};
+    });
+    OperatingLog log({0.0, 599.0, 600.0, 5000.0});
+    log.setSignal("T_bar_degC", {20.0, 20.0, 23.0, 23.0});
+    return evaluateHoleCycles(run.list, m, m.artefacts.front(), {}, &log);
+  };
+  const HoleCycleResult as_expected = evaluated(11.5 * 3.0);
+  ASSERT_EQ(as_expected.growth.size(), 2U);
+  EXPECT_NEAR(as_expected.growth[1].expected_um_per_m, 34.5, 1e-6);
+  EXPECT_NEAR(as_expected.growth[1].expected_sigma_um_per_m, std::hypot(1.5, 11.5 * 0.1 * std::sqrt(2.0)), 1e-6);
+  EXPECT_TRUE(as_expected.warnings.empty()) << as_expected.warnings.front();
+  const HoleCycleResult other = evaluated(70.0);
+  ASSERT_FALSE(other.warnings.empty());
+  EXPECT_NE(other.warnings.back().find("expansion coefficient and temperature say"), std::string::npos);
+}
+
+TEST(BallCycle, ClosedFormsStandBesideTheJointEvaluationAndTakeTranslationsForRotations) {
+  Campaign campaign;
+  campaign.machine = machineFrom(ballMachineText());
+  VirtualProbeOptions options;
+  options.noise_um = 0.0;
+  const auto closedForms = [&](std::vector<double> warm) {
+    const VirtualRun run = runCycles(campaign.machine, 2, options, 3,
+                                     [&](int k, Random&) { return k == 0 ? std::vector<double>(12, 0.0) : warm; });
+    JobContext job;
+    const TouchEvaluation evaluation = evaluateTouchList(campaign, run.list, {}, {}, job);
+    return describeTouches(evaluation, campaign.machine).details["artefacts"][0]["closed_forms"];
+  };
+  const nlohmann::json head = closedForms({20, -15, 30, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  ASSERT_EQ(head.size(), 4U) << "one per ball";
+  const std::array<double, 3> truth{20.0, -15.0, 30.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(head[0]["head_rotation_urad"][i].get<double>(), truth[i], 0.05) << i;
+    EXPECT_NEAR(head[0]["joint_head_rotation_urad"][i].get<double>(), truth[i], 0.05) << i;
+  }
+  const nlohmann::json drift = closedForms({20, -15, 30, 0, 0, 0, 5, -8, 10, 0, 0, 0});
+  EXPECT_NEAR(drift[1]["joint_head_rotation_urad"][0].get<double>(), 20.0, 0.05);
+  EXPECT_GT(std::abs(drift[1]["head_rotation_urad"][0].get<double>() - 20.0), 50.0) << "8 um over 50 mm";
+  EXPECT_GT(drift[1]["spindle_drift_um"].get<double>(), 10.0);
 }
 
 TEST(CycleObservations, AreMinusTheChangeOfTheMeasuredPosition) {

@@ -3,14 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
 #include "core/base/units.h"
 #include "core/machine/campaign.h"
 #include "core/scanning/axis_errors.h"
 #include "core/scanning/cloud_file.h"
+#include "core/scanning/evaluate_scans.h"
 #include "core/scanning/profiler_calibration.h"
 #include "core/scanning/scan_evaluation.h"
 #include "tests/support/temp_folder.h"
@@ -120,6 +124,103 @@ TEST(VirtualProfiler, AScanThatStartedElsewhereIsTheSameScan) {
   for (std::size_t k = 0; k < after.scans.size(); ++k)
     EXPECT_LT((after.scans[k].registration.translation_mm - before.scans[k].registration.translation_mm).norm(), 2e-5)
         << before.scans[k].capture.cloud;
+}
+
+TEST(VirtualProfiler, ScansOfOneArtefactAtTheSameTimeGiveTheSame) {
+  const testing::TempFolder folder;
+  JobContext job;
+  VirtualScanCampaign plan = smallCampaign("push_broom");
+  plan.artefacts.resize(1);
+  writeVirtualScanCampaign(plan, folder.path(), 5, job);
+  const auto with = [&](const char* threads) {
+    ::setenv("SPINDRIFT_THREADS", threads, 1);
+    ScanEvaluation e = evaluateScanCampaign(Campaign::read(folder.path()), "", job);
+    ::unsetenv("SPINDRIFT_THREADS");
+    return e;
+  };
+  const ScanEvaluation one = with("1");
+  const ScanEvaluation several = with("3");
+  ASSERT_EQ(one.scans.size(), 3U);
+  ASSERT_EQ(several.scans.size(), one.scans.size());
+  for (std::size_t k = 0; k < one.scans.size(); ++k) {
+    EXPECT_EQ(several.scans[k].capture.cloud, one.scans[k].capture.cloud);
+    EXPECT_EQ(several.scans[k].registration.translation_mm, one.scans[k].registration.translation_mm);
+    EXPECT_EQ(several.scans[k].axis.covariance, one.scans[k].axis.covariance);
+  }
+}
+
+/// The same campaign on a machine whose axes are called otherwise: profiler along `axis`, `turn` into machine axes.
+void renameAxes(const std::filesystem::path& folder, const std::string& axis, const Eigen::Matrix3d& turn) {
+  nlohmann::json machine = nlohmann::json::parse(readFile(folder / "machine.json"));
+  const auto turned = [&](const nlohmann::json& v) {
+    const Eigen::Vector3d out = turn * Eigen::Vector3d(v[0].get<double>(), v[1].get<double>(), v[2].get<double>());
+    return std::array<double, 3>{out.x(), out.y(), out.z()};
+  };
+  nlohmann::json& profiler = machine["profiler"];
+  profiler["axis"] = axis;
+  profiler["lever_mm"] = turned(profiler["lever_mm"]);
+  const auto circle = turned(profiler["calibration_circle"]);
+  for (std::size_t i = 0; i < 3; ++i) profiler["calibration_circle"][i] = circle[i];
+  for (nlohmann::json& point : machine["points"]) {
+    const auto at = turned({point["x_mm"], point["y_mm"], point["z_mm"]});
+    point["x_mm"] = at[0];
+    point["y_mm"] = at[1];
+    point["z_mm"] = at[2];
+  }
+  nlohmann::json travel;
+  for (const nlohmann::json& a : machine["axes"])
+    if (a["name"] == "Y") travel = a["travel_mm"];
+  for (nlohmann::json& a : machine["axes"])
+    if (a["name"] == axis) a["travel_mm"] = travel;
+  writeFileAtomically(folder / "machine.json", machine.dump(1));
+}
+
+TEST(VirtualProfiler, TravelsAlongAnyAxis) {
+  const testing::TempFolder folder;
+  JobContext job;
+  writeVirtualScanCampaign(smallCampaign("push_broom"), folder / "Y", 5, job);
+  const Campaign along_y = Campaign::read(folder / "Y");
+  const ScanEvaluation y = evaluateScanCampaign(along_y, "", job);
+  const InstrumentEvaluation rows_y = evaluateScans(along_y, "", job);
+  // x of the scan frame = y x z: with heights along Z, -Y of the machine; a column that looks along -Y has X.
+  Eigen::Matrix3d x_turn, z_turn;
+  x_turn << 0, 1, 0, -1, 0, 0, 0, 0, 1;
+  z_turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  for (const auto& [axis, turn] : {std::pair<const char*, Eigen::Matrix3d>{"X", x_turn}, {"Z", z_turn}}) {
+    std::filesystem::copy(folder / "Y", folder / axis, std::filesystem::copy_options::recursive);
+    renameAxes(folder / axis, axis, turn);
+    const Campaign campaign = Campaign::read(folder / axis);
+    const ScanEvaluation e = evaluateScanCampaign(campaign, "", job);
+    EXPECT_EQ(e.machine_from_scan, turn) << axis;
+    ASSERT_EQ(e.scans.size(), y.scans.size());
+    for (std::size_t k = 0; k < e.scans.size(); ++k) {
+      const ScanResult& a = e.scans[k];
+      const ScanResult& b = y.scans[k];
+      EXPECT_LT((a.registration.translation_mm - turn * b.registration.translation_mm).norm(), 1e-9);
+      EXPECT_LT((a.axis.error.translation_mm - turn * b.axis.error.translation_mm).norm(), 1e-9);
+      EXPECT_LT((a.axis.error.rotation_rad - turn * b.axis.error.rotation_rad).norm(), 1e-12);
+      EXPECT_EQ(a.not_observed.size(), b.not_observed.size());
+      for (int i = 0; i < 3; ++i) {
+        int j = 0;
+        turn.row(i).cwiseAbs().maxCoeff(&j);
+        for (const int half : {0, 3}) {
+          EXPECT_DOUBLE_EQ(a.axis.covariance(half + i, half + i), b.axis.covariance(half + j, half + j)) << axis;
+          EXPECT_DOUBLE_EQ(a.registration.covariance(half + i, half + i),
+                           b.registration.covariance(half + j, half + j));
+        }
+      }
+    }
+    // Observations: the same rows in other components, at the point in machine axes.
+    const InstrumentEvaluation rows = evaluateScans(campaign, "", job);
+    ASSERT_EQ(rows.observations.rows.size(), rows_y.observations.rows.size());
+    double squares = 0.0, squares_y = 0.0;
+    for (const Observation& o : rows.observations.rows) squares += std::pow(o.value / o.sigma, 2);
+    for (const Observation& o : rows_y.observations.rows) squares_y += std::pow(o.value / o.sigma, 2);
+    EXPECT_NEAR(squares, squares_y, 1e-6 * squares_y);
+    EXPECT_TRUE(rows.details["cycles"][1]["parameters"].contains(std::string("EX") + axis + "_um"));
+  }
+  renameAxes(folder / "Z", "C", Eigen::Matrix3d::Identity());
+  EXPECT_THROW((void)evaluateScanCampaign(Campaign::read(folder / "Z"), "", job), InputError);
 }
 
 /// Root mean square of the deviation's error over its stated standard uncertainty, by component, over some campaigns

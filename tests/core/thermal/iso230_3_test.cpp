@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "core/base/error.h"
 
@@ -103,6 +104,45 @@ TEST(Etve, IsRefusedWhenTheSpindleRan) {
         "log.csv, column spindle_rpm: the spindle turns (-3000 rpm at 120 s), but an ETVE test is of a machine at "
         "rest; allowed: a log without a running spindle, or the test \"spindle\".");
   }
+}
+
+TEST(RotatingSpindle, IsOneStepOfSpeed) {
+  TimeSeries series;
+  series.file = "log.csv";
+  std::vector<double> speed;
+  const auto fill = [&](const std::function<double(double)>& rpm) {
+    series.time_s.clear();
+    speed.clear();
+    for (double t = 0.0; t <= 20000.0; t += 60.0) {
+      series.time_s.push_back(t);
+      speed.push_back(rpm(t));
+    }
+  };
+  const auto complaint = [&]() -> std::string {
+    try {
+      return "accepted" + requireOneSpeedStep(series, "spindle_rpm", speed);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  // Comes up to speed within a minute, wobbles by 2 %, one row is off.
+  fill([](double t) {
+    if (t < 600.0 || t >= 15000.0) return 0.2;
+    return t < 660.0 ? 1200.0 : t == 9000.0 ? 500.0 : 3000.0 + 60.0 * std::sin(t);
+  });
+  EXPECT_EQ(complaint(), "accepted");
+  fill([](double t) { return t < 15000.0 ? 3000.0 : 0.0; });
+  EXPECT_NE(complaint().find("begins with a running spindle"), std::string::npos) << complaint();
+  fill([](double t) { return t < 600.0 || t >= 15000.0 ? 0.0 : t < 7800.0 ? 3000.0 : 6000.0; });
+  EXPECT_EQ(
+      complaint(),
+      "log.csv, column spindle_rpm: the spindle turns at 6000 rpm at 7800 s, but at 3000 rpm for most of its run: "
+      "these are several steps of speed, not one test; allowed: a record of one step, or --range FROM:TO around "
+      "it.");
+  fill([](double t) { return t < 600.0 || (t >= 9000.0 && t < 9600.0) || t >= 15000.0 ? 0.0 : 3000.0; });
+  EXPECT_NE(complaint().find("the spindle stands at 9000 s"), std::string::npos) << complaint();
+  fill([](double) { return 0.0; });
+  EXPECT_EQ(complaint(), "accepted") << "the evaluation itself refuses it";
 }
 
 }  // namespace

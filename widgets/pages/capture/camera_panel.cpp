@@ -15,6 +15,7 @@
 #include "core/connect/genicam_camera.h"
 #include "core/connect/source.h"
 #include "core/imaging/camera.h"
+#include "core/imaging/evaluate_fiducials.h"
 #include "widgets/common/parts.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/pages/capture/incoming_service.h"
@@ -97,6 +98,13 @@ void CameraPanel::open(const QString& source) {
   ended_ = false;
   state_->show(Tone::Neutral, tr("Opening %1 …").arg(source));
   open_->setText(QChar(0x2009) + tr("Close camera"));
+  const auto campaign = context_.session.campaign();
+  try {
+    pattern_ = campaign ? campaignPattern(campaign->folder) : campaignPattern({});
+  } catch (const InputError& e) {
+    pattern_ = campaignPattern({});
+    state_->show(Tone::Attention, QString::fromUtf8(e.what()));
+  }
   reader_ = std::jthread([this, name = source.toStdString()](std::stop_token stop) { readFrames(stop, name); });
   poll_.start();
 }
@@ -119,7 +127,7 @@ void CameraPanel::readFrames(std::stop_token stop, const std::string& source) {
   const auto show = [this](GrayImage image) {
     Frame frame;
     frame.image = std::make_shared<GrayImage>(std::move(image));
-    frame.verdict = judgeCapture(*frame.image, false);
+    frame.verdict = judgeCapture(*frame.image, false, {}, *pattern_);
     const std::lock_guard lock(mutex_);
     latest_ = std::move(frame);
   };
@@ -193,7 +201,7 @@ void CameraPanel::showLatest() {
   history_.push_back(sharpness);
   if (history_.size() > history_length) history_.pop_front();
   view_->setImage(toImage(*image_));
-  view_->setMarks(marksOf(verdict_.decoded));
+  view_->setMarks(marksOf(verdict_.decoded, *pattern_));
   sharp_->set(QString::number(sharpness, 'f', 3), tr("contrast over coarse contrast"),
               sharpness > 0.97 * peak_ ? Tone::Good : Tone::Neutral);
   best_->set(QString::number(peak_, 'f', 3),

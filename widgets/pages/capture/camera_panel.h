@@ -54,6 +54,7 @@ class CameraPanel : public QWidget {
   void showLatest();
 
   PageContext context_;
+  std::shared_ptr<const FiducialPattern> pattern_;  ///< of the campaign, when the camera was opened
   IncomingService& service_;
   QLineEdit* source_;
   QPushButton* open_;

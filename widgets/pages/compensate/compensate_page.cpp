@@ -197,7 +197,7 @@ nlohmann::json CompensatePage::optionsJson() const {
 
 bool CompensatePage::hasSource(CompensationSource source) const {
   auto& model = const_cast<CompensatePage*>(this)->session();
-  if (source == CompensationSource::NineParameters) return model.state("fit").there;
+  if (source != CompensationSource::CompletedModel) return model.state("fit").there;
   return !DiscrepancyChoice::of(model).added.empty();
 }
 
@@ -227,6 +227,7 @@ void CompensatePage::fillChoices() {
   }
   if (hasSource(CompensationSource::NineParameters)) {
     source_->addItem(tr("Nine parameters"), static_cast<int>(CompensationSource::NineParameters));
+    source_->addItem(tr("Higher order"), static_cast<int>(CompensationSource::HigherOrder));
   }
   source_->setCurrentIndex(std::max(0, source_->findData(static_cast<int>(r.source))));
   state_->clear();
@@ -289,6 +290,12 @@ void CompensatePage::refresh() {
     if (plan_)
       for (const std::string& w : plan_->warnings) warnings << QString::fromStdString(w);
     callout()->set(warnings.isEmpty() ? Tone::Neutral : Tone::Attention, warnings.join(QLatin1Char(' ')));
+    if (plan_ && !plan_->richer_model.empty()) {
+      callout()->setAction(tr("Use the higher order"), [this] {
+        changeOptions(tr("choose the model to compensate with"),
+                      {{"source", static_cast<int>(CompensationSource::HigherOrder)}});
+      });
+    }
     // The plan is worked out again from what is stored: it takes less time than reading it would.
     if (!plan_ && stored->id != shown_result_) {
       shown_result_ = stored->id;

@@ -62,7 +62,17 @@ void CompensatePage::showPlan() {
   const QString um = QStringLiteral("um");
   const QString state = QString::fromStdString(plan_->state);
   before_->set(sizeText(plan_->rms_before_um, um), tr("state %1").arg(state));
-  after_->set(sizeText(plan_->rms_after_um, um), tr("noise of the measurement included"),
+  // What counts is what remains where nothing was fitted.
+  const QString unseen = plan_->rms_after_unseen_um ? tr("%1 (before %2) %3")
+                                                          .arg(sizeText(*plan_->rms_after_unseen_um, um),
+                                                               sizeText(*plan_->rms_before_unseen_um, um),
+                                                               QString::fromStdString(plan_->unseen))
+                                                    : QString::fromStdString(plan_->unseen);
+  after_->setToolTip(tr("On values that trained nothing: %1.").arg(unseen));
+  after_->set(sizeText(plan_->rms_after_um, um),
+              plan_->rms_after_unseen_um
+                  ? tr("%1 where nothing was fitted").arg(sizeText(*plan_->rms_after_unseen_um, um))
+                  : tr("fitted values; noise included"),
               plan_->rms_after_um < plan_->rms_before_um ? Tone::Good : Tone::Attention);
   expected_->set(QStringLiteral("± ") + sizeText(plan_->rms_sigma_um, um), tr("one standard uncertainty, rms"));
   largest_->set(sizeText(plan_->largest_um, um), tr("length of the vector at a point"));

@@ -5,9 +5,8 @@
 
 namespace spindrift::gui {
 
-std::vector<ImageMark> marksOf(const DecodeResult& result) {
+std::vector<ImageMark> marksOf(const DecodeResult& result, const FiducialPattern& pattern) {
   std::vector<ImageMark> marks;
-  const FiducialPattern& pattern = standardPattern();
   const double scale = result.map.pixel_length_um > 0 ? 1.0 / result.map.pixel_length_um : 0.0;
   for (const Subpattern& s : result.subpatterns) {
     ImageMark mark;

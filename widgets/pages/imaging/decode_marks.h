@@ -10,8 +10,8 @@
 
 namespace spindrift::gui {
 
-/// Ellipses with their numbers and circles of the standard pattern.
-[[nodiscard]] std::vector<ImageMark> marksOf(const DecodeResult& result);
+/// Ellipses with their numbers and circles, as large as in the pattern that was decoded.
+[[nodiscard]] std::vector<ImageMark> marksOf(const DecodeResult& result, const FiducialPattern& pattern);
 [[nodiscard]] QImage toImage(const GrayImage& gray);
 
 }  // namespace spindrift::gui

@@ -277,6 +277,16 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
                      .arg(s, 0, 'f', 2)
                      .arg(pooling)
                      .arg(pooled.value("spindle_repeatability_um", 0.0), 0, 'f', 2));
+    const nlohmann::json circles = pooled.value("algebraic_minus_joint_um", nlohmann::json());
+    centre_->setToolTip(
+        circles.is_object()
+            ? tr("Algebraic circles through the measured tracks (P0 (6)–(9)), for comparison: %1, %2 um "
+                 "from this centre, scatter %3, %4 um. Short arcs pull them; they are not used.")
+                  .arg(circles["mean"][0].get<double>(), 0, 'f', 1)
+                  .arg(circles["mean"][1].get<double>(), 0, 'f', 1)
+                  .arg(circles["standard_deviation"][0].get<double>(), 0, 'f', 1)
+                  .arg(circles["standard_deviation"][1].get<double>(), 0, 'f', 1)
+            : QString());
   } else {
     centre_->set(QStringLiteral("–"), tr("needs three spindle orientations"));
   }

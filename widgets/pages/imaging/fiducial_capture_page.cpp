@@ -13,6 +13,7 @@
 #include "core/base/csv.h"
 #include "core/base/error.h"
 #include "core/imaging/decoder.h"
+#include "core/imaging/evaluate_fiducials.h"
 #include "core/imaging/image.h"
 #include "core/workflows/capture_check.h"
 #include "widgets/commands/commands.h"
@@ -378,11 +379,12 @@ void FiducialCapturePage::showImage(const QString& image) {
   job.key = "image";
   job.quiet = true;
   job.title = tr("Decoding %1").arg(QString::fromStdString(file.filename().string()));
-  job.work = [this, file, request](JobContext&) -> std::function<void()> {
+  job.work = [this, file, request, folder = session().campaign()->folder](JobContext&) -> std::function<void()> {
     const GrayImage gray = readImage(file);
     const QImage shown = toImage(gray);
-    const DecodeResult decoded = decodeImage(gray);
-    return [this, shown, marks = marksOf(decoded), request] {
+    const std::shared_ptr<const FiducialPattern> pattern = campaignPattern(folder);
+    const DecodeResult decoded = decodeImage(gray, *pattern);
+    return [this, shown, marks = marksOf(decoded, *pattern), request] {
       if (request != request_) return;
       image_->setImage(shown);
       image_->setMarks(marks);

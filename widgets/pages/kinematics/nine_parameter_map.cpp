@@ -94,7 +94,9 @@ void NineParameterPage::showField() {
     return;
   }
   const NineParameterFit& f = *result_;
-  const NineParameterModel model = f.model();
+  const NineParameterModel nine = f.model();
+  const bool higher = higher_->isChecked() && order_.richer();
+  const ErrorModel& model = higher ? static_cast<const ErrorModel&>(*order_.model) : nine;
   const Component component = shown_components[static_cast<std::size_t>(component_->current())];
   std::vector<Eigen::Vector2d> measured;
   std::vector<ViewPoint> points;
@@ -151,9 +153,11 @@ void NineParameterPage::showField() {
     for (auto& [id, arrow] : arrow_of) arrows.push_back(arrow);
   }
   view_->setArrows(std::move(arrows), exaggeration);
-  view_->setCaption(tr("%1 of state %2 against %3")
+  QString caption = tr("%1 of state %2 against %3")
                         .arg(name, QString::fromStdString(f.state),
-                             QString::fromStdString(f.reference_state.empty() ? "zero" : f.reference_state)));
+                             QString::fromStdString(f.reference_state.empty() ? "zero" : f.reference_state));
+  if (higher) caption += QStringLiteral(", ") + QString::fromStdString(orderText(order_.orders));
+  view_->setCaption(caption);
 }
 
 }  // namespace spindrift::gui

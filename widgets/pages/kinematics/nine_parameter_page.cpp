@@ -135,6 +135,8 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   same_scale_->setToolTip(tr("The same limits for EX, EY and EZ, so that their pictures can be compared"));
   relief_ = new QCheckBox(tr("Relief"));
   machine_ = new QCheckBox(tr("Machine"));
+  higher_ = new QCheckBox(tr("Higher order"));
+  view_line->addWidget(higher_);
   view_line->addWidget(arrows_);
   view_line->addWidget(same_scale_);
   view_line->addWidget(relief_);
@@ -165,6 +167,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   connect(component_, &Segments::chosen, this, &NineParameterPage::showField);
   connect(tabs_, &QTabWidget::currentChanged, this, &NineParameterPage::showField);
   connect(arrows_, &QCheckBox::toggled, this, &NineParameterPage::showField);
+  connect(higher_, &QCheckBox::toggled, this, &NineParameterPage::showField);
   connect(same_scale_, &QCheckBox::toggled, this, &NineParameterPage::showField);
   connect(relief_, &QCheckBox::toggled, this, [this](bool on) {
     view_->resetCamera(on || machine_->isChecked() ? StandardView::Isometric : StandardView::Top);
@@ -232,6 +235,7 @@ void NineParameterPage::refresh() {
     if (session().state("fit").current) {
       try {
         result_ = fitNineParameters(*set, options());
+        order_ = chooseTableOrder(*result_);
       } catch (const InputError&) {
         result_.reset();
       }
@@ -307,7 +311,8 @@ void NineParameterPage::fit() {
   run(tr("Fitting the nine-parameter model"), pending,
       [this, set = *set, o, pending](JobContext&) -> std::function<void()> {
         const NineParameterFit fitted = fitNineParameters(set, o);
-        return [this, fitted, pending] {
+        const TableOrderChoice order = chooseTableOrder(fitted);
+        return [this, fitted, order, pending] {
           nlohmann::json parameters = nlohmann::json::object();
           for (int i = 0; i < nine_parameter_count; ++i) {
             parameters[std::string(nine_parameter_names[static_cast<std::size_t>(i)])] = {
@@ -317,9 +322,11 @@ void NineParameterPage::fit() {
           const bool shown = session().finish(pending, {{"parameters", parameters},
                                                         {"state", fitted.state},
                                                         {"status", std::string(toString(fitted.status))},
-                                                        {"message", fitted.message}});
+                                                        {"message", fitted.message},
+                                                        {"higher_order", order.json()}});
           if (!shown) return;
           result_ = fitted;
+          order_ = order;
           showFit();
         };
       });
@@ -332,6 +339,7 @@ void NineParameterPage::showFit() {
     comparison_->setRows({});
     comparison_verdict_->set(Tone::Neutral, {});
     for (NumberTile* tile : {rms_fit_, rms_validation_, condition_}) tile->set(QStringLiteral("–"));
+    higher_->setEnabled(false);
     view_->clear();
     if (session().observations()) {
       callout()->setAction({}, {});
@@ -344,7 +352,10 @@ void NineParameterPage::showFit() {
   const QString message = QString::fromStdString(f.message);
   QString warnings;
   for (const std::string& w : f.warnings) warnings += QLatin1Char(' ') + QString::fromStdString(w);
+  higher_->setEnabled(order_.richer());
+  higher_->setToolTip(QString::fromStdString(order_.reason));
   if (f.status == FitStatus::Converged) {
+    if (order_.richer() || !warnings.isEmpty()) warnings += QLatin1Char(' ') + QString::fromStdString(order_.reason);
     if (!warnings.isEmpty()) {
       callout()->show(Tone::Attention, warnings.trimmed());
     } else {
@@ -371,6 +382,20 @@ void NineParameterPage::showFit() {
     }
     row.cells = {name, value, {parameterMeaning(i)}};
     rows.push_back(std::move(row));
+  }
+  if (order_.richer()) {
+    const std::vector<std::string> names = order_.model->basis().names();
+    for (std::size_t i = nine_parameter_count; i < names.size(); ++i) {
+      const auto e = static_cast<Eigen::Index>(i);
+      Row row;
+      QString text = QString::fromStdString(names[i]);
+      text.chop(3);  // _um
+      row.id = text;
+      row.cells = {{text.replace(QLatin1Char('_'), QLatin1Char(' '))},
+                   number(order_.model->parameters()(e), std::sqrt(order_.model->covariance()(e, e)), "um"),
+                   {tr("of higher order: at the edge of the measured points")}};
+      rows.push_back(std::move(row));
+    }
   }
   parameters_->setRows(std::move(rows));
   rows.clear();

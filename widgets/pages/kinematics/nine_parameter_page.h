@@ -7,6 +7,7 @@
 
 #include "core/machine/field.h"
 #include "core/machine/nine_parameter_model.h"
+#include "core/machine/table_polynomial.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;
@@ -31,6 +32,9 @@ class NineParameterPage : public Page {
   void runAll() override { fit(); }
   void setComponent(int index);
   [[nodiscard]] View3D* view() const { return view_; }
+  [[nodiscard]] QCheckBox* higherOrderBox() const { return higher_; }
+  [[nodiscard]] const TableOrderChoice& orderChoice() const { return order_; }
+  [[nodiscard]] const Field* field() const { return field_.get(); }
 
  private:
   void readOptions();
@@ -68,7 +72,9 @@ class NineParameterPage : public Page {
   QCheckBox* machine_;
   QCheckBox* relief_;
   View3D* view_;
+  QCheckBox* higher_;  ///< draw the model of higher order; enabled where the evidence asks for one
   std::optional<NineParameterFit> result_;
+  TableOrderChoice order_;  ///< what the evidence says of result_
   std::string result_error_;
   bool fitted_now_ = false;
   std::shared_ptr<const Field> field_;

@@ -208,7 +208,7 @@ void WarmUpPage::refresh() {
     // A measurement made for this very purpose stands in a file of its own.
     const std::filesystem::path own = campaign->path("warm_up.csv");
     const auto set = std::filesystem::exists(own) ? std::optional(ObservationSet::read(own)) : session().observations();
-    if (set) judged = judgeWarmUp(*set, {});
+    if (set) judged = judgeWarmUp(*set, {}, {}, campaign->log ? &*campaign->log : nullptr);
   } catch (const InputError& e) {
     judged.reset();
     unreadable = QString::fromUtf8(e.what());
@@ -255,7 +255,9 @@ void WarmUpPage::refresh() {
   if (stated) {
     callout()->show(Tone::Good, tr("You stated that the instrument was warm. Reports written from now on say so."));
   } else if (measured) {
-    callout()->show(judged->settled ? Tone::Good : Tone::Attention, QString::fromStdString(judged->reason));
+    QString sentence = QString::fromStdString(judged->reason);
+    if (!judged->cause_reason.empty()) sentence += QLatin1Char(' ') + QString::fromStdString(judged->cause_reason);
+    callout()->show(judged->settled ? Tone::Good : Tone::Attention, sentence);
   } else if (!unreadable.isEmpty()) {
     callout()->show(Tone::Attention, unreadable);
   } else {

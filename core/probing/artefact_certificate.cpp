@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/probing/artefact_certificate.h"
+
+#include <fmt/format.h>
+
+#include "core/base/json_reader.h"
+#include "core/base/units.h"
+
+namespace spindrift {
+
+ArtefactCertificate ArtefactCertificate::of(const MachineDescription& machine, const Artefact& artefact) {
+  ArtefactCertificate certificate;
+  certificate.reference_degC = machine.reference_temperature_degC;
+  certificate.place_sigma_mm = artefact.certificate_uncertainty_um.value_or(0.0) * mm_per_um;
+  if (artefact.expansion_um_per_m_K) certificate.expansion_per_K = *artefact.expansion_um_per_m_K / um_per_m_per_unit;
+  bool expansion_stated = false;
+  bool temperature_stated = false;
+  const JsonNode root = JsonNode::parse(machine.source.dump(), machine.file.string());
+  const auto artefacts = root.find("artefacts");
+  for (const JsonNode& node : artefacts ? artefacts->items() : std::vector<JsonNode>{}) {
+    if (node.stringOr("id", "") != artefact.id) continue;
+    if (const auto sigma = node.find("expansion_uncertainty_um_per_m_K")) {
+      certificate.expansion_sigma_per_K = sigma->nonNegativeNumber() / um_per_m_per_unit;
+      expansion_stated = true;
+    }
+    if (const auto sigma = node.find("temperature_uncertainty_K")) {
+      certificate.temperature_sigma_K = sigma->nonNegativeNumber();
+      temperature_stated = true;
+    }
+  }
+  if (certificate.expansion_per_K.value_or(0.0) != 0.0) {
+    if (!expansion_stated) certificate.taken_as_exact.emplace_back("the expansion coefficient");
+    if (!temperature_stated) certificate.taken_as_exact.emplace_back("the temperature");
+  }
+  return certificate;
+}
+
+std::optional<double> artefactTemperature(const Artefact& artefact, const OperatingLog* log, double time_s) {
+  if (log != nullptr && !log->empty()) {
+    for (const std::string& name : {fmt::format("T_{}_degC", artefact.id), std::string("T_artefact_degC")}) {
+      if (log->has(name)) return log->at(name, time_s);
+    }
+  }
+  return artefact.temperature_degC;
+}
+
+ArtefactGrowth artefactGrowth(const ArtefactCertificate& certificate, const Artefact& artefact, const OperatingLog* log,
+                              const std::vector<double>& cycle_time_s) {
+  ArtefactGrowth growth;
+  if (!certificate.expansion_per_K || cycle_time_s.empty()) return growth;
+  for (const double time : cycle_time_s) {
+    const auto temperature = artefactTemperature(artefact, log, time);
+    if (!temperature) return growth;
+    growth.temperature_degC.push_back(*temperature);
+  }
+  const auto cycles = static_cast<Eigen::Index>(cycle_time_s.size());
+  const double alpha = *certificate.expansion_per_K;
+  // A temperature that the machine file states once is the same error in all cycles, and no growth.
+  const bool measured = artefactTemperature(artefact, log, cycle_time_s.front()) &&
+                        (log != nullptr && !log->empty() &&
+                         (log->has(fmt::format("T_{}_degC", artefact.id)) || log->has("T_artefact_degC")));
+  growth.factors = Eigen::MatrixXd::Zero(cycles, cycles + 1);
+  for (Eigen::Index k = 0; k < cycles; ++k) {
+    const double warmer = growth.temperature_degC[static_cast<std::size_t>(k)] - growth.temperature_degC.front();
+    growth.strain.push_back(alpha * warmer);
+    growth.factors(k, 0) = warmer * certificate.expansion_sigma_per_K;
+    if (k == 0 || !measured) continue;
+    growth.factors(k, 1) = -alpha * certificate.temperature_sigma_K;
+    growth.factors(k, 1 + k) = alpha * certificate.temperature_sigma_K;
+  }
+  return growth;
+}
+
+}  // namespace spindrift

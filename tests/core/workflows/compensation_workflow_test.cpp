@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a correction says of itself: uncertainty, what it does where nothing was fitted, what was not measured.
+#include "core/workflows/compensation_workflow.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+
+namespace spindrift {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Twelve fiducials on a table; the warm table sags by `sag_um` in its middle. F6 is held out if asked for.
+Campaign campaignOf(double sag_um, bool hold_out, std::uint64_t seed) {
+  Campaign campaign;
+  for (const auto& [name, travel] : {std::pair<const char*, double>{"X", 300.0}, {"Y", 130.0}, {"Z", 200.0}}) {
+    LinearAxis axis;
+    axis.name = name;
+    axis.travel_mm = {0.0, travel};
+    campaign.machine.axes.push_back(axis);
+  }
+  NineVector truth;
+  truth << -28, 25, 6, 40, 25, 50, 20, 100, -80;
+  Random random(seed);
+  ObservationSet set;
+  for (int state = 0; state < 2; ++state) {
+    for (int i = 0; i < 12; ++i) {
+      const Eigen::Vector3d at(20.0 + 260.0 / 3.0 * (i % 4), 15.0 + 50.0 * (i / 4), 0.0);
+      for (const Component c : {Component::EX, Component::EY, Component::EZ}) {
+        Observation o;
+        o.time_s = 1000.0 * state;
+        o.state = state == 0 ? "M0" : "M1";
+        o.point = "F" + std::to_string(i + 1);
+        o.position_mm = at;
+        o.component = c;
+        o.sigma = 0.3;
+        const double u = (at.x() - 150.0) / 150.0;
+        if (state == 1) {
+          o.value = nineParameterRow(at, c).dot(truth) + (c == Component::EZ ? sag_um * (1.0 - u * u) : 0.0);
+        }
+        o.value += random.normal(0, 0.3);
+        if (hold_out && o.point == "F6") o.use = ObservationUse::Holdout;
+        set.rows.push_back(o);
+      }
+    }
+  }
+  campaign.observations = set;
+  return campaign;
+}
+
+CompensationPlan planOf(const Campaign& campaign, CompensationSource source) {
+  CompensationRequest request;
+  request.source = source;
+  request.positions = 4;
+  JobContext job;
+  return planCompensation(campaign, *campaign.observations, request, job);
+}
+
+TEST(CompensationPlan, OfARejectedModelCarriesTheLackOfFitAndOffersTheRicherOne) {
+  const Campaign campaign = campaignOf(6.0, false, 1);
+  const CompensationPlan nine = planOf(campaign, CompensationSource::NineParameters);
+  EXPECT_GT(nine.lack_of_fit_um.z(), 1.0);
+  EXPECT_GT(nine.rms_sigma_um, 0.6);
+  for (const CompensationPoint& p : nine.points) {
+    EXPECT_GT(p.sigma_um.z(), nine.lack_of_fit_um.z());
+    EXPECT_LT(std::abs(*p.remains_um[2]), 4.0 * p.sigma_um.z());
+  }
+  EXPECT_THAT(nine.richer_model, HasSubstr("second order in EZ"));
+  EXPECT_THAT(nine.warnings, Contains(HasSubstr("a richer model fits better")));
+  EXPECT_EQ(nine.json()["richer_model"], nine.richer_model);
+  EXPECT_EQ(nine.json()["lack_of_fit_um"].size(), 3U);
+
+  const CompensationPlan richer = planOf(campaign, CompensationSource::HigherOrder);
+  EXPECT_EQ(richer.richer_model, "");
+  EXPECT_THAT(richer.model, HasSubstr("second order in EZ"));
+  EXPECT_LT(richer.rms_after_um, 0.5 * nine.rms_after_um);
+  EXPECT_LT(richer.rms_sigma_um, 0.5 * nine.rms_sigma_um);
+  EXPECT_LT(*richer.rms_after_unseen_um, 0.5 * *nine.rms_after_unseen_um);
+}
+
+TEST(CompensationPlan, OfAGoodModelIsAsCertainAsItsParameters) {
+  const Campaign campaign = campaignOf(0.0, false, 2);
+  const CompensationPlan nine = planOf(campaign, CompensationSource::NineParameters);
+  EXPECT_TRUE(nine.lack_of_fit_um.isZero());
+  EXPECT_LT(nine.rms_sigma_um, 0.4);
+  EXPECT_TRUE(nine.json()["richer_model"].is_null());
+  const CompensationPlan asked = planOf(campaign, CompensationSource::HigherOrder);
+  EXPECT_THAT(asked.warnings, Contains(HasSubstr("a model of higher order is not supported")));
+}
+
+TEST(CompensationPlan, StatesWhatItDoesOnValuesThatTrainedNothing) {
+  const CompensationPlan held = planOf(campaignOf(6.0, true, 3), CompensationSource::NineParameters);
+  EXPECT_EQ(held.unseen, "at F6, held out");
+  // In the middle the sag is about 2 um above what a plane takes of it.
+  EXPECT_GT(*held.rms_after_unseen_um, 0.8);
+  EXPECT_GT(*held.rms_before_unseen_um, 10.0);
+  const CompensationPlan all = planOf(campaignOf(6.0, false, 3), CompensationSource::NineParameters);
+  EXPECT_EQ(all.unseen, "at every point, predicted without it");
+  EXPECT_GT(*all.rms_after_unseen_um, all.rms_after_um) << "fitted values flatter";
+  EXPECT_THAT(all.summary(), HasSubstr("on values that trained nothing"));
+  EXPECT_TRUE(all.json()["unseen"]["rms_after_um"].is_number());
+}
+
+TEST(CompensationPlan, StatesNothingOfAnAxisThatWasNotMeasured) {
+  const CompensationPlan plan = planOf(campaignOf(0.0, false, 4), CompensationSource::NineParameters);
+  std::vector<std::string> names;
+  for (const CompensationFile& f : plan.files) {
+    names.push_back(f.name);
+    if (f.name == "iso230_Z.csv") {
+      EXPECT_THAT(f.content, HasSubstr("# nothing was measured along Z"));
+    }
+    if (f.name == "linuxcnc_X.comp") {
+      EXPECT_THAT(f.convention, HasSubstr("Measured from 20 to 280 mm"));
+    }
+  }
+  EXPECT_THAT(names, Contains("linuxcnc_X.comp"));
+  EXPECT_THAT(names, Not(Contains("linuxcnc_Z.comp"))) << "a screw table is a statement, too";
+  EXPECT_THAT(plan.warnings, Contains(HasSubstr("nothing was measured along Z")));
+}
+
+}  // namespace
+}  // namespace spindrift
