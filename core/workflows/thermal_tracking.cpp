@@ -27,29 +27,13 @@ double spreadOf(const std::vector<double>& values) {
   return rootMeanSquare(finite);
 }
 
-/// Mean and number of the finite values of some rows.
-std::pair<double, std::size_t> meanOfRows(const std::vector<double>& values, const std::vector<char>& rows,
-                                          char which) {
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (std::size_t r = 0; r < values.size(); ++r) {
-    if (rows[r] != which || !std::isfinite(values[r])) continue;
-    sum += values[r];
-    ++count;
-  }
-  return {count > 0 ? sum / static_cast<double>(count) : std::nan(""), count};
-}
-
-/// rms of the rows that trained nothing, about a zero that none of them sets.
-double rmsUnseen(const std::vector<double>& values, const std::vector<char>& trained) {
-  double zero = meanOfRows(values, trained, 1).first;
+/// The finite values of the rows that trained nothing.
+std::vector<double> unseenOf(const std::vector<double>& values, const std::vector<char>& trained) {
   std::vector<double> unseen;
   for (std::size_t r = 0; r < values.size(); ++r) {
-    if (!std::isfinite(values[r])) continue;
-    if (std::isnan(zero)) zero = values[r];
-    if (trained[r] == 0) unseen.push_back(values[r] - zero);
+    if (trained[r] == 0 && std::isfinite(values[r])) unseen.push_back(values[r]);
   }
-  return unseen.empty() ? std::nan("") : rootMeanSquare(unseen);
+  return unseen;
 }
 
 /// Columns scaled to -1 ... 1 by their range over the record.
@@ -332,9 +316,10 @@ CompensateResult compensateLog(const TimeSeries& series, const ThermalModel& mod
     output.rms_after = spreadOf(after);
     output.reduction_percent = 100.0 * (1.0 - output.rms_after / output.rms_before);
     CompensateResult::Output::Unseen& unseen = output.unseen;
-    unseen.rows = meanOfRows(measured->values, trained, 0).second;
-    unseen.rms_before = rmsUnseen(measured->values, trained);
-    unseen.rms_after = rmsUnseen(after, trained);
+    const std::vector<double> before = unseenOf(measured->values, trained);
+    unseen.rows = before.size();
+    unseen.rms_before = spreadOf(before);
+    unseen.rms_after = spreadOf(unseenOf(after, trained));
     unseen.reduction_percent = 100.0 * (1.0 - unseen.rms_after / unseen.rms_before);
   }
   return result;

@@ -66,9 +66,8 @@ struct CompensateResult {
     double rms_before = 0.0;  ///< of the measured deviation about its mean where it is measured; NaN if it is not
     double rms_after = 0.0;   ///< of measured deviation plus compensation, about its mean
     double reduction_percent = 0.0;  ///< of the rms; positive where it became smaller
-    /// The same on rows that the model was not identified from, which alone show what it is worth. Values count from
-    /// their mean over the rows of training (without such rows from the first): nothing of these rows goes into their
-    /// zero. NaN without such rows.
+    /// The same on rows that the model was not identified from, which alone show what it is worth: about their own
+    /// mean, since where a compensator sets its zero is not the model's doing. NaN without such rows.
     struct Unseen {
       std::size_t rows = 0;
       double rms_before = std::numeric_limits<double>::quiet_NaN();
