@@ -32,7 +32,7 @@ struct DiscrepancyPriors {
   /// Probability that an effect is missing at all (readings are taken because something is suspected), and that beside
   /// those found there is one more.
   double one_missing = 0.4;
-  double one_more = 0.02;
+  double one_more = 0.05;
   /// Odds of an effect whose main driver is not in the log, beside one that shows what drives it.
   double without_driver = 0.5;
   /// Standard deviation of the relative error of a part of the simulation that is not worth a name; the same of a
@@ -44,7 +44,7 @@ struct DiscrepancyPriors {
   double rough_simulation_limit = 2.75;
   /// Odds of an effect that holds a simpler one as a special case, beside that one; and the part of its amplitude by
   /// which the simpler one may be off in just the way that the wider one can follow.
-  double wider = 0.03;
+  double wider = 0.1;
   double wider_error = 0.06;
   double refinement_error = 0.14;  ///< the same of a refinement (a screw that is warmer in one place)
   /// The same of two effects: part of the amplitude of the others in its components that a further effect may imitate;
