@@ -268,9 +268,9 @@ void compareGrowth(const Artefact& artefact, const ArtefactCertificate& certific
   constexpr double many_sigma = 4.0;
   if (worst <= many_sigma) return;
   result.warnings.push_back(fmt::format(
-      "{} grew by {} in {}, but its expansion coefficient and temperature say {}: another coefficient, a sensor that "
-      "is "
-      "not on the bar, or a second axis that expands.",
+      "{} seems to have grown by {} in {}, but its expansion coefficient and temperature say {}: the axis that "
+      "measures "
+      "it grows as well, its coefficient is another, or the sensor is not on it.",
       artefact.id, withUncertainty(worst_cycle->measured_um_per_m, worst_cycle->measured_sigma_um_per_m, "um/m"),
       worst_cycle->cycle,
       withUncertainty(worst_cycle->expected_um_per_m, worst_cycle->expected_sigma_um_per_m, "um/m")));

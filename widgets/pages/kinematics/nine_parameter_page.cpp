@@ -21,6 +21,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -353,9 +354,10 @@ void NineParameterPage::showFit() {
   QString warnings;
   for (const std::string& w : f.warnings) warnings += QLatin1Char(' ') + QString::fromStdString(w);
   higher_->setEnabled(order_.richer());
-  higher_->setToolTip(QString::fromStdString(order_.reason));
+  const QString order = sentenceStart(QString::fromStdString(order_.reason));
+  higher_->setToolTip(order);
   if (f.status == FitStatus::Converged) {
-    if (order_.richer() || !warnings.isEmpty()) warnings += QLatin1Char(' ') + QString::fromStdString(order_.reason);
+    if (order_.richer() || !warnings.isEmpty()) warnings += QLatin1Char(' ') + order;
     if (!warnings.isEmpty()) {
       callout()->show(Tone::Attention, warnings.trimmed());
     } else {

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QSplitter>
 #include <QTableView>
 #include <QVBoxLayout>
@@ -28,6 +29,11 @@ IsoPanel::IsoPanel(QWidget* parent) : QWidget(parent) {
   ambient_ = new QComboBox;
   ambient_->setAccessibleName(tr("Ambient temperature"));
   line->addWidget(ambient_, 1);
+  line->addWidget(new QLabel(tr("From:to / s")));
+  range_ = new QLineEdit;
+  range_->setAccessibleName(tr("Seconds of the record that are the test, from:to"));
+  range_->setPlaceholderText(tr("whole record"));
+  line->addWidget(range_, 1);
   column->addLayout(line);
   note_ = new Callout;
   column->addWidget(note_);
@@ -41,6 +47,7 @@ IsoPanel::IsoPanel(QWidget* parent) : QWidget(parent) {
                     1);
   connect(test_, &Segments::chosen, this, [this](int) { evaluate(); });
   connect(ambient_, &QComboBox::activated, this, [this](int) { evaluate(); });
+  connect(range_, &QLineEdit::editingFinished, this, [this] { evaluate(); });
 }
 
 void IsoPanel::set(std::shared_ptr<const TimeSeries> series) {
@@ -68,6 +75,8 @@ void IsoPanel::evaluate() {
   request.test = test_->current() == 0 ? "etve" : "spindle";
   if (ambient_->currentIndex() > 0) request.ambient = ambient_->currentText().toStdString();
   try {
+    const std::string range = range_->text().trimmed().toStdString();
+    if (!range.empty()) request.range = TimeRange::parse(range, "The range of the test");
     const Iso230Result result = evaluateIso230Test(*series_, request);
     if (result.etve) showEtve(*result.etve);
     if (result.spindle) showSpindle(*result.spindle);

@@ -9,6 +9,7 @@
 #include "core/workflows/thermal_tests.h"
 
 class QComboBox;
+class QLineEdit;
 
 namespace spindrift::gui {
 
@@ -23,6 +24,7 @@ class IsoPanel : public QWidget {
   explicit IsoPanel(QWidget* parent = nullptr);
   void set(std::shared_ptr<const TimeSeries> series);
   [[nodiscard]] Segments* test() const { return test_; }
+  [[nodiscard]] QLineEdit* range() const { return range_; }
   [[nodiscard]] RowsModel* rows() const { return rows_; }
   [[nodiscard]] Plot* plot() const { return plot_; }
   [[nodiscard]] Callout* note() const { return note_; }
@@ -35,6 +37,7 @@ class IsoPanel : public QWidget {
   std::shared_ptr<const TimeSeries> series_;
   Segments* test_;
   QComboBox* ambient_;
+  QLineEdit* range_;  ///< "FROM:TO" in s; empty: the whole record
   Callout* note_;
   RowsModel* rows_;
   Plot* plot_;
