@@ -27,6 +27,7 @@
 #include "widgets/pages/common/editor_table.h"
 #include "widgets/pages/machine/artefact_editor.h"
 #include "widgets/pages/machine/connections_panel.h"
+#include "widgets/pages/machine/connections_service.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -141,11 +142,13 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   artefacts_ = new ArtefactEditor(context());
   tabs->addTab(artefacts_, tr("Artefacts and styli"));
   tabs->addTab(makeSensorTab(), tr("Temperature sensors"));
-  connections_ = new ConnectionsPanel(context());
-  tabs->addTab(connections_, tr("Connections"));
+  connections_tab_ = new QWidget;
+  (new QVBoxLayout(connections_tab_))->setContentsMargins(0, 0, 0, 0);
+  tabs->addTab(connections_tab_, tr("Connections"));
   content()->addWidget(tabs, 1);
   // Each tab has its own changes to apply.
-  connect(tabs, &QTabWidget::currentChanged, this, [this](int index) {
+  connect(tabs, &QTabWidget::currentChanged, this, [this, tabs](int index) {
+    if (tabs->widget(index) == connections_tab_) makeConnections();
     const bool description = index == 0 || index == 2;
     apply_->setVisible(description);
     discard_->setVisible(description);
@@ -227,7 +230,7 @@ void MachinePage::refresh() {
   discard_->setEnabled(draft.is_object());
   original_->setVisible(session().machineEdited());
   artefacts_->refresh();
-  connections_->refresh();
+  if (connections_ != nullptr) connections_->refresh();
   if (draft.is_object()) {
     callout()->setAction({}, {});
     callout()->show(Tone::Attention, tr("What was typed here is not applied yet: apply the changes, or discard them."));
@@ -497,11 +500,21 @@ void MachinePage::apply() {
   context().undo.push(new MachineCommand(session(), machine));
 }
 
+void MachinePage::makeConnections() {
+  if (connections_ != nullptr) return;
+  connections_ = new ConnectionsPanel(context());
+  connections_tab_->layout()->addWidget(connections_);
+  connections_->show();
+  connections_->refresh();
+}
+
 std::vector<Exportable> MachinePage::exportables() {
   std::vector<Exportable> items{exportableOf(tr("Machine"), view_),
                                 {tr("Machine description"), {QStringLiteral("json")}, [this](const QString& file) {
                                    writeFileAtomically(file.toStdString(), edited().dump(1) + "\n");
                                  }}};
+  if (!ConnectionsService::of(session()).description()["sources"].empty()) makeConnections();
+  if (connections_ == nullptr) return items;
   for (Exportable& item : connections_->exportables()) items.push_back(std::move(item));
   return items;
 }

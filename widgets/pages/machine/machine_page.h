@@ -29,6 +29,7 @@ class MachinePage : public Page {
   [[nodiscard]] ArtefactEditor* artefacts() const { return artefacts_; }
   /// Column of the log, what it is taken for, and from where that is known.
   [[nodiscard]] QTableWidget* sensors() const { return sensors_; }
+  /// Null until its tab is shown for the first time.
   [[nodiscard]] ConnectionsPanel* connections() const { return connections_; }
 
  private:
@@ -48,6 +49,7 @@ class MachinePage : public Page {
   void showSensors();
   void stateRole(int row);
   void sayRoleIsStated(int row);
+  void makeConnections();
 
   QLineEdit* name_;
   QLineEdit* chain_;
@@ -55,7 +57,8 @@ class MachinePage : public Page {
   QTableWidget* points_;
   QTableWidget* sensors_;
   ArtefactEditor* artefacts_;
-  ConnectionsPanel* connections_;
+  QWidget* connections_tab_;
+  ConnectionsPanel* connections_ = nullptr;  ///< made when it is wanted: opening a session does not wait for it
   View3D* view_;
   QSpinBox* suggest_count_;
   QComboBox* suggest_goal_;
