@@ -288,7 +288,7 @@ void CompensatePage::refresh() {
     // A correction from a model that does not describe the state must not be given away unnoticed.
     QStringList warnings;
     if (plan_)
-      for (const std::string& w : plan_->warnings) warnings << QString::fromStdString(w);
+      for (const std::string& w : plan_->warnings) warnings << sentenceStart(QString::fromStdString(w));
     callout()->set(warnings.isEmpty() ? Tone::Neutral : Tone::Attention, warnings.join(QLatin1Char(' ')));
     if (plan_ && !plan_->richer_model.empty()) {
       callout()->setAction(tr("Use the higher order"), [this] {
