@@ -36,6 +36,7 @@
 #include "widgets/pages/common/editor_table.h"
 #include "widgets/pages/common/fields_dialog.h"
 #include "widgets/pages/machine/connections_service.h"
+#include "widgets/pages/machine/stated_role.h"
 #include "widgets/plots/plot.h"
 
 namespace spindrift::gui {
@@ -542,15 +543,7 @@ void ConnectionsPanel::stateRoles() {
     const bool stated = std::any_of(machine.temperature_sensors.begin(), machine.temperature_sensors.end(),
                                     [&](const TemperatureSensor& s) { return s.name == name && s.role; });
     if (stated) continue;
-    nlohmann::json& list = edited["temperature_sensors"];
-    if (!list.is_array()) list = nlohmann::json::array();
-    auto sensor = std::find_if(list.begin(), list.end(),
-                               [&](const nlohmann::json& one) { return one.value("name", std::string()) == name; });
-    if (sensor == list.end()) {
-      list.push_back({{"name", name}});
-      sensor = std::prev(list.end());
-    }
-    (*sensor)["role"] = role;
+    stateSensorRole(edited, name, role);
     any = true;
   }
   if (any) context_.undo.push(new MachineCommand(context_.session, edited));

@@ -28,6 +28,7 @@
 #include "widgets/pages/machine/artefact_editor.h"
 #include "widgets/pages/machine/connections_panel.h"
 #include "widgets/pages/machine/connections_service.h"
+#include "widgets/pages/machine/stated_role.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -430,15 +431,8 @@ nlohmann::json MachinePage::edited() const {
   for (int row = 0; row < sensors_->rowCount(); ++row) {
     if (!sensors_->item(row, 3)->data(Qt::UserRole).toBool()) continue;
     const std::string name = textAt(sensors_, row, 0).toStdString();
-    nlohmann::json& list = machine["temperature_sensors"];
-    if (!list.is_array()) list = nlohmann::json::array();
-    auto sensor = std::find_if(list.begin(), list.end(),
-                               [&](const nlohmann::json& one) { return one.value("name", std::string()) == name; });
-    if (sensor == list.end()) {
-      list.push_back({{"name", name}});
-      sensor = std::prev(list.end());
-    }
-    (*sensor)["role"] = qobject_cast<QComboBox*>(sensors_->cellWidget(row, 2))->currentData().toString().toStdString();
+    stateSensorRole(machine, name,
+                    qobject_cast<QComboBox*>(sensors_->cellWidget(row, 2))->currentData().toString().toStdString());
   }
   return machine;
 }
