@@ -53,8 +53,9 @@ struct DiscrepancyPriors {
   double further_onset_error = 0.12;
   /// Standard deviation of the offset between the clocks of log and observations, s.
   double clock_s = 120.0;
-  /// An unknown cause leaves of an effect that imitates it this part of its amplitude, or more.
-  double imitation = 0.25;
+  /// An unknown cause leaves of an effect that imitates it this part of its amplitude, or more. What bodies do that
+  /// exchange heat leaves less of the effect that stands for it.
+  double imitation = 0.45;
   /// Of all names, however clear, so many are wrong: causes that look exactly like others.
   double unforeseen = 0.02;
 };

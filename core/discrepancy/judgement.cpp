@@ -72,15 +72,43 @@ double varianceOfTails(const ResidualProblem& problem) {
   return problem.noise.tail_dof > 0.0 ? dof / (dof - 2.0) : 1.0;
 }
 
+/// The terms that are one load seen in several patterns, this one included: each has found its begin and its end for
+/// itself, and they agree within the time between two states. A sun bends a column and lifts its head.
+std::vector<std::size_t> sameLoad(const ResidualProblem& problem, const JointFit& fit, std::size_t t) {
+  const auto free_window = [&](std::size_t k) {
+    const EffectInput& first = fit.terms[k].variant.inputs[0];
+    return first.driver.empty() && first.dynamics == Dynamics::Pulse && fit.terms[k].parameters.size() > 1;
+  };
+  std::vector<std::size_t> out{t};
+  if (!free_window(t) || problem.epoch_time_s.size() < 2) return out;
+  const double interval_s = (problem.epoch_time_s.back() - problem.epoch_time_s.front()) /
+                            static_cast<double>(problem.epoch_time_s.size() - 1);
+  const double begin_s = fit.terms[t].parameters[0];
+  const double end_s = begin_s + fit.terms[t].parameters[1];
+  for (std::size_t k = 0; k < fit.terms.size(); ++k) {
+    if (k == t || !free_window(k)) continue;
+    const double other_s = fit.terms[k].parameters[0];
+    if (std::abs(other_s - begin_s) < interval_s && std::abs(other_s + fit.terms[k].parameters[1] - end_s) < interval_s)
+      out.push_back(k);
+  }
+  return out;
+}
+
 /// rms of what is left over that of an effect, over the readings that the effect moves, in standard deviations of the
 /// noise. Left is the remainder, what other effects explain that are not named, and of the shifts of states what is
-/// larger than shifts are. Effects that cancel each other count as what they are together.
+/// larger than shifts are. Effects that cancel each other count as what they are together, and those that are one load
+/// as one effect.
 double imitationRatio(const ResidualProblem& problem, const EffectSearch& search, const JointFit& fit, std::size_t t,
                       const Remainder& remainder, const std::vector<bool>& unnamed) {
-  const Eigen::VectorXd own = centred(problem, fit.contribution[t]);
+  const std::vector<std::size_t> load = sameLoad(problem, fit, t);
+  const auto ofLoad = [&](std::size_t k) { return std::find(load.begin(), load.end(), k) != load.end(); };
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(problem.size());
+  for (const std::size_t k : load) moved += fit.contribution[k];
+  const Eigen::VectorXd own = centred(problem, moved);
   Eigen::VectorXd together = Eigen::VectorXd::Zero(problem.size());
   Eigen::VectorXd rest = Eigen::VectorXd::Zero(problem.size());
-  for (std::size_t k = 0; k < fit.terms.size(); ++k) (unnamed[k] && k != t ? rest : together) += fit.contribution[k];
+  for (std::size_t k = 0; k < fit.terms.size(); ++k)
+    (unnamed[k] && !ofLoad(k) ? rest : together) += fit.contribution[k];
   const Eigen::VectorXd all = together;
   together = centred(problem, together);
   rest = centred(problem, rest);
@@ -101,9 +129,9 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
   const double spread = varianceOfTails(problem);
   for (Index u = 0; u < problem.size(); ++u) {
     const Component c = problem.component[static_cast<std::size_t>(u)];
-    if (std::abs(fit.contribution[t][u]) < 1e-6 * largest) continue;
+    if (std::abs(moved[u]) < 1e-6 * largest) continue;
     const double sigma = problem.ownSigma(u);
-    own_since += std::pow(fit.contribution[t][u] / sigma, 2);
+    own_since += std::pow(moved[u] / sigma, 2);
     together_since += std::pow(all[u] / sigma, 2);
     own_power += std::pow(own[u] / sigma, 2);
     together_power += std::pow(together[u] / sigma, 2);
@@ -114,8 +142,11 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
   const double power = std::min(own_power, together_power);
   // A step is a step: it has no dynamics that could be a little different.
   const Dynamics dynamics = fit.terms[t].variant.inputs[0].dynamics;
-  // One that chooses its own onset and length follows half of anything.
-  const double strict = effect.own ? 1.0 : dynamics == Dynamics::Step ? 3.0 : dynamics == Dynamics::Pulse ? 1.5 : 1.0;
+  // One that chooses its own onset and length follows half of anything; two that choose the same do not.
+  double strict = 1.0;
+  if (dynamics == Dynamics::Step) strict = 3.0;
+  if (dynamics == Dynamics::Pulse && load.size() == 1) strict = 1.5;
+  if (effect.own) strict = 1.0;
   if (!(power > 0.0) || !(together_power > 0.0) || !(together_since > 0.0)) return 1e9;
   // Effects that cancel each other follow much that they do not cause: about their means, or since the log began.
   const double cancelling = 0.1 * std::sqrt(std::max(own_power / together_power, own_since / together_since));
@@ -410,15 +441,18 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     if (worst == terms.size()) break;
     takeBack(worst, "without the effects that cannot be named it breaks its sign or its bounds");
   }
-  // What predicts the held-out states worse than the others do without it.
+  // What predicts the held-out states worse than the others do without it. What is there without doubt is spared as
+  // long as all together make the gap on them smaller.
+  const double of_none = held_out(search.solve({}));
   while (!terms.empty()) {
     const double with = held_out(out.named);
+    const bool enlarges = with > of_none;
     std::size_t worst = terms.size();
     double least = with / worse_held_out;
     for (std::size_t k = 0; k < terms.size(); ++k) {
       // What has moved stays where it is: no reason to foretell it badly.
       const bool stays = terms[k].variant.inputs[0].dynamics == Dynamics::Step;
-      if (out.names[k].forced || (out.names[k].delta_evidence > beyond_held_out && !stays)) continue;
+      if (out.names[k].forced || (!enlarges && out.names[k].delta_evidence > beyond_held_out && !stays)) continue;
       std::vector<ModelTerm> others = terms;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
       const double without = held_out(search.solve(others));
