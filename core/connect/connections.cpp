@@ -15,6 +15,7 @@
 #include "core/base/csv.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/connect/genicam_source.h"
 #include "core/connect/linuxcnc_source.h"
 #include "core/connect/modbus_source.h"
 #include "core/connect/mqtt_source.h"
@@ -147,6 +148,11 @@ Maker linuxcnc(const JsonNode& node, const std::string& url) {
   };
 }
 
+Maker genicam(const JsonNode& node, const std::string& url) {
+  const GenicamSettings settings = readGenicamSettings(node);
+  return [settings, name = url.substr(genicam_prefix.size())] { return makeGenicamSource(name, settings); };
+}
+
 struct Kind {
   std::string_view name;
   std::vector<std::string> schemes;  ///< the first is meant where an address has none
@@ -154,18 +160,16 @@ struct Kind {
 };
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all{{"mtconnect", {"http", "https"}, mtconnect},
-                                     {"mqtt", {"mqtt", "mqtts"}, mqtt},
-                                     {"modbus", {"modbus", "rtu"}, modbus},
-                                     {"text", {"serial", "tcp"}, text},
-                                     {"linuxcnc", {"linuxcnc"}, linuxcnc}};
+  static const std::vector<Kind> all{{"mtconnect", {"http", "https"}, mtconnect}, {"mqtt", {"mqtt", "mqtts"}, mqtt},
+                                     {"modbus", {"modbus", "rtu"}, modbus},       {"text", {"serial", "tcp"}, text},
+                                     {"linuxcnc", {"linuxcnc"}, linuxcnc},        {"genicam", {"genicam"}, genicam}};
   return all;
 }
 
 /// "http:// or https://".
 std::string beginnings(const std::vector<std::string>& schemes) {
   std::vector<std::string> out;
-  for (const std::string& scheme : schemes) out.push_back(scheme + "://");
+  for (const std::string& scheme : schemes) out.push_back(scheme + (scheme == "genicam" ? ":" : "://"));
   return joinedList(out, "or");
 }
 
@@ -176,6 +180,7 @@ std::string allBeginnings() {
 }
 
 std::string schemeOf(const std::string& url) {
+  if (url.starts_with(genicam_prefix)) return std::string(genicam_prefix.substr(0, genicam_prefix.size() - 1));
   const std::size_t end = url.find("://");
   return end == std::string::npos ? std::string() : url.substr(0, end);
 }
