@@ -82,13 +82,12 @@ std::string iniFile(const MachineDescription& machine, const ControlConfiguratio
     const LinearAxis& axis = *machine.findAxis(name);
     const auto limits = [&](double faster) {
       return fmt::format("MIN_LIMIT = {:.6f}\nMAX_LIMIT = {:.6f}\nMAX_VELOCITY = {}\nMAX_ACCELERATION = {}\n",
-                         axis.travel_mm[0], axis.travel_mm[1], faster * c.max_velocity_mm_s, faster * 2000.0);
+                         axis.travel_mm[0], axis.travel_mm[1], faster * c.max_velocity_mm_s, faster * c.max_acceleration_mm_s2);
     };
     out += fmt::format("[AXIS_{}]\n{}\n[JOINT_{}]\nTYPE = LINEAR\n{}FERROR = 1\nMIN_FERROR = 0.5\nHOME_SEQUENCE = 0\n",
                        name, limits(1.0), i, limits(1.1));
-    // Without switches homing declares the position: somewhere within the travel.
-    out +=
-        fmt::format("HOME = {0:.6f}\nHOME_OFFSET = {0:.6f}\n", std::clamp(0.0, axis.travel_mm[0], axis.travel_mm[1]));
+    // Without switches homing declares the position: Z up, X and Y at the beginning of their travel.
+    out += fmt::format("HOME = {0:.6f}\nHOME_OFFSET = {0:.6f}\n", axis.travel_mm[i == 2 ? 1 : 0]);
     if (!c.compensation_file[i].empty())
       out += fmt::format("COMP_FILE = {}\nCOMP_FILE_TYPE = {}\n", c.compensation_file[i], c.compensation_type);
     out += "\n";

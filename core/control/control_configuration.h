@@ -38,6 +38,7 @@ struct ControlConfiguration {
   std::array<std::string, 3> compensation_file;
   int compensation_type = 0;
   double max_velocity_mm_s = 200.0;
+  double max_acceleration_mm_s2 = 2000.0;
 
   /// Throws InputError.
   void validate() const;

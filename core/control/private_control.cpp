@@ -49,8 +49,10 @@ void loopbackUp() {
 }
 
 /// In the namespaces, as their first process' child: mounts, then the body.
-std::string inside(const std::function<std::string()>& body, const std::vector<std::filesystem::path>& kept,
-                   const std::vector<int>& handles) {
+std::string inside(const std::function<std::string()>& body, const std::vector<std::filesystem::path>& kept) {
+  // Handles of this mount namespace: what was opened in another cannot be bound here.
+  std::vector<int> handles;
+  for (const std::filesystem::path& folder : kept) handles.push_back(::open(folder.c_str(), O_PATH | O_CLOEXEC));
   need(::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0, "mounts");
   need(::mount("proc", "/proc", "proc", 0, nullptr) == 0, "/proc");
   need(::mount("tmpfs", "/tmp", "tmpfs", 0, "mode=1777") == 0, "/tmp");
@@ -66,15 +68,14 @@ std::string inside(const std::function<std::string()>& body, const std::vector<s
   return body();
 }
 
-int childOf(const std::function<std::string()>& body, const std::vector<std::filesystem::path>& kept,
-            const std::vector<int>& handles, int answer_to) {
+int childOf(const std::function<std::string()>& body, const std::vector<std::filesystem::path>& kept, int answer_to) {
   // The first process of the namespace: it reaps what others leave, and everything ends with it.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const pid_t worker = ::fork();
   if (worker == 0) {
     std::string answer;
     try {
-      answer = inside(body, kept, handles);
+      answer = inside(body, kept);
     } catch (const std::exception& error) {
       answer = std::string("exception: ") + error.what();
     }
@@ -123,11 +124,9 @@ std::string isolated(const std::function<std::string()>& body, const std::vector
   if (outer == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::close(ends[0]);
-    std::vector<int> handles;
-    for (const std::filesystem::path& folder : kept) handles.push_back(::open(folder.c_str(), O_PATH | O_CLOEXEC));
     if (::unshare(namespaces) != 0) ::_exit(1);
     const pid_t first = ::fork();
-    if (first == 0) ::_exit(childOf(body, kept, handles, ends[1]));
+    if (first == 0) ::_exit(childOf(body, kept, ends[1]));
     ::close(ends[1]);
     int status = 0;
     ::waitpid(first, &status, 0);

@@ -8,9 +8,11 @@
 #include <csignal>
 #include <sstream>
 
+#include "core/base/atomic_file.h"
 #include "core/base/text.h"
 #include "core/connect/linuxcnc_source.h"
 #include "core/control/compensation_channel.h"
+#include "core/machine/compensation.h"
 #include "tests/core/control/private_configuration.h"
 
 namespace spindrift::testing {
@@ -221,6 +223,48 @@ TEST(LinuxcncReal, SilenceFadesToZero) {
 
 TEST(LinuxcncReal, SilenceHoldsWhereThatWasChosen) {
   withPrivateControl([] { return silence(true, 20.0); });
+}
+
+/// 0.5 um per mm along Z.
+class LongScrew final : public ErrorModel {
+ public:
+  explicit LongScrew(double sign) : sign_(sign) {}
+  [[nodiscard]] std::string description() const override { return "a screw that grew"; }
+  [[nodiscard]] PredictedComponent predict(const DeviationQuery& q, Component component) const override {
+    return {component == Component::EZ ? sign_ * 0.5 * q.position_mm.z() : 0.0, 0.0};
+  }
+
+ private:
+  double sign_;
+};
+
+/// Reading of the floor at -100 mm, um off, where the screw is 0.5 um per mm too long and a table was loaded.
+std::string touchedWithTable(LinuxcncTable table, double sign, double least_um, double most_um) {
+  Wrong wrong;
+  ControlConfiguration configuration = cornerInTheMiddle();
+  configuration.compensation_file[2] = "z.comp";
+  configuration.compensation_type = static_cast<int>(table);
+  RunningControl running(configuration, [&](const std::filesystem::path& folder) {
+    writeFileAtomically(folder / "z.comp", linuxcncCompensation(LongScrew(sign), threeAxisMill(), "Z",
+                                                                Eigen::Vector3d::Zero(), 11, {}, table));
+  });
+  HalCommands truth;
+  truth.start();
+  truth.setPin("tip-z.gain0", "1.0005");
+  running.control->switchOn(true);
+  const double um = 1e3 * (touchedZ(running.run(touch_floor)) + 100.0);
+  wrong.unless(um >= least_um && um <= most_um, fmt::format("{:.1f} um", um));
+  return wrong.said();
+}
+
+TEST(LinuxcncReal, StaticTablesOfBothTypesTakeTheErrorAway) {
+  withPrivateControl([] { return touchedWithTable(LinuxcncTable::ActualPositions, 1.0, -1.1, 0.1); });
+  withPrivateControl([] { return touchedWithTable(LinuxcncTable::Trim, 1.0, -1.1, 0.1); });
+}
+
+TEST(LinuxcncReal, ATableWithItsSignTurnedWouldDoubleTheError) {
+  withPrivateControl([] { return touchedWithTable(LinuxcncTable::ActualPositions, -1.0, 98.0, 101.0); });
+  withPrivateControl([] { return touchedWithTable(LinuxcncTable::Trim, -1.0, 98.0, 101.0); });
 }
 
 TEST(LinuxcncReal, TheControlLimitsWhatItIsTold) {
