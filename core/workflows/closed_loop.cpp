@@ -279,6 +279,14 @@ class ClosedLoop {
     touched_.push_back({point + " " + component, at, applied_mm});
     Touched& touched = touched_.back();
     touched.time_s = time_s_;
+    const auto measured = componentFromString(component);
+    if (measured && !isRotation(*measured) && !zero_.empty()) {
+      // What the models say now, not when the cycle is over: after the spindle has stopped everything moves fast.
+      const int axis = axisIndex(*measured);
+      touched.by_simulation_um = simulatedNow()[axis];
+      if (const auto found = identified_.find(axis); found != identified_.end())
+        touched.by_model_um = found->second.run;
+    }
     if (twin_) {
       for (const LoopTouch& touch : plan_.touches) {
         if (touch.point == point && toString(touch.component) == component)
@@ -315,6 +323,7 @@ class ClosedLoop {
       const double with_um = -1e3 * (now.position_mm[axis] - zero.position_mm[axis]);
       const double without_um = with_um - 1e3 * (now.applied_mm[axis] - zero.applied_mm[axis]);
       if (first_touch_[static_cast<std::size_t>(axis)] == now.name) {
+        told_[static_cast<std::size_t>(axis)] = now;
         cycle.with_um[axis] = with_um;
         cycle.without_um[axis] = without_um;
       }
@@ -378,10 +387,10 @@ class ClosedLoop {
   }
 
   /// Which of the two predicted the cycles so far better, before they were told: that one compensates the axis.
-  void weigh(int axis, double measured_um, double identified_um) {
+  void weigh(int axis, double measured_um, double simulated_um, double identified_um) {
     constexpr double memory = 0.7;  // about the last three cycles
     Trust& trust = trusted_[static_cast<std::size_t>(axis)];
-    const double by_simulation = measured_um - simulatedNow()[axis], by_model = measured_um - identified_um;
+    const double by_simulation = measured_um - simulated_um, by_model = measured_um - identified_um;
     trust.simulation_um2 = trust.cycles == 0
                                ? by_simulation * by_simulation
                                : memory * trust.simulation_um2 + (1.0 - memory) * by_simulation * by_simulation;
@@ -478,8 +487,9 @@ class ClosedLoop {
       const auto found = identified_.find(axis);
       if (found == identified_.end()) continue;
       Identified& model = found->second;
-      weigh(axis, cycle.without_um[axis], model.filter.value(model.run));
-      model.filter.measure(cycle.without_um[axis], model.run);
+      const Touched& told = told_[static_cast<std::size_t>(axis)];
+      weigh(axis, cycle.without_um[axis], told.by_simulation_um, model.filter.value(told.by_model_um));
+      model.filter.measure(cycle.without_um[axis], told.by_model_um);
     }
     if (!demanded_) return;
     // After they were judged: a model is not judged by what it was made from.
@@ -601,6 +611,8 @@ class ClosedLoop {
     Eigen::Vector3d applied_mm = Eigen::Vector3d::Zero();
     double time_s = 0.0;
     double simulated_um = 0.0;
+    double by_simulation_um = 0.0;  ///< at the tool point
+    double by_model_um = 0.0;       ///< the same, before its filter
   };
 
   const LoopPlan& plan_;
@@ -642,6 +654,7 @@ class ClosedLoop {
     double model_um2 = 0.0;
   };
   std::array<Trust, 3> trusted_;
+  std::array<Touched, 3> told_;  ///< the first touch of each component in the last cycle
   LoopStage stage_ = LoopStage::None;
   bool searched_ = false;
   std::size_t tried_ = 0;  ///< cycles at the last attempt to identify
