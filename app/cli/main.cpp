@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
   spindrift::cli::addImagingCommands(app, line);
   spindrift::cli::addEvaluateCommands(app, line);
   spindrift::cli::addKinematicsCommands(app, line);
+  spindrift::cli::addLoopCommands(app, line);
   spindrift::cli::addScanningCommands(app, line);
   spindrift::cli::addProbingCommands(app, line);
   spindrift::cli::addThermalCommands(app, line);

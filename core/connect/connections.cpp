@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -14,6 +15,8 @@
 #include "core/base/csv.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/connect/genicam_source.h"
+#include "core/connect/linuxcnc_source.h"
 #include "core/connect/modbus_source.h"
 #include "core/connect/mqtt_source.h"
 #include "core/connect/mtconnect_source.h"
@@ -35,6 +38,21 @@ Maker mtconnect(const JsonNode& node, const std::string& url) {
   if (const auto given = node.find("interval_s")) options.interval_s = given->positiveNumber();
   if (const auto given = node.find("heartbeat_s")) options.heartbeat_s = given->positiveNumber();
   return [options] { return makeMtconnectSource(options); };
+}
+
+/// A password that was typed where the name of its variable belongs would be kept and shown: refused, unseen. Names
+/// are those of POSIX (capitals), and any other that is set in this environment.
+void checkVariable(const JsonNode& variable) {
+  const std::string name = variable.name();
+  const auto all = [&](const auto& fits) { return std::all_of(name.begin(), name.end(), fits); };
+  const bool word = all([](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '_'); }) &&
+                    std::isdigit(static_cast<unsigned char>(name[0])) == 0;
+  const bool capitals = all([](unsigned char c) { return std::islower(c) == 0; });
+  if (word && (capitals || std::getenv(name.c_str()) != nullptr)) return;
+  throw InputError(
+      variable.place(),
+      "is not the name of a variable (it is not shown, as it may be the password itself); allowed: capital "
+      "letters, digits and _, such as HALL_PASSWORD, or a variable that is set in the environment.");
 }
 
 /// Of "password_env" or "password_file"; empty where neither is given.
@@ -118,6 +136,23 @@ Maker text(const JsonNode& node, const std::string& url) {
   return [options] { return makeTextSource(options); };
 }
 
+Maker linuxcnc(const JsonNode& node, const std::string& url) {
+  LinuxcncOptions options;
+  options.url = url;
+  if (const auto given = node.find("interval_s")) options.interval_s = given->positiveNumber();
+  if (const auto given = node.find("answer_s")) options.answer_s = given->positiveNumber();
+  return [options, node] {
+    LinuxcncOptions with_secret = options;
+    with_secret.password = secretOf(node);
+    return makeLinuxcncSource(with_secret);
+  };
+}
+
+Maker genicam(const JsonNode& node, const std::string& url) {
+  const GenicamSettings settings = readGenicamSettings(node);
+  return [settings, name = url.substr(genicam_prefix.size())] { return makeGenicamSource(name, settings); };
+}
+
 struct Kind {
   std::string_view name;
   std::vector<std::string> schemes;  ///< the first is meant where an address has none
@@ -125,17 +160,16 @@ struct Kind {
 };
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all{{"mtconnect", {"http", "https"}, mtconnect},
-                                     {"mqtt", {"mqtt", "mqtts"}, mqtt},
-                                     {"modbus", {"modbus", "rtu"}, modbus},
-                                     {"text", {"serial", "tcp"}, text}};
+  static const std::vector<Kind> all{{"mtconnect", {"http", "https"}, mtconnect}, {"mqtt", {"mqtt", "mqtts"}, mqtt},
+                                     {"modbus", {"modbus", "rtu"}, modbus},       {"text", {"serial", "tcp"}, text},
+                                     {"linuxcnc", {"linuxcnc"}, linuxcnc},        {"genicam", {"genicam"}, genicam}};
   return all;
 }
 
 /// "http:// or https://".
 std::string beginnings(const std::vector<std::string>& schemes) {
   std::vector<std::string> out;
-  for (const std::string& scheme : schemes) out.push_back(scheme + "://");
+  for (const std::string& scheme : schemes) out.push_back(scheme + (scheme == "genicam" ? ":" : "://"));
   return joinedList(out, "or");
 }
 
@@ -146,6 +180,7 @@ std::string allBeginnings() {
 }
 
 std::string schemeOf(const std::string& url) {
+  if (url.starts_with(genicam_prefix)) return std::string(genicam_prefix.substr(0, genicam_prefix.size() - 1));
   const std::size_t end = url.find("://");
   return end == std::string::npos ? std::string() : url.substr(0, end);
 }
@@ -178,6 +213,7 @@ SourceDescription readSource(const JsonNode& node) {
   }
   // Not url.reject: the sentence would show the password.
   if (holdsPassword(source.url)) throw InputError(url.place(), password_rule);
+  if (const auto variable = node.find("password_env")) checkVariable(*variable);
   const Kind& kind =
       *std::find_if(kinds().begin(), kinds().end(), [&](const Kind& k) { return k.name == source.kind; });
   if (std::find(kind.schemes.begin(), kind.schemes.end(), schemeOf(source.url)) == kind.schemes.end())
@@ -201,9 +237,9 @@ ColumnMapping readColumn(const JsonNode& node, const std::vector<SourceDescripti
   out.source = static_cast<std::uint32_t>(std::find(names.begin(), names.end(), source) - names.begin());
   const JsonNode item = node.at("item");
   out.address = item.name();
-  if (sources[out.source].kind == "modbus") {
+  if (const std::string& kind = sources[out.source].kind; kind == "modbus" || kind == "linuxcnc") {
     try {
-      checkModbusAddress(out.address);
+      kind == "modbus" ? checkModbusAddress(out.address) : checkLinuxcncAddress(out.address);
     } catch (const std::invalid_argument& allowed) {
       item.reject(allowed.what());
     }
@@ -296,6 +332,7 @@ SourceDescription sourceForAddress(const std::string& url) {
 SourceDescription sourceForAddress(const std::string& url, const JsonNode& options) {
   if (holdsPassword(url)) throw InputError(fmt::format("The address {}", password_rule));
   const std::string scheme = schemeOf(url);
+  if (const auto variable = options.find("password_env")) checkVariable(*variable);
   for (const Kind& kind : kinds()) {
     if (std::find(kind.schemes.begin(), kind.schemes.end(), scheme) == kind.schemes.end()) continue;
     return {url, std::string(kind.name), url, kind.make(options, url)};

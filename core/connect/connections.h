@@ -8,7 +8,10 @@
 //    {"name":"pt100","kind":"modbus","url":"modbus://192.168.1.30:502" or "rtu:///dev/ttyUSB0","unit_id":1,
 //     "interval_s":1,"baud":9600,"parity":"none","stop_bits":1},
 //    {"name":"logger","kind":"text","url":"serial:///dev/ttyS0" or "tcp://host:port","line":"T1={a} T2={b}",
-//     "save":"touches.txt","baud":9600,"decimal_comma":false}],
+//     "save":"touches.txt","baud":9600,"decimal_comma":false},
+//    {"name":"lathe","kind":"linuxcnc","url":"linuxcnc://127.0.0.1:5007","password_env":"SHELL_PASSWORD"},
+//    {"name":"microscope","kind":"genicam","url":"genicam:Fake_1","exposure_us":5000,"gain":2,"trigger":"Software",
+//     "region":[0,0,256,256]}],
 //  "columns":[{"column":"T_spindle_degC","source":"mill","item":"Tspindle","unit":"FAHRENHEIT","scale":1,"offset":0,
 //    "dead_band":0.05,"reduce":"mean","role":"spindle_housing"},
 //    {"column":"coolant","source":"mill","item":"cool","values":{"ON":1,"OFF":0},"otherwise":0}],
@@ -37,7 +40,7 @@ namespace spindrift {
 
 struct SourceDescription {
   std::string name;
-  std::string kind;  ///< "mtconnect", "mqtt", "modbus", "text"
+  std::string kind;  ///< "mtconnect", "mqtt", "modbus", "text", "linuxcnc", "genicam"
   std::string url;
   std::function<std::unique_ptr<Source>()> make;
 };
@@ -86,7 +89,7 @@ struct Connections {
 };
 
 /// For listing what is there: the kind follows from the address (http, https: MTConnect; mqtt, mqtts; modbus, rtu;
-/// serial, tcp: lines of text). Throws InputError for any other, and for one that holds a password.
+/// linuxcnc; genicam; serial, tcp: lines of text). Throws InputError for any other, and for one that holds a password.
 [[nodiscard]] SourceDescription sourceForAddress(const std::string& url);
 /// The same with the options of an entry of "sources" ("user", "unit_id", ...); a pattern of lines may be missing.
 [[nodiscard]] SourceDescription sourceForAddress(const std::string& url, const JsonNode& options);

@@ -34,8 +34,11 @@ Recording::Recording(const Connections& connections, const std::filesystem::path
   unrecorded_.columns.resize(connections_.columns.size());
   if (!log.empty()) recorder_ = std::make_unique<LogRecorder>(connections_, log, start_utc_s, localUtc());
   for (std::uint32_t s = 0; s < connections_.sources.size(); ++s) {
-    runners_.push_back(
-        std::make_unique<SourceRunner>(s, connections_.sources[s].make(), connections_.itemsOf(s), queue_, options));
+    // A source of which nothing is wanted is left alone: a camera may be in use elsewhere.
+    std::vector<std::string> items = connections_.itemsOf(s);
+    runners_.push_back(items.empty() ? nullptr
+                                     : std::make_unique<SourceRunner>(s, connections_.sources[s].make(),
+                                                                      std::move(items), queue_, options));
   }
 }
 
@@ -57,8 +60,12 @@ void Recording::turn(double wait_s, const Onlooker& onlooker) {
 }
 
 void Recording::finish(const Onlooker& onlooker) {
-  for (const auto& runner : runners_) runner->requestStop();
-  for (const auto& runner : runners_) runner->stop();
+  for (const auto& runner : runners_) {
+    if (runner) runner->requestStop();
+  }
+  for (const auto& runner : runners_) {
+    if (runner) runner->stop();
+  }
   queue_->take(taken_, 0.0);
   takeAll(onlooker);
   if (recorder_) recorder_->finish(localUtc());
@@ -66,7 +73,10 @@ void Recording::finish(const Onlooker& onlooker) {
 
 std::vector<SourceStatus> Recording::sources() const {
   std::vector<SourceStatus> out;
-  for (const auto& runner : runners_) out.push_back(runner->status());
+  for (const auto& runner : runners_) {
+    out.push_back(runner ? runner->status() : SourceStatus{});
+    if (!runner) out.back().state = SourceStatus::State::Stopped;
+  }
   return out;
 }
 
@@ -74,7 +84,7 @@ std::vector<std::string> Recording::shortcomings() const {
   std::vector<std::string> out;
   const std::vector<SourceStatus> states = sources();
   for (std::size_t s = 0; s < states.size(); ++s) {
-    if (states[s].connections == 0)
+    if (runners_[s] && states[s].connections == 0)
       out.push_back(fmt::format("{} was never reached: {}", connections_.sources[s].name, states[s].sentence));
   }
   for (std::size_t c = 0; c < connections_.columns.size(); ++c) {

@@ -44,7 +44,7 @@ class Recording {
   RecorderStatus unrecorded_;  ///< what there is to say without a log
   std::unique_ptr<LogRecorder> recorder_;
   std::shared_ptr<RecordQueue> queue_;
-  std::vector<std::unique_ptr<SourceRunner>> runners_;
+  std::vector<std::unique_ptr<SourceRunner>> runners_;  ///< null where no column is mapped
   std::vector<Arrival> taken_;
 };
 

@@ -159,7 +159,8 @@ std::string axisComponentsCsv(const AxisComponentTable& table, const std::option
 }
 
 std::string linuxcncCompensation(const ErrorModel& model, const MachineDescription& machine, const std::string& axis,
-                                 const Eigen::Vector3d& reference_mm, int count, const DeviationQuery& conditions) {
+                                 const Eigen::Vector3d& reference_mm, int count, const DeviationQuery& conditions,
+                                 LinuxcncTable table) {
   const int number = axisNumber(machine, axis);
   requireCount(count, 256);
   const LinearAxis& description = *machine.findAxis(axis);
@@ -175,7 +176,8 @@ std::string linuxcncCompensation(const ErrorModel& model, const MachineDescripti
     for (std::size_t direction = 0; direction < 2; ++direction) {
       query.approach = Eigen::Vector3d::Zero();
       query.approach[number] = direction == 0 ? 1.0 : -1.0;
-      actual[direction] = nominal + model.predict(query, component).value * mm_per_um;
+      const double deviation_mm = model.predict(query, component).value * mm_per_um;
+      actual[direction] = table == LinuxcncTable::Trim ? -deviation_mm : nominal + deviation_mm;
     }
     text += fmt::format("{:.6f} {:.6f} {:.6f}\n", nominal, actual[0], actual[1]);
   }

@@ -78,10 +78,17 @@ struct AxisComponentTable {
 [[nodiscard]] std::string axisComponentsCsv(const AxisComponentTable& table,
                                             const std::optional<MeasuredBox>& measured = {});
 
+/// What COMP_FILE_TYPE of LinuxCNC says of the numbers behind the nominal position.
+enum class LinuxcncTable {
+  ActualPositions = 0,  ///< nominal + deviation: the control subtracts
+  Trim = 1,             ///< minus the deviation: added to the motor's command
+};
+
 /// LinuxCNC screw compensation file for the positioning error of the table's axis (mm, at most 256 lines). Forward and
 /// reverse are the same unless the model tells the directions of approach apart (backlash).
 [[nodiscard]] std::string linuxcncCompensation(const ErrorModel& model, const MachineDescription& machine,
                                                const std::string& axis, const Eigen::Vector3d& reference_mm, int count,
-                                               const DeviationQuery& conditions);
+                                               const DeviationQuery& conditions,
+                                               LinuxcncTable table = LinuxcncTable::ActualPositions);
 
 }  // namespace spindrift

@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/simulation/thermal_network.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double history_step_s = 30.0;
 
 /// Which motion stirs the air at a surface.
 enum class Stirred { Still, Spindle, FeedX, FeedY, FeedZ, Table };
@@ -49,8 +49,10 @@ class Plant {
 
   void advance(const ProgrammeSegment& now, double room_degC, double duration_s) {
     net_.setTemperature(b_.room, room_degC);
-    if (&now != convection_of_) setConvection(now);
-    convection_of_ = &now;
+    const std::array<double, 5> speeds{now.spindle_rpm, now.feed_mm_min[0], now.feed_mm_min[1], now.feed_mm_min[2],
+                                       now.c_rpm};
+    if (!convection_of_ || speeds != *convection_of_) setConvection(now);
+    convection_of_ = speeds;
     net_.clearHeat();
     if (heated_) setHeat(now);
     net_.advance(duration_s);
@@ -283,7 +285,7 @@ class Plant {
   ThermalNetwork net_;
   BodyIndex b_;
   std::vector<Surface> surfaces_;
-  const ProgrammeSegment* convection_of_ = nullptr;
+  std::optional<std::array<double, 5>> convection_of_;  ///< speeds that the conductances are of
 };
 
 }  // namespace
@@ -308,32 +310,66 @@ double TemperatureHistory::meanRise(const RodIndex& rod, double time_s) const {
   return sum / rod.count;
 }
 
-ThermalRun runThermal(const MachineDescription& machine, const Programme& programme, const Environment& environment,
-                      const PlantParameters& parameters, double duration_s, const JobContext& job) {
-  const double start_degC = environment.room_degC(0.0);
-  Plant heated(machine, parameters, start_degC, environment.coolant_degC(), true);
-  Plant passive(machine, parameters, start_degC, environment.coolant_degC(), false);
-  ThermalRun run;
-  run.bodies = heated.bodies();
-  run.heated = TemperatureHistory(heated.temperatures().size(), history_step_s);
-  run.passive = run.heated;
-  run.heated.append(heated.temperatures());
-  run.passive.append(passive.temperatures());
-  const auto steps = static_cast<std::size_t>(std::ceil(duration_s / history_step_s));
-  for (std::size_t i = 0; i < steps; ++i) {
-    const double time_s = static_cast<double>(i) * history_step_s;
-    const ProgrammeSegment& now = programme.at(time_s + 0.5 * history_step_s);
-    const double room_degC = environment.room_degC(time_s + 0.5 * history_step_s);
-    heated.advance(now, room_degC, history_step_s);
-    passive.advance(now, room_degC, history_step_s);
+struct ThermalStepper::Parts {
+  Parts(const MachineDescription& described, const Environment& around, const PlantParameters& parameters)
+      : machine(described),
+        environment(around),
+        heated(machine, parameters, around.room_degC(0.0), around.coolant_degC(), true),
+        passive(machine, parameters, around.room_degC(0.0), around.coolant_degC(), false) {
+    run.bodies = heated.bodies();
+    run.heated = TemperatureHistory(heated.temperatures().size(), step_s);
+    run.passive = run.heated;
     run.heated.append(heated.temperatures());
     run.passive.append(passive.temperatures());
+  }
+  MachineDescription machine;
+  Environment environment;
+  Plant heated;
+  Plant passive;
+  ThermalRun run;
+  std::size_t steps = 0;
+};
+
+ThermalStepper::ThermalStepper(const MachineDescription& machine, const Environment& environment,
+                               const PlantParameters& parameters)
+    : parts_(std::make_unique<Parts>(machine, environment, parameters)) {}
+
+ThermalStepper::~ThermalStepper() = default;
+
+double ThermalStepper::time_s() const noexcept {
+  return static_cast<double>(parts_->steps) * step_s;
+}
+
+const ThermalRun& ThermalStepper::run() const noexcept {
+  return parts_->run;
+}
+
+ThermalRun ThermalStepper::take() && {
+  return std::move(parts_->run);
+}
+
+void ThermalStepper::step(const ProgrammeSegment& now) {
+  Parts& p = *parts_;
+  const double room_degC = p.environment.room_degC(time_s() + 0.5 * step_s);
+  p.heated.advance(now, room_degC, step_s);
+  p.passive.advance(now, room_degC, step_s);
+  p.run.heated.append(p.heated.temperatures());
+  p.run.passive.append(p.passive.temperatures());
+  ++p.steps;
+}
+
+ThermalRun runThermal(const MachineDescription& machine, const Programme& programme, const Environment& environment,
+                      const PlantParameters& parameters, double duration_s, const JobContext& job) {
+  ThermalStepper stepper(machine, environment, parameters);
+  const auto steps = static_cast<std::size_t>(std::ceil(duration_s / ThermalStepper::step_s));
+  for (std::size_t i = 0; i < steps; ++i) {
+    stepper.step(programme.at(stepper.time_s() + 0.5 * ThermalStepper::step_s));
     if (i % 128 == 0) {
       job.throwIfCancelled();
       job.report(static_cast<double>(i) / static_cast<double>(steps), "heat flow");
     }
   }
-  return run;
+  return std::move(stepper).take();
 }
 
 std::vector<int> volumesAt(const BodyIndex& b, std::string_view place, const SourcePlace& where) {

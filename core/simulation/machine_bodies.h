@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -96,6 +97,26 @@ struct ThermalRun {
 [[nodiscard]] ThermalRun runThermal(const MachineDescription& machine, const Programme& programme,
                                     const Environment& environment, const PlantParameters& parameters,
                                     double duration_s, const JobContext& job = {});
+
+/// The same step by step, where the programme is not known beforehand: a machine that is driven by a control.
+class ThermalStepper {
+ public:
+  ThermalStepper(const MachineDescription& machine, const Environment& environment, const PlantParameters& parameters);
+  ~ThermalStepper();
+  ThermalStepper(const ThermalStepper&) = delete;
+  ThermalStepper& operator=(const ThermalStepper&) = delete;
+  static constexpr double step_s = 30.0;
+  /// One step of `step_s` with these speeds.
+  void step(const ProgrammeSegment& now);
+  /// What there is so far.
+  [[nodiscard]] const ThermalRun& run() const noexcept;
+  [[nodiscard]] ThermalRun take() &&;
+  [[nodiscard]] double time_s() const noexcept;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 /// Temperature that a sensor at `place` reads: a weighted set of volumes. Places: "front bearing", "rear bearing",
 /// "shaft", "spindle housing", "head top", "head bottom", "column front", "column rear", "column left", "column right",

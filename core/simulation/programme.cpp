@@ -41,6 +41,12 @@ Programme::Programme(std::vector<ProgrammeSegment> segments) : segments_(std::mo
                    "segments out of order");
 }
 
+void Programme::append(const ProgrammeSegment& segment) {
+  SPINDRIFT_ASSERT(segments_.empty() || segment.from_s >= segments_.back().from_s, "segments in order of time");
+  if (!segments_.empty() && segments_.back().from_s == segment.from_s) segments_.pop_back();
+  segments_.push_back(segment);
+}
+
 const ProgrammeSegment& Programme::at(double time_s) const {
   const auto after = std::upper_bound(segments_.begin(), segments_.end(), time_s,
                                       [](double t, const ProgrammeSegment& s) { return t < s.from_s; });

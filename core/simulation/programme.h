@@ -30,6 +30,8 @@ class Programme {
   explicit Programme(std::vector<ProgrammeSegment> segments);
 
   [[nodiscard]] const std::vector<ProgrammeSegment>& segments() const noexcept { return segments_; }
+  /// At the end; it begins where or after the last begins.
+  void append(const ProgrammeSegment& segment);
   [[nodiscard]] const ProgrammeSegment& at(double time_s) const;
 
  private:

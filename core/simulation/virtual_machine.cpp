@@ -117,9 +117,38 @@ VirtualMachine::VirtualMachine(const MachineDescription& machine, const Programm
       seed_(seed),
       thermal_(runThermal(machine, programme, environment, parameters, duration_s, job)) {}
 
+VirtualMachine::VirtualMachine(const MachineDescription& machine, const Environment& environment,
+                               const PlantParameters& parameters, std::uint64_t seed)
+    : machine_(machine),
+      programme_(std::vector<ProgrammeSegment>(1)),
+      environment_(environment),
+      parameters_(parameters),
+      duration_s_(0.0),
+      seed_(seed),
+      driven_(std::make_shared<ThermalStepper>(machine, environment, parameters)) {}
+
+void VirtualMachine::advance(const ProgrammeSegment& now, double until_s) {
+  SPINDRIFT_ASSERT(driven_ != nullptr, "a machine that is driven");
+  while (driven_->time_s() + ThermalStepper::step_s <= until_s) {
+    const double from_s = driven_->time_s();
+    const ProgrammeSegment& last = programme_.segments().back();
+    if (last.spindle_rpm != now.spindle_rpm || last.feed_mm_min != now.feed_mm_min || last.coolant != now.coolant ||
+        last.c_rpm != now.c_rpm) {
+      ProgrammeSegment next = now;
+      next.from_s = from_s;
+      programme_.append(next);
+    }
+    driven_->step(now);
+    duration_s_ = driven_->time_s();
+  }
+}
+
 PlantEffectFunction VirtualMachine::effect(const std::string& id, const PlantEffectSetting& setting) const {
   const std::string reason = whyNotPossible(id, machine_);
   if (!reason.empty()) throw InputError(fmt::format("effect \"{}\" {}.", id, reason));
+  const bool looks_ahead = id.starts_with("instrument.") || id.starts_with("coolant.") || id.starts_with("unknown.") ||
+                           id.starts_with("heat_source.") || id.starts_with("external_heat.");
+  if (driven_ && looks_ahead) throw InputError(fmt::format("effect \"{}\" needs the whole programme beforehand.", id));
   return makePlantEffect(*this, id, setting);
 }
 
@@ -136,7 +165,7 @@ std::vector<SmallError> VirtualMachine::deviations(const PlantEffectSettings& se
 
 double VirtualMachine::temperature_degC(const std::vector<int>& volumes, double time_s) const {
   double sum = 0.0;
-  for (const int volume : volumes) sum += thermal_.heated.at(volume, time_s);
+  for (const int volume : volumes) sum += thermal().heated.at(volume, time_s);
   return sum / static_cast<double>(volumes.size());
 }
 

@@ -70,6 +70,13 @@ class VirtualMachine {
   VirtualMachine(const MachineDescription& machine, const Programme& programme, const Environment& environment,
                  const PlantParameters& parameters, double duration_s, std::uint64_t seed, const JobContext& job = {});
 
+  /// A machine that a control drives: it stands at the beginning, and `advance` moves it on. Causes that look ahead in
+  /// their programme (instrument.warm_up, coolant splash, heat that follows the position) cannot be had of it.
+  VirtualMachine(const MachineDescription& machine, const Environment& environment, const PlantParameters& parameters,
+                 std::uint64_t seed);
+  /// Runs with these speeds until `until_s` (in whole steps of the heat flow). Of a driven machine only.
+  void advance(const ProgrammeSegment& now, double until_s);
+
   /// The function of one cause; throws InputError if the machine cannot have it. Valid as long as this object.
   [[nodiscard]] PlantEffectFunction effect(const std::string& id, const PlantEffectSetting& setting) const;
   /// Sum of all causes that are on, at each query.
@@ -82,7 +89,7 @@ class VirtualMachine {
   [[nodiscard]] const Programme& programme() const noexcept { return programme_; }
   [[nodiscard]] const Environment& environment() const noexcept { return environment_; }
   [[nodiscard]] const PlantParameters& parameters() const noexcept { return parameters_; }
-  [[nodiscard]] const ThermalRun& thermal() const noexcept { return thermal_; }
+  [[nodiscard]] const ThermalRun& thermal() const noexcept { return driven_ ? driven_->run() : thermal_; }
   [[nodiscard]] double duration_s() const noexcept { return duration_s_; }
   [[nodiscard]] std::uint64_t seed() const noexcept { return seed_; }
 
@@ -94,6 +101,7 @@ class VirtualMachine {
   double duration_s_;
   std::uint64_t seed_;
   ThermalRun thermal_;
+  std::shared_ptr<ThermalStepper> driven_;
 };
 
 }  // namespace spindrift

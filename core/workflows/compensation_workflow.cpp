@@ -347,6 +347,12 @@ void makeFiles(const MachineDescription& machine, const Prepared& prepared, cons
                      static_cast<char>(std::toupper(relative[0])), relative.substr(1), measured.low_mm[axis[0] - 'X'],
                      measured.high_mm[axis[0] - 'X']),
          linuxcncCompensation(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions)});
+    plan.files.push_back(
+        {fmt::format("linuxcnc_{}_trim.comp", axis), fmt::format("LinuxCNC screw compensation of {}, as a trim", axis),
+         "Nominal, forward, reverse in mm (COMP_FILE_TYPE = 1): minus the deviation, added to the motor's command. The "
+         "same compensation in the control's other form; only one of the two files may be loaded.",
+         linuxcncCompensation(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions,
+                              LinuxcncTable::Trim)});
   }
 }
 

@@ -37,6 +37,8 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
     below.insert({"simulation", "discrepancy"});
     t["connect"] = {"base", "math", "geometry", "machine", "imaging", "probing"};
     below.insert("connect");
+    t["control"] = {"base", "math", "geometry", "machine", "imaging", "probing", "connect"};
+    below.insert("control");
     t["session"] = below;
     below.insert("session");
     t["reporting"] = below;

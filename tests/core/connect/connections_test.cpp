@@ -98,6 +98,24 @@ TEST(Connections, SecretsComeFromTheEnvironmentOrFromAFileOfTheUserOnly) {
   EXPECT_EQ(said(), "");
 }
 
+TEST(Connections, APasswordInPlaceOfTheNameOfItsVariableIsRefusedUnseen) {
+  nlohmann::json json = good();
+  json["sources"][0] = {{"name", "mill"}, {"kind", "mqtt"}, {"url", "mqtts://broker"}, {"user", "me"}};
+  const auto said = [&](const std::string& name) {
+    json["sources"][0]["password_env"] = name;
+    return refusal([&] { (void)Connections::parse(JsonNode::parse(json.dump(), "c.json")); });
+  };
+  for (const char* word : {"s3cret!", "correct horse", "hunter2", "9LIVES", "pass-word", "gehe\xc3\xafm"})
+    EXPECT_THAT(said(word), AllOf(HasSubstr("$.sources[0].password_env"), HasSubstr("HALL_PASSWORD"),
+                                  HasSubstr("password itself"), Not(HasSubstr(word))));
+  ::unsetenv("SPINDRIFT_test_word");
+  EXPECT_EQ(said("HALL_PASSWORD"), "");  // need not be set where connections are put together
+  EXPECT_NE(said("SPINDRIFT_test_word"), "");
+  ::setenv("SPINDRIFT_test_word", "x", 1);
+  EXPECT_EQ(said("SPINDRIFT_test_word"), "");
+  ::unsetenv("SPINDRIFT_test_word");
+}
+
 TEST(Connections, RegistersAndLinesAreCheckedWhenTheFileIsRead) {
   const TempFolder folder;
   nlohmann::json json = good();

@@ -67,6 +67,12 @@ TEST(Compensation, LinuxcncFileHoldsWhereTheAxisReallyIs) {
   EXPECT_EQ(linuxcncCompensation(HandModel(), machine(), "X", {0.0, 0.0, 0.0}, 3, {}), golden("linuxcnc_x.comp"));
 }
 
+TEST(Compensation, LinuxcncTrimIsMinusTheDeviation) {
+  // 0.1 um per mm, and 2 um the other way for the other direction.
+  EXPECT_EQ(linuxcncCompensation(HandModel(), machine(), "X", {0.0, 0.0, 0.0}, 3, {}, LinuxcncTable::Trim),
+            "0.000000 -0.002000 0.002000\n50.000000 -0.007000 -0.003000\n100.000000 -0.012000 -0.008000\n");
+}
+
 TEST(Compensation, AddingTheCorrectionLeavesNothing) {
   const HandModel model;
   for (const CompensationNode& node : compensationGrid(model, CompensationGridOptions::travelOf(machine()), {})) {

@@ -12,7 +12,8 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/connect/genicam_camera.h"
+#include "core/base/json_reader.h"
+#include "core/connect/genicam_source.h"
 #include "core/connect/source.h"
 #include "core/imaging/camera.h"
 #include "core/imaging/evaluate_fiducials.h"
@@ -22,6 +23,7 @@
 #include "widgets/pages/capture/machine_state_line.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/imaging/decode_marks.h"
+#include "widgets/pages/machine/connections_service.h"
 #include "widgets/plots/plot.h"
 
 namespace spindrift::gui {
@@ -29,7 +31,6 @@ namespace {
 
 constexpr std::size_t history_length = 300;
 /// "genicam:" alone is the first camera that answers.
-constexpr const char* genicam_prefix = "genicam:";
 
 }  // namespace
 
@@ -105,8 +106,25 @@ void CameraPanel::open(const QString& source) {
     pattern_ = campaignPattern({});
     state_->show(Tone::Attention, QString::fromUtf8(e.what()));
   }
-  reader_ = std::jthread([this, name = source.toStdString()](std::stop_token stop) { readFrames(stop, name); });
+  GenicamSettings settings;
+  try {
+    settings = settingsOf(source.toStdString());
+  } catch (const InputError& e) {
+    state_->show(Tone::Attention, QString::fromUtf8(e.what()));
+  }
+  reader_ = std::jthread(
+      [this, name = source.toStdString(), settings](std::stop_token stop) { readFrames(stop, name, settings); });
   poll_.start();
+}
+
+/// As the tab Connections has them for this camera.
+GenicamSettings CameraPanel::settingsOf(const std::string& source) const {
+  const nlohmann::json description = ConnectionsService::of(context_.session).description();
+  for (const nlohmann::json& each : description["sources"]) {
+    if (each.value("url", std::string()) == source && source.starts_with(genicam_prefix))
+      return readGenicamSettings(JsonNode::parse(each.dump(), "connections.json"));
+  }
+  return {};
 }
 
 void CameraPanel::close() {
@@ -123,7 +141,7 @@ void CameraPanel::close() {
 }
 
 /// On the reader's thread: the newest picture is decoded, those that come meanwhile are passed over.
-void CameraPanel::readFrames(std::stop_token stop, const std::string& source) {
+void CameraPanel::readFrames(std::stop_token stop, const std::string& source, const GenicamSettings& settings) {
   const auto show = [this](GrayImage image) {
     Frame frame;
     frame.image = std::make_shared<GrayImage>(std::move(image));
@@ -137,10 +155,11 @@ void CameraPanel::readFrames(std::stop_token stop, const std::string& source) {
   };
   try {
     if (source.starts_with(genicam_prefix)) {
-      GenicamCamera camera(source.substr(std::string_view(genicam_prefix).size()));
+      GenicamCamera camera(source.substr(genicam_prefix.size()), settings);
       constexpr double patience_s = 5.0;
       double waited_s = 0.0;
       while (!stop.stop_requested() && waited_s < patience_s) {
+        if (settings.trigger == "Software") camera.trigger();
         // Frames of which packets are missing are counted, and never shown or taken.
         std::optional<GrayImage> image = camera.read(0.25);
         waited_s = image ? 0.0 : waited_s + 0.25;

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <thread>
 
+#include "core/connect/genicam_camera.h"
 #include "core/imaging/capture_verdict.h"
 #include "widgets/pages/page.h"
 
@@ -50,7 +51,8 @@ class CameraPanel : public QWidget {
     std::shared_ptr<const GrayImage> image;
     CaptureVerdict verdict;
   };
-  void readFrames(std::stop_token stop, const std::string& source);
+  [[nodiscard]] GenicamSettings settingsOf(const std::string& source) const;
+  void readFrames(std::stop_token stop, const std::string& source, const GenicamSettings& settings);
   void showLatest();
 
   PageContext context_;

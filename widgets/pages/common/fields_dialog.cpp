@@ -19,6 +19,11 @@ QString textOf(const nlohmann::json& value) {
   if (value.is_number()) return QString::fromStdString(exactNumber(value.get<double>()));
   if (value.is_string()) return QString::fromStdString(value.get<std::string>());
   if (value.is_null()) return {};
+  if (value.is_array()) {
+    QStringList numbers;
+    for (const nlohmann::json& each : value) numbers << textOf(each);
+    return numbers.join(QStringLiteral(", "));
+  }
   if (!value.is_object()) return QString::fromStdString(value.dump());
   QStringList words;
   for (const auto& [word, number] : value.items())
@@ -105,6 +110,11 @@ void FieldsDialog::accept() {
       case FormField::Kind::Number:
         edited[fields_[i].key] = numberOrText(text);
         break;
+      case FormField::Kind::Numbers: {
+        nlohmann::json& numbers = edited[fields_[i].key] = nlohmann::json::array();
+        for (const QString& part : text.split(QLatin1Char(','))) numbers.push_back(numberOrText(part.trimmed()));
+        break;
+      }
       case FormField::Kind::Words:
         edited[fields_[i].key] = wordsOf(text);
         break;

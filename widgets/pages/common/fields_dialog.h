@@ -19,7 +19,8 @@ struct FormField {
   enum class Kind {
     Text,
     Number,
-    Words,  ///< "ACTIVE=1, READY=0" for {"ACTIVE":1,"READY":0}
+    Words,    ///< "ACTIVE=1, READY=0" for {"ACTIVE":1,"READY":0}
+    Numbers,  ///< "0, 0, 640, 480" for [0,0,640,480]
   };
   std::string key;
   QString label;

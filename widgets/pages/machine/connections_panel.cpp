@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/pages/machine/connections_panel.h"
 
-#include <QComboBox>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QSplitter>
-#include <QTableView>
 #include <QTableWidget>
 #include <QUrl>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <set>
 #include <thread>
 
@@ -25,82 +20,24 @@
 #include "core/base/untrusted_text.h"
 #include "core/connect/column_suggestion.h"
 #include "core/connect/connections.h"
-#include "core/connect/unit_conversion.h"
-#include "core/machine/operating_log.h"
-#include "core/machine/sensor_role.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
-#include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
-#include "widgets/pages/common/editor_table.h"
 #include "widgets/pages/common/fields_dialog.h"
+#include "widgets/pages/machine/columns_card.h"
 #include "widgets/pages/machine/connections_service.h"
+#include "widgets/pages/machine/history_card.h"
+#include "widgets/pages/machine/items_card.h"
+#include "widgets/pages/machine/source_fields.h"
+#include "widgets/pages/machine/sources_card.h"
 #include "widgets/pages/machine/stated_role.h"
 #include "widgets/plots/plot.h"
 
 namespace spindrift::gui {
 namespace {
 
-enum ColumnOfTable { ColumnName, Now, Age, QualityWord, From, Unit, Role };
-constexpr std::size_t most_items_shown = 2000;
 constexpr double listen_s = 3.0;
-
-QString ageText(double age_s) {
-  if (!std::isfinite(age_s)) return QStringLiteral("–");
-  if (age_s < 1.0) return ConnectionsPanel::tr("< 1 s");
-  if (age_s < 120.0) return ConnectionsPanel::tr("%1 s").arg(age_s, 0, 'f', 0);
-  if (age_s < 7200.0) return ConnectionsPanel::tr("%1 min").arg(age_s / 60.0, 0, 'f', 0);
-  return ConnectionsPanel::tr("%1 h").arg(age_s / 3600.0, 0, 'f', 0);
-}
-
-Cell stateCell(const SourceStatus* status) {
-  if (status == nullptr) return {ConnectionsPanel::tr("not connected")};
-  switch (status->state) {
-    case SourceStatus::State::Connecting:
-      return {ConnectionsPanel::tr("connecting"), Tone::Neutral, "in-progress"};
-    case SourceStatus::State::Live:
-      return {ConnectionsPanel::tr("live"), Tone::Good, "check-circle"};
-    case SourceStatus::State::Lost: {
-      Cell cell{ConnectionsPanel::tr("lost"), Tone::Bad, "error"};
-      cell.tip = fromCore(status->sentence);
-      return cell;
-    }
-    case SourceStatus::State::Stopped:
-      break;
-  }
-  return {ConnectionsPanel::tr("stopped")};
-}
-
-/// What is asked of a source beside its address; secrets only by where they are.
-std::vector<FormField> fieldsOf(const std::string& kind) {
-  using Kind = FormField::Kind;
-  const auto tr = [](const char* text) { return ConnectionsPanel::tr(text); };
-  std::vector<FormField> fields{{"name", tr("Name"), {}, Kind::Text}, {"url", tr("Address"), {}, Kind::Text}};
-  const auto add = [&](const char* key, const QString& label, const QString& hint, Kind what) {
-    fields.push_back({key, label, hint, what});
-  };
-  if (kind == "mqtt") {
-    add("user", tr("User"), {}, Kind::Text);
-    add("password_env", tr("Variable with the password"), tr("name of a variable of the environment"), Kind::Text);
-    add("password_file", tr("File with the password"), tr("readable by its owner only"), Kind::Text);
-    add("ca_file", tr("Certificates"), tr("file with those that are trusted"), Kind::Text);
-    add("client_id", tr("Name of this client"), tr("with one, nothing is missed while it is away"), Kind::Text);
-  } else if (kind == "modbus") {
-    add("unit_id", tr("Unit"), tr("1"), Kind::Number);
-    add("interval_s", tr("Read every / s"), tr("1"), Kind::Number);
-  } else if (kind == "mtconnect") {
-    add("interval_s", tr("Stream every / s"), {}, Kind::Number);
-  } else {
-    add("line", tr("Pattern of a line"), tr("T1={column} T2={bed}"), Kind::Text);
-    add("save", tr("Append every line to"), tr("file, for printed touches"), Kind::Text);
-  }
-  if (kind == "modbus" || kind == "text") {
-    add("baud", tr("Baud"), tr("9600"), Kind::Number);
-    add("parity", tr("Parity"), tr("none, even or odd"), Kind::Text);
-  }
-  return fields;
-}
 
 const nlohmann::json* entryOf(const nlohmann::json& list, const char* key, const std::string& value) {
   for (const nlohmann::json& each : list) {
@@ -119,7 +56,9 @@ ConnectionsPanel::ConnectionsPanel(PageContext page_context, QWidget* parent)
   auto* line = new QHBoxLayout;
   address_ = new QLineEdit;
   address_->setAccessibleName(tr("Address of a source"));
-  address_->setPlaceholderText(tr("http://… (MTConnect), mqtt://…, modbus://…, serial:///dev/… or tcp://…"));
+  address_->setPlaceholderText(
+      tr("http://… (MTConnect), mqtt://…, modbus://…, serial:///dev/…, tcp://…, "
+         "linuxcnc://… or genicam:…"));
   address_->setMinimumHeight(sizes::control_height);
   look_ = makeButton(tr("See what is there"), "eye");
   live_ = makeButton(tr("Look live"), "play");
@@ -132,113 +71,34 @@ ConnectionsPanel::ConnectionsPanel(PageContext page_context, QWidget* parent)
   column->addLayout(line);
   state_ = new Callout;
   column->addWidget(state_);
-  auto* left = makeSplitter(makeSourcesCard(), makeItemsCard(), 2, 5, Qt::Vertical);
-  auto* right = makeSplitter(makeColumnsCard(), makePlotCard(), 4, 3, Qt::Vertical);
+  sources_ = new SourcesCard;
+  items_ = new ItemsCard;
+  columns_ = new ColumnsCard(
+      [this](int row, const nlohmann::json& entry, const QString& what) { columnEdited(row, entry, what); });
+  history_ = new HistoryCard;
+  auto* left = makeSplitter(sources_, items_, 2, 5, Qt::Vertical);
+  auto* right = makeSplitter(columns_, history_, 4, 3, Qt::Vertical);
   column->addWidget(makeSplitter(left, right, 4, 8), 1);
 
   connect(look_, &QPushButton::clicked, this, [this] { lookAt(address_->text().trimmed()); });
   connect(address_, &QLineEdit::returnPressed, look_, &QPushButton::click);
   connect(live_, &QPushButton::clicked, this, &ConnectionsPanel::toggleLive);
   connect(record_, &QPushButton::clicked, this, &ConnectionsPanel::toggleRecording);
+  connect(sources_, &SourcesCard::chosenChanged, this, &ConnectionsPanel::showItems);
+  connect(sources_, &SourcesCard::listWanted, this, [this](const QString& source) { list(source.toStdString()); });
+  connect(sources_, &SourcesCard::optionsWanted, this, [this] { editSource(); });
+  connect(sources_, &SourcesCard::removeWanted, this, &ConnectionsPanel::removeSource);
+  connect(sources_, &SourcesCard::fileWanted, this, &ConnectionsPanel::openFile);
+  connect(items_, &ItemsCard::ticked, this, &ConnectionsPanel::tick);
+  connect(columns_, &ColumnsCard::chosenChanged, this, &ConnectionsPanel::showPlot);
+  connect(columns_, &ColumnsCard::optionsWanted, this, [this] { editColumn(); });
+  connect(columns_, &ColumnsCard::removeWanted, this, &ConnectionsPanel::removeColumn);
+  connect(plot(), &Plot::hovered, this, [this](const QString& text) {
+    if (context_.hint) context_.hint(text);
+  });
   connect(&service_, &ConnectionsService::changed, this, [this] {
     if (isVisible()) showLive();
   });
-}
-
-QWidget* ConnectionsPanel::makeSourcesCard() {
-  auto* card = new Card(tr("Sources"));
-  options_ = makeButton({}, "settings");
-  options_->setToolTip(tr("Options of the source: user, unit, pattern of its lines …"));
-  options_->setAccessibleName(tr("Options of the source"));
-  remove_source_ = makeButton({}, "trash");
-  remove_source_->setToolTip(tr("Take the source and its columns away"));
-  remove_source_->setAccessibleName(tr("Remove the source"));
-  auto* open = makeButton({}, "folder-open");
-  open->setToolTip(tr("Take over sources and columns from a connections.json"));
-  open->setAccessibleName(tr("Open connections.json"));
-  card->addToTitle(open);
-  card->addToTitle(options_);
-  card->addToTitle(remove_source_);
-  sources_ = new RowsModel({tr("Source"), tr("State"), tr("Address")}, this);
-  source_table_ = makeTable(sources_, tr("Sources"), tr("Enter an address above. Nothing else is contacted."));
-  source_table_->setMinimumHeight(84);
-  card->body()->addWidget(source_table_, 1);
-  connect(options_, &QPushButton::clicked, this, [this] { editSource(); });
-  connect(remove_source_, &QPushButton::clicked, this, &ConnectionsPanel::removeSource);
-  connect(open, &QPushButton::clicked, this, &ConnectionsPanel::openFile);
-  connect(source_table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this] {
-    if (!filling_) showItems();
-  });
-  connect(source_table_, &QTableView::doubleClicked, this, [this] { list(shownSource()); });
-  return card;
-}
-
-QWidget* ConnectionsPanel::makeItemsCard() {
-  items_card_ = new Card(tr("What is there"));
-  filter_ = new QLineEdit;
-  filter_->setPlaceholderText(tr("Filter, or an address"));
-  filter_->setToolTip(
-      tr("Shows the data items that have this in their names. What cannot be listed (a register, a topic, a "
-         "place in a line) is added by its address."));
-  filter_->setAccessibleName(tr("Filter the data items, or address of one"));
-  filter_->setClearButtonEnabled(true);
-  filter_->setMaximumWidth(190);
-  auto* add = makeButton({}, "plus");
-  add->setToolTip(tr("Add the data item with this address"));
-  add->setAccessibleName(tr("Add a data item by its address"));
-  items_card_->addToTitle(filter_);
-  items_card_->addToTitle(add);
-  items_ = new RowsModel({tr("Data item"), tr("Now"), tr("Unit"), tr("What"), tr("Where")}, this);
-  item_table_ = makeTable(items_, tr("Data items of the source"),
-                          tr("Data items of the source appear here; tick those that are to be recorded."));
-  item_table_->setMinimumHeight(100);
-  items_card_->body()->addWidget(item_table_, 1);
-  connect(filter_, &QLineEdit::textChanged, this, &ConnectionsPanel::showItems);
-  connect(items_, &RowsModel::checkedChanged, this, [this](const QString& id, int, bool on) {
-    // After the view is done with the click.
-    QMetaObject::invokeMethod(
-        this, [this, id, on] { tick(id, on); }, Qt::QueuedConnection);
-  });
-  connect(add, &QPushButton::clicked, this, &ConnectionsPanel::addItemByAddress);
-  return items_card_;
-}
-
-QWidget* ConnectionsPanel::makeColumnsCard() {
-  auto* card = new Card(tr("Columns of the log"));
-  edit_column_ = makeButton({}, "settings");
-  edit_column_->setToolTip(tr("More of the column: scale, words, dead band …"));
-  edit_column_->setAccessibleName(tr("More of the column"));
-  remove_column_ = makeButton({}, "trash");
-  remove_column_->setToolTip(tr("Take the column away"));
-  remove_column_->setAccessibleName(tr("Remove the column"));
-  card->addToTitle(edit_column_);
-  card->addToTitle(remove_column_);
-  // What changes stands first: the rest may be scrolled out of sight.
-  columns_ = makeEditor({tr("Column"), tr("Now"), tr("Age"), tr("Quality"), tr("From"), tr("Unit there"), tr("Role")},
-                        tr("Columns of the log"));
-  columns_->setMinimumHeight(120);
-  columns_->verticalHeader()->setDefaultSectionSize(44);  // boxes stand in the rows
-  columns_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  card->body()->addWidget(columns_, 1);
-  connect(columns_, &QTableWidget::cellChanged, this, &ConnectionsPanel::cellEdited);
-  connect(columns_, &QTableWidget::currentCellChanged, this, [this] {
-    if (!filling_) showPlot();
-  });
-  connect(edit_column_, &QPushButton::clicked, this, [this] { editColumn(); });
-  connect(remove_column_, &QPushButton::clicked, this, &ConnectionsPanel::removeColumn);
-  return card;
-}
-
-QWidget* ConnectionsPanel::makePlotCard() {
-  plot_card_ = new Card(tr("The last hour"));
-  plot_ = new Plot;
-  plot_->setEmptyText(tr("Values will appear here as they come"), tr("Press Look live or Record."));
-  plot_->setMinimumHeight(150);
-  plot_card_->body()->addWidget(plot_, 1);
-  connect(plot_, &Plot::hovered, this, [this](const QString& text) {
-    if (context_.hint) context_.hint(text);
-  });
-  return plot_card_;
 }
 
 void ConnectionsPanel::say(const QString& sentence) {
@@ -307,7 +167,7 @@ void ConnectionsPanel::list(const std::string& source) {
   const nlohmann::json description = service_.description();
   const nlohmann::json* entry = entryOf(description["sources"], "name", source);
   if (entry == nullptr) return;
-  source_table_->selectRow(sources_->rowOf(fromCore(source)));
+  sources_->choose(source);
   // As a job it can be cancelled and never holds the window up.
   Job job;
   job.title = tr("Listing %1").arg(fromCore(entry->value("url", std::string())));
@@ -346,7 +206,7 @@ void ConnectionsPanel::list(const std::string& source) {
       found_visit_ = visit;
       say({});
       refresh();
-      source_table_->selectRow(sources_->rowOf(fromCore(source)));
+      sources_->choose(source);
       showItems();
     };
   };
@@ -354,14 +214,9 @@ void ConnectionsPanel::list(const std::string& source) {
   context_.jobs.run(std::move(job));
 }
 
-std::string ConnectionsPanel::shownSource() const {
-  const QModelIndex index = source_table_->currentIndex();
-  if (index.isValid()) return sources_->idAt(index.row()).toStdString();
-  return sources_->rows().empty() ? std::string() : sources_->rows().front().id.toStdString();
-}
-
 void ConnectionsPanel::tick(const QString& item, bool on) {
-  const std::string source = shownSource();
+  const std::string source = sources_->chosen();
+  if (source.empty()) return;
   nlohmann::json after = service_.description();
   nlohmann::json& columns = after["columns"];
   const std::string address = item.toStdString();
@@ -386,22 +241,15 @@ void ConnectionsPanel::tick(const QString& item, bool on) {
   change(tr("record %1").arg(item), after);
 }
 
-void ConnectionsPanel::addItemByAddress() {
-  const QString item = filter_->text().trimmed();
-  if (item.isEmpty() || shownSource().empty()) return;
-  filter_->clear();
-  tick(item, true);
-}
-
 FieldsDialog* ConnectionsPanel::editSource() {
-  const std::string name = shownSource();
+  const std::string name = sources_->chosen();
   const nlohmann::json description = service_.description();
   const nlohmann::json* entry = entryOf(description["sources"], "name", name);
   if (entry == nullptr) return nullptr;
   auto* dialog = new FieldsDialog(
       tr("Options of %1").arg(fromCore(name)),
       tr("A password never stands in the session: say in which variable of the environment or in which file it is."),
-      *entry, fieldsOf(entry->value("kind", std::string())),
+      *entry, fieldsOfSource(entry->value("kind", std::string())),
       [this, name](const nlohmann::json& edited) {
         nlohmann::json after = service_.description();
         for (nlohmann::json& each : after["sources"]) {
@@ -424,7 +272,7 @@ FieldsDialog* ConnectionsPanel::editSource() {
 }
 
 FieldsDialog* ConnectionsPanel::editColumn() {
-  const int row = columns_->currentRow();
+  const int row = columns_->chosen();
   const nlohmann::json description = service_.description();
   if (row < 0 || row >= static_cast<int>(description["columns"].size())) return nullptr;
   const nlohmann::json& entry = description["columns"][static_cast<std::size_t>(row)];
@@ -456,7 +304,7 @@ FieldsDialog* ConnectionsPanel::editColumn() {
 }
 
 void ConnectionsPanel::removeSource() {
-  const std::string name = shownSource();
+  const std::string name = sources_->chosen();
   nlohmann::json after = service_.description();
   for (const auto& [list, key] : {std::pair{"sources", "name"}, std::pair{"columns", "source"}}) {
     nlohmann::json kept = nlohmann::json::array();
@@ -469,44 +317,18 @@ void ConnectionsPanel::removeSource() {
 }
 
 void ConnectionsPanel::removeColumn() {
-  const int row = columns_->currentRow();
+  const int row = columns_->chosen();
   nlohmann::json after = service_.description();
   if (row < 0 || row >= static_cast<int>(after["columns"].size())) return;
   after["columns"].erase(static_cast<std::size_t>(row));
   change(tr("remove a column"), after);
 }
 
-void ConnectionsPanel::cellEdited(int row, int column) {
-  if (filling_ || (column != ColumnName && column != Unit)) return;
+void ConnectionsPanel::columnEdited(int row, const nlohmann::json& entry, const QString& what) {
   nlohmann::json after = service_.description();
   if (row >= static_cast<int>(after["columns"].size())) return;
-  nlohmann::json& entry = after["columns"][static_cast<std::size_t>(row)];
-  const std::string text = textAt(columns_, row, column).toStdString();
-  if (column == ColumnName) {
-    entry["column"] = text;
-    // A role is of temperatures only.
-    if (!OperatingLog::isTemperature(text)) entry.erase("role");
-  } else if (text.empty()) {
-    entry.erase("unit");
-  } else {
-    entry["unit"] = text;
-  }
-  // After the editor of the cell has gone.
-  QMetaObject::invokeMethod(
-      this, [this, after] { change(tr("change a column"), after); }, Qt::QueuedConnection);
-}
-
-void ConnectionsPanel::roleChosen(int row, const std::string& role) {
-  nlohmann::json after = service_.description();
-  if (row >= static_cast<int>(after["columns"].size())) return;
-  nlohmann::json& entry = after["columns"][static_cast<std::size_t>(row)];
-  if (role.empty()) {
-    entry.erase("role");
-  } else {
-    entry["role"] = role;
-  }
-  QMetaObject::invokeMethod(
-      this, [this, after] { change(tr("state the role of a sensor"), after); }, Qt::QueuedConnection);
+  after["columns"][static_cast<std::size_t>(row)] = entry;
+  change(what, after);
 }
 
 void ConnectionsPanel::toggleLive() {
@@ -574,76 +396,6 @@ void ConnectionsPanel::refresh() {
   showLive();
 }
 
-void ConnectionsPanel::showSources() {
-  const nlohmann::json description = service_.description();
-  const LiveSnapshot& snapshot = service_.snapshot();
-  std::vector<Row> rows;
-  for (const nlohmann::json& source : description["sources"]) {
-    const std::string name = source.value("name", std::string());
-    const SourceStatus* status = nullptr;
-    for (const LiveSource& live : snapshot.sources) {
-      if (live.name == name) status = &live.status;
-    }
-    Row row;
-    row.id = fromCore(name);
-    row.cells = {nameCell(row.id), stateCell(status), Cell{fromCore(source.value("url", std::string()))}};
-    row.cells.back().tip = row.cells.back().text;
-    rows.push_back(std::move(row));
-  }
-  const auto same = [](const Row& a, const Row& b) {
-    return a.id == b.id && a.cells[1].text == b.cells[1].text && a.cells[1].tip == b.cells[1].tip &&
-           a.cells[2].text == b.cells[2].text;
-  };
-  const std::vector<Row>& shown = sources_->rows();
-  const bool there = !rows.empty();
-  for (QPushButton* button : {options_, remove_source_}) button->setEnabled(there && !service_.recording());
-  if (rows.size() == shown.size() && std::equal(rows.begin(), rows.end(), shown.begin(), same)) return;
-  const QString selected = fromCore(shownSource());
-  filling_ = true;
-  sources_->setRows(std::move(rows));
-  if (there) source_table_->selectRow(std::max(0, sources_->rowOf(selected)));
-  filling_ = false;
-}
-
-void ConnectionsPanel::showItems() {
-  const std::string source = shownSource();
-  const nlohmann::json description = service_.description();
-  std::set<std::string> ticked;
-  for (const nlohmann::json& column : description["columns"]) {
-    if (column.value("source", std::string()) == source) ticked.insert(column.value("item", std::string()));
-  }
-  const auto found = found_.find(source);
-  std::vector<Row> rows;
-  const QString wanted = filter_->text().trimmed();
-  const auto add = [&](const DataItem& item) {
-    const QString all = fromCore(item.address + " " + item.name + " " + item.component + " " + item.type);
-    if (rows.size() >= most_items_shown || (!wanted.isEmpty() && !all.contains(wanted, Qt::CaseInsensitive))) return;
-    Row row;
-    row.id = fromCore(item.address);
-    Cell name = nameCell(item.name.empty() ? row.id : fromCore(item.name));
-    name.checked = ticked.contains(item.address);
-    name.tip = row.id;
-    row.cells = {name, Cell{fromCore(item.example)}, Cell{fromCore(item.unit)},
-                 Cell{fromCore(item.type.empty() ? item.category : item.type)}, Cell{fromCore(item.component)}};
-    rows.push_back(std::move(row));
-  };
-  std::set<std::string> there;
-  if (found != found_.end()) {
-    for (const DataItem& item : found->second) {
-      there.insert(item.address);
-      add(item);
-    }
-  }
-  // What is mapped and was not listed (a register, a source that is away) can be unticked, too.
-  for (const std::string& address : ticked) {
-    if (there.contains(address)) continue;
-    DataItem item;
-    item.address = address;
-    add(item);
-  }
-  items_->setRows(std::move(rows));
-}
-
 /// As the source said it when it was listed.
 std::string ConnectionsPanel::unitThere(const nlohmann::json& column) const {
   const auto found = found_.find(column.value("source", std::string()));
@@ -654,96 +406,35 @@ std::string ConnectionsPanel::unitThere(const nlohmann::json& column) const {
   return {};
 }
 
-void ConnectionsPanel::showColumns() {
+void ConnectionsPanel::showSources() {
+  sources_->show(service_.description(), service_.snapshot(), service_.recording());
+}
+
+void ConnectionsPanel::showItems() {
+  const std::string source = sources_->chosen();
   const nlohmann::json description = service_.description();
-  const nlohmann::json& columns = description["columns"];
-  filling_ = true;
-  const int selected = columns_->currentRow();
-  columns_->setRowCount(0);
-  columns_->setRowCount(static_cast<int>(columns.size()));
-  const bool recording = service_.recording();
-  int role_width = 0;
-  for (int row = 0; row < columns_->rowCount(); ++row) {
-    const nlohmann::json& entry = columns[static_cast<std::size_t>(row)];
-    const std::string name = entry.value("column", std::string());
-    setText(columns_, row, ColumnName, fromCore(name));
-    const std::string item = entry.value("item", std::string());
-    const std::string whole = entry.value("source", std::string()) + ", " + item;
-    setText(columns_, row, From, fromCore(description["sources"].size() > 1 ? whole : item));
-    setText(columns_, row, Unit, fromCore(entry.value("unit", unitThere(entry))));
-    for (const int c : {Role, Now, Age, QualityWord}) setText(columns_, row, c, {});
-    for (int c = 0; c < columns_->columnCount(); ++c) {
-      QTableWidgetItem* cell = columns_->item(row, c);
-      const bool typed = (c == ColumnName || c == Unit) && !recording;
-      cell->setFlags(Qt::ItemIsSelectable | Qt::ItemIsEnabled | (typed ? Qt::ItemIsEditable : Qt::NoItemFlags));
-    }
-    if (!entry.contains("unit")) columns_->item(row, Unit)->setForeground(theme().text_secondary);
-    columns_->item(row, Unit)->setToolTip(entry.contains("unit") ? tr("Stated here")
-                                                                 : tr("As the source says; type another to state it"));
-    columns_->item(row, From)->setToolTip(fromCore(whole));
-    if (!OperatingLog::isTemperature(name)) continue;
-    auto* role = new QComboBox;
-    role->setAccessibleName(tr("Role of %1").arg(fromCore(name)));
-    role->addItem(tr("not stated"), QString());
-    for (const std::string& each : sensorRoleNames()) {
-      const std::string_view text = describe(*sensorRoleFromString(each));
-      role->addItem(QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())), fromCore(each));
-    }
-    role->setCurrentIndex(std::max(0, role->findData(fromCore(entry.value("role", std::string())))));
-    role->setEnabled(!recording);
-    connect(role, &QComboBox::activated, this,
-            [this, row, role] { roleChosen(row, role->currentData().toString().toStdString()); });
-    columns_->setCellWidget(row, Role, role);
-    role_width = std::max(role_width, role->sizeHint().width());
+  std::set<std::string> ticked;
+  for (const nlohmann::json& column : description["columns"]) {
+    if (column.value("source", std::string()) == source) ticked.insert(column.value("item", std::string()));
   }
-  // The header's own mode looks at texts alone, not at the boxes in the cells.
-  columns_->horizontalHeader()->setSectionResizeMode(
-      Role, role_width > 0 ? QHeaderView::Fixed : QHeaderView::ResizeToContents);
-  if (role_width > 0) columns_->horizontalHeader()->resizeSection(Role, std::min(role_width, 170));
-  if (selected >= 0 && selected < columns_->rowCount()) columns_->setCurrentCell(selected, ColumnName);
-  filling_ = false;
+  const auto found = found_.find(source);
+  items_->show(found == found_.end() ? std::vector<DataItem>() : found->second, std::move(ticked));
+}
+
+void ConnectionsPanel::showColumns() {
+  columns_->show(
+      service_.description(), [this](const nlohmann::json& column) { return unitThere(column); }, service_.recording());
 }
 
 void ConnectionsPanel::showLive() {
-  const LiveSnapshot& snapshot = service_.snapshot();
   showSources();
-  filling_ = true;
-  for (int row = 0; row < columns_->rowCount(); ++row) {
-    const std::string name = textAt(columns_, row, ColumnName).toStdString();
-    const LiveColumn* column = snapshot.find(name);
-    QString now = QStringLiteral("–"), age = QStringLiteral("–"), word;
-    Tone tone = Tone::Neutral;
-    if (column != nullptr) {
-      if (std::isfinite(column->newest.value)) now = columnValue(name, column->newest.value);
-      age = ageText(snapshot.now_s - column->came_s);
-      if (snapshot.isLost(*column)) {
-        word = column->records > 0 ? tr("lost") : tr("waiting");
-        tone = column->records > 0 ? Tone::Bad : Tone::Neutral;
-      } else if (column->known) {
-        word = tr("good");
-        tone = Tone::Good;
-      } else if (column->records + column->refused == 0 && column->text.empty()) {
-        word = tr("waiting");
-      } else {
-        word = column->text.empty() ? tr("unknown") : fromCore(column->text).left(16).toLower();
-        tone = Tone::Attention;
-      }
-    }
-    columns_->item(row, Now)->setText(now);
-    columns_->item(row, Age)->setText(age);
-    columns_->item(row, QualityWord)->setText(word);
-    columns_->item(row, QualityWord)
-        ->setForeground(tone == Tone::Neutral ? theme().text_secondary : theme().tone(tone));
-    columns_->item(row, Now)->setToolTip(column == nullptr ? QString() : fromCore(column->conversion));
-  }
-  filling_ = false;
+  columns_->showLive(service_.snapshot(), service_.recording());
   const bool recording = service_.recording();
   live_->setText(QChar(0x2009) + (service_.running() ? tr("Stop looking") : tr("Look live")));
   live_->setVisible(!recording);
-  live_->setEnabled(columns_->rowCount() > 0);
+  live_->setEnabled(columns()->rowCount() > 0);
   record_->setText(recording ? tr("Stop recording") : tr("Record"));
-  record_->setEnabled(columns_->rowCount() > 0);
-  for (QPushButton* button : {edit_column_, remove_column_}) button->setEnabled(columns_->rowCount() > 0 && !recording);
+  record_->setEnabled(columns()->rowCount() > 0);
   showState();
   showPlot();
 }
@@ -773,74 +464,22 @@ void ConnectionsPanel::showState() {
     state_->show(Tone::Good,
                  tr("Live: %1 of %2 columns have values; nothing is written.").arg(known).arg(snapshot.columns.size()) +
                      (snapshot.sentences.empty() ? QString() : QLatin1Char(' ') + fromCore(snapshot.sentences.back())));
-  } else if (sources_->rows().empty()) {
+  } else if (sources()->rows().empty()) {
     state_->show(Tone::Neutral, tr("Enter the address of a machine, a broker, a module or a logger, and see what is "
                                    "there. It is only read; nothing is written to it."));
-  } else if (columns_->rowCount() == 0) {
+  } else if (columns()->rowCount() == 0) {
     state_->show(Tone::Accent, tr("Tick the data items that are to be recorded; each becomes a column of the log."));
   } else {
     state_->show(Tone::Accent, service_.ending()
                                    ? tr("The log is being closed.")
                                    : tr("%1 columns are mapped. Look at them live, or record them into the log of this "
                                         "campaign.")
-                                         .arg(columns_->rowCount()));
+                                         .arg(columns()->rowCount()));
   }
 }
 
 void ConnectionsPanel::showPlot() {
-  const LiveSnapshot& snapshot = service_.snapshot();
-  if (snapshot.columns.empty()) {
-    if (!plot_->empty()) plot_->setContent({});
-    return;
-  }
-  // The column that is chosen; without a choice all of the unit of the first, temperatures before anything else.
-  std::vector<std::size_t> shown;
-  const std::string chosen =
-      columns_->currentRow() < 0 ? std::string() : textAt(columns_, columns_->currentRow(), ColumnName).toStdString();
-  const bool temperatures = std::any_of(snapshot.columns.begin(), snapshot.columns.end(),
-                                        [](const LiveColumn& c) { return OperatingLog::isTemperature(c.column); });
-  const std::string unit = temperatures ? "degC" : unitOfColumn(snapshot.columns.front().column);
-  for (std::size_t c = 0; c < snapshot.columns.size() && shown.size() < theme().series.size(); ++c) {
-    const std::string& name = snapshot.columns[c].column;
-    if (chosen.empty() ? unitOfColumn(name) == unit : name == chosen) shown.push_back(c);
-  }
-  std::vector<std::vector<LivePoint>> histories;
-  double span_s = 0.0;
-  for (const std::size_t c : shown) {
-    histories.push_back(service_.history(c));
-    if (!histories.back().empty()) span_s = std::max(span_s, snapshot.now_s - histories.back().front().time_s);
-  }
-  const TimeUnit time = timeUnit(std::min(span_s, LiveValues::history_s));
-  std::vector<Series> series;
-  QString y_title;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    const LiveColumn& column = snapshot.columns[shown[i]];
-    Series s;
-    s.name = columnTitle(column.column);
-    s.colour = static_cast<int>(series.size());
-    s.style = OperatingLog::isTemperature(column.column) ? SeriesStyle::Line : SeriesStyle::Steps;
-    for (const LivePoint& point : histories[i]) {
-      // What held at the beginning of the hour began before it.
-      s.x.push_back(std::max(point.time_s - snapshot.now_s, -LiveValues::history_s) / time.seconds);
-      s.y.push_back(point.value);
-    }
-    // What is known holds until now.
-    if (!s.x.empty() && column.known && !snapshot.isLost(column)) {
-      s.x.push_back(0.0);
-      s.y.push_back(s.y.back());
-    }
-    const bool any = std::any_of(s.y.begin(), s.y.end(), [](double v) { return std::isfinite(v); });
-    if (!any) continue;
-    const QString of = fromCore(unitOfColumn(column.column));
-    y_title = OperatingLog::isTemperature(column.column)
-                  ? tr("Temperature / °C")
-                  : columnTitle(column.column) + (of.isEmpty() ? QString() : QStringLiteral(" / ") + of);
-    series.push_back(std::move(s));
-  }
-  // A single curve has no legend.
-  plot_card_->setTitle(series.size() == 1 ? tr("The last hour: %1").arg(series.front().name) : tr("The last hour"));
-  plot_->setAxes(tr("Time from now / %1").arg(time.name), y_title);
-  plot_->setContent(std::move(series));
+  history_->show(service_, columns_->chosenName());
 }
 
 std::vector<Exportable> ConnectionsPanel::exportables() {
@@ -851,8 +490,24 @@ std::vector<Exportable> ConnectionsPanel::exportables() {
                        writeFileAtomically(file.toStdString(), description.dump(1) + "\n");
                      }});
   }
-  if (!plot_->empty()) items.push_back(exportableOf(tr("Live values"), plot_));
+  if (!plot()->empty()) items.push_back(exportableOf(tr("Live values"), plot()));
   return items;
+}
+
+RowsModel* ConnectionsPanel::sources() const {
+  return sources_->rows();
+}
+
+RowsModel* ConnectionsPanel::items() const {
+  return items_->rows();
+}
+
+QTableWidget* ConnectionsPanel::columns() const {
+  return columns_->table();
+}
+
+Plot* ConnectionsPanel::plot() const {
+  return history_->plot();
 }
 
 void ConnectionsPanel::showEvent(QShowEvent* event) {

@@ -14,17 +14,19 @@
 
 class QLineEdit;
 class QPushButton;
-class QTableView;
 class QTableWidget;
 
 namespace spindrift::gui {
 
 class Callout;
-class Card;
+class ColumnsCard;
 class ConnectionsService;
 class FieldsDialog;
+class HistoryCard;
+class ItemsCard;
 class Plot;
 class RowsModel;
+class SourcesCard;
 
 class ConnectionsPanel : public QWidget {
   Q_OBJECT
@@ -46,28 +48,22 @@ class ConnectionsPanel : public QWidget {
   [[nodiscard]] QPushButton* lookButton() const { return look_; }
   [[nodiscard]] QPushButton* liveButton() const { return live_; }
   [[nodiscard]] QPushButton* recordButton() const { return record_; }
-  [[nodiscard]] RowsModel* sources() const { return sources_; }
-  [[nodiscard]] RowsModel* items() const { return items_; }
-  [[nodiscard]] QTableWidget* columns() const { return columns_; }
-  [[nodiscard]] Plot* plot() const { return plot_; }
+  [[nodiscard]] RowsModel* sources() const;
+  [[nodiscard]] RowsModel* items() const;
+  [[nodiscard]] QTableWidget* columns() const;
+  [[nodiscard]] Plot* plot() const;
   [[nodiscard]] Callout* state() const { return state_; }
 
  protected:
   void showEvent(QShowEvent* event) override;
 
  private:
-  QWidget* makeSourcesCard();
-  QWidget* makeItemsCard();
-  QWidget* makeColumnsCard();
-  QWidget* makePlotCard();
   /// Validates and stores; a sentence why not, or nothing.
   QString apply(const QString& what, const nlohmann::json& after);
   void change(const QString& what, const nlohmann::json& after);
   void removeSource();
   void removeColumn();
-  void addItemByAddress();
-  void cellEdited(int row, int column);
-  void roleChosen(int row, const std::string& role);
+  void columnEdited(int row, const nlohmann::json& entry, const QString& what);
   void toggleLive();
   void toggleRecording();
   void openFile();
@@ -79,7 +75,6 @@ class ConnectionsPanel : public QWidget {
   void showLive();
   void showState();
   void showPlot();
-  [[nodiscard]] std::string shownSource() const;
   [[nodiscard]] std::string unitThere(const nlohmann::json& column) const;
   void say(const QString& sentence);
 
@@ -88,26 +83,16 @@ class ConnectionsPanel : public QWidget {
   std::map<std::string, std::vector<DataItem>> found_;  ///< by the name of the source
   std::int64_t found_visit_ = -1;                       ///< of which campaign
   QString refusal_;                                     ///< why the last change was not taken
-  bool filling_ = false;
 
   QLineEdit* address_;
   QPushButton* look_;
   QPushButton* live_;
   QPushButton* record_;
-  QPushButton* options_;
-  QPushButton* remove_source_;
-  QPushButton* edit_column_;
-  QPushButton* remove_column_;
   Callout* state_;
-  RowsModel* sources_;
-  QTableView* source_table_;
-  Card* items_card_;
-  RowsModel* items_;
-  QTableView* item_table_;
-  QLineEdit* filter_;
-  QTableWidget* columns_;
-  Card* plot_card_;
-  Plot* plot_;
+  SourcesCard* sources_;
+  ItemsCard* items_;
+  ColumnsCard* columns_;
+  HistoryCard* history_;
 };
 
 }  // namespace spindrift::gui

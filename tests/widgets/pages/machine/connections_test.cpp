@@ -374,6 +374,61 @@ TEST_F(ConnectionsTest, NoSecretIsTakenIntoTheSession) {
       << page->state()->sentence().toStdString();
 }
 
+TEST_F(ConnectionsTest, APasswordInPlaceOfTheNameOfItsVariableIsNotKept) {
+  ConnectionsPanel* page = panel();
+  lookAt(page, "mqtt://127.0.0.1:1");
+  FieldsDialog* dialog = page->editSource();
+  ASSERT_NE(dialog, nullptr);
+  dialog->field("password_env")->setText(QStringLiteral("tellnobody!"));
+  dialog->accept();
+  EXPECT_TRUE(dialog->isVisible());
+  EXPECT_FALSE(service().description()["sources"][0].contains("password_env"));
+  dialog->reject();
+  EXPECT_EQ(readFile(window_->session().folder() / "session.sqlite").find("tellnobody"), std::string::npos);
+}
+
+TEST_F(ConnectionsTest, ACameraIsSetInTheWindowAndStaysSo) {
+  enableFakeCamera();
+  ConnectionsPanel* page = panel();
+  lookAt(page, "genicam:Fake_1");
+  ASSERT_EQ(page->sources()->rows().size(), 1U) << page->state()->sentence().toStdString();
+  const auto shown = [&](const QString& item) {
+    const int row = page->items()->rowOf(item);
+    return row < 0 ? QString() : page->items()->rows()[static_cast<std::size_t>(row)].cells[1].text;
+  };
+  EXPECT_EQ(shown(QStringLiteral("width")), QStringLiteral("512"));
+  EXPECT_GT(shown(QStringLiteral("frames")).toInt(), 0);
+  const auto set = [&](const std::vector<std::pair<const char*, const char*>>& fields) {
+    FieldsDialog* dialog = page->editSource();
+    for (const auto& [key, text] : fields) dialog->field(key)->setText(QString::fromUtf8(text));
+    dialog->accept();
+    EXPECT_TRUE(waitForJobs(*window_, 60));
+    return dialog;
+  };
+  set({{"exposure_us", "7000"}, {"gain", "3"}, {"region", "0, 0, 256, 128"}, {"trigger", "Software"}});
+  const nlohmann::json kept = service().description()["sources"][0];
+  EXPECT_EQ(kept["exposure_us"], 7000);
+  EXPECT_EQ(kept["gain"], 3);
+  EXPECT_EQ(kept["trigger"], "Software");
+  EXPECT_EQ(kept["region"], (nlohmann::json{0, 0, 256, 128}));
+  EXPECT_EQ(page->state()->tone(), Tone::Accent) << page->state()->sentence().toStdString();
+  EXPECT_EQ(shown(QStringLiteral("exposure_us")), QStringLiteral("7000"));
+  EXPECT_EQ(shown(QStringLiteral("gain")), QStringLiteral("3"));
+  EXPECT_EQ(shown(QStringLiteral("width")), QStringLiteral("256"));
+  EXPECT_EQ(shown(QStringLiteral("height")), QStringLiteral("128"));
+  EXPECT_GT(shown(QStringLiteral("frames")).toInt(), 0);  // each of them was asked for
+  // What the camera cannot do is said in its own range, what is no region before it is asked.
+  set({{"exposure_us", "1e12"}});
+  EXPECT_EQ(page->state()->tone(), Tone::Bad);
+  EXPECT_TRUE(page->state()->sentence().contains(QStringLiteral("allowed"))) << page->state()->sentence().toStdString();
+  FieldsDialog* dialog = set({{"region", "0, 0, 256"}});
+  EXPECT_TRUE(dialog->isVisible());
+  dialog->reject();
+  EXPECT_EQ(service().description()["sources"][0]["region"], (nlohmann::json{0, 0, 256, 128}));
+  window_->undoStack().undo();
+  EXPECT_EQ(service().description()["sources"][0]["exposure_us"], 7000);
+}
+
 TEST_F(ConnectionsTest, TheCompensatorRunsLiveBesideTheMeasurement) {
   std::string csv = "time_s,T_spindle_degC,ez_um\n";
   for (int i = 0; i < 50; ++i) csv += std::to_string(10 * i) + ",25," + std::to_string(0.1 * i) + "\n";
