@@ -53,6 +53,7 @@ void addDiscrepancyCommands(CLI::App& app, CommandLine& line);
 void addEvaluateCommands(CLI::App& app, CommandLine& line);
 void addImagingCommands(CLI::App& app, CommandLine& line);
 void addKinematicsCommands(CLI::App& app, CommandLine& line);
+void addPlantCommands(CLI::App& app, CommandLine& line);
 void addProbingCommands(CLI::App& app, CommandLine& line);
 void addReportingCommands(CLI::App& app, CommandLine& line);
 void addScanningCommands(CLI::App& app, CommandLine& line);
