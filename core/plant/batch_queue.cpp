@@ -226,29 +226,40 @@ std::optional<BatchClaim> BatchQueue::claim(std::int64_t batch, const std::strin
   store_.require(PlantRole::Writer, "working on a batch");
   PlantConnection& c = store_.connection();
   const double now_s = c.now();
-  return c.writing([&]() -> std::optional<BatchClaim> {
-    soci::session& sql = c.sql();
-    const long long id = batch;
-    std::string program;
-    int cancelled = 0;
-    int retries = 0;
-    double lease_s = 0.0;
-    sql << "select program, cancelled, retries, lease_s from batch where id = :i", soci::use(id), soci::into(program),
-        soci::into(cancelled), soci::into(retries), soci::into(lease_s);
-    if (!sql.got_data()) throw InputError({store_.address(), ""}, fmt::format("holds no batch {}.", batch));
-    if (program != SPINDRIFT_VERSION)
-      throw InputError(
-          fmt::format("Batch {} was started with program version {}, this worker has {}; allowed: workers of "
-                      "the same version, for results of two versions do not mix.",
-                      batch, program, SPINDRIFT_VERSION));
-    if (cancelled != 0) return std::nullopt;
-    for (;;) {
-      long long no = 0;
-      long long first = 0;
-      long long items = 0;
-      int attempt = 0;
-      int failures = 0;
-      std::string state;
+  return c.writing([&] { return claimWithin(batch, worker, engine, now_s); });
+}
+
+std::optional<BatchClaim> BatchQueue::claimWithin(std::int64_t batch, const std::string& worker,
+                                                  const std::string& engine, double now_s) {
+  PlantConnection& c = store_.connection();
+  soci::session& sql = c.sql();
+  const long long id = batch;
+  std::string program;
+  int cancelled = 0;
+  int retries = 0;
+  double lease_s = 0.0;
+  sql << "select program, cancelled, retries, lease_s from batch where id = :i", soci::use(id), soci::into(program),
+      soci::into(cancelled), soci::into(retries), soci::into(lease_s);
+  if (!sql.got_data()) throw InputError({store_.address(), ""}, fmt::format("holds no batch {}.", batch));
+  if (program != SPINDRIFT_VERSION)
+    throw InputError(
+        fmt::format("Batch {} was started with program version {}, this worker has {}; allowed: workers of "
+                    "the same version, for results of two versions do not mix.",
+                    batch, program, SPINDRIFT_VERSION));
+  if (cancelled != 0) return std::nullopt;
+  for (;;) {
+    long long no = 0;
+    long long first = 0;
+    long long items = 0;
+    int attempt = 0;
+    int failures = 0;
+    std::string state;
+    // What this worker holds without knowing it (its last transaction counted, and nobody told it) comes first.
+    sql << "select chunk_no, first_item, items, attempt, failures, 'ready' from chunk where batch_id = :i and state = "
+           "'running' and worker = :w and lease_until_s >= :t",
+        soci::use(id), soci::use(worker), soci::use(now_s), soci::into(no), soci::into(first), soci::into(items),
+        soci::into(attempt), soci::into(failures), soci::into(state);
+    if (!sql.got_data())
       sql << "select chunk_no, first_item, items, attempt, failures, state from chunk where batch_id = :i and (state = "
              "'ready' or (state = 'running' and lease_until_s < :t)) and state in ('ready', 'running') order by "
              "chunk_no "
@@ -256,32 +267,31 @@ std::optional<BatchClaim> BatchQueue::claim(std::int64_t batch, const std::strin
                  std::string(c.postgres() ? " for update skip locked" : ""),
           soci::use(id), soci::use(now_s), soci::into(no), soci::into(first), soci::into(items), soci::into(attempt),
           soci::into(failures), soci::into(state);
-      if (!sql.got_data()) return std::nullopt;
-      if (state == "running") {
-        // Its worker has vanished.
-        sql << "update attempt set ended_s = :t, outcome = 'lost' where batch_id = :i and chunk_no = :c and attempt = "
-               ":a "
-               "and outcome = ''",
-            soci::use(now_s), soci::use(id), soci::use(no), soci::use(attempt);
-        if (++failures > retries) {
-          const std::string error =
-              fmt::format("{} workers vanished over items {} to {}", failures, first, first + items - 1);
-          sql << "update chunk set state = 'failed', failures = :f, error = :e where batch_id = :i and chunk_no = :c",
-              soci::use(failures), soci::use(error), soci::use(id), soci::use(no);
-          continue;
-        }
+    if (!sql.got_data()) return std::nullopt;
+    if (state == "running") {
+      // Its worker has vanished.
+      sql << "update attempt set ended_s = :t, outcome = 'lost' where batch_id = :i and chunk_no = :c and attempt = "
+             ":a "
+             "and outcome = ''",
+          soci::use(now_s), soci::use(id), soci::use(no), soci::use(attempt);
+      if (++failures > retries) {
+        const std::string error =
+            fmt::format("{} workers vanished over items {} to {}", failures, first, first + items - 1);
+        sql << "update chunk set state = 'failed', failures = :f, error = :e where batch_id = :i and chunk_no = :c",
+            soci::use(failures), soci::use(error), soci::use(id), soci::use(no);
+        continue;
       }
-      ++attempt;
-      const double until_s = now_s + lease_s;
-      sql << "update chunk set state = 'running', attempt = :a, failures = :f, worker = :w, lease_until_s = :l where "
-             "batch_id = :i and chunk_no = :c",
-          soci::use(attempt), soci::use(failures), soci::use(worker), soci::use(until_s), soci::use(id), soci::use(no);
-      sql << "insert into attempt (batch_id, chunk_no, attempt, worker, engine, started_s) values (:i, :c, :a, :w, :e, "
-             ":t)",
-          soci::use(id), soci::use(no), soci::use(attempt), soci::use(worker), soci::use(engine), soci::use(now_s);
-      return BatchClaim{batch, no, first, items, attempt, failures >= retries};
     }
-  });
+    ++attempt;
+    const double until_s = now_s + lease_s;
+    sql << "update chunk set state = 'running', attempt = :a, failures = :f, worker = :w, lease_until_s = :l where "
+           "batch_id = :i and chunk_no = :c",
+        soci::use(attempt), soci::use(failures), soci::use(worker), soci::use(until_s), soci::use(id), soci::use(no);
+    sql << "insert into attempt (batch_id, chunk_no, attempt, worker, engine, started_s) values (:i, :c, :a, :w, :e, "
+           ":t)",
+        soci::use(id), soci::use(no), soci::use(attempt), soci::use(worker), soci::use(engine), soci::use(now_s);
+    return BatchClaim{batch, no, first, items, attempt, failures >= retries};
+  }
 }
 
 bool BatchQueue::extend(const BatchClaim& claim) {
@@ -305,73 +315,76 @@ bool BatchQueue::extend(const BatchClaim& claim) {
   });
 }
 
-bool BatchQueue::endAttempt(const BatchClaim& claim, std::string_view outcome, const std::string& error,
-                            double spent_s) {
-  PlantConnection& c = store_.connection();
-  const long long id = claim.batch;
-  const long long no = claim.chunk;
-  const double now_s = c.now();
-  const std::string word(outcome);
-  soci::statement update =
-      (c.sql().prepare
-           << "update attempt set ended_s = :t, outcome = :o, error = :e, work_s = :s where batch_id = :i and "
-              "chunk_no = :c and attempt = :a",
-       soci::use(now_s), soci::use(word), soci::use(error), soci::use(spent_s), soci::use(id), soci::use(no),
-       soci::use(claim.attempt));
-  update.execute(true);
-  return update.get_affected_rows() == 1;
-}
-
 bool BatchQueue::finish(const BatchClaim& claim, ChunkOutcome outcome, const std::vector<ItemAnswer>& answers,
                         const std::string& error, double spent_s) {
   PlantConnection& c = store_.connection();
+  const double now_s = c.now();
+  return c.writing([&] { return finishWithin(claim, outcome, answers, error, spent_s, now_s); });
+}
+
+BatchQueue::Finished BatchQueue::finishAndClaim(const BatchClaim& claim, ChunkOutcome outcome,
+                                                const std::vector<ItemAnswer>& answers, const std::string& error,
+                                                double spent_s, const std::string& worker, const std::string& engine) {
+  PlantConnection& c = store_.connection();
+  const double now_s = c.now();
   return c.writing([&] {
-    soci::session& sql = c.sql();
-    const long long id = claim.batch;
-    const long long no = claim.chunk;
-    const std::string state = outcome == ChunkOutcome::Done                       ? "done"
-                              : outcome == ChunkOutcome::Failed && claim.last_try ? "failed"
-                                                                                  : "ready";
-    const int counts = outcome == ChunkOutcome::Failed ? 1 : 0;
-    // The fence: locks the row; an older token stores nothing.
-    soci::statement fence =
-        (sql.prepare << "update chunk set state = :s, failures = failures + :f, error = :e, lease_until_s = 0 where "
-                        "batch_id = :i and chunk_no = :c and attempt = :a and state = 'running'",
-         soci::use(state), soci::use(counts), soci::use(error), soci::use(id), soci::use(no), soci::use(claim.attempt));
-    fence.execute(true);
-    if (fence.get_affected_rows() != 1) {
-      // Stored by us before a commit that nobody answered?
-      std::string was;
-      int attempt = 0;
-      sql << "select state, attempt from chunk where batch_id = :i and chunk_no = :c", soci::use(id), soci::use(no),
-          soci::into(was), soci::into(attempt);
-      return attempt == claim.attempt && was == state && state == "done";
-    }
-    if (outcome == ChunkOutcome::Done) {
-      long long item = 0;
-      double work_s = 0.0;
-      int failed = 0;
-      std::string answer;
-      soci::statement insert =
-          (sql.prepare
-               << "insert into item_result (batch_id, item, attempt, work_s, failed, answer) values (:b, :i, :a, :w, "
-                  ":f, :t)",
-           soci::use(id), soci::use(item), soci::use(claim.attempt), soci::use(work_s), soci::use(failed),
-           soci::use(answer));
-      for (const ItemAnswer& a : answers) {
-        item = a.item;
-        work_s = a.work_s;
-        failed = a.failed ? 1 : 0;
-        answer = a.answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-        insert.execute(true);
-      }
-    }
-    return endAttempt(claim,
-                      outcome == ChunkOutcome::Done     ? "done"
-                      : outcome == ChunkOutcome::Failed ? "failed"
-                                                        : "released",
-                      error, spent_s);
+    Finished done;
+    done.held = finishWithin(claim, outcome, answers, error, spent_s, now_s);
+    done.next = claimWithin(claim.batch, worker, engine, now_s);
+    return done;
   });
+}
+
+bool BatchQueue::finishWithin(const BatchClaim& claim, ChunkOutcome outcome, const std::vector<ItemAnswer>& answers,
+                              const std::string& error, double spent_s, double now_s) {
+  soci::session& sql = store_.connection().sql();
+  const long long id = claim.batch;
+  const long long no = claim.chunk;
+  const std::string state = outcome == ChunkOutcome::Done                       ? "done"
+                            : outcome == ChunkOutcome::Failed && claim.last_try ? "failed"
+                                                                                : "ready";
+  const int counts = outcome == ChunkOutcome::Failed ? 1 : 0;
+  // The fence: locks the row; an older token stores nothing.
+  soci::statement fence =
+      (sql.prepare << "update chunk set state = :s, failures = failures + :f, error = :e, lease_until_s = 0 where "
+                      "batch_id = :i and chunk_no = :c and attempt = :a and state = 'running'",
+       soci::use(state), soci::use(counts), soci::use(error), soci::use(id), soci::use(no), soci::use(claim.attempt));
+  fence.execute(true);
+  if (fence.get_affected_rows() != 1) {
+    // Stored by us before a commit that nobody answered?
+    std::string was;
+    int attempt = 0;
+    sql << "select state, attempt from chunk where batch_id = :i and chunk_no = :c", soci::use(id), soci::use(no),
+        soci::into(was), soci::into(attempt);
+    return attempt == claim.attempt && was == state && state == "done";
+  }
+  if (outcome == ChunkOutcome::Done) {
+    long long item = 0;
+    double work_s = 0.0;
+    int failed = 0;
+    std::string answer;
+    soci::statement insert =
+        (sql.prepare
+             << "insert into item_result (batch_id, item, attempt, work_s, failed, answer) values (:b, :i, :a, :w, "
+                ":f, :t)",
+         soci::use(id), soci::use(item), soci::use(claim.attempt), soci::use(work_s), soci::use(failed),
+         soci::use(answer));
+    for (const ItemAnswer& a : answers) {
+      item = a.item;
+      work_s = a.work_s;
+      failed = a.failed ? 1 : 0;
+      answer = a.answer.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+      insert.execute(true);
+    }
+  }
+  const std::string word = outcome == ChunkOutcome::Done     ? "done"
+                           : outcome == ChunkOutcome::Failed ? "failed"
+                                                             : "released";
+  sql << "update attempt set ended_s = :t, outcome = :o, error = :e, work_s = :s where batch_id = :i and chunk_no = :c "
+         "and attempt = :a",
+      soci::use(now_s), soci::use(word), soci::use(error), soci::use(spent_s), soci::use(id), soci::use(no),
+      soci::use(claim.attempt);
+  return true;
 }
 
 void BatchQueue::releaseDead(std::int64_t batch, const std::string& worker) {

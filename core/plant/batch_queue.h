@@ -91,14 +91,25 @@ class BatchQueue {
   /// more and nothing was stored.
   bool finish(const BatchClaim& claim, ChunkOutcome outcome, const std::vector<ItemAnswer>& answers,
               const std::string& error, double spent_s);
+  /// The same, and the next claim in the same transaction: half of what a short chunk costs.
+  struct Finished {
+    bool held = false;
+    std::optional<BatchClaim> next;
+  };
+  [[nodiscard]] Finished finishAndClaim(const BatchClaim& claim, ChunkOutcome outcome,
+                                        const std::vector<ItemAnswer>& answers, const std::string& error,
+                                        double spent_s, const std::string& worker, const std::string& engine);
   /// What a worker that is known to be dead had claimed is free at once; counts as a failure.
   void releaseDead(std::int64_t batch, const std::string& worker);
   /// In order of the items.
   void answers(std::int64_t batch, const std::function<void(const ItemAnswer&)>& each);
 
  private:
-  [[nodiscard]] bool endAttempt(const BatchClaim& claim, std::string_view outcome, const std::string& error,
-                                double spent_s);
+  // Within a transaction.
+  [[nodiscard]] std::optional<BatchClaim> claimWithin(std::int64_t batch, const std::string& worker,
+                                                      const std::string& engine, double now_s);
+  [[nodiscard]] bool finishWithin(const BatchClaim& claim, ChunkOutcome outcome, const std::vector<ItemAnswer>& answers,
+                                  const std::string& error, double spent_s, double now_s);
   PlantStore& store_;
 };
 

@@ -12,6 +12,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <thread>
 
@@ -220,19 +221,24 @@ WorkerReport workOnBatch(const PlantAddress& address, std::int64_t batch, const 
   store.run([&](BatchQueue& queue) { queue.releaseDead(batch, worker); });
   WorkerReport report;
   const auto begin = Clock::now();
-  while (!asked(options) && (options.budget_s <= 0.0 || since(begin) < options.budget_s)) {
-    const auto claim = store.run([&](BatchQueue& queue) { return queue.claim(batch, worker, options.engine); });
-    if (!claim) break;
+  const auto mayGoOn = [&] { return !asked(options) && (options.budget_s <= 0.0 || since(begin) < options.budget_s); };
+  std::optional<BatchClaim> claim;
+  if (mayGoOn()) claim = store.run([&](BatchQueue& queue) { return queue.claim(batch, worker, options.engine); });
+  while (claim) {
     const auto chunk_begin = Clock::now();
     const ChunkWork done = workOnChunk(address, plan, *claim, options);
     const double spent_s = since(chunk_begin);
-    const bool held = store.run(
-        [&](BatchQueue& queue) { return queue.finish(*claim, done.outcome, done.answers, done.error, spent_s); });
-    if (!held) ++report.dropped;
-    if (held && done.outcome == ChunkOutcome::Done) {
+    const BatchQueue::Finished finished = store.run([&](BatchQueue& queue) -> BatchQueue::Finished {
+      if (mayGoOn())
+        return queue.finishAndClaim(*claim, done.outcome, done.answers, done.error, spent_s, worker, options.engine);
+      return {queue.finish(*claim, done.outcome, done.answers, done.error, spent_s), std::nullopt};
+    });
+    if (!finished.held) ++report.dropped;
+    if (finished.held && done.outcome == ChunkOutcome::Done) {
       ++report.chunks;
       report.items += claim->items;
     }
+    claim = finished.next;
   }
   report.stopped = asked(options);
   return report;

@@ -97,7 +97,9 @@ std::string day(double time_s) {
 std::string eventBetween(const std::vector<MachineEvent>& events, double from_s, double to_s) {
   for (const MachineEvent& e : events) {
     if (e.time_s < from_s - 1.0 || e.time_s > to_s + 1.0) continue;
-    return e.note.empty() ? e.kind : e.kind + " (" + e.note + ")";
+    std::string words = e.kind;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return e.note.empty() ? words : words + " (" + e.note + ")";
   }
   return {};
 }

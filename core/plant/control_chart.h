@@ -62,7 +62,7 @@ struct NamedChange {
   double standard_uncertainty = 0.0;
   double p_value = 1.0;
   std::string event;  ///< what was entered for that time: kind and note; empty: nothing
-  /// "step of +3.2 ± 0.4 um between 2026-01-04 and 2026-01-11 (p < 0.001), where spindle_changed was entered"
+  /// "step of +3.2 ± 0.4 um between 2026-01-04 and 2026-01-11 (p < 0.001), where spindle changed was entered"
   [[nodiscard]] std::string sentence(std::string_view unit) const;
 };
 

@@ -68,6 +68,8 @@ void PlantConnection::prepareSession() {
   if (postgres()) {
     *sql_ << "set search_path = plant, pg_temp";
     *sql_ << "set client_min_messages = warning";
+    // Compiling a list of campaigns takes longer than running it.
+    *sql_ << "set jit = off";
     if (read_only_) *sql_ << "set default_transaction_read_only = on";
   } else {
     *sql_ << "pragma foreign_keys = on";

@@ -49,14 +49,14 @@ std::string MachineState::dueSentence() const {
   const std::string every =
       fmt::format("every {:g} days{}", std::round(10.0 * every_days) / 10.0, every_is_said ? "" : " so far");
   if (machine.campaigns == 0) return "never measured, " + every;
-  if (overdue_days > 0.0) return fmt::format("due for {:.0f} days, {}", std::ceil(overdue_days), every);
+  if (overdue_days > 0.0)
+    return fmt::format("due for {}, {}", countOf(static_cast<long>(std::ceil(overdue_days)), "day"), every);
   return fmt::format("due on {}, {}", day(due_s), every);
 }
 
 std::vector<MachineState> plantOverview(PlantStore& store, double now_s) {
   std::vector<MachineState> states;
-  std::map<std::string, std::vector<double>> starts;
-  for (const PlantListing& c : store.campaigns()) starts[c.machine].push_back(c.start_s);
+  std::map<std::string, std::vector<double>> starts = store.starts();
   for (const PlantMachine& machine : store.machines()) {
     MachineState s;
     s.machine = machine;

@@ -42,6 +42,8 @@ void makeVersion1(PlantConnection& c) {
       "kind text not null, program_version text not null, created_utc text not null, inputs_fingerprint text not null, "
       "options text not null, verdict text not null, covariance text not null, model text not null, publisher text not "
       "null, published_s double precision not null, unique (campaign_id, content_key))");
+  // Lists read verdicts from here alone: rows of results are as wide as their models.
+  run(c, "create index result_verdicts on result (campaign_id, id, verdict)");
   run(c,
       "create table parameter (result_id bigint not null references result(id), place integer not null, state text not "
       "null, name text not null, value double precision not null, sigma double precision not null, primary key "

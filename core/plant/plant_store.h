@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -63,6 +64,8 @@ class PlantStore {
   [[nodiscard]] PlantMachine machine(const std::string& name);
   /// In order of machine and time; of one machine if it is named.
   [[nodiscard]] std::vector<PlantListing> campaigns(const std::string& machine = {});
+  /// When the campaigns of each machine started, in order.
+  [[nodiscard]] std::map<std::string, std::vector<double>> starts();
   [[nodiscard]] std::vector<MachineEvent> events(const std::string& machine);
   [[nodiscard]] std::vector<TrendName> trendNames(const std::string& machine);
   /// One value a campaign, of its newest result of the kind; with several states the last one, or `state`.

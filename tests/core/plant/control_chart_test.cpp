@@ -112,8 +112,8 @@ TEST(ControlChart, LimitsBeginAnewAfterAnEventAndTheChangeIsNamedByIt) {
                                          {"mill", onDay(7.0 * 50.5), "note", "cleaned", "anna"}};
   const ControlChart chart = controlChart(points, events, "EX_um");
   ASSERT_EQ(chart.changes.size(), 1U);
-  EXPECT_EQ(chart.changes[0].event, "spindle_changed (SN 12)");
-  EXPECT_THAT(chart.changes[0].sentence("um"), HasSubstr("where spindle_changed (SN 12) was entered"));
+  EXPECT_EQ(chart.changes[0].event, "spindle changed (SN 12)");
+  EXPECT_THAT(chart.changes[0].sentence("um"), HasSubstr("where spindle changed (SN 12) was entered"));
   EXPECT_THAT(chart.changes[0].sentence("um"), HasSubstr("step of +"));
   EXPECT_NEAR(chart.points[10].centre, 10.0, 1.0);
   EXPECT_NEAR(chart.points[55].centre, 20.0, 1.0) << "a note begins nothing anew";
