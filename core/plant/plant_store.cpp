@@ -148,71 +148,102 @@ PublishCount PlantStore::publish(std::span<const PlantCampaign> campaigns) {
   });
 }
 
+namespace {
+
+/// Many rows in one statement: a round trip to a server costs more than a row. `columns` are (:a, :b, ...) of one row
+/// with a number behind each name; `bind` binds row i.
+template <typename Bind>
+void insertRows(soci::session& sql, const std::string& into, const std::vector<std::string>& columns, std::size_t rows,
+                const std::string& after, Bind bind) {
+  constexpr std::size_t most = 100;
+  for (std::size_t from = 0; from < rows; from += most) {
+    const std::size_t to = std::min(rows, from + most);
+    std::string text = into + " values ";
+    soci::statement insert(sql);
+    insert.alloc();
+    for (std::size_t i = from; i < to; ++i) {
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        text += (c > 0 ? ", :" : i > from ? ", (:" : "(:") + columns[c] + std::to_string(i);
+      text += ")";
+      bind(insert, i);
+    }
+    insert.prepare(text + after);
+    insert.define_and_bind();
+    insert.execute(true);
+  }
+}
+
+}  // namespace
+
 void PlantStore::publishOne(const PlantCampaign& campaign, double now_s, PublishCount& count) {
   soci::session& sql = connection_->sql();
+  // What is new comes back with its number; what is there is looked for.
+  const auto insertedOr = [&](soci::statement insert, const long long& number, const auto& find) {
+    const bool added = insert.execute(true) && number > 0;
+    if (!added) find();
+    return added;
+  };
   const std::string description = campaign.description.dump();
-  sql << "insert into machine (name, description) values (:n, :d) on conflict (name) do nothing",
-      soci::use(campaign.machine), soci::use(description);
   long long machine = 0;
   sql << "select id from machine where name = :n", soci::use(campaign.machine), soci::into(machine);
+  if (!sql.got_data()) {
+    insertedOr((sql.prepare << "insert into machine (name, description) values (:n, :d) on conflict (name) do nothing "
+                               "returning id",
+                soci::use(campaign.machine), soci::use(description), soci::into(machine)),
+               machine, [&] {
+                 sql << "select id from machine where name = :n", soci::use(campaign.machine), soci::into(machine);
+               });
+  }
   long long id = 0;
-  const auto find = [&] {
-    sql << "select id from campaign where machine_id = :m and fingerprint = :f", soci::use(machine),
-        soci::use(campaign.fingerprint), soci::into(id);
-    return sql.got_data();
-  };
-  if (find()) {
-    ++count.campaigns_there;
-  } else {
-    // Somebody else may have published it in between: then it waits here and is there.
-    soci::statement insert =
-        (sql.prepare << "insert into campaign (machine_id, fingerprint, name, start_s, program_version, publisher, "
-                        "published_s, clock_offset_s) values (:m, :f, :n, :s, :v, :p, :t, :o) on conflict (machine_id, "
-                        "fingerprint) do nothing",
-         soci::use(machine), soci::use(campaign.fingerprint), soci::use(campaign.name), soci::use(campaign.start_s),
-         soci::use(campaign.program_version), soci::use(campaign.publisher), soci::use(now_s),
-         soci::use(clock_offset_s_));
-    insert.execute(true);
-    ++(insert.get_affected_rows() == 1 ? count.campaigns_new : count.campaigns_there);
-    if (!find()) throw InputError({address(), ""}, "the plant store has lost a campaign while it was published.");
-  }
-  for (const PlantCapture& capture : campaign.captures) {
-    sql << "insert into capture (campaign_id, address, sha256) values (:c, :a, :s) on conflict do nothing",
-        soci::use(id), soci::use(capture.address), soci::use(capture.sha256);
-  }
+  // Somebody else may be publishing it at this moment: then this waits for them, and it is there.
+  const bool new_campaign = insertedOr(
+      (sql.prepare << "insert into campaign (machine_id, fingerprint, name, start_s, program_version, publisher, "
+                      "published_s, clock_offset_s) values (:m, :f, :n, :s, :v, :p, :t, :o) on conflict (machine_id, "
+                      "fingerprint) do nothing returning id",
+       soci::use(machine), soci::use(campaign.fingerprint), soci::use(campaign.name), soci::use(campaign.start_s),
+       soci::use(campaign.program_version), soci::use(campaign.publisher), soci::use(now_s), soci::use(clock_offset_s_),
+       soci::into(id)),
+      id, [&] {
+        sql << "select id from campaign where machine_id = :m and fingerprint = :f", soci::use(machine),
+            soci::use(campaign.fingerprint), soci::into(id);
+      });
+  ++(new_campaign ? count.campaigns_new : count.campaigns_there);
+  insertRows(sql, "insert into capture (campaign_id, address, sha256)", {"c", "a", "s"}, campaign.captures.size(),
+             " on conflict do nothing", [&](soci::statement& insert, std::size_t i) {
+               insert.exchange(soci::use(id));
+               insert.exchange(soci::use(campaign.captures[i].address));
+               insert.exchange(soci::use(campaign.captures[i].sha256));
+             });
   for (const PlantResult& result : campaign.results) {
     const std::string key = result.key();
     const std::string options = result.options.dump();
     const std::string covariance = result.covariance.dump();
     const std::string model = result.model.dump();
-    soci::statement insert =
+    long long row = 0;
+    const bool new_result = insertedOr(
         (sql.prepare << "insert into result (campaign_id, content_key, kind, program_version, created_utc, "
                         "inputs_fingerprint, options, verdict, covariance, model, publisher, published_s) values (:c, "
-                        ":k, :d, :v, :t, :f, :o, :w, :x, :m, :p, :q) on conflict (campaign_id, content_key) do nothing",
+                        ":k, :d, :v, :t, :f, :o, :w, :x, :m, :p, :q) on conflict (campaign_id, content_key) do nothing "
+                        "returning id",
          soci::use(id), soci::use(key), soci::use(result.kind), soci::use(result.program_version),
          soci::use(result.created_utc), soci::use(result.inputs_fingerprint), soci::use(options),
          soci::use(result.verdict), soci::use(covariance), soci::use(model), soci::use(campaign.publisher),
-         soci::use(now_s));
-    insert.execute(true);
-    if (insert.get_affected_rows() != 1) {
-      ++count.results_there;
-      continue;
-    }
-    ++count.results_new;
-    long long row = 0;
-    sql << "select id from result where campaign_id = :c and content_key = :k", soci::use(id), soci::use(key),
-        soci::into(row);
-    int place = 0;
-    PlantParameter p;
-    soci::statement add = (sql.prepare << "insert into parameter (result_id, place, state, name, value, sigma) values "
-                                          "(:r, :i, :s, :n, :v, :u)",
-                           soci::use(row), soci::use(place), soci::use(p.state), soci::use(p.name), soci::use(p.value),
-                           soci::use(p.standard_uncertainty));
-    for (const PlantParameter& parameter : result.parameters) {
-      p = parameter;
-      add.execute(true);
-      ++place;
-    }
+         soci::use(now_s), soci::into(row)),
+        row, [] {});
+    ++(new_result ? count.results_new : count.results_there);
+    if (!new_result) continue;
+    std::vector<int> places(result.parameters.size());
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = static_cast<int>(i);
+    insertRows(sql, "insert into parameter (result_id, place, state, name, value, sigma)",
+               {"r", "i", "s", "n", "v", "u"}, places.size(), "", [&](soci::statement& insert, std::size_t i) {
+                 const PlantParameter& p = result.parameters[i];
+                 insert.exchange(soci::use(row));
+                 insert.exchange(soci::use(places[i]));
+                 insert.exchange(soci::use(p.state));
+                 insert.exchange(soci::use(p.name));
+                 insert.exchange(soci::use(p.value));
+                 insert.exchange(soci::use(p.standard_uncertainty));
+               });
   }
 }
 
