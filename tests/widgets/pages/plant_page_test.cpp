@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/base/atomic_file.h"
 #include "core/base/random.h"
 #include "core/plant/batch_queue.h"
 #include "core/plant/plant_store.h"
@@ -153,6 +154,11 @@ TEST_F(PlantPageTest, ShowsMachinesTrendsAndBatchesWithoutASession) {
   while (cell(gantry, 0) != "gantry north") ++gantry;
   EXPECT_EQ(cell(gantry, 2), "no longer holds");
   keep(QStringLiteral("plant-trend"));
+  page->writeReport(QString::fromStdString((folder_ / "gantry.html").string()));
+  wait();
+  const std::string report = readFile(folder_ / "gantry.html");
+  EXPECT_NE(report.find("gantry north"), std::string::npos);
+  EXPECT_NE(report.find("no longer holds"), std::string::npos);
 
   page->selectMachines({QStringLiteral("gantry north"), QStringLiteral("lathe 4"), QStringLiteral("DMU 50 hall 2")});
   wait();

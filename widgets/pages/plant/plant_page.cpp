@@ -24,6 +24,7 @@
 #include <cstring>
 #include <set>
 
+#include "core/base/atomic_file.h"
 #include "core/base/count_text.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -150,6 +151,15 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
   machine_table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   auto* list = new Card(tr("Machines"));
   list->body()->addWidget(machine_table_);
+  report_ = makeButton(tr("Report …"), "report");
+  report_->setToolTip(tr("State, events, trends and model of the selected machine as one HTML file"));
+  report_->setEnabled(false);
+  list->addToTitle(report_);
+  connect(report_, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getSaveFileName(
+        this, tr("Report of the machine"), chosenMachines().value(0) + QStringLiteral(".html"), tr("Report (*.html)"));
+    if (!file.isEmpty()) writeReport(file);
+  });
   connect(machine_table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
     showParameters();
     showCampaigns();
@@ -478,6 +488,7 @@ void PlantPage::showTrends() {
 
 void PlantPage::showCampaigns() {
   const QStringList chosen = chosenMachines();
+  report_->setEnabled(!chosen.isEmpty());
   std::vector<Row> rows;
   for (auto c = look_.campaigns.rbegin(); c != look_.campaigns.rend(); ++c) {
     const bool checked = std::find(compared_.begin(), compared_.end(), c->id) != compared_.end();
@@ -573,6 +584,21 @@ void PlantPage::showBatches(const std::vector<BatchState>& batches) {
           {b.remaining_s > 0.0 ? hours(b.remaining_s) : QStringLiteral("–"), Tone::Neutral, nullptr, true}}});
   }
   batches_->setRows(std::move(rows));
+}
+
+void PlantPage::writeReport(const QString& file) {
+  if (chosenMachines().isEmpty()) return;
+  const PlantAddress address = PlantAddress::parse(addressText().toStdString());
+  Job job;
+  job.title = tr("Writing the report of %1").arg(chosenMachines().front());
+  job.work = [this, address, machine = chosenMachines().front().toStdString(),
+              file](JobContext&) -> std::function<void()> {
+    PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});
+    writeFileAtomically(file.toStdString(), machineReport(store, machine, now()));
+    return [this, file] { callout_->show(Tone::Good, tr("The report is in %1.").arg(file)); };
+  };
+  job.failed = [this](const QString& sentence) { fail(sentence); };
+  jobs_.run(std::move(job));
 }
 
 void PlantPage::publish() {

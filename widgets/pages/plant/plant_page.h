@@ -51,6 +51,8 @@ class PlantPage : public QWidget {
   /// The page is shown: reads the store again.
   void refresh();
   void publish();
+  /// Writes the report of the first selected machine (one HTML file).
+  void writeReport(const QString& file);
   void selectMachines(const QStringList& names);
 
   [[nodiscard]] QTableView* machines() const { return machine_table_; }
@@ -93,6 +95,7 @@ class PlantPage : public QWidget {
 
   QLineEdit* address_;
   QPushButton* publish_;
+  QPushButton* report_;
   Callout* callout_;
   RowsModel* machines_;
   QTableView* machine_table_;
