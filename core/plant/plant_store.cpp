@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 
 #include <soci/soci.h>
 
@@ -128,6 +130,160 @@ void PlantStore::require(PlantRole needed, std::string_view what) const {
 
 // Writing -----------------------------------------------------------------------------------------------------------
 
+/// The statements of one publishing, each prepared once: over a network, and beside others, what counts is how often
+/// the server is asked.
+class PlantStore::Publishing {
+ public:
+  Publishing(soci::session& sql, double now_s, double clock_offset_s)
+      : sql_(sql),
+        now_s_(now_s),
+        clock_offset_s_(clock_offset_s),
+        insert_campaign_(
+            (sql.prepare << "insert into campaign (machine_id, fingerprint, name, start_s, program_version, publisher, "
+                            "published_s, clock_offset_s) values (:m, :f, :n, :s, :v, :p, :t, :o) on conflict "
+                            "(machine_id, fingerprint) do nothing returning id",
+             soci::use(machine_), soci::use(campaign_.fingerprint), soci::use(campaign_.name),
+             soci::use(campaign_.start_s), soci::use(campaign_.program_version), soci::use(campaign_.publisher),
+             soci::use(now_s_), soci::use(clock_offset_s_), soci::into(id_))),
+        insert_result_((
+            sql.prepare << "insert into result (campaign_id, content_key, kind, program_version, created_utc, "
+                           "inputs_fingerprint, options, verdict, covariance, model, publisher, published_s) values "
+                           "(:c, :k, :d, :v, :t, :f, :o, :w, :x, :m, :p, :q) on conflict (campaign_id, content_key) do "
+                           "nothing returning id",
+            soci::use(campaign_id_), soci::use(key_), soci::use(result_.kind), soci::use(result_.program_version),
+            soci::use(result_.created_utc), soci::use(result_.inputs_fingerprint), soci::use(options_),
+            soci::use(result_.verdict), soci::use(covariance_), soci::use(model_), soci::use(campaign_.publisher),
+            soci::use(now_s_), soci::into(id_))) {}
+
+  void publish(const PlantCampaign& campaign, PublishCount& count) {
+    campaign_ = campaign;
+    machine_ = machineOf(campaign);
+    id_ = 0;
+    // Somebody else may be publishing it at this moment: then this waits for them, and it is there.
+    if (insert_campaign_.execute(true)) {
+      ++count.campaigns_new;
+      campaign_id_ = id_;
+    } else {
+      ++count.campaigns_there;
+      sql_ << "select id from campaign where machine_id = :m and fingerprint = :f", soci::use(machine_),
+          soci::use(campaign_.fingerprint), soci::into(campaign_id_);
+    }
+    addCaptures();
+    for (const PlantResult& result : campaign.results) {
+      result_ = result;
+      key_ = result.key();
+      options_ = result.options.dump();
+      covariance_ = result.covariance.dump();
+      model_ = result.model.dump();
+      const bool added = insert_result_.execute(true);
+      ++(added ? count.results_new : count.results_there);
+      if (added) addParameters(id_);
+    }
+  }
+
+ private:
+  /// As many rows in one statement as stand in `items`, prepared once for each number of them.
+  template <typename Item>
+  struct Rows {
+    long long owner = 0;
+    std::vector<Item> items;
+    std::vector<int> places;
+    std::unique_ptr<soci::statement> insert;
+  };
+  static constexpr std::size_t most_rows = 100;
+
+  /// `columns` rows of (:a0, :b0), (:a1, :b1), ...
+  static std::string values(const std::vector<std::string>& columns, std::size_t rows) {
+    std::string text;
+    for (std::size_t i = 0; i < rows; ++i) {
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        text += (c > 0 ? ", :" : i > 0 ? ", (:" : "(:") + columns[c] + std::to_string(i);
+      text += ")";
+    }
+    return text;
+  }
+
+  long long machineOf(const PlantCampaign& campaign) {
+    const auto known = machines_.find(campaign.machine);
+    if (known != machines_.end()) return known->second;
+    const std::string description = campaign.description.dump();
+    sql_ << "insert into machine (name, description) values (:n, :d) on conflict (name) do nothing",
+        soci::use(campaign.machine), soci::use(description);
+    long long machine = 0;
+    sql_ << "select id from machine where name = :n", soci::use(campaign.machine), soci::into(machine);
+    return machines_[campaign.machine] = machine;
+  }
+
+  void addCaptures() {
+    for (std::size_t from = 0; from < campaign_.captures.size(); from += most_rows) {
+      const std::size_t count = std::min(most_rows, campaign_.captures.size() - from);
+      Rows<PlantCapture>& rows = captures_[count];
+      rows.items.resize(count);
+      if (!rows.insert) {
+        rows.insert = std::make_unique<soci::statement>(sql_);
+        rows.insert->alloc();
+        for (PlantCapture& c : rows.items) {
+          rows.insert->exchange(soci::use(rows.owner));
+          rows.insert->exchange(soci::use(c.address));
+          rows.insert->exchange(soci::use(c.sha256));
+        }
+        rows.insert->prepare("insert into capture (campaign_id, address, sha256) values " +
+                             values({"c", "a", "s"}, count) + " on conflict do nothing");
+        rows.insert->define_and_bind();
+      }
+      rows.owner = campaign_id_;
+      std::copy_n(campaign_.captures.begin() + static_cast<std::ptrdiff_t>(from), count, rows.items.begin());
+      rows.insert->execute(true);
+    }
+  }
+
+  void addParameters(long long result) {
+    for (std::size_t from = 0; from < result_.parameters.size(); from += most_rows) {
+      const std::size_t count = std::min(most_rows, result_.parameters.size() - from);
+      Rows<PlantParameter>& rows = parameters_[count];
+      rows.items.resize(count);
+      rows.places.resize(count);
+      if (!rows.insert) {
+        rows.insert = std::make_unique<soci::statement>(sql_);
+        rows.insert->alloc();
+        for (std::size_t i = 0; i < count; ++i) {
+          PlantParameter& p = rows.items[i];
+          rows.insert->exchange(soci::use(rows.owner));
+          rows.insert->exchange(soci::use(rows.places[i]));
+          rows.insert->exchange(soci::use(p.state));
+          rows.insert->exchange(soci::use(p.name));
+          rows.insert->exchange(soci::use(p.value));
+          rows.insert->exchange(soci::use(p.standard_uncertainty));
+        }
+        rows.insert->prepare("insert into parameter (result_id, place, state, name, value, sigma) values " +
+                             values({"r", "i", "s", "n", "v", "u"}, count));
+        rows.insert->define_and_bind();
+      }
+      rows.owner = result;
+      for (std::size_t i = 0; i < count; ++i) {
+        rows.places[i] = static_cast<int>(from + i);
+        rows.items[i] = result_.parameters[from + i];
+      }
+      rows.insert->execute(true);
+    }
+  }
+
+  soci::session& sql_;
+  double now_s_;
+  double clock_offset_s_;
+  PlantCampaign campaign_;
+  PlantResult result_;
+  std::string key_, options_, covariance_, model_;
+  long long machine_ = 0;
+  long long campaign_id_ = 0;
+  long long id_ = 0;
+  std::map<std::string, long long> machines_;
+  std::map<std::size_t, Rows<PlantCapture>> captures_;
+  std::map<std::size_t, Rows<PlantParameter>> parameters_;
+  soci::statement insert_campaign_;
+  soci::statement insert_result_;
+};
+
 PublishCount PlantStore::publish(std::span<const PlantCampaign> campaigns) {
   require(PlantRole::Writer, "publishing");
   // The clock of the store, as far as one is known: a campaign from a computer whose clock is wrong is told from one
@@ -143,108 +299,10 @@ PublishCount PlantStore::publish(std::span<const PlantCampaign> campaigns) {
   }
   return connection_->writing([&] {
     PublishCount count;
-    for (const PlantCampaign& campaign : campaigns) publishOne(campaign, now_s, count);
+    Publishing publishing(connection_->sql(), now_s, clock_offset_s_);
+    for (const PlantCampaign& campaign : campaigns) publishing.publish(campaign, count);
     return count;
   });
-}
-
-namespace {
-
-/// Many rows in one statement: a round trip to a server costs more than a row. `columns` are (:a, :b, ...) of one row
-/// with a number behind each name; `bind` binds row i.
-template <typename Bind>
-void insertRows(soci::session& sql, const std::string& into, const std::vector<std::string>& columns, std::size_t rows,
-                const std::string& after, Bind bind) {
-  constexpr std::size_t most = 100;
-  for (std::size_t from = 0; from < rows; from += most) {
-    const std::size_t to = std::min(rows, from + most);
-    std::string text = into + " values ";
-    soci::statement insert(sql);
-    insert.alloc();
-    for (std::size_t i = from; i < to; ++i) {
-      for (std::size_t c = 0; c < columns.size(); ++c)
-        text += (c > 0 ? ", :" : i > from ? ", (:" : "(:") + columns[c] + std::to_string(i);
-      text += ")";
-      bind(insert, i);
-    }
-    insert.prepare(text + after);
-    insert.define_and_bind();
-    insert.execute(true);
-  }
-}
-
-}  // namespace
-
-void PlantStore::publishOne(const PlantCampaign& campaign, double now_s, PublishCount& count) {
-  soci::session& sql = connection_->sql();
-  // What is new comes back with its number; what is there is looked for.
-  const auto insertedOr = [&](soci::statement insert, const long long& number, const auto& find) {
-    const bool added = insert.execute(true) && number > 0;
-    if (!added) find();
-    return added;
-  };
-  const std::string description = campaign.description.dump();
-  long long machine = 0;
-  sql << "select id from machine where name = :n", soci::use(campaign.machine), soci::into(machine);
-  if (!sql.got_data()) {
-    insertedOr((sql.prepare << "insert into machine (name, description) values (:n, :d) on conflict (name) do nothing "
-                               "returning id",
-                soci::use(campaign.machine), soci::use(description), soci::into(machine)),
-               machine, [&] {
-                 sql << "select id from machine where name = :n", soci::use(campaign.machine), soci::into(machine);
-               });
-  }
-  long long id = 0;
-  // Somebody else may be publishing it at this moment: then this waits for them, and it is there.
-  const bool new_campaign = insertedOr(
-      (sql.prepare << "insert into campaign (machine_id, fingerprint, name, start_s, program_version, publisher, "
-                      "published_s, clock_offset_s) values (:m, :f, :n, :s, :v, :p, :t, :o) on conflict (machine_id, "
-                      "fingerprint) do nothing returning id",
-       soci::use(machine), soci::use(campaign.fingerprint), soci::use(campaign.name), soci::use(campaign.start_s),
-       soci::use(campaign.program_version), soci::use(campaign.publisher), soci::use(now_s), soci::use(clock_offset_s_),
-       soci::into(id)),
-      id, [&] {
-        sql << "select id from campaign where machine_id = :m and fingerprint = :f", soci::use(machine),
-            soci::use(campaign.fingerprint), soci::into(id);
-      });
-  ++(new_campaign ? count.campaigns_new : count.campaigns_there);
-  insertRows(sql, "insert into capture (campaign_id, address, sha256)", {"c", "a", "s"}, campaign.captures.size(),
-             " on conflict do nothing", [&](soci::statement& insert, std::size_t i) {
-               insert.exchange(soci::use(id));
-               insert.exchange(soci::use(campaign.captures[i].address));
-               insert.exchange(soci::use(campaign.captures[i].sha256));
-             });
-  for (const PlantResult& result : campaign.results) {
-    const std::string key = result.key();
-    const std::string options = result.options.dump();
-    const std::string covariance = result.covariance.dump();
-    const std::string model = result.model.dump();
-    long long row = 0;
-    const bool new_result = insertedOr(
-        (sql.prepare << "insert into result (campaign_id, content_key, kind, program_version, created_utc, "
-                        "inputs_fingerprint, options, verdict, covariance, model, publisher, published_s) values (:c, "
-                        ":k, :d, :v, :t, :f, :o, :w, :x, :m, :p, :q) on conflict (campaign_id, content_key) do nothing "
-                        "returning id",
-         soci::use(id), soci::use(key), soci::use(result.kind), soci::use(result.program_version),
-         soci::use(result.created_utc), soci::use(result.inputs_fingerprint), soci::use(options),
-         soci::use(result.verdict), soci::use(covariance), soci::use(model), soci::use(campaign.publisher),
-         soci::use(now_s), soci::into(row)),
-        row, [] {});
-    ++(new_result ? count.results_new : count.results_there);
-    if (!new_result) continue;
-    std::vector<int> places(result.parameters.size());
-    for (std::size_t i = 0; i < places.size(); ++i) places[i] = static_cast<int>(i);
-    insertRows(sql, "insert into parameter (result_id, place, state, name, value, sigma)",
-               {"r", "i", "s", "n", "v", "u"}, places.size(), "", [&](soci::statement& insert, std::size_t i) {
-                 const PlantParameter& p = result.parameters[i];
-                 insert.exchange(soci::use(row));
-                 insert.exchange(soci::use(places[i]));
-                 insert.exchange(soci::use(p.state));
-                 insert.exchange(soci::use(p.name));
-                 insert.exchange(soci::use(p.value));
-                 insert.exchange(soci::use(p.standard_uncertainty));
-               });
-  }
 }
 
 std::int64_t PlantStore::machineId(const std::string& name) {

@@ -81,11 +81,11 @@ class PlantStore {
   void require(PlantRole needed, std::string_view what) const;
 
  private:
+  class Publishing;
   PlantStore(std::unique_ptr<PlantConnection> connection, const PlantOpening& opening);
   void checkVersion();
   void findRole(PlantRole at_most);
   void checkClock(const PlantOpening& opening);
-  void publishOne(const PlantCampaign& campaign, double now_s, PublishCount& count);
   [[nodiscard]] std::int64_t machineId(const std::string& name);
 
   std::unique_ptr<PlantConnection> connection_;

@@ -6,7 +6,7 @@
 //   overhead of a batch at most 5 % of the work for items of 1 s
 //   10,000 items, workers (and the server) killed at random: each item has its answer exactly once
 //
-// plant_benchmark [--fsync] [--items N] [--second-items N]
+// plant_benchmark [--fsync] [--server-only] [--items N] [--second-items N]
 // --fsync: the server flushes to the disk as a real one does. Exit status 1: a figure is missed.
 #include <fmt/format.h>
 #include <signal.h>
@@ -221,13 +221,15 @@ int main(int argc, char** argv) {
   std::int64_t items = 10'000;
   int second_items = 40;
   bool fsync = false;
+  bool server_only = false;
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--fsync") fsync = true;
+    if (option == "--server-only") server_only = true;
     if (option == "--items" && i + 1 < argc) items = std::atoll(argv[i + 1]);
     if (option == "--second-items" && i + 1 < argc) second_items = std::atoi(argv[i + 1]);
   }
-  {
+  if (!server_only) {
     const spindrift::testing::TempFolder folder;
     measure("SQLite", PlantAddress::parse((folder / "plant.sqlite").string()), nullptr, items, second_items,
             [&] { return static_cast<double>(std::filesystem::file_size(folder / "plant.sqlite")); });
