@@ -5,8 +5,11 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
+#include <iterator>
 #include <map>
 #include <set>
+#include <stop_token>
 #include <thread>
 
 #include "core/base/random.h"
@@ -116,17 +119,17 @@ TEST_P(BatchTest, AnOvertakenWorkerStoresNothing) {
 }
 
 TEST_P(BatchTest, AHeartbeatKeepsALongChunk) {
-  const std::int64_t id = submit(seeds(1, 1, 0.6));
+  const std::int64_t id = submit(seeds(1, 1, 1.2));
   std::thread slow([&] {
     WorkerOptions options;
     options.worker = "slow";
     options.work = [](const BatchPlan&, std::int64_t, int attempt, JobContext&) {
-      nap(2.0);
+      nap(3.0);
       return nlohmann::json(attempt);
     };
     EXPECT_EQ(workOnBatch(address(), id, options).items, 1);
   });
-  nap(1.4);
+  nap(2.2);
   PlantStore other = PlantStore::open(address());
   EXPECT_FALSE(BatchQueue(other).claim(id, "other", "local"));
   slow.join();

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/plant/plant_store.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cstdlib>
+#include <mutex>
 #include <thread>
+#include <vector>
 
 #include "core/plant/plant_connection.h"
 #include "core/plant/plant_schema.h"
