@@ -54,6 +54,7 @@ void addEvaluateCommands(CLI::App& app, CommandLine& line);
 void addImagingCommands(CLI::App& app, CommandLine& line);
 void addKinematicsCommands(CLI::App& app, CommandLine& line);
 void addLoopCommands(CLI::App& app, CommandLine& line);
+void addPlantCommands(CLI::App& app, CommandLine& line);
 void addProbingCommands(CLI::App& app, CommandLine& line);
 void addReportingCommands(CLI::App& app, CommandLine& line);
 void addScanningCommands(CLI::App& app, CommandLine& line);

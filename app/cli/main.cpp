@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
                                            });
   spindrift::cli::addReportingCommands(app, line);
   spindrift::cli::addSessionCommands(app, line);
+  spindrift::cli::addPlantCommands(app, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

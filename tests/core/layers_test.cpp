@@ -46,6 +46,8 @@ const std::map<std::string, std::set<std::string>>& allowedIncludes() {
     t["workflows"] = below;
     below.insert("workflows");
     t["tasks"] = below;
+    below.insert("tasks");
+    t["plant"] = below;
     return t;
   }();
   return table;

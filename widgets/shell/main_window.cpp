@@ -37,6 +37,7 @@
 #include "widgets/jobs/activity_dialog.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/machine/connections_service.h"
+#include "widgets/pages/plant/plant_page.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/new_measurement_dialog.h"
@@ -101,6 +102,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   connect(help_, &HelpPanel::closed, this, [this] { help_action_->trigger(); });
   work_line->addWidget(help_);
   stack_->addWidget(work_);
+  plant_ = new PlantPage(session_, jobs_);
+  stack_->addWidget(plant_);
+  connect(plant_, &PlantPage::closed, this, &MainWindow::showSessionOrWelcome);
 
   buildMenu();
   showHelp();
@@ -115,13 +119,11 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
     welcome_->offerRecovery({});
     refreshTitle();
     refreshCampaigns();
-    stack_->setCurrentWidget(session_.isOpen() && session_.campaign() != nullptr ? work_
-                                                                                 : static_cast<QWidget*>(welcome_));
+    showSessionOrWelcome();
   });
   connect(&session_, &SessionModel::campaignChanged, this, [this] {
     refreshCampaigns();
-    stack_->setCurrentWidget(session_.isOpen() && session_.campaign() != nullptr ? work_
-                                                                                 : static_cast<QWidget*>(welcome_));
+    showSessionOrWelcome();
     showStep();
   });
   connect(&session_, &SessionModel::inputsChanged, this, &MainWindow::refreshPage);
@@ -147,6 +149,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
     const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a campaign folder"));
     if (!folder.isEmpty()) open(folder);
   });
+  connect(welcome_, &WelcomePage::openPlant, this, &MainWindow::openPlant);
   connect(welcome_, &WelcomePage::newMeasurement, this, &MainWindow::newMeasurement);
   connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this,
           [this] { theme_button_->setIcon(icon(theme().kind == ThemeKind::Dark ? "sun" : "moon")); });
@@ -184,6 +187,16 @@ MainWindow::~MainWindow() {
   jobs_.cancelAll();
   // Pages hold references to what stands below them in this class.
   for (const auto& [entry, page] : pages_) delete page;
+}
+
+void MainWindow::showSessionOrWelcome() {
+  stack_->setCurrentWidget(session_.isOpen() && session_.campaign() != nullptr ? work_
+                                                                               : static_cast<QWidget*>(welcome_));
+}
+
+void MainWindow::openPlant() {
+  stack_->setCurrentWidget(plant_);
+  plant_->refresh();
 }
 
 bool MainWindow::welcomeShown() const {
@@ -462,6 +475,7 @@ void MainWindow::closeSession() {
   finishRecording();
   session_.close();
   page_ = nullptr;
+  showSessionOrWelcome();
 }
 
 void MainWindow::setTheme(ThemeKind kind) {

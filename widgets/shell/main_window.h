@@ -24,6 +24,7 @@ class HelpPanel;
 class JobBar;
 class NotesDialog;
 class PageStack;
+class PlantPage;
 class StepList;
 class WelcomePage;
 class Badge;
@@ -64,8 +65,10 @@ class MainWindow : public QMainWindow {
   void saveLog(const QString& file);  ///< what `diagnosticsText` says, by a file
   /// A new session with an empty campaign of this machine (machine.json), at the step Machine.
   void startMeasurement(const nlohmann::json& machine);
-  NotesDialog* openNotes();        ///< null if nothing is open
-  void openEffects();              ///< the list of effects of the step Discrepancy
+  NotesDialog* openNotes();  ///< null if nothing is open
+  void openEffects();        ///< the list of effects of the step Discrepancy
+  void openPlant();          ///< many machines; works without a session
+  [[nodiscard]] PlantPage* plant() const { return plant_; }
   ActivityDialog* openActivity();  ///< jobs and messages; stays open beside the work
 
  protected:
@@ -76,6 +79,7 @@ class MainWindow : public QMainWindow {
   void buildMenu();
   void showStep();
   void refreshTitle();
+  void showSessionOrWelcome();
   void refreshPage();
   void refreshCampaigns();
   void remember(const QString& folder);
@@ -102,6 +106,7 @@ class MainWindow : public QMainWindow {
 
   QStackedWidget* stack_;
   WelcomePage* welcome_;
+  PlantPage* plant_;
   QWidget* work_;
   PageStack* page_stack_;
   StepList* steps_;

@@ -78,10 +78,13 @@ void MainWindow::buildMenu() {
   go->addSeparator();
   int number = 1;
   for (const StepId step : all_steps) {
-    add(go, stepTitle(step), stepIcon(step), QKeySequence(QStringLiteral("Ctrl+%1").arg(number++)),
-        [this, step] { workflow_.goTo(step); });
+    add(go, stepTitle(step), stepIcon(step), QKeySequence(QStringLiteral("Ctrl+%1").arg(number++)), [this, step] {
+      workflow_.goTo(step);
+      showSessionOrWelcome();
+    });
   }
   go->addSeparator();
+  add(go, tr("&Plant"), "machine", QKeySequence(tr("Ctrl+Shift+P")), [this] { openPlant(); });
   add(go, tr("&Run the step"), "play", QKeySequence(tr("Ctrl+Return")), [this] {
     if (page_ != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
   });

@@ -207,6 +207,10 @@ WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
   start->addWidget(new_measurement);
   start->addWidget(open_session);
   start->addWidget(open_campaign);
+  auto* plant = makeButton(tr("Plant …"), "machine");
+  plant->setToolTip(tr("Many machines over years: what is due, trends, batches"));
+  start->addWidget(plant);
+  connect(plant, &QPushButton::clicked, this, &WelcomePage::openPlant);
   start->addStretch();
   column->addLayout(start);
 

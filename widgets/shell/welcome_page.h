@@ -43,6 +43,7 @@ class WelcomePage : public QWidget {
   void openSession();
   void openCampaign();
   void newMeasurement();
+  void openPlant();
   void recentChosen(const QString& folder);
 
  private:

@@ -2,9 +2,13 @@
 // How often the truth lies inside the stated 95 % intervals of identified models: coefficients, static gain, time
 // constants and step response of known ARX and output-error systems under white and coloured noise; and the bias of ARX
 // under noise at the output, of which output error is free. `coverage_study [RUNS]`, default 1000.
+// `coverage_study RUNS --seed FIRST` gives what RUNS runs from this one on say, as JSON: an item of a batch
+// ("work":"command"); the counts of all items together are those of one long study.
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -17,6 +21,10 @@ namespace {
 
 using namespace spindrift;
 
+/// First run, and where counts go in place of the table.
+std::uint64_t first_run = 0;
+nlohmann::json* counted = nullptr;
+
 struct Count {
   std::string name;
   std::size_t inside = 0;
@@ -28,6 +36,10 @@ struct Count {
 };
 
 void print(const char* system, const std::vector<Count>& counts) {
+  if (counted != nullptr) {
+    for (const Count& c : counts) (*counted)[system][c.name] = {{"inside", c.inside}, {"total", c.total}};
+    return;
+  }
   std::printf("%s\n", system);
   for (const Count& c : counts) {
     if (c.total == 0) {
@@ -79,7 +91,7 @@ void arx(const char* name, const ArxSystem& system, int runs) {
   counts[3].name = "step response";
   double gain_sum = 0.0;
   for (int run = 0; run < runs; ++run) {
-    Random random(7000 + static_cast<std::uint64_t>(run));
+    Random random(7000 + first_run + static_cast<std::uint64_t>(run));
     const auto u = steps(random, 800, 20);
     std::vector<double> y(u.size(), 0.0);
     double e = 0.0;
@@ -107,6 +119,7 @@ void arx(const char* name, const ArxSystem& system, int runs) {
     for (const std::size_t k : at) counts[3].add(estimated[k], step[k], sigmas[k]);
   }
   print(name, counts);
+  if (counted != nullptr) return;
   std::printf("  mean static gain %.4f, truth 4\n", gain_sum / runs);
 }
 
@@ -130,7 +143,7 @@ void outputError(const char* name, const OutputErrorSystem& system, int runs) {
   double factor_sum = 0.0;
   int converged = 0;
   for (int run = 0; run < runs; ++run) {
-    Random random(9000 + static_cast<std::uint64_t>(run));
+    Random random(9000 + first_run + static_cast<std::uint64_t>(run));
     const auto u = steps(random, samples, 150);
     const auto w = steps(random, samples, 90);
     std::vector<double> time;
@@ -193,6 +206,7 @@ void outputError(const char* name, const OutputErrorSystem& system, int runs) {
     }
   }
   print(name, counts);
+  if (counted != nullptr) return;
   std::printf("  mean static gain %.4f, truth -15; %d of %d converged; mean coverage factor %.3f\n",
               gain_sum / converged, converged, runs, factor_sum / converged);
 }
@@ -201,6 +215,11 @@ void outputError(const char* name, const OutputErrorSystem& system, int runs) {
 
 int main(int argc, char** argv) {
   const int runs = argc > 1 ? std::stoi(argv[1]) : 1000;
+  nlohmann::json answer;
+  if (argc > 3 && std::strcmp(argv[2], "--seed") == 0) {
+    first_run = std::stoull(argv[3]);
+    counted = &answer;
+  }
   arx("ARX, white noise in the equation", {0.0, false, 0.05}, runs);
   arx("ARX, coloured noise in the equation (AR(1), 0.6)", {0.6, false, 0.05}, runs);
   arx("ARX, white noise at the output (biased: not its model)", {0.0, true, 0.2}, runs);
@@ -210,5 +229,6 @@ int main(int argc, char** argv) {
   outputError("output error, AR(1) noise 0.9, 4000 samples", {0.9, 0.0, false, 4000}, runs);
   outputError("output error, AR(2) noise 1.5, -0.6", {1.5, -0.6}, runs);
   outputError("output error, two inputs, AR(1) noise 0.8", {0.8, 0.0, true}, runs);
+  if (counted != nullptr) std::printf("%s\n", answer.dump().c_str());
   return 0;
 }

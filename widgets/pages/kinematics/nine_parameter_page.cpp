@@ -17,6 +17,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/tasks/task_options.h"
+#include "core/workflows/fit_campaign.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
@@ -320,10 +321,13 @@ void NineParameterPage::fit() {
                 {"value", jsonNumber(fitted.determined(i) ? fitted.parameters[i] : std::nan(""))},
                 {"standard_uncertainty", jsonNumber(fitted.standardUncertainty(i))}};
           }
+          const nlohmann::json full = toJson(fitted);
           const bool shown = session().finish(pending, {{"parameters", parameters},
                                                         {"state", fitted.state},
                                                         {"status", std::string(toString(fitted.status))},
                                                         {"message", fitted.message},
+                                                        {"parameter_order", full.at("parameter_order")},
+                                                        {"covariance", full.at("covariance")},
                                                         {"higher_order", order.json()}});
           if (!shown) return;
           result_ = fitted;

@@ -1,0 +1,565 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Commands: plant ..., batch ...
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "app/cli/command.h"
+#include "core/base/atomic_file.h"
+#include "core/base/count_text.h"
+#include "core/base/error.h"
+#include "core/connect/utc_time.h"
+#include "core/plant/batch_engine.h"
+#include "core/plant/batch_worker.h"
+#include "core/plant/plant_overview.h"
+#include "core/plant/publish.h"
+
+namespace spindrift::cli {
+namespace {
+
+struct PlantArguments {
+  std::string store;
+  std::string folder;
+  std::string campaign;
+  std::string machine;
+  std::string parameter;
+  std::string state;
+  std::string csv;
+  std::string html;
+  std::string out;
+  std::string kind;
+  std::string time;
+  std::string note;
+  std::vector<std::int64_t> campaigns;
+  double every_days = -1.0;
+  ChartOptions chart;
+};
+
+PlantAddress addressOf(const std::string& given) {
+  if (!given.empty()) return PlantAddress::parse(given);
+  const char* set = std::getenv("SPINDRIFT_PLANT");
+  return PlantAddress::parse(set != nullptr ? set : "");
+}
+
+void addStore(CLI::App* command, std::string& store) {
+  command
+      ->add_option(
+          "--store", store,
+          "The plant store: a file (SQLite), or postgresql:host=NAME dbname=plant user=NAME; without it the one "
+          "that SPINDRIFT_PLANT names")
+      ->type_name("ADDRESS");
+}
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+nlohmann::json toJson(const PublishCount& count) {
+  return {{"campaigns_new", count.campaigns_new},
+          {"campaigns_there", count.campaigns_there},
+          {"results_new", count.results_new},
+          {"results_there", count.results_there}};
+}
+
+nlohmann::json toJson(const PlantListing& c) {
+  return {{"id", c.id},
+          {"machine", c.machine},
+          {"name", c.name},
+          {"start_utc", utcText(c.start_s)},
+          {"program_version", c.program_version},
+          {"publisher", c.publisher},
+          {"fingerprint", c.fingerprint},
+          {"verdict", c.verdict.empty() ? nlohmann::json() : nlohmann::json(c.verdict)},
+          {"results", c.results}};
+}
+
+CommandResult init(const PlantArguments& a) {
+  const PlantStore store = PlantStore::make(addressOf(a.store));
+  CommandResult result;
+  result.json = {{"store", store.address()}, {"role", toString(store.role())}};
+  result.summary = fmt::format("{}: ready, the role here is {}\n", store.address(), toString(store.role()));
+  result.warnings = store.warnings();
+  return result;
+}
+
+CommandResult publish(const PlantArguments& a, JobContext& job) {
+  const PlantAddress address = addressOf(a.store);
+  PublishOutcome outcome;
+  if (Session::isSession(a.folder)) {
+    Session session = Session::open(a.folder);
+    std::vector<std::int64_t> ids;
+    for (const CampaignRecord& record : session.campaigns()) {
+      if (a.campaign.empty() || record.name == a.campaign) ids.push_back(record.id);
+    }
+    if (ids.empty())
+      throw InputError({a.folder, ""}, a.campaign.empty() ? "holds no campaign to publish."
+                                                          : fmt::format("holds no campaign \"{}\".", a.campaign));
+    outcome = publishFromSession(session, ids, address);
+  } else {
+    const PlantCampaign campaign = plantCampaign(std::filesystem::path(a.folder), job);
+    PlantStore store = PlantStore::openOrMake(address);
+    outcome.warnings = store.warnings();
+    outcome.count = store.publish(std::span(&campaign, 1));
+  }
+  CommandResult result;
+  result.json = toJson(outcome.count);
+  result.json["store"] = address.text();
+  result.json["waiting"] = outcome.waiting;
+  result.json["reason"] = outcome.reason.empty() ? nlohmann::json() : nlohmann::json(outcome.reason);
+  result.warnings = outcome.warnings;
+  if (outcome.waiting > 0) {
+    result.exit_status = NotGoodEnough;
+    result.summary =
+        fmt::format("{} {} in the session and will be published next time: {}\n", countOf(outcome.waiting, "campaign"),
+                    outcome.waiting == 1 ? "waits" : "wait", outcome.reason);
+    return result;
+  }
+  result.summary = fmt::format("{}: {} new, {} there already; {} new, {} there already\n", address.text(),
+                               countOf(outcome.count.campaigns_new, "campaign"), outcome.count.campaigns_there,
+                               countOf(outcome.count.results_new, "result"), outcome.count.results_there);
+  return result;
+}
+
+CommandResult list(const PlantArguments& a) {
+  PlantStore store = PlantStore::open(addressOf(a.store), {.as = PlantRole::Reader});
+  CommandResult result;
+  result.warnings = store.warnings();
+  result.json = {
+      {"store", store.address()}, {"machines", nlohmann::json::array()}, {"campaigns", nlohmann::json::array()}};
+  if (!a.machine.empty()) (void)store.machine(a.machine);
+  for (const MachineState& s : plantOverview(store, now())) {
+    if (!a.machine.empty() && s.machine.name != a.machine) continue;
+    const ModelState model = modelState(store, s.machine.name, {});
+    nlohmann::json entry = spindrift::toJson(s);
+    entry["model_campaign"] = model.model ? nlohmann::json(model.model->campaign_name) : nlohmann::json();
+    entry["model_holds"] = model.model ? nlohmann::json(model.reasons.empty()) : nlohmann::json();
+    entry["model_reasons"] = model.reasons;
+    result.json["machines"].push_back(entry);
+    result.summary += fmt::format("{:<24} {:>5} {:<12} {}\n", s.machine.name, countOf(s.machine.campaigns, "campaign"),
+                                  s.machine.last_verdict, s.dueSentence());
+    if (!model.reasons.empty()) result.summary += "  model no longer holds: " + model.reasons.front() + "\n";
+  }
+  for (const PlantListing& c : store.campaigns(a.machine)) {
+    result.json["campaigns"].push_back(toJson(c));
+    if (!a.machine.empty())
+      result.summary += fmt::format("{:>6}  {}  {:<24} {:<12} {}\n", c.id, utcText(c.start_s).substr(0, 10), c.name,
+                                    c.verdict, c.publisher);
+  }
+  if (result.json["machines"].empty()) result.summary += "no machine yet: publish a campaign\n";
+  return result;
+}
+
+CommandResult trend(const PlantArguments& a) {
+  PlantStore store = PlantStore::open(addressOf(a.store), {.as = PlantRole::Reader});
+  CommandResult result;
+  result.warnings = store.warnings();
+  if (a.parameter.empty()) {
+    (void)store.machine(a.machine);
+    result.json = {{"machine", a.machine}, {"parameters", nlohmann::json::array()}};
+    for (const TrendName& n : store.trendNames(a.machine)) {
+      result.json["parameters"].push_back({{"kind", n.kind}, {"parameter", n.name}, {"values", n.values}});
+      result.summary += fmt::format("{}/{}  {}\n", n.kind, n.name, countOf(n.values, "value"));
+    }
+    return result;
+  }
+  const MachineTrend found = machineTrend(store, a.machine, a.parameter, a.state, a.chart);
+  if (!a.csv.empty()) writeFileAtomically(a.csv, found.csv());
+  result.json = found.json();
+  result.summary = found.summary();
+  return result;
+}
+
+CommandResult compare(const PlantArguments& a) {
+  PlantStore store = PlantStore::open(addressOf(a.store), {.as = PlantRole::Reader});
+  const CampaignComparison compared = compareCampaigns(store, a.campaigns);
+  return {compared.json(), compared.summary(), Done, store.warnings()};
+}
+
+CommandResult event(const PlantArguments& a) {
+  PlantStore store = PlantStore::open(addressOf(a.store));
+  CommandResult result;
+  result.warnings = store.warnings();
+  if (a.every_days >= 0.0) store.setInterval(a.machine, a.every_days);
+  if (!a.kind.empty()) {
+    const std::optional<double> time_s = a.time.empty() ? std::optional(now()) : parseUtc(a.time);
+    if (!time_s)
+      throw InputError(fmt::format("--time \"{}\" is no time; allowed: UTC such as 2026-01-31T08:00:00Z.", a.time));
+    store.addEvent({a.machine, *time_s, a.kind, a.note, plantPublisher()});
+  } else if (a.every_days < 0.0) {
+    throw InputError("Nothing is entered; allowed: --kind, --every-days, or both.");
+  }
+  result.json = {{"machine", a.machine}, {"events", nlohmann::json::array()}};
+  for (const MachineEvent& e : store.events(a.machine)) {
+    result.json["events"].push_back(
+        {{"time_utc", utcText(e.time_s)}, {"kind", e.kind}, {"note", e.note}, {"author", e.author}});
+    result.summary += fmt::format("{}  {:<16} {}\n", utcText(e.time_s).substr(0, 10), e.kind, e.note);
+  }
+  return result;
+}
+
+CommandResult exportStore(const PlantArguments& a, JobContext& job) {
+  PlantStore store = PlantStore::open(addressOf(a.store), {.as = PlantRole::Reader});
+  CommandResult result;
+  result.warnings = store.warnings();
+  if (!a.html.empty()) {
+    if (a.machine.empty()) throw InputError("--html is the report of one machine; allowed: with --machine NAME.");
+    writeFileAtomically(a.html, machineReport(store, a.machine, now()));
+    result.summary += a.html + ": report of " + a.machine + "\n";
+  }
+  nlohmann::json all = {{"format", "spindrift-plant-export"},
+                        {"version", 1},
+                        {"campaigns", nlohmann::json::array()},
+                        {"events", nlohmann::json::array()}};
+  const std::vector<PlantListing> listed = store.campaigns(a.machine);
+  for (std::size_t i = 0; i < listed.size(); ++i) {
+    job.report(static_cast<double>(i) / static_cast<double>(listed.size()), "reading campaigns");
+    job.throwIfCancelled();
+    all["campaigns"].push_back(store.campaign(listed[i].id).json());
+  }
+  for (const PlantMachine& m : store.machines()) {
+    if (!a.machine.empty() && m.name != a.machine) continue;
+    for (const MachineEvent& e : store.events(m.name))
+      all["events"].push_back({{"machine", m.name},
+                               {"time_utc", utcText(e.time_s)},
+                               {"kind", e.kind},
+                               {"note", e.note},
+                               {"author", e.author}});
+  }
+  if (!a.out.empty()) {
+    writeFileAtomically(a.out, all.dump(1) + "\n");
+    result.summary += fmt::format("{}: {}\n", a.out, countOf(listed.size(), "campaign"));
+  }
+  if (a.out.empty() && a.html.empty()) result.summary = all.dump(1) + "\n";
+  result.json = std::move(all);
+  return result;
+}
+
+void addPlantGroup(CLI::App& app, CommandLine& line) {
+  CLI::App* group = app.add_subcommand("plant", "Many machines over years: publish, list, trends, events, export");
+  group->require_subcommand(1);
+  const auto add = [&](const char* name, const char* what, CommandResult (*run)(const PlantArguments&, JobContext&)) {
+    auto a = std::make_shared<PlantArguments>();
+    CLI::App* command = addCommand(*group, line, name, what, [a, run](JobContext& job) { return run(*a, job); });
+    addStore(command, a->store);
+    return std::pair(command, a);
+  };
+  add("init", "Make a plant store, or bring one of an older version up to date (needs its owner)",
+      [](const PlantArguments& a, JobContext&) { return init(a); });
+  {
+    auto [command, a] =
+        add("publish",
+            "Publish the campaigns of a session, or a campaign folder (it is evaluated), with results and "
+            "provenance; raw captures stay where they are. Publishing again adds nothing. Exit status 1: "
+            "the store cannot be reached, and what was to be published waits in the session",
+            publish);
+    command->add_option("FOLDER", a->folder, "Session or campaign")->required();
+    command->add_option("--campaign", a->campaign, "Only the campaign of this name")->type_name("NAME");
+  }
+  {
+    auto [command, a] = add("list", "List machines with their last state and what is due, and campaigns",
+                            [](const PlantArguments& args, JobContext&) { return list(args); });
+    command->add_option("--machine", a->machine, "Only this machine, with its campaigns")->type_name("NAME");
+  }
+  {
+    auto [command, a] =
+        add("trend", "One parameter of a machine over months: control limits, and changes that are more than chance",
+            [](const PlantArguments& args, JobContext&) { return trend(args); });
+    command->add_option("MACHINE", a->machine, "Machine")->required();
+    command->add_option("PARAMETER", a->parameter, "Parameter, such as EX_um or fit/EX_um; without it those there are");
+    command->add_option("--state", a->state, "Thermal state or cycle; without it the last one of each campaign")
+        ->type_name("NAME");
+    command->add_option("--baseline", a->chart.baseline, "Values that level and limits are taken from, 5 to 1000")
+        ->capture_default_str();
+    command->add_option("--alpha", a->chart.alpha, "Probability of naming a change where there is none, 0.001 to 0.2")
+        ->capture_default_str();
+    command->add_option("--csv", a->csv, "Write values and limits to this CSV file")->type_name("FILE");
+  }
+  {
+    auto [command, a] = add("compare", "Campaigns side by side, of whatever sessions and machines",
+                            [](const PlantArguments& args, JobContext&) { return compare(args); });
+    command->add_option("CAMPAIGN", a->campaigns, "Numbers that plant list shows, two or more")->required();
+  }
+  {
+    auto [command, a] = add("event", "Enter what was done to a machine, or how often it is to be measured",
+                            [](const PlantArguments& args, JobContext&) { return event(args); });
+    command->add_option("MACHINE", a->machine, "Machine")->required();
+    command->add_option("--kind", a->kind, "What")->check(CLI::IsMember(eventKinds()));
+    command->add_option("--time", a->time, "When (UTC); without it now")->type_name("TIME");
+    command->add_option("--note", a->note, "A few words")->type_name("TEXT");
+    command->add_option("--every-days", a->every_days, "Measure it every so many days; 0: not said")
+        ->check(nonNegativeNumber());
+  }
+  {
+    auto [command, a] = add(
+        "export", "Write all that is stored, or that of one machine, as JSON; a machine's report as HTML", exportStore);
+    command->add_option("--machine", a->machine, "Only this machine")->type_name("NAME");
+    command->add_option("--out", a->out, "JSON file; without it standard output")->type_name("FILE");
+    command->add_option("--html", a->html, "Report of the machine (one HTML file)")->type_name("FILE");
+  }
+}
+
+// Batches -------------------------------------------------------------------------------------------------------------
+
+struct BatchArguments {
+  std::string store;
+  std::string plan;
+  std::string batch;
+  std::string engine = "local";
+  std::string results;
+  std::string logs = "spindrift-batch-logs";
+  int processes = 0;
+  int tasks = 4;
+  int round = 1;
+  int time_limit_min = 0;
+  double budget_s = 0.0;
+};
+
+std::string thisProgram() {
+  return std::filesystem::read_symlink("/proc/self/exe").string();
+}
+
+/// 0 done, 1 still open or some failed (the summary says what).
+CommandResult told(const BatchState& state) {
+  CommandResult result;
+  result.json = state.json();
+  result.summary = state.summary();
+  if (!state.finished() || state.failed_items > 0) result.exit_status = NotGoodEnough;
+  return result;
+}
+
+SlurmOptions slurmOptions(const BatchArguments& a, const BatchPlan& plan) {
+  SlurmOptions options;
+  options.tasks = a.tasks;
+  options.logs = std::filesystem::absolute(a.logs);
+  options.time_limit_min = a.time_limit_min;
+  options.round = a.round;
+  options.lease_s = plan.lease_s;
+  options.program = thisProgram();
+  return options;
+}
+
+CommandResult runBatch(const BatchArguments& a, std::int64_t id, const PlantAddress& address, JobContext& job) {
+  PlantStore store = PlantStore::open(address);
+  BatchQueue queue(store);
+  if (a.engine == "slurm") {
+    const BatchState state = queue.state(id);
+    CommandResult result;
+    result.json = state.json();
+    if (state.finished()) {
+      result.summary = state.summary();
+      return result;
+    }
+    const std::string array = giveToSlurm(address, id, slurmOptions(a, queue.plan(id)));
+    result.json["slurm_job"] = array;
+    result.summary = fmt::format("batch {}: {} in Slurm's array job {}; batch status {} says how far it is\n", id,
+                                 countOf(a.tasks, "task"), array, id);
+    return result;
+  }
+  EngineOptions options;
+  options.processes = a.processes;
+  options.worker_command = {thisProgram(), "batch", "work"};
+  const EngineReport report = runLocally(address, id, options, job);
+  if (!report.refused.empty()) throw InputError(report.refused);
+  CommandResult result = told(report.state);
+  result.json["processes_started"] = report.started;
+  result.json["processes_killed"] = report.killed;
+  if (report.stopped) result.summary += fmt::format("stopped; batch resume {} goes on\n", id);
+  return result;
+}
+
+CommandResult startBatch(const BatchArguments& a, JobContext& job) {
+  const BatchPlan plan = BatchPlan::read(a.plan);
+  plan.requireFiles();
+  const PlantAddress address = addressOf(a.store);
+  std::int64_t id = 0;
+  {
+    PlantStore store = PlantStore::openOrMake(address);
+    BatchQueue queue(store);
+    id = queue.submit(plan);
+  }
+  return runBatch(a, id, address, job);
+}
+
+std::atomic<bool>& terminated() {
+  static std::atomic<bool> flag{false};
+  return flag;
+}
+
+CommandResult workBatch(const BatchArguments& a) {
+  std::signal(SIGTERM, [](int) { terminated() = true; });
+  WorkerOptions options;
+  options.engine = a.engine;
+  options.budget_s = a.budget_s;
+  options.stop = &terminated();
+  const PlantAddress address = addressOf(a.store);
+  std::int64_t id = 0;
+  {
+    PlantStore store = PlantStore::open(address);
+    id = BatchQueue(store).find(a.batch);
+  }
+  const WorkerReport report = workOnBatch(address, id, options);
+  CommandResult result;
+  result.json = {{"worker", workerName()},
+                 {"chunks", report.chunks},
+                 {"items", report.items},
+                 {"dropped", report.dropped},
+                 {"stopped", report.stopped}};
+  result.summary =
+      fmt::format("{}: {}, {}\n", workerName(), countOf(report.chunks, "chunk"), countOf(report.items, "item"));
+  return result;
+}
+
+CommandResult statusOfBatch(const BatchArguments& a) {
+  PlantStore store = PlantStore::open(addressOf(a.store), {.as = PlantRole::Reader});
+  BatchQueue queue(store);
+  if (a.batch.empty()) {
+    CommandResult result;
+    result.json["batches"] = nlohmann::json::array();
+    for (const BatchState& s : queue.all()) {
+      result.json["batches"].push_back(s.json());
+      result.summary += s.summary();
+    }
+    if (result.summary.empty()) result.summary = "no batch yet\n";
+    return result;
+  }
+  const std::int64_t id = queue.find(a.batch);
+  if (!a.results.empty()) {
+    const BatchPlan plan = queue.plan(id);
+    std::string lines;
+    queue.answers(id, [&](const ItemAnswer& answer) {
+      lines += nlohmann::json({{"item", answer.item},
+                               {"name", plan.itemName(answer.item)},
+                               {"work_s", answer.work_s},
+                               {"failed", answer.failed},
+                               {"answer", answer.answer}})
+                   .dump() +
+               "\n";
+    });
+    writeFileAtomically(a.results, lines);
+  }
+  return told(queue.state(id));
+}
+
+CommandResult changeBatch(const BatchArguments& a, JobContext& job, bool resume) {
+  const PlantAddress address = addressOf(a.store);
+  std::int64_t id = 0;
+  {
+    PlantStore store = PlantStore::open(address);
+    BatchQueue queue(store);
+    id = queue.find(a.batch);
+    if (!resume) {
+      queue.cancel(id);
+      CommandResult result;
+      result.json = queue.state(id).json();
+      result.summary = queue.state(id).summary();
+      return result;
+    }
+    queue.resume(id);
+  }
+  return runBatch(a, id, address, job);
+}
+
+/// After a round of Slurm: another one while chunks are open.
+CommandResult sweepBatch(BatchArguments a) {
+  const PlantAddress address = addressOf(a.store);
+  PlantStore store = PlantStore::open(address);
+  BatchQueue queue(store);
+  const std::int64_t id = queue.find(a.batch);
+  const BatchState state = queue.state(id);
+  CommandResult result = told(state);
+  if (state.finished() || state.cancelled) return result;
+  SlurmOptions options = slurmOptions(a, queue.plan(id));
+  if (a.round >= options.rounds) {
+    result.summary += fmt::format("still open after {} rounds; batch resume {} --engine slurm goes on\n", a.round, id);
+    return result;
+  }
+  options.round = a.round + 1;
+  result.summary += "round " + std::to_string(options.round) + ": " + giveToSlurm(address, id, options) + "\n";
+  return result;
+}
+
+void addEngineOptions(CLI::App* command, BatchArguments& a) {
+  command->add_option("--engine", a.engine, "Where: processes on this computer, or tasks of Slurm")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  command->add_option("--processes", a.processes, "local: processes, 0: as many as there are processors")
+      ->check(CLI::Range(0, 10000));
+  command->add_option("--tasks", a.tasks, "slurm: tasks of the array")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--time-limit", a.time_limit_min, "slurm: minutes a task may take, 0: that of the partition")
+      ->check(CLI::Range(0, 1000000));
+  command->add_option("--logs", a.logs, "slurm: folder for what the tasks print")
+      ->capture_default_str()
+      ->type_name("DIR");
+}
+
+void addBatchGroup(CLI::App& app, CommandLine& line) {
+  auto started = std::make_shared<BatchArguments>();
+  CLI::App* group = addCommand(app, line, "batch",
+                               "Evaluate, fit, identify, search, simulate or study many campaigns or seeds "
+                               "(spindrift-batch plan): as processes on "
+                               "this computer or through Slurm; what is done is kept in the plant store. Exit status "
+                               "1: something failed or is open",
+                               [started](JobContext& job) { return startBatch(*started, job); });
+  const CLI::App* const whole = group;
+  group->callback([&line, whole, started] {
+    if (!whole->get_subcommands().empty()) return;
+    if (started->plan.empty()) throw CLI::RequiredError("PLAN.json, or one of status, cancel, resume,");
+    line.selected = [started](JobContext& job) { return startBatch(*started, job); };
+  });
+  group->add_option("PLAN", started->plan, "Plan (JSON, format spindrift-batch)");
+  addStore(group, started->store);
+  addEngineOptions(group, *started);
+  const auto add = [&](const char* name, const char* what, auto run) {
+    auto a = std::make_shared<BatchArguments>();
+    CLI::App* command = addCommand(*group, line, name, what, [a, run](JobContext& job) { return run(*a, job); });
+    addStore(command, a->store);
+    return std::pair(command, a);
+  };
+  {
+    auto [command, a] = add("status", "How far batches are and what they cost; the answers of one of them",
+                            [](const BatchArguments& args, JobContext&) { return statusOfBatch(args); });
+    command->add_option("BATCH", a->batch, "Number or name; without it all batches");
+    command->add_option("--results", a->results, "Write the answers to this file, one JSON a line")->type_name("FILE");
+  }
+  {
+    auto [command, a] = add("cancel", "Cancel a batch: nothing more is begun, what runs is given back",
+                            [](const BatchArguments& args, JobContext& job) { return changeBatch(args, job, false); });
+    command->add_option("BATCH", a->batch, "Number or name")->required();
+  }
+  {
+    auto [command, a] = add("resume", "Go on with a batch that was cancelled, stopped or has failed items",
+                            [](const BatchArguments& args, JobContext& job) { return changeBatch(args, job, true); });
+    command->add_option("BATCH", a->batch, "Number or name")->required();
+    addEngineOptions(command, *a);
+  }
+  {
+    auto [command, a] = add("work", "One worker: claims and works until nothing is free (the engines start it)",
+                            [](const BatchArguments& args, JobContext&) { return workBatch(args); });
+    command->add_option("BATCH", a->batch, "Number or name")->required();
+    command->add_option("--engine", a->engine, "Who started it")->check(CLI::IsMember({"local", "slurm"}));
+    command->add_option("--budget", a->budget_s, "Begin nothing new after this time in s")->check(nonNegativeNumber());
+  }
+  {
+    auto [command, a] = add("sweep", "After a round of Slurm: starts another one while something is open",
+                            [](const BatchArguments& args, JobContext&) { return sweepBatch(args); });
+    command->add_option("BATCH", a->batch, "Number or name")->required();
+    command->add_option("--round", a->round, "The round that has ended");
+    addEngineOptions(command, *a);
+  }
+}
+
+}  // namespace
+
+void addPlantCommands(CLI::App& app, CommandLine& line) {
+  addPlantGroup(app, line);
+  addBatchGroup(app, line);
+}
+
+}  // namespace spindrift::cli

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page Plant in the real window, on a store with machines of which one has changed. SPINDRIFT_TEST_PICTURES=FOLDER
+// keeps what it looks like.
+#include <gtest/gtest.h>
+
+#include <QCoreApplication>
+#include <QElapsedTimer>
+#include <QItemSelectionModel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSettings>
+#include <QTabWidget>
+#include <QTableView>
+#include <QTextBrowser>
+#include <chrono>
+#include <cmath>
+
+#include "core/base/atomic_file.h"
+#include "core/base/random.h"
+#include "core/plant/batch_queue.h"
+#include "core/plant/plant_store.h"
+#include "tests/support/temp_folder.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/plant/plant_page.h"
+#include "widgets/plots/plot.h"
+#include "widgets/shell/main_window.h"
+#include "widgets/shell/tour.h"
+#include "widgets/shell/welcome_page.h"
+#include "widgets/theme/theme.h"
+
+namespace spindrift::gui {
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+constexpr double week_s = 604'800.0;
+
+class PlantPageTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    QSettings().clear();
+    store_ = QString::fromStdString((folder_ / "plant.sqlite").string());
+    makeStore();
+    window_ = std::make_unique<MainWindow>();
+    window_->resize(1440, 900);
+    window_->setTheme(ThemeKind::Light);
+    window_->show();
+  }
+  void TearDown() override { window_->setTheme(ThemeKind::Light); }
+
+  void makeStore() {
+    PlantStore store = PlantStore::make(PlantAddress::parse(store_.toStdString()));
+    Random random(11);
+    std::vector<PlantCampaign> campaigns;
+    for (const char* machine : {"DMU 50 hall 2", "gantry north", "lathe 4"}) {
+      for (int week = 0; week < 60; ++week) {
+        const bool changed = std::string(machine) == "gantry north" && week >= 40;
+        if (std::string(machine) == "lathe 4" && week > 52) continue;
+        PlantCampaign c;
+        c.machine = machine;
+        c.name = "week " + std::to_string(week);
+        c.start_s = now() - week_s * (60.0 - week) - 3600.0;
+        c.fingerprint = c.machine + c.name;
+        c.program_version = SPINDRIFT_VERSION;
+        c.publisher = "anna@bench";
+        PlantResult r;
+        r.kind = "fit";
+        r.program_version = SPINDRIFT_VERSION;
+        r.inputs_fingerprint = c.fingerprint;
+        r.verdict = "converged";
+        for (const char* name : {"EX_um", "EZ_um"}) {
+          const double u = random.uniform(0.2, 0.6);
+          r.parameters.push_back(
+              {"M1", name, 8.0 + (changed ? 4.0 : 0.0) + random.normal(0.0, 0.5) + random.normal(0.0, u), u});
+        }
+        c.results.push_back(r);
+        if (week == 20) {
+          PlantResult model = r;
+          model.kind = "discrepancy";
+          model.verdict = "none";
+          model.parameters.clear();
+          model.model = {{"format", "spindrift-error-model"}};
+          c.results.push_back(model);
+        }
+        campaigns.push_back(std::move(c));
+      }
+    }
+    (void)store.publish(campaigns);
+    store.addEvent({"gantry north", now() - week_s * 20.5, "spindle_changed", "SN 12", "anna"});
+    store.addEvent({"gantry north", now() - week_s * 30.5, "note", "cleaned", "anna"});
+    BatchPlan plan;
+    plan.name = "monthly";
+    plan.work = "hidden_effect";
+    plan.seeds = 40;
+    plan.chunk = 10;
+    BatchQueue queue(store);
+    const std::int64_t id = queue.submit(plan);
+    const auto claim = queue.claim(id, "w", "local");
+    std::vector<ItemAnswer> answers;
+    for (std::int64_t i = 0; i < 10; ++i) answers.push_back({i, 12.0, i == 3, {{"verdict", "named"}}});
+    (void)queue.finish(*claim, ChunkOutcome::Done, answers, "", 120.0);
+    (void)queue.claim(id, "w", "local");
+  }
+  void wait() {
+    ASSERT_TRUE(waitForJobs(*window_, 60));
+    QCoreApplication::processEvents();
+  }
+  void keep(const QString& name) {
+    const QString folder = qEnvironmentVariable("SPINDRIFT_TEST_PICTURES");
+    if (folder.isEmpty()) return;
+    for (const ThemeKind kind : {ThemeKind::Light, ThemeKind::Dark}) {
+      window_->setTheme(kind);
+      wait();
+      window_->grab().save(folder + QLatin1Char('/') + name +
+                           (kind == ThemeKind::Dark ? QStringLiteral("-dark.png") : QStringLiteral("-light.png")));
+    }
+    window_->setTheme(ThemeKind::Light);
+  }
+
+  testing::TempFolder folder_;
+  QString store_;
+  std::unique_ptr<MainWindow> window_;
+};
+
+TEST_F(PlantPageTest, ShowsMachinesTrendsAndBatchesWithoutASession) {
+  window_->openPlant();
+  PlantPage* page = window_->plant();
+  ASSERT_TRUE(page->isVisible());
+  EXPECT_FALSE(page->publishButton()->isEnabled()) << "there is no session to publish";
+  page->openStore(store_);
+  wait();
+  ASSERT_EQ(page->machines()->model()->rowCount(), 3);
+  const auto cell = [&](int row, int column) {
+    return page->machines()->model()->index(row, column).data().toString().toStdString();
+  };
+  EXPECT_EQ(cell(0, 0), "lathe 4") << "what is due stands first";
+  EXPECT_NE(cell(0, 1).find("due for"), std::string::npos) << cell(0, 1);
+  EXPECT_FALSE(page->plot()->empty()) << "the first machine is shown";
+  keep(QStringLiteral("plant-first"));
+
+  page->selectMachines({QStringLiteral("gantry north")});
+  wait();
+  page->parameter()->setCurrentText(QStringLiteral("fit/EX_um"));
+  wait();
+  EXPECT_EQ(page->plot()->series().front().x.size(), 60U);
+  EXPECT_EQ(page->plot()->series().size(), 7U) << "values; moving average and both limits before and after the spindle";
+  const std::string said = page->said().toStdString();
+  EXPECT_NE(said.find("step of +"), std::string::npos) << said;
+  EXPECT_NE(said.find("spindle changed (SN 12)"), std::string::npos) << said;
+  int gantry = 0;
+  while (cell(gantry, 0) != "gantry north") ++gantry;
+  EXPECT_EQ(cell(gantry, 2), "no longer holds");
+  keep(QStringLiteral("plant-trend"));
+  page->writeReport(QString::fromStdString((folder_ / "gantry.html").string()));
+  wait();
+  const std::string report = readFile(folder_ / "gantry.html");
+  EXPECT_NE(report.find("gantry north"), std::string::npos);
+  EXPECT_NE(report.find("no longer holds"), std::string::npos);
+
+  page->selectMachines({QStringLiteral("gantry north"), QStringLiteral("lathe 4"), QStringLiteral("DMU 50 hall 2")});
+  wait();
+  EXPECT_EQ(page->plot()->series().size(), 3U);
+  keep(QStringLiteral("plant-machines"));
+
+  page->tabs()->setCurrentIndex(1);
+  wait();
+  auto* campaigns = dynamic_cast<RowsModel*>(page->campaigns()->model());
+  ASSERT_NE(campaigns, nullptr);
+  ASSERT_GT(campaigns->rowCount(), 100);
+  for (const int row : {0, 70}) {
+    ASSERT_TRUE(campaigns->setData(campaigns->index(row, 0), Qt::Checked, Qt::CheckStateRole));
+    wait();
+  }
+  EXPECT_EQ(page->comparison()->rowCount(), 2);
+  EXPECT_EQ(page->comparison()->columnCount(), 5);
+  keep(QStringLiteral("plant-campaigns"));
+
+  page->tabs()->setCurrentIndex(2);
+  wait();
+  ASSERT_EQ(page->batches()->rowCount(), 1);
+  EXPECT_EQ(page->batches()->index(0, 2).data().toString().toStdString(), "10 of 40 (25 %)");
+  EXPECT_EQ(page->batches()->index(0, 3).data().toString().toStdString(), "1");
+  keep(QStringLiteral("plant-batches"));
+  page->tabs()->setCurrentIndex(3);
+  auto* help = page->findChild<QTextBrowser*>();
+  ASSERT_NE(help, nullptr);
+  EXPECT_TRUE(help->toPlainText().contains(QStringLiteral("10,000 machines")));
+  keep(QStringLiteral("plant-help"));
+}
+
+TEST_F(PlantPageTest, SaysWhatIsWrongAndComesBack) {
+  window_->openPlant();
+  PlantPage* page = window_->plant();
+  page->openStore(QStringLiteral("postgresql:host=a password=b"));
+  EXPECT_NE(page->callout()->sentence().toStdString().find("holds a password"), std::string::npos);
+  page->openStore(store_ + QStringLiteral(".none"));
+  wait();
+  EXPECT_NE(page->callout()->sentence().toStdString().find("is not there"), std::string::npos);
+  page->openStore(store_);
+  wait();
+  EXPECT_FALSE(page->callout()->isVisible());
+  Q_EMIT page->closed();
+  EXPECT_TRUE(window_->welcomeShown());
+}
+
+TEST_F(PlantPageTest, PublishesTheOpenSession) {
+  {
+    Session session = Session::create(folder_ / "s");
+    const auto id = session.newCampaign("warm-up", "2026-01-31T08:00:00Z",
+                                        R"({"format":"spindrift-machine","version":1,"name":"new mill",
+                                            "chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]}]})");
+    session.addResult(id, "fit", {},
+                      {{"status", "converged"},
+                       {"state", "M1"},
+                       {"parameters", {{"EX_um", {{"value", 1.0}, {"standard_uncertainty", 0.2}}}}}});
+  }
+  window_->open(QString::fromStdString((folder_ / "s").string()));
+  wait();
+  window_->openPlant();
+  PlantPage* page = window_->plant();
+  ASSERT_TRUE(page->publishButton()->isEnabled());
+  page->openStore(store_);
+  wait();
+  page->publishButton()->click();
+  wait();
+  wait();
+  EXPECT_NE(page->callout()->sentence().toStdString().find("Published: 1 campaigns and 1 results are new"),
+            std::string::npos)
+      << page->callout()->sentence().toStdString();
+  EXPECT_EQ(page->machines()->model()->rowCount(), 4);
+  Q_EMIT page->closed();
+  EXPECT_FALSE(window_->welcomeShown());
+}
+
+/// 260 values: from the choice to the picture.
+TEST_F(PlantPageTest, DrawsATrendAtOnce) {
+  {
+    PlantStore store = PlantStore::open(PlantAddress::parse(store_.toStdString()));
+    std::vector<PlantCampaign> campaigns;
+    for (int week = 0; week < 260; ++week) {
+      PlantCampaign c;
+      c.machine = "old mill";
+      c.name = std::to_string(week);
+      c.start_s = now() - week_s * (260.0 - week);
+      c.fingerprint = c.name;
+      c.program_version = SPINDRIFT_VERSION;
+      PlantResult r;
+      r.kind = "fit";
+      r.parameters = {{"M1", "EX_um", std::sin(1.7 * week), 0.1}};
+      c.results.push_back(r);
+      campaigns.push_back(c);
+    }
+    (void)store.publish(campaigns);
+  }
+  window_->openPlant();
+  PlantPage* page = window_->plant();
+  page->openStore(store_);
+  wait();
+  double least = 1e9;
+  for (int i = 0; i < 5; ++i) {
+    page->selectMachines({});
+    wait();
+    QElapsedTimer timer;
+    timer.start();
+    page->selectMachines({QStringLiteral("old mill")});
+    wait();
+    (void)page->plot()->grab();
+    least = std::min(least, static_cast<double>(timer.nsecsElapsed()) / 1e6);
+  }
+  EXPECT_EQ(page->plot()->series().front().x.size(), 260U);
+  std::printf("a trend of 260 values from the choice to the picture: %.0f ms\n", least);
+  EXPECT_LT(least, 1000.0) << "100 ms on a computer that does nothing else";
+}
+
+}  // namespace
+}  // namespace spindrift::gui

@@ -1,0 +1,639 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/pages/plant/plant_page.h"
+
+#include <QComboBox>
+#include <QFile>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QItemSelectionModel>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSettings>
+#include <QSignalBlocker>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QTableView>
+#include <QTextBrowser>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include "core/base/atomic_file.h"
+#include "core/base/count_text.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/connect/utc_time.h"
+#include "core/plant/publish.h"
+#include "widgets/common/parts.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/plots/plot.h"
+#include "widgets/theme/fonts.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr double day_s = 86'400.0;
+constexpr auto store_key = "plant/store";
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+QString text(const std::string& s) {
+  return QString::fromStdString(s);
+}
+
+QString day(double time_s) {
+  return time_s > 0.0 ? text(utcText(time_s).substr(0, 10)) : QStringLiteral("–");
+}
+
+Tone toneOf(const std::string& verdict) {
+  if (verdict == "unknown" || verdict == "ambiguous" || verdict == "not_met" || verdict == "undecided")
+    return Tone::Attention;
+  if (verdict == "rejected" || verdict == "degenerate" || verdict == "no convergence") return Tone::Bad;
+  return Tone::Neutral;
+}
+
+/// What `work` gives is shown by `shown`, on the GUI thread.
+template <typename Work, typename Shown>
+Job displayJob(const QString& title, const char* key, Work work, Shown shown) {
+  Job job;
+  job.title = title;
+  job.queue = JobQueue::Display;
+  job.key = key;
+  job.quiet = true;
+  job.work = [work, shown](JobContext&) -> std::function<void()> {
+    auto found = std::make_shared<decltype(work())>(work());
+    return [shown, found] { shown(*found); };
+  };
+  return job;
+}
+
+QWidget* column(const std::vector<QWidget*>& widgets) {
+  auto* whole = new QWidget;
+  auto* layout = new QVBoxLayout(whole);
+  layout->setContentsMargins(12, 12, 12, 12);
+  layout->setSpacing(8);
+  for (QWidget* w : widgets) layout->addWidget(w);
+  return whole;
+}
+
+}  // namespace
+
+PlantLook lookAtPlant(const PlantAddress& address, double now_s) {
+  PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});
+  PlantLook look;
+  look.machines = plantOverview(store, now_s);
+  for (const MachineState& m : look.machines) {
+    look.names.push_back(store.trendNames(m.machine.name));
+  }
+  look.campaigns = store.campaigns();
+  look.batches = BatchQueue(store).all();
+  look.warnings = store.warnings();
+  return look;
+}
+
+PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
+    : QWidget(parent), session_(session), jobs_(jobs) {
+  setAccessibleName(tr("Plant"));
+  auto* outer = new QVBoxLayout(this);
+  outer->setContentsMargins(24, 16, 24, 16);
+  outer->setSpacing(12);
+  auto* head = new QHBoxLayout;
+  auto* titles = new QVBoxLayout;
+  titles->setSpacing(2);
+  titles->addWidget(makeLabel(tr("Plant"), "pageTitle"));
+  titles->addWidget(
+      makeLabel(tr("Open the store of your plant to see which machine is due, and what has changed."), "instruction"));
+  head->addLayout(titles, 1);
+  auto* back = makeButton(tr("Back"), "chevron-left");
+  connect(back, &QPushButton::clicked, this, &PlantPage::closed);
+  head->addWidget(back);
+  outer->addLayout(head);
+
+  auto* line = new QHBoxLayout;
+  line->setSpacing(8);
+  address_ = new QLineEdit;
+  address_->setAccessibleName(tr("Plant store"));
+  address_->setPlaceholderText(tr("plant.sqlite, or postgresql:host=NAME dbname=plant user=NAME"));
+  address_->setToolTip(tr("A file, or a PostgreSQL server; its password stands in the file that PGPASSFILE names"));
+  address_->setText(QSettings().value(QLatin1String(store_key)).toString());
+  line->addWidget(address_, 1);
+  auto* choose = makeButton(tr("File …"), "folder-open");
+  auto* open = makeButton(tr("Open"), nullptr, "primary");
+  publish_ = makeButton(tr("Publish this session"), "export");
+  publish_->setToolTip(tr("Campaigns of the open session with their newest results; raw captures stay where they are"));
+  line->addWidget(choose);
+  line->addWidget(open);
+  line->addWidget(publish_);
+  outer->addLayout(line);
+  callout_ = new Callout;
+  callout_->hide();
+  outer->addWidget(callout_);
+  connect(choose, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Open a plant store"), {}, tr("Plant store (*.sqlite)"));
+    if (!file.isEmpty()) openStore(file);
+  });
+  connect(open, &QPushButton::clicked, this, [this] { openStore(address_->text()); });
+  connect(address_, &QLineEdit::returnPressed, this, [this] { openStore(address_->text()); });
+  connect(publish_, &QPushButton::clicked, this, &PlantPage::publish);
+  connect(&session_, &SessionModel::sessionChanged, this, [this] { publish_->setEnabled(session_.isOpen()); });
+  publish_->setEnabled(session_.isOpen());
+
+  machines_ = new RowsModel({tr("Machine"), tr("Next"), tr("Model"), tr("Last"), tr("Verdict")}, this);
+  machine_table_ = makeTable(machines_, tr("Machines"), tr("Machines appear here once campaigns are published."));
+  machine_table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  auto* list = new Card(tr("Machines"));
+  list->body()->addWidget(machine_table_);
+  report_ = makeButton(tr("Report …"), "report");
+  report_->setToolTip(tr("State, events, trends and model of the selected machine as one HTML file"));
+  report_->setEnabled(false);
+  list->addToTitle(report_);
+  connect(report_, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getSaveFileName(
+        this, tr("Report of the machine"), chosenMachines().value(0) + QStringLiteral(".html"), tr("Report (*.html)"));
+    if (!file.isEmpty()) writeReport(file);
+  });
+  connect(machine_table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
+    showParameters();
+    showCampaigns();
+  });
+
+  parameter_ = new QComboBox;
+  parameter_->setAccessibleName(tr("Parameter"));
+  plot_ = new Plot;
+  plot_->setEmptyText(tr("No trend yet"), tr("Select a machine that has been measured at least twice."));
+  said_ = makeLabel({}, "secondaryText");
+  said_->setWordWrap(true);
+  said_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  said_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
+  plot_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+  connect(parameter_, &QComboBox::currentIndexChanged, this, &PlantPage::showTrends);
+
+  campaigns_ =
+      new RowsModel({QString(), tr("Machine"), tr("Campaign"), tr("Date"), tr("Verdict"), tr("Published by")}, this);
+  campaign_table_ = makeTable(campaigns_, tr("Campaigns"), tr("Select a machine."));
+  connect(campaigns_, &RowsModel::checkedChanged, this, [this](const QString& id, int, bool checked) {
+    const std::int64_t number = id.toLongLong();
+    std::erase(compared_, number);
+    if (checked) compared_.push_back(number);
+    showCampaigns();
+    compareChecked();
+  });
+  comparison_ = new RowsModel({tr("Parameter")}, this);
+  QTableView* comparison_table =
+      makeTable(comparison_, tr("Comparison"), tr("Check two or more campaigns to see them side by side."));
+
+  batches_ =
+      new RowsModel({tr("Batch"), tr("Work"), tr("Done"), tr("Failed"), tr("Running"), tr("Cost"), tr("Left")}, this);
+  QTableView* batch_table =
+      makeTable(batches_, tr("Batches"), tr("Batches are started with spindrift-cli batch PLAN.json."));
+
+  tabs_ = makeTabs();
+  tabs_->addTab(column({parameter_, plot_, said_}), tr("Trend"));
+  tabs_->addTab(makeSplitter(column({campaign_table_}), column({comparison_table}), 3, 2, Qt::Vertical),
+                tr("Campaigns"));
+  tabs_->addTab(column({batch_table}), tr("Batches"));
+  auto* help = new QTextBrowser;
+  help->setFrameShape(QFrame::NoFrame);
+  help->setAccessibleName(tr("Help on the plant"));
+  help->document()->setDefaultFont(textFont(sizes::font_body));
+  if (QFile file(QStringLiteral(":/help/plant.html")); file.open(QIODevice::ReadOnly))
+    help->setHtml(QString::fromUtf8(file.readAll()));
+  tabs_->addTab(column({help}), tr("Help"));
+  outer->addWidget(makeSplitter(list, tabs_, 10, 11), 1);
+
+  // What runs somewhere else is looked at as long as somebody looks at it.
+  batch_timer_.setInterval(3000);
+  connect(&batch_timer_, &QTimer::timeout, this, [this] {
+    if (isVisible() && tabs_->currentIndex() == 2) lookAtBatches();
+  });
+  batch_timer_.start();
+  connect(tabs_, &QTabWidget::currentChanged, this, [this](int index) {
+    if (index == 2) lookAtBatches();
+  });
+}
+
+QString PlantPage::said() const {
+  return said_->text();
+}
+
+QString PlantPage::addressText() const {
+  return address_->text().trimmed();
+}
+
+void PlantPage::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  publish_->setEnabled(session_.isOpen());
+}
+
+void PlantPage::openStore(const QString& address) {
+  address_->setText(address);
+  refresh();
+}
+
+void PlantPage::fail(const QString& sentence) {
+  callout_->show(Tone::Bad, sentence);
+}
+
+void PlantPage::refresh() {
+  const QString wanted = addressText();
+  if (wanted.isEmpty()) return;
+  try {
+    const PlantAddress address = PlantAddress::parse(wanted.toStdString());
+    Job job = displayJob(
+        tr("Reading the plant store"), "plant-look", [address] { return lookAtPlant(address, now()); },
+        [this, wanted](const PlantLook& look) {
+          QSettings().setValue(QLatin1String(store_key), wanted);
+          show(look);
+        });
+    job.failed = [this](const QString& sentence) { fail(sentence); };
+    jobs_.run(std::move(job));
+  } catch (const InputError& e) {
+    fail(QString::fromUtf8(e.what()));
+  }
+}
+
+void PlantPage::show(const PlantLook& look) {
+  const QStringList chosen = chosenMachines();
+  look_ = look;
+  if (notice_)
+    callout_->show(notice_->first, notice_->second);
+  else if (look.warnings.empty())
+    callout_->set(Tone::Neutral, {});
+  else
+    callout_->show(Tone::Attention, text(look.warnings.front()));
+  notice_.reset();
+  showMachines();
+  showBatches(look.batches);
+  std::erase_if(compared_, [&](std::int64_t id) {
+    return std::none_of(look.campaigns.begin(), look.campaigns.end(),
+                        [&](const PlantListing& c) { return c.id == id; });
+  });
+  selectMachines(chosen.isEmpty() && !look.machines.empty() ? QStringList{text(look.machines.front().machine.name)}
+                                                            : chosen);
+  lookAtModels();
+}
+
+void PlantPage::showMachines() {
+  const PlantLook& look = look_;
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < look.machines.size(); ++i) {
+    const MachineState& m = look.machines[i];
+    const ModelState model = i < look.models.size() ? look.models[i] : ModelState();
+    Cell holds{look.models.empty() ? tr("…") : tr("none")};
+    if (model.model) {
+      holds = model.reasons.empty() ? Cell{tr("holds"), Tone::Good, "check-circle"}
+                                    : Cell{tr("no longer holds"), Tone::Attention, "alert"};
+      if (!model.reasons.empty()) holds.tip = text(model.reasons.front());
+    }
+    const bool due = m.every_days > 0.0 && m.overdue_days > 0.0;
+    Cell next{
+        due ? tr("due for %1").arg(text(countOf(static_cast<long>(std::ceil(m.overdue_days)), "day"))) : day(m.due_s),
+        due ? Tone::Attention : Tone::Neutral, due ? "clock" : nullptr};
+    next.tip = text(m.dueSentence());
+    rows.push_back(
+        {text(m.machine.name),
+         {{text(m.machine.name), Tone::Neutral, nullptr, false, true},
+          next,
+          holds,
+          {day(m.machine.last_s)},
+          {text(m.machine.last_verdict.empty() ? "–" : m.machine.last_verdict), toneOf(m.machine.last_verdict)}}});
+  }
+  machines_->setRows(std::move(rows));
+}
+
+/// Whether models hold takes a look at all trends: it comes after the list.
+void PlantPage::lookAtModels() {
+  const PlantAddress address = PlantAddress::parse(addressText().toStdString());
+  std::vector<std::string> names;
+  for (const MachineState& m : look_.machines) names.push_back(m.machine.name);
+  Job job = displayJob(
+      tr("Looking at models"), "plant-models",
+      [address, names] {
+        PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});
+        std::pair<std::vector<std::string>, std::vector<ModelState>> found{names, {}};
+        for (const std::string& name : names) found.second.push_back(modelState(store, name, {}));
+        return found;
+      },
+      [this](const std::pair<std::vector<std::string>, std::vector<ModelState>>& found) {
+        if (found.first.size() != look_.machines.size()) return;
+        for (std::size_t i = 0; i < found.first.size(); ++i) {
+          if (found.first[i] != look_.machines[i].machine.name) return;  // of a store that is shown no more
+        }
+        look_.models = found.second;
+        const QStringList chosen = chosenMachines();
+        showMachines();
+        select(chosen);
+      });
+  job.queue = JobQueue::Work;  // trends that are chosen meanwhile do not wait for it
+  jobs_.run(std::move(job));
+}
+
+void PlantPage::selectMachines(const QStringList& names) {
+  select(names);
+  showParameters();
+  showCampaigns();
+}
+
+void PlantPage::select(const QStringList& names) {
+  QItemSelection selection;
+  for (const QString& name : names) {
+    const int row = machines_->rowOf(name);
+    if (row >= 0) selection.select(machines_->index(row, 0), machines_->index(row, machines_->columnCount() - 1));
+  }
+  {
+    const QSignalBlocker quiet(machine_table_->selectionModel());
+    machine_table_->selectionModel()->select(selection, QItemSelectionModel::ClearAndSelect);
+  }
+  machine_table_->viewport()->update();
+}
+
+QStringList PlantPage::chosenMachines() const {
+  QStringList names;
+  for (const QModelIndex& index : machine_table_->selectionModel()->selectedRows())
+    names << machines_->idAt(index.row());
+  return names;
+}
+
+void PlantPage::showParameters() {
+  const QString before = parameter_->currentText();
+  const QStringList chosen = chosenMachines();
+  std::set<QString> names;
+  QString most;
+  std::size_t most_values = 0;
+  for (std::size_t i = 0; i < look_.machines.size(); ++i) {
+    if (!chosen.contains(text(look_.machines[i].machine.name))) continue;
+    for (const TrendName& n : look_.names[i]) {
+      const QString name = text(n.kind + "/" + n.name);
+      names.insert(name);
+      if (n.values > most_values) {
+        most_values = n.values;
+        most = name;
+      }
+    }
+  }
+  {
+    const QSignalBlocker quiet(parameter_);
+    parameter_->clear();
+    for (const QString& name : names) parameter_->addItem(name);
+    const int again = parameter_->findText(before);
+    parameter_->setCurrentIndex(again >= 0 ? again : parameter_->findText(most));
+  }
+  parameter_->setEnabled(!names.empty());
+  showTrends();
+}
+
+void PlantPage::showTrends() {
+  const QStringList chosen = chosenMachines();
+  const std::string name = parameter_->currentText().toStdString();
+  if (chosen.isEmpty() || name.empty()) {
+    plot_->setContent({});
+    said_->clear();
+    return;
+  }
+  std::vector<std::string> machines;
+  for (std::size_t i = 0; i < look_.machines.size(); ++i) {
+    const bool has = std::any_of(look_.names[i].begin(), look_.names[i].end(),
+                                 [&](const TrendName& n) { return n.kind + "/" + n.name == name; });
+    if (has && chosen.contains(text(look_.machines[i].machine.name)))
+      machines.push_back(look_.machines[i].machine.name);
+  }
+  const PlantAddress address = PlantAddress::parse(addressText().toStdString());
+  Job job = displayJob(
+      tr("Reading trends"), "plant-trend",
+      [address, machines, name] {
+        PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});
+        std::vector<MachineTrend> trends;
+        for (const std::string& m : machines) trends.push_back(machineTrend(store, m, name, {}, {}));
+        return trends;
+      },
+      [this](const std::vector<MachineTrend>& trends) {
+        double first_s = 0.0;
+        for (const MachineTrend& t : trends) {
+          if (!t.chart.points.empty() && (first_s == 0.0 || t.chart.points.front().point.time_s < first_s))
+            first_s = t.chart.points.front().point.time_s;
+        }
+        std::vector<Series> series;
+        QStringList sentences;
+        const bool alone = trends.size() == 1;
+        for (std::size_t i = 0; i < trends.size(); ++i) {
+          const MachineTrend& t = trends[i];
+          Series measured{text(alone ? t.name : t.machine), {}, {}, {}, SeriesStyle::Points, static_cast<int>(i)};
+          // A stretch of its own for each level: limits begin anew after an event that changes the machine.
+          std::vector<Series> limits;
+          double centre = std::nan("");
+          for (const ChartPoint& p : t.chart.points) {
+            const double x = (p.point.time_s - first_s) / day_s;
+            measured.x.push_back(x);
+            measured.y.push_back(p.point.value);
+            measured.sigma.push_back(p.point.standard_uncertainty);
+            if (!alone || p.lower == p.upper) continue;
+            if (p.centre != centre) {
+              const bool first = limits.empty();
+              limits.push_back({tr("moving average (EWMA)"), {}, {}, {}, SeriesStyle::Line, 1, 2, first});
+              limits.push_back({tr("control limits"), {}, {}, {}, SeriesStyle::Dashed, 2, 2, first});
+              limits.push_back({QString(), {}, {}, {}, SeriesStyle::Dashed, 2, 2, false});
+              centre = p.centre;
+            }
+            const std::array<double, 3> values{p.ewma, p.lower, p.upper};
+            for (std::size_t k = 0; k < 3; ++k) {
+              Series& s = limits[limits.size() - 3 + k];
+              s.x.push_back(x);
+              s.y.push_back(values[k]);
+            }
+          }
+          series.push_back(std::move(measured));
+          for (Series& s : limits) series.push_back(std::move(s));
+          for (const NamedChange& c : t.chart.changes)
+            sentences << (alone ? QString() : text(t.machine) + QStringLiteral(": ")) + text(c.sentence(t.chart.unit));
+          if (alone) {
+            for (const std::string& note : t.chart.notes) sentences << text(note);
+          }
+        }
+        if (trends.empty() || trends.front().chart.points.empty()) {
+          plot_->setContent({});
+          said_->clear();
+          return;
+        }
+        const std::string unit = trends.front().chart.unit;
+        // The name carries the unit at its end.
+        QString quantity = text(trends.front().name);
+        for (const char* end : {"_um_per_m", "_urad", "_um"}) {
+          if (!unit.empty() && quantity.endsWith(QLatin1String(end))) quantity.chop(static_cast<int>(std::strlen(end)));
+        }
+        plot_->setAxes(tr("time since %1 / d").arg(day(first_s)),
+                       unit.empty() ? quantity : quantity + QStringLiteral(" / ") + text(unit));
+        plot_->setContent(std::move(series));
+        for (const MachineTrend& t : trends) {
+          for (const MachineEvent& e : t.events) {
+            if (!alone && !changesMachine(e.kind)) continue;
+            const QString what = text(e.kind).replace(QLatin1Char('_'), QLatin1Char(' '));
+            plot_->addMark((e.time_s - first_s) / day_s, alone ? what : text(t.machine) + QStringLiteral(": ") + what,
+                           changesMachine(e.kind) ? Tone::Attention : Tone::Neutral);
+          }
+        }
+        if (sentences.isEmpty()) sentences << tr("No change that is more than chance.");
+        said_->setText(sentences.mid(0, 6).join(QLatin1Char('\n')));
+      });
+  job.failed = [this](const QString& sentence) { fail(sentence); };
+  jobs_.run(std::move(job));
+}
+
+void PlantPage::showCampaigns() {
+  const QStringList chosen = chosenMachines();
+  report_->setEnabled(!chosen.isEmpty());
+  std::vector<Row> rows;
+  for (auto c = look_.campaigns.rbegin(); c != look_.campaigns.rend(); ++c) {
+    const bool checked = std::find(compared_.begin(), compared_.end(), c->id) != compared_.end();
+    if (!checked && !chosen.contains(text(c->machine))) continue;
+    Cell box;
+    box.checked = checked;
+    rows.push_back({QString::number(c->id),
+                    {box,
+                     {text(c->machine)},
+                     {text(c->name)},
+                     {day(c->start_s)},
+                     {text(c->verdict.empty() ? "–" : c->verdict), toneOf(c->verdict)},
+                     {text(c->publisher)}}});
+  }
+  campaigns_->setRows(std::move(rows));
+}
+
+void PlantPage::compareChecked() {
+  if (compared_.size() < 2) {
+    comparison_->setHeaders({tr("Parameter")});
+    comparison_->setRows({});
+    return;
+  }
+  const PlantAddress address = PlantAddress::parse(addressText().toStdString());
+  Job job = displayJob(
+      tr("Comparing campaigns"), "plant-compare",
+      [address, ids = compared_] {
+        PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});
+        return compareCampaigns(store, ids);
+      },
+      [this](const CampaignComparison& c) {
+        QStringList headers{tr("Parameter"), tr("State")};
+        for (const PlantCampaign& one : c.campaigns) headers << text(one.machine + ", " + one.name);
+        headers << tr("Largest difference");
+        std::vector<Row> rows;
+        for (const CampaignComparison::ComparedRow& r : c.rows) {
+          Row row{text(r.kind + "/" + r.name + "/" + r.state), {{text(r.name)}, {text(r.state)}}};
+          for (const auto& e : r.entries)
+            row.cells.push_back({e ? text(withUncertainty(e->value, e->standard_uncertainty, "")) : QStringLiteral("–"),
+                                 Tone::Neutral, nullptr, true});
+          const bool large = r.largest > 3.0;
+          row.cells.push_back(
+              {r.largest > 0.0 ? tr("%1 standard uncertainties").arg(r.largest, 0, 'f', 1) : QStringLiteral("–"),
+               large ? Tone::Attention : Tone::Neutral, large ? "alert" : nullptr});
+          rows.push_back(std::move(row));
+        }
+        comparison_->setHeaders(headers);
+        comparison_->setRows(std::move(rows));
+      });
+  job.failed = [this](const QString& sentence) { fail(sentence); };
+  jobs_.run(std::move(job));
+}
+
+void PlantPage::lookAtBatches() {
+  if (addressText().isEmpty()) return;
+  try {
+    const PlantAddress address = PlantAddress::parse(addressText().toStdString());
+    jobs_.run(displayJob(
+        tr("Looking at batches"), "plant-batches",
+        [address] {
+          PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});
+          return BatchQueue(store).all();
+        },
+        [this](const std::vector<BatchState>& batches) { showBatches(batches); }));
+  } catch (const InputError& e) {
+    fail(QString::fromUtf8(e.what()));
+  }
+}
+
+void PlantPage::showBatches(const std::vector<BatchState>& batches) {
+  const auto hours = [](double s) {
+    if (s < 120.0) return tr("%1 s").arg(s, 0, 'f', 0);
+    return s < 7200.0 ? tr("%1 min").arg(s / 60.0, 0, 'f', 0) : tr("%1 h").arg(s / 3600.0, 0, 'f', 1);
+  };
+  std::vector<Row> rows;
+  for (const BatchState& b : batches) {
+    const double part = b.items > 0 ? 100.0 * static_cast<double>(b.answered) / static_cast<double>(b.items) : 100.0;
+    Cell running{text(countOf(b.running, "chunk"))};
+    if (b.finished()) running = {tr("finished"), Tone::Good, "check-circle"};
+    if (b.cancelled) running = {tr("cancelled"), Tone::Attention, "stop"};
+    Cell failed{QString::number(b.failed_items), b.failed_items > 0 ? Tone::Bad : Tone::Neutral,
+                b.failed_items > 0 ? "error" : nullptr, true};
+    failed.tip = text(b.error);
+    rows.push_back(
+        {QString::number(b.id),
+         {{tr("%1 %2").arg(b.id).arg(text(b.name))},
+          {text(b.work)},
+          {tr("%1 of %2 (%3 %)").arg(b.answered).arg(b.items).arg(std::floor(part), 0, 'f', 0), Tone::Neutral, nullptr,
+           true},
+          failed,
+          running,
+          {hours(b.spent_s), Tone::Neutral, nullptr, true},
+          {b.remaining_s > 0.0 ? hours(b.remaining_s) : QStringLiteral("–"), Tone::Neutral, nullptr, true}}});
+  }
+  batches_->setRows(std::move(rows));
+}
+
+void PlantPage::writeReport(const QString& file) {
+  if (chosenMachines().isEmpty()) return;
+  const PlantAddress address = PlantAddress::parse(addressText().toStdString());
+  Job job;
+  job.title = tr("Writing the report of %1").arg(chosenMachines().front());
+  job.work = [this, address, machine = chosenMachines().front().toStdString(),
+              file](JobContext&) -> std::function<void()> {
+    PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});
+    writeFileAtomically(file.toStdString(), machineReport(store, machine, now()));
+    return [this, file] { callout_->show(Tone::Good, tr("The report is in %1.").arg(file)); };
+  };
+  job.failed = [this](const QString& sentence) { fail(sentence); };
+  jobs_.run(std::move(job));
+}
+
+void PlantPage::publish() {
+  if (!session_.isOpen()) return;
+  try {
+    const PlantAddress address = PlantAddress::parse(addressText().toStdString());
+    std::vector<std::int64_t> ids;
+    for (const CampaignRecord& record : session_.session()->campaigns()) ids.push_back(record.id);
+    auto publication = std::make_shared<Publication>(beginPublication(*session_.session(), ids, address));
+    Job job;
+    job.title = tr("Publishing to the plant store");
+    job.work = [this, publication, address, folder = session_.folder()](JobContext& context) -> std::function<void()> {
+      const PublishOutcome outcome = sendPublication(*publication, address, {}, context);
+      return [this, publication, outcome, folder] {
+        if (session_.isOpen() && session_.folder() == folder)
+          endPublication(*session_.session(), *publication, outcome);
+        if (outcome.waiting > 0) {
+          callout_->show(Tone::Attention, tr("%1 campaigns wait in the session until the next publishing. %2")
+                                              .arg(outcome.waiting)
+                                              .arg(text(outcome.reason)));
+          return;
+        }
+        notice_ = {Tone::Good, tr("Published: %1 campaigns and %2 results are new, %3 and %4 were there already.")
+                                   .arg(outcome.count.campaigns_new)
+                                   .arg(outcome.count.results_new)
+                                   .arg(outcome.count.campaigns_there)
+                                   .arg(outcome.count.results_there)};
+        refresh();
+      };
+    };
+    job.failed = [this](const QString& sentence) { fail(sentence); };
+    jobs_.run(std::move(job));
+  } catch (const InputError& e) {
+    fail(QString::fromUtf8(e.what()));
+  }
+}
+
+}  // namespace spindrift::gui
