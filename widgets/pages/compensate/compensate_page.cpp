@@ -26,6 +26,7 @@
 #include "core/tasks/task_options.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"

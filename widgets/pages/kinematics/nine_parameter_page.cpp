@@ -19,6 +19,7 @@
 #include "core/tasks/task_options.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
