@@ -21,7 +21,6 @@
 #include "core/base/error.h"
 #include "core/tasks/report_task.h"
 #include "core/tasks/task_options.h"
-#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
@@ -43,7 +42,10 @@ void saveCopy(const std::filesystem::path& html, const std::filesystem::path& pd
 }  // namespace
 
 ReportPage::ReportPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Report, parent) {
+    : Page(std::move(page_context), StepId::Report, parent), options_(context(), option_keys::report, [this] {
+        context().workflow.refresh();
+        refresh();
+      }) {
   browser_ = makeButton(tr("Open in browser"), "eye");
   save_html_ = makeButton(tr("HTML …"), "export");
   save_html_->setToolTip(tr("Save the report as one HTML file"));
@@ -72,12 +74,7 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   discrepancy_->setToolTip(tr("Search for what the simulation lacks and tell it with the effects that were added"));
   left->body()->addWidget(discrepancy_);
   connect(discrepancy_, &QCheckBox::clicked, this, [this](bool tell) {
-    context().undo.push(
-        new OptionsCommand(session(), tell ? tr("tell the discrepancy") : tr("leave the discrepancy out"),
-                           session().campaignKey(option_keys::report), {{"tells_discrepancy", tell}}, [this] {
-                             context().workflow.refresh();
-                             refresh();
-                           }));
+    options_.change(tell ? tr("tell the discrepancy") : tr("leave the discrepancy out"), {{"tells_discrepancy", tell}});
   });
   facts_ = makeLabel({}, "secondaryText");
   facts_->setWordWrap(true);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "widgets/pages/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;
@@ -55,6 +56,7 @@ class ReportPage : public Page {
   bool keepOperator();
   [[nodiscard]] std::filesystem::path storedFile(const char* key);
 
+  BoundOptions options_;
   QPushButton* write_;
   QPushButton* browser_;
   QPushButton* save_pdf_;
