@@ -59,7 +59,8 @@ void refuseResultsInCampaign(const CLI::App& command) {
   const CLI::Option* campaign = command.get_option_no_throw("CAMPAIGN");
   if (campaign == nullptr || campaign->empty()) return;
   const std::filesystem::path folder = std::filesystem::weakly_canonical(campaign->results().front());
-  for (const char* name : {"--json", "--out", "--csv", "--svg", "--png", "--html", "--prediction", "--model-out"}) {
+  for (const char* name :
+       {"--json", "--out", "--csv", "--svg", "--png", "--pdf", "--html", "--prediction", "--model-out"}) {
     const CLI::Option* target = command.get_option_no_throw(name);
     if (target == nullptr || target->empty() || target->results().front() == "-") continue;
     const std::filesystem::path file = std::filesystem::weakly_canonical(target->results().front());

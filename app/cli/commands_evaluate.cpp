@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "app/cli/command.h"
+#include "app/cli/session_source.h"
 #include "core/base/count_text.h"
+#include "core/base/error.h"
 #include "core/workflows/capture_check.h"
 #include "core/workflows/evaluate_campaign.h"
 
@@ -15,6 +17,7 @@ namespace {
 
 struct EvaluateArguments {
   std::string campaign;
+  std::string of_session;  ///< name of a campaign
   std::string out;
   EvaluateOptions options;
   std::vector<std::string> excluded;
@@ -44,6 +47,22 @@ CommandResult check(const EvaluateArguments& a, JobContext& job) {
   return result;
 }
 
+/// Of a session: what it keeps, if that still holds, else worked out and kept.
+CommandResult evaluateInSession(const EvaluateArguments& a, JobContext& job) {
+  if (!a.excluded.empty() || !a.options.scan_model.empty()) {
+    throw InputError({a.campaign, ""},
+                     "is a session, which keeps its own exclusions and models; --exclude and --scan-model are for the "
+                     "folder of a campaign.");
+  }
+  SessionSource source(a.campaign, a.of_session, job);
+  const bool made = source.evaluate(job);
+  const StoredEvaluation& evaluation = *source.state().evaluation;
+  if (!a.out.empty()) evaluation.observations.write(a.out);
+  return {evaluation.details,
+          made ? evaluation.summary : evaluation.summary + "taken from the session: still current\n",
+          evaluation.good_enough ? Done : NotGoodEnough};
+}
+
 void addCheck(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<EvaluateArguments>();
   CLI::App* command = addCommand(app, line, "check",
@@ -64,13 +83,16 @@ void addEvaluateCommands(CLI::App& app, CommandLine& line) {
   CLI::App* command = addCommand(
       app, line, "evaluate", "Evaluate the raw captures of a campaign into observations with uncertainties",
       [arguments](JobContext& job) {
+        if (isSession(arguments->campaign)) return evaluateInSession(*arguments, job);
         Campaign campaign = Campaign::read(arguments->campaign);
         campaign.excluded_captures.insert(arguments->excluded.begin(), arguments->excluded.end());
         const CampaignEvaluation evaluation = evaluateCampaign(campaign, arguments->options, job);
         if (!arguments->out.empty()) evaluation.observations.write(arguments->out);
         return CommandResult{evaluation.json(), evaluation.summary(), evaluation.good_enough ? Done : NotGoodEnough};
       });
-  command->add_option("CAMPAIGN", arguments->campaign, "Folder of the campaign")->required();
+  command->add_option("CAMPAIGN", arguments->campaign, "Folder of the campaign, or of a session")->required();
+  command->add_option("--campaign", arguments->of_session, "Which campaign of the session; default: the last at hand")
+      ->type_name("NAME");
   command->add_option("--out", arguments->out, "Write the observations to this CSV file")->type_name("FILE");
   command
       ->add_option("--scan-model", arguments->options.scan_model,

@@ -4,8 +4,10 @@
 #include <memory>
 
 #include "app/cli/command.h"
+#include "app/cli/picture_files.h"
 #include "core/base/atomic_file.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/reporting/heatmap_picture.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "core/workflows/fit_campaign.h"
@@ -24,8 +26,7 @@ struct FitArguments {
   // heatmap
   std::string component = "EX";
   std::string grid;
-  std::string svg;
-  std::string png;
+  PictureFiles pictures;
   std::string csv;
   double limit = 0.0;
   // compare
@@ -105,16 +106,13 @@ CommandResult runHeatmap(const FitArguments& a, JobContext& job) {
   if (!result.determined) return noted({result.json(), result.message, NotGoodEnough}, notes);
   picture.title = result.title();
   picture.subtitle = result.subtitle();
-  std::string summary =
-      fmt::format("{}: {} over {} x {} nodes\n", result.title(), unitOf(options.component), options.nx, options.ny);
-  const auto write = [&summary](const std::string& file, const std::string& content) {
-    if (file.empty()) return;
-    writeFileAtomically(file, content);
-    summary += fmt::format("written: {}\n", file);
-  };
-  if (!a.svg.empty()) write(a.svg, heatmapSvg(result.field, picture));
-  if (!a.png.empty()) write(a.png, heatmapPng(result.field, picture));
-  if (!a.csv.empty()) write(a.csv, result.field.csv());
+  std::string summary = fmt::format("{}: {} over {} x {} nodes\n", result.title(),
+                                    printedUnit(unitOf(options.component)), options.nx, options.ny);
+  if (a.pictures.wanted()) summary += a.pictures.write(heatmapPicture(result.field, picture));
+  if (!a.csv.empty()) {
+    writeFileAtomically(a.csv, result.field.csv());
+    summary += fmt::format("written: {}\n", a.csv);
+  }
   for (const std::string& warning : result.fit.warnings) summary += fmt::format("note: {}\n", warning);
   return noted({result.json(), summary, Done}, notes);
 }
@@ -134,7 +132,7 @@ CommandResult runCompare(const FitArguments& a, JobContext& job) {
       if (fit->status != FitStatus::Converged) result.summary += fit->message + "\n";
     }
   }
-  if (usable && (!a.svg.empty() || !a.png.empty())) {
+  if (usable && a.pictures.wanted()) {
     const FieldGrid grid = tableGrid(campaign.machine, 61, 41, 0.0);
     const NineParameterModel difference = comparison.differenceModel();
     Field field = tableField(comparison.a, difference, grid, *componentFromString(a.component));
@@ -142,8 +140,7 @@ CommandResult runCompare(const FitArguments& a, JobContext& job) {
     HeatmapPictureOptions picture;
     picture.title = fmt::format("{} of state {}: difference of two sets", a.component, comparison.a.state);
     picture.subtitle = fmt::format("from {} minus from {}", a.other_points, a.points);
-    if (!a.svg.empty()) writeFileAtomically(a.svg, heatmapSvg(field, picture));
-    if (!a.png.empty()) writeFileAtomically(a.png, heatmapPng(field, picture));
+    a.pictures.write(heatmapPicture(field, picture));
   }
   return result;
 }
@@ -198,8 +195,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
     command->add_option("--grid", a->grid, "Nodes along X and Y, such as 61,41")->type_name("NX,NY");
     command->add_option("--limit", a->limit, "Limit of the colour scale in um, to compare pictures; else from the data")
         ->check(positiveNumber());
-    command->add_option("--svg", a->svg, "Write the picture as SVG")->type_name("FILE");
-    command->add_option("--png", a->png, "Write the picture as PNG")->type_name("FILE");
+    a->pictures.addTo(*command, "the picture");
     command->add_option("--csv", a->csv, "Write x_mm,y_mm,z_mm,component,value,sigma,extrapolated")->type_name("FILE");
   }
   {
@@ -211,8 +207,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
     command->add_option("--with", a->other_points, "The second set of points, such as F2,F4,F5,F7")->required();
     command->add_option("--component", a->component, "Component of the picture: EX, EY or EZ (um)")
         ->check(CLI::IsMember({"EX", "EY", "EZ"}));
-    command->add_option("--svg", a->svg, "Write the map of the difference as SVG")->type_name("FILE");
-    command->add_option("--png", a->png, "Write the map of the difference as PNG")->type_name("FILE");
+    a->pictures.addTo(*command, "the map of the difference");
   }
   {
     auto a = std::make_shared<FitArguments>();

@@ -6,9 +6,11 @@
 #include <memory>
 
 #include "app/cli/command.h"
+#include "app/cli/session_source.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
+#include "core/tasks/report_task.h"
 #include "core/workflows/log_campaign.h"
 #include "core/workflows/report_workflow.h"
 
@@ -17,6 +19,7 @@ namespace {
 
 struct ReportArguments {
   std::string campaign;
+  std::string of_session;  ///< name of a campaign
   std::string out;
   std::string thermal;
   ReportOptions options;
@@ -43,12 +46,35 @@ class TemporaryFolder {
 };
 
 /// Of the folder of a campaign, or of a log alone.
-std::string reportOf(const ReportArguments& arguments, JobContext& job) {
+Report reportOf(const ReportArguments& arguments, JobContext& job) {
   if (!std::filesystem::is_regular_file(arguments.campaign))
-    return campaignReportHtml(Campaign::read(arguments.campaign), arguments.options, job);
+    return reportOfCampaign(Campaign::read(arguments.campaign), arguments.options, job);
   const TemporaryFolder folder;
   writeLogCampaign(arguments.campaign, folder.path() / "campaign");
-  return campaignReportHtml(Campaign::read(folder.path() / "campaign"), arguments.options, job);
+  return reportOfCampaign(Campaign::read(folder.path() / "campaign"), arguments.options, job);
+}
+
+/// Of a session: the report that the window would write, filed where the window files it; a copy at --out.
+CommandResult reportInSession(const ReportArguments& a, bool pdf, JobContext& job) {
+  if (!a.thermal.empty() || !a.options.observations_file.empty()) {
+    throw InputError({a.campaign, ""},
+                     "is a session, which keeps its own results; --thermal and --observations are for the folder of a "
+                     "campaign.");
+  }
+  SessionSource source(a.campaign, a.of_session, job);
+  JobContext evaluating = job.part(0.0, 0.4);
+  if (source.tasks().facts().captures() && !source.tasks().facts().own_observations) source.evaluate(evaluating);
+  JobContext reporting = job.part(0.4, 1.0);
+  const TaskGraph tasks = source.tasks();
+  if (!canReport(*source.state().campaign, tasks.hasObservations()))
+    throw InputError({a.campaign, ""}, "holds nothing to report: neither observations nor a log.");
+  const ResultOrigin origin = tasks.origin("report");
+  const ReportTask task = ReportTask::of(tasks, source.state().excluded);
+  const nlohmann::json payload = task.run(reporting);
+  const std::string bytes = readFile(task.folder / payload.at(pdf ? "pdf" : "file").get<std::string>());
+  writeFileAtomically(a.out, bytes);
+  source.keep(origin, payload);
+  return {{{"report", a.out}, {"bytes", bytes.size()}}, fmt::format("report written to {}\n", a.out), Done};
 }
 
 }  // namespace
@@ -57,30 +83,36 @@ void addReportingCommands(CLI::App& app, CommandLine& line) {
   auto arguments = std::make_shared<ReportArguments>();
   CLI::App* command = addCommand(
       app, line, "report",
-      "Write the whole evaluation of a campaign, or of a log alone, as one self-contained HTML file",
+      "Write the whole evaluation of a campaign, or of a log alone, as one self-contained file: HTML, or pages as PDF",
       [arguments](JobContext& job) {
         const std::string ending = std::filesystem::path(arguments->out).extension().string();
-        if (ending != ".html" && ending != ".htm") {
-          throw InputError({arguments->out, ""},
-                           "is no name of a web page; allowed: a name that ends in .html (the desktop program "
-                           "writes PDF).");
-        }
+        const bool pdf = ending == ".pdf";
+        if (!pdf && ending != ".html" && ending != ".htm")
+          throw InputError({arguments->out, ""}, "is no name of a report; allowed: a name that ends in .html or .pdf.");
+        if (isSession(arguments->campaign)) return reportInSession(*arguments, pdf, job);
         if (!arguments->thermal.empty()) {
           const JsonNode result = JsonNode::read(arguments->thermal);
           for (const char* key : {"train", "test", "inputs"}) (void)result.at(key);
           arguments->options.stored.thermal = result.value();
         }
-        const std::string html = reportOf(*arguments, job);
-        writeFileAtomically(arguments->out, html);
-        return CommandResult{{{"report", arguments->out}, {"bytes", html.size()}},
+        const Report report = reportOf(*arguments, job);
+        const std::string bytes = pdf ? pdfOf(report, job).bytes : htmlOf(report);
+        writeFileAtomically(arguments->out, bytes);
+        return CommandResult{{{"report", arguments->out}, {"bytes", bytes.size()}},
                              fmt::format("report written to {}\n", arguments->out),
                              Done};
       });
-  command->add_option("CAMPAIGN", arguments->campaign, "Folder of the campaign, or a LOG.csv with displacements (_um)")
+  command
+      ->add_option("CAMPAIGN", arguments->campaign,
+                   "Folder of the campaign, of a session, or a LOG.csv with displacements (_um)")
       ->required();
+  command->add_option("--campaign", arguments->of_session, "Which campaign of the session; default: the last at hand")
+      ->type_name("NAME");
   command->add_option("--thermal", arguments->thermal, "Result (JSON) of thermal identify to report with it")
       ->type_name("FILE");
-  command->add_option("--out", arguments->out, "HTML file to write")->required()->type_name("FILE.html");
+  command->add_option("--out", arguments->out, "File to write, by its ending .html or .pdf")
+      ->required()
+      ->type_name("FILE");
   command
       ->add_option("--observations", arguments->options.observations_file,
                    "Observations in place of the campaign's own or its captures")

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "app/cli/command.h"
+#include "app/cli/picture_files.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -120,7 +121,7 @@ void addTrack(CLI::App& parent, CommandLine& line) {
     std::string update = "kalman";
     std::string prediction;
     std::string context;
-    std::string svg;
+    PictureFiles pictures;
     double from_s = -1.0;
   };
   auto a = std::make_shared<Arguments>();
@@ -135,7 +136,7 @@ void addTrack(CLI::App& parent, CommandLine& line) {
         if (a->from_s >= 0.0) a->request.from_s = a->from_s;
         a->request.context = splitList(a->context);
         const TrackResult result = trackThermalModel(a->request, job);
-        if (!a->svg.empty()) writeFileAtomically(a->svg, result.svg());
+        if (a->pictures.wanted()) a->pictures.write(result.diagram());
         if (!a->prediction.empty()) result.writePrediction(a->prediction);
         const bool worse = result.with.rmse > result.without.rmse;
         std::string summary = result.summary();
@@ -167,7 +168,7 @@ void addTrack(CLI::App& parent, CommandLine& line) {
       ->check(nonNegativeNumber());
   command->add_option("--context", a->context,
                       "Columns that the gain may depend on, such as pos_z_mm (kalman only), separated by commas");
-  command->add_option("--svg", a->svg, "Write the diagrams to this file")->type_name("FILE");
+  a->pictures.addTo(*command, "the diagrams");
   command->add_option("--prediction", a->prediction, "Write time_s,measured,simulated,predicted,sigma to this CSV file")
       ->type_name("FILE");
 }
@@ -225,7 +226,7 @@ void addIso230(CLI::App& parent, CommandLine& line) {
     std::string log;
     std::string observations;
     std::string columns;
-    std::string svg;
+    PictureFiles pictures;
     std::string range;
   };
   auto a = std::make_shared<Arguments>();
@@ -236,7 +237,7 @@ void addIso230(CLI::App& parent, CommandLine& line) {
         a->request.columns = splitList(a->columns);
         if (!a->range.empty()) a->request.range = TimeRange::parse(a->range, "--range");
         const Iso230Result result = evaluateIso230Test(a->request, job);
-        if (!a->svg.empty()) writeFileAtomically(a->svg, result.svg);
+        if (result.diagram && a->pictures.wanted()) a->pictures.write(*result.diagram);
         return CommandResult{result.json(), result.summary(), Done};
       });
   command->add_option("LOG", a->log,
@@ -256,7 +257,7 @@ void addIso230(CLI::App& parent, CommandLine& line) {
   command->add_option("--observations", a->observations,
                       "observations.csv with readings near both ends of travel (axis)");
   command->add_option("--axis", a->request.axis, "Moving axis: X, Y or Z")->capture_default_str();
-  command->add_option("--svg", a->svg, "Write the diagram to this file")->type_name("FILE");
+  a->pictures.addTo(*command, "the diagram");
 }
 
 }  // namespace

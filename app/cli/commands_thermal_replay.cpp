@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/cli/command.h"
+#include "app/cli/picture_files.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -44,7 +45,7 @@ void addReplay(CLI::App& parent, CommandLine& line) {
     std::string outputs;
     std::string inputs = "auto";
     std::string limits;
-    std::string svg;
+    PictureFiles pictures;
     double sigma = 0.0;
     double setup_h = 16.0;
     double setup_interval_min = 20.0;
@@ -71,7 +72,7 @@ void addReplay(CLI::App& parent, CommandLine& line) {
         r.shortest_interval_s = a->shortest_min * 60.0;
         r.longest_interval_s = a->longest_h * 3600.0;
         const ReplayResult result = replayCompensation(r, job);
-        if (!a->svg.empty()) writeFileAtomically(a->svg, result.svg());
+        if (a->pictures.wanted()) a->pictures.write(result.diagram());
         return CommandResult{result.json(), result.summary(), result.goodEnough() ? Done : NotGoodEnough};
       });
   // Named as elsewhere, so that results are kept out of the campaign's folder.
@@ -101,7 +102,7 @@ void addReplay(CLI::App& parent, CommandLine& line) {
   command->add_option("--longest", a->longest_h, "Longest time without a measurement in h")
       ->check(positiveNumber())
       ->capture_default_str();
-  command->add_option("--svg", a->svg, "Write the diagrams to this file")->type_name("FILE");
+  a->pictures.addTo(*command, "the diagrams");
 }
 
 void addClusters(CLI::App& parent, CommandLine& line) {

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/base/unit_text.h"
+
 namespace spindrift {
 namespace {
 
@@ -40,7 +42,7 @@ std::string withUncertainty(double value, double standard_uncertainty, std::stri
   } else {
     text = withMinusSign(fmt::format("{:.6g}", value));
   }
-  if (!unit.empty()) text.append(" ").append(unit);
+  if (!unit.empty()) text += " " + printedUnit(unit);
   return text;
 }
 

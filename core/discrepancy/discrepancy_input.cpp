@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "core/base/unit_text.h"
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/own_effects.h"
@@ -64,7 +65,7 @@ void compareRuns(const std::vector<Observation>& rows, const std::vector<double>
     const double apart = given[i] - run[i] - sum / count;
     if (!(std::abs(apart) / rows[i].sigma > largest)) continue;
     largest = std::abs(apart) / rows[i].sigma;
-    where = fmt::format("{:.2f} {} in {} at {}, {:.0f} s", apart, unitOf(rows[i].component),
+    where = fmt::format("{:.2f} {} in {} at {}, {:.0f} s", apart, printedUnit(unitOf(rows[i].component)),
                         toString(rows[i].component), rows[i].point, rows[i].time_s);
   }
   constexpr double told_from = 0.5;  // of the stated sigma

@@ -3,6 +3,7 @@
 
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/discrepancy/discrepancy.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/discrepancy/effect_titles.h"
@@ -164,7 +165,7 @@ std::string DiscrepancyResult::summary() const {
   for (const DisagreementPlace& p : where) {
     text += fmt::format("  where: {} {} from {:.0f} s to {:.0f} s{}: {:.2f} {} beyond the noise (p {})\n",
                         toString(p.component), shortenedList(p.points, 12), p.from_s, p.to_s,
-                        p.condition.empty() ? "" : ", " + p.condition, p.excess_um, unitOf(p.component),
+                        p.condition.empty() ? "" : ", " + p.condition, p.excess_um, printedUnit(unitOf(p.component)),
                         p.p_value < 1e-12 ? std::string("< 1e-12") : fmt::format("{:.1e}", p.p_value));
   }
   text += fmt::format("  gap: {:.2f} {} before, {:.2f} {} after, noise {:.2f} {}\n", gap.rms_before_um, unit,

@@ -260,14 +260,14 @@ std::string sentenceOf(const SimulationUpdate& update) {
   const char* states = held ? "on the held-out states" : "on the fitted states";
   if (!update.improves) {
     return fmt::format(
-        "The gap {} does not shrink ({:.2f} um before, {:.2f} "
-        "um after): nothing was put in.",
+        "The gap {} does not shrink ({:.2f} µm before, {:.2f} "
+        "µm after): nothing was put in.",
         states, before, after);
   }
   std::string text = fmt::format(
       "{}: the gap of the simulation's own new run {} is {:.2f} "
-      "um, before {:.2f} um (noise "
-      "{:.2f} um).",
+      "µm, before {:.2f} µm (noise "
+      "{:.2f} µm).",
       joinedList(put), states, after, before, update.noise_um);
   if (!update.as_well_as_fitted_term) {
     std::vector<std::string> places;
@@ -276,7 +276,7 @@ std::string sentenceOf(const SimulationUpdate& update) {
         places.push_back(fmt::format("{} at {}", toString(place.component), shortenedList(place.points, 4, 3)));
     }
     text += fmt::format(
-        " A fitted term closes it to {:.2f} um: the physics as they are do not "
+        " A fitted term closes it to {:.2f} µm: the physics as they are do not "
         "close it as well{}.",
         term, places.empty() ? "" : ", most in " + joinedList(places));
   }

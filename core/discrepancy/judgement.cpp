@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 
 namespace spindrift {
 namespace {
@@ -257,7 +258,7 @@ std::string describedRemainder(const ResidualProblem& problem, const JointFit& f
     const auto period = commonPeriod(problem, fit, c);
     parts.push_back(fmt::format("{} of all points follows a common course in time{}, {:.2f} {} rms", toString(c),
                                 period ? fmt::format(" with a period of about {:.0f} s", *period) : "",
-                                problem.noise.of(c).common, unitOf(c)));
+                                problem.noise.of(c).common, printedUnit(unitOf(c))));
   }
   for (const Remainder::OfComponent& r : remainder.components) {
     if (r.evidence < remainder_evidence || std::find(together.begin(), together.end(), r.component) != together.end())
@@ -270,10 +271,11 @@ std::string describedRemainder(const ResidualProblem& problem, const JointFit& f
     }
     const bool some = !points.empty() && points.size() <= 3;
     const auto period = some ? std::nullopt : commonPeriod(problem, fit, r.component);
-    parts.push_back(fmt::format(
-        "{} of {} follows {} in time{}, {:.2f} {} rms", toString(r.component), some ? joinedList(points) : "all points",
-        some ? "a course of its own" : "a common course",
-        period ? fmt::format(" with a period of about {:.0f} s", *period) : "", r.rms_um, unitOf(r.component)));
+    parts.push_back(fmt::format("{} of {} follows {} in time{}, {:.2f} {} rms", toString(r.component),
+                                some ? joinedList(points) : "all points",
+                                some ? "a course of its own" : "a common course",
+                                period ? fmt::format(" with a period of about {:.0f} s", *period) : "", r.rms_um,
+                                printedUnit(unitOf(r.component))));
   }
   return joinedList(parts);
 }
@@ -461,7 +463,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       worst = k;
     }
     if (worst == terms.size()) break;
-    takeBack(worst, fmt::format("with it the held-out states are predicted worse ({:.2f} um rms, without it {:.2f})",
+    takeBack(worst, fmt::format("with it the held-out states are predicted worse ({:.2f} µm rms, without it {:.2f})",
                                 with, least));
   }
   ambiguous = std::any_of(out.names.begin(), out.names.end(), [](const NamedEffect& n) { return !n.rivals.empty(); });

@@ -416,7 +416,7 @@ class Import {
     // Heat moves machines by some micrometres to some hundred; strains of heat are below a per cent.
     if (largest_mm > 0.0 && largest_mm < 1e-3) {
       doubt(fmt::format(
-          "The largest displacement is {:.3g} um if its unit is {}, which is implausibly small: is it in {}?",
+          "The largest displacement is {:.3g} µm if its unit is {}, which is implausibly small: is it in {}?",
           out.largest_displacement_um, map_.unit_of_displacement,
           map_.unit_of_displacement == "mm" ? "m" : "another unit"));
     } else if (largest_mm > 5.0 || (extent > 0.0 && largest_mm > 0.01 * extent)) {

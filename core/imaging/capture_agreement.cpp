@@ -114,7 +114,7 @@ std::string sentenceOf(const SeenCapture& seen, const SeenCapture& other, const 
                        options.commanded, degrees(commanded), nameOf(other), other.fiducial, other.state);
   }
   const std::string sentence =
-      fmt::format("The pattern is shifted by {:.0f} um, {} {:.0f} um (against {} of {} in {})", c.shown_um,
+      fmt::format("The pattern is shifted by {:.0f} µm, {} {:.0f} µm (against {} of {} in {})", c.shown_um,
                   options.commanded, c.commanded_um, nameOf(other), other.fiducial, other.state);
   return sentence + (c.commanded_um < 1.0 ? ": another fiducial, or not at its position." : ".");
 }

@@ -636,7 +636,7 @@ DecodeResult Decoding::run() {
 
 void DecodeOptions::validate() const {
   if (!(min_pixel_length_um > 0.0) || !(max_pixel_length_um > min_pixel_length_um)) {
-    throw InputError(fmt::format("pixel lengths from {} to {} um are not allowed; 0 < smallest < largest is needed.",
+    throw InputError(fmt::format("pixel lengths from {} to {} µm are not allowed; 0 < smallest < largest is needed.",
                                  min_pixel_length_um, max_pixel_length_um));
   }
 }

@@ -165,7 +165,7 @@ std::string summaryOf(const FiducialDisplacement& d) {
         cell(isOwn(s.z_reference), s.z_um.has_value(), s.z_um.value_or(0.0), s.z_sigma_um) + "\n";
   }
   if (d.centres.status == FitStatus::Converged) {
-    text += fmt::format("centre of rotation: {}; the spindle repeats to {:.2f} um\n", toString(d.centres.pooling),
+    text += fmt::format("centre of rotation: {}; the spindle repeats to {:.2f} µm\n", toString(d.centres.pooling),
                         d.centres.repeatability_um);
   }
   return text;

@@ -61,7 +61,7 @@ ResolutionCheck checkAgainstResolution(const ObservationSet& observations, const
     verdict.standard_deviation_um = dof > 0.0 ? std::sqrt(scatter / dof) : 0.0;
     verdict.passed = verdict.largest_um <= verdict.limit_um;
     if (!verdict.passed) {
-      failed.push_back(fmt::format("{} is off by {:.1f} um at {} (allowed {:.2f} um)", toString(verdict.component),
+      failed.push_back(fmt::format("{} is off by {:.1f} µm at {} (allowed {:.2f} µm)", toString(verdict.component),
                                    verdict.largest_um, verdict.largest_at, verdict.limit_um));
     }
     check.axes.push_back(verdict);

@@ -120,7 +120,7 @@ void fitExponential(const Series& s, double limit_um_per_h, Eigen::Index end_cou
 void WarmUpOptions::validate() const {
   if (!(drift_limit_um_per_h > 0.0)) {
     throw InputError(
-        fmt::format("a drift limit of {} um/h is not allowed; allowed: greater than zero.", drift_limit_um_per_h));
+        fmt::format("a drift limit of {} µm/h is not allowed; allowed: greater than zero.", drift_limit_um_per_h));
   }
   if (!(window_part > 0.0 && window_part <= 1.0) || window_points < 3) {
     throw InputError("the window of the drift needs a part in (0, 1] and at least 3 measurements.");
@@ -201,13 +201,13 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
   result.status = FitStatus::Converged;
   result.settled = settled;
   if (settled) {
-    result.reason = fmt::format("settled: the drift of every axis is below {} um/h with its uncertainty.",
+    result.reason = fmt::format("settled: the drift of every axis is below {} µm/h with its uncertainty.",
                                 options.drift_limit_um_per_h);
   } else if (!drifting.empty()) {
     result.reason =
-        fmt::format("not settled: {} drifts faster than {} um/h.", joinedList(drifting), options.drift_limit_um_per_h);
+        fmt::format("not settled: {} drifts faster than {} µm/h.", joinedList(drifting), options.drift_limit_um_per_h);
   } else {
-    result.reason = fmt::format("not known yet: the drift {} may still exceed {} um/h; measure longer.",
+    result.reason = fmt::format("not known yet: the drift {} may still exceed {} µm/h; measure longer.",
                                 joinedList(unsure), options.drift_limit_um_per_h);
   }
   return result;

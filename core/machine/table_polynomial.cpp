@@ -371,8 +371,8 @@ TableOrderChoice chooseTableOrder(const NineParameterFit& fit) {
       choice.left_out_chosen_um = richer_um;
       choice.left_out_nine_um = nine_um;
       choice.reason = fmt::format(
-          "{} is needed (the nine parameters alone: probability {:.2g}); it predicts points left out to {:.2f} um, the "
-          "nine parameters to {:.2f} um.",
+          "{} is needed (the nine parameters alone: probability {:.2g}); it predicts points left out to {:.2f} µm, the "
+          "nine parameters to {:.2f} µm.",
           orderText(likeliest), choice.probability_of_nine, *richer_um, *nine_um);
     } else if (!enough) {
       choice.reason = fmt::format(
@@ -382,7 +382,7 @@ TableOrderChoice chooseTableOrder(const NineParameterFit& fit) {
     } else {
       choice.reason = fmt::format(
           "the nine parameters alone are improbable ({:.2g}), but {} does not predict points left out any better "
-          "({:.2f} um against {:.2f} um): single points are disturbed, or what is missing is of another kind.",
+          "({:.2f} µm against {:.2f} µm): single points are disturbed, or what is missing is of another kind.",
           choice.probability_of_nine, orderText(likeliest), richer_um.value_or(0.0), nine_um.value_or(0.0));
     }
   } else {

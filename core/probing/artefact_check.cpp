@@ -190,7 +190,7 @@ std::vector<ArtefactFinding> checkArtefact(const nlohmann::json& artefact, const
   const auto expansion = check.optional("expansion_um_per_m_K", "The expansion coefficient", -5.0, 100.0, "um/m/K");
   if (expansion && *expansion != 0.0 && std::abs(*expansion) < 0.05) {
     check.add("expansion_um_per_m_K", -1, -1,
-              fmt::format("An expansion of {:g} um/m/K is below that of any glass ceramic. Steel has 11.5, Invar 1.2.",
+              fmt::format("An expansion of {:g} µm/m/K is below that of any glass ceramic. Steel has 11.5, Invar 1.2.",
                           *expansion),
               false);
   }
@@ -199,7 +199,7 @@ std::vector<ArtefactFinding> checkArtefact(const nlohmann::json& artefact, const
       check.optional("certificate_uncertainty_um", "The uncertainty of the certificate", 0.0, unlimited, "um");
   if (certificate && *certificate > 50.0) {
     check.add("certificate_uncertainty_um", -1, -1,
-              fmt::format("A certificate with {:g} um says hardly anything. Is it in um?", *certificate), false);
+              fmt::format("A certificate with {:g} µm says hardly anything. Is it in um?", *certificate), false);
   }
   return check.findings;
 }

@@ -160,7 +160,7 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
       for (const double strain : growth.strain) largest = std::max(largest, std::abs(strain));
       if (largest > 0.0) {
         result.warnings.push_back(fmt::format(
-            "the machine file states no uncertainty of {} of {}: taken as exact, though up to {:.1f} um/m were taken "
+            "the machine file states no uncertainty of {} of {}: taken as exact, though up to {:.1f} µm/m were taken "
             "off.",
             joinedList(certificate.taken_as_exact), artefact.id, largest * um_per_m_per_unit));
       }

@@ -74,7 +74,7 @@ class Assembler {
         if (result_.fit.used[r]) continue;
         const double error_um = result_.fit.residual_mm[r] * um_per_mm;
         result_.rejected.push_back({result_.row_touch[r],
-                                    fmt::format("it misses by {:.1f} um what all other touches say ({:.0f} times the "
+                                    fmt::format("it misses by {:.1f} µm what all other touches say ({:.0f} times the "
                                                 "touch noise); left out",
                                                 error_um, std::abs(result_.fit.studentised[r])),
                                     error_um});

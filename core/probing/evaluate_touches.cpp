@@ -42,7 +42,7 @@ void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, co
 
   std::string noise;
   for (std::size_t g = 0; g < evaluation.fit.group_sigma_mm.size(); ++g) {
-    noise += fmt::format("{}{:.3f} um {}", g > 0 ? ", " : "", evaluation.fit.group_sigma_mm[g] * um_per_mm,
+    noise += fmt::format("{}{:.3f} µm {}", g > 0 ? ", " : "", evaluation.fit.group_sigma_mm[g] * um_per_mm,
                          g == 0 ? "across" : "along the axis");
   }
   out.summary += fmt::format(
@@ -288,14 +288,14 @@ InstrumentEvaluation describeTouches(const TouchEvaluation& evaluation, const Ma
       out.summary += fmt::format(
           "  against the certificate, in {}: {} deviates by {}{}\n", last.cycle, holes.setup.linear,
           withUncertainty(last.slope_um_per_m, last.standard_uncertainty_um_per_m, "um/m"),
-          last.temperature_degC ? fmt::format(" (bar at {:.2f} degC)", *last.temperature_degC)
+          last.temperature_degC ? fmt::format(" (bar at {:.2f} °C)", *last.temperature_degC)
                                 : std::string(" (temperature of the bar not known: taken as that of the certificate)"));
     }
     const SecondAxisBias bias = secondAxisBias(holes, evaluation.touches);
     nlohmann::json per = nlohmann::json::object();
     for (std::size_t p = 0; p < bias.names.size(); ++p) per[bias.names[p]] = bias.bias_per_um_per_m[p];
     details["bias_per_um_per_m_of_second_axis"] = {{"axis", bias.second}, {"bias", per}};
-    out.summary += fmt::format("  largest deviation from a straight line {:.2f} um\n", holes.largest_nonlinearity_um);
+    out.summary += fmt::format("  largest deviation from a straight line {:.2f} µm\n", holes.largest_nonlinearity_um);
   }
   for (const BallCycleResult& balls : evaluation.ball_cycles) {
     addCommon(balls, evaluation, machine, out);

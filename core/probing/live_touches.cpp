@@ -166,7 +166,7 @@ void LiveTouches::judgeChange(LiveTouch& live) {
   live.change_um = live.touch.approach.dot(live.touch.position_mm - first->second.position_mm) * um_per_mm;
   if (live.plausible && std::abs(live.change_um) > options_.largest_change_um) {
     live.plausible = false;
-    live.reason = fmt::format("it moved by {:.0f} um since {}, more than warming does", live.change_um, first_cycle_);
+    live.reason = fmt::format("it moved by {:.0f} µm since {}, more than warming does", live.change_um, first_cycle_);
   }
 }
 
@@ -228,8 +228,8 @@ void LiveTouches::judgeFeature(std::size_t last) {
     LiveTouch& live = touches_[group[s]];
     live.plausible = false;
     live.reason = numbers.size() > 1
-                      ? fmt::format("they disagree by {:.0f} um", first ? d.spread_um : 2.0 * d.spread_um)
-                      : fmt::format("it disagrees with the others by {:.0f} um", d.spread_um);
+                      ? fmt::format("they disagree by {:.0f} µm", first ? d.spread_um : 2.0 * d.spread_um)
+                      : fmt::format("it disagrees with the others by {:.0f} µm", d.spread_um);
     if (first) first_.erase(keyOf(live.touch));
   }
 }
@@ -264,7 +264,7 @@ void LiveTouches::judgeSurface(const Touch& last) {
     // What is in the campaign already is judged by the check of all touches.
     if (!verdicts[k].suspect || live.given_out || live.confirmed) continue;
     live.plausible = false;
-    live.reason = fmt::format("its height is {:.0f} um off what the {} other surface touches say", verdicts[k].off_um,
+    live.reason = fmt::format("its height is {:.0f} µm off what the {} other surface touches say", verdicts[k].off_um,
                               verdicts[k].others);
     if (first) first_.erase(keyOf(live.touch));
   }

@@ -183,24 +183,24 @@ void judge(StylusHealth& health, const Track& track, const std::vector<const Tra
   double worst = 0.0;
   for (const PreTravel& p : health.directions) worst = std::max(worst, p.repeatability_um);
   if (track.scatters) {
-    health.message = fmt::format("stylus {} is loose or bent: touches scatter by {:.1f} um {}", health.stylus, worst,
+    health.message = fmt::format("stylus {} is loose or bent: touches scatter by {:.1f} µm {}", health.stylus, worst,
                                  alongText(health.loose_direction));
   } else if (kind == MovementKind::Jump) {
     health.message =
-        fmt::format("stylus {} is loose or bent: it jumped by {:.1f} um {} after {}, which no smooth warming does",
+        fmt::format("stylus {} is loose or bent: it jumped by {:.1f} µm {} after {}, which no smooth warming does",
                     health.stylus, health.movement.jump_um, alongText(health.loose_direction),
                     track.passes[static_cast<std::size_t>(health.movement.jump_after)]);
   } else if (kind == MovementKind::Scatter) {
     health.message = fmt::format(
-        "stylus {} is loose or bent: the sphere's centre scatters by {:.1f} um from pass to pass, not as warming does",
+        "stylus {} is loose or bent: the sphere's centre scatters by {:.1f} µm from pass to pass, not as warming does",
         health.stylus, health.movement.scatter_um);
   } else if (kind == MovementKind::Undecided) {
     health.message = fmt::format(
-        "stylus {} sees the sphere move by {:.1f} um; {} passes cannot tell a loose stylus from warming: touch the "
+        "stylus {} sees the sphere move by {:.1f} µm; {} passes cannot tell a loose stylus from warming: touch the "
         "sphere in more passes (five or more), or several times in one",
         health.stylus, health.movement.largest_um, track.passes.size());
   } else if (health.repeatability_dof > 0 && health.repeatability_um > options.healthy_sigma_um) {
-    health.message = fmt::format("stylus {} repeats to {:.2f} um only; a healthy probe keeps {:.2f} um", health.stylus,
+    health.message = fmt::format("stylus {} repeats to {:.2f} µm only; a healthy probe keeps {:.2f} µm", health.stylus,
                                  health.repeatability_um, options.healthy_sigma_um);
   } else {
     health.message = fmt::format("stylus {} is in order", health.stylus);

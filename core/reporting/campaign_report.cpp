@@ -17,11 +17,9 @@ std::string optionalText(const std::optional<double>& value, std::string_view un
   return value ? fmt::format("{:g} {}", *value, unit) : std::string("not stated");
 }
 
-using Facts = std::vector<std::pair<std::string, std::string>>;
-
 /// Serial numbers, calibration dates and whatever else a user wrote beside the keys the program knows.
-Facts extraFacts(const nlohmann::json& source, const std::set<std::string>& known) {
-  Facts facts;
+ReportFacts extraFacts(const nlohmann::json& source, const std::set<std::string>& known) {
+  ReportFacts facts;
   for (const auto& [key, value] : source.items()) {
     if (known.contains(key) || value.is_structured()) continue;
     facts.emplace_back(words(key), value.is_string() ? value.get<std::string>() : value.dump());
@@ -29,14 +27,14 @@ Facts extraFacts(const nlohmann::json& source, const std::set<std::string>& know
   return facts;
 }
 
-std::string joinedFacts(const Facts& facts) {
+std::string joinedFacts(const ReportFacts& facts) {
   std::string text;
-  for (const auto& [key, value] : facts) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", key, value);
+  for (const auto& [key, value] : facts) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", key, value.plain());
   return text;
 }
 
 /// Artefacts, styli and profiler with what their owner wrote of them: what a calibration can be traced by.
-void equipmentTable(HtmlDocument& document, const MachineDescription& machine) {
+void equipmentTable(Report& document, const MachineDescription& machine) {
   static const std::set<std::string> known{"id",
                                            "kind",
                                            "reference_hole",
@@ -56,7 +54,7 @@ void equipmentTable(HtmlDocument& document, const MachineDescription& machine) {
                                            "place",
                                            "format",
                                            "version"};
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   const auto add = [&](const nlohmann::json& item, const std::string& kind) {
     if (!item.is_object()) return;
     std::string properties;
@@ -66,9 +64,9 @@ void equipmentTable(HtmlDocument& document, const MachineDescription& machine) {
     };
     number("hole_diameter_mm", "holes of", "mm");
     number("radius_mm", "radius", "mm");
-    number("expansion_um_per_m_K", "expansion", "um/(m K)");
-    number("temperature_degC", "certified at", "degC");
-    number("certificate_uncertainty_um", "uncertainty of the certificate", "um");
+    number("expansion_um_per_m_K", "expansion", "µm/(m K)");
+    number("temperature_degC", "certified at", "°C");
+    number("certificate_uncertainty_um", "uncertainty of the certificate", "µm");
     const std::string extra = joinedFacts(extraFacts(item, known));
     rows.push_back({item.value("id", item.value("name", kind)), kind, properties.empty() ? "not stated" : properties,
                     extra.empty() ? "not stated" : extra});
@@ -85,7 +83,7 @@ void equipmentTable(HtmlDocument& document, const MachineDescription& machine) {
     document.table({"Item", "Kind", "Properties", "Serial number, calibration"}, rows, "Measuring equipment");
 }
 
-void machineSection(HtmlDocument& document, const MachineDescription& machine) {
+void machineSection(Report& document, const MachineDescription& machine) {
   document.section("Machine");
   if (!isDescribed(machine)) {
     document.paragraph("The machine is not described; this report is of a log alone.");
@@ -94,18 +92,18 @@ void machineSection(HtmlDocument& document, const MachineDescription& machine) {
   static const std::set<std::string> known{
       "format", "version",   "name",  "chain",    "axes",  "spindle", "rotary",    "temperature_sensors",
       "points", "artefacts", "styli", "profiler", "table", "column",  "crossbeam", "reference_temperature_degC"};
-  Facts facts{{"Name", machine.name}, {"Kinematic chain", machine.chain.text()}};
+  ReportFacts facts{{"Name", machine.name}, {"Kinematic chain", machine.chain.text()}};
   if (machine.spindle) {
     facts.emplace_back("Spindle", fmt::format("axis {}, up to {}", machine.spindle->axis,
                                               optionalText(machine.spindle->max_rpm, "rpm")));
   }
-  facts.emplace_back("Reference temperature", fmt::format("{:g} degC", machine.reference_temperature_degC));
+  facts.emplace_back("Reference temperature", fmt::format("{:g} °C", machine.reference_temperature_degC));
   for (auto& fact : extraFacts(machine.source, known)) facts.push_back(std::move(fact));
   document.facts(facts);
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const LinearAxis& axis : machine.axes) {
     rows.push_back({axis.name, fmt::format("{:g} to {:g}", axis.travel_mm[0], axis.travel_mm[1]),
-                    optionalText(axis.resolution_um, "um"),
+                    optionalText(axis.resolution_um, "µm"),
                     axis.drive_type.empty() ? "not stated" : words(axis.drive_type),
                     axis.scale.empty() ? "not stated" : words(axis.scale)});
   }
@@ -114,8 +112,8 @@ void machineSection(HtmlDocument& document, const MachineDescription& machine) {
 }
 
 /// What somebody who reads one page wants to know.
-void summarySection(HtmlDocument& document, const CampaignReportInput& input) {
-  Facts facts;
+void summarySection(Report& document, const CampaignReportInput& input) {
+  ReportFacts facts;
   for (const LargestChange& c : largestChanges(input.observations)) {
     facts.emplace_back(
         fmt::format("Largest change of {}", toString(c.component)),
@@ -139,15 +137,15 @@ bool isDescribed(const MachineDescription& machine) {
   return machine.name != "not described";
 }
 
-HtmlDocument campaignReport(const CampaignReportInput& input) {
+Report campaignReport(const CampaignReportInput& input) {
   SPINDRIFT_ASSERT(input.campaign != nullptr, "a report needs a campaign");
   const Campaign& campaign = *input.campaign;
   const bool described = isDescribed(campaign.machine);
-  HtmlDocument document(fmt::format("Thermal errors: {}", campaign.name),
-                        described ? fmt::format("{} · measured from {} · report of {}", campaign.machine.name,
-                                                utcInWords(campaign.start_utc), utcInWords(input.created_utc))
-                                  : fmt::format("log without a description of its machine · report of {}",
-                                                utcInWords(input.created_utc)));
+  Report document(fmt::format("Thermal errors: {}", campaign.name),
+                  described ? fmt::format("{} · measured from {} · report of {}", campaign.machine.name,
+                                          utcInWords(campaign.start_utc), utcInWords(input.created_utc))
+                            : fmt::format("log without a description of its machine · report of {}",
+                                          utcInWords(input.created_utc)));
   summarySection(document, input);
   machineSection(document, campaign.machine);
   if (campaign.log) addOperatingConditions(document, *campaign.log);
@@ -161,7 +159,7 @@ HtmlDocument campaignReport(const CampaignReportInput& input) {
   for (const auto& fill : input.conclusions) fill(document);
   if (!input.exclusions.empty()) {
     document.section("Taken out by the user");
-    std::vector<std::vector<std::string>> rows;
+    std::vector<ReportRow> rows;
     for (const auto& [item, reason] : input.exclusions) rows.push_back({item, reason});
     document.table({"Item", "Reason"}, rows);
   }

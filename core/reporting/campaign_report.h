@@ -12,14 +12,14 @@
 
 #include "core/machine/campaign.h"
 #include "core/machine/instrument_evaluation.h"
-#include "core/reporting/html_document.h"
+#include "core/reporting/report.h"
 
 namespace spindrift {
 
 /// A part of the report that somebody else fills.
 struct ReportSection {
   std::string heading;
-  std::function<void(HtmlDocument&)> fill;
+  std::function<void(Report&)> fill;
 };
 
 struct CampaignReportInput {
@@ -28,15 +28,15 @@ struct CampaignReportInput {
   std::vector<InstrumentEvaluation> instruments;
   ObservationSet observations;
   /// Plan, captures, state of the instrument: after the operating conditions. Each writes its own heading, or nothing.
-  std::vector<std::function<void(HtmlDocument&)>> preparation;
+  std::vector<std::function<void(Report&)>> preparation;
   std::vector<ReportSection> sections;
   /// Models over time, standard tests, compensation: after the sections. Each writes its own heading, or nothing.
-  std::vector<std::function<void(HtmlDocument&)>> conclusions;
+  std::vector<std::function<void(Report&)>> conclusions;
   /// Excluded items with reasons, notes: shown as they are.
   std::vector<std::pair<std::string, std::string>> exclusions;
   std::vector<std::string> notes;
   /// Names and values for the summary on the first page, beside the largest changes of the observations.
-  std::vector<std::pair<std::string, std::string>> headlines;
+  ReportFacts headlines;
   std::string created_utc;
   std::string operator_name;  ///< may be empty: a line to sign on is left
 };
@@ -46,6 +46,6 @@ struct CampaignReportInput {
 
 /// The whole report: title, summary, machine, operating log; `preparation`; results of each instrument, observations
 /// over time; `sections`, `conclusions`; exclusions, notes and provenance.
-[[nodiscard]] HtmlDocument campaignReport(const CampaignReportInput& input);
+[[nodiscard]] Report campaignReport(const CampaignReportInput& input);
 
 }  // namespace spindrift

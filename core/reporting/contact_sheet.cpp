@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/reporting/contact_sheet.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
@@ -10,8 +8,6 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/reporting/html_document.h"
 
 namespace spindrift {
 namespace {
@@ -109,42 +105,31 @@ std::string cloudThumbnail(const std::vector<float>& xyz_mm, const std::vector<f
   return encoded(colours);
 }
 
-std::string contactSheetSvg(const std::vector<Thumbnail>& thumbnails, int columns) {
+Drawing contactSheet(const std::vector<Thumbnail>& thumbnails, int columns) {
   SPINDRIFT_ASSERT(columns >= 1, "a sheet has a column");
+  constexpr PictureColour soft{82, 96, 109};
   const double width = (sheet_width_px - gap_px * (columns - 1)) / columns;
   const double height = shape * width;
-  const auto rows = (thumbnails.size() + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns);
-  const double total = static_cast<double>(rows) * (height + text_px + gap_px);
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{0:.0f}\" "
-      "height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"Inter, sans-serif\">",
-      sheet_width_px, total);
+  const auto wide = static_cast<std::size_t>(columns);
+  const auto rows = static_cast<double>((thumbnails.size() + wide - 1) / wide);
+  Drawing sheet(sheet_width_px, rows * (height + text_px + gap_px));
   for (std::size_t i = 0; i < thumbnails.size(); ++i) {
-    const double x = static_cast<double>(i % static_cast<std::size_t>(columns)) * (width + gap_px);
-    const double y = static_cast<double>(i / static_cast<std::size_t>(columns)) * (height + text_px + gap_px);
+    const double x = static_cast<double>(i % wide) * (width + gap_px);
+    const double y = static_cast<double>(i / wide) * (height + text_px + gap_px);
     const Thumbnail& t = thumbnails[i];
-    svg += fmt::format(
-        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#f4f6f8\" stroke=\"#d9dee4\"/>", x,
-        y, width, height);
+    sheet.rectangle(x, y, width, height,
+                    Paint{.fill = PictureColour{244, 246, 248}, .stroke = PictureColour{217, 222, 228}});
     if (t.jpeg.empty()) {
-      svg += fmt::format(
-          "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"11\" fill=\"#52606d\" text-anchor=\"middle\">cannot be "
-          "read</text>",
-          x + width / 2, y + height / 2);
+      sheet.text(x + width / 2, y + height / 2, "cannot be read",
+                 {.size = 11.0, .anchor = TextAnchor::Middle, .colour = soft});
     } else {
-      // In its own shape, said in numbers: not every reader of drawings knows preserveAspectRatio.
-      const auto [part, tall] = fittedSize(t.jpeg, width - 2, height - 2);
-      svg += fmt::format(
-          "<image x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" "
-          "xlink:href=\"data:image/jpeg;base64,{}\"/>",
-          x + 0.5 * (width - part), y + 0.5 * (height - tall), part, tall, base64(t.jpeg));
+      const auto [part, tall] = fittedSize(t.jpeg, width - 2.0, height - 2.0);
+      sheet.picture(x + 0.5 * (width - part), y + 0.5 * (height - tall), part, tall, t.jpeg);
     }
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"11\" fill=\"#1f2933\">{}</text>", x,
-                       y + height + 14, escapedXml(fitted(t.label, width, 11)));
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"10\" fill=\"#52606d\">{}</text>", x,
-                       y + height + 28, escapedXml(fitted(t.comment, width, 10)));
+    sheet.text(x, y + height + 14.0, fitted(t.label, width, 11.0), {.size = 11.0});
+    sheet.text(x, y + height + 28.0, fitted(t.comment, width, 10.0), {.size = 10.0, .colour = soft});
   }
-  return svg + "</svg>";
+  return sheet;
 }
 
 }  // namespace spindrift

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/reporting/drawing.h"
+
 namespace spindrift {
 
 /// A small picture, JPEG, and what it is. `jpeg` empty: the capture could not be read, the sheet says so.
@@ -22,7 +24,7 @@ struct Thumbnail {
 [[nodiscard]] std::string cloudThumbnail(const std::vector<float>& xyz_mm, const std::vector<float>& scalar, double low,
                                          double high, int width_px = 240);
 
-/// The whole <svg> element, `columns` thumbnails in a row, 860 px wide.
-[[nodiscard]] std::string contactSheetSvg(const std::vector<Thumbnail>& thumbnails, int columns = 6);
+/// `columns` thumbnails in a row, 860 px wide.
+[[nodiscard]] Drawing contactSheet(const std::vector<Thumbnail>& thumbnails, int columns = 6);
 
 }  // namespace spindrift

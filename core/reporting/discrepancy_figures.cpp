@@ -9,7 +9,8 @@
 
 #include "core/machine/interpolated_field.h"
 #include "core/reporting/heatmap_picture.h"
-#include "core/reporting/svg_plot.h"
+#include "core/reporting/plot_picture.h"
+#include "core/reporting/report_wording.h"
 
 namespace spindrift {
 namespace {
@@ -67,8 +68,7 @@ std::optional<std::array<Field, 2>> discrepancyMaps(const std::vector<Discrepanc
   return fields;
 }
 
-void addTimeHistories(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows,
-                      std::string_view completed) {
+void addTimeHistories(Report& document, const std::vector<DiscrepancyReportRow>& rows, std::string_view completed) {
   for (const Component component : all_components) {
     PlotSeries before{"measured minus simulation", {}, {}, {}, SeriesStyle::Points};
     PlotSeries after{fmt::format("measured minus {}", completed), {}, {}, {}, SeriesStyle::Points};
@@ -87,23 +87,23 @@ void addTimeHistories(HtmlDocument& document, const std::vector<DiscrepancyRepor
     if (before.x.empty()) continue;
     PlotOptions options{.title = std::string(toString(component)),
                         .x_label = "time / h",
-                        .y_label = fmt::format("{} / {}", toString(component), unitOf(component)),
+                        .y_label = fmt::format("{} / {}", toString(component), printedUnitOf(component)),
                         .width_px = 860,
                         .height_px = 240};
     if (std::isfinite(holdout_from)) options.ranges.push_back({holdout_from, last, "held out"});
-    document.figure(svgPlot({before, after}, options),
+    document.figure(plotPicture({before, after}, options),
                     fmt::format("{} of all points over time, before and after", toString(component)));
   }
 }
 
-void addDiscrepancyMaps(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows, const FieldGrid& table,
+void addDiscrepancyMaps(Report& document, const std::vector<DiscrepancyReportRow>& rows, const FieldGrid& table,
                         std::string_view completed) {
   double time_s = 0.0;
   const auto maps = discrepancyMaps(rows, table, time_s);
   if (!maps) return;
   const double limit = roundLimit((*maps)[0].largestMagnitude());
   const std::string name(toString((*maps)[0].component));
-  std::vector<std::string> pictures;
+  std::vector<Drawing> pictures;
   for (std::size_t side = 0; side < 2; ++side) {
     HeatmapPictureOptions options;
     options.width_px = 480;
@@ -111,9 +111,9 @@ void addDiscrepancyMaps(HtmlDocument& document, const std::vector<DiscrepancyRep
     options.subtitle = side == 0 ? "measured minus simulation" : fmt::format("measured minus {}", completed);
     options.limit = limit;
     options.legend = false;
-    pictures.push_back(heatmapSvg((*maps)[side], options));
+    pictures.push_back(heatmapPicture((*maps)[side], options));
   }
-  document.figure(svgGrid(pictures, 2),
+  document.figure(drawingGrid(pictures, 2),
                   fmt::format("{} over the table at {:.2f} h, where the gap is largest, before and after on one scale; "
                               "between the points interpolated; {}",
                               name, time_s / seconds_per_hour, heatmap_legend));

@@ -17,10 +17,9 @@ namespace spindrift {
                                                                   FieldGrid table, double& time_s);
 
 /// All points over time, one figure for each component. `completed`: what the model after is called.
-void addTimeHistories(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows,
-                      std::string_view completed);
+void addTimeHistories(Report& document, const std::vector<DiscrepancyReportRow>& rows, std::string_view completed);
 /// The maps, if there are any.
-void addDiscrepancyMaps(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows, const FieldGrid& table,
+void addDiscrepancyMaps(Report& document, const std::vector<DiscrepancyReportRow>& rows, const FieldGrid& table,
                         std::string_view completed);
 
 }  // namespace spindrift

@@ -13,8 +13,8 @@
 #include "core/machine/interpolated_field.h"
 #include "core/reporting/discrepancy_figures.h"
 #include "core/reporting/heatmap_picture.h"
+#include "core/reporting/plot_picture.h"
 #include "core/reporting/report_wording.h"
-#include "core/reporting/svg_plot.h"
 
 namespace spindrift {
 namespace {
@@ -23,7 +23,7 @@ constexpr double seconds_per_hour = 3600.0;
 constexpr std::size_t most_states_in_table = 48;
 constexpr std::size_t most_outliers_in_table = 50;
 
-void addPoints(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& rows) {
+void addPoints(Report& document, const std::vector<DiscrepancyReportRow>& rows) {
   struct Cell {
     double count = 0.0;
     double before = 0.0;
@@ -41,17 +41,17 @@ void addPoints(HtmlDocument& document, const std::vector<DiscrepancyReportRow>& 
     cell.after += row.after * row.after;
   }
   std::vector<Component> components;
-  std::vector<std::string> header{"Point"};
+  ReportRow header{"Point"};
   for (const Component component : all_components) {
     if (std::none_of(cells.begin(), cells.end(), [&](const auto& cell) { return cell.first.second == component; })) {
       continue;
     }
     components.push_back(component);
-    header.push_back(fmt::format("{} / {}", toString(component), unitOf(component)));
+    header.push_back(fmt::format("{} / {}", toString(component), printedUnitOf(component)));
   }
-  std::vector<std::vector<std::string>> table;
+  std::vector<ReportRow> table;
   for (const std::string& point : points) {
-    std::vector<std::string> row{point};
+    ReportRow row{point};
     for (const Component component : components) {
       const auto cell = cells.find({point, component});
       row.push_back(cell == cells.end()
@@ -69,12 +69,12 @@ bool anyHeldOut(const std::vector<DiscrepancyReportRow>& rows) {
 }
 
 /// rms, peak-to-peak and fit of the rows that were fitted and of those held out.
-void addGap(HtmlDocument& document, const DiscrepancyReportData& data) {
+void addGap(Report& document, const DiscrepancyReportData& data) {
   const std::string none = "\u2013";
   const auto text = [&](double value, int digits) {
     return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : none;
   };
-  std::vector<std::vector<std::string>> table;
+  std::vector<ReportRow> table;
   const auto addRms = [&](const std::string& what, double before, double after) {
     table.push_back({what, text(before, 2), text(after, 2), text(data.gap.noise_um, 2)});
   };
@@ -83,7 +83,7 @@ void addGap(HtmlDocument& document, const DiscrepancyReportData& data) {
     if (!std::isfinite(data.gap.rms_after_um)) figures.p2p_after = figures.fit_after_percent = std::nan("");
     if (std::isfinite(figures.p2p_before)) {
       table.push_back(
-          {fmt::format("largest peak-to-peak of one series, {} / {}", what, figures.rotations ? "urad" : "um"),
+          {fmt::format("largest peak-to-peak of one series, {} / {}", what, figures.rotations ? "µrad" : "µm"),
            text(figures.p2p_before, 1), text(figures.p2p_after, 1), none});
     }
     if (std::isfinite(figures.fit_before_percent)) {
@@ -92,7 +92,7 @@ void addGap(HtmlDocument& document, const DiscrepancyReportData& data) {
     }
   };
   const bool held_out = anyHeldOut(data.rows);
-  const std::string unit = data.gap.rotations ? " / urad" : " / um";
+  const std::string unit = data.gap.rotations ? " / µrad" : " / µm";
   addRms("rms of the rows that were fitted" + unit, data.gap.rms_before_um, data.gap.rms_after_um);
   addFigures("rows fitted", false);
   addRms((held_out ? "rms of the rows held out" : "rms of blocks of rows left out in turn") + unit,
@@ -102,11 +102,11 @@ void addGap(HtmlDocument& document, const DiscrepancyReportData& data) {
                  "The gap between measured and simulated; the noise is the floor");
 }
 
-void addSteps(HtmlDocument& document, const DiscrepancyReportData& data) {
+void addSteps(Report& document, const DiscrepancyReportData& data) {
   if (data.steps.empty()) return;
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const DiscrepancyStep& step : data.steps) {
-    std::string decision = "added";
+    ReportText decision = "added";
     if (!step.accepted) {
       decision = withEffectTitles("not added: " + step.reason);
     } else if (takenOutAgain(step, data.effects)) {
@@ -119,33 +119,33 @@ void addSteps(HtmlDocument& document, const DiscrepancyReportData& data) {
   document.table({"Effect", "Gain in BIC", "Decision"}, rows, "What was tried, in this order");
 }
 
-void addEffect(HtmlDocument& document, const FoundEffect& effect, bool user_adds, bool held_out) {
+void addEffect(Report& document, const FoundEffect& effect, bool user_adds, bool held_out) {
   document.subsection(effectHeading(effect.id, effect.title) + (!user_adds      ? ""
                                                                 : effect.forced ? " (added to the model)"
                                                                                 : " (proposed)"));
   document.paragraph(effect.physics);
   document.paragraph(fmt::format(
-      "Driven by {}. Probability that {} {:.2f}; gain in BIC {:.0f}; rms on {} {:.2f} um before, {:.2f} um "
+      "Driven by {}. Probability that {} {:.2f}; gain in BIC {:.0f}; rms on {} {:.2f} µm before, {:.2f} µm "
       "after.",
       driversInWords(effect.drivers), effect.rivals.empty() ? "the name is right" : "it or one of its rivals is right",
       effect.confidence, effect.delta_bic, held_out ? "held-out data" : "blocks left out in turn",
       effect.heldout_rms_before_um, effect.heldout_rms_after_um));
   if (!effect.rivals.empty()) {
-    document.verdict("attention", withEffectTitles(fmt::format("These data cannot tell it from {}.",
-                                                               joinedList(effect.rivals, "or"))));
+    document.callout(CalloutKind::Attention, withEffectTitles(fmt::format("These data cannot tell it from {}.",
+                                                                          joinedList(effect.rivals, "or"))));
   }
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const FittedParameter& p : effect.parameters) {
-    rows.push_back(
-        {parameterTitle(p.name) + ' ' + smallPrint(p.name), withUncertainty(p.value, p.standard_uncertainty, "")});
+    rows.push_back({parameterTitle(p.name) + ' ' + ReportText::smallPrint(p.name),
+                    withUncertainty(p.value, p.standard_uncertainty, "")});
   }
   document.table({"Parameter", "Value ± standard uncertainty"}, rows,
                  "Parameters of the " + (effect.title.empty() ? effectTitle(effect.id) : effect.title));
 }
 
-void addCandidates(HtmlDocument& document, const DiscrepancyReportData& data) {
+void addCandidates(Report& document, const DiscrepancyReportData& data) {
   if (data.candidates.empty()) return;
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const EffectCandidate& candidate : data.candidates) {
     const char* answer = "";
     switch (candidateRole(candidate.id, data.effects)) {
@@ -170,7 +170,7 @@ void addCandidates(HtmlDocument& document, const DiscrepancyReportData& data) {
 }
 
 /// One figure for displacements and one for rotations, and a table of the states.
-void addShifts(HtmlDocument& document, const std::vector<StateShift>& shifts) {
+void addShifts(Report& document, const std::vector<StateShift>& shifts) {
   if (shifts.empty()) return;
   for (const bool rotations : {false, true}) {
     std::vector<PlotSeries> series;
@@ -189,25 +189,25 @@ void addShifts(HtmlDocument& document, const std::vector<StateShift>& shifts) {
     if (series.empty()) continue;
     const PlotOptions options{.title = "Common shift",
                               .x_label = "time / h",
-                              .y_label = rotations ? "shift / urad" : "shift / um",
+                              .y_label = rotations ? "shift / µrad" : "shift / µm",
                               .width_px = 860,
                               .height_px = 220};
-    document.figure(svgPlot(series, options),
+    document.figure(plotPicture(series, options),
                     "Common shift of all points of a state (re-referencing, refocus), with its standard uncertainty");
   }
   std::vector<Component> components;
-  std::vector<std::string> header{"State", "Time / h"};
+  ReportRow header{"State", "Time / h"};
   for (const Component component : all_components) {
     if (std::none_of(shifts.begin(), shifts.end(), [&](const auto& s) { return s.component == component; })) continue;
     components.push_back(component);
-    header.push_back(fmt::format("{} / {}", toString(component), unitOf(component)));
+    header.push_back(fmt::format("{} / {}", toString(component), printedUnitOf(component)));
   }
   std::map<std::pair<double, std::string>, std::map<Component, const StateShift*>> states;
   for (const StateShift& s : shifts) states[{s.time_s, s.state}][s.component] = &s;
   if (states.size() > most_states_in_table) return;
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const auto& [key, of_state] : states) {
-    std::vector<std::string> row{key.second, fmt::format("{:.2f}", key.first / seconds_per_hour)};
+    ReportRow row{key.second, fmt::format("{:.2f}", key.first / seconds_per_hour)};
     for (const Component component : components) {
       const auto found = of_state.find(component);
       row.push_back(found == of_state.end()
@@ -219,7 +219,7 @@ void addShifts(HtmlDocument& document, const std::vector<StateShift>& shifts) {
   document.table(header, rows, "Common shift of every state ± standard uncertainty");
 }
 
-void addOutliers(HtmlDocument& document, std::vector<OutlyingObservation> outliers) {
+void addOutliers(Report& document, std::vector<OutlyingObservation> outliers) {
   if (outliers.empty()) return;
   const std::size_t all = outliers.size();
   std::string caption =
@@ -230,26 +230,28 @@ void addOutliers(HtmlDocument& document, std::vector<OutlyingObservation> outlie
     outliers.resize(most_outliers_in_table);
     caption += fmt::format(" (the {} largest of {})", most_outliers_in_table, all);
   }
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const OutlyingObservation& o : outliers) {
     rows.push_back({fmt::format("{}", o.row + 1), o.state, o.point, std::string(toString(o.component)),
                     fmt::format("{:.2f}", o.time_s / seconds_per_hour),
-                    fmt::format("{:.2f} {}", o.value, unitOf(o.component)), fmt::format("{:+.1f}", o.deviation)});
+                    fmt::format("{} {}", tickText(o.value, 0.01), printedUnitOf(o.component)),
+                    tickText(o.deviation, 0.1)});
   }
   document.table({"Row", "State", "Point", "Component", "Time / h", "Value", "Deviation"}, rows, caption);
 }
 
-void addNoise(HtmlDocument& document, const DiscrepancyReportData& data) {
+void addNoise(Report& document, const DiscrepancyReportData& data) {
   if (data.noise.empty()) return;
   document.subsection("What was taken as noise");
   const std::string none = "\u2013";
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const NoiseEstimate& n : data.noise) {
     const std::string correlated = n.correlated_part > 0.0 ? fmt::format("{:.0f} % over {}", 100.0 * n.correlated_part,
                                                                          spanOfTime(n.correlation_time_s))
                                                            : none;
     rows.push_back({std::string(toString(n.component)), withUncertainty(n.scale, n.scale_uncertainty, ""),
-                    n.common_um > 0.0 ? fmt::format("{:.2f} {}", n.common_um, unitOf(n.component)) : none, correlated});
+                    n.common_um > 0.0 ? fmt::format("{:.2f} {}", n.common_um, printedUnitOf(n.component)) : none,
+                    correlated});
   }
   document.table({"Component", "Noise scale", "Common shift", "Correlated in time"}, rows,
                  "Noise found in the data. Noise scale: actual over stated standard uncertainty of a reading; common "
@@ -271,11 +273,11 @@ void addNoise(HtmlDocument& document, const DiscrepancyReportData& data) {
 }
 
 /// What remains of each component, and its time history beside what is named.
-void addRemainder(HtmlDocument& document, const DiscrepancyReportData& data) {
+void addRemainder(Report& document, const DiscrepancyReportData& data) {
   if (data.remainder.empty()) return;
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const ComponentRemainder& r : data.remainder) {
-    rows.push_back({std::string(toString(r.component)), fmt::format("{:.2f} {}", r.rms_um, unitOf(r.component)),
+    rows.push_back({std::string(toString(r.component)), fmt::format("{:.2f} {}", r.rms_um, printedUnitOf(r.component)),
                     fmt::format("{:.0f}", r.evidence),
                     r.evidence >= clear_evidence ? "there beside the noise" : "may be noise"});
   }
@@ -302,26 +304,26 @@ void addRemainder(HtmlDocument& document, const DiscrepancyReportData& data) {
     series.push_back(std::move(remaining));
     const PlotOptions options{.title = fmt::format("Remainder of {}", toString(r.component)),
                               .x_label = "time / h",
-                              .y_label = fmt::format("{} / {}", toString(r.component), unitOf(r.component)),
+                              .y_label = fmt::format("{} / {}", toString(r.component), printedUnitOf(r.component)),
                               .width_px = 860,
                               .height_px = 220};
-    document.figure(svgPlot(series, options),
+    document.figure(plotPicture(series, options),
                     fmt::format("What remains in {} at all points over time{}", toString(r.component),
                                 data.effects.empty() ? "" : ", beside what the effects explain"));
   }
 }
 
-const char* verdictKind(DiscrepancyVerdict verdict) {
+CalloutKind calloutOf(DiscrepancyVerdict verdict) {
   switch (verdict) {
     case DiscrepancyVerdict::Named:
     case DiscrepancyVerdict::None:
-      return "good";
+      return CalloutKind::Good;
     case DiscrepancyVerdict::Ambiguous:
-      return "attention";
+      return CalloutKind::Attention;
     case DiscrepancyVerdict::Unknown:
-      return "bad";
+      return CalloutKind::Bad;
   }
-  return "note";
+  return CalloutKind::Note;
 }
 
 }  // namespace
@@ -457,15 +459,14 @@ bool takenOutAgain(const DiscrepancyStep& step, const std::vector<FoundEffect>& 
          std::none_of(effects.begin(), effects.end(), [&](const FoundEffect& e) { return e.id == step.id; });
 }
 
-void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& result,
-                         const std::optional<FieldGrid>& table) {
-  document.verdict(verdictKind(result.verdict), discrepancyHeadline(result));
+void addDiscrepancyStory(Report& document, const DiscrepancyReportData& result, const std::optional<FieldGrid>& table) {
+  document.callout(calloutOf(result.verdict), discrepancyHeadline(result));
   addGap(document, result);
   const bool held_out = anyHeldOut(result.rows);
   for (const FoundEffect& effect : result.effects) addEffect(document, effect, result.user_adds, held_out);
   addCandidates(document, result);
   if (!result.leftover.empty()) {
-    document.verdict(result.effects.empty() ? "bad" : "attention",
+    document.callout(result.effects.empty() ? CalloutKind::Bad : CalloutKind::Attention,
                      withEffectTitles(fmt::format("Remainder: {}.", result.leftover)));
   }
   addRemainder(document, result);
@@ -473,7 +474,7 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
     const MeasurementSuggestion& next = *result.suggestion;
     document.subsection("Measure next");
     document.paragraph(withEffectTitles(fmt::format("To tell {}: {}.", next.separates, next.conditions)));
-    std::vector<std::vector<std::string>> steps;
+    std::vector<ReportRow> steps;
     for (const ProgrammeStep& step : next.programme) {
       steps.push_back(
           {fmt::format("{:.2f} to {:.2f}", step.from_s / seconds_per_hour, step.to_s / seconds_per_hour), step.action});
@@ -489,11 +490,11 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
     }
   }
   if (!result.where.empty()) {
-    std::vector<std::vector<std::string>> rows;
+    std::vector<ReportRow> rows;
     for (const DisagreementPlace& place : result.where) {
       rows.push_back({std::string(toString(place.component)), shortenedList(place.points, 12),
                       fmt::format("{:.1f} to {:.1f}", place.from_s / seconds_per_hour, place.to_s / seconds_per_hour),
-                      place.condition, fmt::format("{:.2f} {}", place.excess_um, unitOf(place.component)),
+                      place.condition, fmt::format("{:.2f} {}", place.excess_um, printedUnitOf(place.component)),
                       probabilityInWords(place.p_value)});
     }
     document.table({"Component", "Points", "Time / h", "Condition", "Beyond the noise", "p"}, rows,
@@ -512,14 +513,14 @@ void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& re
       "criterion; a gain above 10 is strong evidence for the effect. Held out: rows that took no part in the choice.");
 }
 
-std::string discrepancyHeadline(const DiscrepancyReportData& data) {
+ReportText discrepancyHeadline(const DiscrepancyReportData& data) {
   return withEffectTitles(data.message);
 }
 
-HtmlDocument discrepancyDocument(const std::string& campaign, const DiscrepancyReportData& data,
-                                 const std::optional<FieldGrid>& table) {
-  HtmlDocument document(fmt::format("Discrepancy: {}", campaign),
-                        "where measured and simulated disagree, which effect is missing, what its addition gains");
+Report discrepancyDocument(const std::string& campaign, const DiscrepancyReportData& data,
+                           const std::optional<FieldGrid>& table) {
+  Report document(fmt::format("Discrepancy: {}", campaign),
+                  "where measured and simulated disagree, which effect is missing, what its addition gains");
   addDiscrepancyStory(document, data, table);
   return document;
 }

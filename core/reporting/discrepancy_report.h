@@ -11,7 +11,7 @@
 
 #include "core/discrepancy/discrepancy.h"
 #include "core/machine/field.h"
-#include "core/reporting/html_document.h"
+#include "core/reporting/report.h"
 
 namespace spindrift {
 
@@ -97,14 +97,13 @@ struct DiscrepancyReportData {
                                                           const DiscrepancyResult& result);
 
 /// The sentence of the verdict, effects by their titles.
-[[nodiscard]] std::string discrepancyHeadline(const DiscrepancyReportData& data);
+[[nodiscard]] ReportText discrepancyHeadline(const DiscrepancyReportData& data);
 
 /// Adds the story below the present section of a document; with maps over `table` if there is one.
-void addDiscrepancyStory(HtmlDocument& document, const DiscrepancyReportData& data,
-                         const std::optional<FieldGrid>& table);
+void addDiscrepancyStory(Report& document, const DiscrepancyReportData& data, const std::optional<FieldGrid>& table);
 
 /// The story as a document of its own, to which more may be added.
-[[nodiscard]] HtmlDocument discrepancyDocument(const std::string& campaign, const DiscrepancyReportData& data,
-                                               const std::optional<FieldGrid>& table);
+[[nodiscard]] Report discrepancyDocument(const std::string& campaign, const DiscrepancyReportData& data,
+                                         const std::optional<FieldGrid>& table);
 
 }  // namespace spindrift

@@ -9,15 +9,16 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/reporting/picture_canvas.h"
-#include "core/reporting/svg_plot.h"
+#include "core/reporting/drawing.h"
+#include "core/reporting/plot_picture.h"
+#include "core/reporting/report_wording.h"
 
 namespace spindrift {
 namespace {
 
 constexpr double significance = 2.0;
 constexpr double faded_part = 0.6;
-constexpr PictureColour ink{31, 41, 51};
+constexpr PictureColour ink = picture_ink;
 constexpr PictureColour grey{120, 130, 140};
 constexpr PictureColour white{255, 255, 255};
 constexpr PictureColour missing{236, 236, 236};
@@ -80,11 +81,7 @@ PictureColour colourOf(double value, double sigma, double limit) {
   return std::abs(value) < significance * sigma ? mixed(full, white, faded_part) : full;
 }
 
-bool same(PictureColour a, PictureColour b) {
-  return a.red == b.red && a.green == b.green && a.blue == b.blue;
-}
-
-void drawCells(PictureCanvas& canvas, const Layout& l, const Field& field, double limit) {
+void drawCells(Drawing& canvas, const Layout& l, const Field& field, double limit) {
   const FieldGrid& g = field.grid;
   const double half_x = 0.5 * l.width / (g.nx - 1);
   const double half_y = 0.5 * l.height / (g.ny - 1);
@@ -95,8 +92,7 @@ void drawCells(PictureCanvas& canvas, const Layout& l, const Field& field, doubl
     for (int ix = 0; ix < g.nx;) {
       const PictureColour colour = colourOf(field.value[g.index(ix, iy)], field.sigma[g.index(ix, iy)], limit);
       int end = ix + 1;
-      while (end < g.nx &&
-             same(colour, colourOf(field.value[g.index(end, iy)], field.sigma[g.index(end, iy)], limit))) {
+      while (end < g.nx && colour == colourOf(field.value[g.index(end, iy)], field.sigma[g.index(end, iy)], limit)) {
         ++end;
       }
       const double from = std::max(l.left, l.px(g.x_mm(ix)) - half_x);
@@ -108,7 +104,7 @@ void drawCells(PictureCanvas& canvas, const Layout& l, const Field& field, doubl
 }
 
 /// Diagonal lines over the cells outside the measured region.
-void drawHatching(PictureCanvas& canvas, const Layout& l, const Field& field) {
+void drawHatching(Drawing& canvas, const Layout& l, const Field& field) {
   constexpr double spacing = 9.0;
   constexpr double step = 1.5;
   const FieldGrid& g = field.grid;
@@ -139,7 +135,7 @@ void drawHatching(PictureCanvas& canvas, const Layout& l, const Field& field) {
 }
 
 /// Contour |value| = 2 sigma by marching squares.
-void drawSignificance(PictureCanvas& canvas, const Layout& l, const Field& field) {
+void drawSignificance(Drawing& canvas, const Layout& l, const Field& field) {
   const FieldGrid& g = field.grid;
   const auto level = [&](int ix, int iy) {
     const std::size_t i = g.index(ix, iy);
@@ -166,7 +162,7 @@ void drawSignificance(PictureCanvas& canvas, const Layout& l, const Field& field
   }
 }
 
-void drawAxes(PictureCanvas& canvas, const Layout& l, const Field& field) {
+void drawAxes(Drawing& canvas, const Layout& l, const Field& field) {
   const FieldGrid& g = field.grid;
   const double right = l.left + l.width;
   const double bottom = l.top + l.height;
@@ -191,7 +187,7 @@ void drawAxes(PictureCanvas& canvas, const Layout& l, const Field& field) {
   canvas.text(l.left - 48.0, l.top + 0.5 * l.height, "y / mm", 13.0, TextAnchor::Middle, false, true);
 }
 
-void drawColourBar(PictureCanvas& canvas, const Layout& l, const Field& field, double limit) {
+void drawColourBar(Drawing& canvas, const Layout& l, const Field& field, double limit) {
   constexpr int steps = 64;
   for (int i = 0; i < steps; ++i) {
     const double part = 1.0 - 2.0 * (i + 0.5) / steps;
@@ -205,8 +201,9 @@ void drawColourBar(PictureCanvas& canvas, const Layout& l, const Field& field, d
     canvas.line(l.bar_left + l.bar_width, y, l.bar_left + l.bar_width + 5.0, y, ink, 1.0);
     canvas.text(l.bar_left + l.bar_width + 9.0, y + 4.0, tickText(t, step), 12.0, TextAnchor::Start);
   }
-  canvas.text(l.bar_left, l.top - 10.0, fmt::format("{} / {}", toString(field.component), unitOf(field.component)),
-              13.0, TextAnchor::Start);
+  canvas.text(l.bar_left, l.top - 10.0,
+              fmt::format("{} / {}", toString(field.component), printedUnitOf(field.component)), 13.0,
+              TextAnchor::Start);
 }
 
 std::size_t lettersOf(std::string_view text) {
@@ -257,7 +254,7 @@ LabelPlace freePlace(const Layout& l, const std::vector<Box>& taken, double x, d
   return best;
 }
 
-void drawMarkers(PictureCanvas& canvas, const Layout& l, const Field& field, double limit) {
+void drawMarkers(Drawing& canvas, const Layout& l, const Field& field, double limit) {
   constexpr double longest = 38.0;
   constexpr double size = 12.0;
   const bool across = field.component == Component::EX || field.component == Component::EB;
@@ -293,7 +290,7 @@ void drawMarkers(PictureCanvas& canvas, const Layout& l, const Field& field, dou
   }
 }
 
-void draw(PictureCanvas& canvas, const Layout& l, const Field& field, const HeatmapPictureOptions& options) {
+void draw(Drawing& canvas, const Layout& l, const Field& field, const HeatmapPictureOptions& options) {
   const double limit = options.limit.value_or(roundLimit(field.largestMagnitude()));
   drawCells(canvas, l, field, limit);
   drawHatching(canvas, l, field);
@@ -336,9 +333,6 @@ void HeatmapPictureOptions::validate() const {
   if (width_px < 480 || width_px > 8000) {
     throw InputError(fmt::format("a picture of {} px is not possible; allowed: 480 to 8000 px wide.", width_px));
   }
-  if (!(png_scale >= 0.5 && png_scale <= 8.0)) {
-    throw InputError(fmt::format("a PNG scale of {} is not possible; allowed: 0.5 to 8.", png_scale));
-  }
   if (limit && !(*limit > 0.0)) {
     throw InputError(fmt::format("a colour limit of {} is not possible; allowed: greater than zero.", *limit));
   }
@@ -374,20 +368,12 @@ double roundLimit(double magnitude) {
   return 10.0 * power;
 }
 
-std::string heatmapSvg(const Field& field, const HeatmapPictureOptions& options) {
+Drawing heatmapPicture(const Field& field, const HeatmapPictureOptions& options) {
   check(field, options);
   const Layout layout = layoutOf(field.grid, options);
-  const auto canvas = makeSvgCanvas(layout.picture_width, layout.picture_height);
-  draw(*canvas, layout, field, options);
-  return canvas->finish();
-}
-
-std::string heatmapPng(const Field& field, const HeatmapPictureOptions& options) {
-  check(field, options);
-  const Layout layout = layoutOf(field.grid, options);
-  const auto canvas = makePngCanvas(layout.picture_width, layout.picture_height, options.png_scale);
-  draw(*canvas, layout, field, options);
-  return canvas->finish();
+  Drawing drawing(layout.picture_width, layout.picture_height);
+  draw(drawing, layout, field, options);
+  return drawing;
 }
 
 }  // namespace spindrift

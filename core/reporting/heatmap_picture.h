@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field as a picture: SVG (own writer) and PNG (OpenCV), the same layout.
+// A field as a picture.
 //
 // Colours: diverging cool-warm map (Moreland 2009), zero neutral, limits symmetric about zero. Where |value| < 2 sigma
 // the colour fades and a contour separates it; outside the measured region cells are hatched. Measured points carry an
@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "core/machine/field.h"
+#include "core/reporting/drawing.h"
 
 namespace spindrift {
 
@@ -23,7 +24,6 @@ struct HeatmapPictureOptions {
   std::optional<double> limit;  ///< of the colour scale, um or urad; empty: from the field, rounded up
   bool legend = true;           ///< what pale, hatched and hollow mean, below; else the caption has to say it
   int width_px = 820;           ///< of the picture; the height follows from the table, >= 480
-  double png_scale = 2.0;       ///< pixels of the PNG per px of the layout
   /// Throws InputError.
   void validate() const;
 };
@@ -32,10 +32,8 @@ struct HeatmapPictureOptions {
 inline constexpr std::string_view heatmap_legend =
     "pale: smaller than two standard uncertainties, hatched: outside the measured points, hollow: not fitted";
 
-/// The whole <svg> element.
-[[nodiscard]] std::string heatmapSvg(const Field& field, const HeatmapPictureOptions& options = {});
-/// The bytes of a PNG file.
-[[nodiscard]] std::string heatmapPng(const Field& field, const HeatmapPictureOptions& options = {});
+/// Throws InputError on options that cannot be.
+[[nodiscard]] Drawing heatmapPicture(const Field& field, const HeatmapPictureOptions& options = {});
 
 /// Colour of value/limit in [-1, 1] (clamped): red, green, blue.
 [[nodiscard]] std::array<std::uint8_t, 3> coolWarm(double part);

@@ -8,9 +8,9 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/reporting/parameter_meanings.h"
+#include "core/reporting/plot_picture.h"
 #include "core/reporting/report_parts.h"
 #include "core/reporting/report_wording.h"
-#include "core/reporting/svg_plot.h"
 
 namespace spindrift {
 namespace {
@@ -70,26 +70,26 @@ bool isReference(const CycleRow& row) {
   });
 }
 
-void addMeanings(HtmlDocument& document, const std::vector<std::string>& names) {
-  std::vector<std::vector<std::string>> rows;
+void addMeanings(Report& document, const std::vector<std::string>& names) {
+  std::vector<ReportRow> rows;
   for (const std::string& name : names)
     if (const std::string meaning = parameterMeaning(name); !meaning.empty())
       rows.push_back({titleWithUnit(name), meaning});
   if (!rows.empty()) document.table({"Parameter", "Meaning"}, rows, "What the error parameters mean");
 }
 
-void addTables(HtmlDocument& document, const Cycles& cycles) {
+void addTables(Report& document, const Cycles& cycles) {
   const std::size_t step = (cycles.rows.size() + most_rows - 1) / most_rows;
   // Tables of about the same width: six parameters are three and three, not five and one.
   const std::size_t tables = (cycles.names.size() + most_columns - 1) / most_columns;
   const std::size_t columns = (cycles.names.size() + tables - 1) / tables;
   for (std::size_t first = 0; first < cycles.names.size(); first += columns) {
     const std::size_t last = std::min(cycles.names.size(), first + columns);
-    std::vector<std::string> header{"Cycle"};
+    ReportRow header{"Cycle"};
     if (cycles.artefacts.size() > 1) header.emplace_back("Artefact");
     if (cycles.timed) header.emplace_back("Time / h");
     for (std::size_t i = first; i < last; ++i) header.push_back(titleWithUnit(cycles.names[i]));
-    std::vector<std::vector<std::string>> cells;
+    std::vector<ReportRow> cells;
     for (std::size_t k = 0; k < cycles.rows.size(); k += step) {
       const CycleRow& r = cycles.rows[k];
       const bool reference = isReference(r);
@@ -112,9 +112,9 @@ void addTables(HtmlDocument& document, const Cycles& cycles) {
   }
 }
 
-void addTrends(HtmlDocument& document, const Cycles& cycles) {
+void addTrends(Report& document, const Cycles& cycles) {
   const PanelGrid grid = PanelGrid::of(cycles.names.size());
-  std::vector<std::string> panels;
+  std::vector<Drawing> panels;
   for (const std::string& name : cycles.names) {
     std::vector<PlotSeries> trends;
     for (const std::string& artefact : cycles.artefacts) {
@@ -135,10 +135,10 @@ void addTrends(HtmlDocument& document, const Cycles& cycles) {
                         .width_px = grid.width_px,
                         .height_px = grid.height_px,
                         .compact = true};
-    panels.push_back(svgPlot(trends, options));
+    panels.push_back(plotPicture(trends, options));
   }
   if (!panels.empty())
-    document.figure(svgGrid(panels, grid.columns, PanelGrid::gap_px),
+    document.figure(drawingGrid(panels, grid.columns, PanelGrid::gap_px),
                     "Error parameters over the cycles; bars: one standard uncertainty");
 }
 
@@ -150,10 +150,10 @@ std::string instrumentTitle(const std::string& instrument) {
 }
 
 /// What the microscope itself was found to be: scale, direction, repeatability.
-void addMicroscope(HtmlDocument& document, const nlohmann::json& details) {
+void addMicroscope(Report& document, const nlohmann::json& details) {
   const auto camera = details.find("camera");
   if (camera == details.end()) return;
-  std::vector<std::pair<std::string, std::string>> facts;
+  ReportFacts facts;
   const auto add = [&](const nlohmann::json& from, const char* key, const char* name, const char* unit, int decimals) {
     if (from.contains(key) && from[key].is_number())
       facts.emplace_back(name, fmt::format("{:.{}f} {}", from[key].get<double>(), decimals, unit));
@@ -161,7 +161,7 @@ void addMicroscope(HtmlDocument& document, const nlohmann::json& details) {
   if (camera->value("width_px", 0) > 0)
     facts.emplace_back("Image",
                        fmt::format("{} × {} pixels", camera->value("width_px", 0), camera->value("height_px", 0)));
-  add(*camera, "pixel_length_um", "Length of a pixel on the fiducial", "um", 3);
+  add(*camera, "pixel_length_um", "Length of a pixel on the fiducial", "µm", 3);
   if (camera->contains("direction_rad") && (*camera)["direction_rad"].is_object()) {
     const nlohmann::json& direction = (*camera)["direction_rad"];
     if (direction.contains("value") && direction["value"].is_number())
@@ -169,17 +169,17 @@ void addMicroscope(HtmlDocument& document, const nlohmann::json& details) {
                          withUncertainty(direction["value"].get<double>() * deg_per_rad,
                                          direction.value("standard_uncertainty", 0.0) * deg_per_rad, "°"));
   }
-  add(*camera, "position_repeatability_um", "Repeatability of the axes seen in the images", "um", 2);
+  add(*camera, "position_repeatability_um", "Repeatability of the axes seen in the images", "µm", 2);
   if (const auto centre = details.find("centre_of_rotation"); centre != details.end())
-    add(*centre, "spindle_repeatability_um", "Repeatability of the spindle orientation", "um", 2);
+    add(*centre, "spindle_repeatability_um", "Repeatability of the spindle orientation", "µm", 2);
   if (!facts.empty()) document.facts(facts);
 }
 
 }  // namespace
 
-void addInstrument(HtmlDocument& document, const InstrumentEvaluation& instrument) {
+void addInstrument(Report& document, const InstrumentEvaluation& instrument) {
   document.section(fmt::format("Measured with: {}", instrumentTitle(instrument.instrument)));
-  for (const std::string& warning : instrument.warnings) document.verdict("attention", warning);
+  for (const std::string& warning : instrument.warnings) document.callout(CalloutKind::Attention, warning);
   if (instrument.details.contains("cycles")) {
     const Cycles cycles = cyclesOf(instrument.details["cycles"]);
     if (!cycles.rows.empty()) {
@@ -193,7 +193,7 @@ void addInstrument(HtmlDocument& document, const InstrumentEvaluation& instrumen
     document.paragraph("No capture was rejected.");
     return;
   }
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const RejectedCapture& r : instrument.rejected) rows.push_back({r.capture, r.reason});
   document.table({"Capture", "Why it was not used"}, rows, "Rejected captures");
 }

@@ -9,9 +9,10 @@
 #include <tuple>
 
 #include "core/base/text.h"
+#include "core/reporting/plot_picture.h"
 #include "core/reporting/point_map.h"
 #include "core/reporting/report_parts.h"
-#include "core/reporting/svg_plot.h"
+#include "core/reporting/report_wording.h"
 
 namespace spindrift {
 namespace {
@@ -75,14 +76,13 @@ std::vector<std::string> statesOf(const ObservationSet& observations, const std:
   return states;
 }
 
-void addChangeTable(HtmlDocument& document, const std::vector<std::string>& states,
-                    const std::vector<Change>& changes) {
+void addChangeTable(Report& document, const std::vector<std::string>& states, const std::vector<Change>& changes) {
   std::vector<Component> components;
   for (const Component c : all_components)
     if (std::any_of(changes.begin(), changes.end(), [c](const Change& x) { return x.row->component == c; }))
       components.push_back(c);
-  std::vector<std::string> header{"Point", "State", "X / mm", "Y / mm"};
-  for (const Component c : components) header.push_back(fmt::format("{} / {}", toString(c), unitOf(c)));
+  ReportRow header{"Point", "State", "X / mm", "Y / mm"};
+  for (const Component c : components) header.push_back(fmt::format("{} / {}", toString(c), printedUnitOf(c)));
   // In the order of the states, then of the points.
   std::vector<std::pair<std::string, std::string>> order;
   std::map<std::pair<std::string, std::string>, std::map<Component, const Change*>> cells;
@@ -94,7 +94,7 @@ void addChangeTable(HtmlDocument& document, const std::vector<std::string>& stat
   const auto rank = [&](const std::string& state) { return std::find(states.begin(), states.end(), state); };
   std::stable_sort(order.begin(), order.end(),
                    [&](const auto& a, const auto& b) { return rank(a.first) < rank(b.first); });
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const auto& key : order) {
     const auto& row = cells[key];
     const Observation& o = *row.begin()->second->row;
@@ -109,7 +109,7 @@ void addChangeTable(HtmlDocument& document, const std::vector<std::string>& stat
   document.table(header, rows, "Change of each point from its first reading, value ± one standard uncertainty");
 }
 
-void addMaps(HtmlDocument& document, const std::vector<std::string>& states, const std::vector<Change>& changes) {
+void addMaps(Report& document, const std::vector<std::string>& states, const std::vector<Change>& changes) {
   for (std::size_t s = 0; s < std::min(states.size(), most_maps); ++s) {
     std::map<std::string, PointDisplacement> points;
     std::set<std::string> references;
@@ -128,13 +128,12 @@ void addMaps(HtmlDocument& document, const std::vector<std::string>& states, con
     std::vector<PointDisplacement> list;
     for (auto& [name, point] : points) list.push_back(std::move(point));
     const std::string from = references.size() == 1 ? "state " + *references.begin() : "its first reading";
-    const std::string svg =
-        pointMapSvg(list, {.title = fmt::format("Displacement in state {}", states[s]),
-                           .subtitle = fmt::format("change of the tool relative to the table from {}", from)});
-    if (!svg.empty())
-      document.figure(svg, fmt::format("Measured displacement of the points in state {}, from {}: arrows X and Y, "
-                                       "colour and number Z in um",
-                                       states[s], from));
+    if (const auto drawing =
+            pointMap(list, {.title = fmt::format("Displacement in state {}", states[s]),
+                            .subtitle = fmt::format("change of the tool relative to the table from {}", from)}))
+      document.figure(*drawing, fmt::format("Measured displacement of the points in state {}, from {}: arrows X and Y, "
+                                            "colour and number Z in µm",
+                                            states[s], from));
   }
 }
 
@@ -167,7 +166,7 @@ std::vector<std::string> mostTelling(const ObservationSet& observations, const s
   return kept;
 }
 
-void addPanels(HtmlDocument& document, const ObservationSet& observations, const std::vector<Change>& changes,
+void addPanels(Report& document, const ObservationSet& observations, const std::vector<Change>& changes,
                bool rotations) {
   const std::vector<std::string> points = mostTelling(observations, changes, rotations);
   if (points.empty()) return;
@@ -195,7 +194,7 @@ void addPanels(HtmlDocument& document, const ObservationSet& observations, const
     y.add(c.value + 2.0 * c.sigma);
   }
   const PanelGrid grid = PanelGrid::of(points.size());
-  std::vector<std::string> panels;
+  std::vector<Drawing> panels;
   for (const std::string& point : points) {
     std::vector<PlotSeries> lines;
     for (const Component c : all_components) {
@@ -204,7 +203,7 @@ void addPanels(HtmlDocument& document, const ObservationSet& observations, const
     }
     PlotOptions options{.title = point,
                         .x_label = "time / h",
-                        .y_label = rotations ? "change / urad" : "change / um",
+                        .y_label = rotations ? "change / µrad" : "change / µm",
                         .width_px = grid.width_px,
                         .height_px = grid.height_px,
                         .y_from = y.low,
@@ -212,11 +211,11 @@ void addPanels(HtmlDocument& document, const ObservationSet& observations, const
                         .x_from = x.low - 0.02 * (x.high - x.low),
                         .x_to = x.high + 0.02 * (x.high - x.low),
                         .compact = true};
-    panels.push_back(svgPlot(lines, options));
+    panels.push_back(plotPicture(lines, options));
   }
   const std::size_t all = observations.points().size();
   document.figure(
-      svgGrid(panels, grid.columns, PanelGrid::gap_px),
+      drawingGrid(panels, grid.columns, PanelGrid::gap_px),
       fmt::format("{} of {} from its first reading, all on one scale; bands: two standard uncertainties",
                   rotations ? "Rotation" : "Displacement",
                   points.size() < all ? fmt::format("the {} of {} points that change most", points.size(), all)
@@ -242,7 +241,7 @@ std::vector<LargestChange> largestChanges(const ObservationSet& observations) {
   return list;
 }
 
-void addObservations(HtmlDocument& document, const ObservationSet& observations) {
+void addObservations(Report& document, const ObservationSet& observations) {
   if (observations.rows.empty()) return;
   document.section("Observations");
   document.paragraph(
@@ -252,7 +251,7 @@ void addObservations(HtmlDocument& document, const ObservationSet& observations)
                   observations.rows.size(), observations.points().size(), observations.states().size()));
   const std::vector<Change> changes = changesOf(observations);
   if (changes.empty()) {
-    document.verdict("note", "Every point was read once only: there is no change to show.");
+    document.callout(CalloutKind::Note, "Every point was read once only: there is no change to show.");
   } else if (medianCount(observations) < least_for_curves) {
     const std::vector<std::string> states = statesOf(observations, changes);
     addMaps(document, states, changes);

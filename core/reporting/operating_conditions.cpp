@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "core/base/text.h"
+#include "core/reporting/plot_picture.h"
 #include "core/reporting/report_parts.h"
 #include "core/reporting/report_wording.h"
-#include "core/reporting/svg_plot.h"
 
 namespace spindrift {
 namespace {
@@ -47,50 +47,45 @@ LogSignals signalsOf(const OperatingLog& log) {
 }
 
 /// One lane a signal, filled up to its value: who reads it wants to know what ran when.
-std::string lanes(const OperatingLog& log, const LogSignals& signals) {
+Drawing lanes(const OperatingLog& log, const LogSignals& signals) {
   constexpr double left = 210.0, right = 14.0, lane = 34.0, bar = 24.0;
+  constexpr PictureColour grid{227, 231, 235}, base_line{154, 165, 177};
+  constexpr Paint filled{.fill = PictureColour{159, 195, 205}, .stroke = PictureColour{11, 114, 133}};
   const double width = plot_width_px - left - right;
   const double from = signals.hours.front();
   const double span = std::max(1e-9, signals.hours.back() - from);
   const auto px = [&](double hours) { return left + (hours - from) / span * width; };
   const double bottom = 8.0 + lane * static_cast<double>(signals.programme.size());
-  const int height = static_cast<int>(bottom + 40.0);
-  std::string svg = fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" )"
-                                R"(height="{1}" font-family="Inter, 'DejaVu Sans', sans-serif" font-size="12" )"
-                                R"(fill="#1f2933"><rect width="{0}" height="{1}" fill="#ffffff"/>)",
-                                plot_width_px, height);
+  Drawing out(plot_width_px, bottom + 40.0);
   const std::vector<double> ticks = roundTicks(from, from + span, 8);
   for (const double t : ticks) {
-    svg +=
-        fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"4\" y2=\"{1:.1f}\" stroke=\"#e3e7eb\"/>", px(t), bottom);
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>", px(t), bottom + 16.0,
-                       tickText(t, ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0));
+    out.line(px(t), 4.0, px(t), bottom, grid, 1.0);
+    out.text(px(t), bottom + 16.0, tickText(t, ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0),
+             {.anchor = TextAnchor::Middle});
   }
-  svg +=
-      fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">time / h</text>", left + width / 2, height - 6);
+  out.text(left + width / 2, bottom + 34.0, "time / h", {.anchor = TextAnchor::Middle});
   for (std::size_t k = 0; k < signals.programme.size(); ++k) {
     const std::vector<double>& values = *log.signal(signals.programme[k]);
     const double base = 8.0 + lane * static_cast<double>(k) + bar;
     const double largest = *std::max_element(values.begin(), values.end());
     const SignalTitle title = signalTitle(signals.programme[k]);
-    const std::string label =
-        title.unit.empty() ? title.name : fmt::format("{}, up to {:g} {}", title.name, largest, title.unit);
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", left - 10.0, base - 7.0,
-                       escapedXml(label));
-    std::string path = fmt::format("M{:.1f} {:.1f}", px(signals.hours.front()), base);
+    out.text(left - 10.0, base - 7.0,
+             title.unit.empty() ? title.name : fmt::format("{}, up to {:g} {}", title.name, largest, title.unit),
+             {.anchor = TextAnchor::End});
+    std::vector<Drawing::Point> edge{{px(signals.hours.front()), base}};
     double last = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double v = std::isfinite(values[i]) ? values[i] : 0.0;
       if (v == last && i + 1 < values.size()) continue;
-      path += fmt::format("H{:.1f}V{:.1f}", px(signals.hours[i]), base - bar * v / largest);
+      edge.push_back({px(signals.hours[i]), edge.back()[1]});
+      edge.push_back({edge.back()[0], base - bar * v / largest});
       last = v;
     }
-    path += fmt::format("V{:.1f}Z", base);
-    svg += fmt::format("<path d=\"{}\" fill=\"#9fc3cd\" stroke=\"#0b7285\" stroke-width=\"1\"/>", path);
-    svg += fmt::format(R"(<line x1="{0:.1f}" x2="{1:.1f}" y1="{2:.1f}" y2="{2:.1f}" stroke="#9aa5b1"/>)", left,
-                       left + width, base);
+    edge.push_back({edge.back()[0], base});
+    out.polygon(std::move(edge), filled);
+    out.line(left, base, left + width, base, base_line, 1.0);
   }
-  return svg + "</svg>";
+  return out;
 }
 
 /// As many of the signals as can be told apart: those with the widest range, in the order of the log.
@@ -116,7 +111,7 @@ std::vector<std::string> widest(const OperatingLog& log, const std::vector<std::
 }
 
 /// Curves of some columns in one plot; those with an axis in their name in its colour.
-void addCurves(HtmlDocument& document, const OperatingLog& log, const LogSignals& signals,
+void addCurves(Report& document, const OperatingLog& log, const LogSignals& signals,
                const std::vector<std::string>& names, const std::string& y_label, const std::string& caption) {
   if (names.empty()) return;
   const std::vector<std::string> shown = widest(log, names);
@@ -127,7 +122,7 @@ void addCurves(HtmlDocument& document, const OperatingLog& log, const LogSignals
     if (axis >= 0 && axis < 3) curve.dress(axisLook(axis));
     curves.push_back(std::move(curve));
   }
-  document.figure(svgPlot(curves, {.x_label = "time / h", .y_label = y_label, .width_px = plot_width_px}),
+  document.figure(plotPicture(curves, {.x_label = "time / h", .y_label = y_label, .width_px = plot_width_px}),
                   names.size() > shown.size()
                       ? fmt::format("{}; the {} of {} that change most", caption, shown.size(), names.size())
                       : caption);
@@ -135,18 +130,18 @@ void addCurves(HtmlDocument& document, const OperatingLog& log, const LogSignals
 
 }  // namespace
 
-void addOperatingConditions(HtmlDocument& document, const OperatingLog& log) {
+void addOperatingConditions(Report& document, const OperatingLog& log) {
   if (log.empty()) return;
   document.section("Operating conditions");
   const LogSignals signals = signalsOf(log);
   if (!signals.programme.empty())
     document.figure(lanes(log, signals), "Programme of the machine: what ran when, each relative to its largest value");
-  addCurves(document, log, signals, signals.temperatures, "temperature / degC", "Temperatures of the log");
-  addCurves(document, log, signals, signals.displacements, "displacement / um", "Displacements of the log");
-  addCurves(document, log, signals, signals.tilts, "tilt / urad", "Tilts of the log");
+  addCurves(document, log, signals, signals.temperatures, "temperature / °C", "Temperatures of the log");
+  addCurves(document, log, signals, signals.displacements, "displacement / µm", "Displacements of the log");
+  addCurves(document, log, signals, signals.tilts, "tilt / µrad", "Tilts of the log");
   if (const std::vector<double>* on = log.signal("compensation_on");
       on != nullptr && std::any_of(on->begin(), on->end(), [](double v) { return v != 0.0; })) {
-    document.verdict("attention",
+    document.callout(CalloutKind::Attention,
                      "The control was compensating during part of this campaign; observations from that time show what "
                      "was left over, not the error of the machine.");
   }

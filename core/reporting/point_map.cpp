@@ -9,13 +9,12 @@
 
 #include "core/base/text.h"
 #include "core/reporting/heatmap_picture.h"
-#include "core/reporting/picture_canvas.h"
-#include "core/reporting/svg_plot.h"
+#include "core/reporting/plot_picture.h"
 
 namespace spindrift {
 namespace {
 
-constexpr PictureColour ink{31, 41, 51};
+constexpr PictureColour ink = picture_ink;
 constexpr PictureColour grid_colour{227, 231, 235};
 constexpr PictureColour grey{120, 130, 140};
 constexpr double um_per_mm = 1000.0;
@@ -64,7 +63,7 @@ double roundDown(double value) {
   return power;
 }
 
-void drawAxes(PictureCanvas& canvas, const View& v) {
+void drawAxes(Drawing& canvas, const View& v) {
   const double bottom = v.top + v.height, right = v.left + v.width;
   const std::vector<double> xs =
       roundTicks(v.x_from, v.x_from + v.width / v.px_per_mm, std::max(3, static_cast<int>(v.width / 90)));
@@ -87,7 +86,7 @@ void drawAxes(PictureCanvas& canvas, const View& v) {
   canvas.text(20.0, v.top + 0.5 * v.height, "Y / mm", 13.0, TextAnchor::Middle, false, true);
 }
 
-void drawColourBar(PictureCanvas& canvas, const View& v, double limit) {
+void drawColourBar(Drawing& canvas, const View& v, double limit) {
   constexpr int steps = 48;
   const double left = v.left + v.width + 22.0, height = std::min(v.height, 220.0);
   const double top = v.top + 0.5 * (v.height - height);
@@ -102,10 +101,10 @@ void drawColourBar(PictureCanvas& canvas, const View& v, double limit) {
     canvas.text(left + 25.0, y + 4.0, tickText(t, ticks.size() > 1 ? ticks[1] - ticks[0] : limit), 12.0,
                 TextAnchor::Start);
   }
-  canvas.text(left, top - 10.0, "EZ / um", 13.0, TextAnchor::Start);
+  canvas.text(left, top - 10.0, "EZ / µm", 13.0, TextAnchor::Start);
 }
 
-void drawArrow(PictureCanvas& canvas, double x, double y, double tip_x, double tip_y) {
+void drawArrow(Drawing& canvas, double x, double y, double tip_x, double tip_y) {
   const double length = std::hypot(tip_x - x, tip_y - y);
   if (length < 2.0) return;
   canvas.line(x, y, tip_x, tip_y, ink, 2.0);
@@ -115,7 +114,7 @@ void drawArrow(PictureCanvas& canvas, double x, double y, double tip_x, double t
   canvas.line(tip_x, tip_y, tip_x - back * ux + side * uy, tip_y - back * uy - side * ux, ink, 2.0);
 }
 
-void drawPoint(PictureCanvas& canvas, const View& v, const PointDisplacement& p, double factor, double limit) {
+void drawPoint(Drawing& canvas, const View& v, const PointDisplacement& p, double factor, double limit) {
   const double px_per_um = factor / um_per_mm * v.px_per_mm;
   const double x = v.px(p.position_mm.x()), y = v.py(p.position_mm.y());
   const bool flat = std::isfinite(p.change_um.x()) && std::isfinite(p.change_um.y());
@@ -143,8 +142,8 @@ void drawPoint(PictureCanvas& canvas, const View& v, const PointDisplacement& p,
 
 }  // namespace
 
-std::string pointMapSvg(const std::vector<PointDisplacement>& points, const PointMapOptions& options) {
-  if (points.empty()) return {};
+std::optional<Drawing> pointMap(const std::vector<PointDisplacement>& points, const PointMapOptions& options) {
+  if (points.empty()) return std::nullopt;
   double longest = 0.0, highest = 0.0, spread = 0.0;
   for (const PointDisplacement& p : points) {
     spread = std::max(spread, (p.position_mm - points.front().position_mm).head<2>().norm());
@@ -152,26 +151,26 @@ std::string pointMapSvg(const std::vector<PointDisplacement>& points, const Poin
     if (std::isfinite(flat)) longest = std::max(longest, flat);
     if (std::isfinite(p.change_um.z())) highest = std::max(highest, std::abs(p.change_um.z()));
   }
-  if (!(spread > 0.0)) return {};
+  if (!(spread > 0.0)) return std::nullopt;
   const View view = viewOf(points, options.width_px);
   const double limit = roundLimit(highest);
   const double factor = longest > 0.0 ? roundDown(view.width / 6.0 / view.px_per_mm * um_per_mm / longest) : 1.0;
-  const auto canvas = makeSvgCanvas(options.width_px, static_cast<int>(std::lround(view.top + view.height + 78.0)));
-  canvas->text(16.0, 26.0, options.title, 16.0, TextAnchor::Start, true);
-  canvas->text(16.0, 46.0, options.subtitle, 12.0, TextAnchor::Start);
-  drawAxes(*canvas, view);
-  drawColourBar(*canvas, view, limit);
-  for (const PointDisplacement& p : points) drawPoint(*canvas, view, p, factor, limit);
+  Drawing canvas(options.width_px, std::round(view.top + view.height + 78.0));
+  canvas.text(16.0, 26.0, options.title, 16.0, TextAnchor::Start, true);
+  canvas.text(16.0, 46.0, options.subtitle, 12.0, TextAnchor::Start);
+  drawAxes(canvas, view);
+  drawColourBar(canvas, view, limit);
+  for (const PointDisplacement& p : points) drawPoint(canvas, view, p, factor, limit);
   // A stroke as long as a round displacement.
   const double scale_um = roundDown(std::max(longest, 1e-3));
   const double y = view.top + view.height + 62.0;
   const double length = scale_um * factor / um_per_mm * view.px_per_mm;
-  canvas->line(view.left, y - 4.0, view.left + length, y - 4.0, ink, 2.0);
-  canvas->text(view.left + length + 10.0, y,
-               fmt::format("{:g} um in X and Y, drawn {:g} times as long; bars: 2 standard uncertainties; number: EZ",
-                           scale_um, factor),
-               12.0, TextAnchor::Start);
-  return canvas->finish();
+  canvas.line(view.left, y - 4.0, view.left + length, y - 4.0, ink, 2.0);
+  canvas.text(view.left + length + 10.0, y,
+              fmt::format("{:g} µm in X and Y, drawn {:g} times as long; bars: 2 standard uncertainties; number: EZ",
+                          scale_um, factor),
+              12.0, TextAnchor::Start);
+  return canvas;
 }
 
 }  // namespace spindrift

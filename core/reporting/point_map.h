@@ -4,8 +4,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "core/reporting/drawing.h"
 
 namespace spindrift {
 
@@ -23,8 +26,9 @@ struct PointMapOptions {
   int width_px = 820;
 };
 
-/// The whole <svg> element. How much arrows are exaggerated is written below, a round factor for which the longest is
-/// about a sixth of the picture. Empty if fewer than two points differ in place.
-[[nodiscard]] std::string pointMapSvg(const std::vector<PointDisplacement>& points, const PointMapOptions& options);
+/// How much arrows are exaggerated is written below, a round factor for which the longest is
+/// about a sixth of the picture. Nothing if fewer than two points differ in place.
+[[nodiscard]] std::optional<Drawing> pointMap(const std::vector<PointDisplacement>& points,
+                                              const PointMapOptions& options);
 
 }  // namespace spindrift

@@ -8,7 +8,7 @@
 
 #include "core/machine/campaign.h"
 #include "core/machine/instrument_evaluation.h"
-#include "core/reporting/html_document.h"
+#include "core/reporting/report.h"
 
 namespace spindrift {
 
@@ -23,14 +23,14 @@ struct PanelGrid {
 
 /// Programme of the machine, one lane a signal, and the temperatures. Outputs of a log (displacements, tilts) as
 /// curves.
-void addOperatingConditions(HtmlDocument& document, const OperatingLog& log);
+void addOperatingConditions(Report& document, const OperatingLog& log);
 
 /// Heading, warnings, error parameters per cycle with what they mean, rejected captures.
-void addInstrument(HtmlDocument& document, const InstrumentEvaluation& instrument);
+void addInstrument(Report& document, const InstrumentEvaluation& instrument);
 
 /// Observations: few moments as a table and as arrows over the table, many as one small plot a point with a line for
 /// each component. Nothing without observations.
-void addObservations(HtmlDocument& document, const ObservationSet& observations);
+void addObservations(Report& document, const ObservationSet& observations);
 
 /// The largest changes from the first state, one line a component: for the summary. Empty without two states.
 struct LargestChange {

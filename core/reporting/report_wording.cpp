@@ -11,30 +11,14 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/discrepancy/effect_titles.h"
 
 namespace spindrift {
 namespace {
 
-constexpr char mark = '\x1f';  // unit separator: in no text that a user writes
-
 bool inWord(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || (static_cast<unsigned char>(c) & 0x80U) != 0;
-}
-
-std::string_view printedWord(std::string_view word) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> signs{
-      {{"um", "µm"}, {"urad", "µrad"}, {"degC", "°C"}}};
-  for (const auto& [ascii, printed] : signs)
-    if (word == ascii) return printed;
-  return word;
-}
-
-/// "-7" after a blank or a bracket, not the hyphen of a date, a range or a name.
-bool isSignOfNumber(std::string_view text, std::size_t at) {
-  if (text[at] != '-' || at + 1 >= text.size() || std::isdigit(static_cast<unsigned char>(text[at + 1])) == 0)
-    return false;
-  return at == 0 || text[at - 1] == ' ' || text[at - 1] == '(' || text[at - 1] == '[';
 }
 
 std::vector<std::string> partsOf(std::string_view text, char separator) {
@@ -55,8 +39,8 @@ std::string joinedWords(const std::vector<std::string>& parts, std::string_view 
 
 /// A unit as it stands in names of parameters and drivers; empty for another word.
 std::string_view unitInName(std::string_view word) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 16> units{{{"um", "um"},
-                                                                                 {"urad", "urad"},
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 16> units{{{"um", "µm"},
+                                                                                 {"urad", "µrad"},
                                                                                  {"m", "m"},
                                                                                  {"m2", "m²"},
                                                                                  {"mm", "mm"},
@@ -70,7 +54,7 @@ std::string_view unitInName(std::string_view word) {
                                                                                  {"krpm2", "(1000 rpm)²"},
                                                                                  {"W", "W"},
                                                                                  {"percent", "%"},
-                                                                                 {"degC", "degC"}}};
+                                                                                 {"degC", "°C"}}};
   for (const auto& [name, printed] : units)
     if (word == name) return printed;
   return {};
@@ -94,56 +78,17 @@ std::string axisOf(std::string_view letter) {
 
 }  // namespace
 
-std::string printedUnits(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size();) {
-    if (isSignOfNumber(text, i)) {
-      out += "−";
-      ++i;
-      continue;
-    }
-    if (!inWord(text[i])) {
-      out += text[i++];
-      continue;
-    }
-    std::size_t end = i;
-    while (end < text.size() && inWord(text[end])) ++end;
-    out += printedWord(text.substr(i, end - i));
-    i = end;
-  }
-  return out;
+std::string printedUnitOf(Component component) {
+  return printedUnit(unitOf(component));
 }
 
-std::string printedUnitsOfDrawing(std::string_view svg) {
-  std::string out;
-  for (std::size_t i = 0; i < svg.size();) {
-    const std::size_t open = std::min(svg.find('<', i), svg.size());
-    out += printedUnits(svg.substr(i, open - i));
-    const std::size_t close = std::min(svg.find('>', open), svg.size());
-    out += svg.substr(open, std::min(close + 1, svg.size()) - open);
-    i = std::min(close + 1, svg.size());
-  }
-  return out;
-}
-
-std::string smallPrint(std::string_view text) {
-  return fmt::format("{}{}{}", mark, text, mark);
-}
-
-std::string withoutSmallPrint(std::string_view text) {
-  std::string out(text);
-  std::erase(out, mark);
-  return out;
-}
-
-std::string withEffectTitles(std::string_view text) {
+ReportText withEffectTitles(std::string_view text) {
   const auto inId = [](char c) { return inWord(c) || c == '.' || c == '-'; };
-  std::string out;
-  bool small = false;
+  ReportText out;
+  std::string plain;
   for (std::size_t i = 0; i < text.size();) {
-    if (text[i] == mark) small = !small;
-    if (!inId(text[i]) || small) {
-      out += text[i++];
+    if (!inId(text[i])) {
+      plain += text[i++];
       continue;
     }
     std::size_t end = i;
@@ -152,19 +97,21 @@ std::string withEffectTitles(std::string_view text) {
     while (id_end > i && (text[id_end - 1] == '.' || text[id_end - 1] == '-')) --id_end;  // of the sentence
     const std::string_view id = text.substr(i, id_end - i);
     if (id.find('.') != std::string_view::npos && effectTitleOf(id)) {
-      out += effectTitle(id) + ' ' + smallPrint(id);
+      out = out + ReportText(plain + effectTitle(id) + ' ') + ReportText::smallPrint(id);
+      plain.clear();
     } else {
-      out += id;
+      plain += id;
     }
-    out += text.substr(id_end, end - id_end);
+    plain += text.substr(id_end, end - id_end);
     i = end;
   }
-  return out;
+  return out + ReportText(plain);
 }
 
-std::string effectHeading(std::string_view id, std::string_view own_title) {
-  if (!own_title.empty() && own_title != id) return capital(std::string(own_title)) + ' ' + smallPrint(id);
-  return effectTitleOf(id) ? capital(effectTitle(id)) + ' ' + smallPrint(id) : std::string(id);
+ReportText effectHeading(std::string_view id, std::string_view own_title) {
+  const bool own = !own_title.empty() && own_title != id;
+  if (!own && !effectTitleOf(id)) return id;
+  return capital(own ? std::string(own_title) : effectTitle(id)) + ' ' + ReportText::smallPrint(id);
 }
 
 std::string parameterTitle(std::string_view name) {
@@ -197,7 +144,7 @@ std::string parameterTitle(std::string_view name) {
 }
 
 std::string titleWithUnit(const std::string& name) {
-  for (const auto& [ending, unit] : {std::pair{"_um_per_m", "um/m"}, {"_urad", "urad"}, {"_um", "um"}, {"_mm", "mm"}}) {
+  for (const auto& [ending, unit] : {std::pair{"_um_per_m", "µm/m"}, {"_urad", "µrad"}, {"_um", "µm"}, {"_mm", "mm"}}) {
     if (name.ends_with(ending)) return fmt::format("{} / {}", name.substr(0, name.rfind(ending)), unit);
   }
   return name;
@@ -215,11 +162,11 @@ SignalTitle signalTitle(std::string_view column) {
   if (is("feed_", "_mm_min")) return {"feed " + axisOf(without("feed_", "_mm_min")), "mm/min"};
   if (is("pos_", "_mm")) return {"position " + axisOf(without("pos_", "_mm")), "mm"};
   if (is("speed_", "_rpm")) return {"speed " + axisOf(without("speed_", "_rpm")), "rpm"};
-  if (is("T_", "_degC")) return {words(without("T_", "_degC")), "degC"};
-  for (const auto& [ending, unit] : {std::pair<std::string_view, std::string_view>{"_um_per_m", "um/m"},
-                                     {"_urad", "urad"},
-                                     {"_um", "um"},
-                                     {"_degC", "degC"}}) {
+  if (is("T_", "_degC")) return {words(without("T_", "_degC")), "°C"};
+  for (const auto& [ending, unit] : {std::pair<std::string_view, std::string_view>{"_um_per_m", "µm/m"},
+                                     {"_urad", "µrad"},
+                                     {"_um", "µm"},
+                                     {"_degC", "°C"}}) {
     if (is("", ending)) return {words(without("", ending)), std::string(unit)};
   }
   return {words(column), ""};

@@ -6,33 +6,27 @@
 #include <string>
 #include <string_view>
 
+#include "core/machine/component.h"
+#include "core/reporting/report.h"
+
 namespace spindrift {
 
-/// "-3.2 um, 5 urad at 20 degC" -> "−3.2 µm, 5 µrad at 20 °C"; whole words only, so that names of columns stay, and the
-/// signs of numbers only, so that dates and ranges stay.
-[[nodiscard]] std::string printedUnits(std::string_view text);
-
-/// The same for the texts of a drawing; its elements, attributes and embedded pictures stay.
-[[nodiscard]] std::string printedUnitsOfDrawing(std::string_view svg);
-
-/// Marks a text to be set small and soft by HtmlDocument. Without marks it is read as plain text.
-[[nodiscard]] std::string smallPrint(std::string_view text);
-/// Takes the marks of smallPrint away.
-[[nodiscard]] std::string withoutSmallPrint(std::string_view text);
+/// "µm" or "µrad".
+[[nodiscard]] std::string printedUnitOf(Component component);
 
 /// Every id of the catalogue of effects by its title, with the id small beside it.
-[[nodiscard]] std::string withEffectTitles(std::string_view text);
+[[nodiscard]] ReportText withEffectTitles(std::string_view text);
 /// The title of one effect with a capital, its id small beside it.
-[[nodiscard]] std::string effectHeading(std::string_view id, std::string_view own_title = {});
+[[nodiscard]] ReportText effectHeading(std::string_view id, std::string_view own_title = {});
 
-/// "gain_um_per_m2_per_K" -> "gain / um/(m² K)", "tau_on_s" -> "time constant on / s": parameters of effects.
+/// "gain_um_per_m2_per_K" -> "gain / µm/(m² K)", "tau_on_s" -> "time constant on / s": parameters of effects.
 [[nodiscard]] std::string parameterTitle(std::string_view name);
 
-/// "alpha_X_um_per_m" -> "alpha_X / um/m"; a name without a known unit stays. For tables and axes.
+/// "alpha_X_um_per_m" -> "alpha_X / µm/m"; a name without a known unit stays. For tables and axes.
 [[nodiscard]] std::string titleWithUnit(const std::string& name);
 
 /// A column of a log in words: "feed_x_mm_min" -> {"feed X", "mm/min"}, "T_column_front_degC" -> {"column front",
-/// "degC"}.
+/// "°C"}.
 struct SignalTitle {
   std::string name;
   std::string unit;

@@ -32,15 +32,15 @@ std::vector<DiscrepancyReportRow> simulationUpdateRows(const DiscrepancyInput& i
   return out;
 }
 
-void addSimulationUpdate(HtmlDocument& document, const SimulationUpdate& update,
+void addSimulationUpdate(Report& document, const SimulationUpdate& update,
                          const std::vector<DiscrepancyReportRow>& rows, const std::optional<FieldGrid>& table) {
   document.subsection("Put into the simulation");
-  const char* kind = update.status != FitStatus::Converged ? "bad"
-                     : update.as_well_as_fitted_term       ? "good"
-                                                           : "attention";
-  document.verdict(kind, update.message);
+  const CalloutKind kind = update.status != FitStatus::Converged ? CalloutKind::Bad
+                           : update.as_well_as_fitted_term       ? CalloutKind::Good
+                                                                 : CalloutKind::Attention;
+  document.callout(kind, update.message);
   if (!update.parameters.empty()) {
-    std::vector<std::vector<std::string>> lines;
+    std::vector<ReportRow> lines;
     for (const FittedSimulatorParameter& p : update.parameters) {
       const SimulatorParameter& was = p.parameter;
       std::string note = p.put_in ? "put in" : "adjusted within its uncertainty";
@@ -59,11 +59,11 @@ void addSimulationUpdate(HtmlDocument& document, const SimulationUpdate& update,
   if (update.status == FitStatus::Converged || update.status == FitStatus::Rejected) {
     const auto text = [](double value) { return std::isfinite(value) ? fmt::format("{:.2f}", value) : "\u2013"; };
     document.table({"", "Simulation before", "Simulation after", "Fitted term instead", "Noise"},
-                   {{"Fitted states, rms / um", text(update.rms_before_um), text(update.rms_after_um),
+                   {{"Fitted states, rms / µm", text(update.rms_before_um), text(update.rms_after_um),
                      text(update.rms_fitted_term_um), text(update.noise_um)},
-                    {"Held-out states, rms / um", text(update.heldout_rms_before_um), text(update.heldout_rms_after_um),
+                    {"Held-out states, rms / µm", text(update.heldout_rms_before_um), text(update.heldout_rms_after_um),
                      text(update.heldout_rms_fitted_term_um), text(update.noise_um)},
-                    {"Fitted states, peak-to-peak / um", text(update.p2p_before_um), text(update.p2p_after_um),
+                    {"Fitted states, peak-to-peak / µm", text(update.p2p_before_um), text(update.p2p_after_um),
                      "\u2013", "\u2013"}},
                    "Measured minus the simulation's own runs, before and after");
     if (table) addDiscrepancyMaps(document, rows, *table, "new simulation");

@@ -16,7 +16,7 @@ namespace spindrift {
                                                                      const SimulationUpdate& update);
 
 /// Adds a subsection; with maps over `table` if there is one.
-void addSimulationUpdate(HtmlDocument& document, const SimulationUpdate& update,
+void addSimulationUpdate(Report& document, const SimulationUpdate& update,
                          const std::vector<DiscrepancyReportRow>& rows, const std::optional<FieldGrid>& table);
 
 }  // namespace spindrift

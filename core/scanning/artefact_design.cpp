@@ -76,7 +76,7 @@ class StlText {
 
 void ArtefactDesignOptions::validate() const {
   if (!(noise_um > 0.0) || !std::isfinite(noise_um))
-    throw InputError(fmt::format("Noise of the profiler: found {} um; allowed: more than 0.", noise_um));
+    throw InputError(fmt::format("Noise of the profiler: found {} µm; allowed: more than 0.", noise_um));
   if (!(point_count >= 100.0) || !std::isfinite(point_count))
     throw InputError(fmt::format("Number of points of a scan: found {}; allowed: at least 100.", point_count));
   if (!(steepest_slope > 0.0))

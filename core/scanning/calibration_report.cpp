@@ -57,7 +57,7 @@ std::string calibrationSummary(const ProfilerCalibration& c) {
     for (std::size_t i = 0; i < 6; ++i)
       text += fmt::format("{} = {}\n", names[i],
                           withUncertainty(values[i], c.standardUncertainty(static_cast<int>(i)), unit(i)));
-    text += fmt::format("{} points of the rim, rms {:.2f} um; plate rms {:.2f} um\n", c.rim.size(), c.rim_rms_um,
+    text += fmt::format("{} points of the rim, rms {:.2f} µm; plate rms {:.2f} µm\n", c.rim.size(), c.rim_rms_um,
                         c.plane_rms_um);
   }
   if (!c.message.empty()) text += c.message + "\n";

@@ -177,7 +177,7 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
     out.warnings.push_back(
         "No scan could be compared with a reference: at least two usable scans of one artefact are needed.");
   } else {
-    out.summary += fmt::format("largest standard uncertainty of a displacement at an artefact {:.3g} um\n", worst);
+    out.summary += fmt::format("largest standard uncertainty of a displacement at an artefact {:.3g} µm\n", worst);
   }
   return out;
 }

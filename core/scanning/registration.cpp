@@ -241,7 +241,7 @@ RegistrationResult registerToSurface(const PointCloud& source, const Registratio
     return reject(
         FitStatus::Rejected,
         fmt::format("The scan does not show the same surface as the reference: after the best fit the heights differ "
-                    "by {:.0f} um "
+                    "by {:.0f} µm "
                     "({:.0f} % of the cells agree); another artefact, something over it, or it has moved by more than "
                     "{:.1f} mm.",
                     1e3 * o.median_residual, 100.0 * o.inliers, options.search_mm));

@@ -67,7 +67,7 @@ std::string registrationSummary(const RegistrationResult& result) {
                                                  withUncertainty(value, sigma, i < 3 ? "um" : "urad"))
                                    : fmt::format("  {} is not determined\n", names[static_cast<std::size_t>(i)]);
     }
-    text += fmt::format("{} points, rms {:.3f} um, overlap {:.0f} %, {:.1f} ms\n", result.points_used,
+    text += fmt::format("{} points, rms {:.3f} µm, overlap {:.0f} %, {:.1f} ms\n", result.points_used,
                         um_per_mm * result.rms_mm, 100.0 * result.overlap, result.elapsed_ms);
   }
   if (!result.message.empty()) text += result.message + "\n";

@@ -16,6 +16,7 @@
 #include "core/base/inside_folder.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/base/units.h"
 #include "core/scanning/cloud_file.h"
 #include "core/scanning/scan_points.h"
@@ -348,7 +349,8 @@ class ArtefactEvaluator {
         result.not_observed.emplace_back(
             k, fmt::format("its standard uncertainty under the scan model {} is {:.0f} {}: the surface has too little "
                            "slope or height to show it.",
-                           toString(r.scan_model), sigma * (isRotation(k) ? urad_per_rad : um_per_mm), unitOf(k)));
+                           toString(r.scan_model), sigma * (isRotation(k) ? urad_per_rad : um_per_mm),
+                           printedUnit(unitOf(k))));
         r.covariance.row(i).setZero();
         r.covariance.col(i).setZero();
         r.covariance(i, i) = std::numeric_limits<double>::infinity();
@@ -436,7 +438,7 @@ void warnUndetermined(ScanEvaluation& evaluation) {
   }
   if (calibration.undetermined.empty() || where == nullptr || worst < 0.05) return;
   evaluation.warnings.push_back(fmt::format(
-      "Angles of the profiler that the calibration leaves open ({}) make up to {:.2g} um of the stated uncertainty of "
+      "Angles of the profiler that the calibration leaves open ({}) make up to {:.2g} µm of the stated uncertainty of "
       "a "
       "displacement ({} in {}). An angle measured otherwise, such as with a dial indicator along the axis, goes into "
       "profiler.mounting_angles_rad of machine.json.",

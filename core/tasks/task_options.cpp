@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/atomic_file.h"
+
 namespace spindrift {
 
 std::string campaignKey(const std::string& key, std::int64_t campaign) {
@@ -38,6 +40,17 @@ nlohmann::json EffectOptions::json() const {
   nlohmann::json out{{"added", added}, {"rejected", rejected}};
   if (effects.is_object()) out["effects"] = effects;
   return out;
+}
+
+std::filesystem::path EffectOptions::file(const Session& session, std::int64_t campaign) {
+  return session.folder() / "effects" / fmt::format("{}.json", campaign);
+}
+
+std::filesystem::path EffectOptions::write(const Session& session, std::int64_t campaign) const {
+  const std::filesystem::path target = std::filesystem::absolute(file(session, campaign));
+  std::filesystem::create_directories(target.parent_path());
+  writeFileAtomically(target, effects.dump(2) + "\n");
+  return target;
 }
 
 NineParameterOptions nineParameterOptions(const nlohmann::json& json) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -46,6 +47,10 @@ struct EffectOptions {
   nlohmann::json effects;  ///< effects.json as edited; null: as campaign.json names it
   [[nodiscard]] static EffectOptions of(const Session& session, std::int64_t campaign);
   [[nodiscard]] nlohmann::json json() const;
+  /// The file in the session's folder that holds the effects as edited.
+  [[nodiscard]] static std::filesystem::path file(const Session& session, std::int64_t campaign);
+  /// Puts them down there; returns the absolute path.
+  std::filesystem::path write(const Session& session, std::int64_t campaign) const;
 };
 
 /// Of the model of one thermal state.

@@ -71,7 +71,7 @@ struct Prepared {
 void noteLack(CompensationPlan& plan) {
   if (!(plan.lack_of_fit_um.maxCoeff() > 0.0)) return;
   plan.warnings.push_back(fmt::format(
-      "what the model does not describe ({:.2g}, {:.2g}, {:.2g} um of X, Y, Z) is part of the uncertainty of "
+      "what the model does not describe ({:.2g}, {:.2g}, {:.2g} µm of X, Y, Z) is part of the uncertainty of "
       "every correction.",
       plan.lack_of_fit_um.x(), plan.lack_of_fit_um.y(), plan.lack_of_fit_um.z()));
 }
@@ -523,12 +523,12 @@ nlohmann::json CompensationPlan::json() const {
 
 std::string CompensationPlan::summary() const {
   std::string text = fmt::format(
-      "{}, relative to {}\n  rms of the measured deviations of state {}: {:.2f} um before, {:.2f} um with the "
+      "{}, relative to {}\n  rms of the measured deviations of state {}: {:.2f} µm before, {:.2f} µm with the "
       "correction "
-      "(uncertainty of the correction {:.2f} um), largest correction {:.2f} um\n",
+      "(uncertainty of the correction {:.2f} µm), largest correction {:.2f} µm\n",
       model, reference, state, rms_before_um, rms_after_um, rms_sigma_um, largest_um);
   if (rms_after_unseen_um) {
-    text += fmt::format("  on values that trained nothing ({}): {:.2f} um before, {:.2f} um with the correction\n",
+    text += fmt::format("  on values that trained nothing ({}): {:.2f} µm before, {:.2f} µm with the correction\n",
                         unseen, *rms_before_unseen_um, *rms_after_unseen_um);
   } else {
     text += fmt::format("  {}\n", unseen);

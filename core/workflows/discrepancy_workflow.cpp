@@ -230,9 +230,9 @@ DiscrepancyRun runDiscrepancy(const DiscrepancyRequest& request, JobContext& job
   }
   if (!request.html.empty()) {
     const std::optional<FieldGrid> table = mapTable(campaign.machine, 0.0, report_map_nodes);
-    HtmlDocument document = discrepancyDocument(campaign.name, discrepancyReportData(run.input, run.result), table);
+    Report document = discrepancyDocument(campaign.name, discrepancyReportData(run.input, run.result), table);
     if (run.update) addSimulationUpdate(document, *run.update, simulationUpdateRows(run.input, *run.update), table);
-    writeFileAtomically(request.html, document.html());
+    writeFileAtomically(request.html, htmlOf(document));
   }
   return run;
 }

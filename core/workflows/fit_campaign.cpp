@@ -90,8 +90,8 @@ std::string summaryOf(const NineParameterFit& fit) {
                             ? withUncertainty(fit.parameters(i), fit.standardUncertainty(i), nineParameterUnit(i))
                             : "not determined");
   }
-  if (fit.rms_fit_um) text += fmt::format("rms of the fitted points {:.2f} um\n", *fit.rms_fit_um);
-  if (fit.rms_validation_um) text += fmt::format("rms of the validation points {:.2f} um\n", *fit.rms_validation_um);
+  if (fit.rms_fit_um) text += fmt::format("rms of the fitted points {:.2f} µm\n", *fit.rms_fit_um);
+  if (fit.rms_validation_um) text += fmt::format("rms of the validation points {:.2f} µm\n", *fit.rms_validation_um);
   if (std::isfinite(fit.condition_number)) text += fmt::format("condition number {:.1f}\n", fit.condition_number);
   if (fit.status != FitStatus::Converged) text += fmt::format("{}: {}\n", toString(fit.status), fit.message);
   for (const std::string& warning : fit.warnings) text += fmt::format("note: {}\n", warning);
@@ -295,7 +295,7 @@ std::string PlacementAnswer::summary() const {
   for (const std::size_t i : result.chosen) {
     text += fmt::format("  {:<8}x {:8.1f} mm   y {:8.1f} mm\n", ids[i], candidates_mm[i].x(), candidates_mm[i].y());
   }
-  text += fmt::format("uncertainty of the prediction over the table: mean {:.2f} um, largest {:.2f} um\n",
+  text += fmt::format("uncertainty of the prediction over the table: mean {:.2f} µm, largest {:.2f} µm\n",
                       result.mean_sigma_um, result.largest_sigma_um);
   return text;
 }

@@ -24,7 +24,7 @@ CheckResult resultOf(const ResolutionCheck& check) {
                     {"standard_deviation_um", jsonNumber(v.standard_deviation_um)},
                     {"passed", v.passed}});
     result.summary +=
-        fmt::format("{}  largest {:.2f} um ({}), rms {:.2f} um, allowed {:.2f} um: {}\n", toString(v.component),
+        fmt::format("{}  largest {:.2f} µm ({}), rms {:.2f} µm, allowed {:.2f} µm: {}\n", toString(v.component),
                     v.largest_um, v.largest_at, v.rms_um, v.limit_um, v.passed ? "passed" : "not passed");
   }
   result.summary += check.reason + "\n";

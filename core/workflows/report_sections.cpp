@@ -12,11 +12,12 @@
 #include "core/base/count_text.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/imaging/fiducial_captures.h"
 #include "core/probing/touch.h"
 #include "core/reporting/contact_sheet.h"
+#include "core/reporting/plot_picture.h"
 #include "core/reporting/report_wording.h"
-#include "core/reporting/svg_plot.h"
 #include "core/scanning/scan_picture.h"
 #include "core/workflows/log_campaign.h"
 #include "core/workflows/thermal_tests.h"
@@ -40,7 +41,7 @@ std::string textOf(const nlohmann::json& json, const char* key) {
 std::string numberText(double value, std::string_view unit, int decimals) {
   if (!std::isfinite(value)) return "not determined";
   const std::string number = tickText(value, std::pow(10.0, -decimals));
-  return unit.empty() ? number : number + ' ' + std::string(unit);
+  return unit.empty() ? number : number + ' ' + printedUnit(unit);
 }
 
 /// Every n-th of the items, so that at most `most` are left, the first among them.
@@ -59,10 +60,9 @@ std::string roleTitle(const std::string& role) {
   return words(role);
 }
 
-void addImages(HtmlDocument& document, const Campaign& campaign, const std::filesystem::path& list,
-               const JobContext& job) {
+void addImages(Report& document, const Campaign& campaign, const std::filesystem::path& list, const JobContext& job) {
   const FiducialCaptureList captures = readFiducialCaptures(list);
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   std::vector<FiducialCapture> first;
   for (const std::string& state : captures.states()) {
     std::map<std::string, std::size_t> by_role;
@@ -90,7 +90,7 @@ void addImages(HtmlDocument& document, const Campaign& campaign, const std::file
     thumbnails.push_back({imageThumbnail(campaign.path(c.image)), fmt::format("{} {}", c.state, c.fiducial),
                           std::filesystem::path(c.image).filename().string()});
   }
-  document.figure(contactSheetSvg(thumbnails),
+  document.figure(contactSheet(thumbnails),
                   first.size() > thumbnails.size()
                       ? fmt::format("The first image of {} of {} fiducials and states", thumbnails.size(), first.size())
                       : std::string("The first image of every fiducial and state"));
@@ -101,7 +101,7 @@ std::string countText(std::size_t from, std::size_t to) {
   return from == to ? std::to_string(from) : fmt::format("{} to {}", from, to);
 }
 
-void addTouches(HtmlDocument& document, const std::filesystem::path& list) {
+void addTouches(Report& document, const std::filesystem::path& list) {
   const TouchList touches = TouchList::read(list);
   struct Artefact {
     std::map<std::string, std::size_t> cycles;
@@ -122,7 +122,7 @@ void addTouches(HtmlDocument& document, const std::filesystem::path& list) {
     a.first.x.push_back(t.position_mm.x());
     a.first.y.push_back(t.position_mm.y());
   }
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   std::vector<PlotSeries> seen;
   for (auto& [name, a] : artefacts) {
     std::size_t least = touches.touches.size(), most = 0;
@@ -142,16 +142,16 @@ void addTouches(HtmlDocument& document, const std::filesystem::path& list) {
   options.width_px = 600;
   options.height_px = 340;
   options.equal_scale = true;
-  document.figure(svgPlot(seen, options), "Where the touches of the first cycle are, machine coordinates");
+  document.figure(plotPicture(seen, options), "Where the touches of the first cycle are, machine coordinates");
 }
 
-void addScans(HtmlDocument& document, const Campaign& campaign, const JobContext& job) {
+void addScans(Report& document, const Campaign& campaign, const JobContext& job) {
   const std::vector<ScanCapture> scans = readScanList(campaign);
   std::map<std::string, std::size_t> counts;
   std::vector<ScanCapture> first;
   for (const ScanCapture& s : scans)
     if (counts[s.artefact]++ == 0) first.push_back(s);
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   std::vector<Thumbnail> thumbnails;
   for (const ScanCapture& s : first)
     rows.push_back({s.artefact, fmt::format("{:g}", s.y_mm), std::to_string(counts[s.artefact])});
@@ -170,10 +170,10 @@ void addScans(HtmlDocument& document, const Campaign& campaign, const JobContext
     }
     thumbnails.push_back(std::move(t));
   }
-  document.figure(contactSheetSvg(thumbnails), "The first scan of every artefact from above, coloured by height");
+  document.figure(contactSheet(thumbnails), "The first scan of every artefact from above, coloured by height");
 }
 
-void addCheck(std::vector<std::vector<std::string>>& rows, const char* name, const nlohmann::json& check) {
+void addCheck(std::vector<ReportRow>& rows, const char* name, const nlohmann::json& check) {
   if (!check.is_object()) return;
   const bool passed = check.value("passed", check.value("settled", false));
   std::string reason = textOf(check, "reason");
@@ -189,12 +189,12 @@ SignalTitle outputOf(const nlohmann::json& thermal) {
   return signalTitle(textOf(outputs.front(), "name"));
 }
 
-void addStepResponses(HtmlDocument& document, const nlohmann::json& responses) {
-  std::vector<std::vector<std::string>> rows;
+void addStepResponses(Report& document, const nlohmann::json& responses) {
+  std::vector<ReportRow> rows;
   for (const nlohmann::json& r : responses) {
     const SignalTitle title = signalTitle(textOf(r, "input"));
     rows.push_back(
-        {title.name, fmt::format("{:g} {}", numberOf(r, "step"), title.unit == "degC" ? "K" : title.unit),
+        {title.name, fmt::format("{:g} {}", numberOf(r, "step"), title.unit == "°C" ? "K" : title.unit),
          withUncertainty(numberOf(r, "final_value"), numberOf(r, "final_standard_uncertainty"), textOf(r, "unit")),
          spanOfTime(numberOf(r, "time_to_63_percent_s"))});
   }
@@ -229,13 +229,13 @@ std::string standardTestIn(const TimeSeries& series) {
 
 }  // namespace
 
-void addPlan(HtmlDocument& document, const nlohmann::json& plan_json, const Campaign& campaign) {
+void addPlan(Report& document, const nlohmann::json& plan_json, const Campaign& campaign) {
   if (!plan_json.is_object()) return;
   const MeasurementPlan plan = MeasurementPlan::parse(JsonNode::parse(plan_json.dump(), "the plan of the session"));
   if (plan.empty()) return;
   const std::set<std::string> done = capturedItems(plan, campaign);
   document.section("Measurement plan");
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   std::size_t missing = 0;
   for (const PlannedState& state : plan.states) {
     std::size_t planned = 0, captured = 0;
@@ -251,12 +251,12 @@ void addPlan(HtmlDocument& document, const nlohmann::json& plan_json, const Camp
   }
   document.table({"State", "Due / h", "Planned", "Captured"}, rows, "Planned and captured items per thermal state");
   if (missing > 0)
-    document.verdict("attention",
+    document.callout(CalloutKind::Attention,
                      fmt::format("{} of {} {} not captured.", missing, countOf(plan.items.size(), "planned item"),
                                  missing == 1 ? "was" : "were"));
 }
 
-void addCaptures(HtmlDocument& document, const Campaign& campaign, const JobContext& job) {
+void addCaptures(Report& document, const Campaign& campaign, const JobContext& job) {
   const auto images = campaign.captureList("fiducials.csv");
   const auto touches = campaign.captureList("touches.csv");
   const auto scans = campaign.captureList("scans.csv");
@@ -267,8 +267,8 @@ void addCaptures(HtmlDocument& document, const Campaign& campaign, const JobCont
   if (scans) addScans(document, campaign, job);
 }
 
-void addInstrumentState(HtmlDocument& document, const StoredResults& stored) {
-  std::vector<std::vector<std::string>> rows;
+void addInstrumentState(Report& document, const StoredResults& stored) {
+  std::vector<ReportRow> rows;
   addCheck(rows, "Warm-up", stored.warm_up);
   addCheck(rows, "Jogs", stored.jogs);
   addCheck(rows, "Cold repeatability", stored.repeatability);
@@ -277,7 +277,7 @@ void addInstrumentState(HtmlDocument& document, const StoredResults& stored) {
   document.table({"Check", "Verdict", "Reason"}, rows);
 }
 
-void addThermalModel(HtmlDocument& document, const nlohmann::json& thermal) {
+void addThermalModel(Report& document, const nlohmann::json& thermal) {
   if (!thermal.is_object() || !thermal.contains("train")) return;
   document.section("Model over time");
   std::vector<std::string> inputs;
@@ -287,7 +287,7 @@ void addThermalModel(HtmlDocument& document, const nlohmann::json& thermal) {
   const std::string& unit = output.unit;
   document.paragraph(fmt::format("{}Inputs: {}. Quality in free run, without looking at the measured output.",
                                  output.name.empty() ? "" : "Output: " + output.name + ". ", joinedList(inputs)));
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   const auto add = [&](const std::string& name, const nlohmann::json& train, const nlohmann::json& test) {
     rows.push_back({name, numberText(numberOf(train, "rmse"), "", 2), numberText(numberOf(test, "rmse"), "", 2),
                     numberText(numberOf(test, "fit_percent"), "%", 1), numberText(numberOf(test, "p2p"), "", 2)});
@@ -301,11 +301,11 @@ void addThermalModel(HtmlDocument& document, const nlohmann::json& thermal) {
                   unit.empty() ? "" : ", in " + unit));
   addStepResponses(document, thermal.value("step_response", nlohmann::json::array()));
   if (!thermal.value("good_enough", true))
-    document.verdict("attention",
+    document.callout(CalloutKind::Attention,
                      "In the test range the model is no better than a plain one: do not compensate with it.");
 }
 
-void addIso230(HtmlDocument& document, const Campaign& campaign) {
+void addIso230(Report& document, const Campaign& campaign) {
   if (!campaign.log || !hasOutputSignals(*campaign.log)) return;
   Iso230Result result;
   try {
@@ -317,7 +317,7 @@ void addIso230(HtmlDocument& document, const Campaign& campaign) {
   } catch (const InputError&) {
     return;  // the log holds none of the tests
   }
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   if (result.spindle) {
     for (const SpindleComponent& c : result.spindle->components) {
       rows.push_back({signalTitle(c.name).name, withUncertainty(c.first_hour, c.change_sigma, c.unit),
@@ -346,11 +346,11 @@ void addIso230(HtmlDocument& document, const Campaign& campaign) {
     document.table({"Component", "Range", "Range per K", "Slope on the ambient temperature"}, rows,
                    "Parameters of the environmental variation test");
   }
-  document.figure(result.svg, "Readings of the test over time");
+  document.figure(*result.diagram, "Readings of the test over time");
   for (const std::string& note : result.notes) document.paragraph(note);
 }
 
-/// What remains where nothing was fitted: "2.10 um (before 24.30 um), at F6, held out".
+/// What remains where nothing was fitted: "2.10 µm (before 24.30 µm), at F6, held out".
 std::string unseenText(const nlohmann::json& plan) {
   const nlohmann::json unseen = plan.value("unseen", nlohmann::json());
   if (!unseen.is_object()) return "not known";
@@ -360,7 +360,7 @@ std::string unseenText(const nlohmann::json& plan) {
                      numberText(numberOf(unseen, "rms_before_um"), "um", 2), what);
 }
 
-void addCompensation(HtmlDocument& document, const nlohmann::json& plan) {
+void addCompensation(Report& document, const nlohmann::json& plan) {
   if (!plan.is_object() || !plan.contains("points")) return;
   document.section("Compensation");
   document.paragraph(fmt::format("{}, relative to {}. Compensation = −deviation: what is added to the command.",
@@ -372,9 +372,9 @@ void addCompensation(HtmlDocument& document, const nlohmann::json& plan) {
        {"The same on values that trained nothing", unseenText(plan)},
        {"Standard uncertainty of the correction", numberText(numberOf(plan, "standard_uncertainty_um"), "um", 2)},
        {"Largest correction", numberText(numberOf(plan, "largest_correction_um"), "um", 2)}});
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const nlohmann::json& p : plan["points"]) {
-    std::vector<std::string> row{textOf(p, "point")};
+    ReportRow row{textOf(p, "point")};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto value = [&](const char* key) {
         const nlohmann::json& v = p.at(key).at(i);
@@ -385,20 +385,20 @@ void addCompensation(HtmlDocument& document, const nlohmann::json& plan) {
     }
     rows.push_back(std::move(row));
   }
-  document.table({"Point", "X / um", "remains", "Y / um", "remains", "Z / um", "remains"}, spread(rows, 40),
+  document.table({"Point", "X / µm", "remains", "Y / µm", "remains", "Z / µm", "remains"}, spread(rows, 40),
                  rows.size() > 40 ? fmt::format("Corrections at 40 of {} points", rows.size())
                                   : std::string("Correction at each measured point and what would remain of the "
                                                 "measured deviation"));
-  if (const std::string limit = textOf(plan, "limitation"); !limit.empty()) document.verdict("note", limit);
+  if (const std::string limit = textOf(plan, "limitation"); !limit.empty()) document.callout(CalloutKind::Note, limit);
   for (const nlohmann::json& w : plan.value("warnings", nlohmann::json::array()))
-    document.verdict("attention", w.get<std::string>());
-  std::vector<std::vector<std::string>> files;
+    document.callout(CalloutKind::Attention, w.get<std::string>());
+  std::vector<ReportRow> files;
   for (const nlohmann::json& f : plan.value("files", nlohmann::json::array()))
     files.push_back({textOf(f, "name"), textOf(f, "convention")});
   if (!files.empty()) document.table({"File", "Sign and reference"}, files, "Tables for the control");
 }
 
-void addLogCompensation(HtmlDocument& document, const nlohmann::json& run) {
+void addLogCompensation(Report& document, const nlohmann::json& run) {
   if (!run.is_object() || !run.contains("outputs")) return;
   document.section("Compensation over the log");
   document.paragraph(fmt::format(
@@ -406,7 +406,7 @@ void addLogCompensation(HtmlDocument& document, const nlohmann::json& run) {
       "in fall-back. Compensation = −predicted deviation, added to the command.",
       numberOf(run, "steps"), numberOf(run, "cycle_s"), numberOf(run, "holding_steps"),
       numberOf(run, "fallback_steps")));
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const nlohmann::json& o : run["outputs"]) {
     const SignalTitle title = signalTitle(textOf(o, "name"));
     // Rows that trained the model flatter it.
@@ -422,18 +422,21 @@ void addLogCompensation(HtmlDocument& document, const nlohmann::json& run) {
                  "What the compensation leaves of the measured deviations; a reduction is positive where it helps");
   if (const std::string unseen = textOf(run, "unseen"); !unseen.empty()) document.paragraph("Unseen: " + unseen + ".");
   for (const nlohmann::json& w : run.value("warnings", nlohmann::json::array()))
-    document.verdict("attention", w.get<std::string>());
+    document.callout(CalloutKind::Attention, w.get<std::string>());
 }
 
-void addVerification(HtmlDocument& document, const nlohmann::json& result) {
+void addVerification(Report& document, const nlohmann::json& result) {
   if (!result.is_object() || !result.contains("components")) return;
   document.section("Verification");
   const std::string verdict = textOf(result, "verdict");
-  document.verdict(verdict == "met" ? "good" : verdict == "not met" ? "bad" : "attention", textOf(result, "reason"));
+  document.callout(verdict == "met"       ? CalloutKind::Good
+                   : verdict == "not met" ? CalloutKind::Bad
+                                          : CalloutKind::Attention,
+                   textOf(result, "reason"));
   document.paragraph(
-      fmt::format("Goal {:g} um, judged by the {} of the changes from the first state; decision rule of ISO 14253-1.",
+      fmt::format("Goal {:g} µm, judged by the {} of the changes from the first state; decision rule of ISO 14253-1.",
                   numberOf(result, "goal_um"), textOf(result, "criterion") == "rms" ? "rms" : "largest"));
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const nlohmann::json& c : result["components"]) {
     const auto cell = [&](const char* side, const char* figure, const char* sigma) {
       return withUncertainty(numberOf(c.at(side), figure), numberOf(c.at(side), sigma), textOf(c, "unit"));

@@ -8,7 +8,7 @@
 
 #include "core/base/job_context.h"
 #include "core/machine/campaign.h"
-#include "core/reporting/html_document.h"
+#include "core/reporting/report.h"
 #include "core/workflows/measurement_plan.h"
 
 namespace spindrift {
@@ -29,29 +29,29 @@ struct StoredResults {
 };
 
 /// States with what was to be captured and what was. Nothing without a plan.
-void addPlan(HtmlDocument& document, const nlohmann::json& plan, const Campaign& campaign);
+void addPlan(Report& document, const nlohmann::json& plan, const Campaign& campaign);
 
 /// Numbers of captures per state, and a sheet of thumbnails: the first image of every fiducial and state, and every
 /// artefact's first scan seen from above; 24 pictures at most, spread over the states. Nothing without captures.
-void addCaptures(HtmlDocument& document, const Campaign& campaign, const JobContext& job);
+void addCaptures(Report& document, const Campaign& campaign, const JobContext& job);
 
 /// Warm-up, jogs, cold repeatability. Nothing if none was judged.
-void addInstrumentState(HtmlDocument& document, const StoredResults& stored);
+void addInstrumentState(Report& document, const StoredResults& stored);
 
 /// The model over time: inputs, quality in free run, time constants. Nothing without a model.
-void addThermalModel(HtmlDocument& document, const nlohmann::json& thermal);
+void addThermalModel(Report& document, const nlohmann::json& thermal);
 
 /// The test of ISO 230-3 that the log is a record of: rotating spindle if it runs once and long enough, environmental
 /// variation if nothing moves; on the displacements of the log. Nothing for a mixed programme.
-void addIso230(HtmlDocument& document, const Campaign& campaign);
+void addIso230(Report& document, const Campaign& campaign);
 
 /// What a control would be commanded, and what is expected to remain.
-void addCompensation(HtmlDocument& document, const nlohmann::json& compensation);
+void addCompensation(Report& document, const nlohmann::json& compensation);
 
 /// What the control's compensator would have achieved over the log. Nothing without such a run.
-void addLogCompensation(HtmlDocument& document, const nlohmann::json& run);
+void addLogCompensation(Report& document, const nlohmann::json& run);
 
 /// Before and after, judged against the goal.
-void addVerification(HtmlDocument& document, const nlohmann::json& verification);
+void addVerification(Report& document, const nlohmann::json& verification);
 
 }  // namespace spindrift

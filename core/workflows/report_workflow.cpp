@@ -11,8 +11,8 @@
 #include "core/reporting/discrepancy_report.h"
 #include "core/reporting/heatmap_picture.h"
 #include "core/reporting/parameter_meanings.h"
+#include "core/reporting/plot_picture.h"
 #include "core/reporting/report_wording.h"
-#include "core/reporting/svg_plot.h"
 #include "core/session/session.h"
 #include "core/workflows/compensated_data.h"
 #include "core/workflows/discrepancy_story.h"
@@ -28,8 +28,8 @@ bool spreadsOverTheTable(const ObservationSet& observations) {
 }
 
 /// The table of the nine parameters: value, uncertainty, meaning.
-void addParameters(HtmlDocument& document, const NineParameterFit& fit, const std::string& state) {
-  std::vector<std::vector<std::string>> rows;
+void addParameters(Report& document, const NineParameterFit& fit, const std::string& state) {
+  std::vector<ReportRow> rows;
   const nlohmann::json json = toJson(fit);
   for (const auto& [name, parameter] : json.at("parameters").items()) {
     const bool known = parameter.is_object() && parameter.at("value").is_number();
@@ -44,7 +44,7 @@ void addParameters(HtmlDocument& document, const NineParameterFit& fit, const st
 }
 
 /// The nine-parameter model of one state with its heat maps, or the reason why there is none.
-void addState(HtmlDocument& document, const Campaign& campaign, const ObservationSet& observations,
+void addState(Report& document, const Campaign& campaign, const ObservationSet& observations,
               const NineParameterOptions& fit_options, const std::string& state) {
   HeatmapOptions options;
   options.fit = fit_options;
@@ -52,7 +52,7 @@ void addState(HtmlDocument& document, const Campaign& campaign, const Observatio
   document.subsection(fmt::format("State {}", state));
   try {
     addParameters(document, fitNineParameters(observations, options.fit), state);
-    std::vector<std::string> maps;
+    std::vector<Drawing> maps;
     std::string subtitle;
     for (const Component component : {Component::EX, Component::EY, Component::EZ}) {
       options.component = component;
@@ -62,11 +62,11 @@ void addState(HtmlDocument& document, const Campaign& campaign, const Observatio
         continue;
       }
       subtitle = map.subtitle();
-      maps.push_back(heatmapSvg(map.field, {.title = map.title(), .legend = false, .width_px = 480}));
+      maps.push_back(heatmapPicture(map.field, {.title = map.title(), .legend = false, .width_px = 480}));
     }
     if (!maps.empty())
-      document.figure(svgGrid(maps, 2), fmt::format("Model of the displacement over the table in state {}: {}; {}",
-                                                    state, subtitle, heatmap_legend));
+      document.figure(drawingGrid(maps, 2), fmt::format("Model of the displacement over the table in state {}: {}; {}",
+                                                        state, subtitle, heatmap_legend));
   } catch (const InputError& error) {
     document.paragraph(fmt::format("No model of this state: {}", error.what()));
   }
@@ -88,7 +88,7 @@ bool canReport(const Campaign& campaign, bool has_observations) {
   return has_observations || (campaign.log && !campaign.log->empty());
 }
 
-std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& options, JobContext& job) {
+Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, JobContext& job) {
   CampaignReportInput input;
   input.campaign = &campaign;
   input.created_utc = utcNow();
@@ -112,11 +112,11 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
   if (!left_out.empty()) input.notes.push_back(left_out);
   const StoredResults& stored = options.stored;
   addHeadlines(input, stored);
-  input.preparation = {[&](HtmlDocument& document) { addPlan(document, stored.plan, campaign); },
-                       [&](HtmlDocument& document) { addCaptures(document, campaign, job); },
-                       [&](HtmlDocument& document) { addInstrumentState(document, stored); }};
+  input.preparation = {[&](Report& document) { addPlan(document, stored.plan, campaign); },
+                       [&](Report& document) { addCaptures(document, campaign, job); },
+                       [&](Report& document) { addInstrumentState(document, stored); }};
   if (campaign.captureList("fiducials.csv") && spreadsOverTheTable(input.observations)) {
-    input.sections.push_back({"Thermal error of the table", [&](HtmlDocument& document) {
+    input.sections.push_back({"Thermal error of the table", [&](Report& document) {
                                 const std::vector<std::string> states = input.observations.states();
                                 for (std::size_t i = 1; i < states.size(); ++i) {
                                   addState(document, campaign, input.observations, options.fit, states[i]);
@@ -134,18 +134,18 @@ std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& op
     }
     input.headlines.emplace_back("Simulation and measurement", discrepancyHeadline(*data));
     input.sections.push_back(
-        {"Where simulation and measurement disagree", [data, &campaign, &stored](HtmlDocument& document) {
+        {"Where simulation and measurement disagree", [data, &campaign, &stored](Report& document) {
            addDiscrepancyStory(document, *data, mapTable(campaign.machine, 0.0, report_map_nodes));
            addStoredUpdate(document, stored.simulation, campaign);
          }});
   }
-  input.conclusions = {[&](HtmlDocument& document) { addThermalModel(document, stored.thermal); },
-                       [&](HtmlDocument& document) { addIso230(document, campaign); },
-                       [&](HtmlDocument& document) { addCompensation(document, stored.compensation); },
-                       [&](HtmlDocument& document) { addLogCompensation(document, stored.log_compensation); },
-                       [&](HtmlDocument& document) { addVerification(document, stored.verification); }};
+  input.conclusions = {[&](Report& document) { addThermalModel(document, stored.thermal); },
+                       [&](Report& document) { addIso230(document, campaign); },
+                       [&](Report& document) { addCompensation(document, stored.compensation); },
+                       [&](Report& document) { addLogCompensation(document, stored.log_compensation); },
+                       [&](Report& document) { addVerification(document, stored.verification); }};
   job.report(1.0, "writing the report");
-  return campaignReport(input).html();
+  return campaignReport(input);
 }
 
 }  // namespace spindrift

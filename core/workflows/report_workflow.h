@@ -12,6 +12,7 @@
 #include "core/discrepancy/discrepancy.h"
 #include "core/machine/campaign.h"
 #include "core/machine/nine_parameter_model.h"
+#include "core/reporting/report.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "core/workflows/report_sections.h"
 
@@ -35,8 +36,8 @@ struct ReportOptions {
 /// conditions, displacements, ISO 230-3 parameters and what was modelled over time.
 [[nodiscard]] bool canReport(const Campaign& campaign, bool has_observations);
 
-/// Evaluates the captures (if any), fits where there is something to fit, and returns one self-contained HTML text. A
+/// Evaluates the captures (if any), fits where there is something to fit, and returns the report. A
 /// part that cannot be computed from this campaign is left out with the reason in the report.
-[[nodiscard]] std::string campaignReportHtml(const Campaign& campaign, const ReportOptions& options, JobContext& job);
+[[nodiscard]] Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, JobContext& job);
 
 }  // namespace spindrift

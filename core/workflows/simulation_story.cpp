@@ -163,7 +163,7 @@ SimulationStory SimulationStory::parse(const nlohmann::json& json) {
   }
 }
 
-void addStoredUpdate(HtmlDocument& document, const nlohmann::json& story, const Campaign& campaign) {
+void addStoredUpdate(Report& document, const nlohmann::json& story, const Campaign& campaign) {
   if (!story.is_object()) return;
   const SimulationStory told = SimulationStory::parse(story);
   if (told.update)

@@ -35,6 +35,6 @@ struct SimulationStory {
 };
 
 /// Adds the update of a stored story (SimulationStory::json) to a report; nothing where there is none.
-void addStoredUpdate(HtmlDocument& document, const nlohmann::json& story, const Campaign& campaign);
+void addStoredUpdate(Report& document, const nlohmann::json& story, const Campaign& campaign);
 
 }  // namespace spindrift

@@ -9,8 +9,9 @@
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/math/statistics.h"
-#include "core/reporting/svg_plot.h"
+#include "core/reporting/plot_picture.h"
 #include "core/thermal/response_fit.h"
 #include "core/workflows/campaign_series.h"
 #include "core/workflows/compensated_data.h"
@@ -259,7 +260,7 @@ std::string ReplayResult::summary() const {
   return text;
 }
 
-std::string ReplayResult::svg() const {
+Drawing ReplayResult::diagram() const {
   std::vector<StackedPlot> plots;
   const double last_h = time_s.back() / 3600.0;
   for (std::size_t e = 0; e < errors.size(); ++e) {
@@ -284,7 +285,7 @@ std::string ReplayResult::svg() const {
     PlotOptions options;
     options.title = errors[e].name;
     options.x_label = "time / h";
-    options.y_label = units[e].empty() ? errors[e].name : "deviation / " + units[e];
+    options.y_label = units[e].empty() ? errors[e].name : "deviation / " + printedUnit(units[e]);
     options.width_px = 860;
     options.height_px = 260;
     options.ranges = {{time_s.front() / 3600.0, std::min(last_h, setup_end_s / 3600.0), "setup"}};
@@ -306,7 +307,7 @@ std::string ReplayResult::svg() const {
   spent.options.width_px = 860;
   spent.options.height_px = 280;
   plots.push_back(std::move(spent));
-  return svgPlotStack(plots);
+  return plotStack(plots);
 }
 
 }  // namespace spindrift

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/base/job_context.h"
+#include "core/reporting/drawing.h"
 #include "core/thermal/adaptive.h"
 #include "core/thermal/time_series.h"
 
@@ -58,7 +59,7 @@ struct ReplayResult {
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string summary() const;
   /// Errors over time, what is left of them, and the curve, one under another.
-  [[nodiscard]] std::string svg() const;
+  [[nodiscard]] Drawing diagram() const;
   /// `false`: an output is left worse by the adaptive compensation than uncompensated or static.
   [[nodiscard]] bool goodEnough() const;
 };

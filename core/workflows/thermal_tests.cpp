@@ -12,14 +12,14 @@
 #include "core/machine/observation.h"
 #include "core/machine/operating_log.h"
 #include "core/machine/sensor_role.h"
-#include "core/reporting/svg_plot.h"
+#include "core/reporting/plot_picture.h"
 #include "core/thermal/time_series.h"
 
 namespace spindrift {
 namespace {
 
 /// Curves over hours; of long records every n-th row, so that some 2000 are drawn.
-std::string drawCurves(const std::string& title, const std::vector<PlotSeries>& curves) {
+Drawing drawCurves(const std::string& title, const std::vector<PlotSeries>& curves) {
   std::vector<PlotSeries> drawn = curves;
   for (PlotSeries& c : drawn) {
     const std::size_t stride = std::max<std::size_t>(1, c.x.size() / 2000);
@@ -34,10 +34,10 @@ std::string drawCurves(const std::string& title, const std::vector<PlotSeries>& 
   PlotOptions options;
   options.title = title;
   options.x_label = "time / h";
-  options.y_label = "change / um, urad";
+  options.y_label = "change / µm, µrad";
   options.width_px = 860;
   options.height_px = 400;
-  return svgPlot(drawn, options);
+  return plotPicture(drawn, options);
 }
 
 Iso230Result evaluateAxis(const Iso230Request& request) {
@@ -60,8 +60,8 @@ Iso230Result evaluateAxis(const Iso230Request& request) {
   Iso230Result result;
   result.test = "axis";
   result.axis = evaluateMovingAxis(std::move(readings));
-  result.svg =
-      drawCurves("Expansion between both ends, axis " + request.axis + ", um",
+  result.diagram =
+      drawCurves("Expansion between both ends, axis " + request.axis + ", µm",
                  {{"expansion", result.axis->time_s, result.axis->expansion_over_time_um, {}, SeriesStyle::Line}});
   return result;
 }
@@ -147,7 +147,7 @@ Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& re
         evaluateEtve(series.time_s, components,
                      ambient.empty() ? std::span<const double>{} : std::span<const double>(series.at(ambient).values));
     if (!result.etve->note.empty()) result.notes.push_back(result.etve->note);
-    result.svg = drawCurves("Environmental variation (ETVE), um or urad", curves);
+    result.diagram = drawCurves("Environmental variation (ETVE), µm or µrad", curves);
   } else {
     const Signal* speed = nullptr;
     for (const Signal& s : series.signals)
@@ -157,7 +157,7 @@ Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& re
     const std::vector<double> rpm = bridged(series.time_s, speed->values, true);
     if (std::string note = requireOneSpeedStep(series, speed->name, rpm); !note.empty()) result.notes.push_back(note);
     result.spindle = evaluateRotatingSpindle(series.time_s, rpm, components, request.fraction);
-    result.svg = drawCurves("Rotating spindle, um or urad", curves);
+    result.diagram = drawCurves("Rotating spindle, µm or µrad", curves);
   }
   return result;
 }
@@ -233,10 +233,10 @@ std::string Iso230Result::summary() const {
   }
   if (axis) {
     for (const AxisPositionResult* p : {&axis->low, &axis->high}) {
-      text += fmt::format("  at {:.6g} mm: change {}, range {:.2f} um, repeatability {:.2f} um\n", p->position_mm,
+      text += fmt::format("  at {:.6g} mm: change {}, range {:.2f} µm, repeatability {:.2f} µm\n", p->position_mm,
                           withUncertainty(p->change_um, p->change_sigma_um, "um"), p->range_um, p->repeatability_um);
     }
-    text += fmt::format("  expansion {} ({:.2f} um/m)\n",
+    text += fmt::format("  expansion {} ({:.2f} µm/m)\n",
                         withUncertainty(axis->expansion_um, axis->expansion_sigma_um, "um"), axis->expansion_um_per_m);
   }
   for (const std::string& n : notes) text += "note: " + n + "\n";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/job_context.h"
+#include "core/reporting/drawing.h"
 #include "core/thermal/iso230_3.h"
 #include "core/thermal/time_series.h"
 #include "core/workflows/thermal_workflow.h"
@@ -32,7 +33,7 @@ struct Iso230Result {
   std::optional<SpindleResult> spindle;
   std::optional<AxisResult> axis;
   std::vector<std::string> notes;
-  std::string svg;  ///< the diagram over time
+  std::optional<Drawing> diagram;  ///< over time
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string summary() const;
 };

@@ -10,8 +10,9 @@
 #include "core/base/atomic_file.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/math/statistics.h"
-#include "core/reporting/svg_plot.h"
+#include "core/reporting/plot_picture.h"
 #include "core/workflows/compensated_data.h"
 
 namespace spindrift {
@@ -180,7 +181,7 @@ std::string TrackResult::summary() const {
   return text;
 }
 
-std::string TrackResult::svg() const {
+Drawing TrackResult::diagram() const {
   PlotSeries truth{"measured", {}, {}, {}, SeriesStyle::Line};
   PlotSeries free{"without update", {}, {}, {}, SeriesStyle::Line};
   PlotSeries updated{"with updates", {}, {}, {}, SeriesStyle::Line};
@@ -193,8 +194,11 @@ std::string TrackResult::svg() const {
       series->y.push_back(value);
     }
   }
-  PlotOptions over_time{
-      .title = output, .x_label = "time / h", .y_label = "deviation / " + unit, .width_px = 860, .height_px = 280};
+  PlotOptions over_time{.title = output,
+                        .x_label = "time / h",
+                        .y_label = "deviation / " + printedUnit(unit),
+                        .width_px = 860,
+                        .height_px = 280};
   PlotOptions over_interval = over_time;
   over_interval.x_label = "interval of the on-machine measurements / min";
   StackedPlot fit{{}, over_interval};
@@ -202,7 +206,7 @@ std::string TrackResult::svg() const {
   fit.options.title = "fit against the interval";
   fit.options.y_label = "fit / %";
   p2p.options.title = "peak to peak against the interval";
-  p2p.options.y_label = "p2p / " + unit;
+  p2p.options.y_label = "p2p / " + printedUnit(unit);
   p2p.options.y_from = 0.0;
   fit.series =
       p2p.series = {{"without update", {}, {}, {}, SeriesStyle::Line}, {"with updates", {}, {}, {}, SeriesStyle::Line}};
@@ -216,7 +220,7 @@ std::string TrackResult::svg() const {
       plot->series[1].y.push_back(value);
     }
   }
-  return svgPlotStack({{{truth, free, updated}, over_time}, fit, p2p});
+  return plotStack({{{truth, free, updated}, over_time}, fit, p2p});
 }
 
 void TrackResult::writePrediction(const std::filesystem::path& file) const {

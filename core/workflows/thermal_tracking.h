@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/reporting/drawing.h"
 #include "core/thermal/compensator.h"
 #include "core/thermal/measurement_update.h"
 #include "core/workflows/thermal_workflow.h"
@@ -46,7 +47,7 @@ struct TrackResult {
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string summary() const;
   /// Series, what is left of them, and fit and p2p against the interval (P2 Figs. 7 to 9).
-  [[nodiscard]] std::string svg() const;
+  [[nodiscard]] Drawing diagram() const;
   void writePrediction(const std::filesystem::path& file) const;
 };
 [[nodiscard]] TrackResult trackThermalModel(const TrackRequest& request, const JobContext& job);

@@ -13,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/workflows/compensated_data.h"
 
 namespace spindrift {
@@ -127,7 +128,7 @@ void conclude(VerifyResult& r) {
   }
   r.verdict = worst->verdict;
   const VerifyFigures& f = worst->after;
-  const std::string unit(unitOf(worst->component));
+  const std::string unit = printedUnit(unitOf(worst->component));
   const std::string value =
       withUncertainty(largest ? f.largest : f.rms, largest ? f.largest_sigma : f.rms_sigma, unit) +
       (largest ? " at " + f.largest_at : std::string());
@@ -212,10 +213,10 @@ std::string_view toString(VerifyVerdict verdict) noexcept {
 
 void VerifyRequest::validate() const {
   if (!(goal_um > 0.0) || !std::isfinite(goal_um))
-    throw InputError(fmt::format("a goal of {:g} um cannot be met; allowed: a positive number.", goal_um));
+    throw InputError(fmt::format("a goal of {:g} µm cannot be met; allowed: a positive number.", goal_um));
   if (!(goal_urad >= 0.0) || !std::isfinite(goal_urad))
     throw InputError(
-        fmt::format("a goal of {:g} urad cannot be met; allowed: a positive number, or 0 for none.", goal_urad));
+        fmt::format("a goal of {:g} µrad cannot be met; allowed: a positive number, or 0 for none.", goal_urad));
 }
 
 VerifyResult verifyCompensation(const ObservationSet& before, const ObservationSet& after,
@@ -365,7 +366,7 @@ nlohmann::json VerifyResult::json() const {
 std::string VerifyResult::summary() const {
   std::string text = reason + "\n";
   for (const VerifyComponent& c : components) {
-    const std::string unit(unitOf(c.component));
+    const std::string unit = printedUnit(unitOf(c.component));
     text += fmt::format(
         "  {}: rms {} before, {} after; largest {} before, {} after ({}): {}\n", toString(c.component),
         withUncertainty(c.before.rms, c.before.rms_sigma, unit), withUncertainty(c.after.rms, c.after.rms_sigma, unit),

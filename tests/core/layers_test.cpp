@@ -130,13 +130,30 @@ TEST(Layers, WidgetsDoNotIncludeTheProgram) {
   }
 }
 
+/// Pages are put together from panels, views and services, which know no page.
+TEST(Layers, OnlyTheShellAndPagesKnowPages) {
+  const fs::path root = fs::path(SPINDRIFT_SOURCE_DIR) / "widgets";
+  std::vector<std::string> wrong;
+  for (const fs::path& file : sources(root)) {
+    const std::string folder = fs::relative(file, root).begin()->string();
+    if (folder == "pages" || folder == "shell") continue;
+    for (const std::string& include : includesOf(file)) {
+      const bool connections = include.starts_with("widgets/pages/machine/connections_service");
+      if (include.starts_with("widgets/pages/") && !connections)
+        wrong.push_back(file.string() + " includes " + include);
+    }
+  }
+  EXPECT_THAT(wrong, ::testing::IsEmpty());
+}
+
 TEST(Layers, HeavyHeadersStayInFewFiles) {
   for (const fs::path& file : sources(fs::path(SPINDRIFT_SOURCE_DIR) / "core")) {
     if (file.extension() != ".h") continue;
     for (const std::string& include : includesOf(file)) {
       EXPECT_FALSE(include.starts_with("pcl/") || include.starts_with("ceres/") || include.starts_with("soci") ||
                    include.starts_with("curl/") || include.starts_with("pugixml") || include.starts_with("mosquitto") ||
-                   include.starts_with("modbus") || include.starts_with("arv") || include.ends_with(".pb.h"))
+                   include.starts_with("modbus") || include.starts_with("poppler") || include.starts_with("arv") ||
+                   include.ends_with(".pb.h"))
           << file << " includes " << include << " in a header";
     }
   }

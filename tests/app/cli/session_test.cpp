@@ -2,6 +2,7 @@
 // `session`: what the desktop program shows as its steps, on the command line.
 #include <gmock/gmock.h>
 
+#include "core/base/job_context.h"
 #include "core/session/session.h"
 #include "tests/app/cli/child_process.h"
 #include "tests/support/temp_folder.h"
@@ -46,6 +47,46 @@ TEST(SessionCommand, SaysHowFarEveryStepIsAndWhatChanged) {
   EXPECT_EQ(stepOf(answer, "Calibrate").at("changed"), nlohmann::json({"files of the campaign"}));
   expectBadInput({"session", place, "--campaign", "none"}, {"no campaign \"none\""});
   expectBadInput({"session", folder.path().string()}, {"is not a session"});
+}
+
+/// evaluate and report on a session ask what the window asks: what holds is taken, what is made is kept.
+TEST(SessionCommand, EvaluateAndReportShareTheTasksOfTheWindow) {
+  const TempFolder folder;
+  const std::string campaign = (folder / "c").string(), place = (folder / "s").string();
+  ASSERT_EQ(runCli({"simulate", SPINDRIFT_SOURCE_DIR "/resources/scenarios/hole_bar.json", "--out", campaign}).status,
+            0);
+  {
+    JobContext job;
+    Session session = Session::create(place);
+    const auto id = session.importCampaign(campaign, job);
+    session.exclude(id, "M0/none/EX", "to be told in the report");
+  }
+  EXPECT_EQ(stepOf(jsonOf({"session", place}), "Calibrate").at("state"), "not started");
+  const std::string out = (folder / "o.csv").string();
+  const Outcome first = runCli({"evaluate", place, "--out", out});
+  EXPECT_LE(first.status, 1) << first.error;
+  EXPECT_THAT(first.output, ::testing::Not(HasSubstr("still current")));
+  const std::string observations = textOf(out);
+  EXPECT_EQ(stepOf(jsonOf({"session", place}), "Calibrate").at("task"), "evaluate");
+  EXPECT_THAT(runCli({"evaluate", place, "--out", out}).output, HasSubstr("still current"));
+  EXPECT_EQ(textOf(out), observations);
+  const std::string html = (folder / "r.html").string(), pdf = (folder / "r.pdf").string();
+  EXPECT_EQ(runCli({"report", place, "--out", html}).status, 0);
+  EXPECT_THAT(textOf(html), HasSubstr("to be told in the report"));
+  EXPECT_EQ(stepOf(jsonOf({"session", place}), "Report").at("state"), "done");
+  EXPECT_EQ(runCli({"report", place, "--out", pdf}).status, 0);
+  EXPECT_THAT(textOf(pdf), ::testing::StartsWith("%PDF-"));
+  {
+    Session session = Session::open(place);
+    const auto kept = session.latestResult(session.campaigns().front().id, "report");
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(textOf(place + "/" + kept->payload.at("pdf").get<std::string>()), textOf(pdf));
+    session.exclude(session.campaigns().front().id, "M1/none/EX", "another");
+  }
+  EXPECT_EQ(stepOf(jsonOf({"session", place}), "Report").at("state"), "outdated");
+  expectBadInput({"evaluate", place, "--exclude", "a"}, {"is a session"});
+  expectBadInput({"report", place, "--campaign", "none", "--out", html}, {"no campaign \"none\""});
+  expectBadInput({"report", place, "--out", (folder / "r.txt").string()}, {".html or .pdf"});
 }
 
 }  // namespace

@@ -133,14 +133,16 @@ TEST_F(Simulated, FitRefusesWhatItCannotUse) {
 }
 
 TEST_F(Simulated, HeatMapWritesItsPicturesAndItsTable) {
-  const nlohmann::json j = jsonOf({"heatmap", campaign(), "--state", "M5", "--component", "EX", "--grid", "5,4",
-                                   "--svg", in("m.svg"), "--png", in("m.png"), "--csv", in("m.csv")});
+  const nlohmann::json j =
+      jsonOf({"heatmap", campaign(), "--state", "M5", "--component", "EX", "--grid", "5,4", "--svg", in("m.svg"),
+              "--png", in("m.png"), "--pdf", in("m.pdf"), "--csv", in("m.csv")});
   EXPECT_EQ(j["component"], "EX");
   const auto lines = linesOf(in("m.csv"));
   ASSERT_EQ(lines.size(), 21U);
   EXPECT_TRUE(lines.front().starts_with("x_mm,y_mm,z_mm,component,value,sigma")) << lines.front();
   EXPECT_NE(textOf(in("m.svg")).find("<svg"), std::string::npos);
   EXPECT_TRUE(textOf(in("m.png")).starts_with("\x89PNG"));
+  EXPECT_TRUE(textOf(in("m.pdf")).starts_with("%PDF-"));
   expectBadInput({"heatmap", campaign(), "--state", "M99", "--svg", in("n.svg"), "--csv", in("n.csv")}, {"M99"});
   EXPECT_FALSE(std::filesystem::exists(in("n.svg")) || std::filesystem::exists(in("n.csv")));
 }

@@ -18,7 +18,7 @@
 #include "core/base/units.h"
 #include "core/machine/machine_description.h"
 #include "core/math/statistics.h"
-#include "core/reporting/svg_plot.h"
+#include "core/reporting/plot_picture.h"
 #include "core/simulation/virtual_machine.h"
 #include "core/thermal/measurement_update.h"
 #include "core/thermal/output_error.h"
@@ -259,6 +259,6 @@ int main(int argc, char** argv) {
   for (const double t : run.time) series.series[0].x.push_back(t / 3600.0);
   series.series[1].x = series.series[0].x;
   plots.insert(plots.begin(), std::move(series));
-  if (argc > 1) writeFileAtomically(argv[1], svgPlotStack(plots));
+  if (argc > 1) writeFileAtomically(argv[1], plotStack(plots));
   return 0;
 }

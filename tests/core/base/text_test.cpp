@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 
 #include <gmock/gmock.h>
 
@@ -18,16 +19,24 @@ TEST(Text, PValuesAreReadableAndPromiseNoMoreThanTheNoiseModelKnows) {
   EXPECT_EQ(pValueText(std::nan("")), "p not determined");
 }
 
+TEST(Text, UnitsOfFilesAreSymbolsInTexts) {
+  EXPECT_EQ(printedUnit("um"), "µm");
+  EXPECT_EQ(printedUnit("urad/K"), "µrad/K");
+  EXPECT_EQ(printedUnit("um/(m K)"), "µm/(m K)");
+  EXPECT_EQ(printedUnit("degC"), "°C");
+  for (const char* unit : {"", "mm/min", "rpm", "umbra", "1", "um2"}) EXPECT_EQ(printedUnit(unit), unit);
+}
+
 TEST(Text, DigitsFollowTheUncertainty) {
   EXPECT_EQ(withUncertainty(0.0, std::numeric_limits<double>::infinity(), "um"), "not determined");
-  EXPECT_EQ(withUncertainty(12.3456, 0.34, "um"), "12.3 \u00b1 0.3 um");
+  EXPECT_EQ(withUncertainty(12.3456, 0.34, "um"), "12.3 \u00b1 0.3 µm");
   EXPECT_EQ(withUncertainty(-0.0001, 0.02, "rad"), "0.000 ± 0.020 rad") << "no minus sign before nothing";
-  EXPECT_EQ(withUncertainty(-12.3456, 0.123, "um"), "\u221212.35 \u00b1 0.12 um");
-  EXPECT_EQ(withUncertainty(1234.5, 40.0, "urad"), "1230 \u00b1 40 urad");
-  EXPECT_EQ(withUncertainty(1036.2, 948.7, "urad"), "1000 \u00b1 900 urad");
-  EXPECT_EQ(withUncertainty(-3.0, 948.7, "urad"), "0 \u00b1 900 urad");
-  EXPECT_EQ(withUncertainty(1036.2, 150.3, "urad"), "1040 \u00b1 150 urad");
-  EXPECT_EQ(withUncertainty(31.4, 12.2, "urad"), "31 \u00b1 12 urad");
+  EXPECT_EQ(withUncertainty(-12.3456, 0.123, "um"), "\u221212.35 \u00b1 0.12 µm");
+  EXPECT_EQ(withUncertainty(1234.5, 40.0, "urad"), "1230 \u00b1 40 µrad");
+  EXPECT_EQ(withUncertainty(1036.2, 948.7, "urad"), "1000 \u00b1 900 µrad");
+  EXPECT_EQ(withUncertainty(-3.0, 948.7, "urad"), "0 \u00b1 900 µrad");
+  EXPECT_EQ(withUncertainty(1036.2, 150.3, "urad"), "1040 \u00b1 150 µrad");
+  EXPECT_EQ(withUncertainty(31.4, 12.2, "urad"), "31 \u00b1 12 µrad");
   EXPECT_EQ(withUncertainty(0.000123456, 0.0000021, ""), "0.0001235 \u00b1 0.0000021");
   EXPECT_EQ(withUncertainty(5.25, std::nan(""), "mm"), "5.25 mm");
   EXPECT_EQ(withUncertainty(std::nan(""), 1.0, "mm"), "not determined");

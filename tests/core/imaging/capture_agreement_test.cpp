@@ -96,7 +96,7 @@ TEST(CaptureAgreement, AnAxisThatDidNotMoveIsTold) {
   // On arrival: one other position is enough.
   const std::vector<SeenCapture> there{set.shot(CaptureRole::XAxis, 0, {-0.1016, 0, 0}, 0.0)};
   const SeenCapture still = set.shot("F1", CaptureRole::XAxis, 1, {-0.0508, 0, 0}, 0.0, {-0.1016, 0, 0}, 0.0);
-  EXPECT_THAT(contradictionOf(still, there), HasSubstr("shifted by 0 um, the plan says 51 um"));
+  EXPECT_THAT(contradictionOf(still, there), HasSubstr("shifted by 0 µm, the plan says 51 µm"));
 }
 
 TEST(CaptureAgreement, AnotherFiducialUnderTheNameOfThisOneIsToldByItsPlace) {

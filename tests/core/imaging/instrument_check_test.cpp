@@ -142,7 +142,7 @@ TEST(ResolutionCheck, VerdictPerAxis) {
   EXPECT_TRUE(checkAgainstResolution(states(2.4), machine, 0.5).passed);
   const ResolutionCheck jogs = checkAgainstResolution(states(-6.0), machine, 1.0);
   EXPECT_FALSE(jogs.passed);
-  EXPECT_THAT(jogs.reason, HasSubstr("EY is off by 6.0 um at F1 in state J3"));
+  EXPECT_THAT(jogs.reason, HasSubstr("EY is off by 6.0 µm at F1 in state J3"));
   EXPECT_TRUE(jogs.axes[0].passed);
   EXPECT_FALSE(jogs.axes[1].passed);
   EXPECT_FALSE(checkAgainstResolution(states(3.0), machine, 0.5).passed);

@@ -429,7 +429,7 @@ TEST(BallCycle, AnUncertaintyThatIsNotStatedIsSaid) {
   EXPECT_EQ(
       result.warnings.back(),
       "the machine file states no uncertainty of the expansion coefficient and the temperature of balls: taken as "
-      "exact, though up to 46.0 um/m were taken off.");
+      "exact, though up to 46.0 µm/m were taken off.");
 }
 
 TEST(HoleCycle, LengthsAgainstTheCertificateKnowWhatTheyRestOn) {

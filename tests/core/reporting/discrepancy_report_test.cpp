@@ -64,9 +64,9 @@ TEST(DiscrepancyReport, MapsAreOfTheWorstMomentBeforeAndAfter) {
 
 TEST(DiscrepancyReport, SaysWhatWasAddedAndWhatIsProposed) {
   DiscrepancyReportData d = data();
-  EXPECT_THAT(discrepancyDocument("c", d, std::nullopt).html(), Not(HasSubstr("(added to the model)")));
+  EXPECT_THAT(htmlOf(discrepancyDocument("c", d, std::nullopt)), Not(HasSubstr("(added to the model)")));
   d.user_adds = true;
-  const std::string html = discrepancyDocument("c", d, FieldGrid{0, 100, 0, 80, 0, 11, 9}).html();
+  const std::string html = htmlOf(discrepancyDocument("c", d, FieldGrid{0, 100, 0, 80, 0, 11, 9}));
   EXPECT_THAT(
       html,
       HasSubstr("Thermal expansion of the Y ball screw <small>ball_screw.expansion.y</small> (added to the model)"));
@@ -91,7 +91,7 @@ TEST(DiscrepancyReport, GapSaysPeakToPeakAndFitOfFittedAndHeldOutRows) {
   const GapFigures held_out = gapFigures(data().rows, true);
   EXPECT_EQ(held_out.p2p_before, 0.0);
   EXPECT_TRUE(std::isnan(held_out.fit_before_percent));
-  const std::string html = discrepancyDocument("c", data(), std::nullopt).html();
+  const std::string html = htmlOf(discrepancyDocument("c", data(), std::nullopt));
   EXPECT_THAT(html, HasSubstr("largest peak-to-peak of one series, rows fitted"));
   EXPECT_THAT(html, HasSubstr("fit, rows fitted"));
   EXPECT_THAT(html, HasSubstr("largest peak-to-peak of one series, rows held out"));
@@ -100,7 +100,7 @@ TEST(DiscrepancyReport, GapSaysPeakToPeakAndFitOfFittedAndHeldOutRows) {
 TEST(DiscrepancyReport, WithoutHeldOutRowsTheFiguresAreOfBlocksLeftOut) {
   DiscrepancyReportData d = data();
   for (DiscrepancyReportRow& row : d.rows) row.held_out = false;
-  const std::string html = discrepancyDocument("c", d, std::nullopt).html();
+  const std::string html = htmlOf(discrepancyDocument("c", d, std::nullopt));
   EXPECT_THAT(html, HasSubstr("rms of blocks of rows left out in turn"));
   EXPECT_THAT(html, HasSubstr("rms on blocks left out in turn"));
   EXPECT_THAT(html, Not(HasSubstr("rows held out")));
@@ -111,10 +111,10 @@ TEST(DiscrepancyReport, WhatWasAddedAndTakenOutAgainIsNotSaidToBeIn) {
   d.steps = {{"ball_screw.expansion.y", true, 50.0, 60.0, "gains"}, {"spindle.drift.x", true, 25.0, 30.0, "gains"}};
   EXPECT_FALSE(takenOutAgain(d.steps[0], d.effects));
   EXPECT_TRUE(takenOutAgain(d.steps[1], d.effects));
-  EXPECT_THAT(discrepancyDocument("c", d, std::nullopt).html(), HasSubstr("added, then taken out again"));
+  EXPECT_THAT(htmlOf(discrepancyDocument("c", d, std::nullopt)), HasSubstr("added, then taken out again"));
   d.verdict = DiscrepancyVerdict::Unknown;
   d.effects.clear();
-  EXPECT_THAT(discrepancyDocument("c", d, std::nullopt).html(), HasSubstr("with it too something remains"));
+  EXPECT_THAT(htmlOf(discrepancyDocument("c", d, std::nullopt)), HasSubstr("with it too something remains"));
 }
 
 TEST(DiscrepancyReport, TellsCandidatesNoiseShiftsOutliersAndRemainder) {
@@ -125,12 +125,12 @@ TEST(DiscrepancyReport, TellsCandidatesNoiseShiftsOutliersAndRemainder) {
   d.shifts = {{"M0", Component::EY, 0.0, -0.52, 0.21}, {"M1", Component::EY, 3600.0, 1.13, 0.21}};
   d.outliers = {{7, 3660.0, "M1", "F2", Component::EY, 14.2, -6.3}};
   d.remainder = {{Component::EX, 0.04, 1.5}, {Component::EY, 0.8, 41.0}};
-  d.leftover = "0.80 um rms in EY that no effect of the catalogue explains";
+  d.leftover = "0.80 µm rms in EY that no effect of the catalogue explains";
   d.tail_dof = 4.0;
   d.clock_offset_s = -312.0;
   d.clock_offset_uncertainty_s = 40.0;
   for (DiscrepancyReportRow& row : d.rows) row.remaining = row.component == Component::EY ? 0.8 : 0.0;
-  const std::string html = discrepancyDocument("c", d, std::nullopt).html();
+  const std::string html = htmlOf(discrepancyDocument("c", d, std::nullopt));
   EXPECT_THAT(html, HasSubstr("71 %"));
   EXPECT_THAT(html, HasSubstr("&lt; 1 %"));
   EXPECT_THAT(html, HasSubstr("rival of what is named"));
@@ -144,7 +144,7 @@ TEST(DiscrepancyReport, TellsCandidatesNoiseShiftsOutliersAndRemainder) {
   EXPECT_THAT(html, HasSubstr("Remainder: 0.80"));
   EXPECT_THAT(html, Not(HasSubstr("nan")));
   // Nothing of it is said where nothing of it is known.
-  EXPECT_THAT(discrepancyDocument("c", data(), std::nullopt).html(), Not(HasSubstr("What was taken as noise")));
+  EXPECT_THAT(htmlOf(discrepancyDocument("c", data(), std::nullopt)), Not(HasSubstr("What was taken as noise")));
 }
 
 TEST(DiscrepancyReport, ProbabilitiesInPercentNeverSayCertain) {
@@ -168,9 +168,9 @@ TEST(DiscrepancyReport, ACandidateIsNamedBeforeItIsARival) {
 
 TEST(DiscrepancyReport, TheProbabilityOfARivalIsThatOfTheWholeSet) {
   DiscrepancyReportData d = data();
-  EXPECT_THAT(discrepancyDocument("c", d, std::nullopt).html(), HasSubstr("Probability that the name is right"));
+  EXPECT_THAT(htmlOf(discrepancyDocument("c", d, std::nullopt)), HasSubstr("Probability that the name is right"));
   d.effects[0].rivals = {"spindle.drift.y"};
-  EXPECT_THAT(discrepancyDocument("c", d, std::nullopt).html(),
+  EXPECT_THAT(htmlOf(discrepancyDocument("c", d, std::nullopt)),
               HasSubstr("Probability that it or one of its rivals is right"));
 }
 

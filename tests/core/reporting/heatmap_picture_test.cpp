@@ -45,9 +45,9 @@ TEST(HeatmapPicture, LimitsAreRoundAndCoverTheData) {
 TEST(HeatmapPicture, SvgHoldsAxesUnitsPointsAndEscapesNames) {
   HeatmapPictureOptions options;
   options.title = "EX of state <M1>";
-  const std::string svg = heatmapSvg(someField(), options);
+  const std::string svg = svgOf(heatmapPicture(someField(), options));
   EXPECT_THAT(svg, ::testing::StartsWith("<svg"));
-  for (const char* text : {"x / mm", "y / mm", "EX / um", "F1: ", "F2 &amp; co", "EX of state &lt;M1&gt;", "</svg>"}) {
+  for (const char* text : {"x / mm", "y / mm", "EX / µm", "F1: ", "F2 &amp; co", "EX of state &lt;M1&gt;", "</svg>"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }
   EXPECT_EQ(svg.find("nan"), std::string::npos);
@@ -56,9 +56,8 @@ TEST(HeatmapPicture, SvgHoldsAxesUnitsPointsAndEscapesNames) {
 
 TEST(HeatmapPicture, PngIsAPngOfTheLayoutsSize) {
   HeatmapPictureOptions options;
-  options.png_scale = 1.0;
   options.width_px = 600;
-  const std::string png = heatmapPng(someField(), options);
+  const std::string png = pngOf(heatmapPicture(someField(), options), 1.0);
   ASSERT_GT(png.size(), 1000u);
   EXPECT_EQ(png.substr(1, 3), "PNG");
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(png[i]); };
@@ -68,10 +67,10 @@ TEST(HeatmapPicture, PngIsAPngOfTheLayoutsSize) {
 TEST(HeatmapPicture, RefusesSizesThatCannotBeDrawn) {
   HeatmapPictureOptions options;
   options.width_px = 100;
-  EXPECT_THROW((void)heatmapSvg(someField(), options), InputError);
+  EXPECT_THROW((void)heatmapPicture(someField(), options), InputError);
   options.width_px = 800;
   options.limit = -1.0;
-  EXPECT_THROW((void)heatmapSvg(someField(), options), InputError);
+  EXPECT_THROW((void)heatmapPicture(someField(), options), InputError);
 }
 
 }  // namespace

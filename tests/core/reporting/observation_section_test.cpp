@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "core/reporting/plot_picture.h"
 #include "core/reporting/report_parts.h"
-#include "core/reporting/svg_plot.h"
 
 namespace spindrift {
 namespace {
@@ -39,9 +39,9 @@ ObservationSet observations(int moments) {
 }
 
 std::string html(const ObservationSet& set) {
-  HtmlDocument document("t", "s");
+  Report document("t", "s");
   addObservations(document, set);
-  return document.html();
+  return htmlOf(document);
 }
 
 TEST(ObservationSection, TwoStatesAreArrowsOverTheTableAndATable) {
@@ -67,7 +67,7 @@ TEST(ObservationSection, ManyStatesAreOnePlotAPointInTheColoursOfTheAxes) {
   const std::string text = html(observations(6));
   EXPECT_EQ(count(text, "<figure>"), 1U);
   EXPECT_EQ(count(text, "change / µm"), 4U) << "one plot a point";
-  EXPECT_EQ(count(text, "<path d=\"M"), 12U) << "a line for each component";
+  EXPECT_EQ(count(text, "stroke-width=\"1.4\""), 12U) << "a line for each component";
   for (int axis = 0; axis < 3; ++axis) EXPECT_THAT(text, HasSubstr(axisLook(axis).colour));
   EXPECT_THAT(text, HasSubstr("bands: two standard uncertainties"));
 }
@@ -102,9 +102,9 @@ TEST(InstrumentSection, ExplainsItsParametersAndTellsTheReference) {
          {"parameters",
           {{"EC0C_urad", {{"value", 1.5 * k}, {"standard_uncertainty", k == 0 ? 0.0 : 0.2}}},
            {"EX0C_um", {{"value", -0.5 * k}, {"standard_uncertainty", k == 0 ? 0.0 : 0.1}}}}}});
-  HtmlDocument document("t", "s");
+  Report document("t", "s");
   addInstrument(document, probe);
-  const std::string text = document.html();
+  const std::string text = htmlOf(document);
   EXPECT_THAT(text, HasSubstr("Measured with: Touch probe"));
   EXPECT_THAT(text, HasSubstr("rotation of the table about Z"));
   EXPECT_EQ(count(text, "0 (reference)"), 2U);
@@ -120,10 +120,10 @@ TEST(InstrumentSection, LongSeriesAreThinnedInTheTableAndItSaysSo) {
     probe.details["cycles"].push_back({{"cycle", "C" + std::to_string(k)},
                                        {"time_s", 3600.0 * k},
                                        {"parameters", {{"EX0C_um", {{"value", k}, {"standard_uncertainty", 0.1}}}}}});
-  HtmlDocument document("t", "s");
+  Report document("t", "s");
   addInstrument(document, probe);
-  EXPECT_THAT(document.html(), HasSubstr("40 of 200 cycles"));
-  EXPECT_EQ(count(document.html(), "<tr>"), 1U + 40U + 1U + 1U) << "cycles, meanings and their headers";
+  EXPECT_THAT(htmlOf(document), HasSubstr("40 of 200 cycles"));
+  EXPECT_EQ(count(htmlOf(document), "<tr>"), 1U + 40U + 1U + 1U) << "cycles, meanings and their headers";
 }
 
 TEST(OperatingConditions, EverySignalHasALaneAndDisplacementsTheColourOfTheirAxis) {
@@ -133,9 +133,9 @@ TEST(OperatingConditions, EverySignalHasALaneAndDisplacementsTheColourOfTheirAxi
   log.setSignal("coolant", {0.0, 0.0, 0.0});
   log.setSignal("T_room_degC", {20.0, 20.5, 21.0});
   log.setSignal("Z_um", {0.0, 5.0, 9.0});
-  HtmlDocument document("t", "s");
+  Report document("t", "s");
   addOperatingConditions(document, log);
-  const std::string text = document.html();
+  const std::string text = htmlOf(document);
   EXPECT_THAT(text, HasSubstr("spindle speed, up to 6000 rpm"));
   EXPECT_THAT(text, HasSubstr("feed X, up to 12000 mm/min"));
   EXPECT_THAT(text, Not(HasSubstr("coolant"))) << "never on";

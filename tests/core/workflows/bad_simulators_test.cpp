@@ -157,7 +157,7 @@ TEST_F(BadSimulatorTest, WithoutInfluenceTwinsAndBoundsAreTold) {
   const DiscrepancyRun told = run();
   ASSERT_TRUE(told.update.has_value());
   EXPECT_THAT(told.update->warnings, Contains(HasSubstr("paint changes no prediction")));
-  EXPECT_THAT(told.update->warnings, Contains(HasSubstr("growth ends at its bound 5 um")));
+  EXPECT_THAT(told.update->warnings, Contains(HasSubstr("growth ends at its bound 5 µm")));
   EXPECT_EQ(files(), before);
 }
 

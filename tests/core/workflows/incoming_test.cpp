@@ -231,7 +231,7 @@ TEST_F(Incoming, ImagesThatContradictThePlanAreAskedForAgain) {
   put("M0_F1_x_axis_4.png", imageBytes(26, 1.0, 200.0, 0.0, 254.0));
   pass(3.0);
   EXPECT_EQ(item("M0_F1_x_axis_3.png").state, IncomingState::Retake) << item("M0_F1_x_axis_3.png").sentence;
-  EXPECT_NE(item("M0_F1_x_axis_3.png").sentence.find("the plan says 127 um"), std::string::npos);
+  EXPECT_NE(item("M0_F1_x_axis_3.png").sentence.find("the plan says 127 µm"), std::string::npos);
   EXPECT_EQ(item("M0_F1_x_axis_4.png").state, IncomingState::Accepted) << item("M0_F1_x_axis_4.png").sentence;
   EXPECT_EQ(images().size(), 4U);
   // Another fiducial, where only its place tells.

@@ -26,7 +26,7 @@ constexpr const char* machine_json =
     R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-(C)-t]","axes":[
 {"name":"X","travel_mm":[0,300]},{"name":"Y","travel_mm":[0,200]},{"name":"Z","travel_mm":[0,200]}]})";
 
-class Report : public ::testing::Test {
+class ReportSections : public ::testing::Test {
  protected:
   void SetUp() override {
     writeFileAtomically(folder_ / "campaign.json",
@@ -45,19 +45,19 @@ class Report : public ::testing::Test {
   }
   std::string html(const ReportOptions& options = {}) {
     JobContext job;
-    return campaignReportHtml(Campaign::read(folder_.path()), options, job);
+    return htmlOf(reportOfCampaign(Campaign::read(folder_.path()), options, job));
   }
   testing::TempFolder folder_;
 };
 
-TEST_F(Report, HasNoHeadingForWhatIsNotThere) {
+TEST_F(ReportSections, HasNoHeadingForWhatIsNotThere) {
   const std::string text = html();
   for (const char* heading : {"Captures", "Measurement plan", "State of the instrument", "Model over time", "ISO 230-3",
                               "Compensation", "Verification"})
     EXPECT_THAT(text, Not(HasSubstr(heading)));
 }
 
-TEST_F(Report, GivesTheParametersOfTheStandardTestThatTheLogHolds) {
+TEST_F(ReportSections, GivesTheParametersOfTheStandardTestThatTheLogHolds) {
   writeLog(6000);
   const std::string spindle = html();
   EXPECT_THAT(spindle, HasSubstr("thermal distortion caused by the rotating spindle"));
@@ -76,7 +76,7 @@ TEST_F(Report, GivesTheParametersOfTheStandardTestThatTheLogHolds) {
   EXPECT_THAT(html(), Not(HasSubstr("ISO 230-3")));
 }
 
-TEST_F(Report, ShowsImagesAndSaysWhichCannotBeRead) {
+TEST_F(ReportSections, ShowsImagesAndSaysWhichCannotBeRead) {
   std::filesystem::create_directories(folder_ / "captures/images");
   cv::Mat image(200, 300, CV_8U);
   for (int r = 0; r < image.rows; ++r)
@@ -88,7 +88,7 @@ TEST_F(Report, ShowsImagesAndSaysWhichCannotBeRead) {
   EXPECT_EQ(read.cols, 120);
   EXPECT_EQ(read.rows, 80);
   EXPECT_EQ(imageThumbnail(folder_ / "none.png"), "");
-  const std::string sheet = contactSheetSvg({{thumbnail, "M0 <F1>", "a.png"}, {{}, "M0 F2", "b.png"}});
+  const std::string sheet = svgOf(contactSheet({{thumbnail, "M0 <F1>", "a.png"}, {{}, "M0 F2", "b.png"}}));
   EXPECT_THAT(sheet, HasSubstr("data:image/jpeg;base64,"));
   EXPECT_THAT(sheet, HasSubstr("M0 &lt;F1&gt;"));
   EXPECT_THAT(sheet, HasSubstr("cannot be read"));
@@ -98,7 +98,7 @@ TEST_F(Report, ShowsImagesAndSaysWhichCannotBeRead) {
   EXPECT_NEAR(std::stod(box[1]) / std::stod(box[2]), 1.5, 0.01);
 }
 
-TEST_F(Report, CloudsAreSeenFromAboveWithHolesLeftWhite) {
+TEST_F(ReportSections, CloudsAreSeenFromAboveWithHolesLeftWhite) {
   std::vector<float> xyz, height;
   for (int x = 0; x < 200; ++x)
     for (int y = 0; y < 100; ++y) {
@@ -118,10 +118,10 @@ TEST_F(Report, CloudsAreSeenFromAboveWithHolesLeftWhite) {
   EXPECT_EQ(cloudThumbnail({}, {}, 0, 1), "");
 }
 
-TEST_F(Report, TellsPlanChecksCompensationAndVerification) {
+TEST_F(ReportSections, TellsPlanChecksCompensationAndVerification) {
   ReportOptions options;
   options.stored.warm_up = {{"settled", true}, {"by", "operator"}};
-  options.stored.repeatability = {{"passed", false}, {"reason", "EX returns within 4 um only."}};
+  options.stored.repeatability = {{"passed", false}, {"reason", "EX returns within 4 µm only."}};
   options.stored.plan = nlohmann::json::parse(
       R"({"format":"spindrift-plan","version":1,"states":[{"name":"M0","due_s":0,"what":"cold"}],
           "items":[{"id":"M0_bar","kind":"cycle","state":"M0","due_s":0,"artefact":"bar"}]})");
@@ -132,7 +132,7 @@ TEST_F(Report, TellsPlanChecksCompensationAndVerification) {
           "correction_um":[10.5,0.2,-2.0],"standard_uncertainty_um":[0.3,0.3,0.3],"remains_um":[0.5,null,0.0],
           "used":true}],"files":[{"name":"compensation_grid.csv","title":"t","convention":"added to the command"}]})");
   options.stored.verification = nlohmann::json::parse(
-      R"({"verdict":"not met","reason":"EX is left with 7.0 um; the goal is 5 um.","goal_um":5,"goal_urad":null,
+      R"({"verdict":"not met","reason":"EX is left with 7.0 µm; the goal is 5 µm.","goal_um":5,"goal_urad":null,
           "criterion":"largest","notes":["nothing proves it"],"points":[],"components":[{"component":"EX","unit":"um",
           "values":8,"before":{"rms":10,"rms_standard_uncertainty":0.2,"largest":20,"largest_standard_uncertainty":0.4},
           "after":{"rms":3,"rms_standard_uncertainty":0.2,"largest":7,"largest_standard_uncertainty":0.4},
@@ -148,7 +148,7 @@ TEST_F(Report, TellsPlanChecksCompensationAndVerification) {
   EXPECT_THAT(text, HasSubstr("class=\"verdict bad\""));
 }
 
-TEST_F(Report, OfALogAloneTellsConditionsStandardTestModelAndCompensation) {
+TEST_F(ReportSections, OfALogAloneTellsConditionsStandardTestModelAndCompensation) {
   const auto log = folder_ / "spindle test.csv";
   writeLog(6000);
   std::filesystem::rename(folder_ / "log.csv", log);
@@ -175,7 +175,7 @@ TEST_F(Report, OfALogAloneTellsConditionsStandardTestModelAndCompensation) {
                                         {"reduction_percent", 87.0},
                                         {"largest_compensation", 30.0}}}}};
   JobContext job;
-  const std::string text = campaignReportHtml(campaign, options, job);
+  const std::string text = htmlOf(reportOfCampaign(campaign, options, job));
   for (const char* part :
        {"of a log alone", "Operating conditions", "spindle speed, up to 6000 rpm", "Displacements of the log",
         "thermal distortion caused by the rotating spindle", "Model over time", "Output: Z. Inputs: spindle speed",
@@ -185,7 +185,7 @@ TEST_F(Report, OfALogAloneTellsConditionsStandardTestModelAndCompensation) {
   EXPECT_THAT(text, Not(HasSubstr("1970")));
 }
 
-TEST_F(Report, EquipmentIsNamedWithItsSerialNumberAndCalibration) {
+TEST_F(ReportSections, EquipmentIsNamedWithItsSerialNumberAndCalibration) {
   std::string machine = machine_json;
   machine.pop_back();
   writeFileAtomically(

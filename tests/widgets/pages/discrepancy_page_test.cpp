@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The discrepancy page in the real window: search, see the verdict, add, undo, look at every tab, export.
 #include "widgets/pages/discrepancy/discrepancy_page.h"
+#include "widgets/common/words.h"
 
 #include <QComboBox>
 #include <QFileInfo>

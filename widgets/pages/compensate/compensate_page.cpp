@@ -24,8 +24,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/tasks/task_options.h"
-#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
@@ -42,7 +42,11 @@ constexpr std::array<const char*, 3> axis_names{"X", "Y", "Z"};
 }  // namespace
 
 CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Compensate, parent) {
+    : Page(std::move(page_context), StepId::Compensate, parent), options_(context(), option_keys::compensation, [this] {
+        context().workflow.refresh();
+        refresh();
+        compute();
+      }) {
   export_ = makeButton(tr("Export files …"), "export");
   addAction(export_);
   compute_ = makeButton(tr("Work out the corrections"), nullptr, "primary");
@@ -153,24 +157,24 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
     if (!folder.isEmpty()) exportFiles(folder);
   });
   connect(source_, &QComboBox::activated, this, [this](int) {
-    changeOptions(tr("choose the model to compensate with"), {{"source", source_->currentData().toInt()}});
+    options_.change(tr("choose the model to compensate with"), {{"source", source_->currentData().toInt()}});
   });
   connect(state_, &QComboBox::activated, this, [this](int) {
-    changeOptions(tr("choose the state to compensate"), {{"state", state_->currentText().toStdString()}});
+    options_.change(tr("choose the state to compensate"), {{"state", state_->currentText().toStdString()}});
   });
   connect(positions_, &QSpinBox::editingFinished, this, [this] {
     if (positions_->value() != request().positions) {
-      changeOptions(tr("change the positions of the files"), {{"positions", positions_->value()}});
+      options_.change(tr("change the positions of the files"), {{"positions", positions_->value()}});
     }
   });
   for (QDoubleSpinBox* box : reference_) {
     connect(box, &QDoubleSpinBox::editingFinished, this, [this] {
-      if (filling_ || !plan_) return;
+      if (options_.filling() || !plan_) return;
       const nlohmann::json now{reference_[0]->value(), reference_[1]->value(), reference_[2]->value()};
       const Eigen::Vector3d& shown = plan_->reference_mm;
       const Eigen::Vector3d asked(reference_[0]->value(), reference_[1]->value(), reference_[2]->value());
       if ((asked - shown).cwiseAbs().maxCoeff() > 0.05) {
-        changeOptions(tr("change the reference position of the tables"), {{"reference_mm", now}});
+        options_.change(tr("change the reference position of the tables"), {{"reference_mm", now}});
       }
     });
   }
@@ -189,12 +193,6 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
           [this](const QModelIndex&) { showFiles(); });
 }
 
-nlohmann::json CompensatePage::optionsJson() const {
-  auto& model = const_cast<CompensatePage*>(this)->session();
-  nlohmann::json json = model.setting("compensation/" + std::to_string(model.campaignId()), nlohmann::json::object());
-  return json.is_object() ? json : nlohmann::json::object();
-}
-
 bool CompensatePage::hasSource(CompensationSource source) const {
   auto& model = const_cast<CompensatePage*>(this)->session();
   if (source != CompensationSource::CompletedModel) return model.state("fit").there;
@@ -206,20 +204,7 @@ CompensationRequest CompensatePage::request() const {
   return compensationRequest(*model.session(), model.campaignId(), hasSource(CompensationSource::NineParameters));
 }
 
-void CompensatePage::changeOptions(const QString& what, const nlohmann::json& change) {
-  if (filling_) return;
-  nlohmann::json after = optionsJson();
-  after.update(change);
-  context().undo.push(
-      new OptionsCommand(session(), what, "compensation/" + std::to_string(session().campaignId()), after, [this] {
-        context().workflow.refresh();
-        refresh();
-        compute();
-      }));
-}
-
 void CompensatePage::fillChoices() {
-  filling_ = true;
   const CompensationRequest r = request();
   source_->clear();
   if (hasSource(CompensationSource::CompletedModel)) {
@@ -250,7 +235,6 @@ void CompensatePage::fillChoices() {
     reference_[i]->setValue(r.reference_mm ? (*r.reference_mm)[static_cast<Eigen::Index>(i)]
                                            : 0.5 * (axis->travel_mm[0] + axis->travel_mm[1]));
   }
-  filling_ = false;
 }
 
 void CompensatePage::refresh() {
@@ -273,7 +257,7 @@ void CompensatePage::refresh() {
     return;
   }
   stack_->setCurrentIndex(1);
-  fillChoices();
+  options_.fill([this] { fillChoices(); });
   const auto stored = session().result(result_kind);
   if (!stored) {
     plan_.reset();
@@ -292,8 +276,8 @@ void CompensatePage::refresh() {
     callout()->set(warnings.isEmpty() ? Tone::Neutral : Tone::Attention, warnings.join(QLatin1Char(' ')));
     if (plan_ && !plan_->richer_model.empty()) {
       callout()->setAction(tr("Use the higher order"), [this] {
-        changeOptions(tr("choose the model to compensate with"),
-                      {{"source", static_cast<int>(CompensationSource::HigherOrder)}});
+        options_.change(tr("choose the model to compensate with"),
+                        {{"source", static_cast<int>(CompensationSource::HigherOrder)}});
       });
     }
     // The plan is worked out again from what is stored: it takes less time than reading it would.

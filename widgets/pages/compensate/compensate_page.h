@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/workflows/compensation_workflow.h"
+#include "widgets/pages/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;
@@ -46,8 +47,6 @@ class CompensatePage : public Page {
   void compute();
   /// `store`: keep the result in the session; else only show what is stored already.
   void runPlan(bool store);
-  void changeOptions(const QString& what, const nlohmann::json& change);
-  [[nodiscard]] nlohmann::json optionsJson() const;
   /// Everything the result depends on besides the files.
   [[nodiscard]] CompensationRequest request() const;
   [[nodiscard]] bool hasSource(CompensationSource source) const;
@@ -82,7 +81,7 @@ class CompensatePage : public Page {
   View3D* view_;
   std::optional<CompensationPlan> plan_;
   std::int64_t shown_result_ = 0;
-  bool filling_ = false;
+  BoundOptions options_;
 };
 
 }  // namespace spindrift::gui

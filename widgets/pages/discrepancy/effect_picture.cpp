@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/reporting/report_wording.h"
+#include "widgets/common/words.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/theme.h"
@@ -422,7 +423,7 @@ void EffectPicture::paintLegend(QPainter& painter, const QRectF& area, bool besi
       beside ? QPointF(area.left() + 12, used.bottom() + 12) : QPointF(area.right() - bar - unit_width, area.top() + 6);
   paintScale(painter, QRectF(at, QSizeF(bar, foot_px - 6)));
   painter.drawText(QRectF(at.x() + bar + 6, at.y() - 4, unit_width, 16), Qt::AlignLeft | Qt::AlignVCenter,
-                   QString::fromStdString(printedUnits(unit.toStdString())));
+                   unitText(unit.toStdString()));
 }
 
 void EffectPicture::paintEvent(QPaintEvent*) {

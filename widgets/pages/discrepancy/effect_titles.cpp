@@ -15,6 +15,7 @@
 #include "core/discrepancy/effect_titles.h"
 #include "core/reporting/discrepancy_report.h"
 #include "core/reporting/report_wording.h"
+#include "widgets/common/words.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/theme.h"
 
@@ -71,12 +72,7 @@ QString titledSentence(const std::string& sentence) {
     out += text.mid(done, match.capturedStart() - done) + effectTitle(match.captured().toStdString());
     done = match.capturedEnd();
   }
-  return QString::fromStdString(printedUnits((out + text.mid(done)).toStdString()));
-}
-
-QString sentenceStart(QString text) {
-  if (!text.isEmpty()) text[0] = text[0].toUpper();
-  return text;
+  return out + text.mid(done);
 }
 
 QString sizeText(double value, const QString& unit) {
@@ -84,7 +80,7 @@ QString sizeText(double value, const QString& unit) {
   const double magnitude = std::abs(value);
   QString text = QString::number(value, 'f', magnitude < 9.95 ? 2 : magnitude < 99.5 ? 1 : 0);
   text.replace(QLatin1Char('-'), QChar(0x2212));
-  return unit.isEmpty() ? text : text + QLatin1Char(' ') + QString::fromStdString(printedUnits(unit.toStdString()));
+  return unit.isEmpty() ? text : text + QLatin1Char(' ') + unitText(unit.toStdString());
 }
 
 QString probabilityText(double p) {
@@ -112,8 +108,7 @@ QPixmap probabilityBar(double probability, double device_pixel_ratio) {
 }
 
 QString withError(double value, double standard_uncertainty, const QString& unit) {
-  return QString::fromStdString(
-      withUncertainty(value, standard_uncertainty, unit.isEmpty() ? std::string() : printedUnits(unit.toStdString())));
+  return QString::fromStdString(withUncertainty(value, standard_uncertainty, unit.toStdString()));
 }
 
 QString remainderText(const std::vector<ComponentRemainder>& remainder) {
@@ -154,7 +149,7 @@ QString gainUnitText(const std::string& unit) {
   QString text = QString::fromStdString(unit);
   text.remove(of_component).replace(QStringLiteral("_per_"), QStringLiteral("/"));
   text.replace(QStringLiteral("/m2"), QStringLiteral("/m²"));
-  return QString::fromStdString(printedUnits(text.toStdString()));
+  return unitText(text.toStdString());
 }
 
 QString componentName(Component component) {
@@ -162,7 +157,7 @@ QString componentName(Component component) {
 }
 
 QString componentUnit(Component component) {
-  return QString::fromStdString(printedUnits(unitOf(component)));
+  return unitText(unitOf(component));
 }
 
 QString legendText(const std::vector<std::pair<int, QString>>& names) {

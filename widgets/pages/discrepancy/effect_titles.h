@@ -25,8 +25,6 @@ void knowOwnTitles(const nlohmann::json& document);
 [[nodiscard]] QString effectTitles(const std::vector<std::string>& ids, const QString& last_word);
 /// A sentence of the search with every id of the catalogue by its title.
 [[nodiscard]] QString titledSentence(const std::string& sentence);
-/// The first letter as a capital.
-[[nodiscard]] QString sentenceStart(QString text);
 
 /// A size with two or three digits and its unit as people write it (um as µm); "–" if it is not finite.
 [[nodiscard]] QString sizeText(double value, const QString& unit);

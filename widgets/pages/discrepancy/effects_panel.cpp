@@ -26,6 +26,7 @@
 #include "core/discrepancy/effect_titles.h"
 #include "core/reporting/report_wording.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/pages/discrepancy/effect_editor.h"
 #include "widgets/pages/discrepancy/effect_picture.h"
@@ -162,7 +163,7 @@ QString detailsOf(const Effect& effect, const EffectListing& listing, const QStr
                "<tr><td style=\"color:%1;padding:2px 16px 2px 0\">%2</td><td style=\"padding:2px 0\">%3</td></tr>")
         .arg(theme().text_secondary.name(), name.toHtmlEscaped(), value);
   };
-  const auto plain = [](const std::string& text) { return QString::fromStdString(printedUnits(text)).toHtmlEscaped(); };
+  const auto plain = [](const std::string& text) { return QString::fromStdString(text).toHtmlEscaped(); };
   const OwnEffect* written = effect.own && own != nullptr ? own->find(effect.id) : nullptr;
   QString html = QStringLiteral("<table cellspacing=\"0\">");
   html += row(EffectsPanel::tr("Physics"), QString::fromStdString(effect.physics).toHtmlEscaped());

@@ -8,6 +8,7 @@
 
 #include "core/reporting/report_wording.h"
 #include "core/workflows/simulation_story.h"
+#include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
@@ -31,7 +32,7 @@ QString number(double value) {
 
 /// Plain numbers have no unit.
 QString unitOf(const SimulatorParameter& p) {
-  return p.unit == "1" ? QString() : text(printedUnits(p.unit));
+  return p.unit == "1" ? QString() : unitText(p.unit);
 }
 
 QString withUnit(double value, const SimulatorParameter& p) {

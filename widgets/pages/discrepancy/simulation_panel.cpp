@@ -21,6 +21,7 @@
 #include "core/workflows/open_simulator.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/discrepancy_choice.h"
 #include "widgets/pages/discrepancy/effect_titles.h"

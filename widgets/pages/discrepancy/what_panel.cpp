@@ -16,6 +16,7 @@
 #include "core/base/text.h"
 #include "core/reporting/report_wording.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"

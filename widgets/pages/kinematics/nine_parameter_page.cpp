@@ -18,8 +18,8 @@
 #include "core/base/text.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/fit_campaign.h"
-#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
@@ -27,8 +27,6 @@
 
 namespace spindrift::gui {
 namespace {
-
-constexpr auto options_key = option_keys::nine_parameters;
 
 QString parameterName(int i) {
   static const std::array<const char*, nine_parameter_count> names{"EX", "EY",   "EZ", "EA", "EB",
@@ -69,7 +67,10 @@ Cell number(double value, double sigma, std::string_view unit) {
 }  // namespace
 
 NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Model, parent) {
+    : Page(std::move(page_context), StepId::Model, parent), options_(context(), option_keys::nine_parameters, [this] {
+        refresh();
+        fit();
+      }) {
   fit_button_ = makeButton(tr("Fit the model"), nullptr, "primary");
   addModelSwitch(true);
   addAction(fit_button_);
@@ -154,17 +155,17 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
 
   connect(fit_button_, &QPushButton::clicked, this, &NineParameterPage::fit);
   connect(state_, &QComboBox::activated, this, [this](int) {
-    changeOptions(tr("choose state"), {{"state", state_->currentText().toStdString()}});
+    options_.change(tr("choose state"), {{"state", state_->currentText().toStdString()}});
   });
   connect(robust_, &QComboBox::activated, this, [this](int index) {
-    changeOptions(tr("treat outliers"), {{"robust", index}});
+    options_.change(tr("treat outliers"), {{"robust", index}});
   });
   connect(points_, &RowsModel::checkedChanged, this, [this](const QString&, int, bool) {
     nlohmann::json chosen = nlohmann::json::array();
     for (const Row& row : points_->rows()) {
       if (row.cells[0].checked.value_or(false)) chosen.push_back(row.id.toStdString());
     }
-    changeOptions(tr("choose points"), {{"points", chosen}});
+    options_.change(tr("choose points"), {{"points", chosen}});
   });
   connect(component_, &Segments::chosen, this, &NineParameterPage::showField);
   connect(tabs_, &QTabWidget::currentChanged, this, &NineParameterPage::showField);
@@ -188,45 +189,30 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   view_->resetCamera(StandardView::Top);
 }
 
-nlohmann::json NineParameterPage::optionsJson() const {
-  return const_cast<NineParameterPage*>(this)->session().campaignSetting(options_key, nlohmann::json::object());
-}
-
 NineParameterOptions NineParameterPage::options() const {
-  return nineParameterOptions(optionsJson());
-}
-
-void NineParameterPage::changeOptions(const QString& what, const nlohmann::json& change) {
-  if (filling_) return;
-  nlohmann::json after = optionsJson();
-  if (!after.is_object()) after = nlohmann::json::object();
-  after.update(change);
-  context().undo.push(new OptionsCommand(session(), what, session().campaignKey(options_key), after, [this] {
-    refresh();
-    fit();
-  }));
+  return nineParameterOptions(options_.json());
 }
 
 void NineParameterPage::refresh() {
   const auto campaign = session().campaign();
   if (campaign == nullptr) return;
   if (noticeCampaign()) result_.reset();
-  filling_ = true;
   const auto set = session().observations();
   QString chosen = QString::fromStdString(options().state);
   if (chosen.isEmpty() && set) chosen = QString::fromStdString(lastStateToFit(*set));
-  state_->clear();
-  if (set) {
-    const std::vector<std::string> states = set->states();
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      if (i == 0 && states.size() > 1) continue;  // the reference
-      state_->addItem(QString::fromStdString(states[i]));
+  options_.fill([&] {
+    state_->clear();
+    if (set) {
+      const std::vector<std::string> states = set->states();
+      for (std::size_t i = 0; i < states.size(); ++i) {
+        if (i == 0 && states.size() > 1) continue;  // the reference
+        state_->addItem(QString::fromStdString(states[i]));
+      }
+      const int index = state_->findText(chosen);
+      state_->setCurrentIndex(index >= 0 ? index : state_->count() - 1);
     }
-    const int index = state_->findText(chosen);
-    state_->setCurrentIndex(index >= 0 ? index : state_->count() - 1);
-  }
-  robust_->setCurrentIndex(static_cast<int>(options().robust));
-  filling_ = false;
+    robust_->setCurrentIndex(static_cast<int>(options().robust));
+  });
   fit_button_->setEnabled(set.has_value());
   if (!set) {
     callout()->show(Tone::Attention, tr("There are no observations yet. Evaluate the captures first."));

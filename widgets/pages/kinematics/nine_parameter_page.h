@@ -8,6 +8,7 @@
 #include "core/machine/field.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/machine/table_polynomial.h"
+#include "widgets/pages/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;
@@ -38,7 +39,6 @@ class NineParameterPage : public Page {
 
  private:
   void readOptions();
-  void changeOptions(const QString& what, const nlohmann::json& change);
   void fillPoints();
   void fit();
   void showFit();
@@ -46,7 +46,6 @@ class NineParameterPage : public Page {
   void showDifference(const NineParameterComparison& comparison);
   void showComparison();
   [[nodiscard]] NineParameterOptions options() const;
-  [[nodiscard]] nlohmann::json optionsJson() const;
   /// The table with the level of the fitted points; a machine without X or Y has none, and the view says so.
   [[nodiscard]] std::optional<FieldGrid> mapGrid();
 
@@ -78,7 +77,7 @@ class NineParameterPage : public Page {
   std::string result_error_;
   bool fitted_now_ = false;
   std::shared_ptr<const Field> field_;
-  bool filling_ = false;
+  BoundOptions options_;
 };
 
 }  // namespace spindrift::gui

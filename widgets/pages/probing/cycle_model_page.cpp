@@ -17,7 +17,6 @@
 
 #include "core/base/atomic_file.h"
 #include "core/tasks/task_options.h"
-#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
@@ -28,7 +27,6 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto options_key = option_keys::cycles;
 const std::array<const char*, 3> group_units{"um", "urad", "um/m"};
 
 /// "gZ +0.64, aX −0.62": the names without their units.
@@ -58,7 +56,12 @@ QString meaningOf(const std::string& name) {
 }  // namespace
 
 CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Model, parent), results_(TouchResults::of(session())) {
+    : Page(std::move(page_context), StepId::Model, parent),
+      results_(TouchResults::of(session())),
+      options_(context(), option_keys::cycles, [this] {
+        refresh();
+        if (session().state("fit").there) fit(true);
+      }) {
   setInstruction(tr("Separate the errors of axes, table and artefact in every cycle, and see how well each is known."));
   fit_ = makeButton(tr("Fit all cycles"), nullptr, "primary");
   addModelSwitch(true);
@@ -109,18 +112,8 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   });
 }
 
-std::string CycleModelPage::optionsKey() {
-  return options_key + ("/" + std::to_string(session().campaignId()));
-}
-
-nlohmann::json CycleModelPage::optionsJson() const {
-  auto* self = const_cast<CycleModelPage*>(this);
-  const nlohmann::json stored = self->session().setting(self->optionsKey(), nlohmann::json::object());
-  return stored.is_object() ? stored : nlohmann::json::object();
-}
-
 HoleCycleOptions CycleModelPage::holeOptions() const {
-  const nlohmann::json json = optionsJson();
+  const nlohmann::json json = options_.json();
   HoleCycleOptions options;
   options.second_axis = json.value("second_axis", false);
   if (options.second_axis) {
@@ -130,17 +123,6 @@ HoleCycleOptions CycleModelPage::holeOptions() const {
     options.stable_length = length;
   }
   return options;
-}
-
-void CycleModelPage::changeOptions(const QString& what, const nlohmann::json& change) {
-  if (filling_) return;
-  nlohmann::json after = optionsJson();
-  after.update(change);
-  if (after == optionsJson()) return;
-  context().undo.push(new OptionsCommand(session(), what, optionsKey(), after, [this] {
-    refresh();
-    if (session().state("fit").there) fit(true);
-  }));
 }
 
 void CycleModelPage::fit(bool store) {
@@ -185,16 +167,14 @@ void CycleModelPage::refresh() {
   const Artefact* artefact = artefactOf(*campaign, list.get());
   const bool holes = artefact != nullptr && artefact->kind == "hole_bar";
   right_->setCurrentIndex(holes ? 1 : 0);
-  {
-    filling_ = true;
-    const nlohmann::json json = optionsJson();
+  options_.fill([this] {
+    const nlohmann::json json = options_.json();
     second_axis_->setChecked(json.value("second_axis", false));
     growth_->setValue(json.value("growth_um_per_m", 0.0));
     trust_->setValue(json.value("trust_um_per_m", 0.1));
     growth_->setEnabled(second_axis_->isChecked());
     trust_->setEnabled(second_axis_->isChecked());
-    filling_ = false;
-  }
+  });
   if (list == nullptr) {
     callout()->show(Tone::Bad, results_.failure());
     return;

@@ -8,6 +8,7 @@
 #include "core/machine/field.h"
 #include "core/probing/evaluate_touches.h"
 #include "core/probing/volumetric_error.h"
+#include "widgets/pages/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;
@@ -45,9 +46,6 @@ class CycleModelPage : public Page {
   [[nodiscard]] QWidget* makeVolumePart();
   [[nodiscard]] QWidget* makeBarPart();
   [[nodiscard]] HoleCycleOptions holeOptions() const;
-  [[nodiscard]] std::string optionsKey();
-  [[nodiscard]] nlohmann::json optionsJson() const;
-  void changeOptions(const QString& what, const nlohmann::json& change);
   void fit(bool store);
   void clear();
   void showTrends();
@@ -59,7 +57,6 @@ class CycleModelPage : public Page {
   TouchResults& results_;
   std::shared_ptr<const TouchEvaluation> evaluation_;
   std::shared_ptr<const Field> field_;
-  bool filling_ = false;
   QPushButton* fit_;
   QComboBox* cycle_;
   Segments* group_;
@@ -81,6 +78,7 @@ class CycleModelPage : public Page {
   QDoubleSpinBox* growth_;
   QDoubleSpinBox* trust_;
   RowsModel* bias_;
+  BoundOptions options_;
 };
 
 }  // namespace spindrift::gui

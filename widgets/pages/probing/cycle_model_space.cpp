@@ -111,13 +111,13 @@ QWidget* CycleModelPage::makeBarPart() {
   bias_ = new RowsModel({tr("Parameter"), tr("Change per um/m"), tr("Unit")}, this);
   card->body()->addWidget(makeTable(bias_, tr("Bias by the second axis"), tr("The bias appears after the fit.")), 3);
   connect(second_axis_, &QCheckBox::toggled, this, [this](bool on) {
-    changeOptions(tr("extend by the second axis"), {{"second_axis", on}});
+    options_.change(tr("extend by the second axis"), {{"second_axis", on}});
   });
   connect(growth_, &QDoubleSpinBox::editingFinished, this, [this] {
-    changeOptions(tr("growth of the bar"), {{"growth_um_per_m", growth_->value()}});
+    options_.change(tr("growth of the bar"), {{"growth_um_per_m", growth_->value()}});
   });
   connect(trust_, &QDoubleSpinBox::editingFinished, this, [this] {
-    changeOptions(tr("uncertainty of the bar"), {{"trust_um_per_m", trust_->value()}});
+    options_.change(tr("uncertainty of the bar"), {{"trust_um_per_m", trust_->value()}});
   });
   return card;
 }

@@ -19,26 +19,33 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/tasks/report_task.h"
 #include "core/tasks/task_options.h"
-#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
-#include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
-#include "widgets/pages/report/page_view.h"
-#include "widgets/pages/report/report_pages.h"
-#include "widgets/workflow/simulator_choice.h"
+#include "widgets/report/page_view.h"
+#include "widgets/report/report_pages.h"
 
 namespace spindrift::gui {
 namespace {
 
 constexpr auto result_kind = "report";
 
+/// By the ending of `target`, .pdf or .html. Throws InputError.
+void saveCopy(const std::filesystem::path& html, const std::filesystem::path& pdf, const QString& target) {
+  const bool printed = target.endsWith(QLatin1String(".pdf"), Qt::CaseInsensitive);
+  writeFileAtomically(target.toStdString(), readFile(printed ? pdf : html));
+}
+
 }  // namespace
 
 ReportPage::ReportPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Report, parent) {
+    : Page(std::move(page_context), StepId::Report, parent), options_(context(), option_keys::report, [this] {
+        context().workflow.refresh();
+        refresh();
+      }) {
   browser_ = makeButton(tr("Open in browser"), "eye");
   save_html_ = makeButton(tr("HTML …"), "export");
   save_html_->setToolTip(tr("Save the report as one HTML file"));
@@ -59,24 +66,15 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   operator_->setAccessibleName(tr("Name of the operator"));
   left->body()->addWidget(operator_);
   connect(operator_, &QLineEdit::editingFinished, this, [this] {
-    if (session().campaign() == nullptr) return;
-    const std::string name = operator_->text().trimmed().toStdString();
-    if (session().setting(option_keys::operator_name, "") == name) return;
-    session().setSetting(option_keys::operator_name, name);
+    if (!keepOperator()) return;
     context().workflow.refresh();
     refresh();
-    if (session().result(result_kind)) refresh();
   });
   discrepancy_ = new QCheckBox(tr("Tell the discrepancy"));
   discrepancy_->setToolTip(tr("Search for what the simulation lacks and tell it with the effects that were added"));
   left->body()->addWidget(discrepancy_);
   connect(discrepancy_, &QCheckBox::clicked, this, [this](bool tell) {
-    context().undo.push(
-        new OptionsCommand(session(), tell ? tr("tell the discrepancy") : tr("leave the discrepancy out"),
-                           session().campaignKey(option_keys::report), {{"tells_discrepancy", tell}}, [this] {
-                             context().workflow.refresh();
-                             refresh();
-                           }));
+    options_.change(tell ? tr("tell the discrepancy") : tr("leave the discrepancy out"), {{"tells_discrepancy", tell}});
   });
   facts_ = makeLabel({}, "secondaryText");
   facts_->setWordWrap(true);
@@ -122,56 +120,10 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   });
 }
 
-ReportOptions ReportPage::options() const {
-  auto& model = const_cast<ReportPage*>(this)->session();
-  ReportOptions o;
-  o.operator_name = operator_->text().trimmed().toStdString();
-  o.discrepancy = discrepancy_->isChecked();
-  o.stored = stored();
-  const DiscrepancyChoice choice = DiscrepancyChoice::of(model);
-  // A search that still holds is told, not made again.
-  const StoredResult* searched = model.latest("discrepancy");
-  if (searched != nullptr && model.state("discrepancy").current)
-    o.story = std::make_shared<const nlohmann::json>(searched->payload);
-  o.search.accept = choice.added;
-  o.search.reject = choice.rejected;
-  o.fit = nineParameterOptions(model.campaignSetting(option_keys::nine_parameters, nlohmann::json::object()));
-  o.fit.state.clear();
-  for (const auto& [item, reason] : model.excluded())
-    o.exclusions.emplace_back(item.toStdString(), reason.toStdString());
-  if (Session* store = model.session()) {
-    for (const Note& note : store->notes(model.campaignId())) {
-      o.notes.push_back(note.created_utc + "  " + note.step + (note.item.empty() ? "" : ", " + note.item) + ": " +
-                        note.text);
-    }
-  }
-  return o;
-}
-
-StoredResults ReportPage::stored() const {
-  auto& model = const_cast<ReportPage*>(this)->session();
-  const auto payload = [&](const char* kind) {
-    const StoredResult* result = model.latest(kind);
-    return result == nullptr ? nlohmann::json() : result->payload;
-  };
-  StoredResults out;
-  out.plan = model.setting("plan/" + std::to_string(model.campaignId()), nlohmann::json());
-  out.warm_up = model.warmStatement().value_or(nlohmann::json());
-  out.jogs = payload("check-jogs");
-  out.repeatability = payload("check-repeatability");
-  out.thermal = payload("thermal");
-  out.compensation = payload("compensation");
-  out.log_compensation = payload("log-compensation");
-  out.verification = payload("verify");
-  out.simulation = simulationUpdateOf(model);
-  return out;
-}
-
-std::filesystem::path ReportPage::file() const {
-  auto& model = const_cast<ReportPage*>(this)->session();
-  const auto stored = model.result(result_kind);
-  if (!stored) return {};
-  return model.folder() / stored->payload.value("file", std::string());
+std::filesystem::path ReportPage::storedFile(const char* key) {
+  const StoredResult* stored = session().latest(result_kind);
+  if (stored == nullptr || !stored->payload.contains(key)) return {};
+  return session().folder() / stored->payload.value(key, std::string());
 }
 
 void ReportPage::refresh() {
@@ -211,8 +163,14 @@ void ReportPage::refresh() {
 void ReportPage::openDocument() {
   showDocument(nullptr);
   empty_->setTexts(tr("Opening the report …"), {});
-  opening_ = std::make_shared<ReportPages>(file());
-  connect(opening_.get(), &ReportPages::laidOut, this, [this] {
+  if (pdf().empty()) {
+    empty_->setTexts(tr("This report was written by an earlier version"),
+                     tr("Write it again to see its pages, or open it in the browser."));
+    save_pdf_->setEnabled(false);
+    return;
+  }
+  opening_ = std::make_shared<ReportPages>(pdf());
+  connect(opening_.get(), &ReportPages::opened, this, [this] {
     const auto made = std::exchange(opening_, nullptr);
     if (made->failure().isEmpty()) {
       showDocument(made);
@@ -235,8 +193,8 @@ void ReportPage::showFacts() {
           .arg(QString::fromStdString(stored->provenance.created_utc).replace(QLatin1Char('T'), QLatin1Char(' ')),
                QString::fromStdString(stored->provenance.program_version))
           .arg(document_->pageCount())
-          .arg(document_->figureCount())
-          .arg(document_->tableCount()));
+          .arg(stored->payload.value("figures", 0))
+          .arg(stored->payload.value("tables", 0)));
 }
 
 void ReportPage::showDocument(std::shared_ptr<ReportPages> document) {
@@ -247,13 +205,13 @@ void ReportPage::showDocument(std::shared_ptr<ReportPages> document) {
   std::vector<Row> rows;
   if (document_ != nullptr) {
     int index = 0;
-    for (const ReportDocument::Heading& heading : document_->sections()) {
+    for (const ReportPages::Section& section : document_->sections()) {
       Row row;
       row.id = QString::number(index++);
-      Cell page{QString::number(heading.page + 1)};
+      Cell page{QString::number(section.page + 1)};
       page.right = true;
-      row.cells = {{heading.text}, page};
-      row.cells[0].tip = heading.text;
+      row.cells = {{section.title}, page};
+      row.cells[0].tip = section.title;
       rows.push_back(std::move(row));
     }
   }
@@ -262,26 +220,26 @@ void ReportPage::showDocument(std::shared_ptr<ReportPages> document) {
   following_ = false;
 }
 
+bool ReportPage::keepOperator() {
+  if (session().campaign() == nullptr) return false;
+  const std::string name = operator_->text().trimmed().toStdString();
+  if (session().setting(option_keys::operator_name, "") == name) return false;
+  session().setSetting(option_keys::operator_name, name);
+  return true;
+}
+
 void ReportPage::write() {
-  const auto observations = session().observations();
-  if (!canReport(*session().campaign(), observations.has_value())) return;
-  const std::int64_t campaign = session().campaignId();
-  const std::string name = "reports/report-" + std::to_string(campaign) + ".html";
-  auto campaign_copy = std::make_shared<Campaign>(*session().snapshot().campaign);
-  // What the user excluded is marked in the observations.
-  if (campaign_copy->observations) campaign_copy->observations = observations;
+  (void)keepOperator();
+  if (!canReport(*session().campaign(), session().observations().has_value())) return;
+  ExcludedItems excluded;
+  for (const auto& [item, reason] : session().excluded()) excluded[item.toStdString()] = reason.toStdString();
   const PendingResult pending = session().begin(result_kind);
   Job job;
   job.title = tr("Writing the report");
-  job.work = [this, name, campaign_copy, asked = options(), pending, choice = DiscrepancyChoice::of(session()),
-              effects_file = DiscrepancyChoice::file(session()),
-              target = session().folder() / name](JobContext& progress) -> std::function<void()> {
-    const std::string html = campaignReportHtml(*choice.applied(campaign_copy, effects_file), asked, progress);
-    progress.throwIfCancelled();
-    std::filesystem::create_directories(target.parent_path());
-    writeFileAtomically(target, html);
-    return [this, name, pending, bytes = html.size()] {
-      if (session().finish(pending, {{"file", name}, {"bytes", bytes}})) refresh();
+  job.work = [this, pending,
+              task = ReportTask::of(session().tasks(), excluded)](JobContext& progress) -> std::function<void()> {
+    return [this, pending, payload = task.run(progress)] {
+      if (session().finish(pending, payload)) refresh();
     };
   };
   job.failed = [this](const QString& sentence) {
@@ -315,19 +273,17 @@ void ReportPage::saveTo(const QString& target) {
     callout()->show(Tone::Bad, tr("The report has not been written yet; write it first."));
     return;
   }
-  run(tr("Saving the report"), [this, source = file(), target](JobContext& progress) -> std::function<void()> {
-    saveReport(source, target, progress);
+  run(tr("Saving the report"), [this, html = file(), printed = pdf(), target](JobContext&) -> std::function<void()> {
+    saveCopy(html, printed, target);
     return [this, target] { callout()->show(Tone::Good, tr("The report was saved as %1.").arg(target)); };
   });
 }
 
 std::vector<Exportable> ReportPage::exportables() {
   if (document_ == nullptr) return {};
-  const auto source = file();
   return {{tr("Report"),
            {QStringLiteral("pdf"), QStringLiteral("html")},
-           [source](const QString& target) { saveReport(source, target, {}); },
-           [source](const QString& target, JobContext& job) { saveReport(source, target, job); }}};
+           [html = file(), printed = pdf()](const QString& target) { saveCopy(html, printed, target); }}};
 }
 
 }  // namespace spindrift::gui

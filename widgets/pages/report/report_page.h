@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/workflows/report_workflow.h"
+#include "widgets/pages/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QCheckBox;
@@ -31,14 +31,16 @@ class ReportPage : public Page {
   [[nodiscard]] QPushButton* primaryButton() const override { return write_; }
   void runAll() override { write(); }
 
-  /// Null until the report is laid out.
+  /// Null until the report is opened.
   [[nodiscard]] const ReportPages* document() const { return document_.get(); }
-  /// True while a report is being laid out.
+  /// True while a report is being opened.
   [[nodiscard]] bool opening() const { return opening_ != nullptr; }
   [[nodiscard]] QLineEdit* operatorName() const { return operator_; }
   [[nodiscard]] PageView* pages() const { return pages_; }
   /// The HTML file inside the session; empty if none was written.
-  [[nodiscard]] std::filesystem::path file() const;
+  [[nodiscard]] std::filesystem::path file() { return storedFile("file"); }
+  /// The same as PDF; empty also if an earlier version wrote it.
+  [[nodiscard]] std::filesystem::path pdf() { return storedFile("pdf"); }
   /// Saves a copy by the ending, .pdf or .html, in the background, and says so when it is there.
   void saveTo(const QString& file);
 
@@ -47,12 +49,14 @@ class ReportPage : public Page {
   void openInBrowser();
   void askAndSave(const QString& ending, const QString& filter);
   void showDocument(std::shared_ptr<ReportPages> document);
-  /// Reads and lays out the report of the session in the background.
+  /// Reads the report of the session in the background.
   void openDocument();
   void showFacts();
-  [[nodiscard]] ReportOptions options() const;
-  [[nodiscard]] StoredResults stored() const;
+  /// Puts the name that was typed into the session; false if it is there.
+  bool keepOperator();
+  [[nodiscard]] std::filesystem::path storedFile(const char* key);
 
+  BoundOptions options_;
   QPushButton* write_;
   QPushButton* browser_;
   QPushButton* save_pdf_;

@@ -14,7 +14,6 @@
 #include "core/scanning/evaluate_scans.h"
 #include "core/scanning/scan_evaluation.h"
 #include "core/tasks/task_options.h"
-#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
@@ -25,7 +24,6 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto options_key = option_keys::scan_model;
 constexpr std::array<const char*, 2> models{"rigid", "push_broom"};
 
 double factorOf(int component) {
@@ -65,7 +63,12 @@ double cycleDuration(const ScanEvaluation& evaluation) {
 }  // namespace
 
 AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Model, parent), results_(ScanResults::of(session())) {
+    : Page(std::move(page_context), StepId::Model, parent),
+      results_(ScanResults::of(session())),
+      options_(context(), option_keys::scan_model, [this] {
+        refresh();
+        if (session().state("fit").there) fit(true);
+      }) {
   setInstruction(tr("See the six errors of the axis over positions and time, and which of them the scans can show."));
   fit_ = makeButton(tr("Find the six errors"), nullptr, "primary");
   addModelSwitch(true);
@@ -116,24 +119,15 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
   connect(over_, &Segments::chosen, this, again);
 }
 
-std::string AxisErrorsPage::optionsKey() {
-  return options_key + ("/" + std::to_string(session().campaignId()));
-}
-
 std::string AxisErrorsPage::chosenModel() const {
-  auto* self = const_cast<AxisErrorsPage*>(this);
-  const nlohmann::json stored = self->session().setting(self->optionsKey(), nullptr);
+  const nlohmann::json stored = options_.json();
   const std::string model = stored.is_string() ? stored.get<std::string>() : std::string();
-  return model.empty() ? self->results_.modelOfMachine() : model;
+  return model.empty() ? results_.modelOfMachine() : model;
 }
 
 void AxisErrorsPage::chooseModel(int index) {
   const std::string model = models[static_cast<std::size_t>(index)];
-  if (model == chosenModel()) return;
-  context().undo.push(new OptionsCommand(session(), tr("choose the scan model"), optionsKey(), model, [this] {
-    refresh();
-    if (session().state("fit").there) fit(true);
-  }));
+  if (model != chosenModel()) options_.change(tr("choose the scan model"), model);
 }
 
 void AxisErrorsPage::setComponent(int index) {

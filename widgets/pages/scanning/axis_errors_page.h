@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/scanning/axis_errors.h"
+#include "widgets/pages/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QTabWidget;
@@ -39,7 +40,6 @@ class AxisErrorsPage : public Page {
   [[nodiscard]] Segments* scanModel() const { return model_; }
 
  private:
-  [[nodiscard]] std::string optionsKey();
   [[nodiscard]] std::string chosenModel() const;
   void fit(bool store);
   void chooseModel(int index);
@@ -58,6 +58,7 @@ class AxisErrorsPage : public Page {
   QTabWidget* tabs_;
   RowsModel* values_;
   RowsModel* observability_;
+  BoundOptions options_;
 };
 
 }  // namespace spindrift::gui

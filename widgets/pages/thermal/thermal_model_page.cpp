@@ -18,7 +18,6 @@
 #include "core/tasks/task_options.h"
 #include "core/thermal/response_fit.h"
 #include "core/workflows/campaign_series.h"
-#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
@@ -29,14 +28,14 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto options_key = option_keys::thermal;
 constexpr double seconds_per_hour = 3600.0;
 constexpr std::array<const char*, 3> methods{"response", "arx", "oe"};
 
 }  // namespace
 
 ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Model, parent) {
+    : Page(std::move(page_context), StepId::Model, parent),
+      options_(context(), option_keys::thermal, [this] { refresh(); }) {
   setInstruction(tr("Train a model over time on one part of the log and judge it in free run on another."));
   identify_ = makeButton(tr("Identify the model"), nullptr, "primary");
   addModelSwitch(false);
@@ -95,16 +94,16 @@ QWidget* ThermalModelPage::makeChoices() {
     line->addWidget(edge);
     if (i % 2 == 0) line->addWidget(new QLabel(QStringLiteral("–")));
     connect(edge, &QDoubleSpinBox::valueChanged, this, [this, i](double) {
-      if (filling_) return;
+      if (options_.filling()) return;
       const std::size_t first = i < 2 ? 0 : 2;
       changeRange(i < 2, edges_[first]->value() * seconds_per_hour, edges_[first + 1]->value() * seconds_per_hour);
     });
   }
   connect(output_, &QComboBox::activated, this, [this](int) {
-    changeOptions(tr("choose the output"), {{"output", output_->currentText().toStdString()}});
+    options_.change(tr("choose the output"), {{"output", output_->currentText().toStdString()}});
   });
   connect(method_, &QComboBox::activated, this, [this](int index) {
-    changeOptions(tr("choose the method"), {{"method", methods[static_cast<std::size_t>(index)]}});
+    options_.change(tr("choose the method"), {{"method", methods[static_cast<std::size_t>(index)]}});
   });
   return box;
 }
@@ -166,25 +165,9 @@ QWidget* ThermalModelPage::makeDetails() {
       if (row.cells[0].checked.value_or(false)) chosen.push_back(row.id.toStdString());
     }
     if (chosen.empty()) return fillInputs();  // a model without inputs is none
-    changeOptions(tr("choose the inputs"), {{"inputs", chosen}});
+    options_.change(tr("choose the inputs"), {{"inputs", chosen}});
   });
   return card;
-}
-
-nlohmann::json ThermalModelPage::optionsJson() const {
-  auto* self = const_cast<ThermalModelPage*>(this);
-  const std::string key = options_key + ("/" + std::to_string(self->session().campaignId()));
-  const nlohmann::json stored = self->session().setting(key, nlohmann::json::object());
-  return stored.is_object() ? stored : nlohmann::json::object();
-}
-
-void ThermalModelPage::changeOptions(const QString& what, const nlohmann::json& change) {
-  if (filling_) return;
-  nlohmann::json after = optionsJson();
-  after.update(change);
-  if (after == optionsJson()) return;
-  const std::string key = options_key + ("/" + std::to_string(session().campaignId()));
-  context().undo.push(new OptionsCommand(session(), what, key, after, [this] { refresh(); }));
 }
 
 void ThermalModelPage::changeRange(bool train, double from_s, double to_s) {
@@ -194,13 +177,13 @@ void ThermalModelPage::changeRange(bool train, double from_s, double to_s) {
   from_s = std::clamp(std::round(from_s), first, last);
   to_s = std::clamp(std::round(to_s), first, last);
   if (!(to_s > from_s)) return refresh();
-  changeOptions(train ? tr("training range") : tr("test range"), {{train ? "train" : "test", {from_s, to_s}}});
+  options_.change(train ? tr("training range") : tr("test range"), {{train ? "train" : "test", {from_s, to_s}}});
 }
 
 IdentifyRequest ThermalModelPage::request() const {
   IdentifyRequest r;
   if (series_ == nullptr) return r;
-  const nlohmann::json json = optionsJson();
+  const nlohmann::json json = options_.json();
   const std::vector<std::string> outputs = outputSignals(*series_);
   r.log = series_->file;
   r.output = json.value("output", std::string());
@@ -271,7 +254,7 @@ void ThermalModelPage::identify(bool store) {
   if (series_ == nullptr) return;
   const IdentifyRequest asked = request();
   const PendingResult pending = session().begin("thermal");
-  const Work work = [this, series = series_, asked, store, json = optionsJson(), folder = loaded_,
+  const Work work = [this, series = series_, asked, store, json = options_.json(), folder = loaded_,
                      pending](JobContext& job) -> std::function<void()> {
     auto result = std::make_shared<IdentifyResult>(identifyThermalModel(*series, asked, job));
     return [this, result, store, json, folder, pending] {
@@ -303,7 +286,7 @@ void ThermalModelPage::refresh() {
     callout()->set(Tone::Bad, failure_);
     return;
   }
-  fillChoices();
+  options_.fill([this] { fillChoices(); });
   iso_->set(series_);
   const auto sigma = sigma_.find(request().output);
   updates_->set(series_, result_, sigma == sigma_.end() ? 0.5 : sigma->second);
@@ -318,7 +301,7 @@ void ThermalModelPage::refresh() {
                     state.there ? tr("Changed since: %1. Identify the model again.").arg(state.changed)
                                 : tr("Drag the edges of the training and the test range, then press Identify the "
                                      "model. Nothing measured in the test range is used."));
-  } else if (!state.current || result_options_ != optionsJson()) {
+  } else if (!state.current || result_options_ != options_.json()) {
     callout()->show(Tone::Outdated, tr("Changed since: %1. Identify the model again.").arg(state.changed));
   } else if (!result_->good_enough) {
     callout()->show(Tone::Attention, tr("In the test range the model is no better than the plain ones. Train on a "
@@ -339,7 +322,6 @@ QString ThermalModelPage::outputUnit() const {
 }
 
 void ThermalModelPage::fillChoices() {
-  filling_ = true;
   const IdentifyRequest now = request();
   output_->clear();
   for (const std::string& name : outputSignals(*series_)) output_->addItem(fromCore(name));
@@ -356,7 +338,6 @@ void ThermalModelPage::fillChoices() {
     edges_[i]->setRange(series_->time_s.front() / seconds_per_hour, series_->time_s.back() / seconds_per_hour);
     edges_[i]->setValue(edges[i] / seconds_per_hour);
   }
-  filling_ = false;
 }
 
 }  // namespace spindrift::gui

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/workflows/thermal_workflow.h"
+#include "widgets/pages/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QComboBox;
@@ -46,8 +47,6 @@ class ThermalModelPage : public Page {
  private:
   [[nodiscard]] QWidget* makeChoices();
   [[nodiscard]] QWidget* makeDetails();
-  [[nodiscard]] nlohmann::json optionsJson() const;
-  void changeOptions(const QString& what, const nlohmann::json& change);
   void changeRange(bool train, double from_s, double to_s);
   void load();
   /// Names what the series is made of: it is read again when this changes.
@@ -69,7 +68,6 @@ class ThermalModelPage : public Page {
   std::string loaded_;                   ///< folder of the campaign whose log is in series_
   std::map<std::string, double> sigma_;  ///< of one value of a sparse output
   QString failure_;
-  bool filling_ = false;
   bool wanted_ = false;  ///< identify as soon as the log is read
 
   QPushButton* identify_;
@@ -92,6 +90,7 @@ class ThermalModelPage : public Page {
   Callout* whiteness_;
   UpdatePanel* updates_;
   IsoPanel* iso_;
+  BoundOptions options_;
 };
 
 }  // namespace spindrift::gui

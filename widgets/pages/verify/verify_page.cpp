@@ -17,7 +17,6 @@
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/evaluate_campaign.h"
-#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
@@ -62,7 +61,8 @@ QString wordOf(VerifyVerdict verdict) {
 }  // namespace
 
 VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Verify, parent) {
+    : Page(std::move(page_context), StepId::Verify, parent),
+      options_(context(), option_keys::verify, [this] { refresh(); }) {
   compare_ = makeButton(tr("Compare before and after"), nullptr, "primary");
   addAction(compare_);
   content()->addWidget(makeChoices());
@@ -173,26 +173,22 @@ QWidget* VerifyPage::makeChoices() {
   criterion_->addItems({tr("largest value"), tr("rms")});
   criterion->addWidget(criterion_);
   connect(after_, &QComboBox::activated, this, [this](int) {
-    changeOptions(tr("choose the second campaign"), {{"after", after_->currentData().toString().toStdString()}});
+    options_.change(tr("choose the second campaign"), {{"after", after_->currentData().toString().toStdString()}});
   });
   connect(choose, &QPushButton::clicked, this, [this] {
     const QString folder = QFileDialog::getExistingDirectory(this, tr("Campaign measured with the compensation on"));
     if (!folder.isEmpty()) setAfter(folder);
   });
   connect(goal_um_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
-    changeOptions(tr("set the goal"), {{"goal_um", value}});
+    options_.change(tr("set the goal"), {{"goal_um", value}});
   });
   connect(goal_urad_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
-    changeOptions(tr("set the goal"), {{"goal_urad", value}});
+    options_.change(tr("set the goal"), {{"goal_urad", value}});
   });
   connect(criterion_, &QComboBox::activated, this, [this](int index) {
-    changeOptions(tr("choose what the goal bounds"), {{"criterion", index == 1 ? "rms" : "largest"}});
+    options_.change(tr("choose what the goal bounds"), {{"criterion", index == 1 ? "rms" : "largest"}});
   });
   return box;
-}
-
-std::string VerifyPage::optionsKey() const {
-  return "verify/" + std::to_string(const_cast<VerifyPage*>(this)->session().campaignId());
 }
 
 nlohmann::json VerifyPage::optionsJson() const {
@@ -200,20 +196,11 @@ nlohmann::json VerifyPage::optionsJson() const {
   return VerifyOptions::of(*model.session(), model.campaignId()).json();
 }
 
-void VerifyPage::changeOptions(const QString& what, const nlohmann::json& change) {
-  if (filling_) return;
-  nlohmann::json after = optionsJson();
-  after.update(change);
-  if (after == optionsJson()) return;
-  context().undo.push(new OptionsCommand(session(), what, optionsKey(), after, [this] { refresh(); }));
-}
-
 void VerifyPage::setAfter(const QString& folder) {
-  changeOptions(tr("choose the second campaign"), {{"after", folder.toStdString()}});
+  options_.change(tr("choose the second campaign"), {{"after", folder.toStdString()}});
 }
 
 void VerifyPage::fillChoices() {
-  filling_ = true;
   const nlohmann::json now = optionsJson();
   const QString chosen = fromCore(now["after"].get<std::string>());
   after_->clear();
@@ -227,7 +214,6 @@ void VerifyPage::fillChoices() {
   goal_um_->setValue(now["goal_um"].get<double>());
   goal_urad_->setValue(now["goal_urad"].get<double>());
   criterion_->setCurrentIndex(now["criterion"] == "rms" ? 1 : 0);
-  filling_ = false;
 }
 
 void VerifyPage::runAll() {
@@ -267,7 +253,7 @@ void VerifyPage::refresh() {
     loaded_ = campaign->folder.string();
     result_.reset();
   }
-  fillChoices();
+  options_.fill([this] { fillChoices(); });
   const nlohmann::json now = optionsJson();
   const bool chosen = !now["after"].get<std::string>().empty();
   const bool measured = session().observations().has_value();

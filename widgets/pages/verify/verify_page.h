@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/workflows/verify_compensation.h"
+#include "widgets/pages/bound_options.h"
 #include "widgets/pages/page.h"
 
 class QComboBox;
@@ -42,8 +43,6 @@ class VerifyPage : public Page {
  private:
   [[nodiscard]] QWidget* makeChoices();
   [[nodiscard]] nlohmann::json optionsJson() const;
-  [[nodiscard]] std::string optionsKey() const;
-  void changeOptions(const QString& what, const nlohmann::json& change);
   void fillChoices();
   void compare(bool store);
   void showResult();
@@ -54,7 +53,6 @@ class VerifyPage : public Page {
   std::shared_ptr<const VerifyResult> result_;
   nlohmann::json result_options_;
   std::string loaded_;
-  bool filling_ = false;
 
   QPushButton* compare_;
   QComboBox* after_;
@@ -72,6 +70,7 @@ class VerifyPage : public Page {
   QStackedWidget* stack_;
   Plot* plot_;
   VerifyMaps* maps_;
+  BoundOptions options_;
 };
 
 }  // namespace spindrift::gui

@@ -5,7 +5,7 @@
 #include <QScrollArea>
 #include <memory>
 
-#include "widgets/pages/report/report_pages.h"
+#include "widgets/report/report_pages.h"
 
 namespace spindrift::gui {
 
@@ -13,7 +13,7 @@ class PageView : public QScrollArea {
   Q_OBJECT
  public:
   explicit PageView(QWidget* parent = nullptr);
-  /// Null: shows nothing. The pages have to be laid out.
+  /// Null: shows nothing. The pages have to be opened.
   void setPages(std::shared_ptr<ReportPages> pages);
   /// True until the pages in sight are drawn.
   [[nodiscard]] bool drawing() const;

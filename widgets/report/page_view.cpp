@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "widgets/pages/report/page_view.h"
+#include "widgets/report/page_view.h"
 
 #include <QPaintEvent>
 #include <QPainter>
@@ -42,7 +42,7 @@ class PageView::Sheet : public QWidget {
     arrange(width);
   }
   void arrange(int width) {
-    const double wanted = static_cast<double>(width - 2 * gap) / ReportDocument::page_width;
+    const double wanted = static_cast<double>(width - 2 * gap) / ReportPages::page_width;
     scale = std::clamp(wanted, 0.3, largest_scale);
     if (pages != nullptr) pages->forgetRequests();
     asked_.clear();
@@ -51,21 +51,22 @@ class PageView::Sheet : public QWidget {
   }
   [[nodiscard]] int count() const { return pages != nullptr ? pages->pageCount() : 0; }
   [[nodiscard]] bool drawing() const { return !asked_.empty(); }
-  [[nodiscard]] int pageHeight() const { return static_cast<int>(std::lround(ReportDocument::page_height * scale)); }
+  [[nodiscard]] int pageHeight() const { return static_cast<int>(std::lround(ReportPages::page_height * scale)); }
   [[nodiscard]] int top(int page) const { return gap + page * (pageHeight() + gap); }
 
  protected:
   void paintEvent(QPaintEvent* event) override {
     QPainter painter(this);
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
-    const int page_width = static_cast<int>(std::lround(ReportDocument::page_width * scale));
+    const int page_width = static_cast<int>(std::lround(ReportPages::page_width * scale));
     const int left = (width() - page_width) / 2;
     for (int page = 0; page < count(); ++page) {
       const QRect area(left, top(page), page_width, pageHeight());
       if (!area.intersects(event->rect())) continue;
       painter.fillRect(area, Qt::white);
       const auto found = pictures_.find(page);
-      if (found == pictures_.end() || found->second.size() != area.size() * devicePixelRatioF()) ask(page, area.size());
+      if (found == pictures_.end() || found->second.width() != std::lround(area.width() * devicePixelRatioF()))
+        ask(page, area.size());
       if (found != pictures_.end()) painter.drawPixmap(area, found->second);
       painter.setPen(QPen(theme().border_strong, 1));
       painter.setBrush(Qt::NoBrush);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small line and point plots as SVG for reports and the command line: quantity and unit at every axis, thin lines for
-// what is predicted, points for what is measured, a band for its uncertainty. No fonts or scripts from elsewhere.
+// Small line and point plots for reports and the command line: quantity and unit at every axis, thin lines for what is
+// predicted, points for what is measured, a band for its uncertainty.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/machine/component.h"
+#include "core/reporting/drawing.h"
 
 namespace spindrift {
 
@@ -63,19 +64,15 @@ struct PlotOptions {
   bool compact = false;      ///< one of many small plots: legend beside the title, narrow margins
 };
 
-/// The whole <svg> element. Non-finite values are left out and break a line. Without any point it says so in the plot.
-[[nodiscard]] std::string svgPlot(const std::vector<PlotSeries>& series, const PlotOptions& options);
+/// Non-finite values are left out and break a line. Without any point it says so in the plot.
+[[nodiscard]] Drawing plotPicture(const std::vector<PlotSeries>& series, const PlotOptions& options);
 
-/// Drawings side by side in `columns`, row by row, in one <svg> without any other inside. Every column is as wide as
-/// its widest drawing.
-[[nodiscard]] std::string svgGrid(const std::vector<std::string>& drawings, int columns, int gap_px = 0);
-
-/// Plots one under another in one <svg>, all as wide as the widest.
+/// Plots one under another, all as wide as the widest.
 struct StackedPlot {
   std::vector<PlotSeries> series;
   PlotOptions options;
 };
-[[nodiscard]] std::string svgPlotStack(const std::vector<StackedPlot>& plots);
+[[nodiscard]] Drawing plotStack(const std::vector<StackedPlot>& plots);
 
 /// Round tick values (1, 2 or 5 times a power of ten) inside [from, to], about `wanted` of them.
 [[nodiscard]] std::vector<double> roundTicks(double from, double to, int wanted = 6);

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/reporting/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/base/error.h"
+
+namespace spindrift {
+namespace {
+
+/// A column of sentences or names: some cell does not begin as a number does.
+bool isOfWords(const std::vector<ReportRow>& rows, std::size_t column) {
+  return std::any_of(rows.begin(), rows.end(), [&](const ReportRow& row) {
+    if (column >= row.size() || row[column].empty()) return false;
+    const std::string& cell = row[column].runs.front().text;
+    const bool number = std::isdigit(static_cast<unsigned char>(cell[0])) != 0 || cell[0] == '+' || cell[0] == '<' ||
+                        cell.starts_with("\u2212") || cell.starts_with("\u2013") || cell.starts_with("not determined");
+    return !number;
+  });
+}
+
+}  // namespace
+
+ReportText::ReportText(std::string text) {
+  if (!text.empty()) runs.push_back({std::move(text), false});
+}
+
+ReportText ReportText::smallPrint(std::string_view text) {
+  ReportText out{text};
+  for (Run& run : out.runs) run.small = true;
+  return out;
+}
+
+std::string ReportText::plain() const {
+  std::string text;
+  for (const Run& run : runs) text += run.text;
+  return text;
+}
+
+Report::Report(std::string title, std::string subtitle) : title_(std::move(title)), subtitle_(std::move(subtitle)) {}
+
+Report& Report::section(const ReportText& heading) {
+  blocks_.emplace_back(HeadingBlock{1, heading});
+  return *this;
+}
+
+Report& Report::subsection(const ReportText& heading) {
+  blocks_.emplace_back(HeadingBlock{2, heading});
+  return *this;
+}
+
+Report& Report::paragraph(const ReportText& text) {
+  blocks_.emplace_back(TextBlock{text});
+  return *this;
+}
+
+Report& Report::callout(CalloutKind kind, const ReportText& text) {
+  blocks_.emplace_back(CalloutBlock{kind, text});
+  return *this;
+}
+
+Report& Report::table(ReportRow header, std::vector<ReportRow> rows, std::string_view caption) {
+  SPINDRIFT_ASSERT(!header.empty(), "a table has a header");
+  ++tables_;
+  TableBlock table{std::move(header), std::move(rows), {}, {}};
+  if (!caption.empty()) table.caption = fmt::format("Table {}: {}", tables_, caption);
+  for (ReportRow& row : table.rows) row.resize(table.header.size());
+  for (std::size_t i = 0; i < table.header.size(); ++i) table.of_words.push_back(i > 0 && isOfWords(table.rows, i));
+  blocks_.emplace_back(std::move(table));
+  return *this;
+}
+
+Report& Report::facts(const ReportFacts& rows) {
+  TableBlock table{{}, {}, {}, {true, true}};
+  for (const auto& [name, value] : rows) table.rows.push_back({name, value});
+  blocks_.emplace_back(std::move(table));
+  return *this;
+}
+
+Report& Report::figure(Drawing drawing, std::string_view caption) {
+  blocks_.emplace_back(FigureBlock{std::move(drawing), fmt::format("Figure {}: {}", ++figures_, caption)});
+  return *this;
+}
+
+}  // namespace spindrift

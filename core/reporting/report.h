@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// A report as blocks, from top to bottom: headings, texts, callouts, tables, figures. Whoever fills it says what is to
+// be read; how it looks is up to the writers: one HTML file, or pages of a PDF.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/base/job_context.h"
+#include "core/reporting/drawing.h"
+
+namespace spindrift {
+
+/// A text in runs; small ones stand a size smaller and softer, such as the id of an effect beside its title.
+struct ReportText {
+  struct Run {
+    std::string text;
+    bool small = false;
+  };
+  std::vector<Run> runs;
+
+  ReportText() = default;
+  ReportText(std::string text);  // NOLINT: a plain text is a text
+  ReportText(std::string_view text) : ReportText(std::string(text)) {}
+  ReportText(const char* text) : ReportText(std::string(text)) {}
+  [[nodiscard]] static ReportText smallPrint(std::string_view text);
+
+  [[nodiscard]] bool empty() const { return runs.empty(); }
+  [[nodiscard]] std::string plain() const;
+  friend ReportText operator+(ReportText a, const ReportText& b) {
+    a.runs.insert(a.runs.end(), b.runs.begin(), b.runs.end());
+    return a;
+  }
+};
+
+using ReportRow = std::vector<ReportText>;
+/// Names and values.
+using ReportFacts = std::vector<std::pair<std::string, ReportText>>;
+
+struct HeadingBlock {
+  int level = 1;  ///< 1: a section, 2: within one
+  ReportText text;
+};
+struct TextBlock {
+  ReportText text;
+};
+enum class CalloutKind { Note, Good, Attention, Bad };
+/// A sentence that stands out.
+struct CalloutBlock {
+  CalloutKind kind = CalloutKind::Note;
+  ReportText text;
+};
+/// The first column and columns of words are aligned to the left, numbers to the right and never broken.
+struct TableBlock {
+  ReportRow header;  ///< empty: names and values in two columns
+  std::vector<ReportRow> rows;
+  std::string caption;         ///< with its number; may be empty
+  std::vector<bool> of_words;  ///< one a column
+  [[nodiscard]] bool isFacts() const { return header.empty(); }
+};
+struct FigureBlock {
+  Drawing drawing;
+  std::string caption;  ///< with its number
+};
+using ReportBlock = std::variant<HeadingBlock, TextBlock, CalloutBlock, TableBlock, FigureBlock>;
+
+class Report {
+ public:
+  Report(std::string title, std::string subtitle);
+
+  Report& section(const ReportText& heading);
+  Report& subsection(const ReportText& heading);
+  Report& paragraph(const ReportText& text);
+  Report& callout(CalloutKind kind, const ReportText& text);
+  Report& table(ReportRow header, std::vector<ReportRow> rows, std::string_view caption = {});
+  Report& facts(const ReportFacts& rows);
+  Report& figure(Drawing drawing, std::string_view caption);
+
+  [[nodiscard]] const std::string& title() const { return title_; }
+  [[nodiscard]] const std::string& subtitle() const { return subtitle_; }
+  [[nodiscard]] const std::vector<ReportBlock>& blocks() const { return blocks_; }
+  [[nodiscard]] int figureCount() const { return figures_; }
+  [[nodiscard]] int tableCount() const { return tables_; }
+
+ private:
+  std::string title_;
+  std::string subtitle_;
+  std::vector<ReportBlock> blocks_;
+  int figures_ = 0;
+  int tables_ = 0;
+};
+
+/// One self-contained HTML file: no scripts, nothing fetched, prints on A4.
+[[nodiscard]] std::string htmlOf(const Report& report);
+
+/// A report set on pages of A4, with a place to sign at its end.
+struct ReportPdf {
+  std::string bytes;
+  struct Section {
+    std::string title;
+    int page = 0;  ///< from 0
+  };
+  int pages = 0;
+  std::vector<Section> sections;  ///< also the outline of the file
+};
+/// Headings stay with what follows, figures, callouts and short tables are never broken, a long table repeats its
+/// header. Throws Cancelled between two pages.
+[[nodiscard]] ReportPdf pdfOf(const Report& report, const JobContext& job = {});
+
+}  // namespace spindrift

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/tasks/campaign_state.h"
+
+#include <algorithm>
+
+#include "core/base/json_reader.h"
+#include "core/workflows/compensated_data.h"
+
+namespace spindrift {
+
+nlohmann::json payloadOf(const CampaignEvaluation& evaluation) {
+  nlohmann::json covariance = nlohmann::json::array();
+  for (const CovarianceEntry& e : evaluation.observations.covariance)
+    covariance.push_back({e.row, e.column, e.covariance});
+  return {{"json", evaluation.json()},
+          {"summary", evaluation.summary()},
+          {"good_enough", evaluation.good_enough},
+          {"observations", evaluation.observations.csv()},
+          {"covariance", covariance}};
+}
+
+StoredEvaluation evaluationFrom(const StoredResult& result) {
+  StoredEvaluation evaluation;
+  evaluation.id = result.id;
+  const nlohmann::json& p = result.payload;
+  evaluation.details = p.at("json");
+  evaluation.summary = p.at("summary").get<std::string>();
+  evaluation.good_enough = p.at("good_enough").get<bool>();
+  evaluation.observations = ObservationSet::parse(p.at("observations").get<std::string>(), "stored observations");
+  for (const auto& e : p.at("covariance")) {
+    evaluation.observations.covariance.push_back(
+        {e.at(0).get<std::size_t>(), e.at(1).get<std::size_t>(), e.at(2).get<double>()});
+  }
+  for (const auto& r : evaluation.details.value("rejected", nlohmann::json::array())) {
+    evaluation.rejected.push_back({r.at("capture").get<std::string>(), r.at("reason").get<std::string>()});
+  }
+  for (const auto& w : evaluation.details.value("warnings", nlohmann::json::array())) {
+    evaluation.warnings.push_back(w.get<std::string>());
+  }
+  return evaluation;
+}
+
+CampaignState CampaignState::read(const Session& session, std::int64_t wanted) {
+  CampaignState state;
+  const std::vector<CampaignRecord> all = session.campaigns();
+  if (all.empty()) return state;
+  if (const auto last = session.setting("campaign"); wanted == 0 && last && last->is_number_integer())
+    wanted = last->get<std::int64_t>();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const CampaignRecord& r) { return r.id == wanted; });
+  const CampaignRecord& record = found != all.end() ? *found : all.back();
+  state.id = record.id;
+  auto campaign = std::make_shared<Campaign>(Campaign::read(record.folder));
+  const auto edited = session.setting(Session::machineKey(record.id));
+  if (edited && edited->is_object() && !edited->empty()) {
+    campaign->machine =
+        MachineDescription::parse(JsonNode::parse(edited->dump(), "machine as edited"), campaign->path("machine.json"));
+    state.machine_edited = true;
+  }
+  applyClockOffsets(*campaign, clockOffsetsOf(session, record.id));
+  state.campaign = std::move(campaign);
+  for (const Exclusion& e : session.exclusions(record.id)) state.excluded[e.item] = e.reason;
+  for (const std::string& kind : session.resultKinds(record.id))
+    state.latest[kind] = session.latestResult(record.id, kind);
+  if (const auto evaluation = state.latest.find("evaluate"); evaluation != state.latest.end())
+    state.evaluation = std::make_shared<StoredEvaluation>(evaluationFrom(*evaluation->second));
+  return state;
+}
+
+TaskGraph CampaignState::tasks(const Session& session, const TaskLedger& ledger) const {
+  return {session, id, campaign,
+          [this](const std::string& kind) -> const StoredResult* {
+            const auto found = latest.find(kind);
+            return found == latest.end() || !found->second ? nullptr : &*found->second;
+          },
+          ledger};
+}
+
+ClockOffsets clockOffsetsOf(const Session& session, std::int64_t campaign) {
+  return clockOffsetsFrom(session.setting(Session::clocksKey(campaign)).value_or(nlohmann::json::object()));
+}
+
+std::shared_ptr<const Campaign> withoutExcluded(const Campaign& campaign, const ExcludedItems& excluded) {
+  auto copy = std::make_shared<Campaign>(campaign);
+  for (const auto& [item, reason] : excluded) copy->excluded_captures.insert(item);
+  return copy;
+}
+
+std::optional<ObservationSet> observationsToFit(const Campaign& campaign, const StoredEvaluation* evaluation,
+                                                const ExcludedItems& excluded, const ClockOffsets& offsets) {
+  std::optional<ObservationSet> set = campaign.observations;
+  if (!set && evaluation != nullptr) set = evaluation->observations;
+  if (!set) return set;
+  // 30,000 names are not made for nothing.
+  for (std::size_t i = 0; !excluded.empty() && i < set->rows.size(); ++i) {
+    Observation& o = set->rows[i];
+    if (excluded.contains(o.state + "/" + o.point + "/" + std::string(toString(o.component))))
+      o.use = ObservationUse::Exclude;
+  }
+  if (!campaign.observations) applyClockOffsets(*set, offsets);  // its own were moved when it was read
+  leaveOutCompensated(*set, campaign.log);
+  return set;
+}
+
+}  // namespace spindrift

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// A campaign as its session sees it: the files, with the machine as edited, the clocks moved, what the user excluded,
+// and the latest result of every kind. The window and the command line read it here.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/machine/campaign.h"
+#include "core/machine/instrument_evaluation.h"
+#include "core/session/session.h"
+#include "core/tasks/task_graph.h"
+#include "core/workflows/clock_offsets.h"
+#include "core/workflows/evaluate_campaign.h"
+
+namespace spindrift {
+
+/// The evaluation of a campaign's captures, as it was stored.
+struct StoredEvaluation {
+  std::int64_t id = 0;
+  ObservationSet observations;
+  nlohmann::json details = nlohmann::json::object();  ///< JSON of `evaluate` (FORMATS.md)
+  std::vector<RejectedCapture> rejected;
+  std::vector<std::string> warnings;
+  std::string summary;
+  bool good_enough = true;
+};
+
+/// Payload of a result of kind "evaluate" and back.
+[[nodiscard]] nlohmann::json payloadOf(const CampaignEvaluation& evaluation);
+[[nodiscard]] StoredEvaluation evaluationFrom(const StoredResult& result);
+
+/// Items as in Exclusion, with their reasons.
+using ExcludedItems = std::map<std::string, std::string>;
+
+struct CampaignState {
+  std::int64_t id = 0;  ///< 0: the session has no campaign
+  std::shared_ptr<const Campaign> campaign;
+  bool machine_edited = false;
+  ExcludedItems excluded;
+  std::map<std::string, std::optional<StoredResult>> latest;
+  std::shared_ptr<const StoredEvaluation> evaluation;
+
+  /// `wanted` 0: the one that was at hand last, else the newest. Throws InputError.
+  [[nodiscard]] static CampaignState read(const Session& session, std::int64_t wanted = 0);
+  /// Its tasks; this and the ledger have to live as long.
+  [[nodiscard]] TaskGraph tasks(const Session& session, const TaskLedger& ledger) const;
+};
+
+/// Offsets between the clocks of logger and instruments, as a session keeps them for a campaign.
+[[nodiscard]] ClockOffsets clockOffsetsOf(const Session& session, std::int64_t campaign);
+/// The campaign without the captures that were excluded: to be worked on.
+[[nodiscard]] std::shared_ptr<const Campaign> withoutExcluded(const Campaign& campaign, const ExcludedItems& excluded);
+/// Observations to fit: the campaign's own, else those of its evaluation; what the user excluded is marked so. Nothing
+/// if there are none.
+[[nodiscard]] std::optional<ObservationSet> observationsToFit(const Campaign& campaign,
+                                                              const StoredEvaluation* evaluation,
+                                                              const ExcludedItems& excluded,
+                                                              const ClockOffsets& offsets);
+
+}  // namespace spindrift

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/tasks/report_task.h"
+
+#include <fmt/format.h>
+
+#include "core/base/atomic_file.h"
+#include "core/tasks/task_options.h"
+
+namespace spindrift {
+namespace {
+
+std::filesystem::path whole(const std::filesystem::path& path) {
+  return std::filesystem::absolute(path).lexically_normal();
+}
+
+/// The payload of the result that made the simulator at hand; null if there is none.
+nlohmann::json simulationUpdateOf(const TaskGraph& graph) {
+  const std::string simulator = currentSimulator(graph.session(), graph.campaign(), graph.data());
+  if (simulator.empty()) return {};
+  const std::vector<StoredResult> all = graph.session().resultHeads(graph.campaign(), simulation_result);
+  for (auto it = all.rbegin(); it != all.rend(); ++it) {
+    if (it->provenance.options.value("version", "") == simulator) return graph.session().payload(it->id);
+  }
+  return {};
+}
+
+StoredResults storedOf(const TaskGraph& graph) {
+  const auto payload = [&](const char* kind) {
+    const StoredResult* result = graph.latest(kind);
+    return result == nullptr ? nlohmann::json() : result->payload;
+  };
+  const auto kept = [&](const char* key) {
+    return graph.session().setting(campaignKey(key, graph.campaign())).value_or(nlohmann::json());
+  };
+  const nlohmann::json warm = kept(option_keys::warm_statement);
+  StoredResults out;
+  out.plan = kept(option_keys::plan);
+  // Sessions of earlier versions keep the operator's word as a result; an empty object takes that back.
+  out.warm_up = warm.is_object() && warm.contains("by") ? warm : warm.is_null() ? payload("warm-up") : nlohmann::json();
+  out.jogs = payload("check-jogs");
+  out.repeatability = payload("check-repeatability");
+  out.thermal = payload("thermal");
+  out.compensation = payload("compensation");
+  out.log_compensation = payload("log-compensation");
+  out.verification = payload("verify");
+  out.simulation = simulationUpdateOf(graph);
+  return out;
+}
+
+}  // namespace
+
+std::string simulatorName(const Session& session, const std::filesystem::path& file) {
+  const std::filesystem::path relative = whole(file).lexically_relative(whole(session.folder()));
+  const bool within = !relative.empty() && *relative.begin() != "..";
+  return within ? relative.generic_string() : whole(file).generic_string();
+}
+
+std::string currentSimulator(const Session& session, std::int64_t id, const Campaign& campaign) {
+  const auto chosen = session.setting(campaignKey(option_keys::simulator, id));
+  if (chosen && chosen->is_string()) return chosen->get<std::string>();
+  return campaign.simulator.empty() ? std::string()
+                                    : simulatorName(session, campaign.path(campaign.simulator.string()));
+}
+
+ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded) {
+  const Session& session = graph.session();
+  const std::int64_t id = graph.campaign();
+  ReportTask task;
+  task.folder = session.folder();
+  task.name = fmt::format("reports/report-{}", id);
+
+  const EffectOptions effects = EffectOptions::of(session, id);
+  auto campaign = std::make_shared<Campaign>(*withoutExcluded(graph.data(), excluded));
+  if (campaign->observations)
+    campaign->observations = observationsToFit(graph.data(), nullptr, excluded, clockOffsetsOf(session, id));
+  if (effects.effects.is_object()) campaign->effects = effects.write(session, id);
+  task.campaign = std::move(campaign);
+
+  const ReportTaskOptions asked = ReportTaskOptions::of(session, id);
+  task.options.operator_name = asked.operator_name;
+  task.options.discrepancy = asked.tells_discrepancy;
+  task.options.stored = storedOf(graph);
+  // A search that still holds is told, not made again.
+  const StoredResult* searched = graph.latest("discrepancy");
+  if (searched != nullptr && graph.status("discrepancy").current)
+    task.options.story = std::make_shared<const nlohmann::json>(searched->payload);
+  task.options.search.accept = effects.added;
+  task.options.search.reject = effects.rejected;
+  task.options.fit =
+      nineParameterOptions(campaignSetting(session, id, option_keys::nine_parameters, nlohmann::json::object()));
+  task.options.fit.state.clear();
+  task.options.exclusions.assign(excluded.begin(), excluded.end());
+  for (const Note& note : session.notes(id)) {
+    task.options.notes.push_back(note.created_utc + "  " + note.step + (note.item.empty() ? "" : ", " + note.item) +
+                                 ": " + note.text);
+  }
+  return task;
+}
+
+nlohmann::json ReportTask::run(JobContext& job) const {
+  JobContext computing = job.part(0.0, 0.9);
+  const Report report = reportOfCampaign(*campaign, options, computing);
+  const std::string html = htmlOf(report);
+  const ReportPdf pdf = pdfOf(report, job.part(0.9, 1.0));
+  job.throwIfCancelled();
+  std::filesystem::create_directories((folder / name).parent_path());
+  writeFileAtomically(folder / (name + ".html"), html);
+  writeFileAtomically(folder / (name + ".pdf"), pdf.bytes);
+  return {{"file", name + ".html"},
+          {"pdf", name + ".pdf"},
+          {"bytes", html.size()},
+          {"figures", report.figureCount()},
+          {"tables", report.tableCount()}};
+}
+
+}  // namespace spindrift
