@@ -72,9 +72,18 @@ void addCommonOptions(CLI::App* command, const std::shared_ptr<FitArguments>& a)
       ->type_name("FILE");
 }
 
-void addFitOptions(CLI::App* command, const std::shared_ptr<FitArguments>& a) {
+void addFitOptions(CLI::App* command, const std::shared_ptr<FitArguments>& a, bool higher_order = false) {
   addCommonOptions(command, a);
-  command->add_option("--model", a->model, "Error model: nine-parameter")->check(CLI::IsMember({"nine-parameter"}));
+  if (higher_order) {
+    command
+        ->add_option("--model", a->model,
+                     "Error model: nine-parameter, or higher-order: with the terms in x and y that the evidence asks "
+                     "for (see fit)")
+        ->check(CLI::IsMember({"nine-parameter", "higher-order"}))
+        ->capture_default_str();
+  } else {
+    command->add_option("--model", a->model, "Error model: nine-parameter")->check(CLI::IsMember({"nine-parameter"}));
+  }
   command->add_option("--state", a->state, "Thermal state, such as M1; else the last one");
   command->add_option("--points", a->points, "Points to fit, such as F1,F2,F3; the others validate. Else all");
   command->add_option("--robust", a->robust, "Loss of outliers: none, huber or tukey")
@@ -95,6 +104,7 @@ CommandResult runHeatmap(const FitArguments& a, JobContext& job) {
   HeatmapOptions options;
   options.fit = fitOptions(a);
   options.component = *componentFromString(a.component);
+  options.higher_order = a.model == "higher-order";
   if (!a.grid.empty()) std::tie(options.nx, options.ny) = pairOf(a.grid, "grid");
   options.validate();
   HeatmapPictureOptions picture;
@@ -113,6 +123,7 @@ CommandResult runHeatmap(const FitArguments& a, JobContext& job) {
     writeFileAtomically(a.csv, result.field.csv());
     summary += fmt::format("written: {}\n", a.csv);
   }
+  if (result.order) summary += fmt::format("higher order: {}\n", result.order->reason);
   for (const std::string& warning : result.fit.warnings) summary += fmt::format("note: {}\n", warning);
   return noted({result.json(), summary, Done}, notes);
 }
@@ -190,7 +201,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
     CLI::App* command =
         addCommand(app, line, "heatmap", "Map one component of the fitted model over the table (um, with uncertainty)",
                    [a](JobContext& job) { return runHeatmap(*a, job); });
-    addFitOptions(command, a);
+    addFitOptions(command, a, true);
     command->add_option("--component", a->component, "EX, EY or EZ (um)")->check(CLI::IsMember({"EX", "EY", "EZ"}));
     command->add_option("--grid", a->grid, "Nodes along X and Y, such as 61,41")->type_name("NX,NY");
     command->add_option("--limit", a->limit, "Limit of the colour scale in um, to compare pictures; else from the data")

@@ -87,7 +87,14 @@ void addCycle(CLI::App& app, CommandLine& line) {
           result.exit_status = NotGoodEnough;
           return result;
         }
-        if (!a->nc.empty()) writeFileAtomically(a->nc, text);
+        if (!a->nc.empty()) {
+          writeFileAtomically(a->nc, text);
+          for (const CompanionFile& file : companionFiles(program.dialect)) {
+            const std::filesystem::path beside = std::filesystem::path(a->nc).parent_path() / file.name;
+            writeFileAtomically(beside, file.content);
+            result.summary += fmt::format("{} belongs to it: copy it to TNC:\\SPINDRIFT\n", beside.string());
+          }
+        }
         if (!a->template_file.empty()) {
           writeFileAtomically(a->template_file, printedTextTemplate(machine, artefact, program).dump(1) + "\n");
         }
@@ -101,8 +108,11 @@ void addCycle(CLI::App& app, CommandLine& line) {
   command->add_option("--nc", a->nc, "Write the programme to this file")->type_name("FILE");
   command->add_option("--template", a->template_file, "Write the template that reads what the programme prints (JSON)")
       ->type_name("FILE");
-  command->add_option("--control", a->control, "Dialect: fanuc (G65, G31, DPRNT) or generic (G38.2, LOG)")
-      ->check(CLI::IsMember({"fanuc", "generic"}))
+  command
+      ->add_option("--control", a->control,
+                   "Dialect: fanuc (G65, G31, DPRNT), generic (G38.2, LOG), siemens (MEAS, WRITE) or heidenhain (TCH "
+                   "PROBE 4, FN 16)")
+      ->check(CLI::IsMember({"fanuc", "generic", "siemens", "heidenhain"}))
       ->capture_default_str();
   command->add_option("--artefact", a->artefact, "Id of the artefact, if the machine file has several");
   command->add_option("--first-ball", a->first_ball, "Where the first ball stands in machine coordinates, mm")

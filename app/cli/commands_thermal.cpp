@@ -57,9 +57,11 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
         a->request.order = parseOrder(a->order);
         const std::vector<std::string> outputs = splitList(a->outputs);
         if (outputs.size() > 1) {
-          if (std::filesystem::is_directory(a->log))
-            throw InputError("--output: of a campaign one output at a time is identified; allowed: one name.");
-          const SeveralOutputs several = identifySeveralOutputs(a->request, outputs, job);
+          const SeveralOutputs several =
+              std::filesystem::is_directory(a->log)
+                  ? identifySeveralOutputs(campaignSeries(std::filesystem::path(a->log), job).series, a->request,
+                                           outputs, job)
+                  : identifySeveralOutputs(a->request, outputs, job);
           if (!a->prediction.empty()) several.writePrediction(a->prediction);
           if (!a->model.empty()) several.model.write(a->model);
           return CommandResult{several.json(), several.summary(), several.good_enough ? Done : NotGoodEnough};
@@ -81,14 +83,15 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
   command
       ->add_option(
           "--output", a->outputs,
-          "Column to model, such as ch1_um; several, separated by commas, are identified one by one and go into "
-          "one model")
+          "Column to model, such as ch1_um; several, separated by commas, share their inputs where --inputs is auto "
+          "and go into one model")
       ->required()
       ->type_name("NAME");
   command
       ->add_option(
           "--inputs", a->inputs,
-          "Columns separated by commas, or auto: temperatures, speeds, feeds and switches, never displacements")
+          "Columns separated by commas, or auto: of temperatures, speeds, feeds and switches (never displacements) the "
+          "few, at most eight, that tell what all of them tell")
       ->capture_default_str();
   command->add_option("--train", a->train, "FROM:TO in s, FROM included, TO not")->required();
   command->add_option("--test", a->test, "FROM:TO in s; nothing measured in it is used")->required();
@@ -98,7 +101,7 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
   command
       ->add_option(
           "--method", a->request.method,
-          "response (lags of all inputs, averaged priors), arx or oe; default: arx with --order, else chosen by "
+          "response (lags of every input, averaged priors), arx or oe; default: arx with --order, else chosen by "
           "free runs inside the training range among straight lines, few lags, ridge over lags and response")
       ->check(CLI::IsMember({"response", "arx", "oe"}));
   command
@@ -253,6 +256,11 @@ void addIso230(CLI::App& parent, CommandLine& line) {
       ->type_name("FROM:TO");
   command->add_option("--fraction", a->request.fraction, "Part of the end value to which the time is given (spindle)")
       ->check(CLI::Range(0.01, 0.99))
+      ->capture_default_str();
+  command
+      ->add_option("--window", a->request.window_s,
+                   "Time in s over whose readings a level is taken (etve, spindle); 0: single readings")
+      ->check(nonNegativeNumber())
       ->capture_default_str();
   command->add_option("--observations", a->observations,
                       "observations.csv with readings near both ends of travel (axis)");

@@ -116,6 +116,10 @@ CsvTable CsvTable::parse(std::string content, const std::filesystem::path& name)
         }
         table.names_.emplace_back(field);
       }
+      // Known before it is filled: a vector that grows holds its content twice.
+      const auto rows = static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 1;
+      table.fields_.reserve(std::min(rows * table.names_.size(), rest.size() + 1));
+      table.lines_.reserve(rows);
       continue;
     }
     if (fields.size() != table.names_.size()) {

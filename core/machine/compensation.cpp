@@ -184,4 +184,45 @@ std::string linuxcncCompensation(const ErrorModel& model, const MachineDescripti
   return text;
 }
 
+std::string siemensCompensation(const ErrorModel& model, const MachineDescription& machine, const std::string& axis,
+                                const Eigen::Vector3d& reference_mm, int count, const DeviationQuery& conditions) {
+  const int number = axisNumber(machine, axis);
+  requireCount(count, 5000);
+  const LinearAxis& description = *machine.findAxis(axis);
+  const auto component = static_cast<Component>(number);
+  DeviationQuery query = conditions;
+  query.point.clear();
+  query.position_mm = reference_mm;
+  const auto deviation_mm = [&](double position_mm) {
+    query.position_mm[number] = position_mm;
+    double sum = 0.0;
+    for (const double direction : {1.0, -1.0}) {
+      query.approach = Eigen::Vector3d::Zero();
+      query.approach[number] = direction;
+      sum += 0.5 * model.predict(query, component).value;
+    }
+    return sum * mm_per_um;
+  };
+  const double reference = deviation_mm(reference_mm[number]);
+  const double first = positionAt(description, 0, count);
+  const double last = positionAt(description, count - 1, count);
+  const std::string name = axis + "1";
+  std::string text = fmt::format(
+      "%_N_{}_EEC_INI\n"
+      "; value = deviation (actual minus commanded) in mm, zero at {:g} mm: a positive value moves the axis in the\n"
+      "; negative direction. {} is the name of the machine axis. MD38000 must be at least {}; active with MD32700 = "
+      "1.\n"
+      "CHANDATA(1)\n",
+      name, reference_mm[number], name, count);
+  for (int i = 0; i < count; ++i) {
+    const double value = deviation_mm(positionAt(description, i, count)) - reference;
+    text += fmt::format("$AA_ENC_COMP[0,{},{}]={:.6f}\n", i, name, std::abs(value) < 5e-7 ? 0.0 : value);
+  }
+  text += fmt::format(
+      "$AA_ENC_COMP_STEP[0,{0}]={1:.6f}\n$AA_ENC_COMP_MIN[0,{0}]={2:.6f}\n$AA_ENC_COMP_MAX[0,{0}]={3:.6f}\n"
+      "$AA_ENC_COMP_IS_MODULO[0,{0}]=0\nM17\n",
+      name, (last - first) / (count - 1), first, last);
+  return text;
+}
+
 }  // namespace spindrift

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a model would make a control command, and the tables controls read.
 //
-// Compensation = -deviation (FORMATS.md): where the tool is +5 um too far in X, the control adds -5 um to X. Three
+// Compensation = -deviation (FORMATS.md): where the tool is +5 um too far in X, the control adds -5 um to X. Four
 // forms:
 //   grid            corrections of X, Y, Z at nodes of the working space (CSV)
 //   ISO 230-1       the six component errors of one axis along its travel, through a reference position (CSV); these
@@ -9,6 +9,13 @@
 //                   DEVIATIONS, as ISO 230-1 defines them, not corrections
 //   LinuxCNC        screw compensation of one axis: "nominal forward reverse" per line, COMP_FILE_TYPE = 0. Forward and
 //                   reverse are the positions where the axis really is at `nominal`; LinuxCNC itself subtracts.
+//   Siemens         measuring system error compensation (MSEC, $AA_ENC_COMP) of one axis, mm. The value is added to the
+//                   position that the control reads, so that a positive one moves the axis in the negative direction
+//                   (SINUMERIK 840D sl, Extended Functions, K3): it is the deviation itself, zero at the reference.
+// Not written: Heidenhain .COM/.CMA and Fanuc pitch error data. Of the former the columns are public, the sign of a
+// value is not; the latter are steps in detection units between points whose numbers, spacing and magnification
+// (parameters 3620 to 3624) the machine builder sets, and their sign is not in public documents either. The table of
+// components (ISO 230-1) holds what the builder's tools need for both.
 #pragma once
 
 #include <array>
@@ -90,5 +97,12 @@ enum class LinuxcncTable {
                                                const std::string& axis, const Eigen::Vector3d& reference_mm, int count,
                                                const DeviationQuery& conditions,
                                                LinuxcncTable table = LinuxcncTable::ActualPositions);
+
+/// Siemens MSEC table of the positioning error of the table's axis as `%_N_<axis>_EEC_INI`, the machine axis named as
+/// X1, Y1 or Z1; the mean of both directions of approach, relative to the deviation at `reference_mm`. It stands in
+/// place of a table that the control already has: its values have to be added.
+[[nodiscard]] std::string siemensCompensation(const ErrorModel& model, const MachineDescription& machine,
+                                              const std::string& axis, const Eigen::Vector3d& reference_mm, int count,
+                                              const DeviationQuery& conditions);
 
 }  // namespace spindrift

@@ -4,19 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <cmath>
-#include <map>
+#include <optional>
 
 #include "core/base/text.h"
 #include "core/probing/hole_cycle.h"
+#include "core/probing/program_block.h"
 
 namespace spindrift {
 
 ProgramDialect programDialect(std::string_view name) {
   if (name == "fanuc") return ProgramDialect::Fanuc;
   if (name == "generic") return ProgramDialect::Generic;
-  throw InputError(fmt::format("control \"{}\" is not known; allowed: fanuc or generic.", name));
+  if (name == "siemens") return ProgramDialect::Siemens;
+  if (name == "heidenhain") return ProgramDialect::Heidenhain;
+  throw InputError(fmt::format("control \"{}\" is not known; allowed: fanuc, generic, siemens or heidenhain.", name));
 }
 
 namespace {
@@ -29,8 +32,11 @@ char rotaryLetter(const MachineDescription& machine) {
   return 'C';
 }
 
+double clean(double v) {
+  return std::abs(v) < 5e-5 ? 0.0 : v;
+}
+
 std::string xyz(const Eigen::Vector3d& p) {
-  const auto clean = [](double v) { return std::abs(v) < 5e-5 ? 0.0 : v; };
   return fmt::format("X{:.4f} Y{:.4f} Z{:.4f}", clean(p.x()), clean(p.y()), clean(p.z()));
 }
 
@@ -57,6 +63,145 @@ N10 DPRNT[T*A#1[20]*B#2[20]*C#3[33]*D#7[20]*X#5061[44]*Y#5062[44]*Z#5063[44]*I#4
 M99
 )";
 
+/// What one planned move needs to be written in any language.
+struct WrittenMove {
+  const PlannedMove& plan;
+  Eigen::Vector3d reference_mm;
+  double rotary_deg = 0.0;  ///< as the control counts
+  int feature = 0;          ///< from 1
+  int stylus = 0;
+  bool first = false;
+};
+
+std::vector<WrittenMove> movesOf(const CyclePlan& plan, const MachineDescription& machine, const Artefact& artefact,
+                                 const ProgramOptions& options) {
+  const std::vector<std::string> features = featureNames(artefact);
+  const std::vector<std::string> styli = stylusNames(machine);
+  std::vector<WrittenMove> moves;
+  for (const PlannedMove& m : plan.moves) {
+    const double c = m.c_deg == 0.0 ? 0.0 : options.rotary_sign * m.c_deg;
+    moves.push_back({m, m.tip_mm - machine.findStylus(m.stylus)->offset_mm, c, indexFrom1(features, m.feature),
+                     indexFrom1(styli, m.stylus), moves.empty()});
+  }
+  return moves;
+}
+
+std::string writeSiemens(const std::vector<WrittenMove>& moves, char letter, const Artefact& artefact, int touches,
+                         const CyclePlanOptions& options) {
+  std::string text = fmt::format(
+      "%_N_SPINDRIFT_CYCLE_MPF\n; SPINDRIFT CYCLE, ARTEFACT {}, {} TOUCHES\n"
+      "; POSITIONS OF THE SPINDLE REFERENCE IN MACHINE COORDINATES, MM\n"
+      "; NO TOOL OFFSET (D0), PROBE ON MEASURING INPUT 1 AND SWITCHED ON, SPINDLE ORIENTED\n"
+      "DEF INT _SPD_E\nDEF REAL _SPD_S\nG710 G90 G94 G40 G500 D0\nR99=R99+1\n"
+      "WRITE(_SPD_E,\"_N_SPINDRIFT_MPF\",\"CYCLE \"<<R99)\n",
+      artefact.id, touches);
+  for (const WrittenMove& m : moves) {
+    const std::string place = xyz(m.reference_mm);
+    switch (m.plan.kind) {
+      case MoveKind::Turn:
+        text += fmt::format("SUPA G0 Z{:.4f}\n", clean(m.reference_mm.z()));
+        if (m.first)
+          text += fmt::format("SUPA G0 X{:.4f} Y{:.4f}\n", clean(m.reference_mm.x()), clean(m.reference_mm.y()));
+        text += fmt::format("SUPA G0 {}{:.4f}\n", letter, m.rotary_deg);
+        break;
+      case MoveKind::Rapid:
+        if (m.first) text += fmt::format("SUPA G0 Z{:.4f}\n", clean(m.reference_mm.z()));
+        text += fmt::format("SUPA G0 {}\n", place);
+        break;
+      case MoveKind::Guarded:
+        text += fmt::format("MEAS=1 SUPA G1 {} F{:.0f}\nIF $AC_MEA[1]==1 GOTOF _SPD_HIT\n", place,
+                            options.guarded_feed_mm_min);
+        break;
+      case MoveKind::Retract:
+        text += fmt::format("SUPA G1 {} F{:.0f}\n", place, options.guarded_feed_mm_min);
+        break;
+      case MoveKind::Touch:
+        text += fmt::format(
+            "MEAS=1 SUPA G1 {} F{:.0f}\nIF $AC_MEA[1]==0 GOTOF _SPD_MISSED\n"
+            "_SPD_S=(($A_DAY*24+$A_HOUR)*60+$A_MINUTE)*60+$A_SECOND\n"
+            "WRITE(_SPD_E,\"_N_SPINDRIFT_MPF\",\"T A{} B{} C{} D{} X\"<<$AA_MM[X]<<\" Y\"<<$AA_MM[Y]<<\" "
+            "Z\"<<$AA_MM[Z]<<\" I{} J{} K{} S\"<<_SPD_S)\n",
+            place, options.touch_feed_mm_min, m.feature, m.stylus, exactNumber(m.plan.c_deg), m.plan.touch,
+            exactNumber(m.plan.approach.x() + 0.0), exactNumber(m.plan.approach.y() + 0.0),
+            exactNumber(m.plan.approach.z() + 0.0));
+        break;
+    }
+  }
+  return text +
+         "M30\n_SPD_HIT: MSG(\"PROBE HIT SOMETHING ON ITS WAY\")\nM0\nM30\n"
+         "_SPD_MISSED: MSG(\"PROBE DID NOT TRIGGER\")\nM0\nM30\n";
+}
+
+std::string writeHeidenhain(const std::vector<WrittenMove>& moves, char letter, const Artefact& artefact, int touches,
+                            const CyclePlanOptions& options) {
+  std::string text;
+  int number = 0;
+  const auto add = [&](const std::string& block) { text += fmt::format("{} {}\n", number++, block); };
+  const auto place = [](const Eigen::Vector3d& p) {
+    return fmt::format("X{:+.4f} Y{:+.4f} Z{:+.4f}", clean(p.x()), clean(p.y()), clean(p.z()));
+  };
+  add("BEGIN PGM SPINDRIFT MM");
+  add(fmt::format("; ARTEFACT {}, {} TOUCHES", artefact.id, touches));
+  add("; POSITIONS OF THE SPINDLE REFERENCE IN MACHINE COORDINATES, MM");
+  add("; PROBE IN THE SPINDLE WITH LENGTH 0 IN ITS TABLE, SWITCHED ON, SPINDLE ORIENTED");
+  add("; TOUCH.A AND CYCLE.A STAND IN TNC:\\SPINDRIFT");
+  add("FN 18: SYSREAD Q20 = ID320 NR1");
+  add("FN 16: F-PRINT TNC:\\SPINDRIFT\\CYCLE.A / TNC:\\SPINDRIFT\\TOUCHES.TXT");
+  Eigen::Vector3d before = Eigen::Vector3d::Zero();
+  for (const WrittenMove& m : moves) {
+    switch (m.plan.kind) {
+      case MoveKind::Turn:
+        add(fmt::format("L Z{:+.4f} R0 FMAX M91", clean(m.reference_mm.z())));
+        if (m.first)
+          add(fmt::format("L X{:+.4f} Y{:+.4f} R0 FMAX M91", clean(m.reference_mm.x()), clean(m.reference_mm.y())));
+        add(fmt::format("L {}{:+.4f} R0 FMAX M91", letter, m.rotary_deg));
+        break;
+      case MoveKind::Rapid:
+        if (m.first) add(fmt::format("L Z{:+.4f} R0 FMAX M91", clean(m.reference_mm.z())));
+        add(fmt::format("L {} R0 FMAX M91", place(m.reference_mm)));
+        break;
+      case MoveKind::Guarded:
+        add(fmt::format("L {} R0 F{:.0f} M91", place(m.reference_mm), options.guarded_feed_mm_min));
+        break;
+      case MoveKind::Retract:
+        add(fmt::format("L {} R0 F{:.0f} M91 M141", place(m.reference_mm), options.guarded_feed_mm_min));
+        break;
+      case MoveKind::Touch: {
+        const Eigen::Vector3d way = m.reference_mm - before;
+        const Eigen::Vector3d unit = way.normalized();
+        add("TCH PROBE 4.0 MEASURING IN 3-D");
+        add("TCH PROBE 4.1 Q1");
+        add(fmt::format("TCH PROBE 4.2 IX{:+.6f} IY{:+.6f} IZ{:+.6f}", clean(unit.x()), clean(unit.y()),
+                        clean(unit.z())));
+        add(fmt::format("TCH PROBE 4.3 DIST {:+.4f} F{:.0f} MB+0 REFERENCE SYSTEM:1", way.norm(),
+                        options.touch_feed_mm_min));
+        add("FN 9: IF +Q4 EQU -1 GOTO LBL 99");
+        const std::array<double, 7> values = {static_cast<double>(m.feature),
+                                              static_cast<double>(m.stylus),
+                                              m.plan.c_deg,
+                                              static_cast<double>(m.plan.touch),
+                                              m.plan.approach.x(),
+                                              m.plan.approach.y(),
+                                              m.plan.approach.z()};
+        for (std::size_t k = 0; k < values.size(); ++k)
+          add(fmt::format("FN 0: Q{} = {}{}", 11 + k, values[k] < 0.0 ? "" : "+", exactNumber(values[k] + 0.0)));
+        add("FN 18: SYSREAD Q20 = ID320 NR1");
+        add("FN 16: F-PRINT TNC:\\SPINDRIFT\\TOUCH.A / TNC:\\SPINDRIFT\\TOUCHES.TXT");
+        break;
+      }
+    }
+    before = m.reference_mm;
+  }
+  add("M30");
+  add("LBL 99");
+  add("; THE PROBE DID NOT TRIGGER");
+  add("STOP");
+  add("M30");
+  add("LBL 0");
+  add("END PGM SPINDRIFT MM");
+  return text;
+}
+
 }  // namespace
 
 std::string writeProgram(const CyclePlan& plan, const MachineDescription& machine, const Artefact& artefact,
@@ -64,8 +209,11 @@ std::string writeProgram(const CyclePlan& plan, const MachineDescription& machin
   SPINDRIFT_ASSERT(options.rotary_sign == 1 || options.rotary_sign == -1, "the sign of a rotary axis is +1 or -1");
   const bool fanuc = options.dialect == ProgramDialect::Fanuc;
   const char letter = rotaryLetter(machine);
-  const std::vector<std::string> features = featureNames(artefact);
-  const std::vector<std::string> styli = stylusNames(machine);
+  const std::vector<WrittenMove> moves = movesOf(plan, machine, artefact, options);
+  if (options.dialect == ProgramDialect::Siemens)
+    return writeSiemens(moves, letter, artefact, plan.touches, plan_options);
+  if (options.dialect == ProgramDialect::Heidenhain)
+    return writeHeidenhain(moves, letter, artefact, plan.touches, plan_options);
   std::string text = fanuc ? fmt::format("%\nO{}(SPINDRIFT CYCLE)\n", options.program_number) : "%\n";
   text += fmt::format("(ARTEFACT {}, {} TOUCHES)\n(POSITIONS OF THE SPINDLE REFERENCE IN MACHINE COORDINATES, MM)\n",
                       artefact.id, plan.touches);
@@ -76,20 +224,18 @@ std::string writeProgram(const CyclePlan& plan, const MachineDescription& machin
   } else {
     text += "#500=[#500+1]\n(LOGAPPEND,spindrift_touches.txt)\n(LOG,CYCLE #500)\n";
   }
-  bool first = true;
-  for (const PlannedMove& m : plan.moves) {
-    const Stylus& stylus = *machine.findStylus(m.stylus);
-    const Eigen::Vector3d reference = m.tip_mm - stylus.offset_mm;
-    const double c = m.c_deg == 0.0 ? 0.0 : options.rotary_sign * m.c_deg;
+  for (const WrittenMove& move : moves) {
+    const PlannedMove& m = move.plan;
+    const Eigen::Vector3d& reference = move.reference_mm;
     switch (m.kind) {
       case MoveKind::Turn:
         // The height first, whatever stood before; then the turn.
         text += fmt::format("G0 Z{:.4f}\n", reference.z());
-        if (first) text += fmt::format("G0 X{:.4f} Y{:.4f}\n", reference.x(), reference.y());
-        text += fmt::format("G0 {}{:.4f}\n", letter, c);
+        if (move.first) text += fmt::format("G0 X{:.4f} Y{:.4f}\n", reference.x(), reference.y());
+        text += fmt::format("G0 {}{:.4f}\n", letter, move.rotary_deg);
         break;
       case MoveKind::Rapid:
-        if (first) text += fmt::format("G0 Z{:.4f}\n", reference.z());
+        if (move.first) text += fmt::format("G0 Z{:.4f}\n", reference.z());
         text += fmt::format("G0 {}\n", xyz(reference));
         break;
       case MoveKind::Guarded:
@@ -101,8 +247,8 @@ std::string writeProgram(const CyclePlan& plan, const MachineDescription& machin
         text += fmt::format("G1 {} F{:.0f}\n", xyz(reference), plan_options.guarded_feed_mm_min);
         break;
       case MoveKind::Touch: {
-        const std::string label = fmt::format("A{} B{} C{} D{}", indexFrom1(features, m.feature),
-                                              indexFrom1(styli, m.stylus), exactNumber(m.c_deg), m.touch);
+        const std::string label =
+            fmt::format("A{} B{} C{} D{}", move.feature, move.stylus, exactNumber(m.c_deg), m.touch);
         const std::string normal = fmt::format("I{} J{} K{}", exactNumber(m.approach.x() + 0.0),
                                                exactNumber(m.approach.y() + 0.0), exactNumber(m.approach.z() + 0.0));
         if (fanuc) {
@@ -116,11 +262,18 @@ std::string writeProgram(const CyclePlan& plan, const MachineDescription& machin
         break;
       }
     }
-    first = false;
   }
   text += fanuc ? "PCLOS\nM30\n" : "(LOGCLOSE)\nM2\n";
   if (fanuc) text += fanuc_macros;
   return text + "%\n";
+}
+
+std::vector<CompanionFile> companionFiles(ProgramDialect dialect) {
+  if (dialect != ProgramDialect::Heidenhain) return {};
+  return {{"CYCLE.A", "\"CYCLE %.0LF\",Q20;\nM_APPEND;\n"},
+          {"TOUCH.A",
+           "\"T A%.0LF B%.0LF C%.3LF D%.0LF X%.4LF Y%.4LF Z%.4LF I%.3LF J%.3LF K%.3LF S%.0LF\","
+           "Q11,Q12,Q13,Q14,Q1,Q2,Q3,Q15,Q16,Q17,Q20;\nM_APPEND;\n"}};
 }
 
 nlohmann::json printedTextTemplate(const MachineDescription& machine, const Artefact& artefact,
@@ -131,19 +284,20 @@ nlohmann::json printedTextTemplate(const MachineDescription& machine, const Arte
   for (std::size_t i = 0; i < names.size(); ++i) features[std::to_string(i + 1)] = names[i];
   for (std::size_t i = 0; i < machine.styli.size(); ++i) styli[std::to_string(i + 1)] = machine.styli[i].id;
   const bool fanuc = options.dialect == ProgramDialect::Fanuc;
+  const bool timed = options.dialect != ProgramDialect::Generic;
   nlohmann::json out{{"format", "spindrift-printed-text"},
                      {"version", 1},
                      {"cycle_line", "CYCLE {cycle}"},
                      {"cycle_prefix", "M"},
                      {"touch_line", std::string("T A{feature} B{stylus} C{c_deg} D{touch} X{x} Y{y} Z{z} I{nx} J{ny} "
                                                 "K{nz}") +
-                                        (fanuc ? " S{time}" : "")},
+                                        (timed ? " S{time}" : "")},
                      {"values", {{"feature", features}, {"stylus", styli}}},
                      {"artefact", artefact.id},
                      {"position", "spindle_reference"},
                      {"mm_per_unit", 1.0}};
-  if (fanuc) {
-    out["s_per_unit"] = 0.001;
+  if (timed) {
+    out["s_per_unit"] = fanuc ? 0.001 : 1.0;
   } else {
     out["touch_interval_s"] = 3.0;
     out["cycle_interval_s"] = 600.0;
@@ -224,34 +378,6 @@ class Obstacles {
   double radius_ = 0.0;
 };
 
-/// Letters and numbers of a block; comments removed. False if it holds anything else.
-bool blockWords(std::string line, std::multimap<char, double>& words, std::string& comment) {
-  words.clear();
-  comment.clear();
-  for (std::size_t open = line.find('('); open != std::string::npos; open = line.find('(')) {
-    const std::size_t close = line.find(')', open);
-    const std::size_t length = close == std::string::npos ? std::string::npos : close - open + 1;
-    comment = line.substr(open + 1, length == std::string::npos ? std::string::npos : length - 2);
-    line.erase(open, length);
-  }
-  std::size_t i = 0;
-  while (i < line.size()) {
-    if (std::isspace(static_cast<unsigned char>(line[i])) != 0) {
-      ++i;
-      continue;
-    }
-    const char letter = line[i];
-    if (letter < 'A' || letter > 'Z') return false;
-    std::size_t end = ++i;
-    while (end < line.size() && std::string_view("+-.0123456789eE").find(line[end]) != std::string_view::npos) ++end;
-    double value = 0.0;
-    if (!parseNumber(std::string_view(line).substr(i, end - i), value)) return false;
-    words.emplace(letter, value);
-    i = end;
-  }
-  return true;
-}
-
 }  // namespace
 
 ProgramCheck checkProgram(std::string_view text, const MachineDescription& machine, const Artefact& artefact,
@@ -290,59 +416,19 @@ ProgramCheck checkProgram(std::string_view text, const MachineDescription& machi
     }
     if (kind == MoveKind::Touch) issue("the touch does not reach the artefact");
   };
-  std::size_t begin = 0;
-  while (begin < text.size() && !ended) {
-    std::size_t end = text.find('\n', begin);
-    if (end == std::string_view::npos) end = text.size();
-    std::string line(trimmed(text.substr(begin, end - begin)));
-    begin = end + 1;
-    ++line_number;
-    if (line.empty() || line == "%" || line.front() == '#' || line.front() == 'O' || line.front() == 'o') continue;
-    if (line.starts_with("POPEN") || line.starts_with("PCLOS") || line.starts_with("DPRNT")) continue;
-    std::multimap<char, double> words;
-    std::string comment;
-    if (!blockWords(line, words, comment)) {
-      issue(fmt::format("\"{}\" cannot be read", line));
-      continue;
-    }
-    const auto word = [&](char letter) -> std::optional<double> {
-      const auto found = words.find(letter);
-      return found == words.end() ? std::nullopt : std::optional(found->second);
-    };
-    bool touch = false;
-    bool guarded = false;
-    for (auto [g, last] = words.equal_range('G'); g != last; ++g) {
-      const int code = static_cast<int>(std::lround(g->second * 10.0));
-      if (code == 0 || code == 10) {
-        motion = code / 10;
-      } else if (code == 900) {
-        absolute = true;
-      } else if (code == 210) {
-        millimetres = true;
-      } else if (code == 910 || code == 200) {
-        issue("incremental positions or inches are not allowed");
-      } else if (code == 650 && word('P') == 8902.0) {
-        guarded = true;
-      } else if (code == 650 && word('P') == 8903.0) {
-        touch = true;
-      } else if (code == 383) {
-        guarded = true;
-      } else if (code == 382) {
-        touch = true;
-      } else if (code != 940 && code != 400 && code != 490 && code != 800) {
-        issue(fmt::format("G{} is not known here", g->second));
-      }
-    }
-    if (const auto m = word('M')) {
-      if (*m == 30.0 || *m == 2.0) ended = true;
-      continue;
-    }
-    if (touch && comment.starts_with("TOUCH ")) {
-      std::multimap<char, double> more;
-      std::string none;
-      if (blockWords(comment.substr(6), more, none)) words.insert(more.begin(), more.end());
-    }
-    const bool moves = word('X') || word('Y') || word('Z');
+  for (const ProgramBlock& block : readProgramBlocks(text)) {
+    if (ended) break;
+    line_number = block.line;
+    for (const std::string& what : block.issues) issue(what);
+    absolute = absolute || block.absolute;
+    millimetres = millimetres || block.millimetres;
+    if (block.motion >= 0) motion = block.motion;
+    ended = block.ends;
+    if (block.word('M')) continue;
+    const bool touch = block.touch;
+    const bool guarded = block.guarded;
+    const auto word = [&](char letter) { return block.word(letter); };
+    const bool moves = word('X') || word('Y') || word('Z') || block.towards_mm;
     if (!touch && !guarded && word(rotary)) {
       // The table turns: the probe must be clear of everything.
       if (!position) {
@@ -359,6 +445,7 @@ ProgramCheck checkProgram(std::string_view text, const MachineDescription& machi
       absolute = millimetres = true;
     }
     Eigen::Vector3d target = position.value_or(partial);
+    if (block.towards_mm) target += Eigen::Vector3d(block.towards_mm->data());
     for (int k = 0; k < 3; ++k) {
       if (const auto v = word("XYZ"[k])) target(k) = *v;
       const LinearAxis* axis = machine.findAxis(std::string(1, "XYZ"[k]));

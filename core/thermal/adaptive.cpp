@@ -20,15 +20,16 @@ namespace {
 /// to r).
 struct LiveModel {
   std::vector<double> run;
-  Eigen::MatrixXf error;  ///< rows: the model's own error at two rows differs by |row - row| (standard uncertainty)
+  std::vector<int> place;  ///< of each row of the series in `error`, -1 where nothing can be measured
+  Eigen::MatrixXf error;   ///< rows: the model's own error at two rows differs by |row - row| (standard uncertainty)
   std::vector<char> outside;
   std::vector<std::string> inputs;
   double remainder = 1.0;
 
   /// How far the model's own error may have moved since it was last corrected.
   [[nodiscard]] double sigmaSince(std::size_t corrected, std::size_t row) const {
-    const auto a = static_cast<Eigen::Index>(corrected);
-    const auto b = static_cast<Eigen::Index>(row);
+    const auto a = static_cast<Eigen::Index>(place[corrected]);
+    const auto b = static_cast<Eigen::Index>(place[row]);
     return static_cast<double>((error.row(b) - error.row(a)).norm());
   }
 };
@@ -51,9 +52,15 @@ class Replay {
     }
   }
 
-  AdaptiveResult run();
+  /// Models of the setup, one per error.
+  std::vector<LiveModel> setUp();
+  /// `models`: of the setup; none: they are found here.
+  AdaptiveResult run(std::vector<LiveModel> models = {});
 
  private:
+  /// Measures through the setup; the first row after it.
+  std::size_t measureSetup(AdaptiveResult& result, std::size_t& last_setup_row);
+
   void measure(std::size_t row) {
     for (std::size_t e = 0; e < errors_.size(); ++e) {
       if (!std::isfinite(truth_[e][row])) continue;
@@ -76,6 +83,7 @@ class Replay {
     fit.strengths = {0.5};
     fit.slow_preferences = {0.25};
     fit.minimum_samples = 20;
+    fit.judge_inputs = false;
     std::vector<std::string> inputs = candidates_;
     const auto& values = known_.at(errors_[error].name).values;
     const auto count = std::count_if(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -89,16 +97,27 @@ class Replay {
     const ResponseFitResult result = fitResponse(known_, errors_[error].name, inputs, -1e300, until_s, fit, job_);
     if (result.status != FitStatus::Converged)
       throw InputError({series_.file, fmt::format("column {}", errors_[error].name)}, result.message);
-    const ThermalPrediction p = result.model.predict(series_, 0);
     LiveModel live;
-    live.run = p.value;
-    live.outside = p.outside;
     const ThermalOutput& output = result.model.outputs.front();
     live.remainder = std::max(output.noise_sigma, errors_[error].measurement_sigma);
     const Eigen::MatrixXd x = result.model.features(series_, 0);
+    Eigen::VectorXd coefficients(static_cast<Eigen::Index>(output.terms.size()) + 1);
+    coefficients[0] = output.offset;
+    for (std::size_t k = 0; k < output.terms.size(); ++k)
+      coefficients[static_cast<Eigen::Index>(k) + 1] = output.terms[k].gain;
+    const Eigen::VectorXd run = x * coefficients;
+    live.run.assign(run.data(), run.data() + run.size());
+    live.outside = result.model.outsideTraining(series_, 0);
+    std::vector<Eigen::Index> measurable_rows;
+    live.place.assign(series_.time_s.size(), -1);
+    for (std::size_t r = 0; r < series_.time_s.size(); ++r) {
+      if (!measurable(r)) continue;
+      live.place[r] = static_cast<int>(measurable_rows.size());
+      measurable_rows.push_back(static_cast<Eigen::Index>(r));
+    }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(output.covariance);
-    live.error =
-        (x * solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal()).cast<float>();
+    const Eigen::MatrixXd root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    live.error = (x(measurable_rows, Eigen::all) * root).cast<float>();
     for (const ThermalInput& input : result.model.inputs)
       if (std::find(live.inputs.begin(), live.inputs.end(), input.name) == live.inputs.end())
         live.inputs.push_back(input.name);
@@ -125,15 +144,12 @@ class Replay {
   std::vector<std::vector<double>> truth_;
 };
 
-AdaptiveResult Replay::run() {
-  AdaptiveResult result;
+std::size_t Replay::measureSetup(AdaptiveResult& result, std::size_t& last_setup_row) {
   const std::vector<double>& time = series_.time_s;
-  const double start = time.front();
-  const double live_from = start + options_.setup_s;
-  std::size_t row = 0;
+  const double live_from = time.front() + options_.setup_s;
   const double half_row = 0.5 * series_.medianPeriod_s();  // recorded cycles stand at the nearest row
-  std::size_t last_setup_row = 0;
-  double next = start;
+  std::size_t row = 0;
+  double next = time.front();
   for (; row < time.size() && time[row] < live_from; ++row) {
     if (time[row] < next || !measurable(row)) continue;
     next = std::max(next + options_.setup_interval_s, time[row] - half_row + options_.setup_interval_s);
@@ -148,15 +164,35 @@ AdaptiveResult Replay::run() {
             "the record ends before the setup of {:.6g} s is over; allowed: a longer record or a shorter setup.",
             options_.setup_s));
   }
+  return row;
+}
+
+std::vector<LiveModel> Replay::setUp() {
+  AdaptiveResult unused;
+  std::size_t last_setup_row = 0;
+  measureSetup(unused, last_setup_row);
+  std::vector<LiveModel> models(errors_.size());
+  parallelFor(errors_.size(), job_,
+              [&](std::size_t e) { models[e] = identify(e, series_.time_s.front() + options_.setup_s); });
+  return models;
+}
+
+AdaptiveResult Replay::run(std::vector<LiveModel> models) {
+  AdaptiveResult result;
+  const std::vector<double>& time = series_.time_s;
+  const double live_from = time.front() + options_.setup_s;
+  const double half_row = 0.5 * series_.medianPeriod_s();
+  std::size_t last_setup_row = 0;
+  std::size_t row = measureSetup(result, last_setup_row);
   const std::size_t first_live = row;
-  std::vector<LiveModel> models;
+  const bool given = !models.empty();
   std::vector<GainOffsetFilter> filters;
   for (std::size_t e = 0; e < errors_.size(); ++e) {
-    models.push_back(identify(e, live_from));
-    filters.push_back(freshFilter(e, models.back()));
+    if (!given) models.push_back(identify(e, live_from));
+    filters.push_back(freshFilter(e, models[e]));
     AdaptiveErrorResult out;
     out.name = errors_[e].name;
-    out.static_prediction = models.back().run;
+    out.static_prediction = models[e].run;
     out.adaptive_prediction.assign(time.size(), 0.0);
     std::fill(out.static_prediction.begin(), out.static_prediction.begin() + static_cast<std::ptrdiff_t>(first_live),
               0.0);
@@ -164,7 +200,7 @@ AdaptiveResult Replay::run() {
     result.events.push_back(
         {live_from, AdaptiveEventKind::Setup,
          fmt::format("model of {} from {} measurements with {} inputs: {}", errors_[e].name, result.setup_measurements,
-                     models.back().inputs.size(), joinedList(models.back().inputs))});
+                     models[e].inputs.size(), joinedList(models[e].inputs))});
   }
   double last_measurement = live_from;
   std::size_t measured_row = last_setup_row;
@@ -276,9 +312,9 @@ std::string_view toString(AdaptiveEventKind kind) noexcept {
   return "event";
 }
 
-AdaptiveResult replayAdaptive(const TimeSeries& series, const std::vector<AdaptiveError>& errors,
-                              const std::vector<std::string>& candidates, const AdaptiveOptions& options,
-                              const JobContext& job) {
+namespace {
+
+void check(const TimeSeries& series, const std::vector<AdaptiveError>& errors, const AdaptiveOptions& options) {
   options.validate();
   if (errors.empty()) throw InputError("no error was named; allowed: at least one measured column.");
   if (series.time_s.empty()) throw InputError({series.file, ""}, "has no rows.");
@@ -287,7 +323,35 @@ AdaptiveResult replayAdaptive(const TimeSeries& series, const std::vector<Adapti
       throw InputError(fmt::format("limit and uncertainties of {} must be positive.", e.name));
     }
   }
+}
+
+}  // namespace
+
+AdaptiveResult replayAdaptive(const TimeSeries& series, const std::vector<AdaptiveError>& errors,
+                              const std::vector<std::string>& candidates, const AdaptiveOptions& options,
+                              const JobContext& job) {
+  check(series, errors, options);
   return Replay(series, errors, candidates, options, job).run();
+}
+
+std::vector<AdaptiveResult> replayAdaptive(const TimeSeries& series, const std::vector<AdaptiveError>& errors,
+                                           const std::vector<std::string>& candidates, const AdaptiveOptions& options,
+                                           const std::vector<double>& scales, const JobContext& job) {
+  check(series, errors, options);
+  const std::vector<LiveModel> setup = Replay(series, errors, candidates, options, job.part(0.0, 0.1)).setUp();
+  std::vector<AdaptiveResult> results(scales.size());
+  const JobContext live = job.part(0.1, 1.0);
+  parallelFor(scales.size(), live, [&](std::size_t s) {
+    std::vector<AdaptiveError> scaled = errors;
+    for (AdaptiveError& e : scaled) {
+      e.action_limit *= scales[s];
+      e.trigger_sigma *= scales[s];
+    }
+    AdaptiveOptions own = options;
+    own.longest_interval_s = std::max(options.shortest_interval_s, options.longest_interval_s * scales[s]);
+    results[s] = Replay(series, scaled, candidates, own, live).run(setup);
+  });
+  return results;
 }
 
 }  // namespace spindrift

@@ -85,4 +85,12 @@ struct AdaptiveResult {
                                             const std::vector<std::string>& candidates, const AdaptiveOptions& options,
                                             const JobContext& job);
 
+/// The same for several sizes of limits and triggers (and of the longest interval), which share the setup and its
+/// models; one result per scale, in their order.
+[[nodiscard]] std::vector<AdaptiveResult> replayAdaptive(const TimeSeries& series,
+                                                         const std::vector<AdaptiveError>& errors,
+                                                         const std::vector<std::string>& candidates,
+                                                         const AdaptiveOptions& options,
+                                                         const std::vector<double>& scales, const JobContext& job);
+
 }  // namespace spindrift

@@ -37,21 +37,76 @@ void checkSeries(std::span<const double> time_s, const std::vector<ComponentSeri
   }
 }
 
-/// Mean of the readings nearest to a time: at most `count` of them within `window_s`.
-double levelAt(std::span<const double> time_s, const std::vector<double>& values, double when, double window_s) {
-  double sum = 0.0;
-  int count = 0;
-  std::size_t nearest = values.size();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) continue;
-    if (nearest == values.size() || std::abs(time_s[i] - when) < std::abs(time_s[nearest] - when)) nearest = i;
-    if (std::abs(time_s[i] - when) <= window_s) {
-      sum += values[i];
-      ++count;
-    }
+/// Value at a time from the readings around it.
+struct Level {
+  double value = std::nan("");
+  double variance = 1.0;  ///< of it, per variance of one reading
+};
+
+/// A straight line through the readings of `from_s` ... `to_s`, taken at `when`: noise is averaged and a steady change
+/// within the window does no harm. Fewer than three readings: the nearest one as it stands.
+Level levelAt(std::span<const double> time_s, const std::vector<double>& values, double when, double from_s,
+              double to_s) {
+  const auto first = std::lower_bound(time_s.begin(), time_s.end(), from_s) - time_s.begin();
+  const auto last = std::upper_bound(time_s.begin(), time_s.end(), to_s) - time_s.begin();
+  double n = 0.0, st = 0.0, sy = 0.0, stt = 0.0, sty = 0.0;
+  for (auto i = first; i < last; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (!std::isfinite(values[k])) continue;
+    const double t = time_s[k] - when;
+    n += 1.0;
+    st += t;
+    sy += values[k];
+    stt += t * t;
+    sty += t * values[k];
   }
-  if (count > 0) return sum / count;
-  return nearest < values.size() ? values[nearest] : std::nan("");
+  const double spread = stt - (n > 0.0 ? st * st / n : 0.0);
+  if (n >= 3.0 && spread > 0.0) {
+    const double slope = (sty - st * sy / n) / spread;
+    return {(sy - slope * st) / n, 1.0 / n + st * st / (n * n * spread)};
+  }
+  Level nearest;
+  double distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i]) || std::abs(time_s[i] - when) >= distance) continue;
+    distance = std::abs(time_s[i] - when);
+    nearest.value = values[i];
+  }
+  return nearest;
+}
+
+/// Levels at all readings, the window around each; missing readings stay missing.
+std::vector<Level> levelsOf(std::span<const double> time_s, const std::vector<double>& values, double window_s,
+                            double from_s, double to_s) {
+  std::vector<Level> levels(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i]) || time_s[i] < from_s || time_s[i] > to_s) continue;
+    levels[i] = levelAt(time_s, values, time_s[i], std::max(from_s, time_s[i] - 0.5 * window_s),
+                        std::min(to_s, time_s[i] + 0.5 * window_s));
+    if (levels[i].variance == 1.0) levels[i].value = values[i];
+  }
+  return levels;
+}
+
+struct Range {
+  double size = 0.0;
+  double variance = 0.0;  ///< per variance of one reading
+};
+
+Range rangeOf(const std::vector<Level>& levels) {
+  const Level* low = nullptr;
+  const Level* high = nullptr;
+  for (const Level& level : levels) {
+    if (!std::isfinite(level.value)) continue;
+    if (low == nullptr || level.value < low->value) low = &level;
+    if (high == nullptr || level.value > high->value) high = &level;
+  }
+  if (low == nullptr) return {};
+  return {high->value - low->value, low->variance + high->variance};
+}
+
+void checkWindow(double window_s) {
+  if (!(window_s >= 0.0)) throw InputError("the window of a level must not be negative; allowed: 0 s or more.");
 }
 
 AxisPositionResult evaluatePosition(const std::vector<AxisReading>& readings, double position) {
@@ -175,9 +230,11 @@ std::string requireOneSpeedStep(const TimeSeries& series, const std::string& col
 }
 
 EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<ComponentSeries>& components,
-                        std::span<const double> ambient) {
+                        std::span<const double> ambient, double window_s) {
   checkSeries(time_s, components, 10);
+  checkWindow(window_s);
   EtveResult result;
+  result.window_s = window_s;
   result.duration_s = time_s.back() - time_s.front();
   if (!ambient.empty()) {
     SPINDRIFT_ASSERT(ambient.size() == time_s.size(), "ambient and time differ in length");
@@ -196,20 +253,17 @@ EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<Compon
     EtveComponent out;
     out.name = c.name;
     out.unit = c.unit;
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
+    const Range range = rangeOf(levelsOf(time_s, c.values, window_s, time_s.front(), time_s.back()));
     double st = 0.0, sy = 0.0, stt = 0.0, sty = 0.0, n = 0.0;
     for (std::size_t i = 0; i < c.values.size(); ++i) {
       if (!std::isfinite(c.values[i])) continue;
-      low = std::min(low, c.values[i]);
-      high = std::max(high, c.values[i]);
       if (ambient.empty() || !std::isfinite(ambient[i])) continue;
       st += ambient[i];
       sy += c.values[i];
       n += 1.0;
     }
-    out.range = high - low;
-    out.range_sigma = std::sqrt(2.0) * readingSigma(c);
+    out.range = range.size;
+    out.range_sigma = std::sqrt(range.variance) * readingSigma(c);
     out.range_per_K = std::nan("");
     out.slope_per_K = std::nan("");
     out.slope_sigma = std::nan("");
@@ -237,12 +291,15 @@ EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<Compon
 }
 
 SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<const double> speed,
-                                      const std::vector<ComponentSeries>& components, double fraction) {
+                                      const std::vector<ComponentSeries>& components, double fraction,
+                                      double window_s) {
   SPINDRIFT_ASSERT(speed.size() == time_s.size(), "speed and time differ in length");
   if (!(fraction > 0.0 && fraction < 1.0)) throw InputError("the fraction of the end value must lie between 0 and 1.");
   checkSeries(time_s, components, 4);
+  checkWindow(window_s);
   SpindleResult result;
   result.fraction = fraction;
+  result.window_s = window_s;
   std::size_t first = speed.size();
   std::size_t last = 0;
   for (std::size_t i = 0; i < speed.size(); ++i) {
@@ -259,27 +316,34 @@ SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<
     SpindleComponent out;
     out.name = c.name;
     out.unit = c.unit;
-    const double zero = levelAt(time_s, c.values, result.start_s, 0.0);
-    out.at_end = levelAt(time_s, c.values, result.stop_s, 0.0) - zero;
-    out.first_hour = result.stop_s - result.start_s >= 3600.0
-                         ? levelAt(time_s, c.values, result.start_s + 3600.0, 0.0) - zero
-                         : std::nan("");
-    out.after_cooling = levelAt(time_s, c.values, time_s.back(), 0.0) - zero;
-    out.change_sigma = std::sqrt(2.0) * readingSigma(c);
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
+    // A level is read on its side of a switch: before the start, before the stop.
+    const double start = result.start_s;
+    const double stop = result.stop_s;
+    const bool still_before = start - time_s.front() >= window_s;
+    const Level zero = levelAt(time_s, c.values, start, still_before ? start - window_s : time_s.front(),
+                               still_before ? start : start + window_s);
+    const Level end = levelAt(time_s, c.values, stop, std::max(start, stop - window_s), stop);
+    const Level cooled = levelAt(time_s, c.values, time_s.back(),
+                                 std::min(time_s.back(), std::max(stop, time_s.back() - window_s)), time_s.back());
+    const double hour = start + 3600.0;
+    const Level after_hour =
+        levelAt(time_s, c.values, hour, std::max(start, hour - 0.5 * window_s), std::min(stop, hour + 0.5 * window_s));
+    out.at_end = end.value - zero.value;
+    out.first_hour = stop >= hour ? after_hour.value - zero.value : std::nan("");
+    out.after_cooling = cooled.value - zero.value;
+    out.change_sigma = std::sqrt(zero.variance + end.variance) * readingSigma(c);
     out.time_to_fraction_s = std::nan("");
+    const std::vector<Level> levels = levelsOf(time_s, c.values, window_s, start, stop);
     bool beyond = false;
-    for (std::size_t i = 0; i < c.values.size(); ++i) {
-      if (!std::isfinite(c.values[i]) || time_s[i] < result.start_s || time_s[i] > result.stop_s) continue;
-      low = std::min(low, c.values[i]);
-      high = std::max(high, c.values[i]);
-      const bool now = (c.values[i] - zero) * (out.at_end > 0.0 ? 1.0 : -1.0) >= fraction * std::abs(out.at_end);
-      if (now && !beyond) out.time_to_fraction_s = time_s[i] - result.start_s;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      if (!std::isfinite(levels[i].value)) continue;
+      const bool now =
+          (levels[i].value - zero.value) * (out.at_end > 0.0 ? 1.0 : -1.0) >= fraction * std::abs(out.at_end);
+      if (now && !beyond) out.time_to_fraction_s = time_s[i] - start;
       beyond = now;
     }
     if (std::abs(out.at_end) < 3.0 * out.change_sigma) out.time_to_fraction_s = std::nan("");
-    out.range = high - low;
+    out.range = rangeOf(levels).size;
     result.components.push_back(out);
   }
   return result;

@@ -3,10 +3,12 @@
 // linear axis.
 //
 // Displacements um, tilts urad, time s, temperature degC, positions mm. Values are relative to the start of the test;
-// the first valid sample is zero. Uncertainties: the standard uncertainty of one reading enters a range or a difference
-// of two readings as sqrt(2) of it. Failure: InputError for too few readings or a test that does not hold what is
-// evaluated. Source: ISO 230-3 (ETVE test, thermal distortion caused by rotating spindle, thermal distortion caused by
-// moving linear axes).
+// the first valid sample is zero. A level is not one reading: it is the value of a straight line through the readings
+// of a window (on one side of a start or stop, around any other time), so that noise is averaged and does not widen a
+// range; its standard uncertainty is that of one reading times the root of the line's variance factor, and a range or a
+// difference carries that of both its levels. Fewer than three readings in a window: the nearest reading. Failure:
+// InputError for too few readings or a test that does not hold what is evaluated. Source: ISO 230-3 (ETVE test, thermal
+// distortion caused by rotating spindle, thermal distortion caused by moving linear axes).
 #pragma once
 
 #include <span>
@@ -36,15 +38,17 @@ struct EtveComponent {
 };
 struct EtveResult {
   double duration_s = 0.0;
+  double window_s = 0.0;  ///< in which levels were read
   double temperature_range_K = 0.0;
   std::vector<EtveComponent> components;
   std::string note;
 };
+constexpr double level_window_s = 120.0;  ///< short beside an hour, in which the standard counts
 /// The test is of a machine at rest. Throws InputError if a spindle (a signal of kind Speed) turns anywhere in the log.
 void requireSpindleAtRest(const TimeSeries& series);
 /// `ambient_degC` may be empty: then nothing is per K.
 [[nodiscard]] EtveResult evaluateEtve(std::span<const double> time_s, const std::vector<ComponentSeries>& components,
-                                      std::span<const double> ambient_degC);
+                                      std::span<const double> ambient_degC, double window_s = level_window_s);
 
 struct SpindleComponent {
   std::string name;
@@ -61,6 +65,7 @@ struct SpindleResult {
   double start_s = 0.0;
   double stop_s = 0.0;
   double fraction = 0.0;
+  double window_s = 0.0;  ///< in which levels were read
   std::vector<SpindleComponent> components;
 };
 /// The test is one step of speed: off, one level, off. Throws InputError where the spindle stands in between or runs at
@@ -71,7 +76,7 @@ struct SpindleResult {
 /// The running period is from the first row with speed above zero to the last one.
 [[nodiscard]] SpindleResult evaluateRotatingSpindle(std::span<const double> time_s, std::span<const double> speed_rpm,
                                                     const std::vector<ComponentSeries>& components,
-                                                    double fraction = 0.9);
+                                                    double fraction = 0.9, double window_s = level_window_s);
 
 /// Approaches of two target positions near both ends of travel while the axis is exercised.
 struct AxisReading {

@@ -140,6 +140,9 @@ class Evidence {
     return full;
   }
 
+  /// Of the candidate with the best score, from the whitened rows.
+  [[nodiscard]] double innovationVariance(const std::vector<Candidate>& candidates) const;
+
   void judge(Candidate& c) const {
     c.log_error.clear();
     for (const Run& run : runs_) {
@@ -194,6 +197,16 @@ double scoreOf(const Candidate& c, std::ptrdiff_t without = -1) {
     ++count;
   }
   return sum / std::max(1, count);
+}
+
+double Evidence::innovationVariance(const std::vector<Candidate>& candidates) const {
+  const auto best = std::min_element(candidates.begin(), candidates.end(),
+                                     [](const Candidate& a, const Candidate& b) { return scoreOf(a) < scoreOf(b); });
+  if (best == candidates.end()) return 0.0;
+  Eigen::VectorXd full(whitened_.cols());
+  full.head(full.size() - 1) = spread(*best, solve(*best, nullptr, false).w);
+  full[full.size() - 1] = -1.0;
+  return std::max(0.0, full.dot(all_whitened_ * full)) / static_cast<double>(whitened_.rows());
 }
 
 struct Weighted {
@@ -409,7 +422,7 @@ class Candidates {
   std::map<std::vector<std::size_t>, double> visited_;
 };
 
-/// The members of core/thermal/response_fit.h on all inputs.
+/// The members of core/thermal/response_fit.h on all inputs; their projection onto few is as good.
 std::vector<Candidate> responseMembers(const Dictionary& d, const Evidence& evidence,
                                        const MethodChoiceOptions& options) {
   const bool driven =
@@ -477,6 +490,92 @@ double neighbourCorrelation(const Eigen::VectorXd& e) {
   return std::clamp(e.head(e.size() - 1).dot(e.tail(e.size() - 1)) / zero, 0.0, 0.98);
 }
 
+/// The factor of the covariance with which errors and intervals agree over the runs that judge. `of_gains`: variance
+/// per unit of the inverse normal matrix; `of_noise`: variance of what the model leaves, known from training and not
+/// scaled.
+template <typename Keep>
+double calibration(const Evidence& evidence, const std::vector<Candidate>& candidates,
+                   const MethodChoiceOptions& options, const Keep& keep, double of_gains, double of_noise) {
+  const Eigen::MatrixXd& rows = evidence.rows();
+  std::vector<std::pair<Eigen::ArrayXd, Eigen::ArrayXd>> judged;  // squared errors, variance stated for them
+  for (std::size_t r = 0; r < evidence.runs().size(); ++r) {
+    const Run& run = evidence.runs()[r];
+    const std::vector<Weighted> there = weightsOf(candidates, static_cast<std::ptrdiff_t>(r), options, keep);
+    const Eigen::MatrixXd held = rows(run.held_rows, Eigen::all);
+    Eigen::MatrixXd predicted(held.rows(), static_cast<Index>(there.size()));
+    Eigen::VectorXd variance = Eigen::VectorXd::Zero(held.rows());
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(held.rows());
+    for (std::size_t m = 0; m < there.size(); ++m) {
+      const Candidate& c = *there[m].candidate;
+      const Solution s = evidence.solve(c, &run, true);
+      Eigen::MatrixXd x(held.rows(), static_cast<Index>(c.columns.size()) + 1);
+      x.col(0).setOnes();
+      for (std::size_t k = 0; k < c.columns.size(); ++k) x.col(static_cast<Index>(k) + 1) = held.col(c.columns[k] + 1);
+      predicted.col(static_cast<Index>(m)) = x * s.w;
+      mean += there[m].weight * predicted.col(static_cast<Index>(m));
+      variance += there[m].weight * of_gains * (x * s.inverse).cwiseProduct(x).rowwise().sum();
+    }
+    for (std::size_t m = 0; m < there.size(); ++m)
+      variance += there[m].weight * (predicted.col(static_cast<Index>(m)) - mean).array().square().matrix();
+    judged.emplace_back((held.col(held.cols() - 1) - mean).array().square(), variance.array());
+  }
+  if (judged.empty()) return 1.0;
+  // By bisection of ln(factor). Few independent runs: Student's factor over the normal one at 95 %.
+  const double noise = of_noise + evidence.floor();
+  double low = std::log(1e-3);
+  double high = std::log(1e2);
+  for (int step = 0; step < 40; ++step) {
+    const double middle = 0.5 * (low + high);
+    double sum = 0.0;
+    for (const auto& [error, variance] : judged) sum += (error / (std::exp(middle) * variance + noise)).mean();
+    (sum > static_cast<double>(judged.size()) ? low : high) = middle;
+  }
+  const double independent = std::max(2.0, 0.5 * static_cast<double>(judged.size()));
+  const double widening = studentQuantile(0.975, independent) / normalQuantile(0.975);
+  return std::exp(high) * widening * widening;
+}
+
+/// Verdicts on all inputs of a projected response, those kept first.
+std::vector<InputVerdict> explained(const ProjectionResult& few, const ProjectedModel& model,
+                                    const std::vector<std::string>& usable) {
+  std::vector<InputVerdict> verdicts;
+  for (std::size_t i = 0; i < few.kept.size(); ++i) {
+    InputVerdict v;
+    v.name = few.kept[i];
+    v.kept = true;
+    v.contribution_rms = model.contribution_rms[i];
+    v.error_without_percent = std::nan("");
+    verdicts.push_back(std::move(v));
+  }
+  for (const std::string& name : usable) {
+    if (std::find(few.kept.begin(), few.kept.end(), name) != few.kept.end()) continue;
+    InputVerdict v;
+    v.name = name;
+    v.reason = "below 0.1 % of the prediction";
+    v.error_without_percent = std::nan("");
+    verdicts.push_back(std::move(v));
+  }
+  for (InputVerdict& v : verdicts) {
+    const auto found =
+        std::find_if(few.inputs.begin(), few.inputs.end(), [&](const ProjectedInput& p) { return p.name == v.name; });
+    if (found == few.inputs.end()) continue;
+    const std::string often = fmt::format("chosen in {:.0f} % of the resamples", 100.0 * found->frequency);
+    if (v.kept) {
+      v.reason = fmt::format(
+          "its part of the prediction is {:.2g} rms; without it the kept inputs leave {:.2g} % of the course of the "
+          "model with all inputs, with it {:.2g} %; {}{}",
+          v.contribution_rms, 100.0 * found->left, 100.0 * few.left, often,
+          found->frequency < 0.5 ? " (another sensor may do as well)" : "");
+    } else {
+      v.reason = fmt::format(
+          "the kept inputs tell what it tells: they leave {:.2g} % of the course of the model with all inputs, with it "
+          "{:.2g} %; {}",
+          100.0 * few.left, 100.0 * found->left, often);
+    }
+  }
+  return verdicts;
+}
+
 struct Averaged {
   ThermalModel model;
   std::vector<InputVerdict> verdicts;
@@ -527,43 +626,7 @@ Averaged averaged(const Dictionary& d, const Evidence& evidence, const std::vect
     variances.push_back(variance);
   }
 
-  // Squared errors in the runs that judge, and the variance of the model that is stated for them.
-  std::vector<std::pair<Eigen::ArrayXd, Eigen::ArrayXd>> judged;
-  for (std::size_t r = 0; r < evidence.runs().size(); ++r) {
-    const Run& run = evidence.runs()[r];
-    const std::vector<Weighted> there = weightsOf(candidates, static_cast<std::ptrdiff_t>(r), options, wanted);
-    const Eigen::MatrixXd held = rows(run.held_rows, Eigen::all);
-    Eigen::MatrixXd predicted(held.rows(), static_cast<Index>(there.size()));
-    Eigen::VectorXd variance = Eigen::VectorXd::Zero(held.rows());
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(held.rows());
-    for (std::size_t m = 0; m < there.size(); ++m) {
-      const Candidate& c = *there[m].candidate;
-      const Solution s = evidence.solve(c, &run, true);
-      Eigen::MatrixXd x(held.rows(), static_cast<Index>(c.columns.size()) + 1);
-      x.col(0).setOnes();
-      for (std::size_t k = 0; k < c.columns.size(); ++k) x.col(static_cast<Index>(k) + 1) = held.col(c.columns[k] + 1);
-      predicted.col(static_cast<Index>(m)) = x * s.w;
-      mean += there[m].weight * predicted.col(static_cast<Index>(m));
-      variance += there[m].weight * fewer * noise * noise * (x * s.inverse).cwiseProduct(x).rowwise().sum();
-    }
-    for (std::size_t m = 0; m < there.size(); ++m)
-      variance += there[m].weight * (predicted.col(static_cast<Index>(m)) - mean).array().square().matrix();
-    judged.emplace_back((held.col(p + 1) - mean).array().square(), variance.array());
-  }
-  // The factor of that variance with which errors and intervals agree over the runs, by bisection of ln(factor). The
-  // noise is known from training and is not scaled. Few independent runs: Student's factor over the normal one at 95 %.
-  const double of_noise = noise * noise + evidence.floor();
-  double low = std::log(1e-3);
-  double high = std::log(1e2);
-  for (int step = 0; step < 40; ++step) {
-    const double middle = 0.5 * (low + high);
-    double sum = 0.0;
-    for (const auto& [error, variance] : judged) sum += (error / (std::exp(middle) * variance + of_noise)).mean();
-    (sum > static_cast<double>(judged.size()) ? low : high) = middle;
-  }
-  const double independent = std::max(2.0, 0.5 * static_cast<double>(judged.size()));
-  const double widening = studentQuantile(0.975, independent) / normalQuantile(0.975);
-  covariance *= std::exp(high) * widening * widening;
+  covariance *= calibration(evidence, candidates, options, wanted, fewer * noise * noise, noise * noise);
 
   // Original units; every lag has its own reference, which goes into the offset.
   ThermalOutput o;
@@ -710,28 +773,53 @@ MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& out
                                 const MethodChoiceOptions& options, const JobContext& job) {
   options.validate();
   MethodChoiceResult result;
-  ResponseFitResult response = fitResponse(series, output, names, from_s, to_s, options.response, job.part(0.0, 0.4));
+  std::vector<InputVerdict> refused;
+  const std::vector<std::string> usable = usableInputs(series, output, names, from_s, to_s, refused);
+  const bool project =
+      !options.shared_inputs.empty() || (!options.all_inputs && std::ssize(usable) > options.projection.maximum_inputs);
+  ResponseFitOptions first = options.response;
+  first.judge_inputs = options.response.judge_inputs && !project;
+  ResponseFitResult response = fitResponse(series, output, names, from_s, to_s, first, job.part(0.0, 0.3));
   if (response.status != FitStatus::Converged) {
     result.status = response.status;
     result.message = response.message;
     return result;
   }
-  std::vector<InputVerdict> refused;
-  const std::vector<std::string> usable = usableInputs(series, output, names, from_s, to_s, refused);
-  TimeSeries clean = series;
-  for (Signal& s : clean.signals) {
-    if (s.name != output) continue;
-    if (const std::size_t slips = removeSlips(clean.time_s, s.values, from_s, to_s); slips > 0)
-      result.notes.push_back(
-          fmt::format("{} isolated values of {} were left out of the choice between methods.", slips, output));
+  std::vector<std::string> plain_names = usable;
+  if (project) {
+    ProjectionResult few;
+    if (options.shared_inputs.empty()) {
+      few = projectOntoFewInputs(series, {response.model}, from_s, to_s, options.projection, job.part(0.3, 0.4));
+    } else {
+      const auto used = [&](const std::string& name) {
+        return std::any_of(response.model.inputs.begin(), response.model.inputs.end(),
+                           [&](const ThermalInput& i) { return i.name == name; });
+      };
+      for (const std::string& name : options.shared_inputs)
+        if (used(name)) few.kept.push_back(name);
+      std::erase_if(plain_names, [&](const std::string& name) {
+        return std::find(options.shared_inputs.begin(), options.shared_inputs.end(), name) ==
+               options.shared_inputs.end();
+      });
+    }
+    if (!few.kept.empty()) {
+      ProjectedModel projected = projectModel(series, response.model, few.kept, from_s, to_s, options.projection);
+      response.verdicts = explained(few, projected, usable);
+      response.verdicts.insert(response.verdicts.end(), refused.begin(), refused.end());
+      response.model = std::move(projected.model);
+    }
   }
+  std::vector<double> clean = series.at(output).values;
+  if (const std::size_t slips = removeSlips(series.time_s, clean, from_s, to_s); slips > 0)
+    result.notes.push_back(
+        fmt::format("{} isolated values of {} were left out of the choice between methods.", slips, output));
   ResponseFitOptions lags = options.response;
   lags.taus_s.insert(lags.taus_s.end(), options.taus_s.begin(), options.taus_s.end());
   std::sort(lags.taus_s.begin(), lags.taus_s.end());
   lags.taus_s.erase(std::unique(lags.taus_s.begin(), lags.taus_s.end()), lags.taus_s.end());
   const double span = std::min(to_s, series.time_s.back()) - std::max(from_s, series.time_s.front());
   lags.period_s = std::max({options.response.period_s, series.medianPeriod_s(), span / 400.0});
-  const Dictionary d = buildDictionary(clean, output, usable, from_s, to_s, lags);
+  const Dictionary d = buildDictionary(series, clean, usable, from_s, to_s, lags);
   if (d.y.size() < 40) {
     result.model = std::move(response.model);
     result.verdicts = std::move(response.verdicts);
@@ -742,10 +830,16 @@ MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& out
     return result;
   }
   const Evidence evidence(d, options);
-  Candidates plain(d, evidence, usable, options);
+  Candidates plain(d, evidence, plain_names, options);
   plain.search(job.part(0.4, 0.8));
   const std::vector<Candidate> members = responseMembers(d, evidence, options);
   const auto anything = [](const Candidate&) { return true; };
+  {
+    ThermalOutput& o = response.model.outputs.front();
+    o.covariance *= calibration(evidence, members, options, anything, evidence.innovationVariance(members),
+                                o.noise_sigma * o.noise_sigma);
+    o.uncertainty_factor = 1.0;
+  }
   const double of_plain = averagedEvidence(evidence, plain.all, options, anything);
   const double of_response = averagedEvidence(evidence, members, options, anything);
   // ln of the odds: half of ln(mean squared error) per independent run. Rolling origins overlap with each other and
@@ -763,7 +857,7 @@ MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& out
 
   std::map<Method, double> shares;
   if (plain_weight > 0.0) {
-    Averaged average = averaged(d, evidence, plain.all, usable, output, options);
+    Averaged average = averaged(d, evidence, plain.all, plain_names, output, options);
     average.model.train_from_s = response.model.train_from_s;
     average.model.train_to_s = response.model.train_to_s;
     average.model.source = response.model.source;

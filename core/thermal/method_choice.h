@@ -7,7 +7,8 @@
 //   line        offset and a gain for each of a few inputs, no memory;
 //   few lags    one time constant per input, chosen from a grid (the output-error structure with one pole per input);
 //   ridge       a dense grid of time constants per input, gains shrunk by a ridge of several strengths;
-//   response    core/thermal/response_fit.h: all inputs, drifting zero, physical prior of the gains.
+//   response    core/thermal/response_fit.h: drifting zero, physical prior of the gains; of many inputs the few that
+//               tell what all of them tell (core/thermal/input_projection.h).
 // The first three are tried on every set of inputs (up to four inputs) or along a forward selection.
 //
 // Evidence: every candidate is fitted to a part of the training range and runs free over the rest, for several rolling
@@ -21,15 +22,16 @@
 // run that judges it); where commanded speeds cut the training into at least three blocks of operation, `response` is
 // favoured beforehand; where a forward selection chose among sets of inputs, the prior odds are shared by those sets.
 // Uncertainty: posterior of every candidate plus their scatter, which grows where the inputs leave what was seen;
-// scaled by the ratio of actual to stated errors in the runs that judged. Source: Bates and Granger 1969; Yao et al.
-// 2018 (stacking and pseudo-BMA); Tashman 2000 (rolling origins).
-// Failure: InputError as fitResponse; FitStatus Degenerate if nothing could be determined.
+// scaled so that errors and intervals agree in the runs that judged, for `response` as for the others. Source: Bates
+// and Granger 1969; Yao et al. 2018 (stacking and pseudo-BMA); Tashman 2000 (rolling origins). Failure: InputError as
+// fitResponse; FitStatus Degenerate if nothing could be determined.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "core/base/job_context.h"
+#include "core/thermal/input_projection.h"
 #include "core/thermal/response_fit.h"
 
 namespace spindrift {
@@ -44,6 +46,10 @@ struct MethodChoiceOptions {
   double response_odds = 50.0;  ///< prior odds for `response` where speeds make blocks of operation
   int maximum_inputs = 6;       ///< of the forward selection
   ResponseFitOptions response;
+  ProjectionOptions projection;  ///< of `response` on few inputs
+  bool all_inputs = false;       ///< no choice among the inputs: `response` uses all of them
+  /// Chosen already, because several outputs share them: `response` is projected onto these, the others use no more.
+  std::vector<std::string> shared_inputs;
 
   /// Throws InputError.
   void validate() const;

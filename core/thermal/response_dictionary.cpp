@@ -83,14 +83,15 @@ bool isDriven(SignalKind kind) {
   return kind == SignalKind::Speed || kind == SignalKind::Feed;
 }
 
-Dictionary buildDictionary(const TimeSeries& series, const std::string& output, const std::vector<std::string>& names,
-                           double from_s, double to_s, const ResponseFitOptions& options) {
+Dictionary buildDictionary(const TimeSeries& series, const std::vector<double>& y,
+                           const std::vector<std::string>& names, double from_s, double to_s,
+                           const ResponseFitOptions& options) {
   Dictionary d;
   const double native = series.medianPeriod_s();
   const double span = std::min(to_s, series.time_s.back()) - std::max(from_s, series.time_s.front());
   d.period_s = options.period_s > 0.0 ? options.period_s : std::max(native, span / 1000.0);
   const BinnedSeries bins = binSeries(series.time_s, d.period_s, from_s, to_s);
-  const std::vector<double> y_all = bins.mean(series.at(output).values);
+  const std::vector<double> y_all = bins.mean(y);
   std::vector<Index> used;
   for (std::size_t b = 0; b < y_all.size(); ++b)
     if (std::isfinite(y_all[b])) used.push_back(static_cast<Index>(b));

@@ -37,8 +37,9 @@ struct Dictionary {
 
 [[nodiscard]] bool isDriven(SignalKind kind);
 
-/// Bins between `from_s` and `to_s` in which the output was measured; empty if there are none.
-[[nodiscard]] Dictionary buildDictionary(const TimeSeries& series, const std::string& output,
+/// Bins between `from_s` and `to_s` in which the output was measured; empty if there are none. `y`: the output at
+/// every row.
+[[nodiscard]] Dictionary buildDictionary(const TimeSeries& series, const std::vector<double>& y,
                                          const std::vector<std::string>& names, double from_s, double to_s,
                                          const ResponseFitOptions& options);
 

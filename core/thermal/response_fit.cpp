@@ -147,7 +147,7 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
         fmt::format("no input can be used: {}; allowed: at least one input that changes in the training range.",
                     result.verdicts.empty() ? std::string("none given") : result.verdicts.front().reason));
   }
-  Dictionary d = buildDictionary(series, output, usable, from_s, to_s, options);
+  Dictionary d = buildDictionary(series, series.at(output).values, usable, from_s, to_s, options);
   result.samples = static_cast<std::size_t>(d.y.size());
   if (result.samples < options.minimum_samples) {
     throw InputError(
@@ -257,7 +257,7 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
         part += average[static_cast<Index>(k) + 1] * d.X.col(static_cast<Index>(k));
     verdict.contribution_rms = std::sqrt(part.squaredNorm() / static_cast<double>(part.size()));
     const std::vector<Index> columns = columnsOf(d, leader->power, usable[i]);
-    if (columns.empty()) {
+    if (columns.empty() || !options.judge_inputs) {
       verdict.error_without_percent = std::numeric_limits<double>::quiet_NaN();
     } else {
       const double without =
@@ -268,6 +268,7 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
     verdict.reason =
         !verdict.kept
             ? fmt::format("its part of the prediction is below 0.1 % of the output ({:.2g})", verdict.contribution_rms)
+        : !options.judge_inputs ? fmt::format("its part of the prediction is {:.2g} rms", verdict.contribution_rms)
         : std::isnan(verdict.error_without_percent)
             ? fmt::format("the only input; its part of the prediction is {:.2g} rms", verdict.contribution_rms)
             : fmt::format(
@@ -326,6 +327,7 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
   out.uncertainty_factor = std::clamp(std::sqrt(left_out / std::max(expected, 1e-30)) / 2.0, 1.0, 3.0);
   result.left_out_rms = std::sqrt(left_out);
   model.outputs.push_back(std::move(out));
+  model.learnPattern(series, 0, from_s, to_s);
   result.status = FitStatus::Converged;
   result.message = fmt::format("{} inputs, {} lags, {} bins of {:.6g} s", model.inputs.size(), columns.size(),
                                d.y.size(), d.period_s);

@@ -35,6 +35,7 @@ struct ResponseFitOptions {
   double speed_freedom = 5.0;  ///< prior contribution of a speed relative to that of a temperature
   double period_s = 0.0;       ///< 0: chosen so that training has about 1000 bins, never below the rows' own
   std::size_t minimum_samples = 60;
+  bool judge_inputs = true;  ///< what is lost without each input; costs about as much as the fit
 
   /// Throws InputError.
   void validate() const;

@@ -31,17 +31,155 @@ LagStep lagStep(double dt_s, double tau_s, bool hold) noexcept {
   return {a, mean - a, 1.0 - mean};
 }
 
+namespace {
+
+/// One lag on its way through the rows, and its derivative by ln tau where that is asked for.
+class LagRun {
+ public:
+  LagRun(double tau_s, bool hold) : tau_s_(tau_s), hold_(hold) {}
+
+  /// At rest at the first input.
+  void start(double u) noexcept {
+    x_ = u;
+    s_ = 0.0;
+  }
+  void advance(double dt_s, double u0, double u1) noexcept {
+    if (dt_s != last_dt_s_) prepare(dt_s);
+    x_ = step_.a * x_ + step_.b0 * u0 + step_.b1 * u1;
+  }
+  void advanceWithSlope(double dt_s, double u0, double u1) noexcept {
+    if (dt_s != last_dt_s_) prepare(dt_s);
+    s_ = step_.a * s_ + slope_.a * x_ + slope_.b0 * u0 + slope_.b1 * u1;
+    x_ = step_.a * x_ + step_.b0 * u0 + step_.b1 * u1;
+  }
+  [[nodiscard]] double value() const noexcept { return x_; }
+  [[nodiscard]] double slope() const noexcept { return s_; }
+
+ private:
+  void prepare(double dt_s) noexcept {
+    last_dt_s_ = dt_s;
+    step_ = lagStep(dt_s, tau_s_, hold_);
+    slope_ = {0.0, 0.0, 0.0};
+    if (tau_s_ <= 0.0) return;
+    const double h = dt_s / tau_s_;
+    slope_.a = h * step_.a;
+    if (hold_) {
+      slope_.b0 = -slope_.a;
+    } else {
+      // Of the mean (1 - a) / h; the difference of nearly equal numbers only for h that matter.
+      const double of_mean = h < 1e-3 ? h / 2.0 - h * h / 3.0 : (-std::expm1(-h) - h * step_.a) / h;
+      slope_.b0 = of_mean - slope_.a;
+      slope_.b1 = -of_mean;
+    }
+  }
+
+  double tau_s_;
+  bool hold_;
+  double last_dt_s_ = -1.0;
+  LagStep step_;
+  LagStep slope_;  // of its coefficients by ln tau
+  double x_ = 0.0;
+  double s_ = 0.0;
+};
+
+constexpr Eigen::Index rows_at_once = 2048;
+
+/// The rows of ThermalModel::features, some at a time from the first to the last, so that a day at ten rows a second
+/// needs no matrix of all of them.
+class FeatureRows {
+ public:
+  FeatureRows(const ThermalModel& model, std::size_t which, const TimeSeries& series)
+      : time_s_(series.time_s), output_(model.outputs[which]) {
+    const auto terms = static_cast<Eigen::Index>(output_.terms.size());
+    with_tau_ = terms > 0 && output_.covariance.rows() == 1 + 2 * terms;
+    bridged_.resize(model.inputs.size());
+    std::vector<std::span<const double>> values(model.inputs.size());
+    for (const LagTerm& term : output_.terms) {
+      const auto i = static_cast<std::size_t>(term.input);
+      const ThermalInput& input = model.inputs[i];
+      const bool hold = holdsUntilNextRow(input.kind);
+      if (values[i].empty()) {
+        const std::vector<double>& raw = series.at(input.name).values;
+        values[i] = raw;
+        if (!std::all_of(raw.begin(), raw.end(), [](double v) { return std::isfinite(v); })) {
+          bridged_[i] = bridged(series.time_s, raw, hold);
+          values[i] = bridged_[i];
+        }
+      }
+      columns_.push_back({&input, values[i], LagRun(term.tau_s, hold)});
+    }
+  }
+
+  [[nodiscard]] Eigen::Index width() const noexcept {
+    return 1 + (with_tau_ ? 2 : 1) * static_cast<Eigen::Index>(columns_.size());
+  }
+
+  /// The next rows of `out`, as many as it has; `first` is the number of the first of them.
+  void next(Eigen::Index first, Eigen::Ref<Eigen::MatrixXd> out) {
+    const auto terms = static_cast<Eigen::Index>(columns_.size());
+    out.col(0).setOnes();
+    std::vector<double> f(static_cast<std::size_t>(out.rows()) + 1);
+    const ThermalInput* known = nullptr;
+    for (Eigen::Index k = 0; k < terms; ++k) {
+      Column& column = columns_[static_cast<std::size_t>(k)];
+      const LagTerm& term = output_.terms[static_cast<std::size_t>(k)];
+      if (column.input != known) {  // f[0] is the row before
+        for (std::size_t r = 0; r < f.size(); ++r) {
+          const auto row = static_cast<std::size_t>(first) + r;
+          f[r] = row == 0 ? column.input->transformed(column.values[0])
+                          : column.input->transformed(column.values[row - 1]);
+        }
+        known = column.input;
+      }
+      const bool slopes = with_tau_ && term.tau_s > 0.0;
+      if (with_tau_) out.col(1 + terms + k).setZero();
+      for (Eigen::Index r = 0; r < out.rows(); ++r) {
+        const Eigen::Index row = first + r;
+        const auto at = static_cast<std::size_t>(r);
+        if (term.tau_s <= 0.0) {
+          out(r, k + 1) = f[at + 1] - column.input->reference;
+          continue;
+        }
+        if (row == 0) {
+          column.lag.start(f[1]);
+        } else {
+          const double dt_s = time_s_[static_cast<std::size_t>(row)] - time_s_[static_cast<std::size_t>(row) - 1];
+          if (slopes) {
+            column.lag.advanceWithSlope(dt_s, f[at], f[at + 1]);
+          } else {
+            column.lag.advance(dt_s, f[at], f[at + 1]);
+          }
+        }
+        out(r, k + 1) = column.lag.value() - column.input->reference;
+        if (slopes) out(r, 1 + terms + k) = term.gain * column.lag.slope();
+      }
+    }
+  }
+
+ private:
+  struct Column {
+    const ThermalInput* input = nullptr;
+    std::span<const double> values;
+    LagRun lag;
+  };
+  std::span<const double> time_s_;
+  const ThermalOutput& output_;
+  bool with_tau_ = false;
+  std::vector<std::vector<double>> bridged_;
+  std::vector<Column> columns_;
+};
+
+}  // namespace
+
 std::vector<double> lagFiltered(std::span<const double> time_s, std::span<const double> u, double tau_s, bool hold) {
   SPINDRIFT_ASSERT(time_s.size() == u.size(), "time and input differ in length");
   std::vector<double> x(u.begin(), u.end());
   if (tau_s <= 0.0 || u.empty()) return x;
-  double last_dt = -1.0;
-  LagStep step;
+  LagRun lag(tau_s, hold);
+  lag.start(u.front());
   for (std::size_t i = 1; i < u.size(); ++i) {
-    const double dt = time_s[i] - time_s[i - 1];
-    if (dt != last_dt) step = lagStep(dt, tau_s, hold);
-    last_dt = dt;
-    x[i] = step.a * x[i - 1] + step.b0 * u[i - 1] + step.b1 * u[i];
+    lag.advance(time_s[i] - time_s[i - 1], u[i - 1], u[i]);
+    x[i] = lag.value();
   }
   return x;
 }
@@ -50,29 +188,11 @@ std::vector<double> lagSensitivity(std::span<const double> time_s, std::span<con
   SPINDRIFT_ASSERT(time_s.size() == u.size(), "time and input differ in length");
   std::vector<double> s(u.size(), 0.0);
   if (tau_s <= 0.0 || u.empty()) return s;
-  double last_dt = -1.0;
-  LagStep step;
-  LagStep slope;  // of its coefficients by ln tau
-  double x = u.front();
+  LagRun lag(tau_s, hold);
+  lag.start(u.front());
   for (std::size_t i = 1; i < u.size(); ++i) {
-    const double dt = time_s[i] - time_s[i - 1];
-    if (dt != last_dt) {
-      step = lagStep(dt, tau_s, hold);
-      const double h = dt / tau_s;
-      slope.a = h * step.a;
-      if (hold) {
-        slope.b0 = -slope.a;
-        slope.b1 = 0.0;
-      } else {
-        // Of the mean (1 - a) / h; the difference of nearly equal numbers only for h that matter.
-        const double of_mean = h < 1e-3 ? h / 2.0 - h * h / 3.0 : (-std::expm1(-h) - h * step.a) / h;
-        slope.b0 = of_mean - slope.a;
-        slope.b1 = -of_mean;
-      }
-    }
-    last_dt = dt;
-    s[i] = step.a * s[i - 1] + slope.a * x + slope.b0 * u[i - 1] + slope.b1 * u[i];
-    x = step.a * x + step.b0 * u[i - 1] + step.b1 * u[i];
+    lag.advanceWithSlope(time_s[i] - time_s[i - 1], u[i - 1], u[i]);
+    s[i] = lag.slope();
   }
   return s;
 }
@@ -90,31 +210,67 @@ const ThermalOutput* ThermalModel::findOutput(std::string_view name) const noexc
 
 Eigen::MatrixXd ThermalModel::features(const TimeSeries& series, std::size_t which) const {
   SPINDRIFT_ASSERT(which < outputs.size(), "no such output");
-  const ThermalOutput& output = outputs[which];
+  FeatureRows rows(*this, which, series);
   const auto count = static_cast<Eigen::Index>(series.time_s.size());
-  const auto terms = static_cast<Eigen::Index>(output.terms.size());
-  const bool with_tau = terms > 0 && output.covariance.rows() == 1 + 2 * terms;
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(count, 1 + (with_tau ? 2 : 1) * terms);
-  out.col(0).setOnes();
-  std::vector<std::vector<double>> transformed(inputs.size());
-  for (std::size_t k = 0; k < output.terms.size(); ++k) {
-    const LagTerm& term = output.terms[k];
-    const ThermalInput& input = inputs[term.input];
-    const bool hold = holdsUntilNextRow(input.kind);
-    std::vector<double>& f = transformed[term.input];
-    if (f.empty()) {
-      f = bridged(series.time_s, series.at(input.name).values, hold);
-      for (double& u : f) u = input.transformed(u);
-    }
-    const std::vector<double> x = lagFiltered(series.time_s, f, term.tau_s, hold);
-    out.col(static_cast<Eigen::Index>(k + 1)) =
-        Eigen::Map<const Eigen::VectorXd>(x.data(), count).array() - input.reference;
-    if (!with_tau || term.tau_s <= 0.0) continue;
-    const std::vector<double> slope = lagSensitivity(series.time_s, f, term.tau_s, hold);
-    out.col(1 + terms + static_cast<Eigen::Index>(k)) =
-        term.gain * Eigen::Map<const Eigen::VectorXd>(slope.data(), count);
-  }
+  Eigen::MatrixXd out(count, rows.width());
+  if (count > 0) rows.next(0, out);
   return out;
+}
+
+std::vector<char> ThermalModel::outsideTraining(const TimeSeries& series, std::size_t which) const {
+  SPINDRIFT_ASSERT(which < outputs.size(), "no such output");
+  const ThermalOutput& output = outputs[which];
+  return outsideTraining(output.pattern ? output.pattern->novelty(series) : std::vector<double>(), series, which,
+                         nullptr);
+}
+
+std::vector<char> ThermalModel::outsideTraining(const std::vector<double>& novelty, const TimeSeries& series,
+                                                std::size_t which, std::vector<std::string>* notes) const {
+  const std::size_t count = series.time_s.size();
+  const bool jointly = novelty.size() == count;
+  std::vector<char> outside(count, 0);
+  std::size_t marked = 0;
+  for (std::size_t r = 0; r < novelty.size(); ++r) {
+    outside[r] = novelty[r] > 1.0 ? 1 : 0;
+    marked += static_cast<std::size_t>(outside[r]);
+  }
+  if (marked > 0 && notes != nullptr) {
+    notes->push_back(
+        fmt::format("in {} of {} rows the inputs stand together as they never did in training (up to {:.1f} times "
+                    "beyond its reach); the interval is wider there.",
+                    marked, count, *std::max_element(novelty.begin(), novelty.end())));
+  }
+  if (jointly && notes == nullptr) return outside;
+  std::set<std::string> reported;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const std::vector<LagTerm>& terms = outputs[which].terms;
+    if (std::none_of(terms.begin(), terms.end(), [&](const LagTerm& t) { return t.input == static_cast<int>(i); }))
+      continue;
+    const Signal& signal = series.at(inputs[i].name);
+    const std::vector<double> u = bridged(series.time_s, signal.values, holdsUntilNextRow(inputs[i].kind));
+    const double margin = 0.02 * (inputs[i].train_max - inputs[i].train_min);
+    double worst = 0.0;
+    for (std::size_t r = 0; r < count; ++r) {
+      const double beyond = std::max(u[r] - inputs[i].train_max, inputs[i].train_min - u[r]);
+      if (beyond <= margin) continue;
+      if (!jointly) outside[r] = 1;
+      worst = std::max(worst, beyond);
+    }
+    if (worst > 0.0 && notes != nullptr && reported.insert(inputs[i].name).second) {
+      notes->push_back(fmt::format("{} leaves the range of training ({:.6g} ... {:.6g}) by up to {:.6g}.",
+                                   inputs[i].name, inputs[i].train_min, inputs[i].train_max, worst));
+    }
+  }
+  return outside;
+}
+
+void ThermalModel::learnPattern(const TimeSeries& series, std::size_t which, double from_s, double to_s) {
+  SPINDRIFT_ASSERT(which < outputs.size(), "no such output");
+  std::vector<std::string> names;
+  for (const LagTerm& term : outputs[which].terms) names.push_back(inputs[static_cast<std::size_t>(term.input)].name);
+  outputs[which].pattern.reset();
+  TrainingPattern pattern = trainingPattern(series, names, from_s, to_s);
+  if (!pattern.inputs.empty()) outputs[which].pattern = std::move(pattern);
 }
 
 ThermalPrediction ThermalModel::predict(const TimeSeries& series, std::size_t which) const {
@@ -123,41 +279,30 @@ ThermalPrediction ThermalModel::predict(const TimeSeries& series, std::size_t wh
   const std::size_t count = series.time_s.size();
   ThermalPrediction prediction;
   prediction.value.resize(count);
-  prediction.outside.assign(count, 0);
-  std::set<std::string> reported;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const bool needed = std::any_of(output.terms.begin(), output.terms.end(),
-                                    [&](const LagTerm& t) { return t.input == static_cast<int>(i); });
-    if (!needed) continue;
-    const Signal& signal = series.at(inputs[i].name);
-    const std::vector<double> u = bridged(series.time_s, signal.values, holdsUntilNextRow(inputs[i].kind));
-    const double margin = 0.02 * (inputs[i].train_max - inputs[i].train_min);
-    double worst = 0.0;
-    for (std::size_t r = 0; r < count; ++r) {
-      const double beyond = std::max(u[r] - inputs[i].train_max, inputs[i].train_min - u[r]);
-      if (beyond > margin) {
-        prediction.outside[r] = 1;
-        worst = std::max(worst, beyond);
-      }
-    }
-    if (worst > 0.0 && reported.insert(inputs[i].name).second) {
-      prediction.notes.push_back(fmt::format("{} leaves the range of training ({:.6g} ... {:.6g}) by up to {:.6g}.",
-                                             inputs[i].name, inputs[i].train_min, inputs[i].train_max, worst));
-    }
-  }
-  const Eigen::MatrixXd x = features(series, which);
+  std::vector<double> novelty;
+  if (output.pattern) novelty = output.pattern->novelty(series);
+  prediction.outside = outsideTraining(novelty, series, which, &prediction.notes);
   Eigen::VectorXd coefficients(static_cast<Eigen::Index>(output.terms.size() + 1));
   coefficients[0] = output.offset;
   for (std::size_t k = 0; k < output.terms.size(); ++k)
     coefficients[static_cast<Eigen::Index>(k + 1)] = output.terms[k].gain;
-  Eigen::Map<Eigen::VectorXd>(prediction.value.data(), x.rows()) = x.leftCols(coefficients.size()) * coefficients;
-  if (output.covariance.rows() == x.cols()) {
-    prediction.sigma.resize(count);
-    const Eigen::MatrixXd half = x * output.covariance;
-    for (std::size_t r = 0; r < count; ++r) {
-      const auto row = static_cast<Eigen::Index>(r);
-      const double variance = std::max(0.0, half.row(row).dot(x.row(row)));
-      prediction.sigma[r] = output.uncertainty_factor * std::sqrt(variance + output.noise_sigma * output.noise_sigma);
+  FeatureRows rows(*this, which, series);
+  const bool uncertain = output.covariance.rows() == rows.width();
+  if (uncertain) prediction.sigma.resize(count);
+  const auto all = static_cast<Eigen::Index>(count);
+  Eigen::MatrixXd x(std::min(rows_at_once, all), rows.width());
+  for (Eigen::Index first = 0; first < all; first += rows_at_once) {
+    const Eigen::Index now = std::min(rows_at_once, all - first);
+    rows.next(first, x.topRows(now));
+    const auto part = x.topRows(now);
+    Eigen::Map<Eigen::VectorXd>(prediction.value.data() + first, now) =
+        part.leftCols(coefficients.size()) * coefficients;
+    if (!uncertain) continue;
+    const Eigen::VectorXd variance = (part * output.covariance).cwiseProduct(part).rowwise().sum();
+    for (Eigen::Index r = 0; r < now; ++r) {
+      const auto row = static_cast<std::size_t>(first + r);
+      const double noise = output.noise_sigma * (novelty.empty() ? 1.0 : std::max(1.0, novelty[row]));
+      prediction.sigma[row] = output.uncertainty_factor * std::sqrt(std::max(0.0, variance[r]) + noise * noise);
     }
   }
   return prediction;
@@ -253,6 +398,43 @@ ThermalVerdict verdictFrom(const JsonNode& node) {
   return v;
 }
 
+nlohmann::json rowsOf(const Eigen::MatrixXd& m) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (Eigen::Index r = 0; r < m.rows(); ++r)
+    for (Eigen::Index c = 0; c < m.cols(); ++c) rows.push_back(jsonNumber(m(r, c)));
+  return rows;
+}
+
+nlohmann::json jsonOf(const TrainingPattern& p) {
+  return {{"inputs", p.inputs},
+          {"lag_s", p.lag_s},
+          {"mean", std::vector<double>(p.mean.begin(), p.mean.end())},
+          {"directions", rowsOf(p.directions)},
+          {"seen", rowsOf(p.seen)},
+          {"reach", p.reach}};
+}
+
+TrainingPattern patternFrom(const JsonNode& node) {
+  TrainingPattern p;
+  for (const JsonNode& name : node.at("inputs").items()) p.inputs.push_back(name.name());
+  p.lag_s = node.at("lag_s").nonNegativeNumber();
+  p.reach = node.at("reach").positiveNumber();
+  const std::vector<double> mean = node.at("mean").numbers();
+  const std::vector<double> directions = node.at("directions").numbers();
+  const std::vector<double> seen = node.at("seen").numbers();
+  const std::size_t width = 2 * p.inputs.size();
+  if (p.inputs.empty()) node.at("inputs").reject("at least one column");
+  if (mean.size() != width) node.at("mean").reject("two numbers for every input");
+  if (directions.size() != width * width) node.at("directions").reject("a square matrix of two rows for every input");
+  if (seen.empty() || seen.size() % width != 0) node.at("seen").reject("rows of two numbers for every input");
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto n = static_cast<Eigen::Index>(width);
+  p.mean = Eigen::Map<const Eigen::VectorXd>(mean.data(), n);
+  p.directions = Eigen::Map<const Rows>(directions.data(), n, n);
+  p.seen = Eigen::Map<const Rows>(seen.data(), static_cast<Eigen::Index>(seen.size()) / n, n);
+  return p;
+}
+
 }  // namespace
 
 nlohmann::json ThermalModel::json() const {
@@ -291,6 +473,7 @@ nlohmann::json ThermalModel::json() const {
                               {"uncertainty_factor", o.uncertainty_factor},
                               {"covariance_lower", lower}});
     if (o.verdict) out["outputs"].back()["verdict"] = jsonOf(*o.verdict);
+    if (o.pattern) out["outputs"].back()["training_pattern"] = jsonOf(*o.pattern);
   }
   return out;
 }
@@ -366,6 +549,7 @@ ThermalModel ThermalModel::parse(const JsonNode& root) {
     output.noise_tau_s = node.numberOr("noise_tau_s", 0.0);
     output.uncertainty_factor = node.numberOr("uncertainty_factor", 1.0);
     if (const auto verdict = node.find("verdict")) output.verdict = verdictFrom(*verdict);
+    if (const auto pattern = node.find("training_pattern")) output.pattern = patternFrom(*pattern);
     if (const auto lower = node.find("covariance_lower")) {
       const std::vector<double> values = lower->numbers();
       auto n = static_cast<Eigen::Index>(output.terms.size() + 1);

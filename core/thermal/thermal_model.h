@@ -8,8 +8,9 @@
 // lags are integrated exactly for inputs that hold or run linearly between rows, at any spacing of the rows, so a pole
 // of hours survives a sampling of milliseconds. tau = 0 is the input itself. At the first row every lag is at rest at
 // the input's value. Units: y in um or urad (the output's unit), u in the unit of the signal, tau s, gain in output
-// unit per unit of f. A model carries the covariance of its coefficients and the range it was trained in; a prediction
-// outside that range is marked and its uncertainty grows.
+// unit per unit of f. A model carries the covariance of its coefficients and the pattern of operation it was trained in
+// (core/thermal/training_pattern.h); a prediction in a new pattern is marked and its uncertainty grows with the
+// distance.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,6 +23,7 @@
 
 #include "core/base/error.h"
 #include "core/thermal/time_series.h"
+#include "core/thermal/training_pattern.h"
 
 namespace spindrift {
 
@@ -58,11 +60,12 @@ struct ThermalOutput {
   std::vector<LagTerm> terms;
   /// Of (offset, gains), size 1 + terms, or of (offset, gains, ln tau), size 1 + 2 terms; empty if not known.
   Eigen::MatrixXd covariance;
-  double degrees_of_freedom = 0.0;        ///< of that covariance; 0: many
-  double noise_sigma = 0.0;               ///< stationary standard deviation of what the model leaves in training
-  double noise_tau_s = 0.0;               ///< correlation time of that remainder
-  double uncertainty_factor = 1.0;        ///< held-out error over predicted error in blocks left out, >= 1
-  std::optional<ThermalVerdict> verdict;  ///< none: nobody has judged it
+  double degrees_of_freedom = 0.0;         ///< of that covariance; 0: many
+  double noise_sigma = 0.0;                ///< stationary standard deviation of what the model leaves in training
+  double noise_tau_s = 0.0;                ///< correlation time of that remainder
+  double uncertainty_factor = 1.0;         ///< held-out error over predicted error in blocks left out, >= 1
+  std::optional<ThermalVerdict> verdict;   ///< none: nobody has judged it
+  std::optional<TrainingPattern> pattern;  ///< of the inputs of this output; none: only the range of each is known
   /// Half width of an interval of this probability in standard uncertainties (Student's where the degrees are known).
   [[nodiscard]] double coverageFactor(double probability = 0.95) const;
 };
@@ -84,8 +87,8 @@ struct StepResponse {
 struct ThermalPrediction {
   std::vector<double> value;
   std::vector<double> sigma;       ///< one standard uncertainty; empty if the model has no covariance
-  std::vector<char> outside;       ///< 1 where an input is outside the range of training
-  std::vector<std::string> notes;  ///< which inputs, by how much
+  std::vector<char> outside;       ///< 1 where the inputs stand as they never stood together in training
+  std::vector<std::string> notes;  ///< how many rows, and which inputs leave their own range by how much
 };
 
 struct ThermalModel {
@@ -100,6 +103,11 @@ struct ThermalModel {
   [[nodiscard]] const ThermalOutput* findOutput(std::string_view name) const noexcept;
   /// Free run over a series: no measured output is used. Throws InputError if an input is not in the series.
   [[nodiscard]] ThermalPrediction predict(const TimeSeries& series, std::size_t output) const;
+  /// 1 where the inputs of an output stand in a pattern that training does not hold; without a pattern in the model,
+  /// where an input leaves its range by more than 2 % of it. Throws as `predict`.
+  [[nodiscard]] std::vector<char> outsideTraining(const TimeSeries& series, std::size_t output) const;
+  /// The pattern of the inputs of an output over from_s <= t < to_s of the series it was trained on.
+  void learnPattern(const TimeSeries& series, std::size_t output, double from_s, double to_s);
   /// What the prediction changes per change of the coefficients (offset, gains and, where the covariance holds them, ln
   /// tau) at every row: rows x coefficients. The first 1 + terms columns times (offset, gains) are the prediction; the
   /// covariance of the model's error at two rows is row' * covariance * row. Throws as `predict`.
@@ -112,6 +120,10 @@ struct ThermalModel {
   [[nodiscard]] static ThermalModel read(const std::filesystem::path& file);
   [[nodiscard]] static ThermalModel parse(const class JsonNode& root);
   void write(const std::filesystem::path& file) const;
+
+ private:
+  [[nodiscard]] std::vector<char> outsideTraining(const std::vector<double>& novelty, const TimeSeries& series,
+                                                  std::size_t output, std::vector<std::string>* notes) const;
 };
 
 /// x(t) of one lag over rows of any spacing. `hold`: u keeps its value until the next row, else it runs linearly.

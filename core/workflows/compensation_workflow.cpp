@@ -353,6 +353,14 @@ void makeFiles(const MachineDescription& machine, const Prepared& prepared, cons
          "same compensation in the control's other form; only one of the two files may be loaded.",
          linuxcncCompensation(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions,
                               LinuxcncTable::Trim)});
+    plan.files.push_back(
+        {fmt::format("siemens_{}_eec.ini", axis),
+         fmt::format("Siemens measuring system error compensation of {}", axis),
+         fmt::format("$AA_ENC_COMP in mm: the deviation itself, {}, zero at the reference position; a positive value "
+                     "moves the axis in the negative direction. Add the values of a table that the control has. "
+                     "Measured from {:g} to {:g} mm; beyond that it is extrapolated.",
+                     relative, measured.low_mm[axis[0] - 'X'], measured.high_mm[axis[0] - 'X']),
+         siemensCompensation(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions)});
   }
 }
 

@@ -198,7 +198,8 @@ nlohmann::json HeatmapResult::json() const {
   nlohmann::json out;
   out["status"] = toString(fit.status);
   out["message"] = message;
-  out["fit"] = toJson(fit);
+  out["fit"] = order ? toJson(fit, *order) : toJson(fit);
+  out["model"] = order ? "higher-order" : "nine-parameter";
   if (!determined) return out;
   out["component"] = toString(field.component);
   out["unit"] = unitOf(field.component);
@@ -256,7 +257,17 @@ HeatmapResult heatmapOf(const Campaign& campaign, const ObservationSet& observat
     count += 1.0;
   }
   const FieldGrid grid = tableGrid(campaign.machine, options.nx, options.ny, z / count);
-  result.field = tableField(result.fit, result.fit.model(), grid, options.component);
+  if (options.higher_order) {
+    result.order = chooseTableOrder(result.fit);
+    if (result.order->status != FitStatus::Converged) {
+      result.determined = false;
+      result.message =
+          fmt::format("{} has no model of higher order: {}", toString(options.component), result.order->reason);
+      return result;
+    }
+  }
+  result.field = options.higher_order ? tableField(result.fit, *result.order->model, grid, options.component)
+                                      : tableField(result.fit, result.fit.model(), grid, options.component);
   result.determined =
       std::all_of(result.field.sigma.begin(), result.field.sigma.end(), [](double s) { return std::isfinite(s); });
   if (!result.determined) {

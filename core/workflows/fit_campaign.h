@@ -38,6 +38,7 @@ struct HeatmapOptions {
   Component component = Component::EX;
   int nx = 61;  ///< nodes, >= 2
   int ny = 41;
+  bool higher_order = false;  ///< with the terms in x and y that the evidence asks for (chooseTableOrder)
   /// Throws InputError.
   void validate() const;
 };
@@ -59,6 +60,7 @@ struct HeatmapResult {
   Field field;
   bool determined = true;  ///< false: the fitted points do not determine the component over the table; field is empty
   std::string message;
+  std::optional<TableOrderChoice> order;  ///< of the higher order, where it was asked for
 
   [[nodiscard]] nlohmann::json json() const;
   /// Texts for the picture.

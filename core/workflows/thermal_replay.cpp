@@ -117,18 +117,6 @@ AdaptiveError errorOf(const Prepared& data, const ReplayRequest& request, const 
   return error;
 }
 
-AdaptiveResult runScaled(const TimeSeries& series, const ReplayResult& result, const AdaptiveOptions& options,
-                         double scale, const JobContext& job) {
-  std::vector<AdaptiveError> errors = result.errors;
-  for (AdaptiveError& e : errors) {
-    e.action_limit *= scale;
-    e.trigger_sigma *= scale;
-  }
-  AdaptiveOptions scaled = options;
-  scaled.longest_interval_s = std::max(options.shortest_interval_s, options.longest_interval_s * scale);
-  return replayAdaptive(series, errors, result.inputs, scaled, job);
-}
-
 ReplayPoint pointOf(double scale, const AdaptiveResult& run) {
   ReplayPoint point{scale, run.measurements, run.reidentifications, {}};
   for (const AdaptiveErrorResult& e : run.errors) point.reduction_percent.push_back(e.adaptive_reduction_percent);
@@ -169,13 +157,17 @@ ReplayResult replayCompensation(const ReplayRequest& request, JobContext& job) {
   result.setup_s = request.setup_s;
   result.setup_end_s = data.series.time_s.front() + request.setup_s;
   result.time_s = data.series.time_s;
-  result.run = replayAdaptive(data.series, result.errors, result.inputs, options, job);
+  std::vector<double> scales = {1.0};
+  for (const double scale : request.curve_scales)
+    if (scale != 1.0) scales.push_back(scale);
+  std::vector<AdaptiveResult> runs = replayAdaptive(data.series, result.errors, result.inputs, options, scales, job);
+  result.run = std::move(runs.front());
   ReplayPoint none{0.0, 0, 0, {}};
   for (const AdaptiveErrorResult& e : result.run.errors) none.reduction_percent.push_back(e.static_reduction_percent);
   result.curve.push_back(std::move(none));
   for (const double scale : request.curve_scales) {
-    result.curve.push_back(
-        pointOf(scale, scale == 1.0 ? result.run : runScaled(data.series, result, options, scale, job)));
+    const auto at = static_cast<std::size_t>(std::find(scales.begin(), scales.end(), scale) - scales.begin());
+    result.curve.push_back(pointOf(scale, at == 0 ? result.run : runs[at]));
   }
   std::stable_sort(result.curve.begin(), result.curve.end(),
                    [](const ReplayPoint& a, const ReplayPoint& b) { return a.measurements < b.measurements; });

@@ -145,7 +145,8 @@ Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& re
       result.notes.push_back("no ambient temperature was named (--ambient): nothing is given per K.");
     result.etve =
         evaluateEtve(series.time_s, components,
-                     ambient.empty() ? std::span<const double>{} : std::span<const double>(series.at(ambient).values));
+                     ambient.empty() ? std::span<const double>{} : std::span<const double>(series.at(ambient).values),
+                     request.window_s);
     if (!result.etve->note.empty()) result.notes.push_back(result.etve->note);
     result.diagram = drawCurves("Environmental variation (ETVE), µm or µrad", curves);
   } else {
@@ -156,7 +157,7 @@ Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& re
       throw InputError({series.file, "header"}, "there is no speed column (..._rpm); allowed: spindle_rpm.");
     const std::vector<double> rpm = bridged(series.time_s, speed->values, true);
     if (std::string note = requireOneSpeedStep(series, speed->name, rpm); !note.empty()) result.notes.push_back(note);
-    result.spindle = evaluateRotatingSpindle(series.time_s, rpm, components, request.fraction);
+    result.spindle = evaluateRotatingSpindle(series.time_s, rpm, components, request.fraction, request.window_s);
     result.diagram = drawCurves("Rotating spindle, µm or µrad", curves);
   }
   return result;
@@ -166,6 +167,7 @@ nlohmann::json Iso230Result::json() const {
   nlohmann::json out = {{"test", test}, {"notes", notes}};
   if (etve) {
     out["duration_s"] = etve->duration_s;
+    out["window_s"] = etve->window_s;
     out["temperature_range_K"] = etve->temperature_range_K;
     for (const EtveComponent& c : etve->components) {
       out["components"].push_back({{"name", c.name},
@@ -181,6 +183,7 @@ nlohmann::json Iso230Result::json() const {
     out["start_s"] = spindle->start_s;
     out["stop_s"] = spindle->stop_s;
     out["fraction"] = spindle->fraction;
+    out["window_s"] = spindle->window_s;
     for (const SpindleComponent& c : spindle->components) {
       out["components"].push_back({{"name", c.name},
                                    {"unit", c.unit},

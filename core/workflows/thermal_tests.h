@@ -24,6 +24,7 @@ struct Iso230Request {
   std::string ambient;                 ///< column; empty: T_room, T_ambient or none
   std::string axis = "X";              ///< of the moving axis test
   double fraction = 0.9;               ///< of the end value
+  double window_s = level_window_s;    ///< etve, spindle: in which a level is read
   std::optional<TimeRange> range;      ///< etve, spindle: only these rows; times stay those of the log
 };
 

@@ -137,10 +137,9 @@ IdentifyResult identifyThermalModel(const IdentifyRequest& request, const JobCon
   return identifyThermalModel(readTimeSeries(request.log, options), request, job);
 }
 
-IdentifyResult identifyThermalModel(const TimeSeries& all, const IdentifyRequest& request, const JobContext& job) {
+IdentifyResult identifyThermalModel(TimeSeries series, const IdentifyRequest& request, const JobContext& job) {
   const auto started = std::chrono::steady_clock::now();
   IdentifyResult result;
-  TimeSeries series = all;
   leaveOutCompensated(series);
   result.notes = series.notes;
   const Signal& output = series.at(request.output);
@@ -173,6 +172,8 @@ IdentifyResult identifyThermalModel(const TimeSeries& all, const IdentifyRequest
   if (chosen_by_evidence) {
     MethodChoiceOptions choice;
     choice.response = options;
+    choice.all_inputs = !request.inputs.empty();
+    choice.shared_inputs = request.shared_inputs;
     MethodChoiceResult fit = chooseMethod(series, request.output, names, request.train.from_s, request.train.to_s,
                                           choice, job.part(0.0, 0.8));
     if (fit.status != FitStatus::Converged) throw InputError({series.file, ""}, fit.message);
@@ -216,6 +217,7 @@ IdentifyResult identifyThermalModel(const TimeSeries& all, const IdentifyRequest
   for (const ThermalInput& input : result.model.inputs)
     if (std::find(result.inputs.begin(), result.inputs.end(), input.name) == result.inputs.end())
       result.inputs.push_back(input.name);
+  result.model.learnPattern(series, 0, request.train.from_s, request.train.to_s);
   ThermalPrediction prediction = result.model.predict(series, 0);
   // What is judged is what is shipped; only a model without equivalent in lags is shown by its own simulation.
   if (structured && result.model.outputs.front().terms.empty()) prediction.value = std::move(simulated);

@@ -33,6 +33,8 @@ struct IdentifyRequest {
   std::filesystem::path log;
   std::string output;
   std::vector<std::string> inputs;  ///< empty: automatic
+  /// Automatic, but chosen already for several outputs (core/workflows/thermal_outputs.h); empty: for this one alone.
+  std::vector<std::string> shared_inputs;
   TimeRange train;
   TimeRange test;
   double period_s = 0.0;                    ///< 0: automatic
@@ -103,7 +105,7 @@ struct IdentifyResult {
 
 [[nodiscard]] IdentifyResult identifyThermalModel(const IdentifyRequest& request, const JobContext& job);
 /// The same on a series already read (pages keep it in memory).
-[[nodiscard]] IdentifyResult identifyThermalModel(const TimeSeries& series, const IdentifyRequest& request,
+[[nodiscard]] IdentifyResult identifyThermalModel(TimeSeries series, const IdentifyRequest& request,
                                                   const JobContext& job);
 
 /// Quality of a prediction over a range; rows without a measured value are skipped.

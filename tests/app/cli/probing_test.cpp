@@ -166,6 +166,15 @@ TEST_F(Touches, CycleIsWrittenAndItsPrintedTextIsImported) {
   EXPECT_TRUE(j["good"].get<bool>());
   EXPECT_GT(j["touches"].get<int>(), 20);
   EXPECT_NE(textOf(nc), "");
+  for (const char* control : {"siemens", "heidenhain"}) {
+    const std::string file = (folder / control / "cycle.nc").string();
+    std::filesystem::create_directories(folder / control);
+    const nlohmann::json other = jsonOf({"cycle", machine, "--control", control, "--nc", file});
+    EXPECT_TRUE(other["good"].get<bool>()) << control;
+    EXPECT_EQ(other["touches"], j["touches"]) << control;
+    EXPECT_EQ(other["moves"], j["moves"]) << control;
+    EXPECT_EQ(std::filesystem::exists(folder / control / "TOUCH.A"), std::string(control) == "heidenhain");
+  }
   const std::string printed = folder.write("printed.txt", "nothing that a probe would print\n").string();
   const std::string touches = (folder / "touches.csv").string();
   expectBadInput({"import-touches", printed, "--machine", machine, "--template", pattern, "--out", touches},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 #include "tests/app/cli/child_process.h"
@@ -95,6 +96,35 @@ TEST_F(Simulated, FitGivesTheKeysOfTheContract) {
   EXPECT_NE(people.output.find("um"), std::string::npos);
   const nlohmann::json all = jsonOf({"fit", campaign(), "--state", "M5"});
   EXPECT_TRUE(all["rms_validation_um"].is_null());
+}
+
+TEST_F(Simulated, HigherOrderIsToldAndDrawn) {
+  const nlohmann::json fit = jsonOf({"fit", campaign(), "--state", "M5"});
+  ASSERT_TRUE(fit.contains("higher_order"));
+  EXPECT_FALSE(fit["higher_order"]["reason"].get<std::string>().empty());
+  const std::vector<std::string> map = {"heatmap", campaign(), "--state", "M5", "--component", "EZ"};
+  EXPECT_EQ(jsonOf(map)["model"], "nine-parameter");
+  std::vector<std::string> higher = map;
+  const std::string csv = (*folder() / "higher.csv").string();
+  higher.insert(higher.end(), {"--model", "higher-order", "--csv", csv});
+  const nlohmann::json j = jsonOf(higher);
+  EXPECT_EQ(j["model"], "higher-order");
+  EXPECT_EQ(j["fit"]["higher_order"]["reason"], fit["higher_order"]["reason"]) << "the choice that fit makes";
+  EXPECT_GT(textOf(csv).size(), 1000U);
+}
+
+TEST_F(Simulated, PlacementKeepsTheDistance) {
+  for (const double distance : {50.0, 120.0}) {
+    const nlohmann::json j =
+        jsonOf({"placement", campaign(), "--count", "5", "--lattice", "9,7", "--distance", std::to_string(distance)});
+    ASSERT_EQ(j["positions"].size(), 5U);
+    for (std::size_t a = 0; a < 5; ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        EXPECT_GE(std::hypot(j["positions"][a]["x_mm"].get<double>() - j["positions"][b]["x_mm"].get<double>(),
+                             j["positions"][a]["y_mm"].get<double>() - j["positions"][b]["y_mm"].get<double>()),
+                  distance - 1e-6);
+  }
+  expectBadInput({"placement", campaign(), "--count", "5", "--distance", "-3"}, {"--distance"});
 }
 
 TEST_F(Simulated, FitRefusesWhatItCannotUse) {

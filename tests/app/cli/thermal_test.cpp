@@ -100,6 +100,33 @@ TEST_F(Thermal, SeveralOutputsGoIntoOneModelThatPredictsAsEachAlone) {
                  {"growth_um", "twice"});
 }
 
+TEST_F(Thermal, IsoTestTakesARangeAndAWindow) {
+  std::mt19937 random(5);
+  std::string text = "time_s,spindle_rpm,X_um\n";
+  for (int k = 0; k < 2400; ++k) {
+    const int rpm = k < 120 || k >= 1200 ? (k >= 1300 ? 3000 : 0) : 1500;  // two steps of speed
+    text += std::to_string(10 * k) + ',' + std::to_string(rpm) + ',' +
+            std::to_string(8.0 * (k < 120 ? 0.0 : -std::expm1(-(k - 120) / 200.0)) +
+                           0.3 * (static_cast<double>(random() % 2001) / 1000.0 - 1.0)) +
+            '\n';
+  }
+  const std::string file = folder.write("steps.csv", text).string();
+  const std::vector<std::string> test = {"thermal", "iso230-3", file, "--test", "spindle"};
+  expectBadInput(test, {"several steps", "--range"});
+  std::vector<std::string> one = test;
+  one.insert(one.end(), {"--range", "0:12500"});
+  const nlohmann::json level = jsonOf(one);
+  EXPECT_EQ(level["window_s"], 120.0);
+  EXPECT_NEAR(level["components"][0]["at_end"].get<double>(), 8.0, 0.3);
+  one.insert(one.end(), {"--window", "0"});
+  const nlohmann::json single = jsonOf(one);
+  EXPECT_GT(single["components"][0]["standard_uncertainty"].get<double>(),
+            1.3 * level["components"][0]["standard_uncertainty"].get<double>());
+  EXPECT_GT(single["components"][0]["range"].get<double>(), level["components"][0]["range"].get<double>());
+  one.back() = "-1";
+  expectBadInput(one, {"--window"});
+}
+
 TEST_F(Thermal, TrackDrawsAndTakesAContext) {
   auto words = identify();
   const std::string model = (folder / "model.json").string();

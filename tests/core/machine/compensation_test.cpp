@@ -73,6 +73,32 @@ TEST(Compensation, LinuxcncTrimIsMinusTheDeviation) {
             "0.000000 -0.002000 0.002000\n50.000000 -0.007000 -0.003000\n100.000000 -0.012000 -0.008000\n");
 }
 
+// K3 of the control's manual: the value is added to the position that is read, and the axis moves until that is the
+// commanded one.
+TEST(Compensation, SiemensTableLeavesNothingOnAControlThatAddsItToTheActualValue) {
+  const HandModel model;
+  const std::string text = siemensCompensation(model, machine(), "X", {40.0, 0.0, 0.0}, 3, {});
+  EXPECT_EQ(text, golden("siemens_x_eec.ini"));
+  std::array<double, 3> table{};
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = "$AA_ENC_COMP[0," + std::to_string(i) + ",X1]=";
+    const std::size_t at = text.find(name);
+    ASSERT_NE(at, std::string::npos);
+    table[static_cast<std::size_t>(i)] = std::stod(text.substr(at + name.size()));
+  }
+  const auto deviation_mm = [&](double x) {
+    DeviationQuery query;
+    query.position_mm = {x, 0.0, 0.0};
+    return 1e-3 * model.predict(query, Component::EX).value;
+  };
+  for (int i = 0; i < 3; ++i) {
+    const double commanded = 50.0 * i;
+    const double read = commanded - table[static_cast<std::size_t>(i)];  // read + value = commanded
+    const double really = read + deviation_mm(commanded);
+    EXPECT_NEAR(really - commanded, deviation_mm(40.0), 1e-9) << "the same everywhere: that of the reference";
+  }
+}
+
 TEST(Compensation, AddingTheCorrectionLeavesNothing) {
   const HandModel model;
   for (const CompensationNode& node : compensationGrid(model, CompensationGridOptions::travelOf(machine()), {})) {

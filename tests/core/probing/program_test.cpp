@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
+
 #include "core/probing/cycle_studies.h"
 #include "core/probing/printed_text.h"
 #include "core/probing/probe_health.h"
@@ -15,6 +18,9 @@ namespace spindrift {
 namespace {
 
 using namespace probing_test;
+
+constexpr std::array every_dialect = {ProgramDialect::Fanuc, ProgramDialect::Generic, ProgramDialect::Siemens,
+                                      ProgramDialect::Heidenhain};
 
 struct Written {
   MachineDescription machine;
@@ -47,7 +53,7 @@ Written write(bool holes, ProgramDialect dialect) {
 
 TEST(CycleProgram, WhatIsWrittenPassesTheIndependentCheck) {
   for (const bool holes : {true, false}) {
-    for (const ProgramDialect dialect : {ProgramDialect::Fanuc, ProgramDialect::Generic}) {
+    for (const ProgramDialect dialect : every_dialect) {
       const Written w = write(holes, dialect);
       const ProgramCheck check = checkProgram(w.text, w.machine, w.machine.artefacts.front(), w.check_options);
       for (const ProgramIssue& i : check.issues) ADD_FAILURE() << "line " << i.line << ": " << i.what;
@@ -89,6 +95,83 @@ TEST(CycleProgram, TheCheckFindsWhatIsWrong) {
   EXPECT_FALSE(issues("").empty());
 }
 
+/// Every dialect commands the same moves, and what is taken out of a programme or put into it is found.
+TEST(CycleProgram, TheDialectsSayTheSame) {
+  for (const bool holes : {true, false}) {
+    const Written fanuc = write(holes, ProgramDialect::Fanuc);
+    const auto& artefact = fanuc.machine.artefacts.front();
+    const ProgramCheck first = checkProgram(fanuc.text, fanuc.machine, artefact, fanuc.check_options);
+    for (const ProgramDialect dialect : {ProgramDialect::Siemens, ProgramDialect::Heidenhain}) {
+      const Written other = write(holes, dialect);
+      const ProgramCheck check = checkProgram(other.text, other.machine, artefact, other.check_options);
+      ASSERT_EQ(check.moves.size(), first.moves.size());
+      for (std::size_t i = 0; i < check.moves.size(); ++i) {
+        const ParsedMove& a = first.moves[i];
+        const ParsedMove& b = check.moves[i];
+        EXPECT_EQ(a.kind, b.kind);
+        EXPECT_LT((a.reference_mm - b.reference_mm).norm(), 2e-4) << "line " << b.line;
+        EXPECT_EQ(a.c_deg, b.c_deg);
+        EXPECT_EQ(a.feature, b.feature);
+        EXPECT_EQ(a.stylus, b.stylus);
+      }
+      const auto bad = [&](const std::string& from, const std::string& to) {
+        return !checkProgram(replaced(other.text, from, to), other.machine, artefact, other.check_options).good();
+      };
+      if (dialect == ProgramDialect::Siemens) {
+        EXPECT_TRUE(bad("IF $AC_MEA[1]==0 GOTOF _SPD_MISSED\n", "")) << "nobody asks for the contact";
+        EXPECT_TRUE(bad("T A1 B1", "T A2 B1")) << "another feature than the one that is touched";
+        EXPECT_TRUE(bad("$AA_MM[X]", "$AA_MW[X]")) << "not machine coordinates";
+        EXPECT_TRUE(bad("SUPA G0", "G0")) << "not machine coordinates";
+        EXPECT_TRUE(bad("G710", "G700")) << "inches";
+        EXPECT_TRUE(bad("\nM30\n_SPD_HIT", "\n_SPD_HIT")) << "no end";
+      } else {
+        EXPECT_TRUE(bad("FN 9: IF +Q4 EQU -1 GOTO LBL 99", "FN 0: Q5 = +1")) << "nobody asks for the contact";
+        EXPECT_TRUE(bad("FN 0: Q11 = +1\n", "FN 0: Q11 = +2\n")) << "another feature than the one that is touched";
+        EXPECT_TRUE(bad("REFERENCE SYSTEM:1", "REFERENCE SYSTEM:0")) << "not machine coordinates";
+        EXPECT_TRUE(bad(" FMAX M91", " FMAX")) << "not machine coordinates";
+        EXPECT_TRUE(bad(" M91 M141", " M91")) << "no retract";
+        EXPECT_TRUE(bad("BEGIN PGM SPINDRIFT MM", "BEGIN PGM SPINDRIFT INCH")) << "inches";
+      }
+    }
+  }
+}
+
+/// The masks of FN 16, filled in as the control fills them, are lines that the template reads.
+TEST(CycleProgram, TheMasksOfHeidenhainPrintWhatIsRead) {
+  const std::vector<CompanionFile> masks = companionFiles(ProgramDialect::Heidenhain);
+  ASSERT_EQ(masks.size(), 2U);
+  EXPECT_TRUE(companionFiles(ProgramDialect::Siemens).empty());
+  std::map<std::string, double> q = {{"Q1", 12.34567}, {"Q2", -3.0},  {"Q3", 55.5},  {"Q11", 2},
+                                     {"Q12", 1},       {"Q13", 90.0}, {"Q14", 3},    {"Q15", -1.0},
+                                     {"Q16", 0},       {"Q17", 0},    {"Q20", 1.7e9}};
+  std::string printed;
+  for (const CompanionFile& mask : masks) {
+    const std::size_t quote = mask.content.find('"', 1);
+    std::string format = mask.content.substr(1, quote - 1);
+    std::string names = mask.content.substr(quote + 2, mask.content.find(';') - quote - 2);
+    for (std::size_t at = format.find('%'); at != std::string::npos; at = format.find('%')) {
+      const int digits = format[at + 2] - '0';
+      const std::string name = names.substr(0, names.find(','));
+      names.erase(0, name.size() + 1);
+      format.replace(at, 5, fmt::format("{:.{}f}", q.at(name), digits));
+    }
+    EXPECT_TRUE(names.empty()) << names;
+    printed += format + "\r\n";
+  }
+  const MachineDescription m = machineFrom(holeMachineText());
+  ProgramOptions options;
+  options.dialect = ProgramDialect::Heidenhain;
+  const JsonNode pattern =
+      JsonNode::parse(printedTextTemplate(m, m.artefacts.front(), options).dump(), "template.json");
+  const PrintedText text = readPrintedText(printed, "TOUCHES.TXT", pattern, m);
+  ASSERT_EQ(text.touches.touches.size(), 1U);
+  const Touch& t = text.touches.touches.front();
+  EXPECT_EQ(t.feature, "H2");
+  EXPECT_EQ(t.c_deg, 90.0);
+  EXPECT_NEAR((t.position_mm - m.styli.front().offset_mm).x(), 12.3457, 1e-9);
+  EXPECT_EQ(t.approach.x(), -1.0);
+}
+
 TEST(CycleProgram, TravelIsChecked) {
   const MachineDescription small =
       machineFrom(replaced(holeMachineText(), "\"travel_mm\":[0,520]", "\"travel_mm\":[0,380]"));
@@ -97,7 +180,7 @@ TEST(CycleProgram, TravelIsChecked) {
 
 TEST(PrintedText, ComesBackAsTouches) {
   for (const bool holes : {true, false}) {
-    for (const ProgramDialect dialect : {ProgramDialect::Fanuc, ProgramDialect::Generic}) {
+    for (const ProgramDialect dialect : every_dialect) {
       const MachineDescription m = machineFrom(holes ? holeMachineText() : ballMachineText());
       const Artefact& artefact = m.artefacts.front();
       const VirtualRun run = runCycles(m, 2, {}, 3);
@@ -116,7 +199,9 @@ TEST(PrintedText, ComesBackAsTouches) {
         text +=
             fmt::format("T A {:2d} B{} C {} D{} X{:10.6f} Y {:.6f} Z{:.6f} I{:.0f}. J{:.0f}. K {:.0f}", feature, stylus,
                         t.c_deg, t.touch, p.x(), p.y(), p.z(), t.approach.x(), t.approach.y(), t.approach.z());
-        text += dialect == ProgramDialect::Fanuc ? fmt::format(" S {:.0f}\r\n", 5e6 + 1e3 * t.time_s) : "\n";
+        text += dialect == ProgramDialect::Fanuc     ? fmt::format(" S {:.0f}\r\n", 5e6 + 1e3 * t.time_s)
+                : dialect == ProgramDialect::Generic ? "\n"
+                                                     : fmt::format(" S{:.0f}\r\n", 1.7e6 + t.time_s);
       }
       ProgramOptions options;
       options.dialect = dialect;

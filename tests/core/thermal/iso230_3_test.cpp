@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "core/base/error.h"
+#include "core/base/random.h"
 
 namespace spindrift {
 namespace {
@@ -50,11 +51,42 @@ TEST(Iso2303, RotatingSpindleByHand) {
   const SpindleResult r = evaluateRotatingSpindle(time, speed, {ez}, 0.9);
   EXPECT_DOUBLE_EQ(r.start_s, 600.0);
   EXPECT_DOUBLE_EQ(r.stop_s, 15000.0);
-  EXPECT_NEAR(r.components[0].first_hour, 20.0 * (1.0 - std::exp(-1.0)), 1e-9);  // 12.64
-  EXPECT_NEAR(r.components[0].at_end, 20.0 * (1.0 - std::exp(-4.0)), 1e-9);      // 19.63
+  // The course bends within the window of a level: by 20 um (60 s)^2 / (2 (3600 s)^2) at most, 0.003 um.
+  EXPECT_NEAR(r.components[0].first_hour, 20.0 * (1.0 - std::exp(-1.0)), 3e-3);  // 12.64
+  EXPECT_NEAR(r.components[0].at_end, 20.0 * (1.0 - std::exp(-4.0)), 3e-3);      // 19.63
   // 1 - exp(-t/3600) = 0.9 * 0.98168 -> t = 7749 s, first reading at or after: 7800 s.
   EXPECT_DOUBLE_EQ(r.components[0].time_to_fraction_s, 7800.0);
   EXPECT_NEAR(r.components[0].after_cooling, 19.6337 * std::exp(-2.5), 1e-3);
+}
+
+// A reading every second with noise of 0.5 um: what is reported must not be that of single readings.
+TEST(Iso2303, LevelsAreReadOverAWindow) {
+  Random random(7);
+  std::vector<double> time;
+  std::vector<double> speed;
+  std::vector<double> ambient;
+  ComponentSeries course{"EZ", "um", {}, 0.5};
+  ComponentSeries still{"EY", "um", {}, 0.5};
+  for (int k = 0; k <= 18000; ++k) {
+    const double t = 1.0 * k;
+    time.push_back(t);
+    speed.push_back(t >= 600.0 && t < 15000.0 ? 3000.0 : 0.0);
+    ambient.push_back(20.0 + 1e-4 * t);
+    const double value = t < 600.0 ? 0.0 : 20.0 * -std::expm1(-(std::min(t, 15000.0) - 600.0) / 3600.0);
+    course.values.push_back(value + random.normal(0.0, 0.5));
+    still.values.push_back(random.normal(0.0, 0.5));
+  }
+  const SpindleComponent with = evaluateRotatingSpindle(time, speed, {course}, 0.9).components[0];
+  EXPECT_NEAR(with.at_end, 20.0 * (1.0 - std::exp(-4.0)), 4.0 * with.change_sigma);
+  EXPECT_NEAR(with.first_hour, 20.0 * (1.0 - std::exp(-1.0)), 4.0 * with.change_sigma);
+  EXPECT_NEAR(with.change_sigma, 0.5 * std::sqrt(2.0 * 4.0 / 121.0), 2e-3);  // the end of a line: 4 / n
+  EXPECT_NEAR(with.time_to_fraction_s, 7749.0, 450.0);
+  const SpindleComponent without = evaluateRotatingSpindle(time, speed, {course}, 0.9, 0.0).components[0];
+  EXPECT_NEAR(without.change_sigma, 0.5 * std::sqrt(2.0), 1e-9);
+  EXPECT_GT(without.time_to_fraction_s, 8200.0) << "one low reading among many undoes it";
+  // Nothing happens: the range is that of noise, 7 sigma of single readings.
+  EXPECT_LT(evaluateEtve(time, {still}, ambient).components[0].range, 1.0);
+  EXPECT_GT(evaluateEtve(time, {still}, ambient, 0.0).components[0].range, 3.0);
 }
 
 TEST(Iso2303, MovingAxisByHand) {

@@ -3,13 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <tuple>
 
 #include "core/base/random.h"
 #include "core/thermal/autocorrelation.h"
 #include "core/thermal/compensator.h"
 #include "core/thermal/method_choice.h"
+#include "core/workflows/thermal_outputs.h"
 #include "core/workflows/thermal_workflow.h"
 #include "tests/support/frame_run.h"
 #include "tests/support/temp_folder.h"
@@ -54,7 +58,8 @@ TEST(ThermalChoice, IsAsGoodAsTheBestOfLineRidgeArxAndOutputError) {
     inside += within / rows / runs;
   }
   EXPECT_LT(std::exp(log_ratio), 1.1) << "geometric mean of the ratio to the best of four";
-  EXPECT_GT(inside, 0.8) << "free run within the 95 % interval";
+  EXPECT_GT(inside, 0.92) << "free run within the 95 % interval";
+  EXPECT_LT(inside, 0.98) << "free run within the 95 % interval";
 }
 
 TEST(ThermalChoice, TheAverageIsOneModelThatIsStoredAndRunAsJudged) {
@@ -134,6 +139,154 @@ TEST(ThermalChoice, AnAverageOfModelsPredictsTheAverage) {
   ASSERT_EQ(p.sigma.size(), p.value.size());
   for (std::size_t r = 0; r < p.value.size(); r += 50)
     EXPECT_NEAR(p.value[r], 0.3 * pa.value[r] + 0.7 * pb.value[r], 1e-6);
+}
+
+/// A day on a machine with a spindle in steps: three bodies, twelve sensors that each see a mixture of them, two
+/// outputs.
+TimeSeries manySensors(std::uint64_t seed) {
+  Random random(seed);
+  TimeSeries s;
+  s.file = "many_sensors.csv";
+  std::array<double, 3> body = {20.0, 20.0, 20.0};
+  const std::array<double, 3> tau_s = {700.0, 2400.0, 9000.0};
+  std::vector<std::array<double, 3>> course;
+  std::vector<double> speed;
+  double rpm = 0.0;
+  for (int k = 0; k < 1440; ++k) {
+    const double t = 60.0 * k;
+    s.time_s.push_back(t);
+    if (k % 90 == 30) rpm = 1000.0 * std::floor(random.uniform(0.0, 6.0));
+    if (k % 90 == 75) rpm = 0.0;
+    for (std::size_t b = 0; b < body.size(); ++b)
+      body[b] += 60.0 / tau_s[b] * (20.0 + 2e-3 * rpm + std::sin(t / 9000.0) - body[b]);
+    course.push_back(body);
+    speed.push_back(rpm);
+  }
+  s.signals.push_back({"spindle_rpm", SignalKind::Speed, speed});
+  for (int sensor = 0; sensor < 12; ++sensor) {
+    std::array<double, 3> part{};
+    for (double& p : part) p = random.uniform(0.1, 1.0);
+    Signal signal{"T_" + std::to_string(sensor) + "_degC", SignalKind::Temperature, {}};
+    for (const auto& b : course)
+      signal.values.push_back((part[0] * b[0] + part[1] * b[1] + part[2] * b[2]) / (part[0] + part[1] + part[2]) +
+                              random.normal(0.0, 0.03));
+    s.signals.push_back(std::move(signal));
+  }
+  for (const auto& [name, fast, slow] : {std::tuple{"ez_um", 3.0, 4.0}, std::tuple{"ey_um", -1.0, 6.0}}) {
+    Signal signal{name, SignalKind::Displacement, {}};
+    for (const auto& b : course)
+      signal.values.push_back(fast * (b[0] - 20.0) + slow * (b[2] - 20.0) + random.normal(0.0, 0.3));
+    s.signals.push_back(std::move(signal));
+  }
+  return s;
+}
+
+TEST(ThermalChoice, FewOfManySensorsTellWhatAllTell) {
+  const TimeSeries series = manySensors(3);
+  IdentifyRequest asked = request(series, "");
+  asked.output = "ez_um";
+  const IdentifyResult few = identifyThermalModel(series, asked, {});
+  EXPECT_LE(few.inputs.size(), 8U);
+  ASSERT_GE(few.verdicts.size(), 13U) << "every input has a verdict";
+  for (const InputVerdict& v : few.verdicts) EXPECT_FALSE(v.reason.empty()) << v.name;
+  asked.method = "response";
+  const IdentifyResult all = identifyThermalModel(series, asked, {});
+  EXPECT_EQ(all.inputs.size(), 13U);
+  EXPECT_LT(few.test.rmse, 1.15 * all.test.rmse);
+}
+
+TEST(ThermalChoice, SeveralOutputsShareTheirInputs) {
+  const TimeSeries series = manySensors(4);
+  IdentifyRequest asked = request(series, "");
+  const SeveralOutputs both = identifySeveralOutputs(series, asked, {"ez_um", "ey_um"}, {});
+  ASSERT_TRUE(both.projection.has_value());
+  EXPECT_LE(both.projection->kept.size(), 8U);
+  EXPECT_EQ(both.json().at("shared_inputs").size(), 13U);
+  double often = 0.0;
+  for (const ProjectedInput& i : both.projection->inputs) {
+    EXPECT_GE(i.frequency, 0.0);
+    EXPECT_LE(i.frequency, 1.0);
+    if (i.kept) often = std::max(often, i.frequency);
+  }
+  EXPECT_GT(often, 0.5) << "some input is chosen in most of the resamples";
+  std::set<std::string> used;
+  for (const IdentifyResult& one : both.results) {
+    for (const InputVerdict& v : one.verdicts) {
+      EXPECT_GT(v.reason.size(), 20U) << v.name << ": " << v.reason;
+      if (!v.kept) continue;
+      EXPECT_THAT(v.reason, ::testing::StartsWith("its part of the prediction is")) << v.name;
+    }
+    for (const std::string& name : one.inputs) used.insert(name);
+    asked.output = one.model.outputs.front().name;
+    EXPECT_LT(one.test.rmse, 1.2 * identifyThermalModel(series, asked, {}).test.rmse)
+        << "alone, with inputs of its own";
+  }
+  EXPECT_LE(used.size(), 8U);
+  for (const std::string& name : used)
+    EXPECT_THAT(both.projection->kept, ::testing::Contains(name)) << "none but the shared ones";
+}
+
+TEST(ThermalChoice, ANewPatternIsSeenThoughEveryInputStaysInItsRange) {
+  // Two bodies warm and cool together in training; then one is warm while the other is cold.
+  Random random(8);
+  TimeSeries series;
+  series.file = "pattern.csv";
+  Signal a{"T_a_degC", SignalKind::Temperature, {}};
+  Signal b{"T_b_degC", SignalKind::Temperature, {}};
+  Signal y{"ez_um", SignalKind::Displacement, {}};
+  for (int k = 0; k < 1200; ++k) {
+    series.time_s.push_back(60.0 * k);
+    const double wave = 25.0 + 4.0 * std::sin(k / 60.0);
+    const bool apart = k >= 1000;
+    const double of_b = apart ? 50.0 - wave : wave;
+    a.values.push_back(wave + random.normal(0.0, 0.05));
+    b.values.push_back(of_b + random.normal(0.0, 0.05));
+    y.values.push_back(2.0 * (wave - 25.0) + 1.0 * (of_b - 25.0) + random.normal(0.0, 0.2));
+  }
+  series.signals = {a, b, y};
+  IdentifyRequest asked = request(series, "");
+  asked.output = "ez_um";
+  asked.train = {0.0, 42000.0};
+  asked.test = {42000.0, 1e300};
+  const IdentifyResult result = identifyThermalModel(series, asked, {});
+  double known = 0.0;
+  double fresh = 0.0;
+  double sigma_known = 0.0;
+  double sigma_fresh = 0.0;
+  for (std::size_t r = 720; r < 1200; ++r) {
+    (r < 1000 ? known : fresh) += result.outside[r] != 0 ? 1.0 : 0.0;
+    (r < 1000 ? sigma_known : sigma_fresh) += result.sigma[r];
+  }
+  EXPECT_LT(known / 280.0, 0.02) << "the same pattern again";
+  EXPECT_GT(fresh / 200.0, 0.5) << "apart; only where the two cross they stand together";
+  EXPECT_GT(sigma_fresh / 200.0, 3.0 * sigma_known / 280.0);
+  const TempFolder folder;
+  result.model.write(folder / "model.json");
+  const ThermalPrediction again = ThermalModel::read(folder / "model.json").predict(series, 0);
+  EXPECT_EQ(again.outside, result.outside);
+  EXPECT_NEAR(again.sigma[1100], result.sigma[1100], 1e-9 * result.sigma[1100]);
+}
+
+/// A long record is predicted some rows at a time: what comes out is what the matrix of all rows gives.
+TEST(ThermalChoice, APredictionInPartsIsThePrediction) {
+  TimeSeries series = frameRun(1);
+  for (Signal& s : series.signals)
+    if (s.name == "bed_degC") s.values[700] = std::nan("");
+  while (series.time_s.size() < 5000) {
+    series.time_s.push_back(series.time_s.back() + 13.0);
+    for (Signal& s : series.signals) s.values.push_back(s.values[series.time_s.size() % 900]);
+  }
+  const IdentifyResult oe = identifyThermalModel(series, request(frameRun(1), "oe"), {});
+  const ThermalOutput& output = oe.model.outputs.front();
+  const Eigen::MatrixXd x = oe.model.features(series, 0);
+  const auto terms = static_cast<Eigen::Index>(output.terms.size());
+  Eigen::VectorXd coefficients(terms + 1);
+  coefficients[0] = output.offset;
+  for (Eigen::Index k = 0; k < terms; ++k) coefficients[k + 1] = output.terms[static_cast<std::size_t>(k)].gain;
+  const Eigen::VectorXd whole = x.leftCols(terms + 1) * coefficients;
+  ASSERT_EQ(oe.predicted.size(), 5000U);
+  for (Eigen::Index r = 0; r < whole.size(); ++r)
+    EXPECT_NEAR(whole[r], oe.predicted[static_cast<std::size_t>(r)], 1e-8 * (1.0 + std::abs(whole[r])));
 }
 
 TEST(ThermalChoice, AnArxModelWithComplexPolesIsNotShipped) {

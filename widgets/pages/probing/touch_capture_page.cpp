@@ -93,6 +93,8 @@ TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
   control_ = new QComboBox;
   control_->setAccessibleName(tr("Dialect of the control"));
   control_->addItem(tr("Fanuc"), QStringLiteral("fanuc"));
+  control_->addItem(tr("Siemens"), QStringLiteral("siemens"));
+  control_->addItem(tr("Heidenhain"), QStringLiteral("heidenhain"));
   control_->addItem(tr("Generic"), QStringLiteral("generic"));
   make_program_ = makeButton(tr("Programme"), "check");
   make_program_->setToolTip(tr("Write the measuring programme for this control, read it back and check it"));

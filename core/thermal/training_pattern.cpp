@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/thermal/training_pattern.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/thermal/thermal_model.h"
+#include "core/thermal/time_series.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Index;
+
+constexpr double noise_floor = 0.1;   // of the spread
+constexpr Index rows_at_once = 4096;  // of a long record
+constexpr Index most_places = 48;
+constexpr std::size_t learnt_rows = 2000;  // of training; more tell nothing new
+
+/// Column by column: the input and its lag.
+std::vector<std::vector<double>> valuesOf(const TimeSeries& series, const std::string& name, double lag_s) {
+  const Signal& signal = series.at(name);
+  const bool hold = holdsUntilNextRow(signal.kind);
+  std::vector<double> now = bridged(series.time_s, signal.values, hold);
+  std::vector<double> late = lagFiltered(series.time_s, now, lag_s, hold);
+  return {std::move(now), std::move(late)};
+}
+
+}  // namespace
+
+TrainingPattern trainingPattern(const TimeSeries& series, const std::vector<std::string>& inputs, double from_s,
+                                double to_s) {
+  TrainingPattern pattern;
+  std::vector<std::size_t> rows;
+  for (std::size_t r = 0; r < series.time_s.size(); ++r)
+    if (series.time_s[r] >= from_s && series.time_s[r] < to_s) rows.push_back(r);
+  if (rows.size() < 2) return pattern;
+  pattern.lag_s = std::min(3600.0, (series.time_s[rows.back()] - series.time_s[rows.front()]) / 20.0);
+  const std::size_t stride = std::max<std::size_t>(1, rows.size() / learnt_rows);
+  std::vector<Eigen::VectorXd> now;
+  std::vector<Eigen::VectorXd> late;
+  for (const std::string& name : inputs) {
+    if (std::find(pattern.inputs.begin(), pattern.inputs.end(), name) != pattern.inputs.end()) continue;
+    const std::vector<std::vector<double>> values = valuesOf(series, name, pattern.lag_s);
+    std::vector<Eigen::VectorXd> both;
+    for (const std::vector<double>& v : values) {
+      Eigen::VectorXd column(static_cast<Index>((rows.size() + stride - 1) / stride));
+      for (Index k = 0; k < column.size(); ++k) column[k] = v[rows[static_cast<std::size_t>(k) * stride]];
+      both.push_back(std::move(column));
+    }
+    const double range = both[0].maxCoeff() - both[0].minCoeff();
+    if (!both[0].allFinite() || !(range > 1e-9 * std::max(1.0, both[0].cwiseAbs().maxCoeff()))) continue;
+    pattern.inputs.push_back(name);
+    now.push_back(std::move(both[0]));
+    late.push_back(std::move(both[1]));
+  }
+  if (pattern.inputs.empty()) return pattern;
+  std::move(late.begin(), late.end(), std::back_inserter(now));
+  const auto width = static_cast<Index>(now.size());
+  Eigen::MatrixXd z(now.front().size(), width);
+  Eigen::VectorXd spread(width);
+  pattern.mean.resize(width);
+  for (Index k = 0; k < width; ++k) {
+    const Eigen::VectorXd& v = now[static_cast<std::size_t>(k)];
+    pattern.mean[k] = v.mean();
+    spread[k] = std::sqrt((v.array() - pattern.mean[k]).square().mean());
+    // A lag that hardly moves is measured by the spread of its input.
+    const Index own = k % static_cast<Index>(pattern.inputs.size());
+    if (k != own) spread[k] = std::max(spread[k], noise_floor * spread[own]);
+    z.col(k) = (v.array() - pattern.mean[k]) / spread[k];
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(z.transpose() * z / static_cast<double>(z.rows()));
+  const Eigen::VectorXd scale =
+      (solver.eigenvalues().cwiseMax(0.0).array() + noise_floor * noise_floor).rsqrt().matrix();
+  const Eigen::MatrixXd turned = scale.asDiagonal() * solver.eigenvectors().transpose();
+  const Eigen::MatrixXd places = z * turned.transpose();
+  pattern.directions = turned * spread.cwiseInverse().asDiagonal();
+  // Each place the furthest from those before.
+  std::vector<Index> chosen = {0};
+  Eigen::VectorXd distance = (places.rowwise() - places.row(0)).rowwise().norm();
+  Index furthest = 0;
+  while (distance.maxCoeff(&furthest) > noise_floor && std::ssize(chosen) < most_places) {
+    chosen.push_back(furthest);
+    distance = distance.cwiseMin((places.rowwise() - places.row(furthest)).rowwise().norm());
+  }
+  pattern.seen = places(chosen, Eigen::all);
+  pattern.reach = 1.0 + distance.maxCoeff();
+  return pattern;
+}
+
+std::vector<double> TrainingPattern::novelty(const TimeSeries& series) const {
+  const auto all = static_cast<Index>(series.time_s.size());
+  std::vector<double> out(series.time_s.size(), 0.0);
+  if (inputs.empty() || !(reach > 0.0)) return out;
+  const auto count = static_cast<Index>(inputs.size());
+  std::vector<std::vector<double>> values;
+  for (const std::string& name : inputs) {
+    const Signal& signal = series.at(name);
+    values.push_back(bridged(series.time_s, signal.values, holdsUntilNextRow(signal.kind)));
+  }
+  Eigen::VectorXd late(count);
+  std::vector<LagStep> step(static_cast<std::size_t>(count));
+  double last_dt_s = -1.0;
+  Eigen::MatrixXd z(std::min(rows_at_once, all), 2 * count);
+  for (Index first = 0; first < all; first += rows_at_once) {
+    const Index rows = std::min(rows_at_once, all - first);
+    for (Index r = 0; r < rows; ++r) {
+      const auto row = static_cast<std::size_t>(first + r);
+      const double dt_s = row > 0 ? series.time_s[row] - series.time_s[row - 1] : 0.0;
+      for (Index k = 0; k < count; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        const double u = values[i][row];
+        if (row == 0) {
+          late[k] = u;
+        } else {
+          if (dt_s != last_dt_s) step[i] = lagStep(dt_s, lag_s, holdsUntilNextRow(series.at(inputs[i]).kind));
+          late[k] = step[i].a * late[k] + step[i].b0 * values[i][row - 1] + step[i].b1 * u;
+        }
+        z(r, k) = u - mean[k];
+        z(r, count + k) = late[k] - mean[count + k];
+      }
+      last_dt_s = row > 0 ? dt_s : -1.0;
+    }
+    const Eigen::MatrixXd place = z.topRows(rows) * directions.transpose();
+    for (Index r = 0; r < rows; ++r) {
+      const double nearest2 = (seen.rowwise() - place.row(r)).rowwise().squaredNorm().minCoeff();
+      out[static_cast<std::size_t>(first + r)] = std::sqrt(nearest2) / reach;
+    }
+  }
+  return out;
+}
+
+}  // namespace spindrift
