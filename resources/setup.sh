@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing from resources/debian-packages.txt, configures and builds into build/. Sourced by app/run.sh and
 # tests/run.sh after a cd to the top of the tree. Usage: [targets=(spindrift ...)] . resources/setup.sh
-# Without targets everything is built, tests included. With targets only those are, and a build folder that is configured
+# extra_packages=(...) are installed as well. Without targets everything is built, tests included. With targets only those are, and a build folder that is configured
 # already keeps its settings: whoever runs the tests next finds them as they were.
 set -euo pipefail
 
@@ -10,7 +10,7 @@ missing=()
 while read -r package; do
   case "$package" in '' | '#'*) continue ;; esac
   dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
-done <resources/debian-packages.txt
+done < <(cat resources/debian-packages.txt; printf '%s\n' "${extra_packages[@]:-}")
 if [ "${#missing[@]}" -gt 0 ]; then
   echo "Installing ${#missing[@]} Debian packages: ${missing[*]}"
   as_root=()

@@ -30,8 +30,10 @@ constexpr double unknown_price = 4.6;
 constexpr double further_price = 20.0;
 /// rms of what is held out with an effect over that without it, from which on it is taken back.
 constexpr double worse_held_out = 1.05;
-/// In evidence: what is there without doubt is told, even where its course cannot be foretold.
+/// In evidence: what is there without doubt is told, even where its course cannot be foretold; but not where all names
+/// together make the gap on what is held out so much larger.
 constexpr double beyond_held_out = 200.0;
+constexpr double much_worse_held_out = 1.15;
 /// Rivals beside the effect; more is no answer.
 constexpr std::size_t most_rivals = 2;
 
@@ -443,12 +445,11 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
     if (worst == terms.size()) break;
     takeBack(worst, "without the effects that cannot be named it breaks its sign or its bounds");
   }
-  // What predicts the held-out states worse than the others do without it. What is there without doubt is spared as
-  // long as all together make the gap on them smaller.
+  // What predicts the held-out states worse than the others do without it.
   const double of_none = held_out(search.solve({}));
   while (!terms.empty()) {
     const double with = held_out(out.named);
-    const bool enlarges = with > of_none;
+    const bool enlarges = with > much_worse_held_out * of_none;
     std::size_t worst = terms.size();
     double least = with / worse_held_out;
     for (std::size_t k = 0; k < terms.size(); ++k) {

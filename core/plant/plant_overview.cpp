@@ -14,8 +14,8 @@
 #include "core/base/text.h"
 #include "core/connect/utc_time.h"
 #include "core/math/statistics.h"
-#include "core/reporting/html_document.h"
-#include "core/reporting/svg_plot.h"
+#include "core/reporting/plot_picture.h"
+#include "core/reporting/report.h"
 
 namespace spindrift {
 namespace {
@@ -259,7 +259,7 @@ std::string CampaignComparison::summary() const {
 }
 
 std::string machineReport(PlantStore& store, const std::string& machine, double now_s) {
-  HtmlDocument document(machine, "Machine of the plant, as of " + day(now_s));
+  Report document(machine, "Machine of the plant, as of " + day(now_s));
   for (const MachineState& s : plantOverview(store, now_s)) {
     if (s.machine.name != machine) continue;
     document.section("State");
@@ -271,8 +271,8 @@ std::string machineReport(PlantStore& store, const std::string& machine, double 
   (void)store.machine(machine);
   const ModelState model = modelState(store, machine, {});
   if (model.model) {
-    document.verdict(
-        model.reasons.empty() ? "good" : "attention",
+    document.callout(
+        model.reasons.empty() ? CalloutKind::Good : CalloutKind::Attention,
         model.reasons.empty()
             ? fmt::format("The model of campaign {} ({}) holds.", model.model->campaign_name, day(model.model->time_s))
             : fmt::format("The model of campaign {} ({}) no longer holds: {}.", model.model->campaign_name,
@@ -281,7 +281,7 @@ std::string machineReport(PlantStore& store, const std::string& machine, double 
   const std::vector<MachineEvent> events = store.events(machine);
   if (!events.empty()) {
     document.section("Events");
-    std::vector<std::vector<std::string>> rows;
+    std::vector<ReportRow> rows;
     for (const MachineEvent& e : events) rows.push_back({day(e.time_s), e.kind, e.note, e.author});
     document.table({"Date", "What", "Note", "Entered by"}, rows);
   }
@@ -313,9 +313,9 @@ std::string machineReport(PlantStore& store, const std::string& machine, double 
     for (const NamedChange& c : trend.chart.changes)
       caption += (caption.empty() ? "" : "; ") + c.sentence(trend.chart.unit);
     if (caption.empty()) caption = "No change that is more than chance";
-    document.figure(svgPlot({measured, lower, upper}, options), caption + ".");
+    document.figure(plotPicture({measured, lower, upper}, options), caption + ".");
   }
-  return document.html();
+  return htmlOf(document);
 }
 
 }  // namespace spindrift

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/text.h"
-#include "core/reporting/html_document.h"
-#include "core/reporting/svg_plot.h"
+#include "core/reporting/plot_picture.h"
+#include "core/reporting/report.h"
 #include "core/workflows/closed_loop.h"
 
 namespace spindrift {
@@ -85,7 +85,7 @@ std::string LoopResult::summary() const {
     for (int axis = 0; axis < 3; ++axis) {
       if (std::isfinite(before[axis]))
         out +=
-            fmt::format(" {} {:.1f} -> {:.1f} um", toString(static_cast<Component>(axis)), before[axis], after[axis]);
+            fmt::format(" {} {:.1f} -> {:.1f} µm", toString(static_cast<Component>(axis)), before[axis], after[axis]);
     }
     out += "\n";
   }
@@ -93,9 +93,9 @@ std::string LoopResult::summary() const {
 }
 
 std::string LoopResult::report(const std::string& title) const {
-  HtmlDocument document(title, "measured, modelled and compensated at the control");
+  Report document(title, "measured, modelled and compensated at the control");
   document.section("Result");
-  std::vector<std::vector<std::string>> rows;
+  std::vector<ReportRow> rows;
   for (const auto& [from_s, stage] : stages) {
     const Eigen::Vector3d before = rmsWithout(stage), after = rmsWith(stage);
     for (int axis = 0; axis < 3; ++axis) {
@@ -105,12 +105,12 @@ std::string LoopResult::report(const std::string& title) const {
                       fmt::format("{:.2f}", after[axis]), fmt::format("{:.0f} %", 100.0 * after[axis] / before[axis])});
     }
   }
-  document.table({"Compensation", "from / h", "Component", "rms without / um", "rms with / um", "remains"}, rows,
+  document.table({"Compensation", "from / h", "Component", "rms without / µm", "rms with / µm", "remains"}, rows,
                  "As the measuring cycles saw it, relative to the first cycle");
   document.facts({{"Measuring cycles", std::to_string(cycles.size())},
                   {"Added to the simulation", effects.empty() ? "nothing" : joinedList(effects)},
-                  {"Largest correction step", fmt::format("{:.2f} um", largest_step_um)},
-                  {"Largest correction rate", fmt::format("{:.3f} um/s", largest_rate_um_s)},
+                  {"Largest correction step", fmt::format("{:.2f} µm", largest_step_um)},
+                  {"Largest correction rate", fmt::format("{:.3f} µm/s", largest_rate_um_s)},
                   {"Losses of the control", std::to_string(losses)}});
   for (int axis = 0; axis < 3; ++axis) {
     PlotSeries without{"without compensation", {}, {}, {}, SeriesStyle::Both};
@@ -130,13 +130,13 @@ std::string LoopResult::report(const std::string& title) const {
       const double to_s = i + 1 < stages.size() ? stages[i + 1].first : cycles.back().time_s;
       options.ranges.push_back({stages[i].first / 3600.0, to_s / 3600.0, std::string(toString(stages[i].second))});
     }
-    document.figure(svgPlot({without, with}, options), "Deviation at the tool point as measured");
+    document.figure(plotPicture({without, with}, options), "Deviation at the tool point as measured");
   }
   document.section("What happened");
-  std::vector<std::vector<std::string>> told;
+  std::vector<ReportRow> told;
   for (const LoopEvent& event : events) told.push_back({fmt::format("{:.2f}", event.time_s / 3600.0), event.text});
   document.table({"Time / h", "Event"}, told);
-  return document.html();
+  return htmlOf(document);
 }
 
 }  // namespace spindrift

@@ -259,6 +259,6 @@ int main(int argc, char** argv) {
   for (const double t : run.time) series.series[0].x.push_back(t / 3600.0);
   series.series[1].x = series.series[0].x;
   plots.insert(plots.begin(), std::move(series));
-  if (argc > 1) writeFileAtomically(argv[1], plotStack(plots));
+  if (argc > 1) writeFileAtomically(argv[1], svgOf(plotStack(plots)));
   return 0;
 }
