@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/base/error.h"
 #include "core/base/random.h"
@@ -21,6 +22,8 @@ struct Course {
   Eigen::MatrixXd f;                        ///< bins x outputs
 };
 
+/// Means over bins are linear: those of a prediction follow from those of its lags, and no row of a long record is
+/// predicted for itself.
 Course courseOf(const TimeSeries& series, const std::vector<ThermalModel>& models, double from_s, double to_s) {
   constexpr double bins_of_training = 400.0;
   const double span = std::min(to_s, series.time_s.back()) - std::max(from_s, series.time_s.front());
@@ -28,31 +31,40 @@ Course courseOf(const TimeSeries& series, const std::vector<ThermalModel>& model
       binSeries(series.time_s, std::max(series.medianPeriod_s(), span / bins_of_training), from_s, to_s);
   const auto rows = static_cast<Index>(bins.rows.size());
   Course course;
-  course.f.resize(rows, static_cast<Index>(models.size()));
   struct Lag {
     ThermalInput input;
     double tau_s = 0.0;
   };
   std::vector<Lag> lags;
+  std::vector<std::vector<Index>> lag_of_term(models.size());
   for (std::size_t m = 0; m < models.size(); ++m) {
     SPINDRIFT_ASSERT(models[m].outputs.size() == 1, "one output a model");
-    const std::vector<double> f = bins.mean(models[m].predict(series, 0).value);
-    course.f.col(static_cast<Index>(m)) = Eigen::Map<const Eigen::VectorXd>(f.data(), rows);
     for (const LagTerm& term : models[m].outputs.front().terms) {
       const ThermalInput& input = models[m].inputs[static_cast<std::size_t>(term.input)];
-      const bool known = std::any_of(lags.begin(), lags.end(), [&](const Lag& l) {
-        return l.input.name == input.name && l.input.power == input.power && l.tau_s == term.tau_s;
+      const auto known = std::find_if(lags.begin(), lags.end(), [&](const Lag& l) {
+        return l.input.name == input.name && l.input.power == input.power && l.input.scale == input.scale &&
+               l.tau_s == term.tau_s;
       });
-      if (!known) lags.push_back({input, term.tau_s});
+      lag_of_term[m].push_back(known - lags.begin());
+      if (known == lags.end()) lags.push_back({input, term.tau_s});
     }
   }
   course.X.resize(rows, static_cast<Index>(lags.size()));
+  // A lag knows nothing of what comes after the bins.
+  const std::size_t until = bins.rows.empty() ? 0 : static_cast<std::size_t>(bins.rows.back().second);
+  const std::span<const double> time_s = std::span(series.time_s).first(until);
+  std::vector<double> u;
   for (std::size_t k = 0; k < lags.size(); ++k) {
     const ThermalInput& input = lags[k].input;
     const bool hold = holdsUntilNextRow(input.kind);
-    std::vector<double> u = bridged(series.time_s, series.at(input.name).values, hold);
-    for (double& v : u) v = input.transformed(v);
-    const std::vector<double> x = bins.mean(lagFiltered(series.time_s, u, lags[k].tau_s, hold));
+    const bool same = k > 0 && lags[k - 1].input.name == input.name && lags[k - 1].input.power == input.power &&
+                      lags[k - 1].input.scale == input.scale;
+    if (!same) {
+      u = bridged(series.time_s, series.at(input.name).values, hold);
+      u.resize(until);
+      for (double& v : u) v = input.transformed(v);
+    }
+    const std::vector<double> x = bins.mean(lagFiltered(time_s, u, lags[k].tau_s, hold));
     course.X.col(static_cast<Index>(k)) = Eigen::Map<const Eigen::VectorXd>(x.data(), rows);
     auto place = std::find(course.names.begin(), course.names.end(), input.name) - course.names.begin();
     if (place == std::ssize(course.names)) {
@@ -60,6 +72,17 @@ Course courseOf(const TimeSeries& series, const std::vector<ThermalModel>& model
       course.columns.emplace_back();
     }
     course.columns[static_cast<std::size_t>(place)].push_back(static_cast<Index>(k));
+  }
+  course.f.resize(rows, static_cast<Index>(models.size()));
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    const ThermalOutput& output = models[m].outputs.front();
+    auto f = course.f.col(static_cast<Index>(m));
+    f.setConstant(output.offset);
+    for (std::size_t k = 0; k < output.terms.size(); ++k) {
+      const LagTerm& term = output.terms[k];
+      const double reference = models[m].inputs[static_cast<std::size_t>(term.input)].reference;
+      f.array() += term.gain * (course.X.col(lag_of_term[m][k]).array() - reference);
+    }
   }
   return course;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -96,37 +97,44 @@ std::vector<double> TrainingPattern::novelty(const TimeSeries& series) const {
   if (inputs.empty() || !(reach > 0.0)) return out;
   const auto count = static_cast<Index>(inputs.size());
   std::vector<std::vector<double>> values;
+  std::vector<std::size_t> held;  // 1: holds until the next row
   for (const std::string& name : inputs) {
     const Signal& signal = series.at(name);
-    values.push_back(bridged(series.time_s, signal.values, holdsUntilNextRow(signal.kind)));
+    const bool hold = holdsUntilNextRow(signal.kind);
+    values.push_back(bridged(series.time_s, signal.values, hold));
+    held.push_back(hold ? 1 : 0);
   }
   Eigen::VectorXd late(count);
-  std::vector<LagStep> step(static_cast<std::size_t>(count));
+  std::array<LagStep, 2> step;  // linear between rows, held
   double last_dt_s = -1.0;
-  Eigen::MatrixXd z(std::min(rows_at_once, all), 2 * count);
+  Eigen::MatrixXd z(2 * count, std::min(rows_at_once, all));
+  const Eigen::MatrixXd places = seen.transpose();
+  const Eigen::VectorXd half_square = 0.5 * places.colwise().squaredNorm().transpose();
   for (Index first = 0; first < all; first += rows_at_once) {
     const Index rows = std::min(rows_at_once, all - first);
     for (Index r = 0; r < rows; ++r) {
       const auto row = static_cast<std::size_t>(first + r);
       const double dt_s = row > 0 ? series.time_s[row] - series.time_s[row - 1] : 0.0;
+      if (row > 0 && dt_s != last_dt_s) {
+        step = {lagStep(dt_s, lag_s, false), lagStep(dt_s, lag_s, true)};
+        last_dt_s = dt_s;
+      }
       for (Index k = 0; k < count; ++k) {
         const auto i = static_cast<std::size_t>(k);
         const double u = values[i][row];
-        if (row == 0) {
-          late[k] = u;
-        } else {
-          if (dt_s != last_dt_s) step[i] = lagStep(dt_s, lag_s, holdsUntilNextRow(series.at(inputs[i]).kind));
-          late[k] = step[i].a * late[k] + step[i].b0 * values[i][row - 1] + step[i].b1 * u;
-        }
-        z(r, k) = u - mean[k];
-        z(r, count + k) = late[k] - mean[count + k];
+        const LagStep& s = step[held[i]];
+        late[k] = row == 0 ? u : s.a * late[k] + s.b0 * values[i][row - 1] + s.b1 * u;
+        z(k, r) = u - mean[k];
+        z(count + k, r) = late[k] - mean[count + k];
       }
-      last_dt_s = row > 0 ? dt_s : -1.0;
     }
-    const Eigen::MatrixXd place = z.topRows(rows) * directions.transpose();
+    // The nearest place has the largest p's - s's / 2; its distance is then taken without cancellation.
+    const Eigen::MatrixXd here = directions * z.leftCols(rows);
+    const Eigen::MatrixXd likeness = (places.transpose() * here).colwise() - half_square;
     for (Index r = 0; r < rows; ++r) {
-      const double nearest2 = (seen.rowwise() - place.row(r)).rowwise().squaredNorm().minCoeff();
-      out[static_cast<std::size_t>(first + r)] = std::sqrt(nearest2) / reach;
+      Index nearest = 0;
+      likeness.col(r).maxCoeff(&nearest);
+      out[static_cast<std::size_t>(first + r)] = (here.col(r) - places.col(nearest)).norm() / reach;
     }
   }
   return out;

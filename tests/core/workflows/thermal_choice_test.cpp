@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -13,6 +14,8 @@
 #include "core/thermal/autocorrelation.h"
 #include "core/thermal/compensator.h"
 #include "core/thermal/method_choice.h"
+#include "core/thermal/response_fit.h"
+#include "core/thermal/training_pattern.h"
 #include "core/workflows/thermal_outputs.h"
 #include "core/workflows/thermal_workflow.h"
 #include "tests/support/frame_run.h"
@@ -287,6 +290,46 @@ TEST(ThermalChoice, APredictionInPartsIsThePrediction) {
   ASSERT_EQ(oe.predicted.size(), 5000U);
   for (Eigen::Index r = 0; r < whole.size(); ++r)
     EXPECT_NEAR(whole[r], oe.predicted[static_cast<std::size_t>(r)], 1e-8 * (1.0 + std::abs(whole[r])));
+}
+
+/// Places, lags and rows are compared in blocks: what comes out is the distance to the nearest place, row by row.
+TEST(ThermalChoice, NoveltyIsTheDistanceToTheNearestPlace) {
+  TimeSeries series = frameRun(1);
+  Signal speed{"table_rpm", SignalKind::Speed, {}};
+  Random random(4);
+  for (std::size_t r = 0; r < series.time_s.size(); ++r) speed.values.push_back(r % 50 < 25 ? 0.0 : 3000.0);
+  series.signals.push_back(std::move(speed));
+  while (series.time_s.size() < 5000) {  // more than one block, at changing steps
+    series.time_s.push_back(series.time_s.back() + random.uniform(5.0, 40.0));
+    for (Signal& s : series.signals) s.values.push_back(1.2 * s.values[series.time_s.size() % 900]);
+  }
+  const TrainingPattern pattern = trainingPattern(series, automaticInputs(series, "z_um"), 0.0, series.time_s[600]);
+  const auto count = static_cast<Eigen::Index>(pattern.inputs.size());
+  ASSERT_GE(count, 3);
+  ASSERT_GE(pattern.seen.rows(), 10);
+  const auto rows = static_cast<Eigen::Index>(series.time_s.size());
+  Eigen::MatrixXd z(rows, 2 * count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Signal& signal = series.at(pattern.inputs[static_cast<std::size_t>(k)]);
+    const bool hold = holdsUntilNextRow(signal.kind);
+    const std::vector<double> late = lagFiltered(series.time_s, signal.values, pattern.lag_s, hold);
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      z(r, k) = signal.values[static_cast<std::size_t>(r)] - pattern.mean[k];
+      z(r, count + k) = late[static_cast<std::size_t>(r)] - pattern.mean[count + k];
+    }
+  }
+  const std::vector<double> novelty = pattern.novelty(series);
+  ASSERT_EQ(novelty.size(), series.time_s.size());
+  double furthest = 0.0;
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const Eigen::VectorXd here = pattern.directions * z.row(r).transpose();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Eigen::Index p = 0; p < pattern.seen.rows(); ++p)
+      nearest = std::min(nearest, (pattern.seen.row(p).transpose() - here).norm());
+    furthest = std::max(furthest, nearest / pattern.reach);
+    ASSERT_NEAR(novelty[static_cast<std::size_t>(r)], nearest / pattern.reach, 1e-9 * (1.0 + nearest)) << "row " << r;
+  }
+  EXPECT_GT(furthest, 2.0) << "the record leaves the pattern";
 }
 
 TEST(ThermalChoice, AnArxModelWithComplexPolesIsNotShipped) {
