@@ -31,7 +31,7 @@ struct DiscrepancyPriors {
   double model_error = 0.09;
   /// Probability that an effect is missing at all (readings are taken because something is suspected), and that beside
   /// those found there is one more.
-  double one_missing = 0.4;
+  double one_missing = 0.7;
   double one_more = 0.05;
   /// Odds of an effect whose main driver is not in the log, beside one that shows what drives it.
   double without_driver = 0.5;

@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/connect/utc_time.h"
 #include "core/math/statistics.h"
 #include "core/reporting/plot_picture.h"
@@ -141,7 +142,7 @@ std::string MachineTrend::summary() const {
         fmt::format("last: {} on {}\n", withUncertainty(last.point.value, last.point.standard_uncertainty, chart.unit),
                     day(last.point.time_s));
     if (chart.limits)
-      text += fmt::format("limits {:.4g} to {:.4g} {}: {}\n", last.lower, last.upper, chart.unit,
+      text += fmt::format("limits {:.4g} to {:.4g} {}: {}\n", last.lower, last.upper, printedUnit(chart.unit),
                           chart.inControl() ? "inside"
                           : last.outside    ? "outside"
                                             : "inside, but the moving average (EWMA) is outside of its own");
@@ -308,7 +309,7 @@ std::string machineReport(PlantStore& store, const std::string& machine, double 
     PlotOptions options;
     options.title = n.name + " (" + n.kind + ")";
     options.x_label = "time since " + day(first_s) + " / d";
-    options.y_label = n.name + " / " + (trend.chart.unit.empty() ? "1" : trend.chart.unit);
+    options.y_label = n.name + " / " + (trend.chart.unit.empty() ? "1" : printedUnit(trend.chart.unit));
     std::string caption;
     for (const NamedChange& c : trend.chart.changes)
       caption += (caption.empty() ? "" : "; ") + c.sentence(trend.chart.unit);

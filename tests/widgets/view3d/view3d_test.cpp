@@ -129,7 +129,7 @@ TEST(View3D, ProbeReadsTheValueUnderTheCursor) {
   QMouseEvent move(QEvent::MouseMove, *pixel, *pixel, Qt::NoButton, Qt::NoButton, Qt::NoModifier);
   QCoreApplication::sendEvent(&view, &move);
   ASSERT_GE(hovered.count(), 1);
-  EXPECT_TRUE(hovered.last().front().toString().contains(QStringLiteral("um")));
+  EXPECT_TRUE(hovered.last().front().toString().contains(QStringLiteral("µm")));
 }
 
 TEST(View3D, ClickPicksTheRightPoint) {

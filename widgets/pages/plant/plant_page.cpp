@@ -28,9 +28,11 @@
 #include "core/base/count_text.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/connect/utc_time.h"
 #include "core/plant/publish.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/fonts.h"
@@ -452,7 +454,8 @@ void PlantPage::showTrends() {
           series.push_back(std::move(measured));
           for (Series& s : limits) series.push_back(std::move(s));
           for (const NamedChange& c : t.chart.changes)
-            sentences << (alone ? QString() : text(t.machine) + QStringLiteral(": ")) + text(c.sentence(t.chart.unit));
+            sentences << (alone ? sentenceStart(text(c.sentence(t.chart.unit)))
+                                : text(t.machine) + QStringLiteral(": ") + text(c.sentence(t.chart.unit)));
           if (alone) {
             for (const std::string& note : t.chart.notes) sentences << text(note);
           }
@@ -469,7 +472,7 @@ void PlantPage::showTrends() {
           if (!unit.empty() && quantity.endsWith(QLatin1String(end))) quantity.chop(static_cast<int>(std::strlen(end)));
         }
         plot_->setAxes(tr("time since %1 / d").arg(day(first_s)),
-                       unit.empty() ? quantity : quantity + QStringLiteral(" / ") + text(unit));
+                       unit.empty() ? quantity : quantity + QStringLiteral(" / ") + text(printedUnit(unit)));
         plot_->setContent(std::move(series));
         for (const MachineTrend& t : trends) {
           for (const MachineEvent& e : t.events) {

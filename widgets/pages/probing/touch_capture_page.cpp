@@ -15,6 +15,7 @@
 
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/capture_tabs.h"
 #include "widgets/pages/common/cells.h"
@@ -102,12 +103,11 @@ TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
   view_->setEmptyText(tr("The measuring cycle will appear here"),
                       tr("It needs an artefact and a stylus in the machine description (step Machine)."));
   right->body()->addWidget(view_, 1);
-  auto* shown = new QHBoxLayout;
+  auto* shown = new WrapLayout;
   path_ = new QCheckBox(tr("Path"));
   path_->setChecked(true);
   machine_ = new QCheckBox(tr("Machine and travel"));
   for (QCheckBox* box : {path_, machine_}) shown->addWidget(box);
-  shown->addStretch();
   shown->addWidget(control_);
   shown->addWidget(make_program_);
   right->body()->addLayout(shown);
