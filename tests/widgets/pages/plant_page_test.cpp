@@ -148,7 +148,7 @@ TEST_F(PlantPageTest, ShowsMachinesTrendsAndBatchesWithoutASession) {
   EXPECT_EQ(page->plot()->series().front().x.size(), 60U);
   EXPECT_EQ(page->plot()->series().size(), 7U) << "values; moving average and both limits before and after the spindle";
   const std::string said = page->said().toStdString();
-  EXPECT_NE(said.find("step of +"), std::string::npos) << said;
+  EXPECT_NE(said.find("Step of +"), std::string::npos) << said;
   EXPECT_NE(said.find("spindle changed (SN 12)"), std::string::npos) << said;
   int gantry = 0;
   while (cell(gantry, 0) != "gantry north") ++gantry;
