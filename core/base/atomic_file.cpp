@@ -10,33 +10,22 @@
 #include <cstring>
 
 #include "core/base/error.h"
+#include "core/base/file_reader.h"
 
 namespace spindrift {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string_view action, int error) {
-  throw InputError({file, ""}, fmt::format("cannot be {}: {}.", action, std::strerror(error)));
+[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+  throw InputError({file, ""}, fmt::format("cannot be written: {}.", std::strerror(error)));
 }
 
 }  // namespace
 
 std::string readFile(const std::filesystem::path& file) {
-  const int handle = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (handle < 0) fail(file, "read", errno);
+  FileReader reader(file);
   std::string content;
   char buffer[1 << 16];
-  for (;;) {
-    const ssize_t count = ::read(handle, buffer, sizeof buffer);
-    if (count < 0) {
-      const int error = errno;
-      if (error == EINTR) continue;
-      ::close(handle);
-      fail(file, "read", error);
-    }
-    if (count == 0) break;
-    content.append(buffer, static_cast<std::size_t>(count));
-  }
-  ::close(handle);
+  while (const std::size_t count = reader.read(buffer)) content.append(buffer, count);
   return content;
 }
 
@@ -51,11 +40,11 @@ void writeFileAtomically(const std::filesystem::path& file, std::string_view con
       special ? file
               : folder / fmt::format(".{}.{}.{}.part", file.filename().string(), ::getpid(), counter.fetch_add(1));
   const int handle = ::open(target.c_str(), O_WRONLY | O_CREAT | (special ? 0 : O_EXCL) | O_CLOEXEC, 0644);
-  if (handle < 0) fail(file, "written", errno);
+  if (handle < 0) fail(file, errno);
   const auto give_up = [&](int error) {
     ::close(handle);
     if (!special) ::unlink(target.c_str());
-    fail(file, "written", error);
+    fail(file, error);
   };
   std::size_t done = 0;
   while (done < content.size()) {
@@ -72,12 +61,12 @@ void writeFileAtomically(const std::filesystem::path& file, std::string_view con
   if (::close(handle) != 0) {
     const int error = errno;
     ::unlink(target.c_str());
-    fail(file, "written", error);
+    fail(file, error);
   }
   if (::rename(target.c_str(), file.c_str()) != 0) {
     const int error = errno;
     ::unlink(target.c_str());
-    fail(file, "written", error);
+    fail(file, error);
   }
   if (const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); directory >= 0) {
     ::fsync(directory);

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include "core/base/csv.h"
+#include "core/base/csv_rows.h"
 #include "core/base/text.h"
 
 namespace spindrift {
@@ -34,6 +35,39 @@ void fillGaps(const std::vector<double>& time_s, std::vector<double>& values, bo
   for (std::size_t k = known + 1; k < values.size(); ++k) values[k] = values[known];
 }
 
+/// True for the signals that FORMATS.md gives a meaning: they hold numbers.
+bool hasMeaning(std::string_view name) {
+  return OperatingLog::isTemperature(name) || name == "spindle_rpm" || name.starts_with("feed_") ||
+         name.starts_with("pos_") || name.starts_with("speed_") || name == "coolant" || name == "instrument_on" ||
+         name == "compensation_on";
+}
+
+/// A column as far as it is read.
+struct LogColumn {
+  bool known = false;  ///< what is no number is an error; else a column of words (a remark, a programme name)
+  bool numeric = true;
+  std::vector<double> values;  ///< NaN where the field is empty
+  std::optional<InputError> error;
+
+  void take(const CsvRows& rows, std::size_t column, bool is_time) {
+    if (!numeric) return;
+    const std::string_view field = rows.fields()[column];
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (!parseNumber(field, value) && (is_time || !field.empty())) {
+      if (known) error = notANumber(rows.place(column), field);
+    } else if (is_time && !values.empty() && value < values.back()) {
+      error.emplace(
+          rows.place(column),
+          fmt::format("time runs backwards from {} s to {} s; allowed: rows in order of time.", values.back(), value));
+    } else {
+      values.push_back(value);
+      return;
+    }
+    numeric = false;
+    values = std::vector<double>();  // gives the memory back
+  }
+};
+
 }  // namespace
 
 OperatingLog::OperatingLog(std::vector<double> time_s) : time_s_(std::move(time_s)) {}
@@ -51,39 +85,31 @@ void OperatingLog::setSignal(const std::string& name, std::vector<double> values
 }
 
 OperatingLog OperatingLog::read(const std::filesystem::path& file) {
-  const CsvTable table = CsvTable::read(file);
-  const std::size_t time_column = table.column("time_s");
-  if (table.rowCount() == 0) throw InputError({file, ""}, "holds no rows; allowed: at least one row.");
+  CsvRows rows(file);
+  const std::vector<std::string>& names = rows.columnNames();
+  std::vector<LogColumn> columns(names.size());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    columns[c].known = names[c] == "time_s" || hasMeaning(names[c]);
+    columns[c].values.reserve(rows.mostRows());
+  }
+  const auto time = std::find(names.begin(), names.end(), "time_s") - names.begin();
+  std::size_t count = 0;
+  while (rows.next()) {
+    ++count;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      columns[c].take(rows, c, static_cast<std::ptrdiff_t>(c) == time);
+    }
+  }
+  // A row that is none is told first, then the time, then the columns from left to right.
+  const std::size_t time_column = csvColumn(file, names, "time_s");
+  if (count == 0) throw InputError({file, ""}, "holds no rows; allowed: at least one row.");
+  if (columns[time_column].error) throw InputError(*columns[time_column].error);
   OperatingLog log;
   log.file_ = file;
-  log.time_s_.reserve(table.rowCount());
-  for (std::size_t row = 0; row < table.rowCount(); ++row) {
-    const double time = table.number(row, time_column);
-    if (!log.time_s_.empty() && time < log.time_s_.back()) {
-      throw InputError(table.place(row, time_column),
-                       fmt::format("time runs backwards from {} s to {} s; allowed: rows in order of time.",
-                                   log.time_s_.back(), time));
-    }
-    log.time_s_.push_back(time);
-  }
-  for (std::size_t column = 0; column < table.columnNames().size(); ++column) {
-    if (column == time_column) continue;
-    std::vector<double> values(table.rowCount(), std::numeric_limits<double>::quiet_NaN());
-    bool numeric = true;
-    // A column of words (a remark, a programme name) is not a signal, unless FORMATS.md gives it a meaning.
-    const std::string& name = table.columnNames()[column];
-    const bool known = isTemperature(name) || name == "spindle_rpm" || name.starts_with("feed_") ||
-                       name.starts_with("pos_") || name.starts_with("speed_") || name == "coolant" ||
-                       name == "instrument_on" || name == "compensation_on";
-    for (std::size_t row = 0; row < table.rowCount() && numeric; ++row) {
-      if (table.empty(row, column)) continue;
-      if (known) {
-        values[row] = table.number(row, column);
-      } else {
-        numeric = parseNumber(table.text(row, column), values[row]);
-      }
-    }
-    if (numeric) log.setSignal(table.columnNames()[column], std::move(values));
+  log.time_s_ = std::move(columns[time_column].values);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (columns[c].error) throw InputError(*columns[c].error);
+    if (c != time_column && columns[c].numeric) log.setSignal(names[c], std::move(columns[c].values));
   }
   return log;
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/math/smoothing.h"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/math/statistics.h"
@@ -13,24 +15,60 @@ namespace {
 
 using Eigen::Index;
 
+/// A symmetric matrix with two diagonals beside its own: [i] holds (i, i), (i + 1, i) and (i + 2, i).
+using FiveDiagonals = std::vector<std::array<double, 3>>;
+
 /// Sum of squared second divided differences, each times the time it stands for: a quadratic form of the readings;
 /// times in units of `step`.
-Eigen::SparseMatrix<double> roughness(std::span<const double> time_s, double step) {
-  const auto n = static_cast<Index>(time_s.size());
-  Eigen::SparseMatrix<double> d(n - 2, n);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Index i = 0; i + 2 < n; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const double before = (time_s[at + 1] - time_s[at]) / step;
-    const double after = (time_s[at + 2] - time_s[at + 1]) / step;
+FiveDiagonals roughness(std::span<const double> time_s, double step) {
+  FiveDiagonals form(time_s.size(), {0.0, 0.0, 0.0});
+  for (std::size_t i = 0; i + 2 < time_s.size(); ++i) {
+    const double before = (time_s[i + 1] - time_s[i]) / step;
+    const double after = (time_s[i + 2] - time_s[i + 1]) / step;
     const double weight = std::sqrt(0.5 * (before + after));
     const double whole = before + after;
-    entries.emplace_back(i, i, weight * 2.0 / (before * whole));
-    entries.emplace_back(i, i + 1, -weight * 2.0 / (before * after));
-    entries.emplace_back(i, i + 2, weight * 2.0 / (after * whole));
+    const double first = weight * 2.0 / (before * whole);
+    const double middle = -weight * 2.0 / (before * after);
+    const double last = weight * 2.0 / (after * whole);
+    form[i][0] += first * first;
+    form[i][1] += first * middle;
+    form[i][2] += first * last;
+    form[i + 1][0] += middle * middle;
+    form[i + 1][1] += middle * last;
+    form[i + 2][0] += last * last;
   }
-  d.setFromTriplets(entries.begin(), entries.end());
-  return d.transpose() * d;
+  return form;
+}
+
+/// Solves (1 + weight * form) x = y by the decomposition L D L^T, which has the same diagonals: a week of seconds in
+/// some milliseconds. Not finite where the matrix is singular in floating point.
+Eigen::VectorXd smoothed(const FiveDiagonals& form, double weight, const Eigen::VectorXd& y, FiveDiagonals& lower) {
+  const std::size_t n = form.size();
+  lower.resize(n);  // D, L(i + 1, i), L(i + 2, i)
+  Eigen::VectorXd x(y.size());
+  std::array<double, 3> one{0.0, 0.0, 0.0};  // the row before, and that before it
+  std::array<double, 3> two{0.0, 0.0, 0.0};
+  double x_one = 0.0;
+  double x_two = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double d = 1.0 + weight * form[i][0] - one[1] * one[1] * one[0] - two[2] * two[2] * two[0];
+    const std::array<double, 3> row{d, (weight * form[i][1] - one[0] * one[1] * one[2]) / d, weight * form[i][2] / d};
+    const double value = y[static_cast<Index>(i)] - one[1] * x_one - two[2] * x_two;
+    x[static_cast<Index>(i)] = value;
+    lower[i] = row;
+    two = one;
+    one = row;
+    x_two = x_one;
+    x_one = value;
+  }
+  x_one = x_two = 0.0;
+  for (std::size_t i = n; i-- > 0;) {
+    const double value = x[static_cast<Index>(i)] / lower[i][0] - lower[i][1] * x_one - lower[i][2] * x_two;
+    x[static_cast<Index>(i)] = value;
+    x_two = x_one;
+    x_one = value;
+  }
+  return x;
 }
 
 /// What is taken away is noise: in all, and over every stretch of `stretch` readings, but for chance.
@@ -80,18 +118,13 @@ SmoothedSignal smoothWithinNoise(std::span<const double> time_s, std::span<const
     steps.push_back(time_s[i] - time_s[i - 1]);
   }
   const double step = median(steps);
-  const Eigen::SparseMatrix<double> penalty = roughness(time_s, step);
+  const FiveDiagonals form = roughness(time_s, step);
   const auto n = static_cast<Index>(readings.size());
   const Eigen::VectorXd y = Eigen::Map<const Eigen::VectorXd>(readings.data(), n);
-  Eigen::SparseMatrix<double> unit(n, n);
-  unit.setIdentity();
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt;
-  ldlt.analyzePattern(penalty + unit);
+  FiveDiagonals lower;
   constexpr Index stretch = 24;
   for (double h = most_bandwidth_s / step; h >= 0.7; h /= std::sqrt(2.0)) {
-    ldlt.factorize(unit + std::pow(h, 4) * penalty);
-    if (ldlt.info() != Eigen::Success) continue;
-    const Eigen::VectorXd smooth = ldlt.solve(y);
+    const Eigen::VectorXd smooth = smoothed(form, std::pow(h, 4), y, lower);
     if (!smooth.allFinite() || !isNoise(y - smooth, out.noise, stretch)) continue;
     out.values.assign(smooth.data(), smooth.data() + n);
     out.bandwidth_s = h * step;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "core/base/atomic_file.h"
 #include "core/base/sha256.h"
 #include "core/session/session_database.h"
 
@@ -50,7 +49,7 @@ void recordFiles(SessionDatabase& database, const CampaignRecord& record, const 
   KnownFiles changed;
   for (const std::string& name : names) {
     const fs::path file = record.folder / name;
-    KnownFile now{fs::is_regular_file(file) ? sha256(readFile(file)) : std::string(), true};
+    KnownFile now{fs::is_regular_file(file) ? sha256OfFile(file) : std::string(), true};
     const auto known = all.find(name);
     if (known != all.end() && known->second.counts && known->second.content == now.content) continue;
     all[name] = now;

@@ -37,7 +37,7 @@ FileFingerprints fingerprintsOfFiles(const std::filesystem::path& folder, const 
   for (std::size_t i = 0; i < files.size(); ++i) {
     job.report(static_cast<double>(i) / static_cast<double>(files.size()), "reading the files");
     job.throwIfCancelled();
-    found[files[i].lexically_relative(folder).generic_string()] = sha256(readFile(files[i]));
+    found[files[i].lexically_relative(folder).generic_string()] = sha256OfFile(files[i]);
   }
   return found;
 }

@@ -343,7 +343,7 @@ std::string ProgramSimulator::Parts::digestOf(const std::string& relative) const
   const std::scoped_lock lock(mutex);
   Content& content = contents[relative];
   if (error || content.digest.empty() || content.written != written || content.size != size) {
-    content = {written, size, sha256(readFile(path))};
+    content = {written, size, sha256OfFile(path)};
   }
   return content.digest;
 }

@@ -180,7 +180,7 @@ bool sameContent(const IncomingContext& context, const KnownFile& known, const I
   const std::filesystem::path copy = context.campaign_folder / known.stored;
   std::error_code error;
   if (std::filesystem::file_size(copy, error) != size || error) return false;
-  return sha256(readFile(copy)) == item.hash;
+  return sha256OfFile(copy) == item.hash;
 }
 
 bool foundTwice(const IncomingContext& context, IncomingItem& item, std::size_t size) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.h"
+#include "core/base/sha256.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -24,6 +25,17 @@ TEST(AtomicFile, ReadsBackWhatItWroteAndLeavesNothingElse) {
   writeFileAtomically(folder / "new/deep/file.bin", "short");
   EXPECT_EQ(readFile(folder / "new/deep/file.bin"), "short");
   EXPECT_EQ(entries(folder / "new/deep"), 1U);
+}
+
+TEST(Sha256, OfAFileIsThatOfItsContent) {
+  const testing::TempFolder folder;
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-4
+  for (const std::size_t size : {0, 3, 65536, 300001}) {
+    std::string content(size, 'a');
+    if (size > 5) content[5] = '\0';
+    EXPECT_EQ(sha256OfFile(folder.write("file.bin", content)), sha256(content)) << size;
+  }
+  EXPECT_THROW((void)sha256OfFile(folder / "missing"), InputError);
 }
 
 TEST(AtomicFile, FailureNamesTheFileAndKeepsTheOldContent) {

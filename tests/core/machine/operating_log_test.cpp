@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/machine/operating_log.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <string>
+
+#include "core/base/csv.h"
 #include "core/base/error.h"
 #include "tests/support/temp_folder.h"
 
@@ -57,6 +65,109 @@ TEST(OperatingLog, BadInputIsNamed) {
   EXPECT_THAT(complaint("time_s,spindle_rpm\n0,1\n1,oops\n"), ::testing::HasSubstr("\"oops\""));
   EXPECT_THAT(complaint("time_s\n"), ::testing::HasSubstr("no rows"));
 }
+
+/// What reading it complains of, or "accepted".
+std::string complaintOf(const std::string& text) {
+  const testing::TempFolder folder;
+  try {
+    (void)OperatingLog::read(folder.write("log.csv", text));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// Longer than a block of the reader, with lines of very different length, words, quotes and comments.
+std::string longLog(const std::string& line_end) {
+  std::string text =
+      "\xef\xbb\xbf"
+      "# begun" +
+      line_end + "time_s,T_room_degC,note,load,\"program, number\"" + line_end;
+  for (int row = 0; row < 30000; ++row) {
+    text += fmt::format("{},{},{},{},\"{}\"{}", row, row % 7 == 0 ? "" : fmt::format("{:.2f}", 20.0 + 1e-4 * row),
+                        row % 5 == 0 ? "\"said \"\"späť\"\", twice\"" : "", 0.5 * row, row % 3, line_end);
+    if (row % 1000 == 0) text += "# " + std::string(static_cast<std::size_t>(row) * 11, 'x') + "ä€😀" + line_end;
+  }
+  return text;
+}
+
+TEST(OperatingLog, ALongLogIsReadAsATableIs) {
+  for (const std::string line_end : {"\n", "\r\n"}) {
+    const testing::TempFolder folder;
+    std::string text = longLog(line_end);
+    text.resize(text.size() - line_end.size());  // the last line need not end
+    const CsvTable table = CsvTable::parse(text, "log.csv");
+    const OperatingLog log = OperatingLog::read(folder.write("log.csv", text));
+    EXPECT_THAT(log.names(), ElementsAre("T_room_degC", "load", "program, number"));
+    EXPECT_EQ(log.time_s(), table.numbers("time_s"));
+    EXPECT_EQ(*log.signal("load"), table.numbers("load"));
+    EXPECT_EQ(*log.signal("program, number"), table.numbers("program, number"));
+    ASSERT_EQ(log.signal("T_room_degC")->size(), 30000U);
+    EXPECT_DOUBLE_EQ(log.signal("T_room_degC")->at(12345), 21.23);
+  }
+}
+
+TEST(OperatingLog, AFaultFarDownALongLogIsNamedWithItsLine) {
+  const std::string good = longLog("\n");
+  const auto line = std::count(good.begin(), good.end(), '\n') + 1;
+  const auto at = [&](const std::string& column) { return fmt::format("log.csv, line {}, column {}", line, column); };
+  using ::testing::AllOf;
+  using ::testing::HasSubstr;
+  EXPECT_THAT(complaintOf(good + "30000,warm,,1,1\n"), AllOf(HasSubstr(at("T_room_degC")), HasSubstr("\"warm\"")));
+  EXPECT_THAT(complaintOf(good + "5,20,,1,1\n"), AllOf(HasSubstr(at("time_s")), HasSubstr("from 29999 s to 5 s")));
+  EXPECT_THAT(complaintOf(good + ",20,,1,1\n"), AllOf(HasSubstr(at("time_s")), HasSubstr("\"\" is not a number")));
+  EXPECT_THAT(complaintOf(good + "30000,20,1,5,\n"), HasSubstr("accepted"));
+  EXPECT_THAT(complaintOf(good + "30000,20,1\n"), HasSubstr(fmt::format("line {}: 3 fields instead of 5", line)));
+  EXPECT_THAT(complaintOf(good + "30000,\"20,1\n"), HasSubstr(fmt::format("line {}: a quoted field", line)));
+  EXPECT_THAT(complaintOf(good + "30000,\xe4,,1,1\n"), HasSubstr(fmt::format("line {}: the byte 0xE4", line)));
+  EXPECT_THAT(complaintOf(good + std::string("30000,\0,,1,1\n", 13)), HasSubstr("not a text file"));
+}
+
+TEST(OperatingLog, OfSeveralFaultsTheSameIsToldWhateverItsLine) {
+  using ::testing::HasSubstr;
+  // Bytes, then rows, then the time, then the columns from left to right.
+  const std::string fill(600000, '#');
+  const std::string faults = "time_s,T_a_degC,T_b_degC\n0,1,oops\n1,bad,2\n";
+  EXPECT_THAT(complaintOf(faults), HasSubstr("line 3, column T_a_degC"));
+  EXPECT_THAT(complaintOf(faults + "0,1,2\n"), HasSubstr("line 4, column time_s"));
+  EXPECT_THAT(complaintOf(faults + "0,1,2\n2,2\n"), HasSubstr("line 5: 2 fields"));
+  EXPECT_THAT(complaintOf(faults + "0,1,2\n2,2\n" + fill + "\n# \xe4\n"), HasSubstr("line 7: the byte"));
+  EXPECT_THAT(complaintOf(faults + "0,1,2\n2,2\n# \xe4\n" + fill + std::string("\n\0", 2)), HasSubstr("zero bytes"));
+  EXPECT_THAT(complaintOf("T_a_degC\noops\n1,2\n"), HasSubstr("line 3: 2 fields"));
+  EXPECT_THAT(complaintOf("T_a_degC\noops\n"), HasSubstr("\"time_s\" is missing"));
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(OperatingLog, ReadingNeedsLittleMoreMemoryThanTheNumbers) {
+  constexpr int rows = 40000;
+  constexpr int signals = 60;
+  std::string line;
+  for (int k = 0; k < signals; ++k) line += fmt::format(",{:.3f}", 20.0 + 0.37 * k);
+  std::string text = "time_s";
+  for (int k = 0; k < signals; ++k) text += fmt::format(",T_{}_degC", k);
+  text += '\n';
+  for (int row = 0; row < rows; ++row) text += fmt::format("{}{}\n", row, line);
+  const testing::TempFolder folder;
+  const std::filesystem::path file = folder.write("log.csv", text);
+  // In a process of its own, whose peak begins with what it has now; what the text takes stays taken.
+  const auto peak_kB = [] {
+    rusage used{};
+    ::getrusage(RUSAGE_SELF, &used);
+    return used.ru_maxrss;
+  };
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const auto before = peak_kB();
+    const OperatingLog log = OperatingLog::read(file);
+    const double grown = 1024.0 * static_cast<double>(peak_kB() - before);
+    ::_exit(log.names().size() == signals && grown < 1.3 * 8.0 * rows * (signals + 1) ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+}
+#endif
 
 }  // namespace
 }  // namespace spindrift

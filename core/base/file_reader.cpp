@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/file_reader.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/base/error.h"
+
+namespace spindrift {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+  throw InputError({file, ""}, fmt::format("cannot be read: {}.", std::strerror(error)));
+}
+
+}  // namespace
+
+FileReader::FileReader(const std::filesystem::path& file)
+    : file_(file), handle_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+  if (handle_ < 0) fail(file_, errno);
+}
+
+FileReader::~FileReader() {
+  ::close(handle_);
+}
+
+std::size_t FileReader::read(std::span<char> into) {
+  for (;;) {
+    const ssize_t count = ::read(handle_, into.data(), into.size());
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno != EINTR) fail(file_, errno);
+  }
+}
+
+void FileReader::rewind() {
+  if (::lseek(handle_, 0, SEEK_SET) < 0) fail(file_, errno);
+}
+
+}  // namespace spindrift
