@@ -59,10 +59,10 @@ Eigen::Vector3d CompensationChannel::next(const Wish& wish, const ControlState& 
 
 std::string CompensationChannel::sentence() const {
   const auto signed_um = [](double v) { return fmt::format("{:+.1f}", std::abs(v) < 0.05 ? 0.0 : v); };
-  const std::string values = fmt::format("X {}, Y {}, Z {} um", signed_um(written_um_.x()), signed_um(written_um_.y()),
+  const std::string values = fmt::format("X {}, Y {}, Z {} µm", signed_um(written_um_.x()), signed_um(written_um_.y()),
                                          signed_um(written_um_.z()));
   if (!active()) return fmt::format("off, fading from {}: {}", values, reason_);
-  return fmt::format("active: {}; inputs {:.0f} s old; +-{:.1f} um", values, wish_.age_s, wish_.sigma_um.maxCoeff());
+  return fmt::format("active: {}; inputs {:.0f} s old; ± {:.1f} µm", values, wish_.age_s, wish_.sigma_um.maxCoeff());
 }
 
 }  // namespace spindrift

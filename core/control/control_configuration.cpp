@@ -82,7 +82,8 @@ std::string iniFile(const MachineDescription& machine, const ControlConfiguratio
     const LinearAxis& axis = *machine.findAxis(name);
     const auto limits = [&](double faster) {
       return fmt::format("MIN_LIMIT = {:.6f}\nMAX_LIMIT = {:.6f}\nMAX_VELOCITY = {}\nMAX_ACCELERATION = {}\n",
-                         axis.travel_mm[0], axis.travel_mm[1], faster * c.max_velocity_mm_s, faster * c.max_acceleration_mm_s2);
+                         axis.travel_mm[0], axis.travel_mm[1], faster * c.max_velocity_mm_s,
+                         faster * c.max_acceleration_mm_s2);
     };
     out += fmt::format("[AXIS_{}]\n{}\n[JOINT_{}]\nTYPE = LINEAR\n{}FERROR = 1\nMIN_FERROR = 0.5\nHOME_SEQUENCE = 0\n",
                        name, limits(1.0), i, limits(1.1));

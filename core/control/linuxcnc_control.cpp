@@ -114,7 +114,7 @@ std::vector<ControlFinding> LinuxcncControl::check() {
         fmt::format("axis {}: {:g} mm/s; allowed: up to {:g} mm/s", static_cast<char>(axis - 32), *v[2],
                     options_.largest_speed_mm_s));
     add("applied now", std::abs(*v[5]) <= limit,
-        fmt::format("axis {}: {:+.1f} um", static_cast<char>(axis - 32), 1e3 * *v[5]));
+        fmt::format("axis {}: {:+.1f} µm", static_cast<char>(axis - 32), 1e3 * *v[5]));
   }
   const std::vector<std::optional<double>> dog = signals({"watchdog.timeout-0", "watchdog.ok-out"});
   add("watchdog", dog[0] && *dog[0] > 0.0 && *dog[0] <= options_.largest_watchdog_s,

@@ -400,7 +400,7 @@ class ClosedLoop {
     const bool better = !twin_ || (trust.cycles >= 2 && trust.model_um2 < trust.simulation_um2);
     if (better == trust.identified) return;
     trust.identified = better;
-    say(fmt::format("{} is compensated by the {}: {:.1f} um off against {:.1f} um", "XYZ"[axis],
+    say(fmt::format("{} is compensated by the {}: {:.1f} µm off against {:.1f} µm", "XYZ"[axis],
                     better ? "identified model" : "simulation",
                     std::sqrt(better ? trust.model_um2 : trust.simulation_um2),
                     std::sqrt(better ? trust.simulation_um2 : trust.model_um2)));
@@ -468,7 +468,7 @@ class ClosedLoop {
     Identified out{fit.model, GainOffsetFilter(update), 0.0};
     out.run = out.model.predict(series(), 0).value.back();
     identified_.insert_or_assign(axis, std::move(out));
-    say(fmt::format("model of {} from {} measurements, {:.2f} um left out of the fit", name, result_.cycles.size(),
+    say(fmt::format("model of {} from {} measurements, {:.2f} µm left out of the fit", name, result_.cycles.size(),
                     fit.left_out_rms));
   }
 
@@ -479,7 +479,7 @@ class ClosedLoop {
       const double off = cycle.with_um[axis];
       if (!std::isfinite(off)) continue;
       if (stage_ != LoopStage::None && std::abs(off) > plan_.action_limit_um) {
-        say(fmt::format("{} is off by {:+.1f} um; action control limit {:g} um", "XYZ"[axis], off,
+        say(fmt::format("{} is off by {:+.1f} µm; action control limit {:g} µm", "XYZ"[axis], off,
                         plan_.action_limit_um));
         demanded_ = stage_ == LoopStage::Identified;
         off_axes.push_back(axis);

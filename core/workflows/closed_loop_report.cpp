@@ -130,7 +130,8 @@ std::string LoopResult::report(const std::string& title) const {
       const double to_s = i + 1 < stages.size() ? stages[i + 1].first : cycles.back().time_s;
       options.ranges.push_back({stages[i].first / 3600.0, to_s / 3600.0, std::string(toString(stages[i].second))});
     }
-    document.figure(plotPicture({without, with}, options), "Deviation at the tool point as measured");
+    document.figure(plotPicture({without, with}, options),
+                    fmt::format("Deviation {} at the tool point as measured", toString(static_cast<Component>(axis))));
   }
   document.section("What happened");
   std::vector<ReportRow> told;

@@ -52,7 +52,7 @@ TEST(Channel, FadesWhileTheControlIsNotThereAndReturns) {
   EXPECT_THAT(channel.sentence(), HasSubstr("machine is off"));
   EXPECT_FALSE(channel.active());
   EXPECT_NEAR(channel.next(wish(10.0), ready(), 15.0).z(), 9.0, 1e-12);
-  EXPECT_THAT(channel.sentence(), HasSubstr("active: X +0.0, Y +0.0, Z +9.0 um; inputs 1 s old"));
+  EXPECT_THAT(channel.sentence(), HasSubstr("active: X +0.0, Y +0.0, Z +9.0 µm; inputs 1 s old"));
 }
 
 TEST(Channel, OldInputsAndNoNumbersAreNotApplied) {
