@@ -10,6 +10,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/text.h"
+#include "core/connect/linuxcnc_shell.h"
 #include "core/connect/linuxcnc_source.h"
 #include "core/control/compensation_channel.h"
 #include "core/machine/compensation.h"
@@ -161,21 +162,41 @@ TEST(LinuxcncReal, TouchesComeWithTheErrorAndWithoutItOnceCompensated) {
     const double with = um(touchedZ(running.run(touch_floor)));
     wrong.unless(std::abs(with - 50.0) < 1.1, fmt::format("error: {} um", with));
     control.openChannel(false);
-    CompensationStatus status;
-    for (int i = 0; i < 200 && std::abs(status.applied_um.z() - 50.0) > 0.01; ++i) {
-      status = control.compensate({0.0, 0.0, 50.0});
-      ::usleep(50000);
-    }
-    wrong.unless(status.watched && std::abs(status.applied_um.z() - 50.0) < 0.01, "not applied");
+    const auto applied = [&] {
+      CompensationStatus status;
+      for (int i = 0; i < 200 && !(status.watched && std::abs(status.applied_um.z() - 50.0) < 0.01); ++i) {
+        status = control.compensate({0.0, 0.0, 50.0});
+        ::usleep(50000);
+      }
+      return status.watched && std::abs(status.applied_um.z() - 50.0) < 0.01;
+    };
     // While it is kept alive; the position that the control shows does not know of it.
-    control.start(running.approved(touch_floor));
-    while (!control.state().ready()) {
-      (void)control.compensate({0.0, 0.0, 50.0});
-      ::usleep(50000);
-    }
-    const double compensated = um(touchedZ(control.printed()));
+    const auto touched = [&] {
+      control.start(running.approved(touch_floor));
+      while (!control.state().ready()) {
+        (void)control.compensate({0.0, 0.0, 50.0});
+        ::usleep(50000);
+      }
+      return um(touchedZ(control.printed()));
+    };
+    wrong.unless(applied(), "not applied");
+    const double compensated = touched();
     wrong.unless(std::abs(compensated) < 1.1, fmt::format("compensated: {} um", compensated));
-    // Off and on again: what is hidden from the control stays.
+    // The operator switches the machine off. The channel is opened anew, as a driver does that comes back.
+    control.close();
+    {
+      LinuxcncShell operators({});
+      operators.connect({});
+      wrong.unless(operators.set("enable EMCTOO") && operators.set("machine off"), "the operator is refused");
+    }
+    control.connect({});
+    wrong.unless(waitUntil([&] { return control.state().condition == ControlState::Condition::Off; }, 5.0),
+                 "off: " + control.state().sentence);
+    control.switchOn(true);
+    control.openChannel(false);
+    wrong.unless(applied(), "not applied after off and on");
+    const double again = touched();
+    wrong.unless(std::abs(again) < 1.1, fmt::format("compensated after off and on: {} um", again));
     return wrong.said();
   });
 }
