@@ -8,53 +8,14 @@
 
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
-#include "core/workflows/compensated_data.h"
 
 namespace spindrift::gui {
-namespace {
-
-/// All of a LoadedSession but the session itself.
-LoadedSession readForPages(const Session& session, std::int64_t wanted) {
-  LoadedSession loaded;
-  const std::vector<CampaignRecord> all = session.campaigns();
-  if (all.empty()) return loaded;
-  if (const auto last = session.setting("campaign"); wanted == 0 && last && last->is_number_integer()) {
-    wanted = last->get<std::int64_t>();
-  }
-  const auto found = std::find_if(all.begin(), all.end(), [&](const CampaignRecord& r) { return r.id == wanted; });
-  const CampaignRecord& record = found != all.end() ? *found : all.back();
-  loaded.campaign_id = record.id;
-  auto campaign = std::make_shared<Campaign>(Campaign::read(record.folder));
-  const auto edited = session.setting(Session::machineKey(record.id));
-  if (edited && edited->is_object() && !edited->empty()) {
-    campaign->machine =
-        MachineDescription::parse(JsonNode::parse(edited->dump(), "machine as edited"), campaign->path("machine.json"));
-    loaded.machine_edited = true;
-  }
-  if (const auto offsets = session.setting(Session::clocksKey(record.id)))
-    applyClockOffsets(*campaign, clockOffsetsFrom(*offsets));
-  loaded.campaign = std::move(campaign);
-  for (const Exclusion& e : session.exclusions(record.id)) {
-    loaded.excluded[QString::fromStdString(e.item)] = QString::fromStdString(e.reason);
-  }
-  for (const std::string& kind : session.resultKinds(record.id)) {
-    loaded.latest[kind] = session.latestResult(record.id, kind);
-  }
-  if (const auto evaluation = loaded.latest.find("evaluate"); evaluation != loaded.latest.end()) {
-    loaded.evaluation = std::make_shared<StoredEvaluation>(evaluationFrom(*evaluation->second));
-  }
-  return loaded;
-}
-
-}  // namespace
-
 SessionModel::SessionModel(QObject* parent) : QObject(parent) {}
 SessionModel::~SessionModel() = default;
 
 LoadedSession loadSession(std::unique_ptr<Session> session, std::int64_t campaign) {
-  LoadedSession loaded = readForPages(*session, campaign);
-  loaded.session = std::move(session);
-  return loaded;
+  CampaignState state = CampaignState::read(*session, campaign);
+  return {std::move(session), std::move(state)};
 }
 
 void SessionModel::openSession(const std::filesystem::path& folder) {
@@ -66,11 +27,7 @@ void SessionModel::createSession(const std::filesystem::path& folder) {
   session_ = std::move(made);
   ++opened_;
   ledger_ = {};
-  latest_.clear();
-  campaign_.reset();
-  campaign_id_ = 0;
-  ++visit_;
-  excluded_.clear();
+  forget();
   Q_EMIT sessionChanged();
   Q_EMIT campaignChanged();
 }
@@ -79,11 +36,7 @@ void SessionModel::close() {
   session_.reset();
   ++opened_;
   ledger_ = {};
-  latest_.clear();
-  campaign_.reset();
-  campaign_id_ = 0;
-  ++visit_;
-  excluded_.clear();
+  forget();
   Q_EMIT sessionChanged();
   Q_EMIT campaignChanged();
 }
@@ -105,19 +58,27 @@ void SessionModel::adopt(LoadedSession loaded) {
   ++opened_;
   ledger_ = {};
   ++visit_;
-  if (campaign_id_ != 0) setSetting("campaign", campaign_id_);
+  if (state_.id != 0) setSetting("campaign", state_.id);
   Q_EMIT sessionChanged();
   Q_EMIT campaignChanged();
 }
 
 void SessionModel::take(LoadedSession loaded) {
   session_ = std::move(loaded.session);
-  campaign_id_ = loaded.campaign_id;
-  campaign_ = std::move(loaded.campaign);
-  machine_edited_ = loaded.machine_edited;
-  excluded_ = std::move(loaded.excluded);
-  latest_ = std::move(loaded.latest);
-  evaluation_ = std::move(loaded.evaluation);
+  state_ = std::move(loaded.state);
+  showExcluded();
+}
+
+void SessionModel::forget() {
+  state_ = {};
+  showExcluded();
+  ++visit_;
+}
+
+void SessionModel::showExcluded() {
+  shown_excluded_.clear();
+  for (const auto& [item, reason] : state_.excluded)
+    shown_excluded_[QString::fromStdString(item)] = QString::fromStdString(reason);
 }
 
 void SessionModel::selectCampaign(std::int64_t id) {
@@ -128,9 +89,8 @@ void SessionModel::selectCampaign(std::int64_t id) {
 }
 
 void SessionModel::load(std::int64_t id) {
-  LoadedSession loaded = readForPages(*session_, id);
-  loaded.session = std::move(session_);
-  take(std::move(loaded));
+  state_ = CampaignState::read(*session_, id);
+  showExcluded();
 }
 
 std::vector<CampaignRecord> SessionModel::campaigns() const {
@@ -138,8 +98,8 @@ std::vector<CampaignRecord> SessionModel::campaigns() const {
 }
 
 bool SessionModel::has(Instrument instrument) const {
-  if (campaign_ == nullptr) return false;
-  const CampaignFacts facts = CampaignFacts::of(*campaign_);
+  if (state_.campaign == nullptr) return false;
+  const CampaignFacts facts = CampaignFacts::of(*state_.campaign);
   switch (instrument) {
     case Instrument::Microscope:
       return facts.images;
@@ -152,11 +112,11 @@ bool SessionModel::has(Instrument instrument) const {
 }
 
 bool SessionModel::isLogOnly() const {
-  return campaign_ != nullptr && CampaignFacts::of(*campaign_).log_only;
+  return state_.campaign != nullptr && CampaignFacts::of(*state_.campaign).log_only;
 }
 
 bool SessionModel::modelOverTime() const {
-  return campaign_ != nullptr && tasks().overTime();
+  return state_.campaign != nullptr && tasks().overTime();
 }
 
 void SessionModel::setModelOverTime(bool over_time) {
@@ -166,112 +126,64 @@ void SessionModel::setModelOverTime(bool over_time) {
 }
 
 ClockOffsets SessionModel::clockOffsets() const {
-  return clockOffsetsFrom(setting(Session::clocksKey(campaign_id_), nlohmann::json::object()));
+  return session_ ? clockOffsetsOf(*session_, campaignId()) : ClockOffsets();
 }
 
 void SessionModel::setClockOffsets(const ClockOffsets& offsets) {
-  if (session_ == nullptr || campaign_ == nullptr) return;
-  session_->setSetting(Session::clocksKey(campaign_id_), toJson(offsets));
-  load(campaign_id_);
+  if (session_ == nullptr || state_.campaign == nullptr) return;
+  session_->setSetting(Session::clocksKey(state_.id), toJson(offsets));
+  load(state_.id);
   Q_EMIT campaignChanged();
   Q_EMIT inputsChanged();
 }
 
 CampaignSnapshot SessionModel::snapshot() const {
   CampaignSnapshot copy;
-  if (campaign_ == nullptr) return copy;
-  auto campaign = std::make_shared<Campaign>(*campaign_);
-  for (const auto& [item, reason] : excluded_) {
-    copy.excluded.insert(item.toStdString());
-    campaign->excluded_captures.insert(item.toStdString());
-  }
-  copy.campaign = std::move(campaign);
+  if (campaign() == nullptr) return copy;
+  for (const auto& [item, reason] : state_.excluded) copy.excluded.insert(item);
+  copy.campaign = withoutExcluded(*campaign(), state_.excluded);
   return copy;
-}
-
-nlohmann::json payloadOf(const CampaignEvaluation& evaluation) {
-  nlohmann::json covariance = nlohmann::json::array();
-  for (const CovarianceEntry& e : evaluation.observations.covariance)
-    covariance.push_back({e.row, e.column, e.covariance});
-  return {{"json", evaluation.json()},
-          {"summary", evaluation.summary()},
-          {"good_enough", evaluation.good_enough},
-          {"observations", evaluation.observations.csv()},
-          {"covariance", covariance}};
-}
-
-StoredEvaluation evaluationFrom(const StoredResult& result) {
-  StoredEvaluation evaluation;
-  evaluation.id = result.id;
-  const nlohmann::json& p = result.payload;
-  evaluation.details = p.at("json");
-  evaluation.summary = p.at("summary").get<std::string>();
-  evaluation.good_enough = p.at("good_enough").get<bool>();
-  evaluation.observations = ObservationSet::parse(p.at("observations").get<std::string>(), "stored observations");
-  for (const auto& e : p.at("covariance")) {
-    evaluation.observations.covariance.push_back(
-        {e.at(0).get<std::size_t>(), e.at(1).get<std::size_t>(), e.at(2).get<double>()});
-  }
-  for (const auto& r : evaluation.details.value("rejected", nlohmann::json::array())) {
-    evaluation.rejected.push_back({r.at("capture").get<std::string>(), r.at("reason").get<std::string>()});
-  }
-  for (const auto& w : evaluation.details.value("warnings", nlohmann::json::array())) {
-    evaluation.warnings.push_back(w.get<std::string>());
-  }
-  return evaluation;
 }
 
 std::shared_ptr<const StoredEvaluation> SessionModel::evaluation() const {
   const StoredResult* found = latest("evaluate");
   if (found == nullptr) return nullptr;
-  if (evaluation_ == nullptr || evaluation_->id != found->id) {
-    evaluation_ = std::make_shared<StoredEvaluation>(evaluationFrom(*found));
+  if (state_.evaluation == nullptr || state_.evaluation->id != found->id) {
+    state_.evaluation = std::make_shared<StoredEvaluation>(evaluationFrom(*found));
   }
-  return evaluation_;
+  return state_.evaluation;
 }
 
 std::optional<ObservationSet> SessionModel::observations() const {
-  if (campaign_ == nullptr) return std::nullopt;
-  std::optional<ObservationSet> set = campaign_->observations;
-  if (!set) {
-    if (const auto stored = evaluation()) set = stored->observations;
-  }
-  if (!set) return set;
-  // 30,000 names are not made for nothing.
-  for (std::size_t i = 0; !excluded_.empty() && i < set->rows.size(); ++i) {
-    Observation& o = set->rows[i];
-    const std::string item = o.state + "/" + o.point + "/" + std::string(toString(o.component));
-    if (excluded_.contains(QString::fromStdString(item))) o.use = ObservationUse::Exclude;
-  }
-  if (!campaign_->observations) applyClockOffsets(*set, clockOffsets());  // its own were moved when it was read
-  leaveOutCompensated(*set, campaign_->log);
-  return set;
+  if (campaign() == nullptr) return std::nullopt;
+  const auto stored = campaign()->observations ? nullptr : evaluation();
+  return observationsToFit(*campaign(), stored.get(), state_.excluded, clockOffsets());
 }
 
 void SessionModel::setMachine(const nlohmann::json& machine_json) {
-  if (session_ == nullptr || campaign_ == nullptr) return;
+  if (session_ == nullptr || state_.campaign == nullptr) return;
   if (!machine_json.empty()) {
     // Refuse what cannot be read before anything is stored.
     (void)MachineDescription::parse(JsonNode::parse(machine_json.dump(), "machine as edited"), "machine as edited");
   }
-  session_->setSetting(Session::machineKey(campaign_id_),
+  session_->setSetting(Session::machineKey(state_.id),
                        machine_json.is_null() ? nlohmann::json::object() : machine_json);
-  load(campaign_id_);
+  load(state_.id);
   Q_EMIT campaignChanged();
   Q_EMIT inputsChanged();
 }
 
 std::string SessionModel::inputsKey() const {
-  if (session_ == nullptr || campaign_ == nullptr) return {};
-  return std::to_string(opened_) + "/" + std::to_string(campaign_id_) + session_->inputs(campaign_id_).dump();
+  if (session_ == nullptr || state_.campaign == nullptr) return {};
+  return std::to_string(opened_) + "/" + std::to_string(state_.id) + session_->inputs(state_.id).dump();
 }
 
 TaskGraph SessionModel::tasks() const {
-  return {*session_, campaign_id_, campaign_, [this](const std::string& kind) { return latest(kind); }, ledger_};
+  return {*session_, state_.id, state_.campaign, [this](const std::string& kind) { return latest(kind); }, ledger_};
 }
 
 PendingResult SessionModel::begin(const std::string& kind, const nlohmann::json& options) const {
-  if (session_ == nullptr || campaign_ == nullptr) return {};
+  if (session_ == nullptr || state_.campaign == nullptr) return {};
   return {opened_, tasks().origin(kind, options)};
 }
 
@@ -296,20 +208,20 @@ void SessionModel::workFailed(const PendingResult& pending, const QString& sente
 FileCheck SessionModel::takeFiles(std::int64_t campaign, const FileFingerprints& found) {
   if (session_ == nullptr) return {};
   FileCheck check = session_->takeFiles(campaign, found);
-  if (!check.same() && campaign == campaign_id_) Q_EMIT inputsChanged();
+  if (!check.same() && campaign == state_.id) Q_EMIT inputsChanged();
   return check;
 }
 
 bool SessionModel::atHand(const PendingResult& pending) const {
-  return session_ != nullptr && campaign_ != nullptr && pending.session == opened_ &&
-         pending.origin.campaign == campaign_id_;
+  return session_ != nullptr && state_.campaign != nullptr && pending.session == opened_ &&
+         pending.origin.campaign == state_.id;
 }
 
 bool SessionModel::finish(const PendingResult& pending, const nlohmann::json& payload) {
   if (session_ == nullptr || pending.session != opened_) return false;
   auto kept = session_->keepResult(pending.origin, payload);
   if (!kept || !atHand(pending)) return false;
-  latest_[pending.origin.kind] = std::move(kept);
+  state_.latest[pending.origin.kind] = std::move(kept);
   Q_EMIT resultChanged(QString::fromStdString(pending.origin.kind));
   return true;
 }
@@ -319,9 +231,9 @@ void SessionModel::storeResult(const std::string& kind, const nlohmann::json& op
 }
 
 const StoredResult* SessionModel::latest(const std::string& kind) const {
-  if (session_ == nullptr || campaign_ == nullptr) return nullptr;
-  auto found = latest_.find(kind);
-  if (found == latest_.end()) found = latest_.emplace(kind, session_->latestResult(campaign_id_, kind)).first;
+  if (session_ == nullptr || state_.campaign == nullptr) return nullptr;
+  auto found = state_.latest.find(kind);
+  if (found == state_.latest.end()) found = state_.latest.emplace(kind, session_->latestResult(state_.id, kind)).first;
   return found->second ? &*found->second : nullptr;
 }
 
@@ -353,29 +265,31 @@ void SessionModel::capturesChanged(bool first) {
 }
 
 void SessionModel::recordArrival(const ExaminedFile& examined) {
-  if (session_ == nullptr || campaign_ == nullptr) return;
-  const bool first = !examined.row.empty() && !campaign_->captureList(examined.list);
-  spindrift::recordArrival(*session_, campaign_id_, examined);
+  if (session_ == nullptr || state_.campaign == nullptr) return;
+  const bool first = !examined.row.empty() && !state_.campaign->captureList(examined.list);
+  spindrift::recordArrival(*session_, state_.id, examined);
   if (!examined.row.empty()) capturesChanged(first);
 }
 
 void SessionModel::addCaptureRows(const std::string& list, const std::string& header,
                                   const std::vector<std::string>& rows) {
-  if (session_ == nullptr || campaign_ == nullptr || rows.empty()) return;
-  const bool first = !campaign_->captureList(list);
-  session_->addCaptureRows(campaign_id_, list, header, rows);
+  if (session_ == nullptr || state_.campaign == nullptr || rows.empty()) return;
+  const bool first = !state_.campaign->captureList(list);
+  session_->addCaptureRows(state_.id, list, header, rows);
   capturesChanged(first);
 }
 
 void SessionModel::setExcluded(const QString& item, const QString& reason) {
-  if (session_ == nullptr || campaign_ == nullptr) return;
+  if (session_ == nullptr || state_.campaign == nullptr) return;
   try {
     if (reason.isEmpty()) {
-      session_->restore(campaign_id_, item.toStdString());
-      excluded_.erase(item);
+      session_->restore(state_.id, item.toStdString());
+      state_.excluded.erase(item.toStdString());
+      shown_excluded_.erase(item);
     } else {
-      session_->exclude(campaign_id_, item.toStdString(), reason.toStdString());
-      excluded_[item] = reason;
+      session_->exclude(state_.id, item.toStdString(), reason.toStdString());
+      state_.excluded[item.toStdString()] = reason.toStdString();
+      shown_excluded_[item] = reason;
     }
   } catch (const InputError& e) {
     Q_EMIT storingFailed(QString::fromUtf8(e.what()));
@@ -385,13 +299,13 @@ void SessionModel::setExcluded(const QString& item, const QString& reason) {
 }
 
 std::vector<Note> SessionModel::notes() const {
-  return session_ != nullptr ? session_->notes(campaign_id_) : std::vector<Note>();
+  return session_ != nullptr ? session_->notes(state_.id) : std::vector<Note>();
 }
 
 bool SessionModel::addNote(const QString& about, const QString& text, const QString& item) {
-  if (session_ == nullptr || campaign_ == nullptr || text.isEmpty()) return false;
+  if (session_ == nullptr || state_.campaign == nullptr || text.isEmpty()) return false;
   try {
-    session_->addNote(campaign_id_, about.toStdString(), text.toStdString(), item.toStdString());
+    session_->addNote(state_.id, about.toStdString(), text.toStdString(), item.toStdString());
     return true;
   } catch (const InputError& e) {
     Q_EMIT storingFailed(QString::fromUtf8(e.what()));
@@ -435,11 +349,11 @@ nlohmann::json SessionModel::setting(const std::string& key, const nlohmann::jso
 }
 
 std::string SessionModel::campaignKey(const std::string& key) const {
-  return spindrift::campaignKey(key, campaign_id_);
+  return spindrift::campaignKey(key, state_.id);
 }
 
 nlohmann::json SessionModel::campaignSetting(const std::string& key, const nlohmann::json& otherwise) const {
-  return session_ == nullptr ? otherwise : spindrift::campaignSetting(*session_, campaign_id_, key, otherwise);
+  return session_ == nullptr ? otherwise : spindrift::campaignSetting(*session_, state_.id, key, otherwise);
 }
 
 nlohmann::json SessionModel::draft(const std::string& name, const nlohmann::json& base) const {

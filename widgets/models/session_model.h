@@ -16,6 +16,7 @@
 #include "core/machine/campaign.h"
 #include "core/machine/instrument_evaluation.h"
 #include "core/session/session.h"
+#include "core/tasks/campaign_state.h"
 #include "core/tasks/task_graph.h"
 #include "core/workflows/clock_offsets.h"
 #include "core/workflows/evaluate_campaign.h"
@@ -31,21 +32,6 @@ struct CampaignSnapshot {
   std::shared_ptr<const Campaign> campaign;
   std::set<std::string> excluded;  ///< items as in Exclusion
 };
-
-/// The evaluation of a campaign's captures, as it was stored.
-struct StoredEvaluation {
-  std::int64_t id = 0;
-  ObservationSet observations;
-  nlohmann::json details = nlohmann::json::object();  ///< JSON of `evaluate` (FORMATS.md)
-  std::vector<RejectedCapture> rejected;
-  std::vector<std::string> warnings;
-  std::string summary;
-  bool good_enough = true;
-};
-
-/// Payload of a result of kind "evaluate" and back.
-[[nodiscard]] nlohmann::json payloadOf(const CampaignEvaluation& evaluation);
-[[nodiscard]] StoredEvaluation evaluationFrom(const StoredResult& result);
 
 /// A result that is being worked out: what it is made from, and the session that was open when the work started.
 struct PendingResult {
@@ -66,12 +52,7 @@ struct ResultState {
 /// it (`loadSession`) and the GUI thread only takes it over.
 struct LoadedSession {
   std::unique_ptr<Session> session;
-  std::int64_t campaign_id = 0;  ///< 0: the session has none
-  std::shared_ptr<const Campaign> campaign;
-  bool machine_edited = false;
-  std::map<QString, QString> excluded;
-  std::map<std::string, std::optional<StoredResult>> latest;
-  std::shared_ptr<const StoredEvaluation> evaluation;
+  CampaignState state;
 };
 
 /// Any thread. `campaign` 0: the one that was at hand last, else the newest. Throws InputError.
@@ -100,11 +81,11 @@ class SessionModel : public QObject {
   void adopt(std::unique_ptr<Session> session, std::int64_t campaign);
   void selectCampaign(std::int64_t id);
   [[nodiscard]] std::vector<CampaignRecord> campaigns() const;
-  [[nodiscard]] std::int64_t campaignId() const { return campaign_id_; }
+  [[nodiscard]] std::int64_t campaignId() const { return state_.id; }
   /// Another number whenever a session is opened or a campaign chosen, never the same twice. Ids of campaigns and
   /// results begin again in every session, so that nothing may be recognised by them across sessions.
   [[nodiscard]] std::int64_t visit() const { return visit_; }
-  [[nodiscard]] std::shared_ptr<const Campaign> campaign() const { return campaign_; }
+  [[nodiscard]] std::shared_ptr<const Campaign> campaign() const { return state_.campaign; }
   [[nodiscard]] bool has(Instrument instrument) const;
   /// True for a campaign that is a log with a measured output over time, without captures or observations.
   [[nodiscard]] bool isLogOnly() const;
@@ -119,7 +100,7 @@ class SessionModel : public QObject {
   /// The machine as edited by the user, in place of machine.json (which is never altered); empty JSON: back to the
   /// file.
   void setMachine(const nlohmann::json& machine_json);
-  [[nodiscard]] bool machineEdited() const { return machine_edited_; }
+  [[nodiscard]] bool machineEdited() const { return state_.machine_edited; }
 
   // Results. `kind` names what was computed ("evaluate", "fit", "check").
   //
@@ -165,7 +146,9 @@ class SessionModel : public QObject {
 
   // Exclusions; `reason` empty takes an item back in. Undo commands call these.
   void setExcluded(const QString& item, const QString& reason);
-  [[nodiscard]] const std::map<QString, QString>& excluded() const { return excluded_; }
+  [[nodiscard]] const std::map<QString, QString>& excluded() const { return shown_excluded_; }
+  /// The same for core.
+  [[nodiscard]] const ExcludedItems& excludedItems() const { return state_.excluded; }
 
   // Notes on the campaign at hand. A note that cannot be stored is told by storingFailed().
   [[nodiscard]] std::vector<Note> notes() const;
@@ -205,19 +188,19 @@ class SessionModel : public QObject {
  private:
   void load(std::int64_t id);
   void take(LoadedSession loaded);
+  /// No campaign at hand.
+  void forget();
+  void showExcluded();
   void capturesChanged(bool first);
 
   std::unique_ptr<Session> session_;
   TaskLedger ledger_;
-  std::int64_t campaign_id_ = 0;
+  /// Of the campaign at hand; results and the evaluation are read when they are first asked for.
+  mutable CampaignState state_;
+  std::map<QString, QString> shown_excluded_;  ///< state_.excluded, as the window asks for it
   std::int64_t visit_ = 0;
   std::int64_t opened_ = 0;  ///< sessions so far
-  std::shared_ptr<const Campaign> campaign_;
-  std::map<QString, QString> excluded_;
-  bool machine_edited_ = false;
   int capture_generation_ = 0;
-  mutable std::shared_ptr<const StoredEvaluation> evaluation_;
-  mutable std::map<std::string, std::optional<StoredResult>> latest_;
 };
 
 /// Folder in which new sessions are made: <documents>/Spindrift, or the application's data folder.

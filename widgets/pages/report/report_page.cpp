@@ -231,13 +231,11 @@ bool ReportPage::keepOperator() {
 void ReportPage::write() {
   (void)keepOperator();
   if (!canReport(*session().campaign(), session().observations().has_value())) return;
-  ExcludedItems excluded;
-  for (const auto& [item, reason] : session().excluded()) excluded[item.toStdString()] = reason.toStdString();
   const PendingResult pending = session().begin(result_kind);
   Job job;
   job.title = tr("Writing the report");
-  job.work = [this, pending,
-              task = ReportTask::of(session().tasks(), excluded)](JobContext& progress) -> std::function<void()> {
+  job.work = [this, pending, task = ReportTask::of(session().tasks(), session().excludedItems())](
+                 JobContext& progress) -> std::function<void()> {
     return [this, pending, payload = task.run(progress)] {
       if (session().finish(pending, payload)) refresh();
     };
