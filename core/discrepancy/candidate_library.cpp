@@ -146,7 +146,10 @@ CandidateLibrary::Entry CandidateLibrary::entryOf(const Effect& effect) const {
       case Dynamics::AsymmetricLag:
         for (std::size_t a = 0; a < lags.size(); a += 2) {
           for (std::size_t b = 0; b < lags.size(); b += 2) {
-            if (a != b) addWay(variant, {lags[a], lags[b]}, {responseOf(first, lags[a], lags[b])});
+            if (a == b) continue;
+            std::vector<Index> which;
+            for (const EffectInput& input : variant.inputs) which.push_back(responseOf(input, lags[a], lags[b]));
+            addWay(variant, {lags[a], lags[b]}, which);
           }
         }
         break;

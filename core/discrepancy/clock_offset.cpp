@@ -12,14 +12,6 @@
 namespace spindrift {
 namespace {
 
-/// Something of the log moves them.
-bool driven(const JointFit& fit) {
-  return std::any_of(fit.terms.begin(), fit.terms.end(), [](const ModelTerm& term) {
-    return std::any_of(term.variant.inputs.begin(), term.variant.inputs.end(),
-                       [](const EffectInput& i) { return !i.driver.empty(); });
-  });
-}
-
 /// chi-squared of the terms, refined, with the clock of the log moved by `by_s`: lags follow the clock.
 double chi2At(const ResidualProblem& problem, const std::vector<Effect>& catalogue, const DriverTable& drivers,
               const std::vector<ModelTerm>& terms, double by_s, int rounds) {
@@ -35,7 +27,7 @@ double chi2At(const ResidualProblem& problem, const std::vector<Effect>& catalog
 std::optional<ClockOffset> estimateClockOffset(const ResidualProblem& problem, const std::vector<Effect>& catalogue,
                                                const DriverTable& drivers, const JointFit& fit, double present_s,
                                                double prior_s) {
-  if (!driven(fit) || drivers.empty()) return std::nullopt;
+  if (std::none_of(fit.terms.begin(), fit.terms.end(), drivenByLog) || drivers.empty()) return std::nullopt;
   constexpr double step_s = 60.0;
   constexpr int most_steps = 10;
   std::map<int, double> values;

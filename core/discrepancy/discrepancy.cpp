@@ -22,6 +22,7 @@
 #include "core/discrepancy/judgement.h"
 #include "core/discrepancy/own_effects.h"
 #include "core/discrepancy/places.h"
+#include "core/discrepancy/simulation_parts.h"
 #include "core/discrepancy/simulator_hypotheses.h"
 #include "core/discrepancy/suggestion.h"
 #include "core/discrepancy/told_noise.h"
@@ -192,57 +193,6 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
   }
 }
 
-/// An effect of the catalogue that the simulation contains.
-struct SimulationPart {
-  std::string id;
-  Eigen::VectorXd values;  ///< what it contributes to the simulation over the units, um or urad
-};
-
-/// What the simulation is made of, as far as it is of effects of the catalogue: found as missing effects are, in the
-/// simulation in place of the residual.
-std::vector<SimulationPart> partsOfSimulation(const ResidualProblem& problem, const DriverTable& drivers,
-                                              const std::vector<Effect>& catalogue, const DiscrepancyPriors& priors,
-                                              const JobContext& job) {
-  ResidualProblem simulation = problem;
-  simulation.y = simulation.simulated;
-  simulation.setNuisances({});
-  const EffectSearch search(simulation, drivers, catalogue);
-  const CandidateLibrary library(search, simulation, job);
-  const DiscrepancyOptions nothing_by_hand;
-  const JointFit fit = PosteriorSearch(search, simulation, library, nothing_by_hand, priors, 0.0).run(job).fit;
-  std::vector<SimulationPart> out;
-  for (std::size_t t = 0; t < fit.terms.size(); ++t) out.push_back({fit.terms[t].effect->id, fit.contribution[t]});
-  return out;
-}
-
-/// By how much a part of the simulation is too large, relative to what it ought to be.
-struct PartError {
-  std::string id;
-  double relative = 0.0;
-  double uncertainty = 0.0;
-};
-
-/// Errors of those parts that account for most of what the nuisances take of `values`. `first`: the nuisance that
-/// stands for the first part.
-std::vector<PartError> partErrors(const ResidualProblem& problem, const std::vector<SimulationPart>& parts,
-                                  std::size_t first, const Eigen::VectorXd& values) {
-  const ResidualProblem::NuisancePart taken = problem.nuisancePart(values);
-  std::vector<double> size_um;
-  for (const SimulationPart& part : parts)
-    size_um.push_back(std::abs(taken.values.dot(part.values)) / part.values.norm());
-  std::vector<PartError> out;
-  constexpr double main_part = 0.5;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (size_um[p] < main_part * *std::max_element(size_um.begin(), size_um.end())) continue;
-    // What is missing, as a part of what the simulation has.
-    const double missing = taken.values.dot(parts[p].values) / parts[p].values.squaredNorm();
-    const double needed = std::max(1e-9, 1.0 + missing);
-    out.push_back(
-        {parts[p].id, -missing / needed, std::sqrt(std::max(0.0, taken.variances[first + p])) / (needed * needed)});
-  }
-  return out;
-}
-
 Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
                  const DiscrepancyPriors& priors, std::shared_ptr<DriverTable> drivers, std::vector<Effect> catalogue,
                  JobContext& job) {
@@ -251,26 +201,31 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
   // Absolute values that are said to be predicted exactly: what deviates is none of the simulation's own scale.
   const bool exact = input.absolute && !(input.simulation_gain_uncertainty > 0.0);
   // Where a simulator says which of its parameters are uncertain, its parts are not doubted beyond what is stated.
+  std::vector<SimulationPart> parts;
   const auto nuisancesOf = [&](double parts_error) {
     std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(
-        exact ? 0.0 : std::max(input.simulation_gain_uncertainty, input.tangents ? 0.0 : parts_error), priors.clock_s);
+        exact ? 0.0 : std::max(input.simulation_gain_uncertainty, input.tangents ? 0.0 : parts_error));
+    Eigen::VectorXd rate = clockRate(problem, parts);
+    if (rate.cwiseAbs().maxCoeff() > 1e-12) nuisances.push_back({std::move(rate), priors.clock_s, false});
     for (NuisanceColumn& column : a.hypotheses.nuisances(problem)) nuisances.push_back(std::move(column));
     return nuisances;
   };
+  problem.setNuisances(nuisancesOf(priors.simulation_error));
+  problem.setNoise(estimateNoise(problem, problem.y - problem.nuisancePart(problem.y).values, false));
+  parts = partsOfSimulation(problem, *a.drivers, a.catalogue, priors, job);
   problem.setNuisances(nuisancesOf(priors.simulation_error));
   weigh(a, input, problem, options, priors, exact, job);
   if (exact || input.tangents || !(priors.rough_simulation_error > input.simulation_gain_uncertainty)) return a;
   // An effect may be what a rough simulation leaves: a part that is somewhat too large or too small, not one missing.
   const auto sizes = [&] {
-    Eigen::MatrixXd parts(problem.size(), static_cast<Index>(a.posterior.fit.terms.size()));
-    for (Index t = 0; t < parts.cols(); ++t) parts.col(t) = a.posterior.fit.contribution[static_cast<std::size_t>(t)];
-    return Eigen::VectorXd(problem.projected(parts).colwise().squaredNorm());
+    Eigen::MatrixXd fitted(problem.size(), static_cast<Index>(a.posterior.fit.terms.size()));
+    for (Index t = 0; t < fitted.cols(); ++t) fitted.col(t) = a.posterior.fit.contribution[static_cast<std::size_t>(t)];
+    return Eigen::VectorXd(problem.projected(fitted).colwise().squaredNorm());
   };
   const Eigen::VectorXd narrow = sizes();
   const double evidence = a.posterior.evidence - problem.nuisanceLogDeterminant();
   std::vector<NuisanceColumn> nuisances = nuisancesOf(priors.simulation_error);
   const std::size_t first_part = nuisances.size();
-  const std::vector<SimulationPart> parts = partsOfSimulation(problem, *a.drivers, a.catalogue, priors, job);
   for (const SimulationPart& part : parts) nuisances.push_back({part.values, priors.rough_simulation_error, true});
   problem.setNuisances(nuisances);
   constexpr double followed = 0.6;

@@ -192,11 +192,12 @@ std::string driversText(const ModelEffect& e) {
         text += "warm at the start";
         if (!e.variant.shared_lag) ++next;
         break;
-      case Dynamics::AsymmetricLag:
-        text +=
-            fmt::format("{} (lag {:.0f} s on, {:.0f} s off)", input.driver, e.parameters[next], e.parameters[next + 1]);
-        next += 2;
+      case Dynamics::AsymmetricLag: {
+        const std::size_t first = e.variant.shared_lag ? 0 : next;
+        text += fmt::format("{} (lag {:.0f} s on, {:.0f} s off)", name, e.parameters[first], e.parameters[first + 1]);
+        if (!e.variant.shared_lag) next += 2;
         break;
+      }
       case Dynamics::Step:
         text += fmt::format("step at {:.0f} s", e.parameters[next++]);
         break;

@@ -220,7 +220,7 @@ Eigen::VectorXd DriverTable::response(const Driver& driver, double tau_on_s, dou
   if (tau_off_s < 0.0) tau_off_s = tau_on_s;
   // Advances the state by dt under the input u0 (at the start) with the given slope.
   const auto advance = [&](double q, double u0, double slope, double dt) {
-    const double tau = u0 > 0.0 ? tau_on_s : tau_off_s;
+    const double tau = u0 != 0.0 ? tau_on_s : tau_off_s;
     if (tau <= 0.0) return u0 + slope * dt;
     const double decay = std::exp(-dt / tau);
     return u0 + slope * (dt - tau) + (q - u0 + slope * tau) * decay;
@@ -282,7 +282,8 @@ int parameterCount(const EffectVariant& variant) {
         counted_shared = true;
         break;
       case Dynamics::AsymmetricLag:
-        count += 2;
+        if (!variant.shared_lag || !counted_shared) count += 2;
+        counted_shared = true;
         break;
       case Dynamics::Step:
         count += 1;
@@ -308,6 +309,7 @@ std::vector<std::string> parameterNames(const EffectVariant& variant) {
         if (!variant.shared_lag || lag == 0) names.push_back(lagName());
         break;
       case Dynamics::AsymmetricLag:
+        if (variant.shared_lag && !names.empty()) break;
         names.emplace_back("tau_on_s");
         names.emplace_back("tau_off_s");
         break;
@@ -361,10 +363,12 @@ Eigen::MatrixXd inputResponses(const DriverTable& table, const EffectVariant& va
         if (!variant.shared_lag) ++next;
         break;
       }
-      case Dynamics::AsymmetricLag:
-        column = table.response(*driver, parameters[next], parameters[next + 1], times_s);
-        next += 2;
+      case Dynamics::AsymmetricLag: {
+        const std::size_t at = variant.shared_lag ? 0 : next;
+        column = table.response(*driver, parameters[at], parameters[at + 1], times_s);
+        if (!variant.shared_lag) next += 2;
         break;
+      }
       case Dynamics::Step:
         for (Eigen::Index r = 0; r < rows; ++r) {
           column[r] = times_s[static_cast<std::size_t>(r)] >= parameters[next] ? 1.0 : 0.0;

@@ -70,13 +70,18 @@ std::pair<std::size_t, std::size_t> placeOf(const ModelEffect& effect, const Eff
 /// The same effect with one lag for each input.
 ModelEffect withLagsApart(ModelEffect effect) {
   if (!effect.variant.shared_lag) return effect;
-  const auto inputs = effect.variant.inputs.size();
+  const auto inputs = static_cast<Index>(effect.variant.inputs.size());
+  const std::vector<double> shared = effect.parameters;
+  const auto each = static_cast<Index>(shared.size());
   const Index gains = effect.gains.size();
-  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(gains + static_cast<Index>(inputs), effect.covariance.cols());
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(gains + inputs * each, effect.covariance.cols());
   spread.topLeftCorner(gains, gains).setIdentity();
-  spread.bottomRows(static_cast<Index>(inputs)).col(gains).setOnes();
+  effect.parameters.clear();
+  for (Index i = 0; i < inputs; ++i) {
+    spread.block(gains + i * each, gains, each, each).setIdentity();
+    effect.parameters.insert(effect.parameters.end(), shared.begin(), shared.end());
+  }
   effect.covariance = spread * effect.covariance * spread.transpose();
-  effect.parameters.assign(inputs, effect.parameters[0]);
   effect.variant.shared_lag = false;
   return effect;
 }

@@ -100,6 +100,11 @@ Eigen::MatrixXd EffectSearch::columns(const ModelTerm& term) const {
   return out;
 }
 
+bool drivenByLog(const ModelTerm& term) {
+  return std::any_of(term.variant.inputs.begin(), term.variant.inputs.end(),
+                     [](const EffectInput& input) { return !input.driver.empty(); });
+}
+
 bool EffectSearch::admissible(const ModelTerm& term, const Eigen::VectorXd& gains) const {
   const Effect& effect = *term.effect;
   const auto k = static_cast<Index>(effect.shape.size());

@@ -21,6 +21,9 @@ struct ModelTerm {
   std::vector<double> parameters;
 };
 
+/// Some signal of the log moves it.
+[[nodiscard]] bool drivenByLog(const ModelTerm& term);
+
 /// A joint fit of several effects.
 struct JointFit {
   std::vector<ModelTerm> terms;

@@ -354,8 +354,8 @@ Eigen::MatrixXd plannedResponses(const DriverTable& planned, const EffectVariant
         if (!variant.shared_lag) ++next;
         break;
       case Dynamics::AsymmetricLag:
-        if (driver != nullptr) column = planned.response(*driver, parameters[next], parameters[next + 1], times_s);
-        next += 2;
+        if (driver != nullptr) column = planned.response(*driver, parameters[at], parameters[at + 1], times_s);
+        if (!variant.shared_lag) next += 2;
         break;
       case Dynamics::Start:
         if (!variant.shared_lag) ++next;

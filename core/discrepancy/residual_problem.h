@@ -142,8 +142,10 @@ class ResidualProblem {
   bool free_constants = true;
 
   /// The nuisances that belong to the simulation: its gain per component within `gain_uncertainty`, and as much for
-  /// the parts it is made of in space and time and for its lags; and an offset of its clock (s, prior `clock_s`).
-  [[nodiscard]] std::vector<NuisanceColumn> simulationNuisances(double gain_uncertainty, double clock_s) const;
+  /// the parts it is made of in space and time and for its lags.
+  [[nodiscard]] std::vector<NuisanceColumn> simulationNuisances(double gain_uncertainty) const;
+  /// Rate of values over the units, from state to state of every series, per s.
+  [[nodiscard]] Eigen::VectorXd ratePerSecond(const Eigen::VectorXd& values) const;
 
  private:
   struct Block {

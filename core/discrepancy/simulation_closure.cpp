@@ -18,7 +18,7 @@ SimulationClosure::SimulationClosure(const DiscrepancyInput& input, const Discre
                                      const Simulator& simulator, const std::vector<std::size_t>& rows,
                                      const JobContext& job)
     : input_(&input), simulator_(&simulator), job_(&job), problem_(input, rows, unit_limit) {
-  problem_.setNuisances(problem_.simulationNuisances(input.simulation_gain_uncertainty, 0.0));
+  problem_.setNuisances(problem_.simulationNuisances(input.simulation_gain_uncertainty));
   if (result.noise_model) problem_.setNoise(*result.noise_model);
 }
 

@@ -12,23 +12,23 @@ using Eigen::Index;
 
 }  // namespace
 
-std::vector<NuisanceColumn> ResidualProblem::simulationNuisances(double gain_uncertainty, double clock_s) const {
-  std::vector<NuisanceColumn> out;
-  if (clock_s > 0.0) {
-    // Observations that are late by one second: minus the rate of the simulation, all components together.
-    Eigen::VectorXd rate = Eigen::VectorXd::Zero(size());
-    for (int s = 0; s < seriesCount(); ++s) {
-      const Index from = series_begin[static_cast<std::size_t>(s)];
-      const Index to = series_begin[static_cast<std::size_t>(s) + 1];
-      for (Index u = from; u < to; ++u) {
-        const Index before = std::max(from, u - 1);
-        const Index after = std::min(to - 1, u + 1);
-        const double dt = time_s[static_cast<std::size_t>(after)] - time_s[static_cast<std::size_t>(before)];
-        if (dt > 0.0) rate[u] = (simulated[after] - simulated[before]) / dt;
-      }
+Eigen::VectorXd ResidualProblem::ratePerSecond(const Eigen::VectorXd& values) const {
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(size());
+  for (int s = 0; s < seriesCount(); ++s) {
+    const Index from = series_begin[static_cast<std::size_t>(s)];
+    const Index to = series_begin[static_cast<std::size_t>(s) + 1];
+    for (Index u = from; u < to; ++u) {
+      const Index before = std::max(from, u - 1);
+      const Index after = std::min(to - 1, u + 1);
+      const double dt = time_s[static_cast<std::size_t>(after)] - time_s[static_cast<std::size_t>(before)];
+      if (dt > 0.0) rate[u] = (values[after] - values[before]) / dt;
     }
-    if (rate.cwiseAbs().maxCoeff() > 1e-12) out.push_back({rate, clock_s, false});
   }
+  return rate;
+}
+
+std::vector<NuisanceColumn> ResidualProblem::simulationNuisances(double gain_uncertainty) const {
+  std::vector<NuisanceColumn> out;
   if (!(gain_uncertainty > 0.0)) return out;
   const Index n = size();
   for (const Component c : all_components) {

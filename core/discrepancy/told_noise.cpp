@@ -27,7 +27,8 @@ std::size_t at(Index unit) {
 /// taken from the smallest quarter of what is left, which even half a component of outliers does not reach.
 void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& left,
                        std::vector<std::string>& warnings) {
-  constexpr double too_many = 0.25;
+  // Heavy tails alone bring less than 0.05.
+  constexpr double too_many = 0.15;
   for (const Component c : all_components) {
     std::vector<double> sizes;
     for (Index u = 0; u < problem.size(); ++u) {

@@ -41,7 +41,7 @@ struct EffectInput {
 /// One way in which an effect may be driven. All variants of an effect have the same shape and the same name.
 struct EffectVariant {
   std::vector<EffectInput> inputs;
-  bool shared_lag = false;  ///< all inputs have the same time constant
+  bool shared_lag = false;  ///< all inputs have the same time constant, or the same two
 };
 
 /// Deviation per unit gain of one shape column: um per unit for EX..EZ, urad per unit for EA..EC.

@@ -28,6 +28,7 @@ void coolant(const CatalogueContext& context, std::vector<Effect>& out) {
         const std::string product = "coolant*" + room;
         if (!context.drivers->has(product)) continue;
         effect.variants.push_back({{{"coolant", Dynamics::Lag}, {product, Dynamics::Lag}}, true});
+        effect.variants.push_back({{{"coolant", Dynamics::AsymmetricLag}, {product, Dynamics::AsymmetricLag}}, true});
       }
       effect.variants.push_back({{{"coolant", Dynamics::AsymmetricLag}}, false});
     } else {

@@ -136,7 +136,7 @@ TEST(Dynamics, TryEveryDriverThatTheDataAllow) {
   }
   const DriverTable drivers(input.machine, &*input.log);
   ResidualProblem problem(input, rows, 3000);
-  problem.setNuisances(problem.simulationNuisances(0.01, 0.0));
+  problem.setNuisances(problem.simulationNuisances(0.01));
   CatalogueContext context;
   context.machine = &input.machine;
   context.drivers = &drivers;

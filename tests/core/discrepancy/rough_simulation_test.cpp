@@ -117,7 +117,7 @@ TEST(RoughSimulation, TheFreedomOfNuisancesCostsTheirDeterminant) {
     if (input.observations.rows[r].use == ObservationUse::Fit) rows.push_back(r);
   }
   ResidualProblem problem(input, rows, 4000);
-  const std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(0.08, 120.0);
+  const std::vector<NuisanceColumn> nuisances = problem.simulationNuisances(0.08);
   ASSERT_GE(nuisances.size(), 4U);
   problem.setNuisances(nuisances);
   const auto count = static_cast<Eigen::Index>(nuisances.size());

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/discrepancy/simulation_parts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spindrift {
+
+std::vector<SimulationPart> partsOfSimulation(const ResidualProblem& problem, const DriverTable& drivers,
+                                              const std::vector<Effect>& catalogue, const DiscrepancyPriors& priors,
+                                              const JobContext& job) {
+  if (!(problem.simulated.size() > 0 && problem.simulated.cwiseAbs().maxCoeff() > 0.0)) return {};
+  ResidualProblem simulation = problem;
+  simulation.y = simulation.simulated;
+  simulation.setNuisances({});
+  const EffectSearch search(simulation, drivers, catalogue);
+  const CandidateLibrary library(search, simulation, job);
+  const DiscrepancyOptions nothing_by_hand;
+  const JointFit fit = PosteriorSearch(search, simulation, library, nothing_by_hand, priors, 0.0).run(job).fit;
+  std::vector<SimulationPart> out;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) out.push_back({fit.terms[t].effect->id, fit.contribution[t], {}});
+  if (drivers.empty()) return out;
+  // Of the order of an offset, so that parts that follow their drivers within minutes are moved as they would be.
+  constexpr double apart_s = 120.0;
+  for (const double by_s : {-apart_s, apart_s}) {
+    DriverTable shifted = drivers;
+    shifted.shiftClock(by_s);
+    const EffectSearch moved(simulation, shifted, catalogue);
+    for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+      if (!drivenByLog(fit.terms[t])) continue;
+      moved.prepare(*fit.terms[t].effect);
+      const Eigen::VectorXd share = moved.columns(fit.terms[t]) * fit.gains[t] / (2.0 * by_s);
+      out[t].rate = out[t].rate.size() == 0 ? share : Eigen::VectorXd(out[t].rate + share);
+    }
+  }
+  return out;
+}
+
+Eigen::VectorXd clockRate(const ResidualProblem& problem, const std::vector<SimulationPart>& parts) {
+  Eigen::VectorXd rest = problem.simulated;
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(problem.size());
+  for (const SimulationPart& part : parts) {
+    if (part.rate.size() == 0) continue;
+    rest -= part.values;
+    rate += part.rate;
+  }
+  return rate + problem.ratePerSecond(rest);
+}
+
+std::vector<PartError> partErrors(const ResidualProblem& problem, const std::vector<SimulationPart>& parts,
+                                  std::size_t first, const Eigen::VectorXd& values) {
+  const ResidualProblem::NuisancePart taken = problem.nuisancePart(values);
+  std::vector<double> size_um;
+  for (const SimulationPart& part : parts)
+    size_um.push_back(std::abs(taken.values.dot(part.values)) / part.values.norm());
+  std::vector<PartError> out;
+  constexpr double main_part = 0.5;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (size_um[p] < main_part * *std::max_element(size_um.begin(), size_um.end())) continue;
+    // What is missing, as a part of what the simulation has.
+    const double missing = taken.values.dot(parts[p].values) / parts[p].values.squaredNorm();
+    const double needed = std::max(1e-9, 1.0 + missing);
+    out.push_back(
+        {parts[p].id, -missing / needed, std::sqrt(std::max(0.0, taken.variances[first + p])) / (needed * needed)});
+  }
+  return out;
+}
+
+}  // namespace spindrift

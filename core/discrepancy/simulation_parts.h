@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a simulation is made of, as far as it is of effects of the catalogue: how wrong each part is, and how all move
+// if the clock of the log is not that of the observations. Internal to core/discrepancy.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/base/job_context.h"
+#include "core/discrepancy/effect_posterior.h"
+#include "core/discrepancy/residual_problem.h"
+
+namespace spindrift {
+
+/// An effect of the catalogue that the simulation contains.
+struct SimulationPart {
+  std::string id;
+  Eigen::VectorXd values;  ///< what it contributes to the simulation over the units, um or urad
+  Eigen::VectorXd rate;    ///< what it gains per second that the clock of the log is ahead; empty: nothing logged
+};
+
+/// Found as missing effects are, in the simulation in place of the residual, to within the noise of the observations.
+[[nodiscard]] std::vector<SimulationPart> partsOfSimulation(const ResidualProblem& problem, const DriverTable& drivers,
+                                                            const std::vector<Effect>& catalogue,
+                                                            const DiscrepancyPriors& priors, const JobContext& job);
+
+/// What the residual gains over the units per second that the clock of the log is ahead of that of the observations, um
+/// or urad per s: the simulation was computed from the log and asked at times of the observations. Its parts move as
+/// their drivers say, between the states as well; the rest as it goes from state to state.
+[[nodiscard]] Eigen::VectorXd clockRate(const ResidualProblem& problem, const std::vector<SimulationPart>& parts);
+
+/// By how much a part of the simulation is too large, relative to what it ought to be.
+struct PartError {
+  std::string id;
+  double relative = 0.0;
+  double uncertainty = 0.0;
+};
+
+/// Errors of those parts that account for most of what the nuisances take of `values`. `first`: the nuisance that
+/// stands for the first part.
+[[nodiscard]] std::vector<PartError> partErrors(const ResidualProblem& problem,
+                                                const std::vector<SimulationPart>& parts, std::size_t first,
+                                                const Eigen::VectorXd& values);
+
+}  // namespace spindrift
