@@ -472,7 +472,9 @@ void tellCandidates(const EffectPosterior& posterior, const DiscrepancyOptions& 
 std::string sentenceOf(const DiscrepancyResult& result, const DiscrepancyOptions& options) {
   switch (result.verdict) {
     case DiscrepancyVerdict::None:
-      return "Measurement and simulation agree within the noise.";
+      return result.gap.withinNoise() ? "Measurement and simulation agree within the noise."
+                                      : "Measurement and simulation differ by no more than a rough simulation may be "
+                                        "off by; nothing is missing beyond that.";
     case DiscrepancyVerdict::Unknown:
       return options.max_effects == 0 ? "Something disagrees; no effect was tried."
                                       : "Something disagrees that no effect of the catalogue explains.";

@@ -154,6 +154,9 @@ struct DiscrepancyGap {
   double heldout_rms_before_um = 0.0;
   double heldout_rms_after_um = 0.0;
   bool rotations = false;  ///< all of it is in urad
+
+  /// What is there before anything is added is no more than noise; the rest of it is what a simulation may be off by.
+  [[nodiscard]] bool withinNoise() const noexcept { return rms_before_um <= 1.25 * noise_um; }
 };
 
 /// A part of an operating programme: what the machine does from one time to another, everything else at rest.

@@ -74,11 +74,14 @@ Sentence verdictOf(const DiscrepancyStory& story) {
       story.leftover.empty() ? QString() : DiscrepancyPage::tr("Remainder: %1. ").arg(titledSentence(story.leftover));
   switch (story.verdict) {
     case DiscrepancyVerdict::None:
-      return {DiscrepancyPage::tr("Measured and simulated agree within the noise."),
-              DiscrepancyPage::tr("The rms is %1, the noise %2. Nothing is missing.")
-                  .arg(sizeText(story.gap.rms_before_um, QStringLiteral("um")),
-                       sizeText(story.gap.noise_um, QStringLiteral("um"))),
-              Tone::Good};
+      return {
+          story.gap.withinNoise()
+              ? DiscrepancyPage::tr("Measured and simulated agree within the noise.")
+              : DiscrepancyPage::tr("Measured and simulated differ by no more than a rough simulation may be off by."),
+          DiscrepancyPage::tr("The rms is %1, the noise %2. Nothing is missing.")
+              .arg(sizeText(story.gap.rms_before_um, QStringLiteral("um")),
+                   sizeText(story.gap.noise_um, QStringLiteral("um"))),
+          Tone::Good};
     case DiscrepancyVerdict::Unknown:
       return {added ? DiscrepancyPage::tr("Beside %1 something is missing that no effect of the catalogue explains.")
                           .arg(names)
