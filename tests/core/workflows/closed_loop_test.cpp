@@ -74,6 +74,21 @@ TEST(LoopPlan, IsReadAndItsFaultsAreSaid) {
   }
 }
 
+TEST(LoopPlan, SaysWhoAcceptsWhatIsNamed) {
+  using Rule = LoopAcceptance::Rule;
+  const TempFolder folder;
+  nlohmann::json json = planJson();
+  EXPECT_EQ(read(folder, json).accept.rule, Rule::Named);
+  json["accept"] = "named";
+  EXPECT_EQ(read(folder, json).accept.rule, Rule::Named);
+  json["accept"] = "ask";
+  EXPECT_EQ(read(folder, json).accept.rule, Rule::Ask);
+  json["accept"] = {"spindle.drift.x", "head.tilt.a"};
+  const LoopPlan plan = read(folder, json);
+  EXPECT_EQ(plan.accept.rule, Rule::Listed);
+  EXPECT_EQ(plan.accept.ids, (std::vector<std::string>{"spindle.drift.x", "head.tilt.a"}));
+}
+
 TEST(LoopPlan, TheMeasuringProgrammeOfTheDemonstrationMayRun) {
   const LoopPlan plan = demoPlan(8.0);
   const DryRun run = dryRun(measuringProgram(plan), plan.machine, {0.0, 0.0, 0.0});
