@@ -400,8 +400,8 @@ class ClosedLoop {
       say(found->message);
       writeFileAtomically(folder_ / "discrepancy.json", found->json().dump(1));
       if (plan_.accept.rule == LoopAcceptance::Rule::Ask && !found->effects.empty())
-        say(search_.asking() ? "the operator is asked which of the named effects are added"
-                             : "nobody is there to accept what was named");
+        say(who_.choose ? "the operator is asked which of the named effects are added"
+                        : "nobody is there to accept what was named");
     }
     const std::optional<LoopSearch::Decision> decision = search_.decided();
     if (!decision) return;
