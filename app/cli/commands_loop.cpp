@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The closed loop on a control.
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,6 +12,7 @@
 #include "app/cli/command.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/workflows/closed_loop.h"
 #include "core/workflows/closed_loop_demo.h"
 #include "core/workflows/machine_beside_control.h"
@@ -20,6 +23,7 @@ namespace {
 struct LoopArguments {
   std::string plan;
   std::string out;
+  std::string example;
   bool demo = false;
   bool dry = false;
   bool yes = false;
@@ -41,6 +45,47 @@ ApprovedProgram::Confirm operatorConfirms(bool yes) {
   };
 }
 
+/// A line from the keyboard; empty at its end, or when the loop ends.
+std::string answer(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    pollfd keyboard{STDIN_FILENO, POLLIN, 0};
+    if (::poll(&keyboard, 1, 200) <= 0) continue;
+    std::string line;
+    std::getline(std::cin, line);
+    return line;
+  }
+  return {};
+}
+
+/// Each name is accepted or rejected.
+std::vector<std::string> chosenByOperator(const DiscrepancyResult& found, const std::stop_token& stop) {
+  std::vector<std::string> ids;
+  for (const FoundEffect& effect : found.effects) {
+    std::cerr << fmt::format("\nThe simulation lacks {} (confidence {:.2f}{}). Type yes to add it: ", effect.id,
+                             effect.confidence,
+                             effect.rivals.empty() ? "" : ", not to be told from " + joinedList(effect.rivals));
+    if (answer(stop) == "yes") ids.push_back(effect.id);
+  }
+  return ids;
+}
+
+/// What the channel does, every few seconds and when it changes between active and off.
+class StatusLine {
+ public:
+  void operator()(const LoopStatus& status, const LoopResult& result) {
+    const auto now = std::chrono::steady_clock::now();
+    if (status.active == active_ && now - said_ < std::chrono::seconds(10)) return;
+    active_ = status.active;
+    said_ = now;
+    std::cerr << fmt::format("{:.2f} h, {} cycles, {} | {}\n", status.time_s / 3600.0, result.cycles.size(),
+                             status.channel, status.control.sentence);
+  }
+
+ private:
+  bool active_ = false;
+  std::chrono::steady_clock::time_point said_{};
+};
+
 CommandResult runLoop(const LoopArguments& arguments, JobContext& job) {
   CommandResult result;
   if (arguments.demo) {
@@ -51,7 +96,19 @@ CommandResult runLoop(const LoopArguments& arguments, JobContext& job) {
         loopDemoSummary(result.json) + fmt::format("Report: {}\n", (options.folder / "report.html").string());
     return result;
   }
-  if (arguments.plan.empty()) throw InputError("A plan is missing; allowed: loop PLAN.json, or loop --demo.");
+  if (!arguments.example.empty()) {
+    writeLoopExample(arguments.example, arguments.options.hours, arguments.options.factor);
+    result.summary = fmt::format(
+        "Written to {0}: plan, machine, simulation, the true machine, and a LinuxCNC in {0}/control. To close its "
+        "loop:\n"
+        "  cd {0}/control && linuxcnc -r spindrift.ini\n"
+        "  spindrift-cli virtual-machine {0}/truth.json --truth {0}/truth.csv --factor {1:g}\n"
+        "  spindrift-cli loop {0}/plan.json --out {0}/campaign\n",
+        arguments.example, arguments.options.factor);
+    return result;
+  }
+  if (arguments.plan.empty())
+    throw InputError("A plan is missing; allowed: loop PLAN.json, loop --demo, or loop --example DIR.");
   const LoopPlan plan = LoopPlan::read(arguments.plan);
   if (arguments.dry) {
     const Eigen::Vector3d start{plan.touches.front().before_mm.x(), plan.touches.front().before_mm.y(), plan.safe_z_mm};
@@ -63,19 +120,15 @@ CommandResult runLoop(const LoopArguments& arguments, JobContext& job) {
     if (!run.good()) result.exit_status = NotGoodEnough;
     return result;
   }
-  if (arguments.out.empty()) throw InputError("--out is missing; allowed: a new or empty folder.");
+  if (arguments.out.empty())
+    throw InputError("--out is missing; allowed: a new or empty folder, or that of this loop.");
   LinuxcncControl control(plan.control);
   LoopOperator who;
   who.confirm = operatorConfirms(arguments.yes);
-  who.add = [](const DiscrepancyResult& found) {
-    std::vector<std::string> ids;
-    for (const FoundEffect& effect : found.effects) {
-      if (effect.rivals.empty()) ids.push_back(effect.id);
-    }
-    return ids;
-  };
+  // Without somebody at the keyboard nobody accepts anything.
+  if (::isatty(STDIN_FILENO) != 0) who.choose = chosenByOperator;
   try {
-    const LoopResult loop = runClosedLoop(plan, control, who, arguments.out, job);
+    const LoopResult loop = runClosedLoop(plan, control, who, arguments.out, job, StatusLine());
     result.json = loop.json();
     result.summary = loop.summary();
     writeFileAtomically(std::filesystem::path(arguments.out) / "report.html", loop.report("Closed loop"));
@@ -108,15 +161,20 @@ void addLoopCommands(CLI::App& app, CommandLine& line) {
   CLI::App* loop = addCommand(app, line, "loop", "Measure, model and compensate on a control, live",
                               [arguments](JobContext& job) { return runLoop(*arguments, job); });
   loop->add_option("PLAN", arguments->plan, "Plan (JSON, format spindrift-loop-plan)");
-  loop->add_option("--out", arguments->out, "Folder for campaign and report: new or empty")->type_name("DIR");
+  loop->add_option("--out", arguments->out,
+                   "Folder for campaign and report: new, empty, or that of this loop, which goes on")
+      ->type_name("DIR");
   loop->add_flag("--demo", arguments->demo,
                  "A virtual machine with physics beside a LinuxCNC of its own (package linuxcnc-uspace; as root)");
+  loop->add_option("--example", arguments->example,
+                   "Write the demonstration as files (plan, machine, simulation, a LinuxCNC for it), and end")
+      ->type_name("DIR");
   loop->add_flag("--dry-run", arguments->dry, "Say what would move, and move nothing");
   loop->add_flag("--yes", arguments->yes, "The operator stands at the machine and agrees to what moves");
-  loop->add_option("--factor", arguments->options.factor, "Demonstration: machine seconds per second")
+  loop->add_option("--factor", arguments->options.factor, "Demonstration, example: machine seconds per second")
       ->check(positiveNumber())
       ->capture_default_str();
-  loop->add_option("--hours", arguments->options.hours, "Demonstration: hours of machine time")
+  loop->add_option("--hours", arguments->options.hours, "Demonstration, example: hours of machine time")
       ->check(positiveNumber())
       ->capture_default_str();
 

@@ -37,6 +37,8 @@ Eigen::Vector3d CompensationChannel::next(const Wish& wish, const ControlState& 
   using Condition = ControlState::Condition;
   if (state.condition != Condition::Ready && state.condition != Condition::Busy) {
     reason_ = state.sentence;
+  } else if (!wish.refused.empty()) {
+    reason_ = wish.refused;
   } else if (!wish.offset_um.allFinite()) {
     reason_ = "the model gives no number";
   } else if (!(wish.age_s <= limits_.oldest_s)) {
@@ -58,11 +60,17 @@ Eigen::Vector3d CompensationChannel::next(const Wish& wish, const ControlState& 
 }
 
 std::string CompensationChannel::sentence() const {
-  const auto signed_um = [](double v) { return fmt::format("{:+.1f}", std::abs(v) < 0.05 ? 0.0 : v); };
-  const std::string values = fmt::format("X {}, Y {}, Z {} µm", signed_um(written_um_.x()), signed_um(written_um_.y()),
-                                         signed_um(written_um_.z()));
-  if (!active()) return fmt::format("off, fading from {}: {}", values, reason_);
-  return fmt::format("active: {}; inputs {:.0f} s old; ± {:.1f} µm", values, wish_.age_s, wish_.sigma_um.maxCoeff());
+  const auto axis = [&](int i, bool sure) {
+    const double v = written_um_[i];
+    std::string out = fmt::format("{} {:+.1f}", "XYZ"[i], std::abs(v) < 0.05 ? 0.0 : v);
+    if (sure && std::isfinite(wish_.sigma_um[i])) out += fmt::format(" ± {:.1f}", wish_.sigma_um[i]);
+    return out;
+  };
+  const auto values = [&](bool sure) {
+    return fmt::format("{}, {}, {} µm", axis(0, sure), axis(1, sure), axis(2, sure));
+  };
+  if (!active()) return fmt::format("off, fading from {}: {}", values(false), reason_);
+  return fmt::format("active: {}; inputs {:.0f} s old", values(true), wish_.age_s);
 }
 
 }  // namespace spindrift

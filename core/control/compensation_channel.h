@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 
 #include "core/control/machine_control.h"
@@ -29,8 +30,10 @@ class CompensationChannel {
 
   struct Wish {
     Eigen::Vector3d offset_um = Eigen::Vector3d::Zero();
-    Eigen::Vector3d sigma_um = Eigen::Vector3d::Zero();  ///< how sure
-    double age_s = 0.0;                                  ///< of the oldest input
+    /// How sure, one standard uncertainty; NaN: not known.
+    Eigen::Vector3d sigma_um = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    std::string refused;  ///< why it must not be applied at present; else empty
+    double age_s = 0.0;   ///< of the oldest input
   };
   /// What to write now. `now_s`: the machine's time; the first call begins at `begin`'s value.
   [[nodiscard]] Eigen::Vector3d next(const Wish& wish, const ControlState& state, double now_s);
@@ -43,7 +46,7 @@ class CompensationChannel {
   [[nodiscard]] const Eigen::Vector3d& written_um() const noexcept { return written_um_; }
   [[nodiscard]] double largestStep_um() const noexcept { return largest_step_um_; }
   [[nodiscard]] double largestRate_um_s() const noexcept { return largest_rate_um_s_; }
-  /// "active: X +1.2, Y 0.0, Z -34.0 um; inputs 2 s old; +-0.8 um".
+  /// "active: X +1.2 ± 0.4, Y 0.0 ± 0.3, Z −34.0 ± 0.8 µm; inputs 2 s old"; without "±" where nobody knows.
   [[nodiscard]] std::string sentence() const;
 
  private:

@@ -138,9 +138,12 @@ ControlState LinuxcncControl::state() noexcept {
   try {
     if (!shell_.connected() || !hal_.started()) throw ConnectionError(name() + " is not connected.");
     // The shell of a control that was killed answers on; HAL does not.
-    const std::vector<std::optional<double>> pins = signals({"motion.motion-enabled", "iocontrol.0.tool-number"});
+    const std::vector<std::optional<double>> pins =
+        signals({"motion.motion-enabled", "iocontrol.0.tool-number", "joint.0.motor-offset", "joint.1.motor-offset",
+                 "joint.2.motor-offset"});
     if (!pins[0]) throw ConnectionError(name() + " is gone: its motion does not run any more.");
     out.tool = static_cast<int>(pins[1].value_or(0.0));
+    for (int axis = 0; axis < 3; ++axis) out.home_mm[axis] = pins[static_cast<std::size_t>(2 + axis)].value_or(0.0);
     const std::string homed = ask("joint_homed");
     const std::vector<std::string> joints = splitList(homed, ' ');
     out.homed = joints.size() >= 3 && joints[0] == "YES" && joints[1] == "YES" && joints[2] == "YES";
@@ -269,6 +272,10 @@ void LinuxcncControl::openChannel(bool hold_when_silent) {
     if (steadyNow() > until) throw ConnectionError(fmt::format("The watchdog of {} does not hear us.", name()));
     nap(20);
   }
+}
+
+void LinuxcncControl::holdWhenSilent(bool hold) {
+  hal_.setSignals({{"comp-hold", hold ? 1.0 : 0.0}});
 }
 
 CompensationStatus LinuxcncControl::compensate(const Eigen::Vector3d& offset_um) {

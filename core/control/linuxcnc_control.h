@@ -45,6 +45,7 @@ class LinuxcncControl final : public MachineControl {
   [[nodiscard]] std::vector<std::string> printed() override;
   [[nodiscard]] std::vector<std::optional<double>> signals(const std::vector<std::string>& names) override;
   void openChannel(bool hold_when_silent) override;
+  void holdWhenSilent(bool hold) override;
   CompensationStatus compensate(const Eigen::Vector3d& offset_um) override;
   [[nodiscard]] CompensationStatus compensation() override;
 

@@ -27,6 +27,8 @@ struct ControlState {
   bool homed = false;
   int tool = 0;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< where the control believes to be
+  /// Where the drives stand at position zero: another one after homing elsewhere. Its differences matter only.
+  Eigen::Vector3d home_mm = Eigen::Vector3d::Zero();
   [[nodiscard]] bool ready() const noexcept { return condition == Condition::Ready; }
 };
 
@@ -70,6 +72,8 @@ class MachineControl {
 
   /// Opens the channel at the compensation that is applied now, so that nothing steps.
   virtual void openChannel(bool hold_when_silent) = 0;
+  /// What the control does when nobody writes any more: hold the compensation, or let it fade to zero.
+  virtual void holdWhenSilent(bool hold) = 0;
   /// Wants this compensation and tells the watchdog that somebody is there.
   virtual CompensationStatus compensate(const Eigen::Vector3d& offset_um) = 0;
   [[nodiscard]] virtual CompensationStatus compensation() = 0;

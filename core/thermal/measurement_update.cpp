@@ -76,6 +76,14 @@ double GainOffsetFilter::offsetSigma() const {
   return std::sqrt(std::max(0.0, covariance_(1, 1)));
 }
 
+void GainOffsetFilter::restore(const Eigen::VectorXd& state, const Eigen::MatrixXd& covariance) {
+  if (state.size() != state_.size() || covariance.rows() != state_.size() || covariance.cols() != state_.size() ||
+      !state.allFinite() || !covariance.allFinite())
+    throw InputError("the state of a filter does not fit; allowed: finite numbers, as many as it has unknowns.");
+  state_ = state;
+  covariance_ = covariance;
+}
+
 UpdateRun runWithUpdates(std::span<const double> time_s, std::span<const double> measured,
                          std::span<const double> simulated, const UpdateOptions& options) {
   options.validate();

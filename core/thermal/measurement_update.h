@@ -94,6 +94,12 @@ class GainOffsetFilter {
   [[nodiscard]] double gainSigma() const;
   [[nodiscard]] double offsetSigma() const;
 
+  /// (gain, offset, g_1, ...) and its covariance, to go on from after a restart.
+  [[nodiscard]] const Eigen::VectorXd& state() const noexcept { return state_; }
+  [[nodiscard]] const Eigen::MatrixXd& covariance() const noexcept { return covariance_; }
+  /// Throws InputError: another size, not finite.
+  void restore(const Eigen::VectorXd& state, const Eigen::MatrixXd& covariance);
+
  private:
   /// What the state (gain, offset, g_1, ...) is multiplied with.
   [[nodiscard]] Eigen::VectorXd row(double simulated, std::span<const double> context) const;

@@ -6,75 +6,43 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <future>
-#include <map>
 #include <set>
-#include <sstream>
 #include <thread>
+#include <utility>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/connect/append_file.h"
-#include "core/discrepancy/effect_model.h"
-#include "core/simulation/virtual_machine.h"
-#include "core/thermal/measurement_update.h"
-#include "core/thermal/response_fit.h"
+#include "core/workflows/loop_models.h"
+#include "core/workflows/loop_search.h"
+#include "core/workflows/loop_state.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double row_s = 30.0;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+double secondsOf(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
 }
 
-/// The simulation of the user, driven by what the log says.
-class Twin {
- public:
-  explicit Twin(const Scenario& scenario)
-      : environment_(scenario.environment, scenario.duration_s, scenario.seed),
-        plant_(scenario.machine, environment_, scenario.physics, scenario.seed) {
-    for (const auto& [id, effect] : scenario.effects) {
-      if (effect.setting.on && effect.setting.size != 0.0)
-        effects_.emplace_back(effect.setting.size, plant_.effect(id, effect.setting));
-    }
-  }
-  void advance(double spindle_rpm, double now_s) {
-    ProgrammeSegment speeds;
-    speeds.spindle_rpm = spindle_rpm;
-    plant_.advance(speeds, now_s);
-    now_s_ = std::max(0.0, now_s - ThermalStepper::step_s);
-  }
-  [[nodiscard]] Eigen::Vector3d deviation_um(const Eigen::Vector3d& position_mm) const {
-    PlantQuery query;
-    query.time_s = now_s_;
-    query.position_mm = position_mm;
-    Eigen::Vector3d total = Eigen::Vector3d::Zero();
-    for (const auto& [size, function] : effects_) total += size * function(query).translation_mm;
-    return 1e3 * total;
-  }
+double steadyNow() {
+  return secondsOf(std::chrono::steady_clock::now().time_since_epoch());
+}
 
- private:
-  Environment environment_;
-  VirtualMachine plant_;
-  std::vector<std::pair<double, PlantEffectFunction>> effects_;
-  double now_s_ = 0.0;
-};
+double unixNow() {
+  return secondsOf(std::chrono::system_clock::now().time_since_epoch());
+}
 
-/// The model of one component over time, and its filter.
-struct Identified {
-  ThermalModel model;
-  GainOffsetFilter filter;
-  double run = 0.0;
-};
+void nap() {
+  std::this_thread::sleep_for(std::chrono::milliseconds(40));
+}
 
 class ClosedLoop {
  public:
   ClosedLoop(const LoopPlan& plan, MachineControl& control, const LoopOperator& who,
-             const std::filesystem::path& folder, JobContext& job, const std::function<void(const LoopStatus&)>& look)
+             const std::filesystem::path& folder, JobContext& job, const LoopLook& look)
       : plan_(plan),
         control_(control),
         who_(who),
@@ -83,42 +51,48 @@ class ClosedLoop {
         look_(look),
         channel_(plan.limits),
         log_file_(folder / "log.csv"),
-        cycle_text_(measuringProgram(plan)) {
-    if (plan.simulation) twin_.emplace(*plan.simulation);
-    columns_.resize(1 + plan.temperatures.size());
-    for (const LoopTouch& touch : plan.touches) {
-      const int axis = axisIndex(touch.component);
-      if (!first_touch_[static_cast<std::size_t>(axis)])
-        first_touch_[static_cast<std::size_t>(axis)] = touch.point + " " + std::string(toString(touch.component));
-    }
+        cycle_text_(measuringProgram(plan)),
+        models_(plan, [this](const std::string& text) { say(text); }),
+        search_(plan, who) {
+    if (who_.wishes) hold_ = who_.wishes->hold;
   }
 
   LoopResult run() {
-    writeCampaign();
+    if (std::filesystem::exists(folder_ / loop_state_file)) {
+      resume();
+    } else {
+      writeCampaign();
+    }
     try {
       begin();
       loop();
       end();
     } catch (const InputError& error) {
       say(error.what());
-      writeFileAtomically(folder_ / "loop.json", result_.json().dump(1));
+      save();
+      writeFileAtomically(folder_ / "loop.json", result().json().dump(1));
       throw;
     }
-    return std::move(result_);
+    job_.throwIfCancelled();
+    return result();
   }
 
  private:
   void loop() {
-    while (time_s_ < plan_.duration_s) {
-      job_.throwIfCancelled();
+    while (time_s_ < plan_.duration_s && !stopWanted()) {
       try {
         turn();
       } catch (const ConnectionError& error) {
         recover(error.what());
       }
       job_.report(std::min(1.0, time_s_ / plan_.duration_s), std::string(toString(stage_)));
-      std::this_thread::sleep_for(std::chrono::milliseconds(40));
+      nap();
     }
+  }
+
+  [[nodiscard]] bool leaveWanted() const { return who_.wishes && who_.wishes->leave; }
+  [[nodiscard]] bool stopWanted() const {
+    return job_.cancelled() || leaveWanted() || (who_.wishes && who_.wishes->stop);
   }
 
   // --- the control
@@ -137,7 +111,7 @@ class ClosedLoop {
   void switchOn() {
     const DryRun homing;
     control_.switchOn(who_.confirm && who_.confirm(homing));
-    control_.openChannel(plan_.hold_when_silent);
+    control_.openChannel(hold_);
     readClock();
     channel_.begin(control_.compensation().applied_um, time_s_);
   }
@@ -147,8 +121,8 @@ class ClosedLoop {
     if (machine && *machine > 0.0) {
       time_s_ = std::max(time_s_, *machine);
     } else if (!machine) {
-      if (began_s_ == 0.0) began_s_ = steadyNow();
-      time_s_ = steadyNow() - began_s_;
+      if (began_unix_s_ == 0.0) began_unix_s_ = unixNow();
+      time_s_ = std::max(time_s_, unixNow() - began_unix_s_);
     }
   }
 
@@ -158,9 +132,9 @@ class ClosedLoop {
     control_.close();
     measuring_ = false;
     running_ = nan;
+    save();
     const double until = steadyNow() + plan_.patience_s;
-    while (true) {
-      job_.throwIfCancelled();
+    while (!stopWanted()) {
       try {
         control_.connect({});
         switchOn();
@@ -177,30 +151,85 @@ class ClosedLoop {
 
   void turn() {
     readClock();
+    if (who_.wishes && who_.wishes->hold != hold_) {
+      hold_ = who_.wishes->hold;
+      control_.holdWhenSilent(hold_);
+      say(hold_ ? "when nobody writes any more the control holds the compensation"
+                : "when nobody writes any more the control lets the compensation fade");
+    }
     const ControlState state = control_.state();
     if (state.condition == ControlState::Condition::Unreachable) throw ConnectionError(state.sentence);
+    const bool there =
+        state.condition == ControlState::Condition::Ready || state.condition == ControlState::Condition::Busy;
     if (state.condition != condition_) {
       condition_ = state.condition;
-      if (condition_ != ControlState::Condition::Ready && condition_ != ControlState::Condition::Busy) {
+      if (!there) {
         say(state.sentence);
         measuring_ = false;
         running_ = nan;
       }
     }
+    if (there) notice(state);
     record();
-    if (condition_ == ControlState::Condition::Ready || condition_ == ControlState::Condition::Busy) drive(state);
+    if (there) drive(state);
     stages();
     CompensationChannel::Wish wish;
-    wish.offset_um = -predicted();
-    wish.sigma_um = Eigen::Vector3d::Constant(stage_ == LoopStage::None ? 0.0 : plan_.action_limit_um / 2.0);
+    wish.offset_um = -models_.predicted(stage_);
+    wish.sigma_um = models_.sigma(stage_);
     wish.age_s = time_s_ - last_values_s_;
-    const CompensationStatus status = control_.compensate(channel_.next(wish, state, time_s_));
+    if (rehomed_ && models_.begun())
+      wish.refused = "the machine was homed anew: a measuring cycle has to look at its zero";
+    CompensationStatus status = control_.compensate(channel_.next(wish, state, time_s_));
     if (!status.watched) {
       say("the watchdog closed the channel: it is opened again from what is applied");
-      control_.openChannel(plan_.hold_when_silent);
-      channel_.begin(control_.compensation().applied_um, time_s_);
+      control_.openChannel(hold_);
+      status = control_.compensation();
+      channel_.begin(status.applied_um, time_s_);
     }
-    if (look_) look_({time_s_, stage_, channel_.sentence(), state.sentence, static_cast<int>(result_.cycles.size())});
+    if (changed_) save();  // what is shown is kept
+    show(state, status, wish);
+  }
+
+  void show(const ControlState& state, const CompensationStatus& applied, const CompensationChannel::Wish& wish) {
+    if (!look_) return;
+    LoopStatus status;
+    status.time_s = time_s_;
+    status.duration_s = plan_.duration_s;
+    status.stage = stage_;
+    status.control = state;
+    status.channel = channel_.sentence();
+    status.active = channel_.active() && stage_ != LoopStage::None;
+    status.reason =
+        stage_ == LoopStage::None && channel_.active() ? "there is nothing to compensate with yet" : channel_.reason();
+    status.applied_um = applied.applied_um;
+    status.sigma_um = wish.sigma_um;
+    status.age_s = wish.age_s;
+    status.hold_when_silent = hold_;
+    status.measuring = measuring_;
+    status.asking = search_.asking();
+    status.stopping = stopping_;
+    status.next_cycle_s = next_cycle_s_;
+    look_(status, result_);
+  }
+
+  /// What somebody else did to the machine: another tool, homed anew.
+  void notice(const ControlState& state) {
+    if (tool_ && state.tool != shown_tool_) {
+      say(state.tool == *tool_
+              ? fmt::format("tool {} is back in the spindle: measuring cycles go on", state.tool)
+              : fmt::format("tool {} is in the spindle: the compensation goes on, measuring cycles wait for tool {}",
+                            state.tool, *tool_));
+      shown_tool_ = state.tool;
+    }
+    if (home_mm_ && (state.home_mm - *home_mm_).cwiseAbs().maxCoeff() > 1e-6) {
+      say("the machine was homed anew: the compensation is off until a measuring cycle has looked at the zero");
+      rehomed_ = true;
+      next_cycle_s_ = time_s_;
+    }
+    if (!home_mm_ || state.home_mm != *home_mm_) {
+      home_mm_ = state.home_mm;
+      changed_ = true;
+    }
   }
 
   [[nodiscard]] double wantedSpeed() const {
@@ -214,33 +243,49 @@ class ClosedLoop {
   /// Programme and measuring cycles.
   void drive(const ControlState& state) {
     if (measuring_) {
-      for (const std::string& line : control_.printed()) readTouch(line);
+      readTouches();
       if (state.ready()) {
         measuring_ = false;
-        finishCycle();
+        ours_ = false;
+        finishCycle(state);
       }
       return;
     }
-    const bool due = time_s_ >= next_cycle_s_;
+    if (state.ready()) {
+      if (ours_ && running_ > 0.0) say("the programme was ended at the control");
+      ours_ = false;
+      waiting_ = false;
+    }
+    const bool due = time_s_ >= next_cycle_s_ && (!tool_ || state.tool == *tool_);
     const double rpm = due ? 0.0 : wantedSpeed();
     if (!due && rpm == running_) return;
     if (!state.ready()) {
-      control_.abort();
+      if (ours_) {
+        control_.abort();
+        running_ = nan;
+      } else if (!std::exchange(waiting_, true)) {
+        say("a programme that is not the loop's is running: the loop waits for its end");
+      }
       return;
     }
     if (due) {
       cycle_began_s_ = time_s_;
       touched_.clear();
-      control_.start(ApprovedProgram::approve(cycle_text_, plan_.machine, state.position_mm, who_.confirm));
+      (void)control_.printed();
+      start(cycle_text_, state);
       measuring_ = true;
       running_ = nan;
       return;
     }
     running_ = rpm;
     // It runs until the next speed is due; abort ends it.
-    if (rpm > 0.0)
-      control_.start(ApprovedProgram::approve(fmt::format("G21 G90\nM3 S{:g}\nG4 P86400\nM5\nM2\n", rpm), plan_.machine,
-                                              state.position_mm, who_.confirm));
+    if (rpm > 0.0) start(fmt::format("G21 G90\nM3 S{:g}\nG4 P86400\nM5\nM2\n", rpm), state);
+  }
+
+  void start(const std::string& text, const ControlState& state) {
+    control_.start(ApprovedProgram::approve(text, plan_.machine, state.position_mm, who_.confirm));
+    ours_ = true;
+    changed_ = true;
   }
 
   // --- what comes
@@ -248,330 +293,132 @@ class ClosedLoop {
   void record() {
     std::vector<std::string> names{"spindle.0.speed-out"};
     for (const std::string& column : plan_.temperatures) names.push_back(temperatureSignal(column));
-    const std::vector<std::optional<double>> values = control_.signals(names);
-    for (const std::optional<double>& value : values) {
+    const std::vector<std::optional<double>> found = control_.signals(names);
+    std::vector<double> values;
+    for (const std::optional<double>& value : found) {
       if (!value || !std::isfinite(*value)) return;  // its age tells
+      values.push_back(*value);
     }
+    values[0] = std::abs(values[0]);
     last_values_s_ = time_s_;
-    const double rpm = std::abs(*values[0]);
-    if (twin_) twin_->advance(rpm, time_s_);
+    models_.drive(values[0], time_s_);
     if (time_s_ < next_row_s_) return;
-    next_row_s_ = std::floor(time_s_ / row_s + 1.0) * row_s;
-    if (!times_.empty() && time_s_ <= times_.back()) return;
-    times_.push_back(time_s_);
-    std::string line = fmt::format("{:.1f}", time_s_);
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      columns_[c].push_back(c == 0 ? rpm : *values[c]);
-      line += fmt::format(",{:.3f}", columns_[c].back());
+    next_row_s_ = std::floor(time_s_ / LoopModels::row_s + 1.0) * LoopModels::row_s;
+    // As the file has it: what is read again after a restart is the same.
+    const double at_s = std::round(10.0 * time_s_) / 10.0;
+    if (!models_.times().empty() && at_s <= models_.times().back()) return;
+    std::string line = fmt::format("{:.1f}", at_s);
+    for (double& value : values) {
+      value = std::round(1e3 * value) / 1e3;
+      line += fmt::format(",{:.3f}", value);
     }
     if (!log_file_.append(line + "\n")) say(log_file_.failure());
-    refreshModels();
+    models_.addRow(at_s, values);
+    changed_ = true;
   }
 
-  void readTouch(const std::string& line) {
-    // "TOUCH point component x y z cx cy cz"
-    std::istringstream words(line);
-    std::string mark, point, component;
-    Eigen::Vector3d at = Eigen::Vector3d::Zero(), applied_mm = Eigen::Vector3d::Zero();
-    words >> mark >> point >> component >> at.x() >> at.y() >> at.z() >> applied_mm.x() >> applied_mm.y() >>
-        applied_mm.z();
-    if (!words || mark != "TOUCH") return;
-    touched_.push_back({point + " " + component, at, applied_mm});
-    Touched& touched = touched_.back();
-    touched.time_s = time_s_;
-    const auto measured = componentFromString(component);
-    if (measured && !isRotation(*measured) && !zero_.empty()) {
-      // What the models say now, not when the cycle is over: after the spindle has stopped everything moves fast.
-      const int axis = axisIndex(*measured);
-      touched.by_simulation_um = simulatedNow()[axis];
-      if (const auto found = identified_.find(axis); found != identified_.end())
-        touched.by_model_um = found->second.run;
-    }
-    if (twin_) {
-      for (const LoopTouch& touch : plan_.touches) {
-        if (touch.point == point && toString(touch.component) == component)
-          touched.simulated_um = twin_->deviation_um(touch.target_mm)[axisIndex(touch.component)];
-      }
+  void readTouches() {
+    for (const std::string& line : control_.printed()) {
+      if (std::optional<LoopReading> reading = models_.reading(line, time_s_, stage_))
+        touched_.push_back(std::move(*reading));
     }
   }
 
-  void finishCycle() {
-    for (const std::string& line : control_.printed()) readTouch(line);
+  void finishCycle(const ControlState& state) {
+    readTouches();
     const std::vector<std::string> messages = control_.messages();
     next_cycle_s_ = time_s_ + plan_.measure_every_s;
-    if (touched_.size() != plan_.touches.size()) {
+    changed_ = true;
+    bool whole = touched_.size() == plan_.touches.size();
+    for (std::size_t i = 0; i < touched_.size() && whole; ++i)
+      whole = touched_[i].name == plan_.touches[i].point + " " + std::string(toString(plan_.touches[i].component));
+    if (!whole) {
       say(fmt::format("a measuring cycle gave {} of {} touches and is not used{}", touched_.size(),
                       plan_.touches.size(), messages.empty() ? "" : ": " + messages.front()));
       next_cycle_s_ = time_s_ + plan_.shortest_s;
       return;
     }
+    if (!tool_) tool_ = shown_tool_ = state.tool;
+    const bool rehomed = std::exchange(rehomed_, false) && models_.begun();
+    if (rehomed) {
+      const Eigen::Vector3d shift_um = models_.takeShift(touched_);
+      say(shift_um.isZero() ? std::string("the zero is where it was: the compensation returns")
+                            : fmt::format("the zero has moved by X {:+.1f}, Y {:+.1f}, Z {:+.1f} µm: that is taken out "
+                                          "of the reference and not compensated; look at the workpiece's zero",
+                                          shift_um.x(), shift_um.y(), shift_um.z()));
+    }
     LoopCycle cycle;
     cycle.time_s = cycle_began_s_;
     cycle.stage = stage_;
-    cycle.why = why_;
-    const bool first = zero_.empty();
-    const std::string state = fmt::format("M{}", result_.cycles.size());
-    for (std::size_t i = 0; i < plan_.touches.size(); ++i) {
-      const LoopTouch& touch = plan_.touches[i];
-      const int axis = axisIndex(touch.component);
-      const Touched& now = touched_[i];
-      if (first) {
-        zero_[now.name] = now;
-        if (twin_) zero_reference_um_ = twin_->deviation_um(plan_.reference_mm);
-      }
-      const Touched& zero = zero_.at(now.name);
-      const double with_um = -1e3 * (now.position_mm[axis] - zero.position_mm[axis]);
-      const double without_um = with_um - 1e3 * (now.applied_mm[axis] - zero.applied_mm[axis]);
-      if (first_touch_[static_cast<std::size_t>(axis)] == now.name) {
-        told_[static_cast<std::size_t>(axis)] = now;
-        cycle.with_um[axis] = with_um;
-        cycle.without_um[axis] = without_um;
-      }
-      Observation row;
-      row.time_s = now.time_s;
-      row.state = state;
-      row.point = touch.point;
-      row.position_mm = touch.target_mm;
-      row.component = touch.component;
-      row.value = without_um;
-      row.sigma = plan_.touch_sigma_um;
-      row.instrument = "probe";
-      observations_.rows.push_back(row);
-      simulated_.push_back(now.simulated_um - zero.simulated_um);
-    }
-    observations_.write(folder_ / "observations.csv");
-    update(cycle);
+    cycle.why = rehomed ? std::string("homed anew") : std::exchange(why_, "time");
+    std::set<int> again;
+    models_.take(std::move(touched_), fmt::format("M{}", result_.cycles.size()), rehomed, cycle, again);
+    touched_.clear();
     result_.cycles.push_back(cycle);
-    why_ = "time";
-    if (demanded_) {
+    if (!again.empty()) {
       next_cycle_s_ = time_s_ + plan_.shortest_s;
       why_ = "action control limit";
-      demanded_ = false;
+      // After they were judged: a model is not judged by what it was made from.
+      for (const int axis : again) models_.identify(axis, job_);
     }
+    save();
+    models_.observations().write(folder_ / "observations.csv");
   }
 
-  // --- models
-
-  [[nodiscard]] OperatingLog log() const {
-    OperatingLog out(times_);
-    out.setSignal("spindle_rpm", columns_[0]);
-    for (std::size_t c = 0; c < plan_.temperatures.size(); ++c) out.setSignal(plan_.temperatures[c], columns_[c + 1]);
-    return out;
-  }
-
-  [[nodiscard]] TimeSeries series() const {
-    TimeSeries out;
-    out.time_s = times_;
-    out.signals.push_back({"spindle_rpm", SignalKind::Speed, columns_[0]});
-    for (std::size_t c = 0; c < plan_.temperatures.size(); ++c)
-      out.signals.push_back({plan_.temperatures[c], SignalKind::Temperature, columns_[c + 1]});
-    return out;
-  }
-
-  /// Deviation at the tool point by the model that is in use, relative to the first cycle.
-  [[nodiscard]] Eigen::Vector3d predicted() const {
-    Eigen::Vector3d out = Eigen::Vector3d::Zero();
-    if (zero_.empty() || stage_ == LoopStage::None) return out;
-    out = simulatedNow();
-    if (stage_ != LoopStage::Identified) return out;
-    for (const auto& [axis, each] : identified_) {
-      if (trusted_[static_cast<std::size_t>(axis)].identified) out[axis] = each.filter.value(each.run);
-    }
-    return out;
-  }
-
-  /// The simulation with what was added to it, relative to the first cycle; zero without one.
-  [[nodiscard]] Eigen::Vector3d simulatedNow() const {
-    if (!twin_) return Eigen::Vector3d::Zero();
-    return twin_->deviation_um(plan_.reference_mm) - zero_reference_um_ + effect_um_;
-  }
-
-  /// Which of the two predicted the cycles so far better, before they were told: that one compensates the axis.
-  void weigh(int axis, double measured_um, double simulated_um, double identified_um) {
-    constexpr double memory = 0.7;  // about the last three cycles
-    Trust& trust = trusted_[static_cast<std::size_t>(axis)];
-    const double by_simulation = measured_um - simulated_um, by_model = measured_um - identified_um;
-    trust.simulation_um2 = trust.cycles == 0
-                               ? by_simulation * by_simulation
-                               : memory * trust.simulation_um2 + (1.0 - memory) * by_simulation * by_simulation;
-    trust.model_um2 =
-        trust.cycles == 0 ? by_model * by_model : memory * trust.model_um2 + (1.0 - memory) * by_model * by_model;
-    ++trust.cycles;
-    const bool better = !twin_ || (trust.cycles >= 2 && trust.model_um2 < trust.simulation_um2);
-    if (better == trust.identified) return;
-    trust.identified = better;
-    say(fmt::format("{} is compensated by the {}: {:.1f} µm off against {:.1f} µm", "XYZ"[axis],
-                    better ? "identified model" : "simulation",
-                    std::sqrt(better ? trust.model_um2 : trust.simulation_um2),
-                    std::sqrt(better ? trust.simulation_um2 : trust.model_um2)));
-  }
-
-  /// What the log says now, for models that are slow to ask.
-  void refreshModels() {
-    if (effect_file_ && times_.size() > 2) {
-      const OperatingLog now = log();
-      const auto model = EffectModel::read(*effect_file_, plan_.machine, &now, observations_.points());
-      const auto at = [&](double time_s) {
-        Eigen::Vector3d out = Eigen::Vector3d::Zero();
-        DeviationQuery query;
-        query.time_s = time_s;
-        query.position_mm = plan_.reference_mm;
-        for (int axis = 0; axis < 3; ++axis) out[axis] = model->predict(query, static_cast<Component>(axis)).value;
-        return out;
-      };
-      effect_um_ = at(times_.back()) - at(observations_.rows.front().time_s);
-    }
-    if (identified_.empty()) return;
-    const TimeSeries now = series();
-    for (auto& [axis, each] : identified_) {
-      each.run = each.model.predict(now, 0).value.back();
-      if (times_.size() > 1) each.filter.advance(times_.back() - times_[times_.size() - 2]);
-    }
-  }
-
-  void identify(int axis) {
-    TimeSeries known = series();
-    std::vector<double> measured(times_.size(), nan);
-    for (const Observation& o : observations_.rows) {
-      if (axisIndex(o.component) != axis ||
-          first_touch_[static_cast<std::size_t>(axis)] != o.point + " " + std::string(toString(o.component)))
-        continue;
-      const auto after = std::lower_bound(times_.begin(), times_.end(), o.time_s);
-      const auto row = std::min<std::ptrdiff_t>(after - times_.begin(), static_cast<std::ptrdiff_t>(times_.size()) - 1);
-      measured[static_cast<std::size_t>(row)] = o.value;
-    }
-    const std::string name = fmt::format("e{}_um", "xyz"[axis]);
-    known.signals.push_back({name, SignalKind::Displacement, measured});
-    std::vector<std::string> inputs{"spindle_rpm"};
-    inputs.insert(inputs.end(), plan_.temperatures.begin(), plan_.temperatures.end());
-    ResponseFitOptions options;
-    options.period_s = row_s;
-    options.strengths = {0.5};
-    options.slow_preferences = {0.25};
-    options.minimum_samples = 10;
-    ResponseFitResult fit;
-    try {
-      fit = fitResponse(known, name, inputs, -1e300, 1e300, options, job_);
-    } catch (const InputError& few) {
-      fit.message = few.what();
-    }
-    if (fit.status != FitStatus::Converged) {
-      say(fmt::format("no model of {} yet: {}", name, fit.message));
-      return;
-    }
-    UpdateOptions update;
-    update.measurement_sigma = plan_.touch_sigma_um;
-    update.offset_sigma = std::max(fit.model.outputs.front().noise_sigma, 1.0);
-    update.offset_tau_s = 4.0 * 3600.0;
-    update.gain_sigma = 0.1;
-    update.gain_drift_per_sqrt_h = 0.02;
-    Identified out{fit.model, GainOffsetFilter(update), 0.0};
-    out.run = out.model.predict(series(), 0).value.back();
-    identified_.insert_or_assign(axis, std::move(out));
-    say(fmt::format("model of {} from {} measurements, {:.2f} µm left out of the fit", name, result_.cycles.size(),
-                    fit.left_out_rms));
-  }
-
-  /// A cycle corrects the identified models; one that is off by too much asks for another, and for new models.
-  void update(const LoopCycle& cycle) {
-    std::vector<int> off_axes;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double off = cycle.with_um[axis];
-      if (!std::isfinite(off)) continue;
-      if (stage_ != LoopStage::None && std::abs(off) > plan_.action_limit_um) {
-        say(fmt::format("{} is off by {:+.1f} µm; action control limit {:g} µm", "XYZ"[axis], off,
-                        plan_.action_limit_um));
-        demanded_ = stage_ == LoopStage::Identified;
-        off_axes.push_back(axis);
-      }
-      const auto found = identified_.find(axis);
-      if (found == identified_.end()) continue;
-      Identified& model = found->second;
-      const Touched& told = told_[static_cast<std::size_t>(axis)];
-      weigh(axis, cycle.without_um[axis], told.by_simulation_um, model.filter.value(told.by_model_um));
-      model.filter.measure(cycle.without_um[axis], told.by_model_um);
-    }
-    if (!demanded_) return;
-    // After they were judged: a model is not judged by what it was made from.
-    for (const int axis : off_axes) identify(axis);
-  }
+  // --- stages
 
   void enter(LoopStage stage) {
     stage_ = stage;
     result_.stages.emplace_back(time_s_, stage);
     say(fmt::format("compensation: {}", toString(stage)));
+    changed_ = true;
   }
 
   void stages() {
-    if (stage_ == LoopStage::None && twin_ && !zero_.empty()) enter(LoopStage::Simulation);
-    if (stage_ == LoopStage::Simulation && plan_.discrepancy_s > 0.0 && time_s_ >= plan_.discrepancy_s && !measuring_ &&
-        !searched_)
-      search();
-    if (search_.valid() && search_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) named();
+    if (stage_ == LoopStage::None && models_.simulates() && models_.begun()) enter(LoopStage::Simulation);
+    search();
     if (stage_ != LoopStage::Identified && plan_.identify_s > 0.0 && time_s_ >= plan_.identify_s && !measuring_ &&
-        !search_.valid() && result_.cycles.size() != tried_) {
+        !search_.searching() && result_.cycles.size() >= LoopModels::least_cycles && result_.cycles.size() != tried_) {
       tried_ = result_.cycles.size();
       for (int axis = 0; axis < 3; ++axis) {
-        if (first_touch_[static_cast<std::size_t>(axis)]) identify(axis);
+        if (models_.touches(axis)) models_.identify(axis, job_);
       }
-      for (const auto& [axis, model] : identified_) trusted_[static_cast<std::size_t>(axis)].identified = !twin_;
-      if (!identified_.empty()) enter(LoopStage::Identified);
+      if (models_.anyIdentified()) enter(LoopStage::Identified);
     }
   }
 
-  [[nodiscard]] DiscrepancyInput discrepancyInput() const {
-    DiscrepancyInput input;
-    input.machine = plan_.machine;
-    input.log = log();
-    input.observations = observations_;
-    input.predicted = simulated_;
-    return input;
-  }
-
-  /// Beside the loop: the channel has to be kept alive meanwhile.
+  /// The readings are held against the simulation, and the operator decides: beside the loop, which goes on.
   void search() {
+    if (stage_ == LoopStage::Simulation && plan_.discrepancy_s > 0.0 && time_s_ >= plan_.discrepancy_s && !measuring_ &&
+        !searched_ && !search_.running()) {
+      writeFileAtomically(folder_ / "simulation.csv", models_.simulationTable());
+      say(fmt::format("{} readings are held against the simulation", models_.observations().rows.size()));
+      search_.begin(models_.discrepancyInput());
+    }
+    if (const std::optional<DiscrepancyResult> found = search_.named()) {
+      result_.verdict = std::string(toString(found->verdict));
+      say(found->message);
+      writeFileAtomically(folder_ / "discrepancy.json", found->json().dump(1));
+      if (plan_.accept.rule == LoopAcceptance::Rule::Ask && !found->effects.empty())
+        say(who_.choose ? "the operator is asked which of the named effects are added"
+                        : "nobody is there to accept what was named");
+    }
+    const std::optional<LoopSearch::Decision> decision = search_.decided();
+    if (!decision) return;
     searched_ = true;
-    std::string table = "time_s,point,component,predicted\n";
-    for (std::size_t i = 0; i < simulated_.size(); ++i) {
-      const Observation& o = observations_.rows[i];
-      table += fmt::format("{:.1f},{},{},{:.4f}\n", o.time_s, o.point, toString(o.component), simulated_[i]);
-    }
-    writeFileAtomically(folder_ / "simulation.csv", table);
-    say(fmt::format("{} readings are held against the simulation", simulated_.size()));
-    search_ = std::async(std::launch::async, [input = discrepancyInput()] {
-      JobContext job;
-      DiscrepancyOptions options;
-      options.suggest = false;
-      return findDiscrepancy(input, options, job);
-    });
-  }
-
-  void named() {
-    const DiscrepancyResult found = search_.get();
-    result_.verdict = std::string(toString(found.verdict));
-    say(found.message);
-    writeFileAtomically(folder_ / "discrepancy.json", found.json().dump(1));
-    result_.effects = who_.add ? who_.add(found) : std::vector<std::string>();
-    if (result_.effects.empty()) {
+    changed_ = true;
+    for (const std::string& id : decision->rejected) say("not accepted: " + id);
+    if (decision->accepted.empty()) {
       say("nothing is added to the simulation");
-      return;
-    }
-    // What the operator added, fitted alone: further names that were not added play no part.
-    DiscrepancyOptions options;
-    options.accept = result_.effects;
-    options.max_effects = 0;
-    options.suggest = false;
-    const bool all = found.effects.size() == result_.effects.size();
-    const DiscrepancyResult added = all ? found : findDiscrepancy(discrepancyInput(), options, job_);
-    if (!added.model) {
+    } else if (!decision->model) {
       say("what was named could not be fitted");
-      return;
+    } else {
+      result_.effects = decision->accepted;
+      writeFileAtomically(folder_ / "model.json", decision->model->json().dump(1));
+      models_.add(folder_ / "model.json");
+      say(fmt::format("added to the simulation: {}", joinedList(result_.effects)));
+      if (stage_ == LoopStage::Simulation) enter(LoopStage::WithEffect);
     }
-    writeFileAtomically(folder_ / "model.json", added.model->json().dump(1));
-    effect_file_ = folder_ / "model.json";
-    refreshModels();
-    enter(LoopStage::WithEffect);
-    say(fmt::format("added to the simulation: {}", joinedList(result_.effects)));
   }
 
   // --- the campaign
@@ -586,124 +433,154 @@ class ClosedLoop {
     std::string header = "time_s,spindle_rpm";
     for (const std::string& column : plan_.temperatures) header += "," + column;
     if (log_file_.size() == 0) (void)log_file_.append(header + "\n");
+    save();
+  }
+
+  /// What the loop would need to go on, whole or not at all.
+  void save() {
+    changed_ = false;
+    LoopState state;
+    state.time_s = time_s_;
+    state.began_unix_s = began_unix_s_;
+    state.stage = stage_;
+    state.next_cycle_s = next_cycle_s_;
+    state.why = why_;
+    state.searched = searched_;
+    state.tried = tried_;
+    state.ours = ours_;
+    state.tool = tool_;
+    state.home_mm = home_mm_;
+    state.rehomed = rehomed_;
+    state.result = result();
+    state.models = models_.state();
+    writeFileAtomically(folder_ / loop_state_file, state.json(plan_).dump());
+  }
+
+  void resume() {
+    const LoopState state = LoopState::read(folder_ / loop_state_file, plan_);
+    time_s_ = state.time_s;
+    began_unix_s_ = state.began_unix_s;
+    stage_ = state.stage;
+    next_cycle_s_ = state.next_cycle_s;
+    why_ = state.why;
+    searched_ = state.searched;
+    tried_ = state.tried;
+    ours_ = state.ours;
+    tool_ = state.tool;
+    if (tool_) shown_tool_ = *tool_;
+    home_mm_ = state.home_mm;
+    rehomed_ = state.rehomed;
+    result_ = state.result;
+    models_.restore(JsonNode::parse(state.models.dump(), folder_ / loop_state_file), folder_ / "log.csv", folder_,
+                    time_s_);
+    if (!models_.times().empty()) {
+      time_s_ = std::max(time_s_, models_.times().back());
+      next_row_s_ = std::floor(models_.times().back() / LoopModels::row_s + 1.0) * LoopModels::row_s;
+    }
+    if (models_.begun()) models_.observations().write(folder_ / "observations.csv");
+    ++result_.resumed;
+    say(fmt::format("the loop goes on with {} measuring cycles and {} rows of the log", result_.cycles.size(),
+                    models_.times().size()));
   }
 
   void end() {
-    channel_.begin(channel_.written_um(), time_s_);
-    control_.abort();
+    const bool whole = !stopWanted();
+    stopping_ = true;
+    result_.ended_s = time_s_;
+    say(whole ? "the end of the plan: the compensation fades" : "stopped: the compensation fades");
+    fade();
     control_.close();
     log_file_.sync();
-    result_.largest_step_um = channel_.largestStep_um();
-    result_.largest_rate_um_s = channel_.largestRate_um_s();
-    result_.completed = true;
-    say("the end of the plan");
-    writeFileAtomically(folder_ / "loop.json", result_.json().dump(1));
+    result_.completed = whole;
+    save();
+    writeFileAtomically(folder_ / "loop.json", result().json().dump(1));
+  }
+
+  /// To zero, within rate and step of the channel.
+  void fade() {
+    try {
+      if (ours_) control_.abort();
+      double until = steadyNow() + plan_.patience_s;
+      while (channel_.written_um().cwiseAbs().maxCoeff() > 1e-6 && steadyNow() < until && !leaveWanted()) {
+        readClock();
+        const ControlState state = control_.state();
+        if (state.condition == ControlState::Condition::Unreachable) throw ConnectionError(state.sentence);
+        CompensationChannel::Wish wish;
+        wish.refused = "the loop ends";
+        const Eigen::Vector3d before = channel_.written_um();
+        const CompensationStatus status = control_.compensate(channel_.next(wish, state, time_s_));
+        if (channel_.written_um() != before) until = steadyNow() + plan_.patience_s;
+        show(state, status, wish);
+        nap();
+      }
+      if (channel_.written_um().isZero(1e-6)) say("the compensation is at zero");
+    } catch (const ConnectionError& error) {
+      say(std::string("the control was lost while the compensation faded; its watchdog goes on: ") + error.what());
+    }
+  }
+
+  [[nodiscard]] LoopResult result() const {
+    LoopResult out = result_;
+    out.largest_step_um = std::max(out.largest_step_um, channel_.largestStep_um());
+    out.largest_rate_um_s = std::max(out.largest_rate_um_s, channel_.largestRate_um_s());
+    return out;
   }
 
   void say(const std::string& text) {
     result_.events.push_back({time_s_, text});
+    changed_ = true;
     job_.report(std::min(1.0, time_s_ / plan_.duration_s), text);
   }
-
-  struct Touched {
-    std::string name;
-    Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
-    Eigen::Vector3d applied_mm = Eigen::Vector3d::Zero();
-    double time_s = 0.0;
-    double simulated_um = 0.0;
-    double by_simulation_um = 0.0;  ///< at the tool point
-    double by_model_um = 0.0;       ///< the same, before its filter
-  };
 
   const LoopPlan& plan_;
   MachineControl& control_;
   const LoopOperator& who_;
   std::filesystem::path folder_;
   JobContext& job_;
-  std::function<void(const LoopStatus&)> look_;
+  LoopLook look_;
   CompensationChannel channel_;
   AppendFile log_file_;
   std::string cycle_text_;
-  std::optional<Twin> twin_;
-  std::array<std::optional<std::string>, 3> first_touch_;
+  LoopResult result_;
+  LoopModels models_;
 
   double time_s_ = 0.0;
-  double began_s_ = 0.0;
+  double began_unix_s_ = 0.0;
   ControlState::Condition condition_ = ControlState::Condition::Ready;
+  bool hold_ = plan_.hold_when_silent;
   double running_ = nan;  ///< speed that was commanded last
+  bool ours_ = false;     ///< what runs is the loop's
+  bool waiting_ = false;  ///< for the end of a programme that is not
   bool measuring_ = false;
+  bool stopping_ = false;
   double cycle_began_s_ = 0.0;
   double next_cycle_s_ = 0.0;
-  bool demanded_ = false;
   std::string why_ = "time";
-  std::vector<Touched> touched_;
-  std::map<std::string, Touched> zero_;
-  Eigen::Vector3d zero_reference_um_ = Eigen::Vector3d::Zero();
+  std::vector<LoopReading> touched_;
+  std::optional<int> tool_;  ///< of the first cycle
+  int shown_tool_ = 0;
+  std::optional<Eigen::Vector3d> home_mm_;
+  bool rehomed_ = false;
 
   double last_values_s_ = 0.0;
   double next_row_s_ = 0.0;
-  std::vector<double> times_;
-  std::vector<std::vector<double>> columns_;
-  ObservationSet observations_;
-  std::vector<double> simulated_;
+  bool changed_ = false;  ///< since it was saved
 
-  struct Trust {
-    bool identified = false;
-    int cycles = 0;
-    double simulation_um2 = 0.0;
-    double model_um2 = 0.0;
-  };
-  std::array<Trust, 3> trusted_;
-  std::array<Touched, 3> told_;  ///< the first touch of each component in the last cycle
   LoopStage stage_ = LoopStage::None;
   bool searched_ = false;
   std::size_t tried_ = 0;  ///< cycles at the last attempt to identify
-  std::future<DiscrepancyResult> search_;
-  std::optional<std::filesystem::path> effect_file_;
-  Eigen::Vector3d effect_um_ = Eigen::Vector3d::Zero();
-  std::map<int, Identified> identified_;
-  LoopResult result_;
+  LoopSearch search_;
 };
 
 }  // namespace
 
-std::string_view toString(LoopStage stage) noexcept {
-  switch (stage) {
-    case LoopStage::None:
-      return "none";
-    case LoopStage::Simulation:
-      return "simulation";
-    case LoopStage::WithEffect:
-      return "simulation with the added effect";
-    case LoopStage::Identified:
-      break;
-  }
-  return "identified models";
-}
-
-std::string measuringProgram(const LoopPlan& plan) {
-  std::string out = fmt::format("G21 G90 G94 G40 G49 G54\nM5\n(LOGOPEN,{})\nG0 Z{:.4f}\n", print_file, plan.safe_z_mm);
-  for (const LoopTouch& touch : plan.touches) {
-    const Eigen::Vector3d along = (touch.target_mm - touch.before_mm).normalized();
-    const Eigen::Vector3d clear = touch.before_mm - plan.clear_mm * along;
-    out += fmt::format(
-        "G0 X{:.4f} Y{:.4f}\nG0 Z{:.4f}\nG0 X{:.4f} Y{:.4f} Z{:.4f}\nG38.2 X{:.4f} Y{:.4f} Z{:.4f} F{:g}\n"
-        "(LOG,TOUCH {} {} #5061 #5062 #5063 #<_hal[offset-x.offset]> #<_hal[offset-y.offset]> "
-        "#<_hal[offset-z.offset]>)\n"
-        "G0 X{:.4f} Y{:.4f} Z{:.4f}\nG0 Z{:.4f}\n",
-        clear.x(), clear.y(), clear.z(), touch.before_mm.x(), touch.before_mm.y(), touch.before_mm.z(),
-        touch.target_mm.x(), touch.target_mm.y(), touch.target_mm.z(), plan.feed_mm_min, touch.point,
-        toString(touch.component), clear.x(), clear.y(), clear.z(), plan.safe_z_mm);
-  }
-  return out + "(LOGCLOSE)\nM2\n";
-}
-
 LoopResult runClosedLoop(const LoopPlan& plan, MachineControl& control, const LoopOperator& who,
-                         const std::filesystem::path& folder, JobContext& job,
-                         const std::function<void(const LoopStatus&)>& look) {
+                         const std::filesystem::path& folder, JobContext& job, const LoopLook& look) {
   plan.validate();
-  if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder))
-    throw InputError(fmt::format("{} is not empty; allowed: a new or empty folder.", folder.string()));
+  if (std::filesystem::exists(folder) && !std::filesystem::is_empty(folder) &&
+      !std::filesystem::exists(folder / loop_state_file))
+    throw InputError(
+        fmt::format("{} is not empty; allowed: a new or empty folder, or that of the same loop.", folder.string()));
   std::filesystem::create_directories(folder);
   return ClosedLoop(plan, control, who, folder, job, look).run();
 }

@@ -4,9 +4,8 @@
 //   programme   spindle speeds over time; measuring cycles between them, by time or because the last one was off
 //   cycle       touches of an artefact; deviation e = -(reading - first reading) - (compensation then - at first)
 //   simulation  the user's simulation of the machine, driven by what the log says; compensated with from the beginning
-//   discrepancy at `discrepancy_s` what was measured is held against it; what is missing is named, the operator adds
-//   it,
-//               and the compensation takes it in
+//   discrepancy at `discrepancy_s` what was measured is held against it; what is missing is named, the operator accepts
+//               or rejects each name, and the compensation takes in what was accepted
 //   identified  from `identify_s` on models over time, identified on all that was measured (response_fit.h), kept true
 //               by every cycle (GainOffsetFilter) and identified again where a cycle is off by more than the action
 //               control limit; an axis is compensated by them where they predicted the last cycles better than the
@@ -14,14 +13,24 @@
 //
 // Times are the machine's (signal machine-time, else the clock's); deviations um relative to the first cycle. Whatever
 // the control does (off, emergency stop, killed, restarted) is said and survived: the channel fades, and the loop goes
-// on when it is back.
+// on when it is back. A loop that was ended in any way goes on in its folder (loop_state.h); meanwhile the control's
+// watchdog has faded the compensation, or held it.
+//
+//   other tool  the compensation goes on, which does not depend on the tool; measuring cycles wait for the tool of the
+//               first one
+//   homed anew  the compensation is off until a cycle has shown whether the zero has moved; a shift beyond what the
+//               models allow is taken out of the reference and said
+//   other programme (the operator's)  is never aborted: the loop waits for its end
 #pragma once
 
-#include <array>
+#include <atomic>
 #include <filesystem>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -48,6 +57,17 @@ struct LoopSpeed {
   double spindle_rpm = 0.0;
 };
 
+/// Which of the effects that the discrepancy step names are added to the simulation.
+struct LoopAcceptance {
+  enum class Rule {
+    Named,   ///< all that are named without rivals
+    Listed,  ///< those of `ids` that are named
+    Ask      ///< the operator is asked for each
+  };
+  Rule rule = Rule::Named;
+  std::vector<std::string> ids;
+};
+
 struct LoopPlan {
   MachineDescription machine;
   LinuxcncControlOptions control;
@@ -65,6 +85,7 @@ struct LoopPlan {
   double action_limit_um = 4.0;  ///< ACL
   double discrepancy_s = 0.0;    ///< 0: the simulation is not held against anything
   double identify_s = 0.0;       ///< 0: no identified models
+  LoopAcceptance accept;
   ChannelLimits limits;
   bool hold_when_silent = false;
   double patience_s = 60.0;  ///< for a control that went away, s of the clock
@@ -77,11 +98,19 @@ struct LoopPlan {
   void validate() const;
 };
 
+/// What the operator may change while the loop runs, from any thread.
+struct LoopWishes {
+  std::atomic<bool> stop{false};   ///< fade to zero, end the programme, leave
+  std::atomic<bool> leave{false};  ///< end the programme and leave: the control's watchdog fades, or holds
+  std::atomic<bool> hold{false};   ///< when nobody writes: hold (true) or fade
+};
+
 /// Who decides.
 struct LoopOperator {
   ApprovedProgram::Confirm confirm;  ///< what would move
-  /// Which of the effects that were named are added.
-  std::function<std::vector<std::string>(const DiscrepancyResult&)> add;
+  /// Rule::Ask: ids of what is added. May take its time, the loop goes on meanwhile; called on a thread of its own.
+  std::function<std::vector<std::string>(const DiscrepancyResult&, const std::stop_token&)> choose;
+  std::shared_ptr<LoopWishes> wishes;  ///< may be null
 };
 
 enum class LoopStage { None, Simulation, WithEffect, Identified };
@@ -89,10 +118,20 @@ enum class LoopStage { None, Simulation, WithEffect, Identified };
 
 struct LoopStatus {
   double time_s = 0.0;
+  double duration_s = 0.0;
   LoopStage stage = LoopStage::None;
+  ControlState control;
   std::string channel;  ///< CompensationChannel::sentence
-  std::string control;  ///< ControlState::sentence
-  int cycles = 0;
+  bool active = false;
+  std::string reason;                                    ///< why it is off; empty while it is active
+  Eigen::Vector3d applied_um = Eigen::Vector3d::Zero();  ///< by the drives
+  Eigen::Vector3d sigma_um = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< how sure
+  double age_s = 0.0;                                                                              ///< of the inputs
+  bool hold_when_silent = false;
+  bool measuring = false;
+  bool asking = false;  ///< waits for the operator's choice of effects
+  bool stopping = false;
+  double next_cycle_s = 0.0;
 };
 
 struct LoopEvent {
@@ -107,6 +146,9 @@ struct LoopCycle {
   /// Per component X, Y, Z at its first touch: without compensation, and with what was applied; NaN: not touched.
   Eigen::Vector3d without_um = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d with_um = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// What the model in use had predicted of `without_um`, and its standard uncertainty; NaN: nothing, not known.
+  Eigen::Vector3d predicted_um = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d sigma_um = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
 struct LoopResult {
@@ -117,7 +159,9 @@ struct LoopResult {
   std::vector<std::pair<double, LoopStage>> stages;
   double largest_step_um = 0.0;
   double largest_rate_um_s = 0.0;
-  int losses = 0;  ///< of the control
+  int losses = 0;                                             ///< of the control
+  int resumed = 0;                                            ///< times that the program was ended and the loop went on
+  double ended_s = std::numeric_limits<double>::quiet_NaN();  ///< when it began to fade for good
   bool completed = false;
 
   /// rms over the cycles of a stage (all with a compensation for None), per component.
@@ -129,11 +173,14 @@ struct LoopResult {
   [[nodiscard]] std::string report(const std::string& title) const;  ///< HTML
 };
 
-/// Runs to the end of the plan and leaves a campaign in `folder` (new or empty). Throws InputError: the start-up check
-/// fails, not confirmed; Cancelled.
+/// Called with every turn, some ten times a second, on the thread of the loop.
+using LoopLook = std::function<void(const LoopStatus&, const LoopResult&)>;
+
+/// Runs to the end of the plan, or until the operator stops it, and leaves a campaign in `folder`: new, empty, or that
+/// of the same plan's loop that was ended before, which then goes on. Throws InputError: the start-up check fails, not
+/// confirmed, the folder holds something else; Cancelled, after the compensation has faded.
 [[nodiscard]] LoopResult runClosedLoop(const LoopPlan& plan, MachineControl& control, const LoopOperator& who,
-                                       const std::filesystem::path& folder, JobContext& job,
-                                       const std::function<void(const LoopStatus&)>& look = {});
+                                       const std::filesystem::path& folder, JobContext& job, const LoopLook& look = {});
 
 /// Programme of one measuring cycle, from above `start_mm`.
 [[nodiscard]] std::string measuringProgram(const LoopPlan& plan);

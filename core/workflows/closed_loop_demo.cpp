@@ -55,18 +55,51 @@ nlohmann::json machineJson() {
           {"points", points}};
 }
 
-Scenario scenarioWith(const nlohmann::json& effects, const nlohmann::json& physics, double hours) {
-  const nlohmann::json scenario = {
-      {"format", "spindrift-scenario"},
-      {"version", 1},
-      {"name", "closed loop"},
-      {"seed", 11},
-      {"duration_s", 3600.0 * hours},
-      {"machine", machineJson()},
-      {"physics", physics},
-      {"environment", {{"temperature_degC", 20}, {"day_amplitude_K", 1.0}, {"day_phase_h", 2}, {"weather_K", 0.2}}},
-      {"effects", effects}};
+nlohmann::json scenarioJson(const nlohmann::json& effects, const nlohmann::json& physics, double hours) {
+  return {{"format", "spindrift-scenario"},
+          {"version", 1},
+          {"name", "closed loop"},
+          {"seed", 11},
+          {"duration_s", 3600.0 * hours},
+          {"machine", machineJson()},
+          {"physics", physics},
+          {"environment", {{"temperature_degC", 20}, {"day_amplitude_K", 1.0}, {"day_phase_h", 2}, {"weather_K", 0.2}}},
+          {"effects", effects}};
+}
+
+/// What the user's simulation knows.
+nlohmann::json simulationJson(double hours) {
+  return scenarioJson({{"spindle.growth.z", {{"on", true}, {"size", 1}}},
+                       {"spindle.drift.y", {{"on", true}, {"size", 1}}},
+                       {"column.expansion.z", {{"on", true}, {"size", 1}}}},
+                      {{"expansion", 1.01}, {"friction", 0.99}}, hours);
+}
+
+/// What the machine does.
+nlohmann::json truthJson(double hours) {
+  return scenarioJson({{"spindle.growth.z", {{"on", true}, {"size", 1}}},
+                       {"spindle.drift.y", {{"on", true}, {"size", 1}}},
+                       {"column.expansion.z", {{"on", true}, {"size", 1}}},
+                       {"spindle.drift.x", {{"on", true}, {"size", 1.5}}}},
+                      nlohmann::json::object(), hours);
+}
+
+Scenario scenarioOf(const nlohmann::json& scenario) {
   return Scenario::parse(JsonNode::parse(scenario.dump(), "closed loop"), "closed loop");
+}
+
+/// A LinuxCNC for the plan's machine, whose time runs `factor` times faster than the clock.
+void writeControl(const LoopPlan& plan, double factor, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  ControlConfiguration configuration;
+  configuration.corner_mm = corner_mm;
+  configuration.temperatures = plan.temperatures;
+  configuration.max_velocity_mm_s = 400.0;
+  configuration.max_acceleration_mm_s2 = 5000.0;
+  // In the machine's time 0.2 um/s, and the machine's time runs faster.
+  configuration.speed_mm_s = std::min(0.1, 1.5e-3 * plan.limits.rate_um_s * factor);
+  configuration.acceleration_mm_s2 = 10.0 * configuration.speed_mm_s;
+  writeControlConfiguration(plan.machine, configuration, folder);
 }
 
 struct Child {
@@ -97,18 +130,9 @@ void waitForControl(LinuxcncControl& control) {
 /// In the namespaces: control, machine beside it, loop.
 std::string runInside(const LoopDemoOptions& options) {
   const std::filesystem::path folder = "/tmp/control";
-  std::filesystem::create_directories(folder);
   LoopPlan plan = demoPlan(options.hours);
   plan.control.folder = folder;
-  ControlConfiguration configuration;
-  configuration.corner_mm = corner_mm;
-  configuration.temperatures = plan.temperatures;
-  configuration.max_velocity_mm_s = 400.0;
-  configuration.max_acceleration_mm_s2 = 5000.0;
-  // In the machine's time 0.2 um/s, and the machine's time runs faster.
-  configuration.speed_mm_s = std::min(0.1, 1.5e-3 * plan.limits.rate_um_s * options.factor);
-  configuration.acceleration_mm_s2 = 10.0 * configuration.speed_mm_s;
-  writeControlConfiguration(plan.machine, configuration, folder);
+  writeControl(plan, options.factor, folder);
 
   Child machine;
   machine.id = ::fork();
@@ -133,7 +157,8 @@ std::string runInside(const LoopDemoOptions& options) {
   waitForControl(control);
   LoopOperator who;
   who.confirm = [](const DryRun&) { return true; };
-  who.add = [](const DiscrepancyResult& found) {
+  plan.accept.rule = LoopAcceptance::Rule::Ask;
+  who.choose = [](const DiscrepancyResult& found, const std::stop_token&) {
     std::vector<std::string> ids;
     for (const FoundEffect& effect : found.effects) ids.push_back(effect.id);
     return ids;
@@ -172,19 +197,56 @@ LoopPlan demoPlan(double hours) {
   plan.action_limit_um = 3.0;
   plan.discrepancy_s = 0.36 * plan.duration_s;
   plan.identify_s = 0.65 * plan.duration_s;
-  plan.simulation = scenarioWith({{"spindle.growth.z", {{"on", true}, {"size", 1}}},
-                                  {"spindle.drift.y", {{"on", true}, {"size", 1}}},
-                                  {"column.expansion.z", {{"on", true}, {"size", 1}}}},
-                                 {{"expansion", 1.01}, {"friction", 0.99}}, hours);
+  plan.simulation = scenarioOf(simulationJson(hours));
   return plan;
 }
 
 Scenario demoTruth(double hours) {
-  return scenarioWith({{"spindle.growth.z", {{"on", true}, {"size", 1}}},
-                       {"spindle.drift.y", {{"on", true}, {"size", 1}}},
-                       {"column.expansion.z", {{"on", true}, {"size", 1}}},
-                       {"spindle.drift.x", {{"on", true}, {"size", 1.5}}}},
-                      nlohmann::json::object(), hours);
+  return scenarioOf(truthJson(hours));
+}
+
+void writeLoopExample(const std::filesystem::path& folder, double hours, double factor) {
+  std::filesystem::create_directories(folder);
+  const LoopPlan plan = demoPlan(hours);
+  const auto list = [](const Eigen::Vector3d& v) { return nlohmann::json{v.x(), v.y(), v.z()}; };
+  nlohmann::json out = {{"format", "spindrift-loop-plan"},
+                        {"version", 1},
+                        {"machine", "machine.json"},
+                        {"simulation", "simulation.json"},
+                        {"control", {{"kind", "linuxcnc"}, {"address", "127.0.0.1:5007"}, {"folder", "control"}}},
+                        {"temperatures", plan.temperatures},
+                        {"touches", nlohmann::json::array()},
+                        {"programme", nlohmann::json::array()},
+                        {"reference_mm", list(plan.reference_mm)},
+                        {"safe_z_mm", plan.safe_z_mm},
+                        {"clear_mm", plan.clear_mm},
+                        {"feed_mm_min", plan.feed_mm_min},
+                        {"touch_sigma_um", plan.touch_sigma_um},
+                        {"duration_s", plan.duration_s},
+                        {"measure_every_s", plan.measure_every_s},
+                        {"shortest_s", plan.shortest_s},
+                        {"action_limit_um", plan.action_limit_um},
+                        {"discrepancy_s", plan.discrepancy_s},
+                        {"identify_s", plan.identify_s},
+                        {"accept", "named"},
+                        {"when_silent", "zero"},
+                        {"limits",
+                         {{"limit_um", plan.limits.limit_um},
+                          {"rate_um_s", plan.limits.rate_um_s},
+                          {"step_um", plan.limits.step_um},
+                          {"oldest_s", plan.limits.oldest_s}}}};
+  for (const LoopTouch& touch : plan.touches)
+    out["touches"].push_back({{"point", touch.point},
+                              {"component", toString(touch.component)},
+                              {"before_mm", list(touch.before_mm)},
+                              {"target_mm", list(touch.target_mm)}});
+  for (const LoopSpeed& speed : plan.programme)
+    out["programme"].push_back({{"from_s", speed.from_s}, {"spindle_rpm", speed.spindle_rpm}});
+  writeFileAtomically(folder / "plan.json", out.dump(1) + "\n");
+  writeFileAtomically(folder / "machine.json", machineJson().dump(1) + "\n");
+  writeFileAtomically(folder / "simulation.json", simulationJson(hours).dump(1) + "\n");
+  writeFileAtomically(folder / "truth.json", truthJson(hours).dump(1) + "\n");
+  writeControl(plan, factor, folder / "control");
 }
 
 std::vector<LoopJudgement> judgeLoop(const nlohmann::json& loop, const std::filesystem::path& truth) {
@@ -197,7 +259,10 @@ std::vector<LoopJudgement> judgeLoop(const nlohmann::json& loop, const std::file
   }
   if (loop["cycles"].empty()) return {};
   const double zero_s = loop["cycles"][0]["time_s"].get<double>();
-  const double end_s = loop["events"].back()["time_s"].get<double>();
+  // What comes after is the fading of the end.
+  const double end_s = loop.contains("ended_s") && loop["ended_s"].is_number()
+                           ? loop["ended_s"].get<double>()
+                           : loop["events"].back()["time_s"].get<double>();
   const auto row = static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), zero_s) - time.begin());
   std::vector<LoopJudgement> out;
   for (std::size_t s = 0; s < loop["stages"].size(); ++s) {

@@ -36,6 +36,11 @@ struct LoopJudgement {
 [[nodiscard]] nlohmann::json runLoopDemo(const LoopDemoOptions& options);
 [[nodiscard]] std::string loopDemoSummary(const nlohmann::json& json);
 
+/// The demonstration as files, to begin a plan of one's own with: plan.json, machine.json, simulation.json, truth.json
+/// (of the virtual machine, `virtual-machine`), and in control/ the configuration of a LinuxCNC whose machine's time
+/// runs `factor` times faster than the clock. Files of these names are replaced.
+void writeLoopExample(const std::filesystem::path& folder, double hours, double factor);
+
 /// The plan and the machine of the demonstration, for tests.
 [[nodiscard]] LoopPlan demoPlan(double hours);
 [[nodiscard]] Scenario demoTruth(double hours);

@@ -29,7 +29,7 @@ LoopPlan LoopPlan::parse(const JsonNode& root, const std::filesystem::path& file
   const JsonNode control = root.at("control");
   (void)control.at("kind").oneOf({"linuxcnc"});
   plan.control.shell.peer = hostAndPort(control.stringOr("address", "127.0.0.1:5007"), 5007);
-  plan.control.folder = control.at("folder").name();
+  plan.control.folder = std::filesystem::absolute(file.parent_path() / control.at("folder").name());
   const JsonNode temperatures = root.at("temperatures");
   for (const JsonNode& each : temperatures.items()) plan.temperatures.push_back(each.name());
   const JsonNode touches = root.at("touches");
@@ -70,6 +70,16 @@ LoopPlan LoopPlan::parse(const JsonNode& root, const std::filesystem::path& file
       if (const auto given = limits->find(key)) *value = given->positiveNumber();
     }
   }
+  if (const auto accept = root.find("accept")) {
+    if (accept->value().is_array()) {
+      plan.accept.rule = LoopAcceptance::Rule::Listed;
+      for (const JsonNode& each : accept->items()) plan.accept.ids.push_back(each.name());
+    } else if (accept->value().is_string() && accept->oneOf({"named", "ask"}) == "ask") {
+      plan.accept.rule = LoopAcceptance::Rule::Ask;
+    } else if (!accept->value().is_string()) {
+      accept->reject("\"named\", \"ask\" or a list of ids of effects");
+    }
+  }
   const auto silent = root.find("when_silent");
   plan.hold_when_silent = silent && silent->oneOf({"zero", "hold"}) == "hold";
   plan.validate();
@@ -93,6 +103,24 @@ void LoopPlan::validate() const {
   }
   if (!(duration_s > 0.0)) refuse("the duration is not above zero.");
   if (discrepancy_s > 0.0 && !simulation) refuse("\"discrepancy_s\" without a simulation.");
+  if (touch_sigma_um <= 0.0) refuse("\"touch_sigma_um\" is not above zero.");
+}
+
+std::string measuringProgram(const LoopPlan& plan) {
+  std::string out = fmt::format("G21 G90 G94 G40 G49 G54\nM5\n(LOGOPEN,{})\nG0 Z{:.4f}\n", print_file, plan.safe_z_mm);
+  for (const LoopTouch& touch : plan.touches) {
+    const Eigen::Vector3d along = (touch.target_mm - touch.before_mm).normalized();
+    const Eigen::Vector3d clear = touch.before_mm - plan.clear_mm * along;
+    out += fmt::format(
+        "G0 X{:.4f} Y{:.4f}\nG0 Z{:.4f}\nG0 X{:.4f} Y{:.4f} Z{:.4f}\nG38.2 X{:.4f} Y{:.4f} Z{:.4f} F{:g}\n"
+        "(LOG,TOUCH {} {} #5061 #5062 #5063 #<_hal[offset-x.offset]> #<_hal[offset-y.offset]> "
+        "#<_hal[offset-z.offset]>)\n"
+        "G0 X{:.4f} Y{:.4f} Z{:.4f}\nG0 Z{:.4f}\n",
+        clear.x(), clear.y(), clear.z(), touch.before_mm.x(), touch.before_mm.y(), touch.before_mm.z(),
+        touch.target_mm.x(), touch.target_mm.y(), touch.target_mm.z(), plan.feed_mm_min, touch.point,
+        toString(touch.component), clear.x(), clear.y(), clear.z(), plan.safe_z_mm);
+  }
+  return out + "(LOGCLOSE)\nM2\n";
 }
 
 }  // namespace spindrift

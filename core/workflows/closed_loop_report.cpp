@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/reporting/plot_picture.h"
 #include "core/reporting/report.h"
@@ -39,6 +40,20 @@ nlohmann::json components(const Eigen::Vector3d& values) {
 
 }  // namespace
 
+std::string_view toString(LoopStage stage) noexcept {
+  switch (stage) {
+    case LoopStage::None:
+      return "none";
+    case LoopStage::Simulation:
+      return "simulation";
+    case LoopStage::WithEffect:
+      return "simulation with the added effect";
+    case LoopStage::Identified:
+      break;
+  }
+  return "identified models";
+}
+
 Eigen::Vector3d LoopResult::rmsWithout(LoopStage stage) const {
   return rmsOf(*this, stage, &LoopCycle::without_um);
 }
@@ -56,6 +71,8 @@ nlohmann::json LoopResult::json() const {
   out["verdict"] = verdict;
   out["completed"] = completed;
   out["losses"] = losses;
+  out["resumed"] = resumed;
+  out["ended_s"] = jsonNumber(ended_s);
   out["largest_step_um"] = largest_step_um;
   out["largest_rate_um_s"] = largest_rate_um_s;
   out["stages"] = nlohmann::json::array();
@@ -70,7 +87,9 @@ nlohmann::json LoopResult::json() const {
                              {"stage", toString(cycle.stage)},
                              {"why", cycle.why},
                              {"without_um", components(cycle.without_um)},
-                             {"with_um", components(cycle.with_um)}});
+                             {"with_um", components(cycle.with_um)},
+                             {"predicted_um", components(cycle.predicted_um)},
+                             {"sigma_um", components(cycle.sigma_um)}});
   out["events"] = nlohmann::json::array();
   for (const LoopEvent& event : events) out["events"].push_back({{"time_s", event.time_s}, {"text", event.text}});
   return out;
@@ -111,7 +130,8 @@ std::string LoopResult::report(const std::string& title) const {
                   {"Added to the simulation", effects.empty() ? "nothing" : joinedList(effects)},
                   {"Largest correction step", fmt::format("{:.2f} µm", largest_step_um)},
                   {"Largest correction rate", fmt::format("{:.3f} µm/s", largest_rate_um_s)},
-                  {"Losses of the control", std::to_string(losses)}});
+                  {"Losses of the control", std::to_string(losses)},
+                  {"Times resumed", std::to_string(resumed)}});
   for (int axis = 0; axis < 3; ++axis) {
     PlotSeries without{"without compensation", {}, {}, {}, SeriesStyle::Both};
     PlotSeries with{"with compensation", {}, {}, {}, SeriesStyle::Both};

@@ -118,12 +118,23 @@ class MachineBesideControl {
   Driven read() {
     static const std::vector<std::string> names{
         "spindle.0.speed-out", "joint.0.motor-pos-cmd", "joint.1.motor-pos-cmd", "joint.2.motor-pos-cmd",
-        "offset-x.offset",     "offset-y.offset",       "offset-z.offset"};
+        "offset-x.offset",     "offset-y.offset",       "offset-z.offset",       "motion-controller.time"};
     const std::vector<std::optional<std::string>> texts = hal_.read(names);
     std::vector<double> values(names.size(), 0.0);
     for (std::size_t i = 0; i < names.size(); ++i) {
-      if (!texts[i] || !parseNumber(*texts[i], values[i]))
-        throw ConnectionError(fmt::format("HAL has no {}.", names[i]));
+      if (texts[i] && parseNumber(*texts[i], values[i])) continue;
+      hal_.close();
+      throw ConnectionError(fmt::format("HAL has no {}.", names[i]));
+    }
+    // A control that was killed leaves its memory behind, and who holds it reads pins that never change again, or none,
+    // beside the control that was started in its place. How long a cycle takes is never the same for long.
+    if (values.back() != cycle_time_) {
+      cycle_time_ = values.back();
+      changed_s_ = steadyNow();
+    } else if (steadyNow() > changed_s_ + 1.5) {
+      changed_s_ = steadyNow();
+      hal_.close();
+      throw ConnectionError("The servo cycle stands still.");
     }
     Driven out;
     out.spindle_rpm = std::abs(values[0]);
@@ -160,6 +171,8 @@ class MachineBesideControl {
   Driven last_;
   double next_row_s_ = 0.0;
   double next_reading_s_ = 0.0;
+  double cycle_time_ = -1.0;  ///< of the servo cycle, as the control states it
+  double changed_s_ = 0.0;    ///< when it was another one
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ if(TARGET spindrift)
   install(FILES resources/packaging/spindrift.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
   install(FILES resources/icons/spindrift.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 endif()
-install(DIRECTORY resources/scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/spindrift)
+install(DIRECTORY resources/scenarios resources/loop DESTINATION ${CMAKE_INSTALL_DATADIR}/spindrift)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spindrift)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spindrift RENAME copyright)
 

@@ -36,6 +36,7 @@
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/activity_dialog.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/pages/compensate/closed_loop_page.h"
 #include "widgets/pages/machine/connections_service.h"
 #include "widgets/pages/plant/plant_page.h"
 #include "widgets/shell/demo.h"
@@ -105,6 +106,10 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   plant_ = new PlantPage(session_, jobs_);
   stack_->addWidget(plant_);
   connect(plant_, &PlantPage::closed, this, &MainWindow::showSessionOrWelcome);
+  live_compensation_ = new ClosedLoopPage(session_);
+  stack_->addWidget(live_compensation_);
+  connect(live_compensation_, &ClosedLoopPage::closed, this, &MainWindow::showSessionOrWelcome);
+  connect(&ClosedLoopService::of(session_), &ClosedLoopService::asked, this, &MainWindow::openLiveCompensation);
 
   buildMenu();
   showHelp();
@@ -197,6 +202,11 @@ void MainWindow::showSessionOrWelcome() {
 void MainWindow::openPlant() {
   stack_->setCurrentWidget(plant_);
   plant_->refresh();
+}
+
+void MainWindow::openLiveCompensation() {
+  stack_->setCurrentWidget(live_compensation_);
+  live_compensation_->refresh();
 }
 
 bool MainWindow::welcomeShown() const {
@@ -323,7 +333,12 @@ void MainWindow::watchConnections() {
   connect(&service, &ConnectionsService::told, this,
           [this](Tone tone, const QString& sentence) { job_bar_->setMessage(tone, sentence); });
   connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, &MainWindow::showConnections);
+  connect(&ClosedLoopService::of(session_), &ClosedLoopService::changed, this, &MainWindow::showConnections);
   connect(job_bar_, &JobBar::connectionsWanted, this, [this] {
+    if (ClosedLoopService::of(session_).running()) {
+      openLiveCompensation();
+      return;
+    }
     if (session_.campaign() == nullptr) return;
     workflow_.goTo(StepId::Machine);
     if (auto* tabs = page_->findChild<QTabWidget*>(QStringLiteral("machineTabs")))
@@ -338,7 +353,8 @@ void MainWindow::finishRecording() {
 
 void MainWindow::showConnections() {
   const ConnectionsService& service = ConnectionsService::of(session_);
-  if (!service.running()) {
+  const ClosedLoopService& loop = ClosedLoopService::of(session_);
+  if (!service.running() && !loop.running()) {
     job_bar_->setConnections(Tone::Neutral, {}, {});
     return;
   }
@@ -353,6 +369,11 @@ void MainWindow::showConnections() {
     job_bar_->setConnections(
         Tone::Bad, lost.size() == 1 ? tr("%1 lost").arg(lost.front().left(24)) : tr("%1 sources lost").arg(lost.size()),
         service.lost());
+  } else if (loop.running()) {
+    const LoopStatus& status = loop.snapshot().status;
+    job_bar_->setConnections(status.active ? Tone::Good : Tone::Attention,
+                             status.active ? tr("Compensating") : tr("Compensation off"),
+                             QString::fromStdString(status.channel));
   } else if (service.recording()) {
     job_bar_->setConnections(Tone::Good, tr("Recording"), tr("%1 rows of log.csv").arg(service.snapshot().rows));
   } else {

@@ -24,6 +24,7 @@ class HelpPanel;
 class JobBar;
 class NotesDialog;
 class PageStack;
+class ClosedLoopPage;
 class PlantPage;
 class StepList;
 class WelcomePage;
@@ -69,6 +70,8 @@ class MainWindow : public QMainWindow {
   void openEffects();        ///< the list of effects of the step Discrepancy
   void openPlant();          ///< many machines; works without a session
   [[nodiscard]] PlantPage* plant() const { return plant_; }
+  void openLiveCompensation();  ///< the closed loop at the control; works without a session
+  [[nodiscard]] ClosedLoopPage* liveCompensation() const { return live_compensation_; }
   ActivityDialog* openActivity();  ///< jobs and messages; stays open beside the work
 
  protected:
@@ -107,6 +110,7 @@ class MainWindow : public QMainWindow {
   QStackedWidget* stack_;
   WelcomePage* welcome_;
   PlantPage* plant_;
+  ClosedLoopPage* live_compensation_;
   QWidget* work_;
   PageStack* page_stack_;
   StepList* steps_;

@@ -85,6 +85,7 @@ void MainWindow::buildMenu() {
   }
   go->addSeparator();
   add(go, tr("&Plant"), "machine", QKeySequence(tr("Ctrl+Shift+P")), [this] { openPlant(); });
+  add(go, tr("&Compensate: live"), "compensate", QKeySequence(tr("Ctrl+Shift+L")), [this] { openLiveCompensation(); });
   add(go, tr("&Run the step"), "play", QKeySequence(tr("Ctrl+Return")), [this] {
     if (page_ != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
   });

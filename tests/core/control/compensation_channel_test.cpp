@@ -67,6 +67,19 @@ TEST(Channel, OldInputsAndNoNumbersAreNotApplied) {
   EXPECT_FALSE(channel.active());
 }
 
+TEST(Channel, SaysHowSureWhereSomebodyKnowsAndWhyItIsRefused) {
+  CompensationChannel channel({});
+  channel.begin({0.0, 0.0, 9.0}, 0.0);
+  CompensationChannel::Wish w = wish(9.0);
+  w.sigma_um.z() = 0.84;
+  (void)channel.next(w, ready(), 10.0);
+  EXPECT_THAT(channel.sentence(), HasSubstr("X +0.0, Y +0.0, Z +9.0 ± 0.8 µm"));
+  w.refused = "the machine was homed anew";
+  EXPECT_NEAR(channel.next(w, ready(), 15.0).z(), 8.0, 1e-12);
+  EXPECT_FALSE(channel.active());
+  EXPECT_THAT(channel.sentence(), HasSubstr("off, fading from X +0.0, Y +0.0, Z +8.0 µm: the machine was homed anew"));
+}
+
 TEST(Channel, LimitsHaveToBeAboveZero) {
   ChannelLimits limits;
   limits.rate_um_s = 0.0;

@@ -2,13 +2,22 @@
 // Plan, measuring programme and judgement of the closed loop; the loop itself runs at a real control (skipped without).
 #include "core/workflows/closed_loop.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/prctl.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <thread>
 
 #include "core/base/error.h"
+#include "core/connect/linuxcnc_shell.h"
+#include "core/connect/source.h"
 #include "core/control/private_control.h"
 #include "core/workflows/closed_loop_demo.h"
+#include "core/workflows/machine_beside_control.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
@@ -55,12 +64,29 @@ TEST(LoopPlan, IsReadAndItsFaultsAreSaid) {
                           {"/duration_s", 0, "duration_s"},
                           {"/when_silent", "jump", "hold"},
                           {"/discrepancy_s", 100, "without a simulation"},
+                          {"/accept", "all", "ask"},
+                          {"/accept", 3, "list of ids"},
                           {"/limits", {{"rate_um_s", -1}}, "rate_um_s"}};
   for (const Fault& fault : faults) {
     nlohmann::json spoilt = planJson();
     spoilt[nlohmann::json::json_pointer(fault.pointer)] = fault.value;
     EXPECT_THAT(refusal([&] { (void)read(folder, spoilt); }), HasSubstr(fault.said)) << fault.pointer;
   }
+}
+
+TEST(LoopPlan, SaysWhoAcceptsWhatIsNamed) {
+  using Rule = LoopAcceptance::Rule;
+  const TempFolder folder;
+  nlohmann::json json = planJson();
+  EXPECT_EQ(read(folder, json).accept.rule, Rule::Named);
+  json["accept"] = "named";
+  EXPECT_EQ(read(folder, json).accept.rule, Rule::Named);
+  json["accept"] = "ask";
+  EXPECT_EQ(read(folder, json).accept.rule, Rule::Ask);
+  json["accept"] = {"spindle.drift.x", "head.tilt.a"};
+  const LoopPlan plan = read(folder, json);
+  EXPECT_EQ(plan.accept.rule, Rule::Listed);
+  EXPECT_EQ(plan.accept.ids, (std::vector<std::string>{"spindle.drift.x", "head.tilt.a"}));
 }
 
 TEST(LoopPlan, TheMeasuringProgrammeOfTheDemonstrationMayRun) {
@@ -98,6 +124,7 @@ TEST(ClosedLoop, TheSimulationIsCompensatedAtARealControl) {
   LoopDemoOptions options;
   options.folder = folder / "demo";
   options.hours = 1.0;
+  options.factor = 120.0;
   const nlohmann::json json = runLoopDemo(options);
   EXPECT_TRUE(json["completed"].get<bool>());
   EXPECT_GE(json["measurements"].get<int>(), 2);
@@ -109,6 +136,126 @@ TEST(ClosedLoop, TheSimulationIsCompensatedAtARealControl) {
   EXPECT_LT(stage["rms_with_um"]["EZ"].get<double>(), 0.15 * stage["rms_without_um"]["EZ"].get<double>());
   EXPECT_GT(stage["rms_with_um"]["EX"].get<double>(), 0.9 * stage["rms_without_um"]["EX"].get<double>());
   EXPECT_LE(json["largest_rate_um_s"].get<double>(), 0.2 + 1e-9);
+}
+
+/// What an operator does at the control beside the loop: a shell of his own, on another port.
+std::string operatorsHands() {
+  const std::filesystem::path base = "/tmp/hands";
+  writeLoopExample(base, 3.0, 130.0);
+  LoopPlan plan = LoopPlan::read(base / "plan.json");
+  plan.programme = {{0.0, 5000.0}, {3000.0, 0.0}};
+  plan.measure_every_s = 500.0;
+  plan.discrepancy_s = plan.identify_s = 0.0;
+  LinuxcncProcess process(base / "control");
+  LinuxcncControl control(plan.control);
+  const auto connected = [](auto& what) {
+    for (int i = 0; i < 100; ++i) {
+      try {
+        what.connect({});
+        return true;
+      } catch (const ConnectionError&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      }
+    }
+    return false;
+  };
+  if (!connected(control)) return "the control does not start";
+  const pid_t machine = ::fork();
+  if (machine == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    BesideControlOptions beside;
+    beside.scenario = Scenario::read(base / "simulation.json");  // nothing is missing
+    beside.factor = 130.0;
+    beside.reference_mm = plan.reference_mm;
+    beside.truth = base / "truth.csv";
+    beside.duration_s = 1e6;
+    runBesideControl(beside, [] { return false; });
+    ::_exit(0);
+  }
+  const pid_t second = ::fork();
+  if (second == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::chdir((base / "control").c_str()) != 0) ::_exit(126);
+    ::execlp("linuxcncrsh", "linuxcncrsh", "--port", "5008", "--", "-ini", "spindrift.ini", nullptr);
+    ::_exit(127);
+  }
+  LinuxcncShell::Options options;
+  options.peer.port = 5008;
+  LinuxcncShell hands(options);
+  if (!connected(hands) || !hands.set("enable EMCTOO")) return "the operator is refused";
+  // Two shells of one control number their commands each by itself: some are refused at first.
+  const auto mode = [&](const char* wanted, const char* shown) {
+    for (int i = 0; i < 20 && hands.get("mode") != shown; ++i) (void)hands.set(std::string("mode ") + wanted);
+  };
+  const auto mdi = [&](const std::string& line) {
+    mode("mdi", "MDI");
+    (void)hands.set("mdi " + line);
+  };
+
+  std::string wrong;
+  enum class Step { Waits, OtherTool, ToolBack, Moves, Homed, Done } step = Step::Waits;
+  double since_s = 0.0, applied_um = 0.0;
+  std::size_t cycles = 0;
+  bool off = false;
+  LoopOperator who;
+  who.confirm = [](const DryRun&) { return true; };
+  who.wishes = std::make_shared<LoopWishes>();
+  JobContext job;
+  const LoopResult result = runClosedLoop(
+      plan, control, who, base / "campaign", job, [&](const LoopStatus& status, const LoopResult& so_far) {
+        if (status.stopping) return;
+        const auto enter = [&](Step next) {
+          step = next;
+          since_s = status.time_s;
+          cycles = so_far.cycles.size();
+        };
+        const bool still = status.control.ready() && !status.measuring && status.next_cycle_s > status.time_s + 200.0;
+        if (step == Step::Waits && status.time_s > 3100.0 && still) {
+          mdi("T1 M6");
+          enter(Step::OtherTool);
+        } else if (step == Step::OtherTool && status.time_s > since_s + 800.0) {
+          if (so_far.cycles.size() != cycles) wrong += "measured with another tool; ";
+          if (!status.active) wrong += "off with another tool: " + status.reason + "; ";
+          applied_um = status.applied_um.z();
+          mdi("T0 M6");
+          enter(Step::ToolBack);
+        } else if (step == Step::ToolBack && so_far.cycles.size() > cycles && still) {
+          mdi("G0 Z0");
+          mdi("G0 X0.008 Y0");
+          enter(Step::Moves);
+        } else if (step == Step::Moves && status.control.ready() &&
+                   (status.control.position_mm - Eigen::Vector3d(0.008, 0.0, 0.0)).norm() < 1e-4) {
+          mode("manual", "MANUAL");
+          (void)hands.set("teleop_enable off");  // homing is an affair of the joints
+          (void)hands.set("home -1");
+          enter(Step::Homed);
+        } else if (step == Step::Homed) {
+          off = off || (!status.active && status.reason.find("homed anew") != std::string::npos);
+          if (so_far.cycles.size() > cycles) enter(Step::Done);
+        } else if (step == Step::Done && status.time_s > since_s + 150.0) {
+          if (!status.active) wrong += "it does not return: " + status.reason + "; ";
+          who.wishes->stop = true;
+        }
+      });
+  ::kill(second, SIGKILL);
+  ::kill(machine, SIGKILL);
+  std::string told;
+  for (const LoopEvent& event : result.events) told += fmt::format("{:.0f} {}\n", event.time_s, event.text);
+  if (step != Step::Done) wrong += "not all was done; ";
+  if (!off) wrong += "not off after homing; ";
+  if (std::abs(applied_um) < 3.0) wrong += fmt::format("{} um applied with another tool; ", applied_um);
+  for (const char* part : {"tool 1 is in the spindle", "tool 0 is back", "the zero has moved by X +"}) {
+    if (told.find(part) == std::string::npos) wrong += fmt::format("not told: {}; ", part);
+  }
+  const std::size_t at = told.find("the zero has moved by X +");
+  const double shift_um = at == std::string::npos ? 0.0 : std::stod(told.substr(at + 24));
+  if (std::abs(shift_um - 8.0) > 2.0) wrong += fmt::format("a shift of {} um; ", shift_um);
+  return wrong.empty() ? wrong : wrong + "\n" + told;
+}
+
+TEST(ClosedLoop, AToolChangeAndHomingAnewAreNoticedAtARealControl) {
+  if (const std::string why = whyNoPrivateControl(); !why.empty()) GTEST_SKIP() << why;
+  EXPECT_EQ(isolated(operatorsHands, {}, 150.0), "");
 }
 
 }  // namespace

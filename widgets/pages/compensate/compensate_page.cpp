@@ -29,6 +29,7 @@
 #include "widgets/common/wrap_layout.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/compensate/closed_loop_service.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/view3d/view3d.h"
@@ -47,6 +48,10 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
         refresh();
         compute();
       }) {
+  auto* live_button = makeButton(tr("Live …"), nullptr);
+  live_button->setToolTip(tr("Measure, model and compensate at the control, while the machine works"));
+  connect(live_button, &QPushButton::clicked, this, [this] { ClosedLoopService::of(session()).ask(); });
+  addAction(live_button);
   export_ = makeButton(tr("Export files …"), "export");
   addAction(export_);
   compute_ = makeButton(tr("Work out the corrections"), nullptr, "primary");

@@ -12,6 +12,7 @@
 #include "core/workflows/campaign_series.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/compensate/closed_loop_service.h"
 #include "widgets/pages/compensate/live_compensation_panel.h"
 #include "widgets/plots/plot.h"
 
@@ -94,6 +95,10 @@ CompensatorRun runCompensator(const TimeSeries& series, const ThermalModel& mode
 LogCompensatePage::LogCompensatePage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Compensate, parent) {
   setInstruction(tr("Run the compensator that the control would run over the log, and export its model."));
+  auto* live_button = makeButton(tr("Live …"), nullptr);
+  live_button->setToolTip(tr("Measure, model and compensate at the control, while the machine works"));
+  connect(live_button, &QPushButton::clicked, this, [this] { ClosedLoopService::of(session()).ask(); });
+  addAction(live_button);
   run_button_ = makeButton(tr("Run the compensator"), nullptr, "primary");
   addAction(run_button_);
   auto* card = new Card;
