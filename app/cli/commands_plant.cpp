@@ -2,12 +2,17 @@
 // Commands: plant ..., batch ...
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <stop_token>
+#include <system_error>
 
 #include "app/cli/command.h"
 #include "core/base/atomic_file.h"
@@ -315,6 +320,8 @@ struct BatchArguments {
   int processes = 0;
   int tasks = 4;
   int round = 1;
+  std::int64_t answered = -1;
+  bool wait = false;
   int time_limit_min = 0;
   double budget_s = 0.0;
 };
@@ -338,7 +345,9 @@ SlurmOptions slurmOptions(const BatchArguments& a, const BatchPlan& plan) {
   options.logs = std::filesystem::absolute(a.logs);
   options.time_limit_min = a.time_limit_min;
   options.round = a.round;
+  options.answered = a.answered;
   options.lease_s = plan.lease_s;
+  options.grace_s = std::max(10.0, 2.0 * plan.lease_s);
   options.program = thisProgram();
   return options;
 }
@@ -354,10 +363,21 @@ CommandResult runBatch(const BatchArguments& a, std::int64_t id, const PlantAddr
       result.summary = state.summary();
       return result;
     }
-    const std::string array = giveToSlurm(address, id, slurmOptions(a, queue.plan(id)));
-    result.json["slurm_job"] = array;
-    result.summary = fmt::format("batch {}: {} in Slurm's array job {}; batch status {} says how far it is\n", id,
-                                 countOf(a.tasks, "task"), array, id);
+    const SlurmOptions options = slurmOptions(a, queue.plan(id));
+    if (a.wait) {
+      const EngineReport report = runThroughSlurm(address, id, options, job);
+      if (!report.refused.empty()) throw InputError(report.refused);
+      result = told(report.state);
+      result.json["tasks_given"] = report.started;
+      if (report.stopped) result.summary += fmt::format("stopped; batch resume {} --engine slurm goes on\n", id);
+      return result;
+    }
+    const std::string array = giveToSlurm(address, id, options);
+    result.json["slurm_job"] = array.empty() ? nlohmann::json() : nlohmann::json(array);
+    result.summary =
+        array.empty()
+            ? fmt::format("batch {}: Slurm holds its tasks already; batch status {} says how far it is\n", id, id)
+            : fmt::format("batch {}: in Slurm's array job {}; batch status {} says how far it is\n", id, array, id);
     return result;
   }
   EngineOptions options;
@@ -390,6 +410,16 @@ std::atomic<bool>& terminated() {
   return flag;
 }
 
+/// A number is not looked up: the store may be away for a while when an engine starts a worker.
+std::int64_t batchOf(const std::string& number_or_name, const PlantAddress& address) {
+  const char* const end = number_or_name.data() + number_or_name.size();
+  std::int64_t number = 0;
+  const auto [at, error] = std::from_chars(number_or_name.data(), end, number);
+  if (error == std::errc() && at == end) return number;
+  PlantStore store = PlantStore::open(address);
+  return BatchQueue(store).find(number_or_name);
+}
+
 CommandResult workBatch(const BatchArguments& a) {
   std::signal(SIGTERM, [](int) { terminated() = true; });
   WorkerOptions options;
@@ -397,11 +427,7 @@ CommandResult workBatch(const BatchArguments& a) {
   options.budget_s = a.budget_s;
   options.stop = &terminated();
   const PlantAddress address = addressOf(a.store);
-  std::int64_t id = 0;
-  {
-    PlantStore store = PlantStore::open(address);
-    id = BatchQueue(store).find(a.batch);
-  }
+  const std::int64_t id = batchOf(a.batch, address);
   const WorkerReport report = workOnBatch(address, id, options);
   CommandResult result;
   result.json = {{"worker", workerName()},
@@ -414,8 +440,52 @@ CommandResult workBatch(const BatchArguments& a) {
   return result;
 }
 
+/// Keeps a worker working while something is free: what Slurm starts.
+CommandResult tendBatch(const BatchArguments& a) {
+  static std::stop_source stop;
+  // request_stop without registered callbacks only sets an atomic flag.
+  std::signal(SIGTERM, [](int) { stop.request_stop(); });
+  std::signal(SIGINT, [](int) { stop.request_stop(); });
+  const PlantAddress address = addressOf(a.store);
+  EngineOptions options;
+  const char* processors = std::getenv("SLURM_CPUS_PER_TASK");
+  options.processes = processors != nullptr ? std::max(1, std::atoi(processors)) : 1;
+  options.worker_command = {thisProgram(), "batch", "work"};
+  options.engine = "slurm";
+  options.stay = false;
+  options.poll_s = 5.0;
+  JobContext job(stop.get_token(), nullptr);
+  const EngineReport report = runLocally(address, batchOf(a.batch, address), options, job);
+  if (!report.refused.empty()) throw InputError(report.refused);
+  CommandResult result;
+  result.json = {{"processes_started", report.started}, {"processes_killed", report.killed}};
+  result.summary =
+      fmt::format("{}: {} started, {} killed\n", workerName(), countOf(report.started, "worker"), report.killed);
+  return result;
+}
+
+/// Of a batch on which nothing works: what Slurm holds of it, or what to do.
+void tellWhoWorks(CommandResult& result, const BatchState& state, const PlantAddress& address) {
+  if (!state.idle()) return;
+  const std::optional<SlurmTasks> slurm = tasksInSlurm(address, state.id, 5.0);
+  const std::size_t running = slurm ? slurm->running.size() : 0;
+  if (slurm && running + static_cast<std::size_t>(slurm->waiting) > 0) {
+    result.json["slurm"] = {
+        {"running", running}, {"waiting", slurm->waiting}, {"held", slurm->stuck.size()}, {"reason", slurm->reason}};
+    result.summary += fmt::format("Slurm holds {} of it, {} waiting{}\n",
+                                  countOf(static_cast<long>(running) + slurm->waiting, "task"), slurm->waiting,
+                                  slurm->reason.empty() || slurm->reason == "None" ? "" : " (" + slurm->reason + ")");
+    return;
+  }
+  if (slurm) result.json["slurm"] = {{"running", 0}, {"waiting", 0}, {"held", slurm->stuck.size()}};
+  result.summary +=
+      fmt::format("{}batch resume {}{} goes on\n", slurm ? "Slurm has no task of it that will begin; " : "", state.id,
+                  slurm ? " --engine slurm" : "");
+}
+
 CommandResult statusOfBatch(const BatchArguments& a) {
-  PlantStore store = PlantStore::open(addressOf(a.store), {.as = PlantRole::Reader});
+  const PlantAddress address = addressOf(a.store);
+  PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});
   BatchQueue queue(store);
   if (a.batch.empty()) {
     CommandResult result;
@@ -442,7 +512,10 @@ CommandResult statusOfBatch(const BatchArguments& a) {
     });
     writeFileAtomically(a.results, lines);
   }
-  return told(queue.state(id));
+  const BatchState state = queue.state(id);
+  CommandResult result = told(state);
+  tellWhoWorks(result, state, address);
+  return result;
 }
 
 CommandResult changeBatch(const BatchArguments& a, JobContext& job, bool resume) {
@@ -474,12 +547,12 @@ CommandResult sweepBatch(BatchArguments a) {
   CommandResult result = told(state);
   if (state.finished() || state.cancelled) return result;
   SlurmOptions options = slurmOptions(a, queue.plan(id));
-  if (a.round >= options.rounds) {
-    result.summary += fmt::format("still open after {} rounds; batch resume {} --engine slurm goes on\n", a.round, id);
+  options.round = state.answered > a.answered ? 1 : a.round + 1;
+  if (options.round > options.rounds) {
+    result.summary += fmt::format("{} rounds brought no answer; batch resume {} --engine slurm goes on\n", a.round, id);
     return result;
   }
-  options.round = a.round + 1;
-  result.summary += "round " + std::to_string(options.round) + ": " + giveToSlurm(address, id, options) + "\n";
+  result.summary += "another round: " + giveToSlurm(address, id, options) + "\n";
   return result;
 }
 
@@ -494,6 +567,9 @@ void addEngineOptions(CLI::App* command, BatchArguments& a) {
       ->capture_default_str();
   command->add_option("--time-limit", a.time_limit_min, "slurm: minutes a task may take, 0: that of the partition")
       ->check(CLI::Range(0, 1000000));
+  command->add_flag(
+      "--wait", a.wait,
+      "slurm: wait until nothing is open, and give Slurm again what it has lost or did not bring to an end");
   command->add_option("--logs", a.logs, "slurm: folder for what the tasks print")
       ->capture_default_str()
       ->type_name("DIR");
@@ -547,10 +623,16 @@ void addBatchGroup(CLI::App& app, CommandLine& line) {
     command->add_option("--budget", a->budget_s, "Begin nothing new after this time in s")->check(nonNegativeNumber());
   }
   {
+    auto [command, a] = add("tend", "Keep a worker working until nothing is free (Slurm starts it)",
+                            [](const BatchArguments& args, JobContext&) { return tendBatch(args); });
+    command->add_option("BATCH", a->batch, "Number")->required();
+  }
+  {
     auto [command, a] = add("sweep", "After a round of Slurm: starts another one while something is open",
                             [](const BatchArguments& args, JobContext&) { return sweepBatch(args); });
     command->add_option("BATCH", a->batch, "Number or name")->required();
-    command->add_option("--round", a->round, "The round that has ended");
+    command->add_option("--round", a->round, "The round that has ended, counted since the last answer");
+    command->add_option("--answered", a->answered, "Answers there were when it began");
     addEngineOptions(command, *a);
   }
 }

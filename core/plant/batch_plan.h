@@ -24,8 +24,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/job_context.h"
-
 namespace spindrift {
 
 struct BatchPlan {
@@ -51,12 +49,5 @@ struct BatchPlan {
   /// Throws InputError if a file of the plan is not on this computer: then another one may work on it, this one not.
   void requireFiles() const;
 };
-
-/// Works out one item. Throws InputError (the item's data), Cancelled (asked to stop), or anything else.
-[[nodiscard]] nlohmann::json workOut(const BatchPlan& plan, std::int64_t item, JobContext& job);
-
-/// Runs a program and gives what it printed. Throws InputError: it cannot be started, or ended otherwise than with 0 or
-/// 1; Cancelled: the job was cancelled, and the program is ended with all it started.
-[[nodiscard]] std::string outputOf(const std::vector<std::string>& command, const JobContext& job);
 
 }  // namespace spindrift

@@ -40,6 +40,7 @@ nlohmann::json BatchState::json() const {
           {"chunks", chunks},
           {"open_chunks", open},
           {"running_chunks", running},
+          {"free_chunks", free},
           {"failed_chunks", failed},
           {"attempts", attempts},
           {"lost_attempts", lost},
@@ -53,7 +54,8 @@ std::string BatchState::summary() const {
   std::string text = fmt::format("batch {} \"{}\" ({}): {} of {}", id, name, work, answered, countOf(items, "item"));
   if (failed_items > 0) text += fmt::format(", {} failed", failed_items);
   if (cancelled) text += ", cancelled";
-  if (open > 0) text += fmt::format(", {} running", countOf(running, "chunk"));
+  if (idle()) text += ", nothing works on it";
+  if (running > 0) text += fmt::format(", {} running", countOf(running, "chunk"));
   text += fmt::format("; {} of work", duration(work_s));
   if (lost > 0) text += fmt::format(", {} lost", countOf(lost, "attempt"));
   if (remaining_s > 0.0) text += fmt::format(", about {} left", duration(remaining_s));
@@ -142,15 +144,17 @@ BatchState BatchQueue::state(std::int64_t batch) {
     s.work = BatchPlan::parse(plan, "plan of the batch").work;
     long long chunks = 0;
     long long open = 0;
-    long long running = 0;
+    long long free = 0;
     long long failed = 0;
+    const double now_s = c.now();
     long long in_failed = 0;
     sql << "select count(*), coalesce(sum(case when state in ('ready', 'running') then 1 else 0 end), 0), "
-           "coalesce(sum(case when state = 'running' then 1 else 0 end), 0), coalesce(sum(case when state = 'failed' "
-           "then "
-           "1 else 0 end), 0), cast(coalesce(sum(case when state = 'failed' then items else 0 end), 0) as bigint), "
+           "coalesce(sum(case when state = 'ready' or (state = 'running' and lease_until_s < :t) then 1 else 0 end), "
+           "0), "
+           "coalesce(sum(case when state = 'failed' then 1 else 0 end), 0), cast(coalesce(sum(case when state = "
+           "'failed' then items else 0 end), 0) as bigint), "
            "coalesce(max(case when state = 'failed' then error else '' end), '') from chunk where batch_id = :i",
-        soci::use(id), soci::into(chunks), soci::into(open), soci::into(running), soci::into(failed),
+        soci::use(now_s), soci::use(id), soci::into(chunks), soci::into(open), soci::into(free), soci::into(failed),
         soci::into(in_failed), soci::into(s.error);
     long long answered = 0;
     long long failed_items = 0;
@@ -164,15 +168,16 @@ BatchState BatchQueue::state(std::int64_t batch) {
         soci::use(id), soci::into(attempts), soci::into(lost), soci::into(s.spent_s);
     s.chunks = chunks;
     s.open = open;
-    s.running = running;
+    s.running = open - free;
+    s.free = free;
     s.failed = failed;
     s.answered = answered;
     s.failed_items = failed_items + in_failed;
     s.attempts = attempts;
     s.lost = lost;
-    if (running > 0 && answered > 0)
+    if (s.running > 0 && answered > 0)
       s.remaining_s = s.work_s / static_cast<double>(answered) * static_cast<double>(items - answered - in_failed) /
-                      static_cast<double>(running);
+                      static_cast<double>(s.running);
     return s;
   });
 }
@@ -190,6 +195,22 @@ std::vector<BatchState> BatchQueue::all() {
   std::vector<BatchState> states;
   for (const long long id : ids) states.push_back(state(id));
   return states;
+}
+
+std::vector<std::string> BatchQueue::workers(std::int64_t batch) {
+  PlantConnection& c = store_.connection();
+  const double now_s = c.now();
+  return c.guarded([&] {
+    const long long id = batch;
+    std::vector<std::string> names;
+    std::string name;
+    soci::statement select = (c.sql().prepare << "select distinct worker from chunk where batch_id = :i and state = "
+                                                 "'running' and lease_until_s >= :t",
+                              soci::use(id), soci::use(now_s), soci::into(name));
+    select.execute();
+    while (select.fetch()) names.push_back(name);
+    return names;
+  });
 }
 
 void BatchQueue::cancel(std::int64_t batch) {

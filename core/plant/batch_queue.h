@@ -51,8 +51,9 @@ struct BatchState {
   std::int64_t answered = 0;      ///< items with an answer, failed ones among them
   std::int64_t failed_items = 0;  ///< with an error in place of an answer, or in a chunk that has failed for good
   std::int64_t chunks = 0;
-  std::int64_t open = 0;     ///< chunks that are ready or running
-  std::int64_t running = 0;  ///< of them
+  std::int64_t open = 0;     ///< chunks that are to be worked on
+  std::int64_t running = 0;  ///< of them, those that a worker holds whose lease has not run out
+  std::int64_t free = 0;     ///< and those that can be claimed
   std::int64_t failed = 0;   ///< chunks that failed for good
   std::int64_t attempts = 0;
   std::int64_t lost = 0;     ///< attempts whose worker vanished
@@ -61,6 +62,8 @@ struct BatchState {
   double remaining_s = 0.0;  ///< about what the rest takes on as many workers as run now; 0: not known
   std::string error;         ///< of a chunk that failed for good
   [[nodiscard]] bool finished() const { return open == 0; }
+  /// Something is open and nobody works on it.
+  [[nodiscard]] bool idle() const { return open > 0 && running == 0 && !cancelled; }
   [[nodiscard]] nlohmann::json json() const;
   [[nodiscard]] std::string summary() const;
 };
@@ -76,6 +79,8 @@ class BatchQueue {
   [[nodiscard]] BatchPlan plan(std::int64_t batch);
   [[nodiscard]] BatchState state(std::int64_t batch);
   [[nodiscard]] std::vector<BatchState> all();
+  /// Names of those that hold a claim now.
+  [[nodiscard]] std::vector<std::string> workers(std::int64_t batch);
   /// Nothing is claimed any more; what runs is dropped at its next heartbeat.
   void cancel(std::int64_t batch);
   /// Goes on after a cancellation, and tries again what has failed for good; items with an error in place of an answer

@@ -18,6 +18,7 @@
 
 #include "core/base/error.h"
 #include "core/base/log.h"
+#include "core/plant/batch_work.h"
 #include "core/plant/plant_connection.h"
 
 namespace spindrift {

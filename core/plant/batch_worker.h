@@ -11,6 +11,7 @@
 #include <functional>
 #include <string>
 
+#include "core/base/job_context.h"
 #include "core/plant/batch_queue.h"
 
 namespace spindrift {

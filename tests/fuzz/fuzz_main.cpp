@@ -18,7 +18,7 @@ const Reader* chosen = nullptr;
 const Reader* find(std::string_view name) {
   using namespace spindrift::testing;
   for (const auto& list : {machineReaders(), imagingReaders(), probingReaders(), scanningReaders(), thermalReaders(),
-                           finiteElementReaders(), simulatorReaders(), sessionReaders()}) {
+                           finiteElementReaders(), simulatorReaders(), sessionReaders(), plantReaders()}) {
     for (const Reader& reader : list) {
       if (name.empty()) std::fprintf(stderr, "%s\n", reader.name);
       if (name == reader.name) return &reader;

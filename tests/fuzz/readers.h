@@ -26,6 +26,7 @@ struct Reader {
 [[nodiscard]] std::span<const Reader> finiteElementReaders();
 [[nodiscard]] std::span<const Reader> simulatorReaders();
 [[nodiscard]] std::span<const Reader> sessionReaders();
+[[nodiscard]] std::span<const Reader> plantReaders();
 /// What needs most of core to be read, and is left to the normal test suite.
 [[nodiscard]] std::span<const Reader> wholeCoreReaders();
 

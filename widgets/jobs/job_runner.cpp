@@ -67,7 +67,7 @@ bool JobRunner::working() const {
   return work.current != nullptr || !work.queue.empty();
 }
 
-/// What the job bar tells of: long work before what is only to be shown.
+/// What the job bar tells of: long work before what is only to be shown, and both before batches.
 const JobRunner::Running* JobRunner::shown() const {
   for (const Lane& lane : lanes_)
     if (lane.current != nullptr && !lane.current->job.quiet) return lane.current.get();
@@ -186,7 +186,7 @@ void JobRunner::complete(JobQueue queue) {
   }
   if (was_shown) Q_EMIT finished(done->job.title, done->outcome, done->sentence);
   if (own.current == nullptr) startNext(queue);
-  // The other queue may have something to show again.
+  // Another queue may have something to show again.
   if (const Running* other = shown(); was_shown && other != nullptr && &own != &lane(other->job.queue))
     Q_EMIT started(other->job.title);
   Q_EMIT changed();
@@ -211,9 +211,15 @@ void JobRunner::cancel(int id) {
 }
 
 void JobRunner::cancelAll() {
-  for (Lane& lane : lanes_) {
-    lane.queue.clear();
-    if (lane.current != nullptr) lane.current->thread.request_stop();
+  lane(JobQueue::Batch).queue.clear();
+  if (lane(JobQueue::Batch).current != nullptr) lane(JobQueue::Batch).current->thread.request_stop();
+  cancelOfSession();
+}
+
+void JobRunner::cancelOfSession() {
+  for (const JobQueue queue : {JobQueue::Work, JobQueue::Display}) {
+    lane(queue).queue.clear();
+    if (lane(queue).current != nullptr) lane(queue).current->thread.request_stop();
   }
   Q_EMIT changed();
 }

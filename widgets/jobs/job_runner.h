@@ -4,8 +4,9 @@
 //   GUI thread    run(job) ------------------------------------------> apply()  (or failed(sentence), cancelled())
 //   worker                  work(context) = compute on copies, return apply
 //
-// Two queues, each with a thread of its own: long work runs one after another, and what is only to be shown (a picture
-// that was chosen) never waits for it. A job with the `key` of an older one of its queue takes its place: the older is
+// Three queues, each with a thread of its own: long work runs one after another, what is only to be shown (a picture
+// that was chosen) never waits for it, and what runs for hours beside the work of the day (a batch) keeps neither from
+// running. A job with the `key` of an older one of its queue takes its place: the older is
 // not wanted any more. Cancelling a job that waits takes it out; one that runs is asked to stop, and nothing of it is
 // applied.
 #pragma once
@@ -26,7 +27,7 @@
 
 namespace spindrift::gui {
 
-enum class JobQueue { Work, Display };
+enum class JobQueue { Work, Display, Batch };
 
 struct Job {
   QString title;  ///< "Evaluating 104 images"
@@ -64,6 +65,8 @@ class JobRunner : public QObject {
   void cancel();  ///< the running job of the long ones, else the one that is shown
   void cancel(int id);
   void cancelAll();
+  /// Another session is opened: what runs or waits was of the one before, batches are of none.
+  void cancelOfSession();
   [[nodiscard]] bool busy() const;
   /// Long work runs or waits.
   [[nodiscard]] bool working() const;
@@ -96,7 +99,7 @@ class JobRunner : public QObject {
   void startNext(JobQueue queue);
   void complete(JobQueue queue);
 
-  std::array<Lane, 2> lanes_;
+  std::array<Lane, 3> lanes_;
   int last_id_ = 0;
   QTimer poll_;
 };

@@ -119,7 +119,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   connect(next_, &QPushButton::clicked, &workflow_, &Workflow::next);
   connect(&workflow_, &Workflow::currentChanged, this, &MainWindow::showStep);
   connect(&session_, &SessionModel::sessionChanged, this, [this] {
-    jobs_.cancelAll();  // of a session that nobody looks at any more
+    jobs_.cancelOfSession();  // of a session that nobody looks at any more
     verifyFiles();
     welcome_->offerRecovery({});
     refreshTitle();

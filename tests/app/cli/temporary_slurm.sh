@@ -2,7 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # temporary_slurm.sh FOLDER COMMAND...: runs COMMAND beside a Slurm of one node of its own, in namespaces of its own: ports
 # never collide, nothing listens outside, and every process of it ends with COMMAND. Needs root, or unprivileged user
-# namespaces. Exit status 77: Slurm is not installed, or no namespaces may be made here.
+# namespaces. Exit status 77: Slurm is not installed, or no namespaces may be made here. COMMAND that fails: what Slurm
+# holds and the ends of its logs are printed. COMMAND finds in $SLURM_TOOLS functions of a shell:
+#   kill_controller   -9, and starts it again
+#   administer        what an administrator does after that: tasks that were requeued need not wait for two minutes, and
+#                     a node that Slurm drained (it started a task a second time: "Duplicate jobid") works again
 set -u
 PATH=$PATH:/usr/sbin
 if [ "${1:-}" != --inside ]; then
@@ -60,7 +64,22 @@ munged --force --socket="$D/munge/s" --key-file="$D/munge/key" --pid-file="$D/mu
   --seed-file="$D/munge/seed" 2>/dev/null && slurmctld && slurmd || exit 1
 for _ in $(seq 300); do [ "$(timeout 5 sinfo -h -o %T 2>/dev/null)" = idle ] && break; sleep 0.05; done
 [ "$(timeout 5 sinfo -h -o %T 2>/dev/null)" = idle ] || { tail -n 5 "$D"/slurm*.log; exit 1; }
+cat >"$D/tools" <<'TOOLS'
+kill_controller() {
+  kill -9 "$(cat "$(dirname "$SLURM_CONF")/slurmctld.pid")"; sleep 0.3; slurmctld
+}
+administer() {
+  local job
+  for job in $(timeout 10 squeue -h -t PD -o '%i %r' | awk '$2=="BeginTime"{print $1}'); do
+    timeout 10 scontrol update jobid="$job" starttime=now
+  done
+  case $(timeout 10 sinfo -h -o %T) in drain*|down*) timeout 10 scontrol update nodename=plantnode state=resume ;; esac
+  return 0
+}
+TOOLS
+export SLURM_TOOLS=$D/tools
 "$@"
 status=$?
+[ $status = 0 ] || { timeout 10 squeue -r; timeout 10 sinfo -R; tail -n 60 "$D/slurmctld.log"; tail -n 30 "$D/slurmd.log"; }
 timeout 10 scancel --me 2>/dev/null
 exit $status

@@ -2,7 +2,7 @@
 // Study of the search for hidden effects on virtual campaigns, blind to what they hide.
 //
 //   hidden_effect_study [--campaigns N] [--seed S] [--seeds K] [--short] [--plain] [--kind K] [--cell PART]
-//                       [--dump DIR] [--oracle] [--list] [--require] [--suggestion]
+//                       [--dump DIR] [--oracle] [--list] [--require] [--suggestion] [--item I] [--gather FILE]
 //
 // N campaigns (default 400), for each of K seeds from S on (default 1; all rates pooled), are shared among the cases of
 // study_cells.cpp: clean data, each condition of a workshop alone, all together, with one, two, three effects hidden,
@@ -15,6 +15,11 @@
 // observations and to the same without noise: what search, noise and the form of the model cost on held-out states.
 // --list prints every campaign that was not named rightly. --dump writes every campaign as a folder, with its truth
 // beside it, and runs no search. --suggestion studies what to measure next instead (suggestion_study.h).
+//
+// As a batch ("work":"command", "seeds":[0,N-1], "run":["hidden_effect_study","--campaigns","400","--item","{seed}"]):
+// --item runs the I-th campaign of all, from 0 on, and prints what came out of it as JSON; --gather reads what `batch
+// status BATCH --results FILE` wrote and prints the table of the study with the same options, the same as it prints
+// alone. Items that are missing or failed are told, and end it with 1.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,11 +29,15 @@
 #include <ctime>
 #include <filesystem>
 #include <map>
-#include <mutex>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/base/job_context.h"
 #include "core/base/text.h"
 #include "tests/benchmarks/discrepancy/hidden_effect_scoring.h"
 #include "tests/benchmarks/discrepancy/plain_methods.h"
@@ -124,7 +133,38 @@ void dump(const std::filesystem::path& folder, const Cell& cell, std::uint64_t s
   writeFileAtomically(folder / (name + ".truth.json"), truth.dump(1) + "\n");
 }
 
-void runOne(const Assignment& which, const Wanted& wanted, Outcomes& all, std::mutex& mutex) {
+/// Another process writes null for what is no number.
+double numberOf(const nlohmann::json& j) {
+  return j.is_null() ? std::nan("") : j.get<double>();
+}
+
+std::vector<double> numbersOf(const nlohmann::json& list) {
+  std::vector<double> out;
+  for (const nlohmann::json& j : list) out.push_back(numberOf(j));
+  return out;
+}
+
+nlohmann::json toJson(const Answer& answer, const Verdict& verdict) {
+  nlohmann::json out = {{"verdict", answer.verdict},
+                        {"effects", nlohmann::json::array()},
+                        {"outcome", static_cast<int>(verdict.outcome)},
+                        {"found", verdict.found}};
+  for (const Answer::Listed& e : answer.effects)
+    out["effects"].push_back({{"id", e.id}, {"rivals", e.rivals}, {"confidence", e.confidence}});
+  return out;
+}
+
+std::pair<Answer, Verdict> answerOf(const nlohmann::json& j) {
+  Answer answer;
+  answer.verdict = j.at("verdict");
+  for (const nlohmann::json& e : j.at("effects"))
+    answer.effects.push_back(
+        {e.at("id"), e.at("rivals").get<std::vector<std::string>>(), numberOf(e.at("confidence"))});
+  return {answer, {static_cast<Outcome>(j.at("outcome").get<int>()), j.at("found")}};
+}
+
+/// What came out of one campaign: all that the study counts, as JSON, so that it may come from another process.
+nlohmann::json runOne(const Assignment& which, const Wanted& wanted, JobContext& job) {
   const Cell& cell = cells()[which.cell];
   StudyOptions options;
   options.kind = cell.kind;
@@ -133,12 +173,11 @@ void runOne(const Assignment& which, const Wanted& wanted, Outcomes& all, std::m
   options.conditions = cell.conditions;
   options.turn = which.turn;
   const StudyCase made = studyCase(options, which.seed);
-  JobContext job;
   const StudyCampaign study = simulateStudy(made, job);
   const VirtualCampaign& campaign = study.campaign;
   if (!wanted.dump.empty()) {
     dump(wanted.dump, cell, which.seed, made, study);
-    return;
+    return nullptr;
   }
   const DiscrepancyInput input = inputOf(campaign);
   // A cause outside the catalogue can be in no list, so that naming anything is wrong.
@@ -156,36 +195,67 @@ void runOne(const Assignment& which, const Wanted& wanted, Outcomes& all, std::m
   const double started = threadTime_ms();
   const Answer answer = searched(input, job, result);
   const double ms = threadTime_ms() - started;
-  const Verdict verdict = judged(answer);
-  const Outcome outcome = verdict.outcome;
   const bool signal = !made.hidden.empty() && cell.kind != StudyKind::Outside && cell.kind != StudyKind::Confounded;
-  std::optional<OracleFit> oracle;
-  if (wanted.oracle && signal && cell.strength >= 4.0) oracle = fitKnowingNames(campaign, made.hidden);
-  Answer stepwise;
-  Answer lasso;
-  if (wanted.plain) {
-    stepwise = forwardStepwiseBic(input);
-    lasso = lassoBic(input);
+  nlohmann::json record = {{"cell", which.cell},
+                           {"seed", which.seed},
+                           {"search", toJson(answer, judged(answer))},
+                           {"ms", ms},
+                           {"observations", input.observations.rows.size()},
+                           {"hidden", made.hidden},
+                           {"nameable", nameable},
+                           {"explained_fraction", result.explained_fraction},
+                           {"leftover", result.leftover}};
+  if (!result.effects.empty()) record["drivers"] = result.effects.front().drivers;
+  if (wanted.oracle && signal && cell.strength >= 4.0) {
+    const OracleFit oracle = fitKnowingNames(campaign, made.hidden);
+    record["oracle"] = {oracle.explained, oracle.noise_free, oracle.noise_cost, oracle.stated_cost, oracle.strength};
   }
-  const std::scoped_lock lock(mutex);
-  all.search[which.cell].add(answer, verdict);
-  all.search_ms.push_back(ms);
-  if (ms > all.longest_search.first) {
-    all.longest_search = {ms, fmt::format("seed {}, {}, {} observations, hidden {}", which.seed, cell.name,
-                                          input.observations.rows.size(), joinedList(made.hidden))};
+  if (wanted.plain) {
+    const Answer stepwise = forwardStepwiseBic(input);
+    const Answer lasso = lassoBic(input);
+    record["stepwise"] = toJson(stepwise, judged(stepwise));
+    record["lasso"] = toJson(lasso, judged(lasso));
   }
   if (!made.hidden.empty() && cell.kind != StudyKind::Outside) {
     const HeldOutSignal held_out = heldOutSignal(campaign, result.effect_part);
-    const double explained = held_out.explained();
-    if (endsInHeldOut(made)) {
-      ++all.unknowable;
-    } else if (std::isfinite(explained)) {
-      all.explained[which.cell].push_back({explained, heldOutStrength(campaign)});
-      all.held_out[which.cell].hidden += held_out.hidden;
-      all.held_out[which.cell].missed += held_out.missed;
-      if (oracle) all.oracle[which.cell].push_back(*oracle);
-    }
-    if (outcome == Outcome::Named && !result.effects.empty() && cell.strength >= 4.0 && explained < 0.95) {
+    if (endsInHeldOut(made))
+      record["unknowable"] = true;
+    else if (std::isfinite(held_out.explained()))
+      record["held_out"] = {held_out.hidden, held_out.missed, heldOutStrength(campaign)};
+  }
+  return record;
+}
+
+void count(const nlohmann::json& record, Outcomes& all) {
+  const std::size_t place = record.at("cell");
+  const Cell& cell = cells().at(place);
+  const std::uint64_t seed = record.at("seed");
+  const auto hidden = record.at("hidden").get<std::vector<std::string>>();
+  const auto nameable = record.at("nameable").get<std::vector<std::string>>();
+  const auto [answer, verdict] = answerOf(record.at("search"));
+  const Outcome outcome = verdict.outcome;
+  const double ms = record.at("ms");
+  std::optional<OracleFit> oracle;
+  if (record.contains("oracle")) {
+    const auto o = numbersOf(record.at("oracle"));
+    oracle = OracleFit{o.at(0), o.at(1), o.at(2), o.at(3), o.at(4)};
+  }
+  all.search[place].add(answer, verdict);
+  all.search_ms.push_back(ms);
+  if (ms > all.longest_search.first) {
+    all.longest_search = {ms, fmt::format("seed {}, {}, {} observations, hidden {}", seed, cell.name,
+                                          record.at("observations").get<std::size_t>(), joinedList(hidden))};
+  }
+  if (record.contains("unknowable")) ++all.unknowable;
+  if (record.contains("held_out")) {
+    const auto h = numbersOf(record.at("held_out"));
+    const HeldOutSignal held_out{h.at(0), h.at(1)};
+    all.explained[place].push_back({held_out.explained(), h.at(2)});
+    all.held_out[place].hidden += held_out.hidden;
+    all.held_out[place].missed += held_out.missed;
+    if (oracle) all.oracle[place].push_back(*oracle);
+    if (outcome == Outcome::Named && record.contains("drivers") && cell.strength >= 4.0 &&
+        held_out.explained() < 0.95) {
       std::string beside;
       if (oracle) {
         beside = fmt::format(
@@ -194,30 +264,50 @@ void runOne(const Assignment& which, const Wanted& wanted, Outcomes& all, std::m
             100.0 * oracle->explained, 100.0 * oracle->noise_free, 100.0 * oracle->noise_cost,
             100.0 * oracle->stated_cost, oracle->strength);
       }
-      all.poorly_explained.push_back(fmt::format("seed {:5} {:20} hidden {:42} explained {:5.1f} %{} by {}", which.seed,
-                                                 cell.name, joinedList(made.hidden), 100.0 * explained, beside,
-                                                 result.effects.front().drivers));
+      all.poorly_explained.push_back(fmt::format("seed {:5} {:20} hidden {:42} explained {:5.1f} %{} by {}", seed,
+                                                 cell.name, joinedList(hidden), 100.0 * held_out.explained(), beside,
+                                                 record.at("drivers").get<std::string>()));
     }
   }
   if (cell.kind == StudyKind::One) {
-    auto& [right, count] = all.by_effect[made.hidden.front()];
+    auto& [right, campaigns] = all.by_effect[hidden.front()];
     right += outcome == Outcome::Named || outcome == Outcome::Rival ? 1 : 0;
-    ++count;
+    ++campaigns;
   }
   for (const Answer::Listed& listed : answer.effects) {
     const bool right = std::any_of(nameable.begin(), nameable.end(),
-                                   [&](const std::string& hidden) { return sameEffect(hidden, listed.id); });
+                                   [&](const std::string& one) { return sameEffect(one, listed.id); });
     all.confidences.emplace_back(listed.confidence, right);
   }
   if (outcome != Outcome::Named) {
-    all.misses.push_back(fmt::format("seed {:5} {:20} hidden {:42} -> {} [explained {:.3f}, {}]", which.seed, cell.name,
-                                     joinedList(made.hidden), described(answer), result.explained_fraction,
-                                     result.leftover.empty() ? "nothing left" : result.leftover));
+    all.misses.push_back(fmt::format(
+        "seed {:5} {:20} hidden {:42} -> {} [explained {:.3f}, {}]", seed, cell.name, joinedList(hidden),
+        described(answer), numberOf(record.at("explained_fraction")),
+        record.at("leftover").get<std::string>().empty() ? "nothing left" : record.at("leftover").get<std::string>()));
   }
-  if (wanted.plain) {
-    all.stepwise[which.cell].add(stepwise, judged(stepwise));
-    all.lasso[which.cell].add(lasso, judged(lasso));
+  for (const auto& [key, tallies] : {std::pair{"stepwise", &all.stepwise}, std::pair{"lasso", &all.lasso}}) {
+    if (!record.contains(key)) continue;
+    const auto [other, judged] = answerOf(record.at(key));
+    (*tallies)[place].add(other, judged);
   }
+}
+
+/// Answers of a batch by item; says which are missing or failed.
+std::vector<nlohmann::json> gathered(const std::filesystem::path& file, std::size_t items) {
+  std::vector<nlohmann::json> records(items);
+  std::istringstream lines(readFile(file));
+  for (std::string line; std::getline(lines, line);) {
+    const nlohmann::json j = nlohmann::json::parse(line);
+    const std::string name = j.at("name");
+    if (!name.starts_with("seed ")) throw InputError({file, ""}, "holds an item that is no seed: \"" + name + "\".");
+    const std::size_t item = std::stoull(name.substr(5));
+    if (item >= items)
+      throw InputError(
+          {file, ""},
+          fmt::format("holds item {}; allowed: 0 to {}, those of the study with these options.", item, items - 1));
+    if (!j.at("failed").get<bool>()) records[item] = j.at("answer");
+  }
+  return records;
 }
 
 /// Seeds from here on judge: no threshold is to be chosen on them.
@@ -234,6 +324,8 @@ int run(int argc, char** argv) {
   std::string part;
   bool brief = false;
   bool suggestion = false;
+  std::optional<std::size_t> item;
+  std::string gather;
   for (int i = 1; i < argc; ++i) {
     const auto value = [&]() -> std::string { return i + 1 < argc ? argv[++i] : ""; };
     if (std::strcmp(argv[i], "--campaigns") == 0) {
@@ -258,12 +350,17 @@ int run(int argc, char** argv) {
       part = value();
     } else if (std::strcmp(argv[i], "--suggestion") == 0) {
       suggestion = true;
+    } else if (std::strcmp(argv[i], "--item") == 0) {
+      item = static_cast<std::size_t>(std::atoll(value().c_str()));
+    } else if (std::strcmp(argv[i], "--gather") == 0) {
+      gather = value();
     } else if (std::strcmp(argv[i], "--dump") == 0) {
       wanted.dump = value();
     } else {
       fmt::print(
           "usage: {} [--campaigns N] [--seed S] [--seeds K] [--short] [--plain] [--oracle] [--list] [--require] "
-          "[--kind one|two|three|nothing|outside|confounded] [--cell PART] [--dump DIR] [--suggestion]\n",
+          "[--kind one|two|three|nothing|outside|confounded] [--cell PART] [--dump DIR] [--suggestion] [--item I] "
+          "[--gather FILE]\n",
           argv[0]);
       return 2;
     }
@@ -300,15 +397,42 @@ int run(int argc, char** argv) {
       }
     }
   }
-  Outcomes all;
-  std::mutex mutex;
-  const JobContext job;
-  parallelFor(work.size(), job, [&](std::size_t i) { runOne(work[i], wanted, all, mutex); });
+  JobContext job;
+  if (item) {
+    if (*item >= work.size()) {
+      fmt::print(stderr, "item {} is not there; allowed: 0 to {}\n", *item, work.size() - 1);
+      return 2;
+    }
+    fmt::print("{}\n", runOne(work[*item], wanted, job).dump());
+    return 0;
+  }
+  std::vector<nlohmann::json> records(work.size());
+  if (gather.empty()) {
+    parallelFor(work.size(), job, [&](std::size_t i) {
+      JobContext own;
+      records[i] = runOne(work[i], wanted, own);
+    });
+  } else {
+    records = gathered(gather, work.size());
+  }
   if (!wanted.dump.empty()) {
     fmt::print("{} campaigns in {}\n", work.size(), wanted.dump.string());
     return 0;
   }
 
+  Outcomes all;
+  std::size_t missing = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const nlohmann::json& record = records[i];
+    if (!record.is_object() || record.at("cell") != work[i].cell || record.at("seed") != work[i].seed)
+      ++missing;
+    else
+      count(record, all);
+  }
+  if (missing > 0) {
+    fmt::print("{} of {} campaigns are missing, failed, or of a study with other options\n", missing, work.size());
+    return 1;
+  }
   fmt::print("{} campaigns, {} {}; rates with 95 % intervals (Wilson)\n", work.size(),
              seeds == 1 ? "seed" : fmt::format("{} seeds from", seeds), first_seed);
   printReport(all, {wanted.plain, list});

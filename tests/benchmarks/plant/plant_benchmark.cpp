@@ -6,8 +6,9 @@
 //   overhead of a batch at most 5 % of the work for items of 1 s
 //   10,000 items, workers (and the server) killed at random: each item has its answer exactly once
 //
-// plant_benchmark [--fsync] [--server-only] [--items N] [--second-items N]
-// --fsync: the server flushes to the disk as a real one does. Exit status 1: a figure is missed.
+// plant_benchmark [--no-fsync] [--server-only] [--publish-only] [--items N] [--second-items N]
+// The server flushes every commit to the disk, as PostgreSQL does by itself; --no-fsync: as the tests do, to see what
+// of the time is the disk's. Exit status 1: a figure is missed.
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -25,6 +26,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/base/text.h"
 #include "core/plant/batch_queue.h"
 #include "core/plant/batch_worker.h"
 #include "core/plant/plant_overview.h"
@@ -134,7 +136,7 @@ BatchState stateOf(const PlantAddress& address, std::int64_t batch) {
 }
 
 void measure(const std::string& name, const PlantAddress& address, TemporaryPostgres* server, std::int64_t items,
-             int second_items, const std::function<double()>& bytes) {
+             int second_items, bool publish_only, const std::function<double()>& bytes) {
   PlantStore store = PlantStore::make(address);
   Random random(1);
   std::vector<PlantCampaign> campaigns;
@@ -153,6 +155,7 @@ void measure(const std::string& name, const PlantAddress& address, TemporaryPost
     }
     fmt::print("{:<11} publishing 1,000 campaigns, each on its own: {:.1f} s\n", name, msSince(one_begin) / 1e3);
   }
+  if (publish_only) return;
   const double size = bytes();
   fmt::print("{:<11} {:.0f} bytes a campaign with one fit of nine parameters and its covariance\n", name, size / 14e3);
   std::size_t listed = 0;
@@ -220,11 +223,13 @@ int main(int argc, char** argv) {
   using namespace spindrift;
   std::int64_t items = 10'000;
   int second_items = 40;
-  bool fsync = false;
+  bool fsync = true;
+  bool publish_only = false;
   bool server_only = false;
   for (int i = 1; i < argc; ++i) {
     const std::string option = argv[i];
-    if (option == "--fsync") fsync = true;
+    if (option == "--no-fsync") fsync = false;
+    if (option == "--publish-only") publish_only = true;
     if (option == "--server-only") server_only = true;
     if (option == "--items" && i + 1 < argc) items = std::atoll(argv[i + 1]);
     if (option == "--second-items" && i + 1 < argc) second_items = std::atoi(argv[i + 1]);
@@ -232,7 +237,7 @@ int main(int argc, char** argv) {
   if (!server_only) {
     const spindrift::testing::TempFolder folder;
     measure("SQLite", PlantAddress::parse((folder / "plant.sqlite").string()), nullptr, items, second_items,
-            [&] { return static_cast<double>(std::filesystem::file_size(folder / "plant.sqlite")); });
+            publish_only, [&] { return static_cast<double>(std::filesystem::file_size(folder / "plant.sqlite")); });
   }
   if (const std::string why = spindrift::testing::TemporaryPostgres::missing(); !why.empty()) {
     fmt::print("{}\n", why);
@@ -245,11 +250,13 @@ int main(int argc, char** argv) {
     server.start();
   }
   const std::string database = server.freshDatabase();
-  measure("PostgreSQL", PlantAddress::parse(server.address(database, "owner")), &server, items, second_items, [&] {
-    server.sql(database, "vacuum analyze");  // as a server in use does by itself
-    return std::stod(server.sql(database,
-                                "select sum(pg_total_relation_size(oid)) from pg_class where relkind = 'r' and "
-                                "relnamespace = 'plant'::regnamespace"));
-  });
+  fmt::print("PostgreSQL  fsync {}\n", trimmed(server.sql("postgres", "show fsync")));
+  measure("PostgreSQL", PlantAddress::parse(server.address(database, "owner")), &server, items, second_items,
+          publish_only, [&] {
+            server.sql(database, "vacuum analyze");  // as a server in use does by itself
+            return std::stod(server.sql(database,
+                                        "select sum(pg_total_relation_size(oid)) from pg_class where relkind = 'r' and "
+                                        "relnamespace = 'plant'::regnamespace"));
+          });
   return all_met ? 0 : 1;
 }

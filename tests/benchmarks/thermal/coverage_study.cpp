@@ -3,13 +3,18 @@
 // constants and step response of known ARX and output-error systems under white and coloured noise; and the bias of ARX
 // under noise at the output, of which output error is free. `coverage_study [RUNS]`, default 1000.
 // `coverage_study RUNS --seed FIRST` gives what RUNS runs from this one on say, as JSON: an item of a batch
-// ("work":"command"); the counts of all items together are those of one long study.
+// ("work":"command","run":["coverage_study","1","--seed","{seed}"]). `coverage_study --gather FILE` reads what `batch
+// status BATCH --results FILE` wrote and prints the table: that of one study with the same runs.
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <exception>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/random.h"
@@ -21,9 +26,10 @@ namespace {
 
 using namespace spindrift;
 
-/// First run, and where counts go in place of the table.
+/// First run; where counts go in place of the table, and the answers they come from in place of runs.
 std::uint64_t first_run = 0;
 nlohmann::json* counted = nullptr;
+std::vector<nlohmann::json> answers;
 
 struct Count {
   std::string name;
@@ -35,10 +41,23 @@ struct Count {
   }
 };
 
-void print(const char* system, const std::vector<Count>& counts) {
+using Sums = std::vector<std::pair<const char*, double*>>;
+
+/// Prints the counts of all runs, of this process or of the answers, and completes the sums; false if both were handed
+/// on as JSON.
+bool print(const char* system, std::vector<Count> counts, const Sums& sums) {
   if (counted != nullptr) {
     for (const Count& c : counts) (*counted)[system][c.name] = {{"inside", c.inside}, {"total", c.total}};
-    return;
+    for (const auto& [name, sum] : sums) (*counted)[system]["sums"][name] = *sum;
+    return false;
+  }
+  for (const nlohmann::json& answer : answers) {
+    const nlohmann::json& said = answer.at(system);
+    for (Count& c : counts) {
+      c.inside += said.at(c.name).at("inside").get<std::size_t>();
+      c.total += said.at(c.name).at("total").get<std::size_t>();
+    }
+    for (const auto& [name, sum] : sums) *sum += said.at("sums").at(name).get<double>();
   }
   std::printf("%s\n", system);
   for (const Count& c : counts) {
@@ -51,6 +70,7 @@ void print(const char* system, const std::vector<Count>& counts) {
                 100.0 * static_cast<double>(c.inside) / static_cast<double>(c.total), 100.0 * rate.low,
                 100.0 * rate.high);
   }
+  return true;
 }
 
 std::vector<double> steps(Random& random, int samples, int hold) {
@@ -118,9 +138,9 @@ void arx(const char* name, const ArxSystem& system, int runs) {
     const std::vector<double> sigmas = m.stepResponseSigma(0, 100);
     for (const std::size_t k : at) counts[3].add(estimated[k], step[k], sigmas[k]);
   }
-  print(name, counts);
-  if (counted != nullptr) return;
-  std::printf("  mean static gain %.4f, truth 4\n", gain_sum / runs);
+  double all = runs;
+  if (!print(name, counts, {{"gain", &gain_sum}, {"runs", &all}})) return;
+  std::printf("  mean static gain %.4f, truth 4\n", gain_sum / all);
 }
 
 struct OutputErrorSystem {
@@ -141,7 +161,7 @@ void outputError(const char* name, const OutputErrorSystem& system, int runs) {
   counts[3].name = "step response";
   double gain_sum = 0.0;
   double factor_sum = 0.0;
-  int converged = 0;
+  double converged = 0.0;
   for (int run = 0; run < runs; ++run) {
     Random random(9000 + first_run + static_cast<std::uint64_t>(run));
     const auto u = steps(random, samples, 150);
@@ -170,7 +190,7 @@ void outputError(const char* name, const OutputErrorSystem& system, int runs) {
     if (second_input) inputs.push_back({w, 1, true});
     const OutputErrorResult r = fitOutputError(time, y, inputs, options);
     if (r.status != FitStatus::Converged) continue;
-    ++converged;
+    converged += 1.0;
     const double factor = r.coverageFactor();
     factor_sum += factor;
     const auto tau = [&](std::size_t input, std::size_t lag, double truth) {
@@ -205,17 +225,35 @@ void outputError(const char* name, const OutputErrorSystem& system, int runs) {
       counts[3].add(step.value[k], truth, step.sigma[k], factor);
     }
   }
-  print(name, counts);
-  if (counted != nullptr) return;
-  std::printf("  mean static gain %.4f, truth -15; %d of %d converged; mean coverage factor %.3f\n",
-              gain_sum / converged, converged, runs, factor_sum / converged);
+  double all = runs;
+  if (!print(name, counts, {{"gain", &gain_sum}, {"factor", &factor_sum}, {"converged", &converged}, {"runs", &all}}))
+    return;
+  std::printf("  mean static gain %.4f, truth -15; %.0f of %.0f converged; mean coverage factor %.3f\n",
+              gain_sum / converged, converged, all, factor_sum / converged);
 }
 
-}  // namespace
+/// Answers of a batch, in the order of its items.
+std::vector<nlohmann::json> read(const char* file) {
+  std::vector<nlohmann::json> found;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    const nlohmann::json j = nlohmann::json::parse(line);
+    if (j.at("failed").get<bool>()) throw std::runtime_error(j.at("answer").at("error").get<std::string>());
+    found.push_back(j.at("answer"));
+  }
+  if (found.empty()) throw std::runtime_error(std::string(file) + " holds no answers");
+  return found;
+}
 
-int main(int argc, char** argv) {
-  const int runs = argc > 1 ? std::stoi(argv[1]) : 1000;
+int study(int argc, char** argv) {
+  int runs = 1000;
   nlohmann::json answer;
+  if (argc > 2 && std::strcmp(argv[1], "--gather") == 0) {
+    answers = read(argv[2]);
+    runs = 0;
+  } else if (argc > 1) {
+    runs = std::stoi(argv[1]);
+  }
   if (argc > 3 && std::strcmp(argv[2], "--seed") == 0) {
     first_run = std::stoull(argv[3]);
     counted = &answer;
@@ -231,4 +269,15 @@ int main(int argc, char** argv) {
   outputError("output error, two inputs, AR(1) noise 0.8", {0.8, 0.0, true}, runs);
   if (counted != nullptr) std::printf("%s\n", answer.dump().c_str());
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return study(argc, argv);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "coverage_study: %s\n", e.what());
+    return 3;
+  }
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmock/gmock.h>
+#include <pthread.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <iterator>
 #include <map>
@@ -14,6 +16,7 @@
 
 #include "core/base/random.h"
 #include "core/plant/batch_queue.h"
+#include "core/plant/batch_work.h"
 #include "core/plant/batch_worker.h"
 #include "tests/core/plant/both_stores.h"
 #include "tests/support/refusal.h"
@@ -367,6 +370,21 @@ TEST(BatchPlanTest, ProgramsAnswerAndAreEndedWithAllTheyStarted) {
   EXPECT_THROW((void)outputOf({"sh", "-c", "sleep 30 & sleep 30; wait"}, JobContext(stop.get_token(), nullptr)),
                Cancelled);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
+
+/// A signal that asks a worker to stop comes while it waits for a program.
+TEST(BatchPlanTest, ASignalEndsTheWaitForAProgram) {
+  static std::stop_source stop;
+  const auto before = std::signal(SIGUSR1, [](int) { stop.request_stop(); });
+  const pthread_t waiting = ::pthread_self();
+  std::jthread later([&] {
+    nap(0.3);
+    ::pthread_kill(waiting, SIGUSR1);
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW((void)outputOf({"sleep", "20"}, JobContext(stop.get_token(), nullptr)), Cancelled);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+  (void)std::signal(SIGUSR1, before);
 }
 
 TEST(BatchWork, SimulatesAndFitsTheSameTwice) {

@@ -19,8 +19,9 @@ namespace {
 
 std::vector<Reader> allReaders() {
   std::vector<Reader> all;
-  for (const auto& list : {machineReaders(), imagingReaders(), probingReaders(), scanningReaders(), thermalReaders(),
-                           finiteElementReaders(), simulatorReaders(), sessionReaders(), wholeCoreReaders()})
+  for (const auto& list :
+       {machineReaders(), imagingReaders(), probingReaders(), scanningReaders(), thermalReaders(),
+        finiteElementReaders(), simulatorReaders(), sessionReaders(), plantReaders(), wholeCoreReaders()})
     all.insert(all.end(), list.begin(), list.end());
   return all;
 }

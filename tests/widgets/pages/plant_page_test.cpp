@@ -3,7 +3,9 @@
 // keeps what it looks like.
 #include <gtest/gtest.h>
 
+#include <QComboBox>
 #include <QCoreApplication>
+#include <QDateTime>
 #include <QElapsedTimer>
 #include <QItemSelectionModel>
 #include <QLineEdit>
@@ -11,12 +13,16 @@
 #include <QSettings>
 #include <QTabWidget>
 #include <QTableView>
+#include <QTest>
 #include <QTextBrowser>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
 #include "core/base/random.h"
+#include "core/connect/utc_time.h"
 #include "core/plant/batch_queue.h"
 #include "core/plant/plant_store.h"
 #include "tests/support/temp_folder.h"
@@ -118,6 +124,17 @@ class PlantPageTest : public ::testing::Test {
                            (kind == ThemeKind::Dark ? QStringLiteral("-dark.png") : QStringLiteral("-light.png")));
     }
     window_->setTheme(ThemeKind::Light);
+  }
+
+  /// A plan that runs a command of the shell for each of the seeds ($1) from 1 on.
+  std::string planOf(const std::string& name, int seeds, const std::string& command) {
+    const nlohmann::json plan = {{"format", "spindrift-batch"},
+                                 {"version", 1},
+                                 {"name", name},
+                                 {"work", "command"},
+                                 {"seeds", {1, seeds}},
+                                 {"options", {{"run", {"sh", "-c", command, "sh", "{seed}"}}}}};
+    return folder_.write(name + ".json", plan.dump()).string();
   }
 
   testing::TempFolder folder_;
@@ -233,6 +250,180 @@ TEST_F(PlantPageTest, PublishesTheOpenSession) {
   EXPECT_EQ(page->machines()->model()->rowCount(), 4);
   Q_EMIT page->closed();
   EXPECT_FALSE(window_->welcomeShown());
+}
+
+template <class Widget>
+Widget* named(const QWidget* page, const char* accessible_name) {
+  for (Widget* w : page->findChildren<Widget*>()) {
+    if (w->accessibleName() == QLatin1String(accessible_name)) return w;
+  }
+  ADD_FAILURE() << "nothing on the page is named " << accessible_name;
+  return nullptr;
+}
+
+QPushButton* buttonOf(const QWidget* page, const char* words) {
+  for (QPushButton* b : page->findChildren<QPushButton*>()) {
+    if (b->accessibleName() == QLatin1String(words)) return b;
+  }
+  ADD_FAILURE() << "no button on the page says " << words;
+  return nullptr;
+}
+
+TEST_F(PlantPageTest, EntersAnEventOfAMachine) {
+  window_->resize(1280, 800);
+  window_->openPlant();
+  PlantPage* page = window_->plant();
+  page->openStore(store_);
+  wait();
+  QPushButton* enter = buttonOf(page, "Enter event");
+  auto* time = named<QLineEdit>(page, "When it was done (UTC)");
+  auto* note = named<QLineEdit>(page, "Note on the event");
+  auto* kind = named<QComboBox>(page, "What was done to the machine");
+  page->selectMachines({QStringLiteral("gantry north"), QStringLiteral("lathe 4")});
+  wait();
+  EXPECT_FALSE(enter->isEnabled()) << "of one machine";
+  page->selectMachines({QStringLiteral("gantry north")});
+  wait();
+  page->parameter()->setCurrentText(QStringLiteral("fit/EX_um"));
+  wait();
+  const auto entered = [&] {
+    PlantStore store = PlantStore::open(PlantAddress::parse(store_.toStdString()));
+    return store.events("gantry north");
+  };
+  const std::size_t before = entered().size();
+  const auto stretches = page->plot()->series().size();
+
+  // With the keyboard: from the kind on by Tab, and Return at the end.
+  kind->setFocus();
+  QTest::keyClick(kind, Qt::Key_Down);
+  QTest::keyClick(kind, Qt::Key_Tab);
+  ASSERT_EQ(window_->focusWidget(), time);
+  time->selectAll();
+  QTest::keyClicks(time, QStringLiteral("yesterday"));
+  QTest::keyClick(time, Qt::Key_Return);
+  EXPECT_NE(page->callout()->sentence().toStdString().find("\"yesterday\" is no day"), std::string::npos);
+  const std::string day = QDateTime::fromSecsSinceEpoch(static_cast<qint64>(now() - week_s * 19.5), Qt::UTC)
+                              .toString(QStringLiteral("yyyy-MM-dd"))
+                              .toStdString();
+  time->selectAll();
+  QTest::keyClicks(time, QString::fromStdString(day));
+  QTest::keyClick(time, Qt::Key_Tab);
+  ASSERT_EQ(window_->focusWidget(), note);
+  QTest::keyClicks(note, QStringLiteral("after the move"));
+  keep(QStringLiteral("plant-event-typed"));
+  note->setFocus();
+  QTest::keyClick(note, Qt::Key_Return);
+  wait();
+  wait();
+  ASSERT_EQ(entered().size(), before + 1);
+  EXPECT_EQ(page->callout()->tone(), Tone::Good) << page->callout()->sentence().toStdString();
+  const auto all = entered();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [](const MachineEvent& e) { return e.note == "after the move"; });
+  ASSERT_NE(found, all.end());
+  EXPECT_EQ(found->kind, "re_levelled");
+  EXPECT_EQ(utcText(found->time_s).substr(0, 10), day);
+  EXPECT_FALSE(found->author.empty());
+  EXPECT_TRUE(note->text().isEmpty());
+  EXPECT_EQ(page->plot()->series().size(), stretches)
+      << "a week after the spindle there is nothing to take limits from";
+  // With the mouse.
+  kind->setCurrentIndex(kind->findData(QStringLiteral("note")));
+  note->setText(QStringLiteral("cleaned"));
+  QTest::mouseClick(enter, Qt::LeftButton);
+  wait();
+  wait();
+  EXPECT_EQ(entered().size(), before + 2);
+  keep(QStringLiteral("plant-event"));
+}
+
+TEST_F(PlantPageTest, StartsCancelsAndResumesABatch) {
+  window_->resize(1280, 800);
+  const std::string gate = (folder_ / "gate").string();
+  const std::string run = "while [ $1 -gt 2 ] && [ ! -e " + gate + " ]; do sleep 0.02; done; echo $(( $1 * $1 ))";
+  const std::string plan = planOf("squares", 12, run);
+  window_->openPlant();
+  PlantPage* page = window_->plant();
+  page->setWorkerProgram(QStringLiteral(SPINDRIFT_CLI));
+  page->openStore(store_);
+  wait();
+  page->tabs()->setCurrentIndex(2);
+  wait();
+  QPushButton* start = buttonOf(page, "Start");
+  QPushButton* cancel = buttonOf(page, "Cancel the batch");
+  QPushButton* resume = buttonOf(page, "Resume on this computer");
+  auto* file = named<QLineEdit>(page, "Plan of the batch");
+  EXPECT_FALSE(start->isEnabled());
+  EXPECT_FALSE(cancel->isEnabled());
+  file->setFocus();
+  QTest::keyClicks(file, QString::fromStdString((folder_ / "none.json").string()));
+  QTest::keyClick(file, Qt::Key_Return);
+  wait();
+  EXPECT_NE(page->callout()->sentence().toStdString().find("none.json"), std::string::npos);
+
+  const auto cell = [&](int column) {
+    const int row = page->batches()->rowOf(QStringLiteral("2"));
+    return row < 0 ? QString() : page->batches()->index(row, column).data().toString();
+  };
+  file->selectAll();
+  QTest::keyClicks(file, QString::fromStdString(plan));
+  QTest::mouseClick(start, Qt::LeftButton);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return cell(2).startsWith(QStringLiteral("2 of 12")); }, 60'000))
+      << cell(2).toStdString() << page->callout()->sentence().toStdString();
+  EXPECT_FALSE(page->callout()->isVisible()) << "what was wrong with the other plan is told no more";
+  EXPECT_TRUE(window_->jobs().busy());
+  EXPECT_FALSE(window_->jobs().working()) << "a batch of hours keeps nobody from working";
+  EXPECT_TRUE(window_->jobs().title().contains(QStringLiteral("squares.json")));
+  // Chosen with the keyboard.
+  page->batchTable()->setFocus();
+  page->batchTable()->selectRow(page->batches()->rowOf(QStringLiteral("2")));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return cancel->isEnabled(); }, 10'000));
+  EXPECT_NE(cell(5), QString());
+  if (const QString folder = qEnvironmentVariable("SPINDRIFT_TEST_PICTURES"); !folder.isEmpty())
+    window_->grab().save(folder + QStringLiteral("/plant-batch-runs-light.png"));
+  QTest::mouseClick(cancel, Qt::LeftButton);
+  wait();
+  wait();
+  EXPECT_EQ(cell(4).toStdString(), "cancelled");
+  EXPECT_EQ(cell(2).toStdString(), "2 of 12 (16 %)");
+  EXPECT_FALSE(cancel->isEnabled());
+  ASSERT_TRUE(resume->isEnabled());
+  EXPECT_NE(page->callout()->sentence().toStdString().find("is cancelled"), std::string::npos);
+  keep(QStringLiteral("plant-batch-cancelled"));
+
+  (void)folder_.write("gate", "");
+  resume->setFocus();
+  QTest::keyClick(resume, Qt::Key_Space);
+  wait();
+  wait();
+  EXPECT_EQ(cell(2).toStdString(), "12 of 12 (100 %)");
+  EXPECT_EQ(cell(4).toStdString(), "finished");
+  EXPECT_EQ(page->callout()->sentence().toStdString(), "Batch 2 squares is finished: 12 items.");
+  EXPECT_FALSE(resume->isEnabled());
+  keep(QStringLiteral("plant-batch-finished"));
+}
+
+/// The window is closed while a batch runs: its workers end, and what they held is free.
+TEST_F(PlantPageTest, ABatchEndsWithTheWindowAndLosesNothing) {
+  const std::string plan = planOf("long", 4, "[ $1 = 1 ] || sleep 60; echo 1");
+  window_->openPlant();
+  PlantPage* page = window_->plant();
+  page->setWorkerProgram(QStringLiteral(SPINDRIFT_CLI));
+  page->openStore(store_);
+  wait();
+  page->startBatch(QString::fromStdString(plan));
+  const auto state = [&] {
+    PlantStore store = PlantStore::open(PlantAddress::parse(store_.toStdString()));
+    BatchQueue queue(store);
+    const auto all = queue.all();
+    return all.front().name == "long" ? all.front() : BatchState();
+  };
+  ASSERT_TRUE(QTest::qWaitFor([&] { return state().answered == 1 && state().running > 0; }, 60'000));
+  window_->close();
+  window_.reset();
+  EXPECT_EQ(state().running, 0) << "given back, not left to its lease of 30 s";
+  EXPECT_EQ(state().free, 3);
+  window_ = std::make_unique<MainWindow>();
 }
 
 /// 260 values: from the choice to the picture.

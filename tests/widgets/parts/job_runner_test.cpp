@@ -138,8 +138,28 @@ TEST(JobRunner, WhatIsToBeShownDoesNotWaitForLongWork) {
   EXPECT_EQ(applied, std::vector<std::string>{"long"});
 }
 
+TEST(JobRunner, ABatchKeepsNobodyFromWorking) {
+  JobRunner runner;
+  std::atomic<bool> go_on{false};
+  std::atomic<bool> at_once{true};
+  std::vector<std::string> applied;
+  Job batch = lasting(go_on, applied, "batch");
+  batch.queue = JobQueue::Batch;
+  runner.run(std::move(batch));
+  EXPECT_EQ(runner.title(), QStringLiteral("batch"));
+  runner.run(lasting(at_once, applied, "work"));
+  EXPECT_EQ(runner.title(), QStringLiteral("work")) << "what one waits for is told first";
+  EXPECT_TRUE(QTest::qWaitFor([&] { return applied.size() == 1; }, 10000));
+  EXPECT_FALSE(runner.working());
+  EXPECT_TRUE(runner.busy());
+  EXPECT_EQ(runner.title(), QStringLiteral("batch"));
+  go_on = true;
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
+  EXPECT_EQ(applied, (std::vector<std::string>{"work", "batch"}));
+}
+
 TEST(JobRunner, TheLatestOfAKeyWins) {
-  for (const JobQueue queue : {JobQueue::Work, JobQueue::Display}) {
+  for (const JobQueue queue : {JobQueue::Work, JobQueue::Display, JobQueue::Batch}) {
     JobRunner runner;
     std::atomic<bool> go_on{false};
     std::vector<std::string> applied;

@@ -2,8 +2,10 @@
 #include "widgets/pages/plant/plant_page.h"
 
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QFile>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QItemSelectionModel>
@@ -30,6 +32,7 @@
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
 #include "core/connect/utc_time.h"
+#include "core/plant/batch_engine.h"
 #include "core/plant/publish.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
@@ -75,6 +78,16 @@ Job displayJob(const QString& title, const char* key, Work work, Shown shown) {
     return [shown, found] { shown(*found); };
   };
   return job;
+}
+
+QWidget* row(const std::vector<QWidget*>& widgets, int stretched) {
+  auto* whole = new QWidget;
+  auto* layout = new QHBoxLayout(whole);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(8);
+  for (std::size_t i = 0; i < widgets.size(); ++i)
+    layout->addWidget(widgets[i], static_cast<int>(i) == stretched ? 1 : 0);
+  return whole;
 }
 
 QWidget* column(const std::vector<QWidget*>& widgets) {
@@ -194,14 +207,59 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
 
   batches_ =
       new RowsModel({tr("Batch"), tr("Work"), tr("Done"), tr("Failed"), tr("Running"), tr("Cost"), tr("Left")}, this);
-  QTableView* batch_table =
-      makeTable(batches_, tr("Batches"), tr("Batches are started with spindrift-cli batch PLAN.json."));
+  batch_table_ = makeTable(batches_, tr("Batches"), tr("Choose a plan to start a batch on this computer."));
+  connect(batch_table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &PlantPage::enableBatchButtons);
+  plan_ = new QLineEdit;
+  plan_->setAccessibleName(tr("Plan of the batch"));
+  plan_->setPlaceholderText(tr("PLAN.json (format spindrift-batch)"));
+  auto* choose_plan = makeButton(tr("Plan …"), "folder-open");
+  start_batch_ = makeButton(tr("Start"), nullptr, "primary");
+  start_batch_->setToolTip(
+      tr("Works on the plan's campaigns or seeds with all processors of this computer; the same "
+         "plan again goes on where it ended"));
+  cancel_batch_ = makeButton(tr("Cancel the batch"), "stop");
+  cancel_batch_->setToolTip(tr("Nothing more is begun, wherever it runs; what is done stays"));
+  resume_batch_ = makeButton(tr("Resume on this computer"), "play");
+  resume_batch_->setToolTip(tr("Goes on after a cancellation, and tries again what has failed"));
+  start_batch_->setEnabled(false);
+  connect(plan_, &QLineEdit::textChanged, this,
+          [this](const QString& typed) { start_batch_->setEnabled(!typed.trimmed().isEmpty()); });
+  connect(plan_, &QLineEdit::returnPressed, start_batch_, &QPushButton::click);
+  connect(choose_plan, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Choose a plan"), {}, tr("Plan (*.json)"));
+    if (!file.isEmpty()) plan_->setText(file);
+  });
+  connect(start_batch_, &QPushButton::clicked, this, [this] { startBatch(plan_->text().trimmed()); });
+  connect(cancel_batch_, &QPushButton::clicked, this, &PlantPage::cancelBatch);
+  connect(resume_batch_, &QPushButton::clicked, this, &PlantPage::resumeBatch);
+
+  event_kind_ = new QComboBox;
+  event_kind_->setAccessibleName(tr("What was done to the machine"));
+  for (const std::string& kind : eventKinds())
+    event_kind_->addItem(sentenceStart(text(kind).replace(QLatin1Char('_'), QLatin1Char(' '))), text(kind));
+  event_time_ = new QLineEdit(text(utcText(now()).substr(0, 10)));
+  event_time_->setAccessibleName(tr("When it was done (UTC)"));
+  event_time_->setToolTip(tr("UTC: a day such as 2026-01-31, or a time such as 2026-01-31T08:00:00Z"));
+  event_time_->setFixedWidth(150);
+  event_note_ = new QLineEdit;
+  event_note_->setAccessibleName(tr("Note on the event"));
+  event_note_->setPlaceholderText(tr("A few words"));
+  enter_event_ = makeButton(tr("Enter event"), "plus");
+  enter_event_->setToolTip(tr("What was done to the selected machine; limits of its trends begin anew after it"));
+  enter_event_->setEnabled(false);
+  connect(event_note_, &QLineEdit::returnPressed, enter_event_, &QPushButton::click);
+  connect(event_time_, &QLineEdit::returnPressed, enter_event_, &QPushButton::click);
+  connect(enter_event_, &QPushButton::clicked, this, &PlantPage::enterEvent);
 
   tabs_ = makeTabs();
-  tabs_->addTab(column({parameter_, plot_, said_}), tr("Trend"));
+  tabs_->addTab(column({parameter_, plot_, said_, row({event_kind_, event_time_, event_note_, enter_event_}, 2)}),
+                tr("Trend"));
   tabs_->addTab(makeSplitter(column({campaign_table_}), column({comparison_table}), 3, 2, Qt::Vertical),
                 tr("Campaigns"));
-  tabs_->addTab(column({batch_table}), tr("Batches"));
+  tabs_->addTab(column({row({plan_, choose_plan, start_batch_}, 0), batch_table_,
+                        row({new QWidget, cancel_batch_, resume_batch_}, 0)}),
+                tr("Batches"));
+  enableBatchButtons();
   auto* help = new QTextBrowser;
   help->setFrameShape(QFrame::NoFrame);
   help->setAccessibleName(tr("Help on the plant"));
@@ -492,6 +550,7 @@ void PlantPage::showTrends() {
 void PlantPage::showCampaigns() {
   const QStringList chosen = chosenMachines();
   report_->setEnabled(!chosen.isEmpty());
+  enter_event_->setEnabled(chosen.size() == 1);
   std::vector<Row> rows;
   for (auto c = look_.campaigns.rbegin(); c != look_.campaigns.rend(); ++c) {
     const bool checked = std::find(compared_.begin(), compared_.end(), c->id) != compared_.end();
@@ -555,7 +614,10 @@ void PlantPage::lookAtBatches() {
           PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});
           return BatchQueue(store).all();
         },
-        [this](const std::vector<BatchState>& batches) { showBatches(batches); }));
+        [this](const std::vector<BatchState>& batches) {
+          look_.batches = batches;
+          showBatches(batches);
+        }));
   } catch (const InputError& e) {
     fail(QString::fromUtf8(e.what()));
   }
@@ -570,6 +632,10 @@ void PlantPage::showBatches(const std::vector<BatchState>& batches) {
   for (const BatchState& b : batches) {
     const double part = b.items > 0 ? 100.0 * static_cast<double>(b.answered) / static_cast<double>(b.items) : 100.0;
     Cell running{text(countOf(b.running, "chunk"))};
+    if (b.idle()) {
+      running = {tr("nobody"), Tone::Attention, "alert"};
+      running.tip = tr("Nothing works on it: it waits in Slurm, or what worked on it has ended; Resume goes on.");
+    }
     if (b.finished()) running = {tr("finished"), Tone::Good, "check-circle"};
     if (b.cancelled) running = {tr("cancelled"), Tone::Attention, "stop"};
     Cell failed{QString::number(b.failed_items), b.failed_items > 0 ? Tone::Bad : Tone::Neutral,
@@ -586,7 +652,138 @@ void PlantPage::showBatches(const std::vector<BatchState>& batches) {
           {hours(b.spent_s), Tone::Neutral, nullptr, true},
           {b.remaining_s > 0.0 ? hours(b.remaining_s) : QStringLiteral("–"), Tone::Neutral, nullptr, true}}});
   }
+  const BatchState* const chosen = chosenBatch();
+  const QString again = chosen != nullptr ? QString::number(chosen->id) : QString();
   batches_->setRows(std::move(rows));
+  const int place = batches_->rowOf(again);
+  if (place >= 0) batch_table_->selectRow(place);
+  enableBatchButtons();
+}
+
+const BatchState* PlantPage::chosenBatch() const {
+  const QModelIndexList rows = batch_table_->selectionModel()->selectedRows();
+  if (rows.isEmpty()) return nullptr;
+  const std::int64_t id = batches_->idAt(rows.front().row()).toLongLong();
+  const auto found =
+      std::find_if(look_.batches.begin(), look_.batches.end(), [id](const BatchState& b) { return b.id == id; });
+  return found != look_.batches.end() ? &*found : nullptr;
+}
+
+void PlantPage::enableBatchButtons() {
+  const BatchState* const b = chosenBatch();
+  cancel_batch_->setEnabled(b != nullptr && !b->finished() && !b->cancelled);
+  resume_batch_->setEnabled(b != nullptr && (!b->finished() || b->cancelled || b->failed_items > 0));
+}
+
+void PlantPage::workOn(const QString& title, std::function<std::int64_t(const PlantAddress&)> begin) {
+  try {
+    const PlantAddress address = PlantAddress::parse(addressText().toStdString());
+    EngineOptions options;
+    const QString program = worker_program_.isEmpty()
+                                ? QCoreApplication::applicationDirPath() + QStringLiteral("/spindrift-cli")
+                                : worker_program_;
+    if (!QFileInfo(program).isExecutable())
+      throw InputError({program.toStdString(), ""}, "is not there; batches run the command line of this program.");
+    options.worker_command = {program.toStdString(), "batch", "work"};
+    Job job;
+    job.title = title;
+    job.queue = JobQueue::Batch;
+    job.work = [this, address, options, begin = std::move(begin)](JobContext& context) -> std::function<void()> {
+      const std::int64_t id = begin(address);
+      const EngineReport report = runLocally(address, id, options, context);
+      if (!report.refused.empty()) throw InputError(report.refused);
+      return [this, state = report.state] {
+        const QString name = tr("Batch %1 %2").arg(state.id).arg(text(state.name));
+        if (state.cancelled)
+          callout_->show(Tone::Attention, tr("%1 is cancelled; what is done stays, and Resume goes on.").arg(name));
+        else if (state.failed_items > 0)
+          callout_->show(Tone::Attention, tr("%1 is finished, %2 failed: spindrift-cli batch status %3 --results FILE "
+                                             "says why.")
+                                              .arg(name, text(countOf(state.failed_items, "item")))
+                                              .arg(state.id));
+        else
+          callout_->show(Tone::Good, tr("%1 is finished: %2.").arg(name, text(countOf(state.answered, "item"))));
+        lookAtBatches();
+      };
+    };
+    job.failed = [this](const QString& sentence) { fail(sentence); };
+    callout_->set(Tone::Neutral, {});
+    job.cancelled = [this] {
+      callout_->show(Tone::Attention, tr("The batch has stopped; what is done stays, and Resume goes on."));
+      lookAtBatches();
+    };
+    jobs_.run(std::move(job));
+  } catch (const InputError& e) {
+    fail(QString::fromUtf8(e.what()));
+  }
+}
+
+void PlantPage::startBatch(const QString& plan_file) {
+  workOn(tr("Batch of %1").arg(QFileInfo(plan_file).fileName()),
+         [file = plan_file.toStdString()](const PlantAddress& address) {
+           const BatchPlan plan = BatchPlan::read(file);
+           plan.requireFiles();
+           PlantStore store = PlantStore::openOrMake(address);
+           return BatchQueue(store).submit(plan);
+         });
+}
+
+void PlantPage::resumeBatch() {
+  const BatchState* const chosen = chosenBatch();
+  if (chosen == nullptr) return;
+  workOn(tr("Batch %1 %2").arg(chosen->id).arg(text(chosen->name)), [id = chosen->id](const PlantAddress& address) {
+    PlantStore store = PlantStore::open(address);
+    BatchQueue(store).resume(id);
+    return id;
+  });
+}
+
+void PlantPage::cancelBatch() {
+  const BatchState* const chosen = chosenBatch();
+  if (chosen == nullptr) return;
+  const PlantAddress address = PlantAddress::parse(addressText().toStdString());
+  Job job = displayJob(
+      tr("Cancelling a batch"), "",
+      [address, id = chosen->id] {
+        PlantStore store = PlantStore::open(address);
+        BatchQueue(store).cancel(id);
+        return id;
+      },
+      [this](std::int64_t) { lookAtBatches(); });
+  job.failed = [this](const QString& sentence) { fail(sentence); };
+  jobs_.run(std::move(job));
+}
+
+void PlantPage::enterEvent() {
+  const QStringList chosen = chosenMachines();
+  if (chosen.size() != 1) return;
+  QString time = event_time_->text().trimmed();
+  if (time.size() == 10) time += QStringLiteral("T00:00:00Z");
+  const std::optional<double> time_s = parseUtc(time.toStdString());
+  if (!time_s || *time_s > now() + day_s) {
+    fail(tr("\"%1\" is no day on which something was done; allowed: UTC up to now, such as 2026-01-31 or "
+            "2026-01-31T08:00:00Z.")
+             .arg(event_time_->text()));
+    event_time_->setFocus();
+    return;
+  }
+  const MachineEvent event{chosen.front().toStdString(), *time_s, event_kind_->currentData().toString().toStdString(),
+                           event_note_->text().trimmed().toStdString(), plantPublisher()};
+  const PlantAddress address = PlantAddress::parse(addressText().toStdString());
+  Job job = displayJob(
+      tr("Entering an event"), "",
+      [address, event] {
+        PlantStore store = PlantStore::open(address);
+        store.addEvent(event);
+        return event;
+      },
+      [this, kind = event_kind_->currentText()](const MachineEvent& entered) {
+        event_note_->clear();
+        notice_ = {Tone::Good, tr("Entered for %1: %2 on %3.").arg(text(entered.machine), kind, day(entered.time_s))};
+        refresh();
+      });
+  job.failed = [this](const QString& sentence) { fail(sentence); };
+  jobs_.run(std::move(job));
 }
 
 void PlantPage::writeReport(const QString& file) {
