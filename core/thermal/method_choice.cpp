@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "core/math/statistics.h"
@@ -59,6 +60,13 @@ std::string nameOf(Method method) {
       break;
   }
   return "response";
+}
+
+/// Signals, whatever the number of powers that a speed enters with.
+int inputCount(const ThermalModel& model) {
+  std::set<std::string> names;
+  for (const ThermalInput& input : model.inputs) names.insert(input.name);
+  return static_cast<int>(names.size());
 }
 
 }  // namespace
@@ -173,6 +181,15 @@ MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& out
   } else {
     result.model = std::move(response.model);
     result.verdicts = std::move(response.verdicts);
+  }
+  if (project && options.shared_inputs.empty() && inputCount(result.model) > options.projection.maximum_inputs) {
+    const ProjectionResult few =
+        projectOntoFewInputs(series, {result.model}, from_s, to_s, options.projection, job.part(0.9, 1.0));
+    ProjectedModel projected = projectModel(series, result.model, few.kept, from_s, to_s, options.projection);
+    result.verdicts = explained(few, projected, usable);
+    result.verdicts.insert(result.verdicts.end(), refused.begin(), refused.end());
+    projected.model.kind = result.model.kind;
+    result.model = std::move(projected.model);
   }
   for (const Method method : {Method::Line, Method::FewLags, Method::Ridge}) {
     const auto of_method = [&](const Candidate& c) { return c.method == method; };

@@ -9,7 +9,8 @@
 //   ridge       a dense grid of time constants per input, gains shrunk by a ridge of several strengths;
 //   response    core/thermal/response_fit.h: drifting zero, physical prior of the gains; of many inputs the few that
 //               tell what all of them tell (core/thermal/input_projection.h).
-// The first three are tried on every set of inputs (up to four inputs) or along a forward selection.
+// The first three are tried on every set of inputs (up to four inputs) or along a forward selection. What is chosen is
+// projected in the same way if it uses more inputs than ProjectionOptions::maximum_inputs.
 //
 // Evidence: every candidate is fitted to a part of the training range and runs free over the rest, for several rolling
 // origins (the past predicts the future) and for blocks left out (the rest predicts the block; the block of the first
