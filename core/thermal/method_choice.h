@@ -9,7 +9,8 @@
 //   ridge       a dense grid of time constants per input, gains shrunk by a ridge of several strengths;
 //   response    core/thermal/response_fit.h: drifting zero, physical prior of the gains; of many inputs the few that
 //               tell what all of them tell (core/thermal/input_projection.h).
-// The first three are tried on every set of inputs (up to four inputs) or along a forward selection.
+// The first three are tried on every set of inputs (up to four inputs) or along a forward selection. What is chosen is
+// projected in the same way if it uses more inputs than ProjectionOptions::maximum_inputs.
 //
 // Evidence: every candidate is fitted to a part of the training range and runs free over the rest, for several rolling
 // origins (the past predicts the future) and for blocks left out (the rest predicts the block; the block of the first
@@ -18,12 +19,16 @@
 // times a prior that makes every further input less probable. The power is 1 (Bates and Granger 1969) where the errors
 // of the best candidate differ from run to run by factors of e and more, as in records that leave their range: there
 // sharper weights choose by chance; it rises to 4 as that scatter falls. Between that average and `response` the errors
-// of the averages themselves decide, each run predicted with weights from the other runs only (nothing is chosen by the
-// run that judges it); where commanded speeds cut the training into at least three blocks of operation, `response` is
-// favoured beforehand; where a forward selection chose among sets of inputs, the prior odds are shared by those sets.
+// of the averages themselves decide. A forward selection that tries a hundred sets of inputs is flattered by the runs
+// that chose among them; so the whole search, inputs, time constants and weights, is made again for every run with the
+// runs that share no row with it, and only the result of that search is judged there (nested cross-validation). Odds
+// come from the mean difference over the runs, less where the runs disagree; where commanded speeds cut the training
+// into at least three blocks of operation the physical prior of `response` has odds of 20 to 1 beforehand, that is, the
+// others must be better at a level of about 5 %.
 // Uncertainty: posterior of every candidate plus their scatter, which grows where the inputs leave what was seen;
 // scaled so that errors and intervals agree in the runs that judged, for `response` as for the others. Source: Bates
-// and Granger 1969; Yao et al. 2018 (stacking and pseudo-BMA); Tashman 2000 (rolling origins). Failure: InputError as
+// and Granger 1969; Yao et al. 2018 (stacking and pseudo-BMA); Tashman 2000 (rolling origins); Varma and Simon 2006
+// (nested cross-validation). Failure: InputError as
 // fitResponse; FitStatus Degenerate if nothing could be determined.
 #pragma once
 
@@ -43,7 +48,7 @@ struct MethodChoiceOptions {
   double sharpness = 1.0;                                     ///< exponent at a scatter of 1 in ln(mean squared error)
   double sharpest = 4.0;                                      ///< largest exponent; the least is 1
   double input_penalty = 0.5;                                 ///< ln of the prior odds against each further input
-  double response_odds = 50.0;  ///< prior odds for `response` where speeds make blocks of operation
+  double response_odds = 20.0;  ///< prior odds for `response` where speeds make blocks of operation
   int maximum_inputs = 6;       ///< of the forward selection
   ResponseFitOptions response;
   ProjectionOptions projection;  ///< of `response` on few inputs

@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
-#include "core/base/atomic_file.h"
-#include "core/base/csv.h"
+#include "core/base/csv_rows.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/math/statistics.h"
@@ -175,90 +176,147 @@ double TimeSeries::valueAt(const Signal& signal, double when) const {
   return signal.values[low] + (when - time_s[low]) / span * (signal.values[high] - signal.values[low]);
 }
 
-TimeSeries readTimeSeries(const std::filesystem::path& file, const TimeSeriesOptions& options) {
-  return parseTimeSeries(readFile(file), file, options);
-}
+namespace {
 
-TimeSeries parseTimeSeries(std::string text, const std::filesystem::path& name, const TimeSeriesOptions& options) {
+/// A column of signals as far as it is read.
+struct SignalColumn {
+  std::vector<double> values;  ///< NaN where missing
+  std::size_t numbers = 0;
+  std::size_t empty = 0;
+  std::optional<SourcePlace> bad;  ///< of the first field that is neither
+  std::string bad_text;
+
+  void take(const CsvRows& rows, std::size_t column, const TimeSeriesOptions& options) {
+    const std::string_view field = rows.fields()[column];
+    double value = missing;
+    if (field.empty() || (options.accept_nan_text && looksMissing(field))) {
+      ++empty;
+    } else if (parseNumber(field, value)) {
+      ++numbers;
+    } else {
+      value = missing;
+      if (!bad) {
+        bad = rows.place(column);
+        bad_text = field;
+      }
+    }
+    values.push_back(value);
+  }
+};
+
+/// The column of time, s; its error is told after those of rows.
+struct Clock {
+  std::size_t column = 0;
+  double seconds = 1.0;  ///< of one unit
+  std::vector<double> time_s;
+  std::size_t repeated = 0;
+  std::string before;  ///< text of the row before
+  std::optional<InputError> error;
+
+  explicit Clock(const CsvRows& rows) {
+    const std::vector<std::string>& names = rows.columnNames();
+    for (const TimeColumn& candidate : time_columns) {
+      const auto found = std::find(names.begin(), names.end(), candidate.name);
+      if (found == names.end()) continue;
+      column = static_cast<std::size_t>(found - names.begin());
+      seconds = candidate.seconds;
+      return;
+    }
+    throw InputError(
+        {rows.file(), "header"},
+        fmt::format("there is no time column; allowed: time_s, time_min or time_h; found: {}.", joinedList(names)));
+  }
+
+  void take(const CsvRows& rows) {
+    if (error) return;
+    const std::string_view field = rows.fields()[column];
+    double value = 0.0;
+    if (!parseNumber(field, value)) {
+      error = notANumber(rows.place(column), field);
+      return;
+    }
+    value *= seconds;
+    if (!time_s.empty() && value < time_s.back()) {
+      error.emplace(rows.place(column),
+                    fmt::format("the clock jumps back from {} to {}; allowed: a time that never decreases (cut the "
+                                "file at the jump, or correct the clock from here on).",
+                                before, field));
+      return;
+    }
+    if (!time_s.empty() && value == time_s.back()) ++repeated;
+    time_s.push_back(value);
+    before = field;
+  }
+};
+
+/// Row by row: of a file no more than a block of lines is in memory beside the numbers.
+TimeSeries seriesOf(CsvRows& rows, const TimeSeriesOptions& options) {
   if (!options.temperature_unit.empty() && options.temperature_unit != "degC" && options.temperature_unit != "K" &&
       options.temperature_unit != "degF") {
     throw InputError(
         fmt::format("temperature unit \"{}\" is not known; allowed: degC, K, degF.", options.temperature_unit));
   }
-  const CsvTable table = CsvTable::parse(std::move(text), name);
+  const std::vector<std::string>& names = rows.columnNames();
+  Clock clock(rows);
+  clock.time_s.reserve(rows.mostRows());
+  std::vector<SignalColumn> columns(names.size());
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (c != clock.column) columns[c].values.reserve(rows.mostRows());
+  std::size_t count = 0;
+  while (rows.next()) {
+    ++count;
+    clock.take(rows);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      if (c != clock.column) columns[c].take(rows, c, options);
+  }
+  if (count == 0) throw InputError({rows.file(), ""}, "has no rows; allowed: at least two rows of data.");
+  if (clock.error) throw InputError(*clock.error);
   TimeSeries series;
-  series.file = name;
-  std::optional<std::size_t> time_column;
-  double seconds = 1.0;
-  for (const TimeColumn& candidate : time_columns) {
-    if (!time_column && table.hasColumn(candidate.name)) {
-      time_column = table.column(candidate.name);
-      seconds = candidate.seconds;
-    }
-  }
-  if (!time_column) {
-    throw InputError({name, "header"},
-                     fmt::format("there is no time column; allowed: time_s, time_min or time_h; found: {}.",
-                                 joinedList(table.columnNames())));
-  }
-  if (table.rowCount() == 0) throw InputError({name, ""}, "has no rows; allowed: at least two rows of data.");
-  series.time_s.resize(table.rowCount());
-  std::size_t repeated = 0;
-  for (std::size_t row = 0; row < table.rowCount(); ++row) {
-    series.time_s[row] = table.number(row, *time_column) * seconds;
-    if (row == 0) continue;
-    if (series.time_s[row] < series.time_s[row - 1]) {
-      throw InputError(table.place(row, *time_column),
-                       fmt::format("the clock jumps back from {} to {}; allowed: a time that never decreases (cut the "
-                                   "file at the jump, or correct the clock from here on).",
-                                   table.text(row - 1, *time_column), table.text(row, *time_column)));
-    }
-    if (series.time_s[row] == series.time_s[row - 1]) ++repeated;
-  }
-  if (repeated > 0) series.notes.push_back(fmt::format("{} rows repeat the time of the row before.", repeated));
-  for (std::size_t column = 0; column < table.columnNames().size(); ++column) {
-    if (column == *time_column) continue;
+  series.file = rows.file();
+  series.time_s = std::move(clock.time_s);
+  if (clock.repeated > 0)
+    series.notes.push_back(fmt::format("{} rows repeat the time of the row before.", clock.repeated));
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    if (c == clock.column) continue;
+    SignalColumn& column = columns[c];
     Signal signal;
-    signal.name = table.columnNames()[column];
-    signal.values.assign(table.rowCount(), missing);
-    std::size_t numbers = 0;
-    std::size_t empty = 0;
-    std::optional<std::size_t> bad;
-    for (std::size_t row = 0; row < table.rowCount(); ++row) {
-      const std::string_view field = table.text(row, column);
-      if (field.empty() || (options.accept_nan_text && looksMissing(field))) {
-        ++empty;
-      } else if (parseNumber(field, signal.values[row])) {
-        ++numbers;
-      } else {
-        signal.values[row] = missing;
-        if (!bad) bad = row;
-      }
-    }
+    signal.name = names[c];
     // Words among the numbers of a column that means nothing to us (alarms, programme names) leave it out as well.
-    if (bad && (numbers == 0 || signalKind(signal.name, {}) == SignalKind::Other) &&
-        !looksMissing(table.text(*bad, column))) {
+    if (column.bad && (column.numbers == 0 || signalKind(signal.name, {}) == SignalKind::Other) &&
+        !looksMissing(column.bad_text)) {
       series.notes.push_back(fmt::format("column {} holds text and was left out.", signal.name));
       continue;
     }
-    if (bad) {
-      const bool is_nan = looksMissing(table.text(*bad, column));
+    if (column.bad) {
       throw InputError(
-          table.place(*bad, column),
-          fmt::format("\"{}\" is not a number; allowed: a finite number with a decimal point{}.",
-                      table.text(*bad, column), is_nan ? ", or an empty field where the value is missing" : ""));
+          *column.bad,
+          fmt::format("\"{}\" is not a number; allowed: a finite number with a decimal point{}.", column.bad_text,
+                      looksMissing(column.bad_text) ? ", or an empty field where the value is missing" : ""));
     }
-    if (numbers == 0) {
+    if (column.numbers == 0) {
       series.notes.push_back(fmt::format("column {} is empty and was left out.", signal.name));
       continue;
     }
-    if (empty > 0)
-      series.notes.push_back(fmt::format("{} of {} values of {} are missing.", empty, table.rowCount(), signal.name));
+    if (column.empty > 0)
+      series.notes.push_back(fmt::format("{} of {} values of {} are missing.", column.empty, count, signal.name));
+    signal.values = std::move(column.values);
     signal.kind = signalKind(signal.name, signal.values);
     series.signals.push_back(std::move(signal));
   }
   settleTemperatureUnits(series, options);
   return series;
+}
+
+}  // namespace
+
+TimeSeries readTimeSeries(const std::filesystem::path& file, const TimeSeriesOptions& options) {
+  CsvRows rows(file);
+  return seriesOf(rows, options);
+}
+
+TimeSeries parseTimeSeries(std::string_view text, const std::filesystem::path& name, const TimeSeriesOptions& options) {
+  CsvRows rows(text, name);
+  return seriesOf(rows, options);
 }
 
 std::vector<double> bridged(std::span<const double> time_s, std::span<const double> values, bool hold) {

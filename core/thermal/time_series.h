@@ -72,9 +72,10 @@ struct TimeSeriesOptions {
   bool accept_nan_text = false;
 };
 
+/// Read row by row: beside the numbers no more than a block of lines of the file is in memory.
 [[nodiscard]] TimeSeries readTimeSeries(const std::filesystem::path& file, const TimeSeriesOptions& options = {});
 /// The same from text; `name` stands for the file in errors.
-[[nodiscard]] TimeSeries parseTimeSeries(std::string text, const std::filesystem::path& name,
+[[nodiscard]] TimeSeries parseTimeSeries(std::string_view text, const std::filesystem::path& name,
                                          const TimeSeriesOptions& options = {});
 
 [[nodiscard]] SignalQuality signalQuality(const TimeSeries& series, const Signal& signal);

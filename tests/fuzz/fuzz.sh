@@ -1,9 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Feeds every reader with mutated files until one breaks: fuzz.sh [SECONDS for each reader] [READER ...]
+# Feeds every reader with mutated files until one breaks: fuzz.sh [SECONDS for each reader | --in-all SECONDS] [READER ...]
 # What broke one lies in build-fuzz/crashes; put it into tests/fuzz/corpus/READER, where the normal test suite reads it too.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+in_all=
+if [ "${1:-}" = --in-all ]; then
+  in_all=$2
+  shift
+fi
 seconds=${1:-10}
 shift || true
 cmake --preset fuzz >/dev/null
@@ -11,6 +16,11 @@ cmake --build --preset fuzz --target fuzz_readers
 program=build-fuzz/bin/fuzz_readers
 readers=("$@")
 if [ "${#readers[@]}" -eq 0 ]; then mapfile -t readers < <("$program" 2>&1 | tail -n +2); fi
+if [ "${#readers[@]}" -eq 0 ]; then
+  echo "$program names no reader" >&2
+  exit 1
+fi
+if [ -n "$in_all" ]; then seconds=$(((in_all + ${#readers[@]} - 1) / ${#readers[@]})); fi
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 status=0
 for reader in "${readers[@]}"; do

@@ -16,7 +16,7 @@ namespace spindrift::testing {
 namespace {
 
 void timeSeries(std::string_view bytes) {
-  const TimeSeries series = parseTimeSeries(std::string(bytes), "log.csv");
+  const TimeSeries series = parseTimeSeries(bytes, "log.csv");
   for (const Signal& signal : series.signals) (void)signalQuality(series, signal);
 }
 

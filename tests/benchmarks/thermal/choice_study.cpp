@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The model that `thermal identify` chooses beside a straight line, the lagged ridge regression, ARX and output error:
 // error of the free run over the last 40 % of a record, trained on the rest, and how often the 95 % interval holds it.
-// `choice_study [SEEDS]`: made records of a heated frame (tests/support/frame_run.h), default 40.
+// `choice_study [SEEDS [frame|spindle [FIRST]]]`: made records of a heated frame (tests/support/frame_run.h) or of a
+// machine under changing speeds (tests/support/spindle_run.h), default 40 of the frame from seed 0.
 // `choice_study LOG.csv OUTPUT [PART]`: one record, trained on this part of it (default 0.6).
 #include <cmath>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/workflows/thermal_workflow.h"
 #include "tests/support/frame_run.h"
+#include "tests/support/spindle_run.h"
 
 namespace {
 
@@ -74,21 +76,25 @@ void print(const std::string& name, Figures& f) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 2) {
+  const bool spindle = argc > 2 && std::string(argv[2]) == "spindle";
+  if (argc > 2 && !spindle && std::string(argv[2]) != "frame") {
     const TimeSeries series = readTimeSeries(argv[1]);
     Figures f = study(series, argv[2], argc > 3 ? std::atof(argv[3]) : 0.6);
     print(argv[2], f);
     return 0;
   }
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 40;
+  const int first = argc > 3 ? std::atoi(argv[3]) : 0;
   double log_ratio = 0.0;
   double log_response = 0.0;
   double worst = 0.0;
   double inside = 0.0;
   double log_width = 0.0;
   int above = 0;
-  for (int seed = 0; seed < seeds; ++seed) {
-    Figures f = study(spindrift::testing::frameRun(static_cast<std::uint64_t>(seed)), "z_um", 0.6);
+  for (int seed = first; seed < first + seeds; ++seed) {
+    const auto number = static_cast<std::uint64_t>(seed);
+    Figures f =
+        study(spindle ? spindrift::testing::spindleRun(number) : spindrift::testing::frameRun(number), "z_um", 0.6);
     print("seed " + std::to_string(seed), f);
     const double ratio = f.rms["chosen"] / f.best;
     log_ratio += std::log(ratio) / seeds;

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "core/base/error.h"
+#include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
@@ -34,6 +36,33 @@ TEST(TimeSeries, ReadsColumnsOfAnyUnitAndKeepsGapsMissing) {
   EXPECT_DOUBLE_EQ(s.valueAt(s.at("spindle_rpm"), 59.0), 0.0);
   EXPECT_EQ(s.find("remark"), nullptr);
   EXPECT_THAT(s.notes, ::testing::Contains(HasSubstr("remark")));
+}
+
+/// A file of several blocks of lines is read as its text is, and its first error is told with its line.
+TEST(TimeSeries, ALongFileIsReadAsItsText) {
+  const spindrift::testing::TempFolder folder;
+  std::string text = "time_s,T_a_degC,ez_um,remark\n";
+  for (int k = 0; k < 60000; ++k)
+    text += fmt::format("{},{:.3f},{},{}\n", k, 20.0 + 1e-3 * (k % 977), k % 7 == 0 ? "" : fmt::format("{}", k % 31),
+                        k % 5000 == 0 ? "\"a, b\"" : "");
+  std::ofstream(folder / "log.csv") << text;
+  const TimeSeries of_file = readTimeSeries(folder / "log.csv");
+  const TimeSeries of_text = parseTimeSeries(text, "log.csv");
+  ASSERT_EQ(of_file.time_s.size(), 60000U);
+  EXPECT_EQ(of_file.time_s, of_text.time_s);
+  EXPECT_EQ(of_file.notes, of_text.notes);
+  ASSERT_EQ(of_file.signals.size(), 2U);
+  EXPECT_EQ(of_file.at("T_a_degC").values, of_text.at("T_a_degC").values);
+  EXPECT_DOUBLE_EQ(of_file.at("ez_um").values[59999], 59999 % 31);
+  EXPECT_TRUE(std::isnan(of_file.at("ez_um").values[7]));
+  std::ofstream(folder / "log.csv", std::ios::app) << "59998,20,1,\n60000,20,1,\n";
+  try {
+    static_cast<void>(readTimeSeries(folder / "log.csv"));
+    ADD_FAILURE() << "a clock that runs back is read";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("line 60002"));
+    EXPECT_THAT(error.what(), HasSubstr("the clock jumps back from 59999 to 59998"));
+  }
 }
 
 TEST(TimeSeries, RefusesWhatCannotBeMeant) {

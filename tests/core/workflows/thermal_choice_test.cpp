@@ -19,6 +19,7 @@
 #include "core/workflows/thermal_outputs.h"
 #include "core/workflows/thermal_workflow.h"
 #include "tests/support/frame_run.h"
+#include "tests/support/spindle_run.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift::testing {
@@ -63,6 +64,24 @@ TEST(ThermalChoice, IsAsGoodAsTheBestOfLineRidgeArxAndOutputError) {
   EXPECT_LT(std::exp(log_ratio), 1.1) << "geometric mean of the ratio to the best of four";
   EXPECT_GT(inside, 0.92) << "free run within the 95 % interval";
   EXPECT_LT(inside, 0.98) << "free run within the 95 % interval";
+}
+
+/// Many sensors, few independent blocks: a straight line may be all there is, and a model of many lags costs much then.
+TEST(ThermalChoice, ManySensorsAndAStraightLineNeedNoModelOfManyLags) {
+  double log_ratio = 0.0;
+  constexpr int runs = 8;
+  for (int k = 0; k < runs; ++k) {
+    const TimeSeries series = spindleRun(static_cast<std::uint64_t>(100 + 4 * k));  // structure 0: the line is true
+    const IdentifyResult chosen = identifyThermalModel(series, request(series, ""), {});
+    double best = std::numeric_limits<double>::infinity();
+    for (const ModelComparison& plain : chosen.plain)
+      if (plain.name.starts_with("static") || plain.name.starts_with("ridge")) best = std::min(best, plain.test.rmse);
+    EXPECT_LT(chosen.test.rmse, 6.0 * best) << "record " << k;
+    EXPECT_LE(chosen.inputs.size(), 8U) << "few inputs, whichever method; record " << k;
+    for (const InputVerdict& v : chosen.verdicts) EXPECT_FALSE(v.reason.empty()) << v.name;
+    log_ratio += std::log(chosen.test.rmse / best) / runs;
+  }
+  EXPECT_LT(std::exp(log_ratio), 1.6) << "geometric mean of the ratio to the better of line and ridge";
 }
 
 TEST(ThermalChoice, TheAverageIsOneModelThatIsStoredAndRunAsJudged) {

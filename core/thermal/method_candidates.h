@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The candidates of a choice between methods (private to thermal; core/thermal/method_choice.h says what they are).
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/thermal/method_evidence.h"
+
+namespace spindrift::choice {
+
+/// All candidates but `response`, on sets of inputs: every set of up to four inputs, of more a forward selection. The
+/// search is made anew for every run with the judges of that run, so that it is judged by rows it has not seen.
+class PlainCandidates {
+ public:
+  PlainCandidates(const response::Dictionary& d, const Evidence& evidence, const std::vector<std::string>& names,
+                  const MethodChoiceOptions& options);
+
+  void search(const JobContext& job);
+
+  std::vector<Candidate> all;
+
+ private:
+  using Columns = std::vector<Eigen::Index>;
+  using Set = std::vector<std::size_t>;
+
+  /// With the judges of run `of`; negative: with all runs.
+  void searchFor(std::ptrdiff_t of, const JobContext& job);
+  /// Tries every method on this set; the best score of them in the eyes of the judges.
+  double visit(const Set& set, std::ptrdiff_t of);
+  [[nodiscard]] Columns columnsOf(std::size_t input, double power) const;
+  [[nodiscard]] Candidate make(Method method, Columns columns, const Set& set, double shrinkage) const;
+  void keep(Candidate c);
+  const Candidate& lagsOf(const Columns& columns, const Set& set);
+  /// One time constant per input, one input after the other until none changes.
+  Columns fewLags(const std::vector<Columns>& per_input, const Set& set, const std::vector<char>& judges);
+
+  const response::Dictionary& d_;
+  const Evidence& evidence_;
+  const std::vector<std::string>& names_;
+  const MethodChoiceOptions& options_;
+  std::vector<double> powers_;
+  std::map<Set, std::vector<std::size_t>> visited_;  ///< places in `all`
+  std::map<Columns, Candidate> tried_;               ///< combinations of time constants
+};
+
+/// The members of core/thermal/response_fit.h on all inputs; their projection onto few is as good.
+[[nodiscard]] std::vector<Candidate> responseMembers(const response::Dictionary& d, const Evidence& evidence,
+                                                     const MethodChoiceOptions& options);
+
+}  // namespace spindrift::choice
