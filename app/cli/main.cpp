@@ -62,6 +62,8 @@ int main(int argc, char** argv) {
   spindrift::cli::addReportingCommands(app, line);
   spindrift::cli::addSessionCommands(app, line);
   spindrift::cli::addPlantCommands(app, line);
+  spindrift::cli::addReference(app, "thermal errors of machine tools: measure, explain, predict, compensate",
+                               {"spindrift", "spindrift-fe"});
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
