@@ -119,7 +119,11 @@ ProgramOption optionOf(const CLI::Option& option) {
   if (brace != std::string::npos && type.ends_with('}'))
     out.allowed = splitList(std::string_view(type).substr(brace + 1, type.size() - brace - 2));
   if (option.get_positional()) return out;
-  out.value = colon != std::string::npos && brace == std::string::npos ? type.substr(colon + 1) : type.substr(0, colon);
+  // "FROM:TO" is a name; "S:NUMBER" and "INT:INT in [1 - 9]" are a name and its check.
+  const std::string check = colon == std::string::npos ? std::string() : type.substr(colon + 1);
+  const bool checked = !out.allowed.empty() || check == "NUMBER" || check == "NONNEGATIVE" || check == "POSITIVE" ||
+                       check.find(" in [") != std::string::npos;
+  out.value = checked ? type.substr(0, colon) : type;
   if (out.value == "FLOAT") out.value = "NUMBER";
   if (out.value == "INT" || out.value == "UINT") out.value = "N";
   if (out.value.empty()) out.value = "VALUE";
@@ -147,6 +151,10 @@ void addReference(CLI::App& app, const std::string& summary, const std::vector<s
          "Print the reference of all commands: a man page, the completion of bash, or Markdown")
       ->type_name("FORMAT")
       ->check(CLI::IsMember({"man", "bash", "markdown"}));
+}
+
+std::string referenceMarkdown(const CLI::App& app) {
+  return markdownReference({commandOf(app), SPINDRIFT_VERSION, {}, {}});
 }
 
 CommandResult noted(CommandResult result, const std::vector<std::string>& notes) {

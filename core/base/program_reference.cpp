@@ -52,7 +52,7 @@ std::string synopsis(const ProgramReference& reference, const std::vector<std::s
   if (!command.options.empty()) text += " [OPTION ...]";
   for (const ProgramOption& argument : command.arguments)
     text += argument.required ? ' ' + argument.names.front() : fmt::format(" [{}]", argument.names.front());
-  if (!command.commands.empty()) text += " COMMAND";
+  if (!command.commands.empty()) text += command.arguments.empty() ? " COMMAND" : " [COMMAND]";
   return text;
 }
 
@@ -243,7 +243,7 @@ std::string markdownReference(const ProgramReference& reference) {
   std::istringstream lines(reference.program.description);
   for (std::string line; std::getline(lines, line);) text += markdownText(line) + "\n\n";
   forEachCommand(reference, [&](const std::vector<std::string>& path, const ProgramCommand& command) {
-    if (!path.empty() && !command.commands.empty()) return;
+    if (!path.empty() && !command.commands.empty() && command.arguments.empty()) return;  // runs only through those
     if (!path.empty()) text += fmt::format("## {}\n\n{}\n\n", fmt::join(path, " "), markdownText(command.description));
     text += fmt::format("    {}\n\n", synopsis(reference, path, command));
     for (const ProgramOption& argument : command.arguments) text += markdownOption(argument);

@@ -54,6 +54,12 @@ if(TARGET spindrift)
     install(FILES ${icon} DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/${size}x${size}/apps RENAME spindrift.png)
   endforeach()
 endif()
+foreach(ending html pdf)
+  set(manual ${package_folder}/manual.${ending})
+  add_custom_command(OUTPUT ${manual} COMMAND $<TARGET_FILE:spindrift-cli> manual --out ${manual} DEPENDS spindrift-cli VERBATIM)
+  list(APPEND package_files ${manual})
+  install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/spindrift)
+endforeach()
 add_custom_target(spindrift_package_files ALL DEPENDS ${package_files})
 
 # What carries a date is written when it is installed: of the last commit, not of the last configuring.

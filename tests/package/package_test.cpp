@@ -96,6 +96,8 @@ TEST_F(Package, HoldsWhatADesktopAsksFor) {
                                      "usr/share/metainfo/org.example.spindrift.metainfo.xml",
                                      "usr/share/icons/hicolor/scalable/apps/spindrift.svg",
                                      "usr/share/spindrift/scenarios/fiducials.json",
+                                     "usr/share/doc/spindrift/manual.html",
+                                     "usr/share/doc/spindrift/manual.pdf",
                                      "usr/include/spindrift/compensator.h"};
   for (const int size : {16, 22, 24, 32, 48, 64, 128, 256, 512})
     wanted.push_back(fmt::format("usr/share/icons/hicolor/{0}x{0}/apps/spindrift.png", size));
@@ -166,6 +168,10 @@ TEST_F(Package, RunsFromAnEmptyRoot) {
   const std::string window = "HOME=" + root() + " " + root() + "/usr/bin/spindrift";
   EXPECT_EQ(outputOf(window + " --version"), "spindrift " SPINDRIFT_VERSION "\n");
   EXPECT_THAT(outputOf(window + " --startup-time"), HasSubstr("first usable window"));
+  // What is written again is what was packed: the manual holds no date.
+  const std::string manual = (*folder_ / "manual.pdf").string();
+  (void)outputOf(
+      fmt::format("{0} manual --out {1} && cmp {1} {2}/usr/share/doc/spindrift/manual.pdf", cli, manual, root()));
   // A scenario of the package becomes a campaign, the campaign a model that knows its noise.
   const std::string campaign = (*folder_ / "campaign").string();
   (void)outputOf(
