@@ -111,7 +111,7 @@ void addLoopCommands(CLI::App& app, CommandLine& line) {
   loop->add_option("--out", arguments->out, "Folder for campaign and report: new or empty")->type_name("DIR");
   loop->add_flag("--demo", arguments->demo,
                  "A virtual machine with physics beside a LinuxCNC of its own (package linuxcnc-uspace; as root)");
-  loop->add_flag("--dry-run", arguments->dry, "Say what would move, and move nothing");
+  loop->add_flag("--dry-run", arguments->dry, "List the planned moves without moving");
   loop->add_flag("--yes", arguments->yes, "The operator stands at the machine and agrees to what moves");
   loop->add_option("--factor", arguments->options.factor, "Demonstration: machine seconds per second")
       ->check(positiveNumber())
