@@ -14,6 +14,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/program_reference.h"
 #include "core/base/text.h"
 
 namespace spindrift::cli {
@@ -96,6 +97,64 @@ CLI::Validator positiveNumber() {
 
 CLI::Validator nonNegativeNumber() {
   return numberThat("zero or a positive number", [](double v) { return v >= 0.0; });
+}
+
+namespace {
+
+/// CLI11 says kind and check of a value in one: "TEXT:{none,huber}", "FLOAT:NUMBER", "FILE".
+ProgramOption optionOf(const CLI::Option& option) {
+  ProgramOption out;
+  out.description = option.get_description();
+  out.required = option.get_required();
+  if (option.get_positional()) {
+    out.names.push_back(option.get_name(true));
+  } else {
+    for (const std::string& name : option.get_snames()) out.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames()) out.names.push_back("--" + name);
+  }
+  if (option.get_items_expected_max() == 0) return out;
+  const std::string type = option.get_type_name();
+  const std::size_t colon = type.find(':');
+  const std::size_t brace = type.find('{');
+  if (brace != std::string::npos && type.ends_with('}'))
+    out.allowed = splitList(std::string_view(type).substr(brace + 1, type.size() - brace - 2));
+  if (option.get_positional()) return out;
+  // "FROM:TO" is a name; "S:NUMBER" and "INT:INT in [1 - 9]" are a name and its check.
+  const std::string check = colon == std::string::npos ? std::string() : type.substr(colon + 1);
+  const bool checked = !out.allowed.empty() || check == "NUMBER" || check == "NONNEGATIVE" || check == "POSITIVE" ||
+                       check.find(" in [") != std::string::npos;
+  out.value = checked ? type.substr(0, colon) : type;
+  if (out.value == "FLOAT") out.value = "NUMBER";
+  if (out.value == "INT" || out.value == "UINT") out.value = "N";
+  if (out.value.empty()) out.value = "VALUE";
+  return out;
+}
+
+ProgramCommand commandOf(const CLI::App& app) {
+  ProgramCommand out{app.get_name(), app.get_description()};
+  for (const CLI::Option* option : app.get_options())
+    (option->get_positional() ? out.arguments : out.options).push_back(optionOf(*option));
+  for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; }))
+    out.commands.push_back(commandOf(*one));
+  return out;
+}
+
+}  // namespace
+
+void addReference(CLI::App& app, const std::string& summary, const std::vector<std::string>& see_also) {
+  app.add_option_function<std::string>(
+         "--reference",
+         [&app, summary, see_also](const std::string& format) {
+           std::cout << referenceText({commandOf(app), SPINDRIFT_VERSION, summary, see_also}, format);
+           throw CLI::Success();
+         },
+         "Print the reference of all commands: a man page, the completion of bash, or Markdown")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember({"man", "bash", "markdown"}));
+}
+
+std::string referenceMarkdown(const CLI::App& app) {
+  return markdownReference({commandOf(app), SPINDRIFT_VERSION, {}, {}});
 }
 
 CommandResult noted(CommandResult result, const std::vector<std::string>& notes) {

@@ -46,6 +46,12 @@ CLI::App* addCommand(CLI::App& parent, CommandLine& line, const std::string& nam
 /// errors as one sentence on standard error. Returns the exit status.
 int runSelected(CommandLine& line);
 
+/// Adds --reference: man page, completion of bash or Markdown of everything that was added to the program, printed
+/// before anything else is asked for. To be called last. `summary` and `see_also` as in ProgramReference.
+void addReference(CLI::App& app, const std::string& summary, const std::vector<std::string>& see_also);
+/// The same as Markdown, of everything that was added so far.
+[[nodiscard]] std::string referenceMarkdown(const CLI::App& app);
+
 void addCaptureCommands(CLI::App& app, CommandLine& line);
 void addCompensationCommands(CLI::App& app, CommandLine& line);
 void addConnectCommands(CLI::App& app, CommandLine& line);

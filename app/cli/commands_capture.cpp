@@ -29,7 +29,7 @@ void addPlan(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<Arguments>();
   CLI::App* command =
       addCommand(app, line, "plan",
-                 "What to measure when, in what order: a measurement plan for a machine's fiducials or artefacts",
+                 "Plan a measurement: which fiducials or artefacts of a machine to measure, in what order and when",
                  [a](JobContext&) {
                    PlanOptions options = a->options;
                    options.kind = a->kind == "cycle"  ? PlannedKind::Cycle
@@ -49,7 +49,7 @@ void addPlan(CLI::App& app, CommandLine& line) {
   command->add_option("--kind", a->kind, "image: fiducials under the microscope; cycle: touches; scan: profiler")
       ->check(CLI::IsMember({"image", "cycle", "scan"}))
       ->capture_default_str();
-  command->add_option("--states", a->options.states, "Number of thermal states, the cold one included")
+  command->add_option("--states", a->options.states, "Number of thermal states, including the cold reference state")
       ->capture_default_str();
   command->add_option("--interval", a->options.interval_s, "Time between thermal states in s")->capture_default_str();
   command->add_option("--out", a->out, "Write the plan (spindrift-plan JSON) to this file")->type_name("FILE");
@@ -143,21 +143,21 @@ CommandResult watch(const WatchArguments& a, bool live, JobContext& job) {
 
 void addWatch(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<WatchArguments>();
-  CLI::App* command = addCommand(
-      app, line, "watch",
-      "Take captures into a session as they arrive in a folder: checked at once, copied, answered. Exit status "
-      "1: something is to be taken again, or planned items are missing",
-      [a, &line](JobContext& job) { return watch(*a, line.json_file != "-", job); });
+  CLI::App* command =
+      addCommand(app, line, "watch",
+                 "Import captures into a session as they arrive in a folder; each is checked immediately. Exit status "
+                 "1: captures have to be repeated, or planned items are missing",
+                 [a, &line](JobContext& job) { return watch(*a, line.json_file != "-", job); });
   command->add_option("FOLDER", a->folder, "Folder into which camera, control or profiler writes")->required();
-  command->add_option("--session", a->session, "Folder of the session; made if it is not there")->required();
-  command->add_option("--machine", a->machine, "machine.json: begin a new campaign in the session")->type_name("FILE");
+  command->add_option("--session", a->session, "Folder of the session; created if it does not exist")->required();
+  command->add_option("--machine", a->machine, "machine.json: start a new campaign in the session")->type_name("FILE");
   command->add_option("--plan", a->plan, "Measurement plan of the campaign (see the command plan)")->type_name("FILE");
   command->add_option("--template", a->pattern, "How a control prints touches (spindrift-printed-text JSON)")
       ->type_name("FILE");
-  command->add_option("--until-idle", a->until_idle_s, "End when nothing has arrived for this time in s")
+  command->add_option("--until-idle", a->until_idle_s, "Stop when no file has arrived for this time in s")
       ->check(positiveNumber())
       ->capture_default_str();
-  command->add_option("--settle", a->settle_s, "A file is complete when it has stood still for this time in s")
+  command->add_option("--settle", a->settle_s, "A file is complete when it has not changed for this time in s")
       ->check(nonNegativeNumber())
       ->capture_default_str();
 }

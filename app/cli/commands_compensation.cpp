@@ -76,10 +76,10 @@ CommandResult runVerify(VerifyArguments a, JobContext& job) {
 
 void addVerify(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<VerifyArguments>();
-  CLI::App* command =
-      addCommand(app, line, "verify",
-                 "Compare the same plan measured before and after compensating, and judge what is left against a goal",
-                 [a](JobContext& job) { return runVerify(*a, job); });
+  CLI::App* command = addCommand(
+      app, line, "verify",
+      "Compare measurements without and with compensation, and assess the residual error against a tolerance",
+      [a](JobContext& job) { return runVerify(*a, job); });
   command->add_option("BEFORE", a->before, "Folder of the campaign measured without compensation")->required();
   command->add_option("AFTER", a->after, "Folder of the campaign measured with it; may be the same")->required();
   command->add_option("--goal", a->request.goal_um, "Goal in um for EX, EY and EZ")
@@ -96,20 +96,21 @@ void addVerify(CLI::App& app, CommandLine& line) {
 
 void addCompensationCommands(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<CompensationArguments>();
-  CLI::App* command = addCommand(
-      app, line, "compensate", "What a fitted model would make a control command, and the tables for the control (um)",
-      [a](JobContext& job) { return runCompensate(*a, job); });
+  CLI::App* command =
+      addCommand(app, line, "compensate",
+                 "Calculate the compensation of a fitted model and write compensation tables for the control",
+                 [a](JobContext& job) { return runCompensate(*a, job); });
   command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign")->required();
   command->add_option("--observations", a->observations, "Observations in place of the campaign's own (CSV)")
       ->type_name("FILE");
   command
       ->add_option("--model", a->model,
-                   "nine-parameter: fitted to one state; higher-order: the same with the terms in x and y that the "
-                   "evidence asks for (see fit); completed: the simulation with the effects of --accept")
+                   "nine-parameter: fitted to one state; higher-order: the same with the higher-order terms in x and y "
+                   "that the evidence supports (see fit); completed: the simulation with the effects of --accept")
       ->check(CLI::IsMember({"nine-parameter", "higher-order", "completed"}))
       ->capture_default_str();
   command->add_option("--state", a->request.state,
-                      "Thermal state; else the warmest one: largest rms of the measured deviations");
+                      "Thermal state; default: the one with the largest rms of the measured deviations");
   command->add_option("--points", a->points, "Points that fit the nine parameters, such as F1,F2,F3");
   command->add_option("--accept", a->request.added, "Effect that completes the simulation (id, repeatable)")
       ->type_name("ID");

@@ -159,16 +159,17 @@ void addConnectCommands(CLI::App& app, CommandLine& line) {
       [a](JobContext& job) { return record(*a, job); });
   command->add_option("CONNECTIONS", a->connections,
                       "connections.json; with --session it may be left out: those of the page Machine are used then");
-  command->add_option("--out", a->out, "The log; one that is there with the same columns is gone on with")
+  command->add_option("--out", a->out, "Log to write; an existing log with the same columns is continued")
       ->type_name("FILE");
   command->add_option("--session", a->session, "Record into log.csv of the newest campaign of this session")
       ->type_name("FOLDER");
   command->add_option("--start", a->start, "UTC where time_s is 0; without it: now, or the campaign's start")
       ->type_name("TIME");
-  command->add_option("--for", a->for_s, "End after this time in s")->check(positiveNumber());
+  command->add_option("--for", a->for_s, "Stop after this time in s")->check(positiveNumber());
   command
       ->add_option("--list", a->list,
-                   "Only list what is at this address (http://, mqtt://, serial://, ...); genicam: asks for cameras")
+                   "Only list the data items offered at this address (http://, mqtt://, serial://, ...); genicam: asks "
+                   "for cameras")
       ->type_name("ADDRESS");
   command->add_option("--listen", a->listen_s, "With --list: listen for this time in s where needed")
       ->check(positiveNumber())

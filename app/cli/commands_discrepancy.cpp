@@ -10,7 +10,7 @@ void addDiscrepancyCommands(CLI::App& app, CommandLine& line) {
   auto request = std::make_shared<DiscrepancyRequest>();
   CLI::App* command =
       addCommand(app, line, "discrepancy",
-                 "Find where measurement and simulation disagree and which physical effect the simulation lacks",
+                 "Find where measurement and simulation disagree, and which physical effect the simulation lacks",
                  [request](JobContext& job) {
                    const DiscrepancyRun run = runDiscrepancy(*request, job);
                    std::string summary = run.result.summary();
@@ -23,12 +23,11 @@ void addDiscrepancyCommands(CLI::App& app, CommandLine& line) {
       ->type_name("FILE");
   command->add_option("--effects", request->effects, "Effects of your own in place of the campaign's (effects.json)")
       ->type_name("FILE");
-  command
-      ->add_option("--accept", request->options.accept, "Put this effect into the model in any case (id, repeatable)")
+  command->add_option("--accept", request->options.accept, "Always include this effect (id, repeatable)")
       ->type_name("ID");
   command->add_option("--reject", request->options.reject, "Do not consider this effect (id, repeatable)")
       ->type_name("ID");
-  command->add_option("--max-effects", request->options.max_effects, "Most effects to add, 0 to 10")
+  command->add_option("--max-effects", request->options.max_effects, "Maximum number of effects to add, 0 to 10")
       ->capture_default_str();
   command
       ->add_option("--suggest-hours", request->options.suggest_hours,

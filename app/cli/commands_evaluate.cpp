@@ -66,13 +66,11 @@ CommandResult evaluateInSession(const EvaluateArguments& a, JobContext& job) {
 void addCheck(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<EvaluateArguments>();
   CLI::App* command = addCommand(app, line, "check",
-                                 "Check every image of a campaign: can it be evaluated, and does it show what the list "
-                                 "commands (turn of the spindle, position, focus)? Exit status 1: something is to be "
-                                 "taken again",
+                                 "Check whether every image of a campaign can be evaluated and matches its list entry "
+                                 "(spindle angle, position, focus). Exit status 1: images have to be repeated",
                                  [a](JobContext& job) { return check(*a, job); });
   command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign")->required();
-  command->add_option("--exclude", a->excluded, "Leave out a capture (its file as the list names it)")
-      ->type_name("ITEM");
+  command->add_option("--exclude", a->excluded, "Exclude a capture (file name as in its list)")->type_name("ITEM");
 }
 
 }  // namespace
@@ -100,9 +98,8 @@ void addEvaluateCommands(CLI::App& app, CommandLine& line) {
       ->check(CLI::IsMember({"rigid", "push_broom"}));
   command
       ->add_option("--exclude", arguments->excluded,
-                   "Leave out a capture (its file as the list names it) or a part of a scan "
-                   "(\"mask/CLOUD: erase lasso X,Y X,Y X,Y\"; also rectangle X,Y X,Y and brush RADIUS X,Y ..., mm "
-                   "in the scan's frame)")
+                   "Exclude a capture (file name as in its list) or a part of a scan (\"mask/CLOUD: erase lasso X,Y "
+                   "X,Y X,Y\"; also rectangle X,Y X,Y and brush RADIUS X,Y ..., mm in the scan's frame)")
       ->type_name("ITEM");
 }
 

@@ -116,7 +116,7 @@ void addDecode(CLI::App& app, CommandLine& line) {
   command->add_option("IMAGE", arguments->image, "Microscope image: JPEG, PNG, TIFF, BMP or PGM")->required();
   command->add_option("--pattern", arguments->pattern, "Artwork (pattern.json); default: the standard pattern")
       ->type_name("FILE");
-  command->add_option("--overlay", arguments->overlay, "Write the image with what was found drawn over it, PNG")
+  command->add_option("--overlay", arguments->overlay, "Write the image with the detected features as an overlay (PNG)")
       ->type_name("FILE");
 }
 
@@ -126,43 +126,42 @@ void addArtwork(CLI::App& app, CommandLine& line) {
     std::string pattern, json_out, svg, dxf;
   };
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      addCommand(app, line, "artwork",
-                 "Write the artwork of a fiducial of your own: pattern.json for decode and evaluate, SVG and DXF for "
-                 "the mask shop.\n"
-                 "All sizes of the standard artwork are scaled with the pitch.",
-                 [arguments](JobContext&) {
-                   if (arguments->json_out.empty() && arguments->svg.empty() && arguments->dxf.empty()) {
-                     throw InputError("nothing to write: give at least one of --pattern-out, --svg and --dxf.");
-                   }
-                   const FiducialPattern pattern =
-                       arguments->pattern.empty() ? makePattern(arguments->options) : readPattern(arguments->pattern);
-                   CommandResult answer;
-                   std::vector<std::string> written;
-                   const auto write = [&](const std::string& file, const std::string& text) {
-                     if (file.empty()) return;
-                     writeFileAtomically(file, text);
-                     written.push_back(file);
-                   };
-                   write(arguments->json_out, patternJson(pattern));
-                   write(arguments->svg, arguments->svg.empty() ? "" : artworkSvg(pattern));
-                   write(arguments->dxf, arguments->dxf.empty() ? "" : artworkDxf(pattern));
-                   answer.json = {{"rows", {pattern.first_row, pattern.last_row}},
-                                  {"columns", {pattern.first_column, pattern.last_column}},
-                                  {"pitch_um", pattern.pitch_um},
-                                  {"files", written}};
-                   answer.summary = fmt::format("{} x {} ellipses on a pitch of {} um ({:.4g} x {:.4g} mm): wrote {}",
-                                                pattern.rowCount(), pattern.columnCount(), pattern.pitch_um,
-                                                pattern.columnCount() * pattern.pitch_um * mm_per_um,
-                                                pattern.rowCount() * pattern.pitch_um * mm_per_um, joinedList(written));
-                   return answer;
-                 });
+  CLI::App* command = addCommand(
+      app, line, "artwork",
+      "Write the artwork of a custom fiducial: pattern.json for decode and evaluate, SVG and DXF for the mask shop.\n"
+      "All sizes of the standard artwork are scaled with the pitch.",
+      [arguments](JobContext&) {
+        if (arguments->json_out.empty() && arguments->svg.empty() && arguments->dxf.empty()) {
+          throw InputError("nothing to write: give at least one of --pattern-out, --svg and --dxf.");
+        }
+        const FiducialPattern pattern =
+            arguments->pattern.empty() ? makePattern(arguments->options) : readPattern(arguments->pattern);
+        CommandResult answer;
+        std::vector<std::string> written;
+        const auto write = [&](const std::string& file, const std::string& text) {
+          if (file.empty()) return;
+          writeFileAtomically(file, text);
+          written.push_back(file);
+        };
+        write(arguments->json_out, patternJson(pattern));
+        write(arguments->svg, arguments->svg.empty() ? "" : artworkSvg(pattern));
+        write(arguments->dxf, arguments->dxf.empty() ? "" : artworkDxf(pattern));
+        answer.json = {{"rows", {pattern.first_row, pattern.last_row}},
+                       {"columns", {pattern.first_column, pattern.last_column}},
+                       {"pitch_um", pattern.pitch_um},
+                       {"files", written}};
+        answer.summary =
+            fmt::format("{} x {} ellipses on a pitch of {} um ({:.4g} x {:.4g} mm): wrote {}", pattern.rowCount(),
+                        pattern.columnCount(), pattern.pitch_um, pattern.columnCount() * pattern.pitch_um * mm_per_um,
+                        pattern.rowCount() * pattern.pitch_um * mm_per_um, joinedList(written));
+        return answer;
+      });
   ArtworkOptions& o = arguments->options;
   command->add_option("--rows", o.rows, "Rows of ellipses")->capture_default_str();
   command->add_option("--columns", o.columns, "Columns of ellipses")->capture_default_str();
   command->add_option("--first-row", o.first_row, "Number of the first row, 10 ... 99")->capture_default_str();
   command->add_option("--first-column", o.first_column, "Number of the first column, 10 ... 99")->capture_default_str();
-  command->add_option("--pitch", o.pitch_um, "Distance of neighbouring ellipses in um")->capture_default_str();
+  command->add_option("--pitch", o.pitch_um, "Pitch of the ellipses in µm")->capture_default_str();
   command->add_option("--pattern", arguments->pattern, "Draw this pattern.json instead")->type_name("FILE");
   command->add_option("--pattern-out", arguments->json_out, "Write the pattern (JSON)")->type_name("FILE");
   command->add_option("--svg", arguments->svg, "Write the drawing as SVG (user unit um)")->type_name("FILE");

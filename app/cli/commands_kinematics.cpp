@@ -68,7 +68,7 @@ void addCommonOptions(CLI::App* command, const std::shared_ptr<FitArguments>& a)
   command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign")->required();
   command
       ->add_option("--observations", a->observations,
-                   "Observations to use (CSV); else the campaign's own, else its captures are evaluated")
+                   "Observations to use (CSV); default: those of the campaign, or its evaluated captures")
       ->type_name("FILE");
 }
 
@@ -77,16 +77,17 @@ void addFitOptions(CLI::App* command, const std::shared_ptr<FitArguments>& a, bo
   if (higher_order) {
     command
         ->add_option("--model", a->model,
-                     "Error model: nine-parameter, or higher-order: with the terms in x and y that the evidence asks "
-                     "for (see fit)")
+                     "Error model: nine-parameter, or higher-order: with the higher-order terms in x and y that the "
+                     "evidence supports (see fit)")
         ->check(CLI::IsMember({"nine-parameter", "higher-order"}))
         ->capture_default_str();
   } else {
     command->add_option("--model", a->model, "Error model: nine-parameter")->check(CLI::IsMember({"nine-parameter"}));
   }
-  command->add_option("--state", a->state, "Thermal state, such as M1; else the last one");
-  command->add_option("--points", a->points, "Points to fit, such as F1,F2,F3; the others validate. Else all");
-  command->add_option("--robust", a->robust, "Loss of outliers: none, huber or tukey")
+  command->add_option("--state", a->state, "Thermal state, such as M1; default: the last one");
+  command->add_option("--points", a->points,
+                      "Points to fit, such as F1,F2,F3; the others are used for validation. Default: all");
+  command->add_option("--robust", a->robust, "Robust loss function: none, huber or tukey")
       ->check(CLI::IsMember({"none", "huber", "tukey"}));
 }
 
@@ -204,7 +205,9 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
     addFitOptions(command, a, true);
     command->add_option("--component", a->component, "EX, EY or EZ (um)")->check(CLI::IsMember({"EX", "EY", "EZ"}));
     command->add_option("--grid", a->grid, "Nodes along X and Y, such as 61,41")->type_name("NX,NY");
-    command->add_option("--limit", a->limit, "Limit of the colour scale in um, to compare pictures; else from the data")
+    command
+        ->add_option("--limit", a->limit,
+                     "Limit of the colour scale in µm, for comparing figures; default: from the data")
         ->check(positiveNumber());
     a->pictures.addTo(*command, "the picture");
     command->add_option("--csv", a->csv, "Write x_mm,y_mm,z_mm,component,value,sigma,extrapolated")->type_name("FILE");
@@ -222,7 +225,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
   }
   {
     auto a = std::make_shared<FitArguments>();
-    CLI::App* command = addCommand(app, line, "placement", "Choose where on the table to put N fiducials",
+    CLI::App* command = addCommand(app, line, "placement", "Choose optimal positions of N fiducials on the table",
                                    [a](JobContext& job) { return runPlacement(*a, job); });
     command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign (its machine.json is used)")->required();
     command->add_option("--count", a->count, "Number of fiducials, 3 or more");
@@ -240,7 +243,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
             "Least distance between two fiducials in mm; else a tenth of the diagonal of the table, or what the "
             "candidates allow")
         ->check(nonNegativeNumber());
-    command->add_option("--keep", a->fixed, "Points of the machine that are measured anyway, such as F1,F2");
+    command->add_option("--keep", a->fixed, "Points that are measured in any case, such as F1,F2");
     command->add_option("--sigma-xy", a->sigma_xy_um, "Standard uncertainty of a displacement in the plane in um");
     command->add_option("--sigma-z", a->sigma_z_um, "Standard uncertainty of a height in um");
   }
@@ -252,14 +255,15 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
     return std::pair(command, a);
   };
   {
-    const auto [command, a] =
-        addCheck("warm-up", "Has the instrument settled? Repeated measurement of one point, drift per axis (um/h)");
+    const auto [command, a] = addCheck("warm-up",
+                                       "Check whether the instrument is thermally stable: drift per axis (µm/h) from "
+                                       "repeated measurements of one point");
     command->add_option("--point", a->point,
-                        "The point that was measured again and again; else the one with most rows");
+                        "The point that was measured repeatedly; default: the one with the most rows");
     command->add_option("--limit", a->drift_limit_um_per_h, "Drift in um/h below which it counts as settled")
         ->check(positiveNumber());
   }
-  addCheck("validate-jogs", "Do jogs of the axes read true? Each state is a jog; verdict against the axis resolution");
+  addCheck("validate-jogs", "Validate measured axis steps (jogs), one per state, against the axis resolution");
   addCheck("repeatability", "Cold repeatability: all states measured cold; verdict against half the axis resolution");
 }
 

@@ -169,7 +169,7 @@ void addLoopCommands(CLI::App& app, CommandLine& line) {
   loop->add_option("--example", arguments->example,
                    "Write the demonstration as files (plan, machine, simulation, a LinuxCNC for it), and end")
       ->type_name("DIR");
-  loop->add_flag("--dry-run", arguments->dry, "Say what would move, and move nothing");
+  loop->add_flag("--dry-run", arguments->dry, "List the planned moves without moving");
   loop->add_flag("--yes", arguments->yes, "The operator stands at the machine and agrees to what moves");
   loop->add_option("--factor", arguments->options.factor, "Demonstration, example: machine seconds per second")
       ->check(positiveNumber())

@@ -253,7 +253,7 @@ void addPlantGroup(CLI::App& app, CommandLine& line) {
     addStore(command, a->store);
     return std::pair(command, a);
   };
-  add("init", "Make a plant store, or bring one of an older version up to date (needs its owner)",
+  add("init", "Create a plant store, or migrate an older one (as its owner)",
       [](const PlantArguments& a, JobContext&) { return init(a); });
   {
     auto [command, a] =
@@ -280,7 +280,7 @@ void addPlantGroup(CLI::App& app, CommandLine& line) {
         ->type_name("NAME");
     command->add_option("--baseline", a->chart.baseline, "Values that level and limits are taken from, 5 to 1000")
         ->capture_default_str();
-    command->add_option("--alpha", a->chart.alpha, "Probability of naming a change where there is none, 0.001 to 0.2")
+    command->add_option("--alpha", a->chart.alpha, "Significance level: probability of a false alarm, 0.001 to 0.2")
         ->capture_default_str();
     command->add_option("--csv", a->csv, "Write values and limits to this CSV file")->type_name("FILE");
   }
@@ -599,18 +599,18 @@ void addBatchGroup(CLI::App& app, CommandLine& line) {
     return std::pair(command, a);
   };
   {
-    auto [command, a] = add("status", "How far batches are and what they cost; the answers of one of them",
+    auto [command, a] = add("status", "Show progress and cost of batches, or the results of one batch",
                             [](const BatchArguments& args, JobContext&) { return statusOfBatch(args); });
     command->add_option("BATCH", a->batch, "Number or name; without it all batches");
     command->add_option("--results", a->results, "Write the answers to this file, one JSON a line")->type_name("FILE");
   }
   {
-    auto [command, a] = add("cancel", "Cancel a batch: nothing more is begun, what runs is given back",
+    auto [command, a] = add("cancel", "Cancel a batch: no further item is started, running items are returned",
                             [](const BatchArguments& args, JobContext& job) { return changeBatch(args, job, false); });
     command->add_option("BATCH", a->batch, "Number or name")->required();
   }
   {
-    auto [command, a] = add("resume", "Go on with a batch that was cancelled, stopped or has failed items",
+    auto [command, a] = add("resume", "Resume a batch that was cancelled or stopped, or retry its failed items",
                             [](const BatchArguments& args, JobContext& job) { return changeBatch(args, job, true); });
     command->add_option("BATCH", a->batch, "Number or name")->required();
     addEngineOptions(command, *a);

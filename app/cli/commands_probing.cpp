@@ -122,7 +122,9 @@ void addCycle(CLI::App& app, CommandLine& line) {
   command->add_option("--clearance", a->plan.clearance_mm, "Free distance around material, mm")->capture_default_str();
   command->add_option("--retract", a->plan.retract_mm, "Safe height above the highest material, mm")
       ->capture_default_str();
-  command->add_option("--overtravel", a->plan.overtravel_mm, "How far a touch may search behind the surface, mm")
+  command
+      ->add_option("--overtravel", a->plan.overtravel_mm,
+                   "Overtravel: how far a touch may search beyond the nominal surface, mm")
       ->capture_default_str();
   command->add_option("--depth", a->plan.depth_mm, "Depth of the touches in a hole, mm")->capture_default_str();
   command->add_option("--beside", a->plan.surface_offset_mm, "Distance of the surface touch from the hole, mm")
@@ -146,7 +148,7 @@ struct PrintedArguments {
 void addImport(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<PrintedArguments>();
   CLI::App* command =
-      addCommand(app, line, "import-touches", "Turn the text that a measuring programme printed into touches.csv",
+      addCommand(app, line, "import-touches", "Convert the printed output of a measuring program into touches.csv",
                  [a](JobContext&) {
                    const MachineDescription machine = MachineDescription::read(a->machine);
                    const JsonNode pattern = JsonNode::read(a->pattern);
@@ -235,7 +237,7 @@ struct CycleStudyArguments {
 void addStudies(CLI::App& app, CommandLine& line) {
   auto a = std::make_shared<CycleStudyArguments>();
   CLI::App* repeatability = addCommand(
-      app, line, "repeatability-study", "Repeatability of a probing cycle from many cycles, slow drifts taken out",
+      app, line, "repeatability-study", "Repeatability of a probing cycle from many cycles after removing slow drift",
       [a](JobContext& job) {
         const Campaign campaign = Campaign::read(a->campaign);
         const RepeatabilityStudy study = studyRepeatability(evaluationOf(campaign, a->artefact, job), a->options);
@@ -260,7 +262,9 @@ void addStudies(CLI::App& app, CommandLine& line) {
       });
   repeatability->add_option("CAMPAIGN", a->campaign, "Folder of the campaign")->required();
   repeatability->add_option("--artefact", a->artefact, "Id of the artefact");
-  repeatability->add_option("--high-pass", a->options.high_pass_cycles, "Running mean that is taken out, cycles (odd)")
+  repeatability
+      ->add_option("--high-pass", a->options.high_pass_cycles,
+                   "Window of the running mean that is subtracted, in cycles (odd)")
       ->capture_default_str();
   repeatability->add_option("-k,--coverage", a->options.coverage_factor, "Coverage factor")->capture_default_str();
 
@@ -318,7 +322,7 @@ void addStudies(CLI::App& app, CommandLine& line) {
 
   auto s = std::make_shared<CycleStudyArguments>();
   CLI::App* second = addCommand(
-      app, line, "second-axis", "Hole bar: what an expanding second axis does, and the evaluation that removes it",
+      app, line, "second-axis", "Hole bar: effect of an expanding second axis, and an evaluation that eliminates it",
       [s](JobContext& job) {
         const Campaign campaign = Campaign::read(s->campaign);
         HoleCycleOptions plain;

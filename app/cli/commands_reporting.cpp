@@ -12,6 +12,7 @@
 #include "core/base/json_reader.h"
 #include "core/tasks/report_task.h"
 #include "core/workflows/log_campaign.h"
+#include "core/workflows/manual.h"
 #include "core/workflows/report_workflow.h"
 
 namespace spindrift::cli {
@@ -54,6 +55,20 @@ Report reportOf(const ReportArguments& arguments, JobContext& job) {
   return reportOfCampaign(Campaign::read(folder.path() / "campaign"), arguments.options, job);
 }
 
+/// Whether a report goes to pages; throws InputError for an ending that is neither.
+bool isPdf(const std::string& file) {
+  const std::string ending = std::filesystem::path(file).extension().string();
+  if (ending != ".pdf" && ending != ".html" && ending != ".htm")
+    throw InputError({file, ""}, "is no name of a report; allowed: a name that ends in .html or .pdf.");
+  return ending == ".pdf";
+}
+
+CommandResult writeReport(const Report& report, const std::string& file, JobContext& job) {
+  const std::string bytes = isPdf(file) ? pdfOf(report, job).bytes : htmlOf(report);
+  writeFileAtomically(file, bytes);
+  return {{{"report", file}, {"bytes", bytes.size()}}, fmt::format("report written to {}\n", file), Done};
+}
+
 /// Of a session: the report that the window would write, filed where the window files it; a copy at --out.
 CommandResult reportInSession(const ReportArguments& a, bool pdf, JobContext& job) {
   if (!a.thermal.empty() || !a.options.observations_file.empty()) {
@@ -85,22 +100,14 @@ void addReportingCommands(CLI::App& app, CommandLine& line) {
       app, line, "report",
       "Write the whole evaluation of a campaign, or of a log alone, as one self-contained file: HTML, or pages as PDF",
       [arguments](JobContext& job) {
-        const std::string ending = std::filesystem::path(arguments->out).extension().string();
-        const bool pdf = ending == ".pdf";
-        if (!pdf && ending != ".html" && ending != ".htm")
-          throw InputError({arguments->out, ""}, "is no name of a report; allowed: a name that ends in .html or .pdf.");
+        const bool pdf = isPdf(arguments->out);
         if (isSession(arguments->campaign)) return reportInSession(*arguments, pdf, job);
         if (!arguments->thermal.empty()) {
           const JsonNode result = JsonNode::read(arguments->thermal);
           for (const char* key : {"train", "test", "inputs"}) (void)result.at(key);
           arguments->options.stored.thermal = result.value();
         }
-        const Report report = reportOf(*arguments, job);
-        const std::string bytes = pdf ? pdfOf(report, job).bytes : htmlOf(report);
-        writeFileAtomically(arguments->out, bytes);
-        return CommandResult{{{"report", arguments->out}, {"bytes", bytes.size()}},
-                             fmt::format("report written to {}\n", arguments->out),
-                             Done};
+        return writeReport(reportOf(*arguments, job), arguments->out, job);
       });
   command
       ->add_option("CAMPAIGN", arguments->campaign,
@@ -120,6 +127,14 @@ void addReportingCommands(CLI::App& app, CommandLine& line) {
   command->add_option("--operator", arguments->options.operator_name, "Name of the operator for the last line");
   command->add_flag("!--no-discrepancy", arguments->options.discrepancy,
                     "Do not search for a missing effect even if the campaign names a simulation");
+  auto manual_file = std::make_shared<std::string>();
+  addCommand(
+      app, line, "manual",
+      "Write the manual: instruments with worked examples, statistics, every effect with its figure, all commands",
+      [manual_file, &app](JobContext& job) { return writeReport(manual(referenceMarkdown(app)), *manual_file, job); })
+      ->add_option("--out", *manual_file, "File to write, by its ending .html or .pdf")
+      ->required()
+      ->type_name("FILE");
 }
 
 }  // namespace spindrift::cli

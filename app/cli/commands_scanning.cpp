@@ -183,9 +183,12 @@ void addDesign(CLI::App& app, CommandLine& line) {
   command->add_option("--axy", s.amplitude_xy_mm, "Amplitude of the product term, mm")->capture_default_str();
   command->add_option("--bump", arguments->bumps, "Round bump x,y,radius,height (mm); may be given several times")
       ->type_name("X,Y,R,H");
-  command->add_option("--noise", arguments->options.noise_um, "Of a point's height, um")->capture_default_str();
+  command->add_option("--noise", arguments->options.noise_um, "Standard deviation of the height of a point, µm")
+      ->capture_default_str();
   command->add_option("--points", arguments->options.point_count, "Of one scan")->capture_default_str();
-  command->add_option("--steepest-slope", arguments->options.steepest_slope, "That the profiler sees (dz/dx)")
+  command
+      ->add_option("--steepest-slope", arguments->options.steepest_slope,
+                   "Steepest slope that the profiler can measure (dz/dx)")
       ->capture_default_str();
   command->add_option("--scan-model", arguments->scan_model, "rigid or push_broom, see register")
       ->check(CLI::IsMember({"rigid", "push_broom"}))

@@ -76,9 +76,8 @@ CommandResult stateOf(const SessionArguments& arguments, JobContext& job) {
 void addSessionCommands(CLI::App& app, CommandLine& line) {
   auto arguments = std::make_shared<SessionArguments>();
   CLI::App* command = addCommand(app, line, "session",
-                                 "Say how far every campaign of a session of the desktop program is: what is done, "
-                                 "what is outdated and why, what is blocked; files are held against what results were "
-                                 "made from",
+                                 "Show the status of every campaign of a session: what is done, outdated (and why) or "
+                                 "blocked; input files are compared with those that the results were calculated from",
                                  [arguments](JobContext& job) { return stateOf(*arguments, job); });
   command->add_option("SESSION", arguments->folder, "Folder of the session; must not be open in the program")
       ->required();

@@ -108,9 +108,9 @@ CommandResult simulate(const SimulateArguments& arguments, JobContext& job) {
 
 void addSimulationCommands(CLI::App& app, CommandLine& line) {
   auto arguments = std::make_shared<SimulateArguments>();
-  CLI::App* command = addCommand(app, line, "simulate",
-                                 "Run the virtual machine and write a campaign as a real machine would have left it",
-                                 [arguments](JobContext& job) { return simulate(*arguments, job); });
+  CLI::App* command =
+      addCommand(app, line, "simulate", "Run the virtual machine and write a campaign like that of a real machine",
+                 [arguments](JobContext& job) { return simulate(*arguments, job); });
   command->add_option("SCENARIO", arguments->scenario, "Scenario (JSON, format spindrift-scenario)");
   command
       ->add_option(
@@ -119,7 +119,7 @@ void addSimulationCommands(CLI::App& app, CommandLine& line) {
           "one cause, sun, friction, coolant or room; the truth is written to <out>.truth.json")
       ->type_name("STORY");
   command->add_option("--out", arguments->out, "Folder of the campaign: new or empty")->required()->type_name("DIR");
-  command->add_option("--seed", arguments->seed, "Seed of everything random, in place of the scenario's")
+  command->add_option("--seed", arguments->seed, "Random seed, instead of that of the scenario")
       ->check(CLI::NonNegativeNumber)
       ->each([arguments](const std::string&) { arguments->has_seed = true; });
   command

@@ -48,7 +48,7 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
   auto a = std::make_shared<IdentifyArguments>();
   CLI::App* command = addCommand(
       parent, line, "identify",
-      "Find a dynamic model of one measured output and judge it in free run on rows it has not seen",
+      "Identify a dynamic model of measured outputs and validate it in free run on held-out rows",
       [a](JobContext& job) {
         a->request.log = a->log;
         if (a->inputs != "auto") a->request.inputs = splitList(a->inputs);
@@ -88,10 +88,9 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
       ->required()
       ->type_name("NAME");
   command
-      ->add_option(
-          "--inputs", a->inputs,
-          "Columns separated by commas, or auto: of temperatures, speeds, feeds and switches (never displacements) the "
-          "few, at most eight, that tell what all of them tell")
+      ->add_option("--inputs", a->inputs,
+                   "Columns separated by commas, or auto: of temperatures, speeds, feeds and switches (never "
+                   "displacements), at most eight that carry the information of all of them")
       ->capture_default_str();
   command->add_option("--train", a->train, "FROM:TO in s, FROM included, TO not")->required();
   command->add_option("--test", a->test, "FROM:TO in s; nothing measured in it is used")->required();
@@ -128,24 +127,24 @@ void addTrack(CLI::App& parent, CommandLine& line) {
     double from_s = -1.0;
   };
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = addCommand(
-      parent, line, "track", "Predict with a model that is kept true by on-machine measurements at an interval",
-      [a](JobContext& job) {
-        a->request.log = a->log;
-        a->request.model = a->model;
-        a->request.update = a->update == "gain"  ? UpdateKind::Gain
-                            : a->update == "arx" ? UpdateKind::Arx
-                                                 : UpdateKind::Kalman;
-        if (a->from_s >= 0.0) a->request.from_s = a->from_s;
-        a->request.context = splitList(a->context);
-        const TrackResult result = trackThermalModel(a->request, job);
-        if (a->pictures.wanted()) a->pictures.write(result.diagram());
-        if (!a->prediction.empty()) result.writePrediction(a->prediction);
-        const bool worse = result.with.rmse > result.without.rmse;
-        std::string summary = result.summary();
-        if (worse) summary += "not good enough: the updates made the prediction worse than the free run\n";
-        return CommandResult{result.json(), summary, worse ? NotGoodEnough : Done};
-      });
+  CLI::App* command =
+      addCommand(parent, line, "track", "Predict with a model that is updated by periodic on-machine measurements",
+                 [a](JobContext& job) {
+                   a->request.log = a->log;
+                   a->request.model = a->model;
+                   a->request.update = a->update == "gain"  ? UpdateKind::Gain
+                                       : a->update == "arx" ? UpdateKind::Arx
+                                                            : UpdateKind::Kalman;
+                   if (a->from_s >= 0.0) a->request.from_s = a->from_s;
+                   a->request.context = splitList(a->context);
+                   const TrackResult result = trackThermalModel(a->request, job);
+                   if (a->pictures.wanted()) a->pictures.write(result.diagram());
+                   if (!a->prediction.empty()) result.writePrediction(a->prediction);
+                   const bool worse = result.with.rmse > result.without.rmse;
+                   std::string summary = result.summary();
+                   if (worse) summary += "not good enough: the updates made the prediction worse than the free run\n";
+                   return CommandResult{result.json(), summary, worse ? NotGoodEnough : Done};
+                 });
   command->add_option("LOG", a->log, "CSV with time_s, the inputs of the model and the measured output")->required();
   command->add_option("--model", a->model, "Model: spindrift-thermal-model JSON, or the JSON of thermal identify")
       ->required();
@@ -254,12 +253,14 @@ void addIso230(CLI::App& parent, CommandLine& line) {
   command->add_option("--ambient", a->request.ambient, "Column of the ambient temperature (etve)");
   command->add_option("--range", a->range, "Only these seconds of the log, such as one of several steps of speed")
       ->type_name("FROM:TO");
-  command->add_option("--fraction", a->request.fraction, "Part of the end value to which the time is given (spindle)")
+  command
+      ->add_option("--fraction", a->request.fraction,
+                   "Fraction of the final value at which the time is reported (spindle)")
       ->check(CLI::Range(0.01, 0.99))
       ->capture_default_str();
   command
       ->add_option("--window", a->request.window_s,
-                   "Time in s over whose readings a level is taken (etve, spindle); 0: single readings")
+                   "Averaging time in s for a level (etve, spindle); 0: single readings")
       ->check(nonNegativeNumber())
       ->capture_default_str();
   command->add_option("--observations", a->observations,

@@ -113,7 +113,7 @@ void addClusters(CLI::App& parent, CommandLine& line) {
   };
   auto a = std::make_shared<Arguments>();
   CLI::App* command = addCommand(
-      parent, line, "clusters", "Group temperature sensors that tell the same, with the one that stands for each group",
+      parent, line, "clusters", "Cluster redundant temperature sensors and choose a representative of each cluster",
       [a](JobContext&) {
         const TimeSeries series = readTimeSeries(a->log);
         std::vector<std::string> names = splitList(a->sensors);
@@ -140,7 +140,7 @@ void addClusters(CLI::App& parent, CommandLine& line) {
       });
   command->add_option("LOG", a->log, "CSV with time_s and temperatures")->required();
   command->add_option("--sensors", a->sensors, "Columns separated by commas; default: all temperatures");
-  command->add_option("--groups", a->count, "Number of groups; 0: cut where they differ most")
+  command->add_option("--groups", a->count, "Number of clusters; 0: cut at the largest distance")
       ->check(nonNegativeNumber())
       ->capture_default_str();
 }

@@ -34,8 +34,9 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Spindrift measures, explains, predicts and compensates thermal errors of machine tools.\n"
       "A campaign is a folder of plain files (campaign.json, machine.json, captures/, log.csv, observations.csv).\n"
-      "Positions are in mm, deviations in um, angles in urad, time in s.\n"
-      "Exit status: 0 done, 1 done but the answer is not good enough, 2 bad input or usage, 3 internal error.",
+      "Positions are in mm, deviations in µm, angles in µrad, times in s; files write um and urad.\n"
+      "Exit status: 0 success, 1 success but the result does not meet its criterion, 2 invalid input or usage, 3 "
+      "internal error.",
       "spindrift-cli");
   app.set_version_flag("--version", SPINDRIFT_VERSION);
   app.require_subcommand(1);
@@ -62,6 +63,8 @@ int main(int argc, char** argv) {
   spindrift::cli::addReportingCommands(app, line);
   spindrift::cli::addSessionCommands(app, line);
   spindrift::cli::addPlantCommands(app, line);
+  spindrift::cli::addReference(app, "thermal errors of machine tools: measure, explain, predict, compensate",
+                               {"spindrift", "spindrift-fe"});
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -21,6 +21,8 @@ int main(int argc, char** argv) {
                                              }
                                              return spindrift::openFeResult(file);
                                            });
+  spindrift::cli::addReference(app, "displacements of finite elements as a simulation of a machine tool",
+                               {"spindrift", "spindrift-cli"});
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -23,6 +23,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/log.h"
+#include "core/base/program_reference.h"
 #include "core/base/text.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/shell/demo.h"
@@ -61,6 +62,31 @@ std::string applyScale(int argc, char** argv) {
     qputenv("QT_SCALE_FACTOR", text.c_str());
   }
   return {};
+}
+
+/// Man page, completion of bash or Markdown of the program's own options.
+spindrift::ProgramReference referenceOf(const QList<QCommandLineOption>& options, const QString& description) {
+  spindrift::ProgramReference reference;
+  reference.version = SPINDRIFT_VERSION;
+  reference.summary = "workstation for thermal errors of machine tools";
+  reference.see_also = {"spindrift-cli", "spindrift-fe"};
+  reference.program.name = "spindrift";
+  reference.program.description = description.toStdString();
+  reference.program.arguments.push_back(
+      {{"SESSION_OR_CAMPAIGN"},
+       "FOLDER",
+       {},
+       QCoreApplication::translate("main", "A session or a campaign to open.").toStdString()});
+  for (const QCommandLineOption& option : options) {
+    spindrift::ProgramOption one;
+    for (const QString& name : option.names())
+      one.names.push_back((name.size() == 1 ? "-" : "--") + name.toStdString());
+    one.value = option.valueName().toStdString();
+    if (one.value.find('|') != std::string::npos) one.allowed = spindrift::splitList(one.value, '|');
+    one.description = option.description().toStdString();
+    reference.program.options.push_back(one);
+  }
+  return reference;
 }
 
 /// What the command line asks for and the program does not have; empty if it is all right.
@@ -175,8 +201,8 @@ int run(int argc, char** argv) {
   QCommandLineParser parser;
   parser.setApplicationDescription(QCoreApplication::translate(
       "main", "Spindrift: measure, understand and compensate the thermal errors of machine tools."));
-  parser.addHelpOption();
-  parser.addVersionOption();
+  const QCommandLineOption help = parser.addHelpOption();
+  const QCommandLineOption version = parser.addVersionOption();
   parser.addPositionalArgument(QStringLiteral("folder"),
                                QCoreApplication::translate("main", "A session or a campaign to open."),
                                QStringLiteral("[SESSION_OR_CAMPAIGN]"));
@@ -203,7 +229,13 @@ int run(int argc, char** argv) {
   const QCommandLineOption start_time(
       QStringLiteral("startup-time"),
       QCoreApplication::translate("main", "Print how long it takes to the first usable window, and end."));
-  parser.addOptions({demo, tour, theme_option, scale, self_test, json, start_time});
+  const QCommandLineOption reference(
+      QStringLiteral("reference"),
+      QCoreApplication::translate(
+          "main", "Print the reference of the options: a man page, the completion of bash, or Markdown."),
+      QStringLiteral("man|bash|markdown"));
+  const QList<QCommandLineOption> options = {demo, tour, theme_option, scale, self_test, json, start_time, reference};
+  parser.addOptions(options);
   if (!parser.parse(application.arguments())) {
     return refused(parser.errorText().toStdString());
   }
@@ -213,6 +245,13 @@ int run(int argc, char** argv) {
   }
   if (parser.isSet(QStringLiteral("version"))) {
     std::printf("spindrift %s\n", SPINDRIFT_VERSION);
+    return exit_done;
+  }
+  if (parser.isSet(reference)) {
+    const std::string format = parser.value(reference).toStdString();
+    const std::string text = spindrift::referenceText(
+        referenceOf(QList<QCommandLineOption>{help, version} + options, parser.applicationDescription()), format);
+    std::fputs(text.c_str(), stdout);
     return exit_done;
   }
   if (const std::string wrong = wrongUsage(parser); !wrong.empty()) return refused(wrong);
@@ -261,6 +300,8 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const spindrift::InputError& e) {
+    return refused(e.what());
   } catch (const std::exception& e) {
     std::fprintf(stderr, "internal error: %s\n", e.what());
     return exit_internal;

@@ -152,7 +152,7 @@ nlohmann::json DiscrepancyResult::json() const {
 }
 
 std::string DiscrepancyResult::summary() const {
-  const char* unit = gap.rotations ? "urad" : "um";
+  const char* unit = gap.rotations ? "µrad" : "µm";
   std::string text = fmt::format("{}: {}\n", toString(verdict), message);
   for (const FoundEffect& e : effects) {
     text += fmt::format("  {}  {}  confidence {:.2f}, gain in BIC {:.0f}, held-out rms {:.2f} -> {:.2f} {}\n", e.id,

@@ -13,25 +13,25 @@ using Entry = std::pair<std::string_view, std::string_view>;
 
 // Hole artefact (FORMATS.md, conventions); the rotary axis is C.
 constexpr std::array<Entry, 10> hole_artefact{{
-    {"EXX", "deviation of the linear axis per metre from the centre of the rotary axis"},
+    {"EXX", "positioning error of the X axis per metre, from the centre of the rotary axis"},
     {"EX0C", "displacement of the table along X"},
     {"EY0C", "displacement of the table along Y"},
     {"EZ0T", "displacement of the table along Z"},
-    {"ER0T", "radial growth of the table at the reference hole"},
+    {"ER0T", "radial expansion of the table at the reference hole"},
     {"EA0C", "rotation of the table about X"},
     {"EB0C", "rotation of the table about Y"},
     {"EC0C", "rotation of the table about Z"},
     {"EC0Y", "squareness of Y to X"},
-    {"EME", "growth of the artefact per metre from its reference hole"},
+    {"EME", "thermal expansion of the artefact per metre, from its reference hole"},
 }};
 
 // One letter and an axis: ball artefact and nine-parameter model.
 constexpr std::array<Entry, 5> by_axis{{
-    {"h", "rotation of the head about {}"},
-    {"a", "rotation of the column about {}"},
-    {"d", "drift of the spindle along {}"},
-    {"g", "expansion of the {} screw from its fixed bearing"},
-    {"alpha_", "expansion of {} over the table"},
+    {"h", "head tilt about {}"},
+    {"a", "column tilt about {}"},
+    {"d", "thermal displacement of the spindle along {}"},
+    {"g", "thermal expansion of the {} ball screw from its fixed bearing"},
+    {"alpha_", "thermal expansion along {} over the table"},
 }};
 
 constexpr std::string_view axes = "XYZ";
@@ -66,7 +66,11 @@ std::string parameterMeaning(std::string_view name) {
     const std::string how = rotates ? "rotation about " : "displacement along ";
     if (name.size() == 2) return how + direction(name[1]) + " at the origin of the table";
     if (!isAxis(name[2])) return {};
-    return fmt::format("{}{} of the {} axis", how, direction(name[1]), name[2]);
+    const bool along_itself = direction(name[1])[0] == name[2];
+    if (rotates && along_itself) return fmt::format("roll error of the {} axis", name[2]);
+    if (rotates) return fmt::format("angular error of the {} axis about {}", name[2], direction(name[1]));
+    if (along_itself) return fmt::format("positioning error of the {} axis", name[2]);
+    return fmt::format("straightness error of the {} axis in the direction of {}", name[2], direction(name[1]));
   }
   return {};
 }

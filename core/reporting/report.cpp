@@ -85,4 +85,14 @@ Report& Report::figure(Drawing drawing, std::string_view caption) {
   return *this;
 }
 
+Report& Report::code(std::string_view text) {
+  blocks_.emplace_back(CodeBlock{std::string(text)});
+  return *this;
+}
+
+Report& Report::withoutSignatures() {
+  signed_ = false;
+  return *this;
+}
+
 }  // namespace spindrift

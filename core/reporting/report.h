@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A report as blocks, from top to bottom: headings, texts, callouts, tables, figures. Whoever fills it says what is to
-// be read; how it looks is up to the writers: one HTML file, or pages of a PDF.
+// A report as blocks, from top to bottom: headings, texts, callouts, tables, figures, code. Whoever fills it says what
+// is to be read; how it looks is up to the writers: one HTML file, or pages of a PDF.
 #pragma once
 
 #include <string>
@@ -65,7 +65,11 @@ struct FigureBlock {
   Drawing drawing;
   std::string caption;  ///< with its number
 };
-using ReportBlock = std::variant<HeadingBlock, TextBlock, CalloutBlock, TableBlock, FigureBlock>;
+/// What is typed or printed on a terminal: letters of one width, lines as they are.
+struct CodeBlock {
+  std::string text;
+};
+using ReportBlock = std::variant<HeadingBlock, TextBlock, CalloutBlock, TableBlock, FigureBlock, CodeBlock>;
 
 class Report {
  public:
@@ -78,10 +82,14 @@ class Report {
   Report& table(ReportRow header, std::vector<ReportRow> rows, std::string_view caption = {});
   Report& facts(const ReportFacts& rows);
   Report& figure(Drawing drawing, std::string_view caption);
+  Report& code(std::string_view text);
+  /// Not to be signed: the manual.
+  Report& withoutSignatures();
 
   [[nodiscard]] const std::string& title() const { return title_; }
   [[nodiscard]] const std::string& subtitle() const { return subtitle_; }
   [[nodiscard]] const std::vector<ReportBlock>& blocks() const { return blocks_; }
+  [[nodiscard]] bool isSigned() const { return signed_; }
   [[nodiscard]] int figureCount() const { return figures_; }
   [[nodiscard]] int tableCount() const { return tables_; }
 
@@ -91,12 +99,13 @@ class Report {
   std::vector<ReportBlock> blocks_;
   int figures_ = 0;
   int tables_ = 0;
+  bool signed_ = true;
 };
 
 /// One self-contained HTML file: no scripts, nothing fetched, prints on A4.
 [[nodiscard]] std::string htmlOf(const Report& report);
 
-/// A report set on pages of A4, with a place to sign at its end.
+/// A report set on pages of A4, with a place to sign at its end unless it is not to be signed.
 struct ReportPdf {
   std::string bytes;
   struct Section {

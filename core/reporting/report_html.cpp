@@ -21,6 +21,7 @@ th{font-weight:600;border-bottom:1px solid var(--soft)}th:first-child,td:first-c
 th.text,td.text{text-align:left}td{white-space:nowrap}td.text,table.facts td{white-space:normal}p{orphans:3;widows:3}
 table.facts td{text-align:left}small{font-size:11px;font-weight:400;color:var(--soft)}th small{display:block}
 table.facts td:first-child{width:32%;color:var(--soft)}
+pre{font:12px/1.45 "DejaVu Sans Mono",monospace;background:#f4f6f8;padding:10px 14px;white-space:pre-wrap;overflow-wrap:anywhere}
 figure{margin:16px 0}figure svg,figure img{max-width:100%;height:auto;display:block}
 .verdict{padding:10px 16px;border-left:4px solid var(--soft);background:#f8f9fa;margin:12px 0;font-weight:600}
 .good{border-color:var(--good)}.attention{border-color:var(--attention)}.bad{border-color:var(--bad)}
@@ -70,6 +71,7 @@ struct Writer {
   void operator()(const CalloutBlock& b) {
     out += fmt::format("<p class=\"verdict {}\">{}</p>\n", nameOf(b.kind), printed(b.text));
   }
+  void operator()(const CodeBlock& b) { out += fmt::format("<pre>{}</pre>\n", escapedXml(b.text)); }
   void operator()(const FigureBlock& b) {
     out += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svgOf(b.drawing), escapedXml(b.caption));
   }

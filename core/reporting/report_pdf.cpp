@@ -8,6 +8,8 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "core/reporting/cairo_page.h"
@@ -113,6 +115,28 @@ class Setter {
       cairo_fill(c);
       show(c, words, bar + inside, padding, ink);
     });
+    above_ = 10.0;
+  }
+
+  /// Line by line on pale ground; a line that is too long goes on below.
+  void operator()(const CodeBlock& b) {
+    constexpr double inside = 8.0;
+    std::istringstream lines(b.text);
+    bool first = true;
+    for (std::string line; std::getline(lines, line); first = false) {
+      const Layout words = layout(line.empty() ? std::string(" ") : line, small_px, false, text_width - 2.0 * inside);
+      PangoFontDescription* font = pango_font_description_copy(pango_layout_get_font_description(words.get()));
+      pango_font_description_set_family_static(font, "DejaVu Sans Mono, monospace");
+      pango_layout_set_font_description(words.get(), font);
+      pango_font_description_free(font);
+      const double height = heightOf(words.get()) + 2.0;
+      add(height, first ? 8.0 : 0.0, first, [=](cairo_t* c) {
+        setColour(c, pale);
+        cairo_rectangle(c, 0.0, 0.0, text_width, height + 0.5);
+        cairo_fill(c);
+        show(c, words, inside, 1.0, ink);
+      });
+    }
     above_ = 10.0;
   }
 
@@ -371,6 +395,8 @@ ReportPdf pdfOf(const Report& report, const JobContext& job) {
   const CairoSurface surface = pdfSurface(out.bytes, page_width, page_height);
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, report.title().c_str());
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATOR, "Spindrift " SPINDRIFT_VERSION);
+  // What nobody signs is no record: the manual of a version has the same bytes whenever it is written.
+  if (!report.isSigned()) cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "");
   {
     const Cairo cairo(cairo_create(surface.get()));
     cairo_t* c = cairo.get();
@@ -381,7 +407,7 @@ ReportPdf pdfOf(const Report& report, const JobContext& job) {
       job.throwIfCancelled();
       std::visit(setter, block);
     }
-    setter.signatures();
+    if (report.isSigned()) setter.signatures();
     const auto pages = pagesOf(setter.pieces);
     for (std::size_t page = 0; page < pages.size(); ++page) {
       job.report(static_cast<double>(page) / static_cast<double>(pages.size()), "pages");

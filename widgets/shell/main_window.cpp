@@ -471,9 +471,12 @@ void MainWindow::openLog(const QString& file) {
 }
 
 void MainWindow::open(const QString& folder) {
-  if (Session::isSession(folder.toStdString())) {
+  const QFileInfo file(folder);
+  if (file.isFile() && file.suffix() == QLatin1String("json")) {
+    open(file.absolutePath());  // what a file manager gives for a session or a campaign
+  } else if (Session::isSession(folder.toStdString())) {
     openSession(folder);
-  } else if (QFileInfo(folder).isFile()) {
+  } else if (file.isFile()) {
     openLog(folder);
   } else {
     openCampaign(folder);

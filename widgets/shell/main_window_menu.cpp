@@ -22,6 +22,7 @@
 #include "widgets/shell/diagnostics.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/main_window.h"
+#include "widgets/shell/manual_window.h"
 #include "widgets/shell/notes_dialog.h"
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/welcome_page.h"
@@ -107,6 +108,16 @@ void MainWindow::buildMenu() {
   });
   help_action_->setCheckable(true);
   help_action_->setChecked(QSettings().value(QStringLiteral("help"), false).toBool());
+  add(help, tr("&Manual …"), "note", QKeySequence(Qt::SHIFT | Qt::Key_F1), [this] {
+    const QString file = manualFile();
+    if (file.isEmpty()) {
+      tell(tr("The manual is not installed; \"spindrift-cli manual --out manual.pdf\" writes it."));
+      return;
+    }
+    auto* manual = new ManualWindow(file, this);
+    manual->setAttribute(Qt::WA_DeleteOnClose);
+    manual->show();
+  });
   help->addSeparator();
   add(help, tr("&Copy diagnostics"), "table", {}, [this] {
     QGuiApplication::clipboard()->setText(diagnosticsText());

@@ -13,7 +13,7 @@ void ambient(const CatalogueContext& context, std::vector<Effect>& out) {
   for (int axis = 0; axis < 3; ++axis) {
     Effect effect;
     effect.id = std::string("ambient.drift.") + axis_letters[axis];
-    effect.title = "drift with the room temperature along %1";
+    effect.title = "environmental temperature variation error along %1";
     effect.subject = axis_names[axis];
     effect.formula = fmt::format("e{} = g q", axis_letters[axis]);
     effect.references = {references::iso_230_3, references::bryan};

@@ -20,7 +20,7 @@ void head(const CatalogueContext& context, std::vector<Effect>& out) {
     tilt.formula = axis == 0 ? "EA = g q, ey = -g q rz, ez = g q ry" : "EB = g q, ex = g q rz, ez = -g q rx";
     tilt.references = {references::abele, references::mayr};
     tilt.physics =
-        "Spindle heat warms one side of the head more than the other; the head turns about a pivot and carries the "
+        "Spindle heat warms one side of the head more than the other; the head tilts about a pivot and carries the "
         "tool point with it, sideways and in height.";
     const Component turn = axis == 0 ? Component::EA : Component::EB;
     const Component side = axis == 0 ? Component::EY : Component::EX;

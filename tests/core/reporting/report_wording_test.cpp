@@ -62,10 +62,11 @@ TEST(ParameterMeanings, ExplainEveryNameOfTheContract) {
         "EAY_urad",     "ECY_urad", "EX_um",   "EC_urad", "EC0Y_urad", "alpha_X_um_per_m"}) {
     EXPECT_NE(parameterMeaning(name), "") << name;
   }
-  EXPECT_EQ(parameterMeaning("EAY_urad"), "rotation about X of the Y axis");
-  EXPECT_EQ(parameterMeaning("EXY_um"), "displacement along X of the Y axis");
-  EXPECT_EQ(parameterMeaning("EXX_um"), "displacement along X of the X axis");
-  EXPECT_EQ(parameterMeaning("gX_um_per_m"), "expansion of the X screw from its fixed bearing");
+  EXPECT_EQ(parameterMeaning("EAY_urad"), "angular error of the Y axis about X");
+  EXPECT_EQ(parameterMeaning("EXY_um"), "straightness error of the Y axis in the direction of X");
+  EXPECT_EQ(parameterMeaning("EXX_um"), "positioning error of the X axis");
+  EXPECT_EQ(parameterMeaning("gX_um_per_m"), "thermal expansion of the X ball screw from its fixed bearing");
+  EXPECT_EQ(parameterMeaning("EBY_urad"), "roll error of the Y axis");
   for (const char* name : {"EQX_um", "E_um", "rms_um", "EAX_um", "hello"})
     EXPECT_EQ(parameterMeaning(name), "") << name;
 }

@@ -558,7 +558,7 @@ TEST(WhatPanelTest, ShowsRivalsAndLetsTheUserChooseOne) {
   EXPECT_FALSE(panel.chosenIsAdded());
   auto* rivals = panel.findChild<Callout*>();
   ASSERT_NE(rivals, nullptr);
-  EXPECT_TRUE(rivals->sentence().contains(QStringLiteral("drift with the room temperature along Y")));
+  EXPECT_TRUE(rivals->sentence().contains(QStringLiteral("environmental temperature variation error along Y")));
   EXPECT_EQ(rivals->tone(), Tone::Attention);
 }
 

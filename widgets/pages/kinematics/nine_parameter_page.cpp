@@ -16,6 +16,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/reporting/parameter_meanings.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/fit_campaign.h"
 #include "widgets/common/parts.h"
@@ -34,27 +35,8 @@ QString parameterName(int i) {
   return QString::fromUtf8(names[static_cast<std::size_t>(i)]);
 }
 
-QString parameterMeaning(int i) {
-  switch (i) {
-    case 0:
-      return NineParameterPage::tr("displacement along X");
-    case 1:
-      return NineParameterPage::tr("displacement along Y");
-    case 2:
-      return NineParameterPage::tr("displacement along Z");
-    case 3:
-      return NineParameterPage::tr("rotation about X");
-    case 4:
-      return NineParameterPage::tr("rotation about Y");
-    case 5:
-      return NineParameterPage::tr("rotation about Z");
-    case 6:
-      return NineParameterPage::tr("squareness of Y to X");
-    case 7:
-      return NineParameterPage::tr("expansion along X");
-    default:
-      return NineParameterPage::tr("expansion along Y");
-  }
+QString meaningOf(int i) {
+  return QString::fromStdString(parameterMeaning(nine_parameter_names[static_cast<std::size_t>(i)]));
 }
 
 Cell number(double value, double sigma, std::string_view unit) {
@@ -372,7 +354,7 @@ void NineParameterPage::showFit() {
       value = {tr("not determined"), Tone::Attention, "alert"};
       value.right = true;
     }
-    row.cells = {name, value, {parameterMeaning(i)}};
+    row.cells = {name, value, {meaningOf(i)}};
     rows.push_back(std::move(row));
   }
   if (order_.richer()) {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/shell/manual_window.h"
+
+#include <QCoreApplication>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QListWidget>
+#include <QTimer>
+#include <utility>
+
+#include "widgets/report/page_view.h"
+
+namespace spindrift::gui {
+
+QString manualFile() {
+  for (const char* place : {"/../share/doc/spindrift/manual.pdf", "/../package/manual.pdf"}) {
+    const QFileInfo file(QCoreApplication::applicationDirPath() + QLatin1String(place));
+    if (file.isFile()) return file.canonicalFilePath();
+  }
+  return {};
+}
+
+ManualWindow::ManualWindow(const QString& file, QWidget* parent)
+    : QDialog(parent), chapters_(new QListWidget), view_(new PageView) {
+  setWindowTitle(tr("Manual"));
+  resize(1120, 760);
+  auto* row = new QHBoxLayout(this);
+  chapters_->setAccessibleName(tr("Chapters of the manual"));
+  chapters_->setFixedWidth(280);
+  chapters_->setWordWrap(true);
+  row->addWidget(chapters_);
+  row->addWidget(view_, 1);
+  connect(chapters_, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
+    if (item != nullptr) view_->goToPage(item->data(Qt::UserRole).toInt());
+  });
+  opening_ = std::make_shared<ReportPages>(file.toStdString());
+  connect(opening_.get(), &ReportPages::opened, this, [this] {
+    const auto made = std::exchange(opening_, nullptr);
+    if (made->failure().isEmpty()) {
+      showPages(made);
+    } else {
+      QTimer::singleShot(0, this, [made] {});  // it is still telling us
+      chapters_->addItem(tr("The manual cannot be shown. %1").arg(made->failure()));
+    }
+    Q_EMIT opened(made->failure());
+  });
+}
+
+void ManualWindow::showPages(const std::shared_ptr<ReportPages>& pages) {
+  view_->setPages(pages);
+  for (const ReportPages::Section& section : pages->sections()) {
+    auto* item = new QListWidgetItem(section.title, chapters_);
+    item->setData(Qt::UserRole, section.page);
+  }
+}
+
+}  // namespace spindrift::gui
