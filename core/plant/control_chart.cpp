@@ -97,8 +97,7 @@ std::string day(double time_s) {
 std::string eventBetween(const std::vector<MachineEvent>& events, double from_s, double to_s) {
   for (const MachineEvent& e : events) {
     if (e.time_s < from_s - 1.0 || e.time_s > to_s + 1.0) continue;
-    std::string words = e.kind;
-    std::replace(words.begin(), words.end(), '_', ' ');
+    const std::string words = eventWords(e.kind);
     return e.note.empty() ? words : words + " (" + e.note + ")";
   }
   return {};

@@ -174,8 +174,8 @@ ModelState modelState(PlantStore& store, const std::string& machine, const Chart
   const std::vector<MachineEvent> events = store.events(machine);
   for (const MachineEvent& e : events) {
     if (e.time_s > since_s && changesMachine(e.kind))
-      state.reasons.push_back(fmt::format("{} was entered for {}, after the model's campaign {}", e.kind, day(e.time_s),
-                                          state.model->campaign_name));
+      state.reasons.push_back(fmt::format("{} was entered for {}, after the model's campaign {}", eventWords(e.kind),
+                                          day(e.time_s), state.model->campaign_name));
   }
   for (const TrendName& n : store.trendNames(machine)) {
     if (n.kind == state.model->kind && n.kind != "evaluate") continue;  // what the model itself was made from

@@ -25,6 +25,13 @@ const std::vector<std::string>& eventKinds() {
   return kinds;
 }
 
+std::string eventWords(const std::string& event_kind) {
+  if (event_kind == "re_levelled") return "re-levelled";
+  std::string words = event_kind;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
 bool changesMachine(const std::string& event_kind) {
   return event_kind != "note";
 }

@@ -83,6 +83,8 @@ struct MachineEvent {
 /// control limits begin anew. "note": nothing of the kind.
 [[nodiscard]] const std::vector<std::string>& eventKinds();
 [[nodiscard]] bool changesMachine(const std::string& event_kind);
+/// As people write it: "spindle changed", "re-levelled".
+[[nodiscard]] std::string eventWords(const std::string& event_kind);
 
 /// A machine with the state it was last seen in.
 struct PlantMachine {

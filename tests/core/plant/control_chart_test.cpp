@@ -196,7 +196,7 @@ TEST_P(PlantOverviewTest, ModelNoLongerHoldsAfterAnEventOrAVerdict) {
   store.addEvent({"mill", onDay(7.0 * 8 - 365.0), "note", "", ""});
   EXPECT_THAT(modelState(store, "mill", {}).reasons, IsEmpty());
   store.addEvent({"mill", onDay(7.0 * 8 - 365.0), "re_levelled", "", ""});
-  EXPECT_THAT(modelState(store, "mill", {}).reasons, ::testing::ElementsAre(HasSubstr("re_levelled was entered")));
+  EXPECT_THAT(modelState(store, "mill", {}).reasons, ::testing::ElementsAre(HasSubstr("re-levelled was entered")));
   PlantCampaign later = weeklyCampaign("mill", 20);
   later.results[0].verdict = "unknown";
   (void)store.publish(std::span(&later, 1));

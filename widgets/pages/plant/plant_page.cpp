@@ -235,8 +235,7 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
 
   event_kind_ = new QComboBox;
   event_kind_->setAccessibleName(tr("What was done to the machine"));
-  for (const std::string& kind : eventKinds())
-    event_kind_->addItem(sentenceStart(text(kind).replace(QLatin1Char('_'), QLatin1Char(' '))), text(kind));
+  for (const std::string& kind : eventKinds()) event_kind_->addItem(sentenceStart(text(eventWords(kind))), text(kind));
   event_time_ = new QLineEdit(text(utcText(now()).substr(0, 10)));
   event_time_->setAccessibleName(tr("When it was done (UTC)"));
   event_time_->setToolTip(tr("UTC: a day such as 2026-01-31, or a time such as 2026-01-31T08:00:00Z"));
@@ -535,7 +534,7 @@ void PlantPage::showTrends() {
         for (const MachineTrend& t : trends) {
           for (const MachineEvent& e : t.events) {
             if (!alone && !changesMachine(e.kind)) continue;
-            const QString what = text(e.kind).replace(QLatin1Char('_'), QLatin1Char(' '));
+            const QString what = text(eventWords(e.kind));
             plot_->addMark((e.time_s - first_s) / day_s, alone ? what : text(t.machine) + QStringLiteral(": ") + what,
                            changesMachine(e.kind) ? Tone::Attention : Tone::Neutral);
           }
