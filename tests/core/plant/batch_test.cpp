@@ -315,7 +315,7 @@ TEST_P(BatchTest, KilledWorkersAndAKilledServerLoseNothing) {
   do {
     while (workers.size() < 4) start();
     nap(0.15);
-    if (killed < 8 && random.uniform() < 0.6) {
+    if (killed < 3 || (killed < 8 && random.uniform() < 0.6)) {
       ::kill(*std::next(workers.begin(), static_cast<long>(random.index(workers.size()))), SIGKILL);
       ++killed;
     }

@@ -18,6 +18,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/json_reader.h"
+#include "core/base/random.h"
 #include "core/connect/hal_commands.h"
 #include "core/connect/linuxcnc_shell.h"
 #include "core/connect/source.h"
@@ -183,7 +184,11 @@ TEST_F(ClosedLoopPageTest, TheOperatorAcceptsOrRejectsWhatIsNamed) {
   // A machine that does what the simulation knows, and a drift along X by the spindle that it does not know.
   const auto truth = std::make_shared<spindrift::testing::TrueMachine>(demoTruth(8.0));
   machine_ = std::make_unique<StandInMachine>(
-      400.0, [truth](double, const Eigen::Vector3d& place_mm) { return truth->deviation_um(place_mm); });
+      400.0, [truth, probe = std::make_shared<Random>(11)](double, const Eigen::Vector3d& place_mm) {
+        constexpr double repeatability_um = 0.3;
+        const Eigen::Vector3d noise(probe->normal(), probe->normal(), probe->normal());
+        return Eigen::Vector3d(truth->deviation_um(place_mm) + repeatability_um * noise);
+      });
   machine_->onLive([truth](double rpm, double time_s) { truth->advance(rpm, time_s); },
                    [truth](const std::string& column) { return truth->temperature_degC(column); });
   page_->service().setControl([this](const LoopPlan&) { return std::make_unique<StandInControl>(*machine_); });
