@@ -28,6 +28,7 @@
 #include "tests/support/temp_folder.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/plant/batches_panel.h"
 #include "widgets/pages/plant/plant_page.h"
 #include "widgets/plots/plot.h"
 #include "widgets/shell/main_window.h"
@@ -197,9 +198,9 @@ TEST_F(PlantPageTest, ShowsMachinesTrendsAndBatchesWithoutASession) {
 
   page->tabs()->setCurrentIndex(2);
   wait();
-  ASSERT_EQ(page->batches()->rowCount(), 1);
-  EXPECT_EQ(page->batches()->index(0, 2).data().toString().toStdString(), "10 of 40 (25 %)");
-  EXPECT_EQ(page->batches()->index(0, 3).data().toString().toStdString(), "1");
+  ASSERT_EQ(page->batches()->rows()->rowCount(), 1);
+  EXPECT_EQ(page->batches()->rows()->index(0, 2).data().toString().toStdString(), "10 of 40 (25 %)");
+  EXPECT_EQ(page->batches()->rows()->index(0, 3).data().toString().toStdString(), "1");
   keep(QStringLiteral("plant-batches"));
   page->tabs()->setCurrentIndex(3);
   auto* help = page->findChild<QTextBrowser*>();
@@ -244,8 +245,7 @@ TEST_F(PlantPageTest, PublishesTheOpenSession) {
   page->publishButton()->click();
   wait();
   wait();
-  EXPECT_NE(page->callout()->sentence().toStdString().find("Published: 1 campaigns and 1 results are new"),
-            std::string::npos)
+  EXPECT_NE(page->callout()->sentence().toStdString().find("Published: new 1 campaign and 1 result"), std::string::npos)
       << page->callout()->sentence().toStdString();
   EXPECT_EQ(page->machines()->model()->rowCount(), 4);
   Q_EMIT page->closed();
@@ -344,7 +344,7 @@ TEST_F(PlantPageTest, StartsCancelsAndResumesABatch) {
   const std::string plan = planOf("squares", 12, run);
   window_->openPlant();
   PlantPage* page = window_->plant();
-  page->setWorkerProgram(QStringLiteral(SPINDRIFT_CLI));
+  page->batches()->setWorkerProgram(QStringLiteral(SPINDRIFT_CLI));
   page->openStore(store_);
   wait();
   page->tabs()->setCurrentIndex(2);
@@ -362,8 +362,8 @@ TEST_F(PlantPageTest, StartsCancelsAndResumesABatch) {
   EXPECT_NE(page->callout()->sentence().toStdString().find("none.json"), std::string::npos);
 
   const auto cell = [&](int column) {
-    const int row = page->batches()->rowOf(QStringLiteral("2"));
-    return row < 0 ? QString() : page->batches()->index(row, column).data().toString();
+    const int row = page->batches()->rows()->rowOf(QStringLiteral("2"));
+    return row < 0 ? QString() : page->batches()->rows()->index(row, column).data().toString();
   };
   file->selectAll();
   QTest::keyClicks(file, QString::fromStdString(plan));
@@ -375,8 +375,8 @@ TEST_F(PlantPageTest, StartsCancelsAndResumesABatch) {
   EXPECT_FALSE(window_->jobs().working()) << "a batch of hours keeps nobody from working";
   EXPECT_TRUE(window_->jobs().title().contains(QStringLiteral("squares.json")));
   // Chosen with the keyboard.
-  page->batchTable()->setFocus();
-  page->batchTable()->selectRow(page->batches()->rowOf(QStringLiteral("2")));
+  page->batches()->table()->setFocus();
+  page->batches()->table()->selectRow(page->batches()->rows()->rowOf(QStringLiteral("2")));
   ASSERT_TRUE(QTest::qWaitFor([&] { return cancel->isEnabled(); }, 10'000));
   EXPECT_NE(cell(5), QString());
   if (const QString folder = qEnvironmentVariable("SPINDRIFT_TEST_PICTURES"); !folder.isEmpty())
@@ -408,10 +408,10 @@ TEST_F(PlantPageTest, ABatchEndsWithTheWindowAndLosesNothing) {
   const std::string plan = planOf("long", 4, "[ $1 = 1 ] || sleep 60; echo 1");
   window_->openPlant();
   PlantPage* page = window_->plant();
-  page->setWorkerProgram(QStringLiteral(SPINDRIFT_CLI));
+  page->batches()->setWorkerProgram(QStringLiteral(SPINDRIFT_CLI));
   page->openStore(store_);
   wait();
-  page->startBatch(QString::fromStdString(plan));
+  page->batches()->start(QString::fromStdString(plan));
   const auto state = [&] {
     PlantStore store = PlantStore::open(PlantAddress::parse(store_.toStdString()));
     BatchQueue queue(store);

@@ -2,7 +2,6 @@
 #include "widgets/pages/plant/plant_page.h"
 
 #include <QComboBox>
-#include <QCoreApplication>
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -32,11 +31,12 @@
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
 #include "core/connect/utc_time.h"
-#include "core/plant/batch_engine.h"
 #include "core/plant/publish.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/plant/batches_panel.h"
+#include "widgets/pages/plant/plant_parts.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/fonts.h"
 
@@ -50,10 +50,6 @@ double now() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-QString text(const std::string& s) {
-  return QString::fromStdString(s);
-}
-
 QString day(double time_s) {
   return time_s > 0.0 ? text(utcText(time_s).substr(0, 10)) : QStringLiteral("–");
 }
@@ -63,40 +59,6 @@ Tone toneOf(const std::string& verdict) {
     return Tone::Attention;
   if (verdict == "rejected" || verdict == "degenerate" || verdict == "no convergence") return Tone::Bad;
   return Tone::Neutral;
-}
-
-/// What `work` gives is shown by `shown`, on the GUI thread.
-template <typename Work, typename Shown>
-Job displayJob(const QString& title, const char* key, Work work, Shown shown) {
-  Job job;
-  job.title = title;
-  job.queue = JobQueue::Display;
-  job.key = key;
-  job.quiet = true;
-  job.work = [work, shown](JobContext&) -> std::function<void()> {
-    auto found = std::make_shared<decltype(work())>(work());
-    return [shown, found] { shown(*found); };
-  };
-  return job;
-}
-
-QWidget* row(const std::vector<QWidget*>& widgets, int stretched) {
-  auto* whole = new QWidget;
-  auto* layout = new QHBoxLayout(whole);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(8);
-  for (std::size_t i = 0; i < widgets.size(); ++i)
-    layout->addWidget(widgets[i], static_cast<int>(i) == stretched ? 1 : 0);
-  return whole;
-}
-
-QWidget* column(const std::vector<QWidget*>& widgets) {
-  auto* whole = new QWidget;
-  auto* layout = new QVBoxLayout(whole);
-  layout->setContentsMargins(12, 12, 12, 12);
-  layout->setSpacing(8);
-  for (QWidget* w : widgets) layout->addWidget(w);
-  return whole;
 }
 
 }  // namespace
@@ -205,34 +167,6 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
   QTableView* comparison_table =
       makeTable(comparison_, tr("Comparison"), tr("Check two or more campaigns to see them side by side."));
 
-  batches_ =
-      new RowsModel({tr("Batch"), tr("Work"), tr("Done"), tr("Failed"), tr("Running"), tr("Cost"), tr("Left")}, this);
-  batch_table_ = makeTable(batches_, tr("Batches"), tr("Choose a plan to start a batch on this computer."));
-  connect(batch_table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &PlantPage::enableBatchButtons);
-  plan_ = new QLineEdit;
-  plan_->setAccessibleName(tr("Plan of the batch"));
-  plan_->setPlaceholderText(tr("PLAN.json (format spindrift-batch)"));
-  auto* choose_plan = makeButton(tr("Plan …"), "folder-open");
-  start_batch_ = makeButton(tr("Start"), nullptr, "primary");
-  start_batch_->setToolTip(
-      tr("Works on the plan's campaigns or seeds with all processors of this computer; the same "
-         "plan again goes on where it ended"));
-  cancel_batch_ = makeButton(tr("Cancel the batch"), "stop");
-  cancel_batch_->setToolTip(tr("Nothing more is begun, wherever it runs; what is done stays"));
-  resume_batch_ = makeButton(tr("Resume on this computer"), "play");
-  resume_batch_->setToolTip(tr("Goes on after a cancellation, and tries again what has failed"));
-  start_batch_->setEnabled(false);
-  connect(plan_, &QLineEdit::textChanged, this,
-          [this](const QString& typed) { start_batch_->setEnabled(!typed.trimmed().isEmpty()); });
-  connect(plan_, &QLineEdit::returnPressed, start_batch_, &QPushButton::click);
-  connect(choose_plan, &QPushButton::clicked, this, [this] {
-    const QString file = QFileDialog::getOpenFileName(this, tr("Choose a plan"), {}, tr("Plan (*.json)"));
-    if (!file.isEmpty()) plan_->setText(file);
-  });
-  connect(start_batch_, &QPushButton::clicked, this, [this] { startBatch(plan_->text().trimmed()); });
-  connect(cancel_batch_, &QPushButton::clicked, this, &PlantPage::cancelBatch);
-  connect(resume_batch_, &QPushButton::clicked, this, &PlantPage::resumeBatch);
-
   event_kind_ = new QComboBox;
   event_kind_->setAccessibleName(tr("What was done to the machine"));
   for (const std::string& kind : eventKinds()) event_kind_->addItem(sentenceStart(text(eventWords(kind))), text(kind));
@@ -255,10 +189,8 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
                 tr("Trend"));
   tabs_->addTab(makeSplitter(column({campaign_table_}), column({comparison_table}), 3, 2, Qt::Vertical),
                 tr("Campaigns"));
-  tabs_->addTab(column({row({plan_, choose_plan, start_batch_}, 0), batch_table_,
-                        row({new QWidget, cancel_batch_, resume_batch_}, 0)}),
-                tr("Batches"));
-  enableBatchButtons();
+  batches_ = new BatchesPanel(jobs_, *callout_, [this] { return addressText(); });
+  tabs_->addTab(batches_, tr("Batches"));
   auto* help = new QTextBrowser;
   help->setFrameShape(QFrame::NoFrame);
   help->setAccessibleName(tr("Help on the plant"));
@@ -267,16 +199,6 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
     help->setHtml(QString::fromUtf8(file.readAll()));
   tabs_->addTab(column({help}), tr("Help"));
   outer->addWidget(makeSplitter(list, tabs_, 10, 11), 1);
-
-  // What runs somewhere else is looked at as long as somebody looks at it.
-  batch_timer_.setInterval(3000);
-  connect(&batch_timer_, &QTimer::timeout, this, [this] {
-    if (isVisible() && tabs_->currentIndex() == 2) lookAtBatches();
-  });
-  batch_timer_.start();
-  connect(tabs_, &QTabWidget::currentChanged, this, [this](int index) {
-    if (index == 2) lookAtBatches();
-  });
 }
 
 QString PlantPage::said() const {
@@ -330,7 +252,7 @@ void PlantPage::show(const PlantLook& look) {
     callout_->show(Tone::Attention, text(look.warnings.front()));
   notice_.reset();
   showMachines();
-  showBatches(look.batches);
+  batches_->show(look.batches);
   std::erase_if(compared_, [&](std::int64_t id) {
     return std::none_of(look.campaigns.begin(), look.campaigns.end(),
                         [&](const PlantListing& c) { return c.id == id; });
@@ -603,156 +525,6 @@ void PlantPage::compareChecked() {
   jobs_.run(std::move(job));
 }
 
-void PlantPage::lookAtBatches() {
-  if (addressText().isEmpty()) return;
-  try {
-    const PlantAddress address = PlantAddress::parse(addressText().toStdString());
-    jobs_.run(displayJob(
-        tr("Looking at batches"), "plant-batches",
-        [address] {
-          PlantStore store = PlantStore::open(address, {.as = PlantRole::Reader});
-          return BatchQueue(store).all();
-        },
-        [this](const std::vector<BatchState>& batches) {
-          look_.batches = batches;
-          showBatches(batches);
-        }));
-  } catch (const InputError& e) {
-    fail(QString::fromUtf8(e.what()));
-  }
-}
-
-void PlantPage::showBatches(const std::vector<BatchState>& batches) {
-  const auto hours = [](double s) {
-    if (s < 120.0) return tr("%1 s").arg(s, 0, 'f', 0);
-    return s < 7200.0 ? tr("%1 min").arg(s / 60.0, 0, 'f', 0) : tr("%1 h").arg(s / 3600.0, 0, 'f', 1);
-  };
-  std::vector<Row> rows;
-  for (const BatchState& b : batches) {
-    const double part = b.items > 0 ? 100.0 * static_cast<double>(b.answered) / static_cast<double>(b.items) : 100.0;
-    Cell running{text(countOf(b.running, "chunk"))};
-    if (b.idle()) {
-      running = {tr("nobody"), Tone::Attention, "alert"};
-      running.tip = tr("Nothing works on it: it waits in Slurm, or what worked on it has ended; Resume goes on.");
-    }
-    if (b.finished()) running = {tr("finished"), Tone::Good, "check-circle"};
-    if (b.cancelled) running = {tr("cancelled"), Tone::Attention, "stop"};
-    Cell failed{QString::number(b.failed_items), b.failed_items > 0 ? Tone::Bad : Tone::Neutral,
-                b.failed_items > 0 ? "error" : nullptr, true};
-    failed.tip = text(b.error);
-    rows.push_back(
-        {QString::number(b.id),
-         {{tr("%1 %2").arg(b.id).arg(text(b.name))},
-          {text(b.work)},
-          {tr("%1 of %2 (%3 %)").arg(b.answered).arg(b.items).arg(std::floor(part), 0, 'f', 0), Tone::Neutral, nullptr,
-           true},
-          failed,
-          running,
-          {hours(b.spent_s), Tone::Neutral, nullptr, true},
-          {b.remaining_s > 0.0 ? hours(b.remaining_s) : QStringLiteral("–"), Tone::Neutral, nullptr, true}}});
-  }
-  const BatchState* const chosen = chosenBatch();
-  const QString again = chosen != nullptr ? QString::number(chosen->id) : QString();
-  batches_->setRows(std::move(rows));
-  const int place = batches_->rowOf(again);
-  if (place >= 0) batch_table_->selectRow(place);
-  enableBatchButtons();
-}
-
-const BatchState* PlantPage::chosenBatch() const {
-  const QModelIndexList rows = batch_table_->selectionModel()->selectedRows();
-  if (rows.isEmpty()) return nullptr;
-  const std::int64_t id = batches_->idAt(rows.front().row()).toLongLong();
-  const auto found =
-      std::find_if(look_.batches.begin(), look_.batches.end(), [id](const BatchState& b) { return b.id == id; });
-  return found != look_.batches.end() ? &*found : nullptr;
-}
-
-void PlantPage::enableBatchButtons() {
-  const BatchState* const b = chosenBatch();
-  cancel_batch_->setEnabled(b != nullptr && !b->finished() && !b->cancelled);
-  resume_batch_->setEnabled(b != nullptr && (!b->finished() || b->cancelled || b->failed_items > 0));
-}
-
-void PlantPage::workOn(const QString& title, std::function<std::int64_t(const PlantAddress&)> begin) {
-  try {
-    const PlantAddress address = PlantAddress::parse(addressText().toStdString());
-    EngineOptions options;
-    const QString program = worker_program_.isEmpty()
-                                ? QCoreApplication::applicationDirPath() + QStringLiteral("/spindrift-cli")
-                                : worker_program_;
-    if (!QFileInfo(program).isExecutable())
-      throw InputError({program.toStdString(), ""}, "is not there; batches run the command line of this program.");
-    options.worker_command = {program.toStdString(), "batch", "work"};
-    Job job;
-    job.title = title;
-    job.queue = JobQueue::Batch;
-    job.work = [this, address, options, begin = std::move(begin)](JobContext& context) -> std::function<void()> {
-      const std::int64_t id = begin(address);
-      const EngineReport report = runLocally(address, id, options, context);
-      if (!report.refused.empty()) throw InputError(report.refused);
-      return [this, state = report.state] {
-        const QString name = tr("Batch %1 %2").arg(state.id).arg(text(state.name));
-        if (state.cancelled)
-          callout_->show(Tone::Attention, tr("%1 is cancelled; what is done stays, and Resume goes on.").arg(name));
-        else if (state.failed_items > 0)
-          callout_->show(Tone::Attention, tr("%1 is finished, %2 failed: spindrift-cli batch status %3 --results FILE "
-                                             "says why.")
-                                              .arg(name, text(countOf(state.failed_items, "item")))
-                                              .arg(state.id));
-        else
-          callout_->show(Tone::Good, tr("%1 is finished: %2.").arg(name, text(countOf(state.answered, "item"))));
-        lookAtBatches();
-      };
-    };
-    job.failed = [this](const QString& sentence) { fail(sentence); };
-    callout_->set(Tone::Neutral, {});
-    job.cancelled = [this] {
-      callout_->show(Tone::Attention, tr("The batch has stopped; what is done stays, and Resume goes on."));
-      lookAtBatches();
-    };
-    jobs_.run(std::move(job));
-  } catch (const InputError& e) {
-    fail(QString::fromUtf8(e.what()));
-  }
-}
-
-void PlantPage::startBatch(const QString& plan_file) {
-  workOn(tr("Batch of %1").arg(QFileInfo(plan_file).fileName()),
-         [file = plan_file.toStdString()](const PlantAddress& address) {
-           const BatchPlan plan = BatchPlan::read(file);
-           plan.requireFiles();
-           PlantStore store = PlantStore::openOrMake(address);
-           return BatchQueue(store).submit(plan);
-         });
-}
-
-void PlantPage::resumeBatch() {
-  const BatchState* const chosen = chosenBatch();
-  if (chosen == nullptr) return;
-  workOn(tr("Batch %1 %2").arg(chosen->id).arg(text(chosen->name)), [id = chosen->id](const PlantAddress& address) {
-    PlantStore store = PlantStore::open(address);
-    BatchQueue(store).resume(id);
-    return id;
-  });
-}
-
-void PlantPage::cancelBatch() {
-  const BatchState* const chosen = chosenBatch();
-  if (chosen == nullptr) return;
-  const PlantAddress address = PlantAddress::parse(addressText().toStdString());
-  Job job = displayJob(
-      tr("Cancelling a batch"), "",
-      [address, id = chosen->id] {
-        PlantStore store = PlantStore::open(address);
-        BatchQueue(store).cancel(id);
-        return id;
-      },
-      [this](std::int64_t) { lookAtBatches(); });
-  job.failed = [this](const QString& sentence) { fail(sentence); };
-  jobs_.run(std::move(job));
-}
-
 void PlantPage::enterEvent() {
   const QStringList chosen = chosenMachines();
   if (chosen.size() != 1) return;
@@ -815,16 +587,16 @@ void PlantPage::publish() {
         if (session_.isOpen() && session_.folder() == folder)
           endPublication(*session_.session(), *publication, outcome);
         if (outcome.waiting > 0) {
-          callout_->show(Tone::Attention, tr("%1 campaigns wait in the session until the next publishing. %2")
-                                              .arg(outcome.waiting)
+          callout_->show(Tone::Attention, tr("%1 waiting in the session until the next publishing. %2")
+                                              .arg(text(countOf(outcome.waiting, "campaign")))
                                               .arg(text(outcome.reason)));
           return;
         }
-        notice_ = {Tone::Good, tr("Published: %1 campaigns and %2 results are new, %3 and %4 were there already.")
-                                   .arg(outcome.count.campaigns_new)
-                                   .arg(outcome.count.results_new)
-                                   .arg(outcome.count.campaigns_there)
-                                   .arg(outcome.count.results_there)};
+        notice_ = {Tone::Good, tr("Published: new %1 and %2; there already %3 and %4.")
+                                   .arg(text(countOf(outcome.count.campaigns_new, "campaign")),
+                                        text(countOf(outcome.count.results_new, "result")),
+                                        text(countOf(outcome.count.campaigns_there, "campaign")),
+                                        text(countOf(outcome.count.results_there, "result")))};
         refresh();
       };
     };

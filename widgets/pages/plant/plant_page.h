@@ -4,10 +4,8 @@
 // server.
 #pragma once
 
-#include <QTimer>
 #include <QWidget>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -28,6 +26,7 @@ class QTableView;
 
 namespace spindrift::gui {
 
+class BatchesPanel;
 class Callout;
 class Plot;
 class RowsModel;
@@ -56,10 +55,6 @@ class PlantPage : public QWidget {
   /// Writes the report of the first selected machine (one HTML file).
   void writeReport(const QString& file);
   void selectMachines(const QStringList& names);
-  /// Starts the batch of a plan (JSON) on this computer; the same plan again goes on where it ended.
-  void startBatch(const QString& plan_file);
-  /// spindrift-cli, which batches run; without it the one beside this program.
-  void setWorkerProgram(const QString& program) { worker_program_ = program; }
 
   [[nodiscard]] QTableView* machines() const { return machine_table_; }
   [[nodiscard]] QTableView* campaigns() const { return campaign_table_; }
@@ -68,8 +63,7 @@ class PlantPage : public QWidget {
   [[nodiscard]] Plot* plot() const { return plot_; }
   [[nodiscard]] Callout* callout() const { return callout_; }
   [[nodiscard]] RowsModel* comparison() const { return comparison_; }
-  [[nodiscard]] RowsModel* batches() const { return batches_; }
-  [[nodiscard]] QTableView* batchTable() const { return batch_table_; }
+  [[nodiscard]] BatchesPanel* batches() const { return batches_; }
   [[nodiscard]] QString said() const;
   [[nodiscard]] QPushButton* publishButton() const { return publish_; }
 
@@ -84,19 +78,11 @@ class PlantPage : public QWidget {
   void showMachines();
   void lookAtModels();
   void select(const QStringList& names);
-  void showBatches(const std::vector<BatchState>& batches);
   void showParameters();
   void showTrends();
   void showCampaigns();
   void compareChecked();
-  void lookAtBatches();
   void enterEvent();
-  void cancelBatch();
-  void resumeBatch();
-  /// Works on a batch in the job bar. `begin` gives its number, once it is in the store.
-  void workOn(const QString& title, std::function<std::int64_t(const PlantAddress&)> begin);
-  void enableBatchButtons();
-  [[nodiscard]] const BatchState* chosenBatch() const;
   [[nodiscard]] QStringList chosenMachines() const;
   void fail(const QString& sentence);
   [[nodiscard]] QString addressText() const;
@@ -120,18 +106,11 @@ class PlantPage : public QWidget {
   RowsModel* campaigns_;
   QTableView* campaign_table_;
   RowsModel* comparison_;
-  RowsModel* batches_;
-  QTableView* batch_table_;
+  BatchesPanel* batches_;
   QComboBox* event_kind_;
   QLineEdit* event_time_;
   QLineEdit* event_note_;
   QPushButton* enter_event_;
-  QLineEdit* plan_;
-  QPushButton* start_batch_;
-  QPushButton* cancel_batch_;
-  QPushButton* resume_batch_;
-  QString worker_program_;
-  QTimer batch_timer_;
 };
 
 }  // namespace spindrift::gui
