@@ -198,7 +198,7 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
   if (QFile file(QStringLiteral(":/help/plant.html")); file.open(QIODevice::ReadOnly))
     help->setHtml(QString::fromUtf8(file.readAll()));
   tabs_->addTab(column({help}), tr("Help"));
-  outer->addWidget(makeSplitter(list, tabs_, 10, 11), 1);
+  outer->addWidget(makeSplitter(list, tabs_, 9, 11), 1);
 }
 
 QString PlantPage::said() const {
