@@ -22,6 +22,8 @@ struct ClockOffset {
   double offset_s = 0.0;
   double sigma_s = 0.0;
   std::string how;  ///< "entered", or what it was estimated from
+
+  bool operator==(const ClockOffset&) const = default;
 };
 
 /// By source: "log", or the instrument as it stands in the observations ("microscope", "probe", ...).

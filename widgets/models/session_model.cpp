@@ -154,10 +154,17 @@ std::shared_ptr<const StoredEvaluation> SessionModel::evaluation() const {
   return state_.evaluation;
 }
 
-std::optional<ObservationSet> SessionModel::observations() const {
-  if (campaign() == nullptr) return std::nullopt;
+std::shared_ptr<const ObservationSet> SessionModel::observations() const {
+  if (campaign() == nullptr) return nullptr;
   const auto stored = campaign()->observations ? nullptr : evaluation();
-  return observationsToFit(*campaign(), stored.get(), state_.excluded, clockOffsets());
+  const ClockOffsets clocks = clockOffsets();
+  Observed& o = observed_;
+  if (o.campaign != campaign() || o.evaluation != stored || o.excluded != state_.excluded || o.clocks != clocks) {
+    o = {campaign(), stored, state_.excluded, clocks, nullptr};
+    if (auto set = observationsToFit(*o.campaign, stored.get(), o.excluded, o.clocks))
+      o.set = std::make_shared<const ObservationSet>(std::move(*set));
+  }
+  return o.set;
 }
 
 void SessionModel::setMachine(const nlohmann::json& machine_json) {

@@ -129,7 +129,8 @@ class SessionModel : public QObject {
   /// The last evaluation, whether it is current or not; null if there is none.
   [[nodiscard]] std::shared_ptr<const StoredEvaluation> evaluation() const;
   /// Observations to fit: the campaign's own, else those of the last evaluation; what the user excluded is marked so.
-  [[nodiscard]] std::optional<ObservationSet> observations() const;
+  /// Null if there are none. Made once for as long as none of that changes.
+  [[nodiscard]] std::shared_ptr<const ObservationSet> observations() const;
   /// What every result of the campaign at hand is made from now, as one text to recognise it by.
   [[nodiscard]] std::string inputsKey() const;
 
@@ -197,6 +198,15 @@ class SessionModel : public QObject {
   TaskLedger ledger_;
   /// Of the campaign at hand; results and the evaluation are read when they are first asked for.
   mutable CampaignState state_;
+  /// The observations to fit, and what they were made of.
+  struct Observed {
+    std::shared_ptr<const Campaign> campaign;
+    std::shared_ptr<const StoredEvaluation> evaluation;
+    ExcludedItems excluded;
+    ClockOffsets clocks;
+    std::shared_ptr<const ObservationSet> set;
+  };
+  mutable Observed observed_;
   std::map<QString, QString> shown_excluded_;  ///< state_.excluded, as the window asks for it
   std::int64_t visit_ = 0;
   std::int64_t opened_ = 0;  ///< sessions so far

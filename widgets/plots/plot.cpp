@@ -61,6 +61,7 @@ Plot::Plot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
   }
   plot_->axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignTop | Qt::AlignRight);
   plot_->axisRect()->setupFullAxesBox(false);
+  connect(plot_->xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, &Plot::placeMarks);
   connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] {
     rebuild();
     replotSoon();
@@ -86,9 +87,67 @@ void Plot::setContent(std::vector<Series> series, std::vector<Span> spans) {
 }
 
 void Plot::addMark(double x, const QString& name, Tone tone) {
-  marks_.push_back({x, name, tone});
-  rebuild();
+  marks_.push_back({x, name, tone, nullptr});
+  drawMark(marks_.back());
   replotSoon();
+}
+
+void Plot::drawMark(Mark& mark) {
+  const Theme& t = theme();
+  auto* line = new QCPItemStraightLine(plot_);
+  line->point1->setCoords(mark.x, 0);
+  line->point2->setCoords(mark.x, 1);
+  line->setPen(QPen(t.tone(mark.tone), 1.2, Qt::DashLine));
+  mark.label = new QCPItemText(plot_);
+  mark.label->setText(mark.name);
+  mark.label->setFont(textFont(sizes::font_secondary));
+  mark.label->setColor(t.tone(mark.tone));
+  mark.label->setPadding(QMargins(6, 2, 6, 2));
+  mark.label->position->setTypeX(QCPItemPosition::ptPlotCoords);
+  mark.label->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
+}
+
+/// Each name beside its line, on the side with more room, in the uppermost row in which it lies on no other name.
+void Plot::placeMarks() {
+  if (marks_.empty()) return;
+  const QRectF axes = plot_->axisRect()->rect();
+  if (axes.width() < 1 || axes.height() < 1) return;
+  const QFontMetrics metrics(textFont(sizes::font_secondary));
+  const double row_height = metrics.height() + 4;
+  const auto rows = static_cast<std::size_t>(std::max(1.0, std::floor(axes.height() / row_height)));
+  std::vector<Mark*> by_place;
+  for (Mark& mark : marks_) {
+    mark.area = {};
+    const bool shown = mark.label != nullptr && plot_->xAxis->range().contains(mark.x);
+    if (mark.label != nullptr) mark.label->setVisible(shown);
+    if (shown) by_place.push_back(&mark);
+  }
+  std::stable_sort(by_place.begin(), by_place.end(), [](const Mark* a, const Mark* b) { return a->x < b->x; });
+  std::vector<std::vector<QRectF>> taken(rows);
+  for (Mark* mark : by_place) {
+    const double pixel = plot_->xAxis->coordToPixel(mark->x);
+    const double width = metrics.horizontalAdvance(mark->name) + 12;
+    const bool right_half = pixel > axes.center().x();
+    const double left = right_half ? pixel - width : pixel;
+    std::size_t row = 0;
+    const auto area = [&] {
+      return QRectF(left, axes.top() + static_cast<double>(row) * row_height, width, row_height);
+    };
+    const auto meets = [&](const QRectF& other) { return other.intersects(area()); };
+    while (row + 1 < rows && std::any_of(taken[row].begin(), taken[row].end(), meets)) ++row;
+    mark->area = area();
+    taken[row].push_back(mark->area);
+    mark->label->setPositionAlignment((right_half ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignTop);
+    mark->label->position->setCoords(mark->x, (mark->area.top() - axes.top()) / axes.height());
+  }
+}
+
+std::vector<QRectF> Plot::markAreas() const {
+  std::vector<QRectF> areas;
+  for (const Mark& mark : marks_) {
+    if (!mark.area.isEmpty()) areas.push_back(mark.area);
+  }
+  return areas;
 }
 
 void Plot::setEmptyText(const QString& title, const QString& how) {
@@ -137,6 +196,7 @@ void Plot::restyle() {
 void Plot::rebuild() {
   plot_->clearPlottables();
   plot_->clearItems();
+  for (Mark& mark : marks_) mark.label = nullptr;
   moment_line_ = nullptr;
   restyle();
   const Theme& t = theme();
@@ -227,23 +287,7 @@ void Plot::rebuild() {
       ++named;
     }
   }
-  for (const Mark& mark : marks_) {
-    auto* line = new QCPItemStraightLine(plot_);
-    line->point1->setCoords(mark.x, 0);
-    line->point2->setCoords(mark.x, 1);
-    line->setPen(QPen(t.tone(mark.tone), 1.2, Qt::DashLine));
-    auto* text = new QCPItemText(plot_);
-    text->setText(mark.name);
-    text->setFont(textFont(sizes::font_secondary));
-    text->setColor(t.tone(mark.tone));
-    // On the side with more room.
-    const bool right_half = mark.x > plot_->xAxis->range().center();
-    text->setPositionAlignment((right_half ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignTop);
-    text->position->setTypeX(QCPItemPosition::ptPlotCoords);
-    text->position->setTypeY(QCPItemPosition::ptAxisRectRatio);
-    text->position->setCoords(mark.x, 0.02);
-    text->setPadding(QMargins(6, 2, 6, 2));
-  }
+  for (Mark& mark : marks_) drawMark(mark);
   placeMoment();
   plot_->legend->setVisible(legend_ && named > 1);
   if (series_.empty()) plot_->hide();
@@ -286,7 +330,10 @@ void Plot::drawIfStale() {
   stale_ = false;
   const QRect area(QPoint(0, 0), size().expandedTo({1, 1}));
   plot_->setViewport(area);
+  layOut();
+  placeMarks();
   placeLegend();
+  placeMarks();  // A legend above the axes moves them.
   const bool resized = plot_->geometry() != area;
   plot_->setGeometry(area);
   plot_->show();
@@ -327,7 +374,14 @@ void Plot::showAll() {
   replotSoon();
 }
 
-/// Into the corner that no data meet; where there is none, into a line above the axes.
+/// Lays out axes and legend without drawing the curves.
+void Plot::layOut() {
+  for (const auto phase : {QCPLayoutElement::upPreparation, QCPLayoutElement::upMargins, QCPLayoutElement::upLayout}) {
+    plot_->plotLayout()->update(phase);
+  }
+}
+
+/// Into the corner that neither data nor names of marks meet; where there is none, into a line above the axes.
 void Plot::placeLegend() {
   QCPLegend* legend = plot_->legend;
   if (!legend->visible() || plot_->viewport().width() < 60 || plot_->viewport().height() < 60) return;
@@ -345,10 +399,7 @@ void Plot::placeLegend() {
   };
   legend->setBorderPen(QPen(theme().border, 1));
   move_inside(Qt::AlignTop | Qt::AlignRight);
-  // Lays out axes and legend without drawing the curves.
-  for (const auto phase : {QCPLayoutElement::upPreparation, QCPLayoutElement::upMargins, QCPLayoutElement::upLayout}) {
-    outer->update(phase);
-  }
+  layOut();
   const QRectF axes = plot_->axisRect()->rect();
   const QSizeF size = QSizeF(legend->outerRect().size()) + QSizeF(16, 16);
   struct Corner {
@@ -385,6 +436,9 @@ void Plot::placeLegend() {
       before = now;
     }
   }
+  for (const QRectF& name : markAreas()) {
+    for (Corner& corner : corners) corner.hits += corner.area.intersects(name) ? 1 : 0;
+  }
   const auto best = std::min_element(corners.begin(), corners.end(),
                                      [](const Corner& a, const Corner& b) { return a.hits < b.hits; });
   const bool fits = size.height() < 0.7 * axes.height() && size.width() < 0.6 * axes.width();
@@ -405,6 +459,7 @@ void Plot::placeLegend() {
     outer->setRowStretchFactor(0, 0.001);
     legend->setWrap(std::max(1, (plot_->viewport().width() - 24) / widest));
     legend->setFillOrder(QCPLegend::foColumnsFirst);
+    layOut();
   }
 }
 

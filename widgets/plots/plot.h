@@ -4,6 +4,7 @@
 #pragma once
 
 #include <QPointF>
+#include <QRectF>
 #include <QString>
 #include <QWidget>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "widgets/theme/theme.h"
 
 class QCPItemStraightLine;
+class QCPItemText;
 class QCustomPlot;
 
 namespace spindrift::gui {
@@ -76,6 +78,8 @@ class Plot : public QWidget {
   void exportTo(const QString& file) const;
   [[nodiscard]] QString csv() const;
   [[nodiscard]] bool empty() const { return series_.empty(); }
+  /// Where the names of the marks in view stand, pixels of this widget.
+  [[nodiscard]] std::vector<QRectF> markAreas() const;
   [[nodiscard]] const std::vector<Series>& series() const { return series_; }
 
   [[nodiscard]] QSize sizeHint() const override { return {480, 280}; }
@@ -109,6 +113,8 @@ class Plot : public QWidget {
     double x;
     QString name;
     Tone tone;
+    QCPItemText* label = nullptr;  ///< of the plot
+    QRectF area = {};              ///< of the label, empty while out of view
   };
   std::vector<Mark> marks_;
   /// The edge of a span at a place of the plot: span and whether it is the left one.
@@ -116,6 +122,9 @@ class Plot : public QWidget {
   bool dragSpan(QEvent* event);
   void pickValue(QEvent* event);
   void placeMoment();
+  void drawMark(Mark& mark);
+  void placeMarks();
+  void layOut();
 
   bool spans_movable_ = false;
   std::optional<std::pair<std::size_t, bool>> dragged_edge_;

@@ -216,6 +216,7 @@ bool MainWindow::welcomeShown() const {
 void MainWindow::showStep() {
   if (session_.campaign() == nullptr) {
     page_ = nullptr;
+    arrival_ = Arrival::Done;
     return;
   }
   const PageRegistry::Entry* entry = registry_.find(workflow_.current(), session_);
@@ -223,16 +224,51 @@ void MainWindow::showStep() {
   if (page == nullptr) {
     PageContext context{session_, jobs_, undo_, workflow_, [this](const QString& text) { job_bar_->setHint(text); }};
     page = entry->factory(std::move(context));
-    page_stack_->add(page);
-    restoreSplitters(*page);
   }
   page_ = page;
-  page_stack_->show(page);
   back_->setEnabled(workflow_.canGoBack());
   next_->setEnabled(workflow_.canGoNext());
   job_bar_->setHint({});
   if (help_action_->isChecked()) help_->showStep(workflow_.current());
-  page->refresh();
+  arrival_ = Arrival::Place;
+  if (page_stack_->holds(page)) {
+    while (arrival_ != Arrival::Done) arrive();
+  } else {
+    arriveSoon();
+  }
+}
+
+void MainWindow::arriveSoon() {
+  QMetaObject::invokeMethod(
+      this,
+      [this] {
+        arrive();
+        if (arrival_ != Arrival::Done) arriveSoon();
+      },
+      Qt::QueuedConnection);
+}
+
+void MainWindow::arrive() {
+  switch (std::exchange(arrival_, Arrival::Done)) {
+    case Arrival::Done:
+      return;
+    case Arrival::Place:
+      if (!page_stack_->holds(page_)) {
+        page_stack_->add(page_);
+        restoreSplitters(*page_);
+      }
+      page_stack_->show(page_);
+      arrival_ = Arrival::Fill;
+      return;
+    case Arrival::Fill:
+      page_->refresh();
+      return;
+  }
+}
+
+Page* MainWindow::currentPage() {
+  while (arrival_ != Arrival::Done) arrive();
+  return page_;
 }
 
 void MainWindow::refreshPage() {
@@ -242,6 +278,7 @@ void MainWindow::refreshPage() {
       this,
       [this] {
         refresh_queued_ = false;
+        if (arrival_ != Arrival::Done) return;  // It is filled anyway.
         if (page_ != nullptr && session_.campaign() != nullptr) page_->refresh();
       },
       Qt::QueuedConnection);
@@ -341,7 +378,7 @@ void MainWindow::watchConnections() {
     }
     if (session_.campaign() == nullptr) return;
     workflow_.goTo(StepId::Machine);
-    if (auto* tabs = page_->findChild<QTabWidget*>(QStringLiteral("machineTabs")))
+    if (auto* tabs = currentPage()->findChild<QTabWidget*>(QStringLiteral("machineTabs")))
       tabs->setCurrentIndex(tabs->count() - 1);
   });
 }
@@ -499,6 +536,7 @@ void MainWindow::closeSession() {
   finishRecording();
   session_.close();
   page_ = nullptr;
+  arrival_ = Arrival::Done;
   showSessionOrWelcome();
 }
 
@@ -514,7 +552,7 @@ void MainWindow::exportTo(const QString& folder) {
     job_bar_->setMessage(tr("Open a session first; then its pictures and tables can be exported."));
     return;
   }
-  std::vector<Exportable> items = page_->exportables();
+  std::vector<Exportable> items = currentPage()->exportables();
   if (items.empty()) {
     job_bar_->setMessage(tr("This page has nothing to export yet."));
     return;

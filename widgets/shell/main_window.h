@@ -54,7 +54,8 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] JobRunner& jobs() { return jobs_; }
   [[nodiscard]] QUndoStack& undoStack() { return undo_.stack(); }
   [[nodiscard]] Workflow& workflow() { return workflow_; }
-  [[nodiscard]] Page* currentPage() const { return page_; }
+  /// The page of the step at hand, complete; null without a campaign.
+  [[nodiscard]] Page* currentPage();
   [[nodiscard]] WelcomePage* welcome() const { return welcome_; }
   [[nodiscard]] StepList* stepList() const { return steps_; }
   [[nodiscard]] JobBar* jobBar() const { return job_bar_; }
@@ -81,6 +82,8 @@ class MainWindow : public QMainWindow {
  private:
   void buildMenu();
   void showStep();
+  void arrive();
+  void arriveSoon();
   void refreshTitle();
   void showSessionOrWelcome();
   void refreshPage();
@@ -105,6 +108,9 @@ class MainWindow : public QMainWindow {
   PageRegistry registry_;
   std::map<const PageRegistry::Entry*, Page*> pages_;
   Page* page_ = nullptr;
+  /// What is still to be done until the page at hand stands there complete: one thing a turn of the event loop, so that
+  /// none is long.
+  enum class Arrival { Done, Place, Fill } arrival_ = Arrival::Done;
   bool refresh_queued_ = false;
 
   QStackedWidget* stack_;

@@ -88,7 +88,7 @@ void MainWindow::buildMenu() {
   add(go, tr("&Plant"), "machine", QKeySequence(tr("Ctrl+Shift+P")), [this] { openPlant(); });
   add(go, tr("&Compensate: live"), "compensate", QKeySequence(tr("Ctrl+Shift+L")), [this] { openLiveCompensation(); });
   add(go, tr("&Run the step"), "play", QKeySequence(tr("Ctrl+Return")), [this] {
-    if (page_ != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
+    if (currentPage() != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
   });
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
@@ -187,7 +187,7 @@ void MainWindow::openEffects() {
     return;
   }
   workflow_.goTo(StepId::Discrepancy);
-  if (auto* page = qobject_cast<DiscrepancyPage*>(page_)) page->showEffects(true);
+  if (auto* page = qobject_cast<DiscrepancyPage*>(currentPage())) page->showEffects(true);
 }
 
 NotesDialog* MainWindow::openNotes() {

@@ -32,6 +32,13 @@ void PageArea::fit() {
   widget()->resize(width, viewport()->height());
 }
 
+bool PageStack::holds(const QWidget* page) const {
+  for (int i = 0; i < count(); ++i) {
+    if (static_cast<const PageArea*>(widget(i))->widget() == page) return true;
+  }
+  return false;
+}
+
 void PageStack::add(QWidget* page) {
   addWidget(new PageArea(page));
 }

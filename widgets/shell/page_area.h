@@ -28,6 +28,7 @@ class PageArea : public QScrollArea {
 class PageStack : public QStackedWidget {
   Q_OBJECT
  public:
+  [[nodiscard]] bool holds(const QWidget* page) const;
   /// Adds a page that is not there yet.
   void add(QWidget* page);
   void show(QWidget* page);

@@ -54,7 +54,7 @@ void settle(int ms) {
 }
 
 /// The report of the page that is shown, in each of its formats.
-void writeReports(const MainWindow& window, const QString& file, TourResult& result) {
+void writeReports(MainWindow& window, const QString& file, TourResult& result) {
   for (const Exportable& item : window.currentPage()->exportables()) {
     for (const QString& format : item.formats) {
       const QString target = file + QLatin1Char('.') + format;

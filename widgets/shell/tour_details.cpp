@@ -52,11 +52,11 @@ void bringToFront(const QWidget* panel) {
 }
 
 template <class Panel>
-Panel* panelOf(const MainWindow& window) {
+Panel* panelOf(MainWindow& window) {
   return window.currentPage()->findChild<Panel*>();
 }
 
-void firstTab(const MainWindow& window) {
+void firstTab(MainWindow& window) {
   if (auto* tabs = window.currentPage()->findChild<QTabWidget*>()) tabs->setCurrentIndex(0);
 }
 
@@ -85,10 +85,11 @@ std::filesystem::path writeCompensated(MainWindow& window, const QString& scratc
   const std::filesystem::path folder = std::filesystem::path(scratch.toStdString()) / "compensated";
   std::filesystem::create_directories(folder);
   const auto campaign = window.session().campaign();
-  auto observations = window.session().observations();
-  if (!observations || !campaign->log) throw InputError("the demo has no observations to verify.");
-  for (Observation& o : observations->rows) o.value *= left_after_compensation;
-  observations->write(folder / "observations.csv");
+  const auto measured = window.session().observations();
+  if (!measured || !campaign->log) throw InputError("the demo has no observations to verify.");
+  ObservationSet observations = *measured;
+  for (Observation& o : observations.rows) o.value *= left_after_compensation;
+  observations.write(folder / "observations.csv");
   writeFileAtomically(folder / "machine.json", campaign->machine.source.dump(1));
   const nlohmann::json head{{"format", "spindrift-campaign"},
                             {"version", 1},

@@ -82,6 +82,26 @@ TEST(Plot, ManyCurvesInAnyWindowAreDrawn) {
   }
 }
 
+TEST(Plot, NamesOfMarksLieOnNoOther) {
+  Plot plot;
+  plot.show();
+  for (const int width : {300, 700, 1400}) {
+    plot.resize(width, 300);
+    plot.setContent({ramp()});
+    for (const double x : {2.0, 2.05, 2.1, 2.15, 4.7, 4.75, 4.8}) {
+      plot.addMark(x, QStringLiteral("spindle changed at %1").arg(x));
+    }
+    (void)plot.grab();
+    const std::vector<QRectF> areas = plot.markAreas();
+    ASSERT_EQ(areas.size(), 7U) << width;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+      EXPECT_TRUE(QRectF(plot.rect()).contains(areas[i])) << width << ", " << i;
+      for (std::size_t k = 0; k < i; ++k)
+        EXPECT_FALSE(areas[i].intersects(areas[k])) << width << ", " << i << ", " << k;
+    }
+  }
+}
+
 TEST(Plot, TimeIsShownInPeoplesUnits) {
   EXPECT_EQ(timeUnit(86400).name, QStringLiteral("h"));
   EXPECT_EQ(timeUnit(1800).name, QStringLiteral("min"));

@@ -69,7 +69,7 @@ class ResponsivenessTest : public StoryTest {
       if (worst < allowed_ms * watch_.slowdown()) break;
     }
     const double allowed = allowed_ms * watch_.slowdown();
-    std::printf("allowed: %.0f ms\n", allowed);
+    std::printf("allowed: %.0f ms (the processor is %.2f times slower)\n", allowed, watch_.slowdown());
     for (const std::string& name : order) {
       std::printf("%-32s %6.0f ms\n", name.c_str(), best[name]);
       EXPECT_LT(best[name], allowed) << name;

@@ -33,8 +33,8 @@ class EventLoopWatch : public QObject {
   void during(const QString& name, const std::function<void()>& action, const std::function<void()>& settle);
   /// The longest turn of each action.
   [[nodiscard]] const std::vector<Turn>& longest() const { return longest_; }
-  /// How much slower the processor was than at its best while it was watched (other programs on the same core), 1 to 3:
-  /// the usual over the best time of a fixed piece of work.
+  /// How much slower the processor was than an undisturbed one while it was watched, 1 to 3: by the usual time of a
+  /// fixed piece of work.
   [[nodiscard]] double slowdown() const;
 
  private:

@@ -246,8 +246,8 @@ void CompensatePage::refresh() {
   if (session().campaign() == nullptr) return;
   noticeCampaign();
   callout()->setAction({}, {});
-  const bool possible = session().observations().has_value() && (hasSource(CompensationSource::NineParameters) ||
-                                                                 hasSource(CompensationSource::CompletedModel));
+  const bool possible = session().observations() != nullptr && (hasSource(CompensationSource::NineParameters) ||
+                                                                hasSource(CompensationSource::CompletedModel));
   compute_->setEnabled(possible);
   if (!possible) {
     plan_.reset();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "core/machine/interpolated_field.h"
@@ -22,6 +23,24 @@ std::size_t nearestReading(const DiscrepancySeries& series, double time_s, doubl
     if (distance > closest) continue;
     closest = distance;
     found = i;
+  }
+  return found;
+}
+
+/// The same for moments in order: one walk along the series.
+std::vector<std::size_t> nearestReadings(const DiscrepancySeries& series, const std::vector<double>& moments,
+                                         double within_s) {
+  const std::vector<double>& t = series.time_s;
+  std::vector<std::size_t> order(t.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return t[a] < t[b]; });
+  std::vector<std::size_t> found;
+  found.reserve(moments.size());
+  std::size_t at = 0;
+  for (const double moment : moments) {
+    const auto away = [&](std::size_t k) { return std::abs(t[order[k]] - moment); };
+    while (at + 1 < order.size() && away(at + 1) <= away(at)) ++at;
+    found.push_back(!order.empty() && away(at) <= within_s ? order[at] : t.size());
   }
   return found;
 }
@@ -49,21 +68,24 @@ std::vector<double> momentsOf(const DiscrepancyStory& story, Component component
 std::size_t worstMoment(const DiscrepancyStory& story, Component component) {
   const std::vector<double> moments = momentsOf(story, component);
   const double within = halfStep(moments);
+  std::vector<double> sum(moments.size(), 0.0);
+  std::vector<double> count(moments.size(), 0.0);
+  for (const DiscrepancySeries& s : story.series) {
+    if (s.component != component) continue;
+    const std::vector<std::size_t> readings = nearestReadings(s, moments, within);
+    for (std::size_t m = 0; m < moments.size(); ++m) {
+      const std::size_t i = readings[m];
+      if (i == s.time_s.size()) continue;
+      const double left = s.value[i] - s.constant_before - s.simulated[i];
+      sum[m] += left * left;
+      count[m] += 1.0;
+    }
+  }
   std::size_t worst = 0;
   double largest = -1.0;
   for (std::size_t m = 0; m < moments.size(); ++m) {
-    double sum = 0.0;
-    double count = 0.0;
-    for (const DiscrepancySeries& s : story.series) {
-      if (s.component != component) continue;
-      const std::size_t i = nearestReading(s, moments[m], within);
-      if (i == s.time_s.size()) continue;
-      const double left = s.value[i] - s.constant_before - s.simulated[i];
-      sum += left * left;
-      count += 1.0;
-    }
-    if (count == 0.0 || sum / count <= largest) continue;
-    largest = sum / count;
+    if (count[m] == 0.0 || sum[m] / count[m] <= largest) continue;
+    largest = sum[m] / count[m];
     worst = m;
   }
   return worst;

@@ -195,7 +195,7 @@ void NineParameterPage::refresh() {
     }
     robust_->setCurrentIndex(static_cast<int>(options().robust));
   });
-  fit_button_->setEnabled(set.has_value());
+  fit_button_->setEnabled(set != nullptr);
   if (!set) {
     callout()->show(Tone::Attention, tr("There are no observations yet. Evaluate the captures first."));
     callout()->setAction(tr("Go to Calibrate"), [this] { context().workflow.goTo(StepId::Calibrate); });

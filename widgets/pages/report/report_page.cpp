@@ -130,7 +130,7 @@ void ReportPage::refresh() {
   if (session().campaign() == nullptr) return;
   noticeCampaign();
   callout()->setAction({}, {});
-  const bool possible = canReport(*session().campaign(), session().observations().has_value());
+  const bool possible = canReport(*session().campaign(), session().observations() != nullptr);
   write_->setEnabled(possible);
   discrepancy_->setVisible(!session().campaign()->simulation.empty());
   const ReportTaskOptions asked = ReportTaskOptions::of(*session().session(), session().campaignId());
@@ -230,7 +230,7 @@ bool ReportPage::keepOperator() {
 
 void ReportPage::write() {
   (void)keepOperator();
-  if (!canReport(*session().campaign(), session().observations().has_value())) return;
+  if (!canReport(*session().campaign(), session().observations() != nullptr)) return;
   const PendingResult pending = session().begin(result_kind);
   Job job;
   job.title = tr("Writing the report");

@@ -10,17 +10,18 @@ std::shared_ptr<ReviewSource> readOther(SessionModel& session, std::int64_t id) 
   const CampaignRecord record = session.session()->campaign(id);
   auto source = std::make_shared<ReviewSource>();
   source->campaign = std::make_shared<const Campaign>(Campaign::read(record.folder));
-  source->observations = source->campaign->observations;
-  if (!source->observations) {
+  std::optional<ObservationSet> observations = source->campaign->observations;
+  if (!observations) {
     if (const auto stored = session.session()->latestResult(id, "evaluate"))
-      source->observations = evaluationFrom(*stored).observations;
+      observations = evaluationFrom(*stored).observations;
   }
-  if (!source->observations) return source;
+  if (!observations) return source;
   std::set<std::string> excluded;
   for (const Exclusion& e : session.session()->exclusions(id)) excluded.insert(e.item);
-  for (Observation& o : source->observations->rows)
+  for (Observation& o : observations->rows)
     if (excluded.contains(o.state + "/" + o.point + "/" + std::string(toString(o.component))))
       o.use = ObservationUse::Exclude;
+  source->observations = std::make_shared<const ObservationSet>(std::move(*observations));
   return source;
 }
 
@@ -69,8 +70,12 @@ std::shared_ptr<const ReviewSource> ReviewSources::source(std::int64_t id) {
     } else {
       source = readOther(session_, id);
     }
-    if (const auto story = session_.session()->latestResult(id, "discrepancy"))
-      source->discrepancy = std::make_shared<const nlohmann::json>(story->payload);
+    if (id == session_.campaignId()) {
+      if (const StoredResult* story = session_.latest("discrepancy"))
+        source->discrepancy = std::make_shared<const nlohmann::json>(story->payload);
+    } else if (auto story = session_.session()->latestResult(id, "discrepancy")) {
+      source->discrepancy = std::make_shared<const nlohmann::json>(std::move(story->payload));
+    }
     source->id = id;
     source->name = QString::fromStdString(source->campaign->name);
     if (source->observations) source->states = source->observations->states();

@@ -20,9 +20,9 @@ struct ReviewSource {
   std::int64_t id = 0;
   QString name;
   std::shared_ptr<const Campaign> campaign;
-  std::optional<ObservationSet> observations;
-  std::vector<std::string> states;  ///< in order; the first is the reference
-  std::vector<ScanCapture> scans;   ///< empty without a profiler
+  std::shared_ptr<const ObservationSet> observations;  ///< null without any
+  std::vector<std::string> states;                     ///< in order; the first is the reference
+  std::vector<ScanCapture> scans;                      ///< empty without a profiler
   /// The stored search for what the simulation lacks; null if there was none.
   std::shared_ptr<const nlohmann::json> discrepancy;
 

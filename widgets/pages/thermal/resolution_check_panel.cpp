@@ -35,7 +35,7 @@ ResolutionCheckPanel::ResolutionCheckPanel(SessionModel& session, const QString&
 
 void ResolutionCheckPanel::refresh() {
   const auto set = session_.observations();
-  button_->setEnabled(set.has_value() && set->states().size() > 1);
+  button_->setEnabled(set != nullptr && set->states().size() > 1);
   if (!button_->isEnabled()) {
     verdict_->set(Tone::Neutral, tr("Needs observations of at least two states; evaluate the captures first."));
     rows_->setRows({});

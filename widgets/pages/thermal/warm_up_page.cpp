@@ -207,7 +207,8 @@ void WarmUpPage::refresh() {
   try {
     // A measurement made for this very purpose stands in a file of its own.
     const std::filesystem::path own = campaign->path("warm_up.csv");
-    const auto set = std::filesystem::exists(own) ? std::optional(ObservationSet::read(own)) : session().observations();
+    const auto set = std::filesystem::exists(own) ? std::make_shared<const ObservationSet>(ObservationSet::read(own))
+                                                  : session().observations();
     if (set) judged = judgeWarmUp(*set, {}, {}, campaign->log ? &*campaign->log : nullptr);
   } catch (const InputError& e) {
     judged.reset();

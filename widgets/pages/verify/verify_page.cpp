@@ -256,7 +256,7 @@ void VerifyPage::refresh() {
   options_.fill([this] { fillChoices(); });
   const nlohmann::json now = optionsJson();
   const bool chosen = !now["after"].get<std::string>().empty();
-  const bool measured = session().observations().has_value();
+  const bool measured = session().observations() != nullptr;
   compare_->setEnabled(chosen && measured);
   const ResultState state = session().state("verify");
   if (!measured) {
