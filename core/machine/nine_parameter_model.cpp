@@ -10,7 +10,9 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
+#include <unordered_set>
 
 #include "core/base/text.h"
 #include "core/math/distributions.h"
@@ -383,12 +385,11 @@ std::string lastStateToFit(const ObservationSet& observations) {
   const std::vector<std::string> states = observations.states();
   if (states.empty()) return {};
   if (observations.absolute && states.size() > 1 && measuredInPassing(observations)) return std::string(every_state);
-  for (auto state = states.rbegin(); state != states.rend(); ++state) {
-    const bool to_fit = std::any_of(observations.rows.begin(), observations.rows.end(), [&](const Observation& row) {
-      return row.state == *state && row.use == ObservationUse::Fit && !isRotation(row.component);
-    });
-    if (to_fit && (*state != states.front() || states.size() == 1)) return *state;
-  }
+  std::unordered_set<std::string_view> to_fit;
+  for (const Observation& row : observations.rows)
+    if (row.use == ObservationUse::Fit && !isRotation(row.component)) to_fit.insert(row.state);
+  for (auto state = states.rbegin(); state != states.rend(); ++state)
+    if (to_fit.contains(*state) && (*state != states.front() || states.size() == 1)) return *state;
   return states.back();
 }
 
