@@ -116,7 +116,7 @@ TEST_F(VerifyPages, BeforeAndAfterAreJudgedAgainstTheGoal) {
   open(after);
   ASSERT_EQ(window_->session().campaign()->name, "after");
   const auto set = window_->session().observations();
-  ASSERT_TRUE(set.has_value());
+  ASSERT_TRUE(set != nullptr);
   for (const Observation& o : set->rows) EXPECT_EQ(o.use, ObservationUse::Exclude);
 }
 
