@@ -340,7 +340,8 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       name.rivals.push_back(a.id);
     }
     for (const Effect& other : search.catalogue()) {
-      if (!other.variants.empty() || other.id == effect.id) continue;
+      if ((!other.variants.empty() && !other.driver_missing) || other.id == effect.id) continue;
+      if (std::find(name.rivals.begin(), name.rivals.end(), other.id) != name.rivals.end()) continue;
       // Whoever wrote down what drives an effect knows what it is; that its course follows speaks for it.
       if (effect.own && (effect.over_time || !fit.terms[t].variant.inputs[0].driver.empty())) continue;
       // One that holds a simpler effect is seen through that one.
