@@ -156,6 +156,16 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
   return std::hypot(strict * std::sqrt(left / power), cancelling > 0.2 ? cancelling : 0.0);
 }
 
+/// True if the log lacks what drives an effect and has only temperatures of other places in its stead: they follow
+/// another course. Speeds, and spans of time that are found freely, are no such stand-ins.
+bool seenElsewhere(const Effect& effect) {
+  return effect.driver_missing &&
+         std::all_of(effect.variants.begin(), effect.variants.end(), [](const EffectVariant& variant) {
+           return std::all_of(variant.inputs.begin(), variant.inputs.end(),
+                              [](const EffectInput& input) { return input.driver.starts_with("T_"); });
+         });
+}
+
 /// True if an effect that cannot be fitted (nothing in the log drives it) has the pattern of this one: with any course
 /// in time it would have moved the same readings as this one does.
 bool hasPatternOf(const ResidualProblem& problem, const EffectSearch& search, const Effect& other, const JointFit& fit,
@@ -340,7 +350,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       name.rivals.push_back(a.id);
     }
     for (const Effect& other : search.catalogue()) {
-      if ((!other.variants.empty() && !other.driver_missing) || other.id == effect.id) continue;
+      if ((!other.variants.empty() && !seenElsewhere(other)) || other.id == effect.id) continue;
       if (std::find(name.rivals.begin(), name.rivals.end(), other.id) != name.rivals.end()) continue;
       // Whoever wrote down what drives an effect knows what it is; that its course follows speaks for it.
       if (effect.own && (effect.over_time || !fit.terms[t].variant.inputs[0].driver.empty())) continue;
