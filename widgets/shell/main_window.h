@@ -3,7 +3,9 @@
 #pragma once
 
 #include <QMainWindow>
+#include <functional>
 #include <map>
+#include <vector>
 
 #include "widgets/jobs/job_runner.h"
 #include "widgets/models/session_model.h"
@@ -13,6 +15,7 @@
 class QAction;
 class QComboBox;
 class QLabel;
+class QMenu;
 class QPushButton;
 class QStackedWidget;
 class QToolButton;
@@ -29,6 +32,7 @@ class PlantPage;
 class StepList;
 class WelcomePage;
 class Badge;
+struct Command;
 
 class MainWindow : public QMainWindow {
   Q_OBJECT
@@ -73,6 +77,10 @@ class MainWindow : public QMainWindow {
   void openLiveCompensation();  ///< the closed loop at the control; works without a session
   [[nodiscard]] ClosedLoopPage* liveCompensation() const { return live_compensation_; }
   ActivityDialog* openActivity();  ///< jobs and messages; stays open beside the work
+  /// Everything that could be asked for now, and what cannot, with the reason.
+  [[nodiscard]] std::vector<Command> commands();
+  void findCommand();            ///< opens the list of commands
+  void showHelpOn(StepId step);  ///< beside the page, or in a window of its own where no page is shown
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -80,6 +88,11 @@ class MainWindow : public QMainWindow {
 
  private:
   void buildMenu();
+  /// The action is for what is there only: `why_not` says what is missing, empty: nothing.
+  void need(QAction* action, std::function<QString()> why_not);
+  [[nodiscard]] QString whyNot(const QAction* action) const;
+  void addCommandsOf(const QMenu& menu, const QString& where, std::vector<Command>& commands);
+  [[nodiscard]] static QStringList recentSessions();
   void showStep();
   void refreshTitle();
   void showSessionOrWelcome();
@@ -121,6 +134,8 @@ class MainWindow : public QMainWindow {
   QToolButton* theme_button_;
   HelpPanel* help_;
   QAction* help_action_ = nullptr;
+  QAction* palette_action_ = nullptr;
+  std::map<const QAction*, std::function<QString()>> needs_;
   QPushButton* next_;
   QPushButton* back_;
 };
