@@ -18,6 +18,7 @@
 #include "core/base/csv.h"
 #include "core/base/error.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/plots/plot.h"
 #include "widgets/view3d/view3d.h"
@@ -201,6 +202,7 @@ bool ExportDialog::exportNow() {
     }
   }
   if (closing_) QDialog::done(QDialog::Accepted);
+  if (count > 0) rememberFolder(QStringLiteral("export"), folder_->text());
   message_->show(Tone::Good, tr("Files written to %1: %2").arg(folder_->text()).arg(count));
   return true;
 }

@@ -79,6 +79,7 @@ class MainWindow : public QMainWindow {
   ActivityDialog* openActivity();  ///< jobs and messages; stays open beside the work
   /// Everything that could be asked for now, and what cannot, with the reason.
   [[nodiscard]] std::vector<Command> commands();
+  void openPreferences();
   void findCommand();            ///< opens the list of commands
   void showHelpOn(StepId step);  ///< beside the page, or in a window of its own where no page is shown
 
@@ -101,6 +102,10 @@ class MainWindow : public QMainWindow {
   void remember(const QString& folder);
   void newMeasurement();
   void showHelp();
+  /// Look, numbers and goals as the user and the system want them, now and when that changes.
+  void followPreferences();
+  void applyLook(ThemeKind kind);
+  [[nodiscard]] QString askForCampaign(const QString& title);
   void restoreSplitters(Page& page);
   void tell(const QString& sentence);
   void about();

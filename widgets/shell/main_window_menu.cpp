@@ -16,6 +16,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/scanning/artefact_designer.h"
@@ -47,18 +48,24 @@ void MainWindow::buildMenu() {
       [this] { Q_EMIT welcome_->openCampaign(); });
   need(add(session_menu, tr("&Add a campaign to this session …"), "plus", QKeySequence(tr("Ctrl+Shift+A")),
            [this] {
-             const QString folder =
-                 QFileDialog::getExistingDirectory(this, tr("Choose the campaign folder to be added"));
+             const QString folder = askForCampaign(tr("Choose the campaign folder to be added"));
              if (!folder.isEmpty()) addCampaign(folder);
            }),
        [this] { return session_.isOpen() ? QString() : tr("Open a session first."); });
   add(session_menu, tr("Open &log …"), "folder-open", QKeySequence(tr("Ctrl+L")), [this] {
-    const QString file = QFileDialog::getOpenFileName(this, tr("Open a log over time"), {}, tr("Log (*.csv)"));
-    if (!file.isEmpty()) openLog(file);
+    const QString kind = QStringLiteral("log");
+    const QString file =
+        QFileDialog::getOpenFileName(this, tr("Open a log over time"), lastFolder(kind), tr("Log (*.csv)"));
+    if (file.isEmpty()) return;
+    rememberFolder(kind, file);
+    openLog(file);
   });
   session_menu->addSeparator();
   need(add(session_menu, tr("&Export …"), "export", QKeySequence(tr("Ctrl+E")),
-           [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); }),
+           [this] {
+             exportTo(lastFolder(QStringLiteral("export"),
+                                 QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)));
+           }),
        [this, no_session] {
          if (page_ == nullptr) return no_session();
          return page_->exportables().empty() ? tr("This page has nothing to export yet.") : QString();
@@ -81,6 +88,7 @@ void MainWindow::buildMenu() {
   edit->addAction(redo);
   edit->addSeparator();
   need(add(edit, tr("&Notes …"), "note", QKeySequence(tr("Ctrl+M")), [this] { openNotes(); }), no_session);
+  add(edit, tr("&Preferences …"), "settings", QKeySequence(tr("Ctrl+,")), [this] { openPreferences(); });
   add(edit, tr("&Jobs and messages …"), "in-progress", QKeySequence(tr("Ctrl+J")), [this] { openActivity(); });
 
   QMenu* go = menuBar()->addMenu(tr("&Go"));
@@ -183,8 +191,9 @@ void MainWindow::buildMenu() {
   connect(&undo_.group(), &QUndoGroup::canRedoChanged, redo_button, &QToolButton::setEnabled);
   connect(&undo_.group(), &QUndoGroup::undoTextChanged, undo_button,
           [undo_button](const QString& text) { undo_button->setToolTip(tr("Undo: %1").arg(text)); });
-  tool("export", tr("Export pictures and tables of this page"),
-       [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); });
+  tool("export", tr("Export pictures and tables of this page"), [this] {
+    exportTo(lastFolder(QStringLiteral("export"), QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)));
+  });
   theme_button_ = tool(theme().kind == ThemeKind::Dark ? "sun" : "moon", tr("Light or dark"),
                        [this] { setTheme(theme().kind == ThemeKind::Dark ? ThemeKind::Light : ThemeKind::Dark); });
   menuBar()->setCornerWidget(corner);
