@@ -81,7 +81,8 @@ CommandPalette::CommandPalette(std::vector<Command> commands, QWidget* parent)
   column->addWidget(field_);
   rows_ = new RowsModel({tr("Command"), tr("Where"), tr("Keys")}, this);
   table_ = makeTable(rows_, tr("Commands"), tr("Nothing the window can do fits these letters."));
-  table_->setFocusPolicy(Qt::NoFocus);  // the letters go on being typed
+  table_->horizontalHeader()->setSectionsClickable(false);  // the order is that of the letters
+  table_->setFocusPolicy(Qt::NoFocus);                      // the letters go on being typed
   column->addWidget(table_, 1);
   reason_ = new Callout;
   column->addWidget(reason_);
