@@ -290,6 +290,7 @@ int run(int argc, char** argv) {
   if (parser.isSet(self_test)) return selfTest(window, parser.value(json));
   window.show();
   const QStringList folders = parser.positionalArguments();
+  if (folders.isEmpty()) window.showNewsIfDue();
   if (parser.isSet(demo)) {
     window.startDemo(folders.isEmpty() ? QStringLiteral("fiducials") : folders.front());
   } else if (!folders.isEmpty()) {

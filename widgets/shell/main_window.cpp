@@ -170,8 +170,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
 
   QCoreApplication::instance()->installEventFilter(this);
   QSettings settings;
-  const QStringList recent = settings.value(QStringLiteral("recent")).toStringList();
-  welcome_->setRecent(recent);
+  const QStringList recent = recentSessions();
+  setAcceptDrops(true);
+  fillRecentMenu();
   if (!recent.isEmpty() && Session::wasLeftOpen(recent.front().toStdString())) welcome_->offerRecovery(recent.front());
   if (!restoreGeometry(settings.value(QStringLiteral("window")).toByteArray())) {
     // Frame and title bar need room too, where there are such.
@@ -212,6 +213,7 @@ MainWindow::~MainWindow() {
 }
 
 void MainWindow::showSessionOrWelcome() {
+  fillRecentMenu();  // folders may have gone meanwhile
   stack_->setCurrentWidget(session_.isOpen() && session_.campaign() != nullptr ? work_
                                                                                : static_cast<QWidget*>(welcome_));
 }
@@ -285,7 +287,7 @@ void MainWindow::remember(const QString& folder) {
   recent.prepend(folder);
   while (recent.size() > 8) recent.removeLast();
   settings.setValue(QStringLiteral("recent"), recent);
-  welcome_->setRecent(recent);
+  fillRecentMenu();
 }
 
 void MainWindow::openSession(const QString& folder) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QMainWindow>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <vector>
@@ -16,6 +17,7 @@ class QAction;
 class QComboBox;
 class QLabel;
 class QMenu;
+class QPrinter;
 class QPushButton;
 class QStackedWidget;
 class QToolButton;
@@ -80,12 +82,26 @@ class MainWindow : public QMainWindow {
   /// Everything that could be asked for now, and what cannot, with the reason.
   [[nodiscard]] std::vector<Command> commands();
   void openPreferences();
-  void findCommand();            ///< opens the list of commands
+  void findCommand();  ///< opens the list of commands
+  /// Files and folders that were dropped: opened, or taken into the campaign as captures; else one sentence says why
+  /// not.
+  void take(const QStringList& files);
+  /// The campaign of a demo as plain files in a new folder inside `folder` (in the background).
+  void writeSample(const std::string& demo, const QString& folder);
+  void showNews();
+  /// After an update, and only once.
+  void showNewsIfDue();
+  /// What the page at hand shows, in the light theme. Throws InputError.
+  void printPage(QPrinter& printer);
+  /// The report of the campaign as the page Report has it. Throws InputError.
+  void printReportOn(QPrinter& printer);
   void showHelpOn(StepId step);  ///< beside the page, or in a window of its own where no page is shown
 
  protected:
   void closeEvent(QCloseEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
 
  private:
   void buildMenu();
@@ -94,6 +110,11 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] QString whyNot(const QAction* action) const;
   void addCommandsOf(const QMenu& menu, const QString& where, std::vector<Command>& commands);
   [[nodiscard]] static QStringList recentSessions();
+  void fillRecentMenu();
+  [[nodiscard]] std::filesystem::path reportFile();  ///< as PDF; empty: none was written
+  void addSampleMenu(QMenu* menu);
+  /// Asks for a printer and prints with `print`.
+  void askAndPrint(const std::function<void(QPrinter&)>& print);
   void showStep();
   void refreshTitle();
   void showSessionOrWelcome();
@@ -140,6 +161,7 @@ class MainWindow : public QMainWindow {
   HelpPanel* help_;
   QAction* help_action_ = nullptr;
   QAction* palette_action_ = nullptr;
+  QMenu* recent_menu_ = nullptr;
   std::map<const QAction*, std::function<QString()>> needs_;
   QPushButton* next_;
   QPushButton* back_;

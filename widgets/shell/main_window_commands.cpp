@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Everything the window can do, for the list of commands: actions of the menus, panels and buttons of the page, demos,
-// recent sessions, help.
+// Everything the window can do, for the list of commands: actions of the menus, panels and buttons of the page, help.
 #include <QAction>
 #include <QDialog>
-#include <QFileInfo>
 #include <QMenu>
 #include <QMenuBar>
 #include <QPushButton>
-#include <QSettings>
 #include <QTabWidget>
 #include <QVBoxLayout>
 
 #include "widgets/common/parts.h"
 #include "widgets/shell/command_palette.h"
-#include "widgets/shell/demo.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/main_window.h"
 
@@ -51,6 +47,7 @@ void MainWindow::addCommandsOf(const QMenu& menu, const QString& where, std::vec
 }
 
 std::vector<Command> MainWindow::commands() {
+  fillRecentMenu();
   std::vector<Command> all;
   for (const QAction* top : menuBar()->actions()) {
     if (top->menu() != nullptr) addCommandsOf(*top->menu(), plainText(top->text()), all);
@@ -69,14 +66,6 @@ std::vector<Command> MainWindow::commands() {
       if (!button->isEnabled()) why = button->toolTip().isEmpty() ? tr("Not possible now.") : button->toolTip();
       all.push_back({title, page, {}, why, [button] { button->click(); }});
     }
-  }
-  for (const QString& folder : recentSessions()) {
-    const QFileInfo info(folder);
-    all.push_back({info.fileName(), tr("Recent session"), {}, {}, [this, folder] { open(folder); }});
-  }
-  for (const Demo& demo : demos()) {
-    all.push_back(
-        {demo.title, tr("Demo"), {}, {}, [this, name = demo.name] { startDemo(QString::fromStdString(name)); }});
   }
   for (const StepId step : all_steps) {
     all.push_back({tr("Help: %1").arg(stepTitle(step)), tr("Help"), {}, {}, [this, step] { showHelpOn(step); }});
@@ -106,16 +95,6 @@ void MainWindow::showHelpOn(StepId step) {
   help->showStep(step);
   dialog->resize(dialog->sizeHint().width(), 640);
   dialog->show();
-}
-
-/// As they were opened, the last one first. Folders that are gone, such as those of a demo that was not kept, are left
-/// out.
-QStringList MainWindow::recentSessions() {
-  QStringList there;
-  for (const QString& folder : QSettings().value(QStringLiteral("recent")).toStringList()) {
-    if (QFileInfo(folder).isDir()) there << folder;
-  }
-  return there;
 }
 
 }  // namespace spindrift::gui

@@ -60,6 +60,9 @@ void MainWindow::buildMenu() {
     rememberFolder(kind, file);
     openLog(file);
   });
+  recent_menu_ = session_menu->addMenu(icon("clock"), tr("&Recent sessions"));
+  connect(session_menu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
+  addSampleMenu(session_menu->addMenu(icon("play"), tr("Sample &data")));
   session_menu->addSeparator();
   need(add(session_menu, tr("&Export …"), "export", QKeySequence(tr("Ctrl+E")),
            [this] {
@@ -69,6 +72,15 @@ void MainWindow::buildMenu() {
        [this, no_session] {
          if (page_ == nullptr) return no_session();
          return page_->exportables().empty() ? tr("This page has nothing to export yet.") : QString();
+       });
+  need(add(session_menu, tr("&Print this page …"), "report", QKeySequence::Print,
+           [this] { askAndPrint([this](QPrinter& printer) { printPage(printer); }); }),
+       no_session);
+  need(add(session_menu, tr("Print the repor&t …"), "report", {},
+           [this] { askAndPrint([this](QPrinter& printer) { printReportOn(printer); }); }),
+       [this, no_session] {
+         if (session_.campaign() == nullptr) return no_session();
+         return reportFile().empty() ? tr("The report has not been written yet; the page Report does.") : QString();
        });
   session_menu->addSeparator();
   add(session_menu, tr("First &screen"), "home", QKeySequence(tr("Ctrl+H")), [this] { closeSession(); });
@@ -156,6 +168,7 @@ void MainWindow::buildMenu() {
     manual->setAttribute(Qt::WA_DeleteOnClose);
     manual->show();
   });
+  add(help, tr("What's &new …"), "info", {}, [this] { showNews(); });
   help->addSeparator();
   add(help, tr("&Copy diagnostics"), "table", {}, [this] {
     QGuiApplication::clipboard()->setText(diagnosticsText());
