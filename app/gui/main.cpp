@@ -7,7 +7,6 @@
 #include <QDir>
 #include <QElapsedTimer>
 #include <QFile>
-#include <QSettings>
 #include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QTimer>
@@ -25,12 +24,14 @@
 #include "core/base/log.h"
 #include "core/base/program_reference.h"
 #include "core/base/text.h"
+#include "widgets/common/preferences.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/diagnostics.h"
 #include "widgets/shell/main_window.h"
 #include "widgets/shell/self_test.h"
 #include "widgets/shell/tour.h"
+#include "widgets/theme/system_look.h"
 #include "widgets/theme/theme.h"
 
 namespace {
@@ -265,9 +266,11 @@ int run(int argc, char** argv) {
   const QString data = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
   if (!data.isEmpty()) spindrift::startLogFile((data + QStringLiteral("/spindrift.log")).toStdString());
 
-  QString kind = parser.value(theme_option);
-  if (kind.isEmpty() && !parser.isSet(tour)) kind = QSettings().value(QStringLiteral("theme")).toString();
-  applyTheme(application, kind == QLatin1String("dark") ? ThemeKind::Dark : ThemeKind::Light);
+  const QString kind = parser.value(theme_option);
+  (void)SystemLook::instance();  // sees the colours of the platform before they are ours
+  ThemeKind look = kind == QLatin1String("dark") ? ThemeKind::Dark : ThemeKind::Light;
+  if (kind.isEmpty() && !parser.isSet(tour)) look = wantedTheme();
+  applyTheme(application, look);
 
   MainWindow window;
   application.tell = [&window](const QString& sentence) { window.jobBar()->setMessage(sentence); };
@@ -287,6 +290,7 @@ int run(int argc, char** argv) {
   if (parser.isSet(self_test)) return selfTest(window, parser.value(json));
   window.show();
   const QStringList folders = parser.positionalArguments();
+  if (folders.isEmpty()) window.showNewsIfDue();
   if (parser.isSet(demo)) {
     window.startDemo(folders.isEmpty() ? QStringLiteral("fiducials") : folders.front());
   } else if (!folders.isEmpty()) {

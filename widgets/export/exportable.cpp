@@ -13,11 +13,13 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <numeric>
 
 #include "core/base/atomic_file.h"
-#include "core/base/csv.h"
 #include "core/base/error.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
+#include "widgets/common/table_habits.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/plots/plot.h"
 #include "widgets/view3d/view3d.h"
@@ -61,22 +63,11 @@ Exportable exportableOf(const QString& name, const ImageView* view) {
 }
 
 QString tableCsv(const QAbstractItemModel& model) {
-  QStringList lines;
-  QStringList fields;
-  for (int c = 0; c < model.columnCount(); ++c) {
-    fields << QString::fromStdString(csvField(model.headerData(c, Qt::Horizontal).toString().toStdString()));
-  }
-  lines << fields.join(QLatin1Char(','));
-  for (int r = 0; r < model.rowCount(); ++r) {
-    fields.clear();
-    for (int c = 0; c < model.columnCount(); ++c) {
-      const QModelIndex index = model.index(r, c);
-      const QVariant exact = index.data(Qt::UserRole);
-      fields << QString::fromStdString(csvField((exact.isValid() ? exact : index.data()).toString().toStdString()));
-    }
-    lines << fields.join(QLatin1Char(','));
-  }
-  return lines.join(QLatin1Char('\n')) + QLatin1Char('\n');
+  std::vector<int> rows(static_cast<std::size_t>(model.rowCount()));
+  std::iota(rows.begin(), rows.end(), 0);
+  std::vector<int> columns(static_cast<std::size_t>(model.columnCount()));
+  std::iota(columns.begin(), columns.end(), 0);
+  return tableText(model, rows, columns, true, TableText::Csv);
 }
 
 Exportable exportableOf(const QString& name, const QAbstractItemModel* model) {
@@ -201,6 +192,7 @@ bool ExportDialog::exportNow() {
     }
   }
   if (closing_) QDialog::done(QDialog::Accepted);
+  if (count > 0) rememberFolder(QStringLiteral("export"), folder_->text());
   message_->show(Tone::Good, tr("Files written to %1: %2").arg(folder_->text()).arg(count));
   return true;
 }

@@ -2,12 +2,11 @@
 #include "widgets/models/session_model.h"
 
 #include <QDateTime>
-#include <QDir>
-#include <QStandardPaths>
 #include <algorithm>
 
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
+#include "widgets/common/preferences.h"
 
 namespace spindrift::gui {
 SessionModel::SessionModel(QObject* parent) : QObject(parent) {}
@@ -380,9 +379,8 @@ void SessionModel::dropDraft(const std::string& name) {
 std::filesystem::path sessionsFolder() {
   const QString asked = qEnvironmentVariable("SPINDRIFT_SESSIONS");
   if (!asked.isEmpty()) return asked.toStdString();
-  QString place = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
-  if (place.isEmpty()) place = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
-  return QDir(place).filePath(QStringLiteral("Spindrift")).toStdString();
+  const QString preferred = preferences().sessions_folder;
+  return (preferred.isEmpty() ? usualSessionsFolder() : preferred).toStdString();
 }
 
 std::filesystem::path newSessionFolder(const QString& name) {

@@ -282,6 +282,54 @@ void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage>
   jobs_.run(std::move(job));
 }
 
+void IncomingService::takeFiles(const QStringList& files, std::function<void(const std::vector<IncomingItem>&)> done) {
+  follow();
+  if (session_.campaign() != nullptr) takeNext(files, {}, std::move(done));
+}
+
+/// One after the other: each is held against those before it.
+void IncomingService::takeNext(QStringList files, std::vector<IncomingItem> taken,
+                               std::function<void(const std::vector<IncomingItem>&)> done) {
+  if (files.isEmpty()) {
+    done(taken);
+    return;
+  }
+  const QFileInfo file(files.takeFirst());
+  const auto next = [this, files, done, folder = campaign_folder_](std::vector<IncomingItem> so_far) {
+    if (folder == campaign_folder_) takeNext(files, std::move(so_far), done);
+  };
+  Job job;
+  job.title = tr("Checking %1").arg(file.fileName());
+  job.quiet = true;
+  job.work = [this, next, taken, path = std::filesystem::path(file.absoluteFilePath().toStdString()),
+              name = file.fileName().toStdString(), written_ns = file.lastModified().toMSecsSinceEpoch() * 1'000'000,
+              context = contextNow(), folder = campaign_folder_](JobContext&) {
+    auto examined = std::make_shared<ExaminedFile>(examineArrival(path, name, written_ns, context));
+    const QImage picture = smallPicture(path, examined->item.kind);
+    return std::function<void()>([this, next, taken, examined, picture, folder] {
+      if (folder != campaign_folder_) return;
+      if (!picture.isNull()) thumbnails_[examined->item.name] = picture;
+      ExaminedFile answer = *examined;
+      answer.item = intake_.show(examined->item);
+      record(answer);
+      std::vector<IncomingItem> all = taken;
+      all.push_back(examined->item);  // "there already", where the list keeps its first answer
+      Q_EMIT changed();
+      next(std::move(all));
+    });
+  };
+  job.failed = [this, next, taken, name = file.fileName().toStdString()](const QString& sentence) {
+    std::vector<IncomingItem> all = taken;
+    IncomingItem failed;
+    failed.name = name;
+    failed.state = IncomingState::Ignored;
+    failed.sentence = sentence.toStdString();
+    all.push_back(failed);
+    next(std::move(all));
+  };
+  jobs_.run(std::move(job));
+}
+
 const MeasurementPlan& IncomingService::plan() {
   if (!plan_) {
     plan_.emplace();

@@ -7,6 +7,7 @@
 #include <QVBoxLayout>
 
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/incoming_service.h"
 #include "widgets/pages/common/cells.h"
@@ -78,7 +79,7 @@ void LiveTouchPanel::refresh() {
                  live.replaced    ? Cell{tr("replaced")}
                  : live.plausible ? toneCell(tr("plausible"), Tone::Good)
                                   : toneCell(tr("touch again"), Tone::Bad),
-                 numberCell(live.from_nominal_mm, 3),
+                 numberCell(live.from_nominal_mm, lengthDecimals(3)),
                  numberCell(live.change_um, 1),
                  numberCell(live.feature_spread_um, 1),
                  Cell{vectorText(t.approach)},

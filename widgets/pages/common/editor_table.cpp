@@ -5,6 +5,7 @@
 #include <QTableWidget>
 
 #include "core/base/text.h"
+#include "widgets/common/table_habits.h"
 
 namespace spindrift::gui {
 
@@ -22,6 +23,7 @@ QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_n
   table->setSelectionMode(QAbstractItemView::SingleSelection);
   table->setTabKeyNavigation(false);
   table->setMinimumHeight(150);
+  giveTableCopying(table);
   return table;
 }
 

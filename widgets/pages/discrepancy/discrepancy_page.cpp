@@ -5,7 +5,6 @@
 #include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMessageBox>
 #include <QStackedWidget>
 #include <QTabWidget>
 #include <QTimer>
@@ -18,6 +17,7 @@
 #include "core/base/json_reader.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/question.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/discrepancy/effects_panel.h"
@@ -364,10 +364,10 @@ void DiscrepancyPage::showEffects(bool shown) {
 
 bool DiscrepancyPage::mayBeLeft() {
   if (effects_ == nullptr || !effects_->hasUnsavedEdit()) return true;
-  QMessageBox box(QMessageBox::Question, tr("Effects"), tr("The effect that is being edited has not been taken over."),
-                  QMessageBox::Discard | QMessageBox::Cancel, this);
-  box.setDefaultButton(QMessageBox::Cancel);
-  if (box.exec() != QMessageBox::Discard) return false;
+  if (!goAhead({tr("Effects"), tr("The effect that is being edited has not been taken over."), tr("Discard"),
+                &Preferences::ask_before_discarding},
+               this))
+    return false;
   effects_->leaveEditor();
   return true;
 }

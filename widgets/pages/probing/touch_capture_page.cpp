@@ -15,6 +15,7 @@
 
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/capture_tabs.h"
@@ -371,9 +372,9 @@ void TouchCapturePage::showVerdict() {
       sentence = tr("%1 · %2 at x %3, y %4, z %5 mm")
                      .arg(fromCore(v.touch.feature))
                      .arg(v.touch.touch)
-                     .arg(p.x(), 0, 'f', 4)
-                     .arg(p.y(), 0, 'f', 4)
-                     .arg(p.z(), 0, 'f', 4);
+                     .arg(p.x(), 0, 'f', lengthDecimals(4))
+                     .arg(p.y(), 0, 'f', lengthDecimals(4))
+                     .arg(p.z(), 0, 'f', lengthDecimals(4));
       if (v.state == TouchState::Missing) sentence = tr("%1 · %2").arg(fromCore(v.touch.feature)).arg(v.touch.touch);
       if (!v.reason.empty()) sentence += QStringLiteral(": ") + fromCore(v.reason);
       sentence += QLatin1Char('.');

@@ -13,6 +13,7 @@
 #include "core/base/units.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/probing/reference_panel.h"
@@ -272,12 +273,12 @@ void TouchEvaluationPage::showFeatures() {
     row.cells.front().tip = fromCore(f.message);
     double largest_sigma = 0;
     for (int k = 0; k < 3; ++k) {
-      row.cells.push_back(numberCell(good ? f.centre_mm(k) : std::nan(""), 4));
+      row.cells.push_back(numberCell(good ? f.centre_mm(k) : std::nan(""), lengthDecimals(4)));
       largest_sigma = std::max(largest_sigma, std::sqrt(f.covariance(k, k)) * um_per_mm);
     }
     row.cells.push_back(numberCell(good ? largest_sigma : std::nan(""), 2));
     row.cells.back().tip = tr("The largest standard uncertainty of x, y and z");
-    row.cells.push_back(numberCell(good ? f.diameter_mm : std::nan(""), 4));
+    row.cells.push_back(numberCell(good ? f.diameter_mm : std::nan(""), lengthDecimals(4)));
     row.cells.back().tip = quantityText(f.diameter_mm, f.diameter_sigma_mm, QStringLiteral("mm"));
     row.cells.push_back(numberCell(good ? f.form_mm * um_per_mm : std::nan(""), 2));
     rows.push_back(std::move(row));
@@ -332,7 +333,7 @@ void TouchEvaluationPage::showLengths() {
                    Cell{fromCore(d.cycle)},
                    Cell{fromCore(d.stylus)},
                    quantityCell(d.error_um, d.standard_uncertainty_um),
-                   numberCell(d.certified_mm, 4),
+                   numberCell(d.certified_mm, lengthDecimals(4)),
                    inside ? toneCell(tr("within two uncertainties"), Tone::Good)
                           : toneCell(tr("the machine differs"), Tone::Attention)};
       rows.push_back(std::move(row));
