@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <QFontMetricsF>
 #include <QPainterPath>
+#include <QTransform>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,6 +49,28 @@ void arrowHead(QPainter& painter, const QPointF& tip, const QPointF& direction, 
   painter.restore();
 }
 
+constexpr double bar_width = 14;
+constexpr int table_scale_px = 11;
+constexpr double triad_px = 92;
+
+/// What stands on the colour bar, and how wide it makes it.
+struct BarLayout {
+  QString title;
+  std::vector<double> ticks;
+  double step = 1.0;
+  double text_width = 0.0;
+  double panel_width = 0.0;
+
+  explicit BarLayout(const ColourScale& scale)
+      : title(scale.title.isEmpty() ? scale.unit : scale.title + QStringLiteral(" / ") + scale.unit),
+        ticks(scale.ticks()) {
+    const QFontMetricsF metrics(textFont(sizes::font_secondary));
+    if (ticks.size() > 1) step = ticks[1] - ticks[0];
+    for (const double v : ticks) text_width = std::max(text_width, metrics.horizontalAdvance(tickText(v, step)));
+    panel_width = std::max(bar_width + 10 + text_width, metrics.horizontalAdvance(title)) + 2 * sizes::step + 4;
+  }
+};
+
 int verticalAxis(const MachineBodies& bodies) {
   for (int i = 0; i < 3; ++i) {
     if (std::abs(bodies.vertical[i]) > 0.5) return i;
@@ -57,22 +80,26 @@ int verticalAxis(const MachineBodies& bodies) {
 
 }  // namespace
 
-QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& scale) {
+double colourBarWidth(const ColourScale& scale) {
+  return BarLayout(scale).panel_width + 2 * sizes::step;
+}
+
+double colourBarHeight() {
+  return 2 * QFontMetricsF(textFont(sizes::font_secondary)).height() + bar_width + 3 * sizes::step;
+}
+
+QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& scale, bool lying) {
   const Theme& t = theme();
   painter.save();
+  const auto [title, ticks, step, text_width, panel_width] = BarLayout(scale);
   painter.setFont(textFont(sizes::font_secondary));
   const QFontMetricsF metrics(painter.font());
-  const std::vector<double> ticks = scale.ticks();
-  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
-  double text_width = 0;
-  for (const double v : ticks) text_width = std::max(text_width, metrics.horizontalAdvance(tickText(v, step)));
-  const QString unit = scale.unit;
-  const QString title = scale.title.isEmpty() ? unit : scale.title + QStringLiteral(" / ") + unit;
-  const double title_width = metrics.horizontalAdvance(title);
-  const double bar_width = 14;
-  const double panel_width = std::max(bar_width + 10 + text_width, title_width) + 2 * sizes::step + 4;
-  const double panel_height = std::min(area.height() - 2 * sizes::step, 300.0);
-  const QRectF panel(area.right() - panel_width - sizes::step, area.top() + sizes::step, panel_width, panel_height);
+  constexpr double longest = 300;
+  const double length = std::min((lying ? area.width() - triad_px : area.height()) - 2 * sizes::step, longest);
+  const QSizeF panel_size = lying ? QSizeF(length, colourBarHeight() - sizes::step) : QSizeF(panel_width, length);
+  const QRectF panel(QPointF(area.right() - panel_size.width() - sizes::step,
+                             lying ? area.bottom() - panel_size.height() - sizes::step : area.top() + sizes::step),
+                     panel_size);
   QColor back = t.surface;
   back.setAlphaF(0.88F);
   painter.setPen(QPen(t.border, 1));
@@ -80,23 +107,29 @@ QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& 
   painter.drawRoundedRect(panel, 6, 6);
   painter.setPen(t.text);
   painter.drawText(QPointF(panel.left() + sizes::step + 2, panel.top() + 6 + metrics.ascent()), title);
-  const QRectF bar(panel.left() + sizes::step + 2, panel.top() + metrics.height() + 16, bar_width,
-                   panel_height - metrics.height() - 28);
-  QImage strip(1, 256, QImage::Format_RGB32);
-  for (int i = 0; i < 256; ++i) strip.setPixel(0, i, colourTable(scale.map)[static_cast<std::size_t>(255 - i)]);
+  const QPointF corner(panel.left() + sizes::step + 2 + (lying ? text_width / 2 : 0),
+                       panel.top() + metrics.height() + (lying ? 8 : 16));
+  const QRectF bar(corner, lying ? QSizeF(panel.right() - sizes::step - 2 - text_width / 2 - corner.x(), bar_width)
+                                 : QSizeF(bar_width, panel.bottom() - 12 - corner.y()));
+  QImage strip(256, 1, QImage::Format_RGB32);
+  for (int i = 0; i < 256; ++i) strip.setPixel(i, 0, colourTable(scale.map)[static_cast<std::size_t>(i)]);
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  painter.drawImage(bar, strip);
+  painter.drawImage(bar, lying ? strip : strip.transformed(QTransform().rotate(-90)));
   painter.setBrush(Qt::NoBrush);
   painter.setPen(QPen(t.border_strong, 1));
   painter.drawRect(bar);
   for (const double v : ticks) {
-    const double y = bar.bottom() - (v - scale.low) / (scale.high - scale.low) * bar.height();
-    painter.setPen(QPen(t.text_secondary, 1));
-    painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + 4, y));
-    painter.setPen(t.text);
+    const double share = (v - scale.low) / (scale.high - scale.low);
     const QString text = tickText(v, step);
-    painter.drawText(
-        QPointF(bar.right() + 8 + text_width - metrics.horizontalAdvance(text), y + metrics.ascent() / 2 - 1), text);
+    const double width = metrics.horizontalAdvance(text);
+    const QPointF at = lying ? QPointF(bar.left() + share * bar.width(), bar.bottom())
+                             : QPointF(bar.right(), bar.bottom() - share * bar.height());
+    painter.setPen(QPen(t.text_secondary, 1));
+    painter.drawLine(at, at + (lying ? QPointF(0, 4) : QPointF(4, 0)));
+    painter.setPen(t.text);
+    painter.drawText(lying ? QPointF(at.x() - width / 2, at.y() + 4 + metrics.ascent())
+                           : QPointF(at.x() + 8 + text_width - width, at.y() + metrics.ascent() / 2 - 1),
+                     text);
   }
   painter.restore();
   return panel;
@@ -180,19 +213,20 @@ double gridSpacing_mm(const MachineBodies& bodies) {
   return 10 * power;
 }
 
-void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies) {
-  painter.save();
-  painter.setFont(textFont(11));
-  const QFontMetricsF metrics(painter.font());
+std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, const MachineBodies& bodies) {
+  std::vector<OverlayText> texts;
+  const QFontMetricsF metrics(textFont(table_scale_px));
+  const auto add = [&](const QPointF& baseline, const QString& text) {
+    const QRectF box(baseline.x(), baseline.y() - metrics.ascent(), metrics.horizontalAdvance(text), metrics.height());
+    texts.push_back({baseline, text, box.adjusted(-2, 0, 2, 0)});  // with its halo
+  };
   const double spacing = gridSpacing_mm(bodies);
   const Eigen::Vector3d& low = bodies.table_low_mm;
   const Eigen::Vector3d& high = bodies.table_high_mm;
   const int up = verticalAxis(bodies);
   const auto centre = camera.project(0.5 * (low + high), size);
-  if (!centre) {
-    painter.restore();
-    return;
-  }
+  if (!centre) return texts;
+  const int unit_axis = up == 0 ? 1 : 0;  // its last number carries the unit
   for (int i = 0; i < 3; ++i) {
     if (i == up) continue;
     const int other = 3 - up - i;
@@ -229,17 +263,49 @@ void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size
       if (std::abs(baseline.x() - last_x) < w + 6 && std::abs(baseline.y() - last_y) < metrics.height()) continue;
       last_x = baseline.x();
       last_y = baseline.y();
-      haloText(painter, baseline, text, theme().text_secondary);
+      add(baseline, i == unit_axis && v + spacing > high[i] + 1e-9 ? text + QStringLiteral(" mm") : text);
     }
-    const bool show_unit = i == 0;
-    if (show_unit) {
-      Eigen::Vector3d p = low;
-      p[i] = high[i];
-      p[other] = fixed;
-      if (const auto at = camera.project(p, size)) {
-        haloText(painter, *at + QPointF(14, 20), QStringLiteral("mm"), theme().text_secondary);
-      }
-    }
+  }
+  return texts;
+}
+
+void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies) {
+  painter.save();
+  painter.setFont(textFont(table_scale_px));
+  const QRectF picture(QPointF(0, 0), size);
+  for (const OverlayText& text : tableScale(camera, size, bodies))
+    if (picture.contains(text.box)) haloText(painter, text.baseline, text.text, theme().text_secondary);
+  painter.restore();
+}
+
+void paintDistance(QPainter& painter, const QSizeF& size, const std::vector<QPointF>& ends, const QString& text) {
+  const Theme& t = theme();
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  if (ends.size() == 2) {
+    painter.setPen(QPen(t.view_top, 4, Qt::SolidLine, Qt::RoundCap));
+    painter.drawLine(ends[0], ends[1]);
+    painter.setPen(QPen(t.accent, 2, Qt::DashLine, Qt::FlatCap));
+    painter.drawLine(ends[0], ends[1]);
+  }
+  for (const QPointF& end : ends) {
+    painter.setPen(QPen(t.view_top, 1.5));
+    painter.setBrush(t.accent);
+    painter.drawEllipse(end, 5, 5);
+  }
+  if (ends.size() == 2) {
+    painter.setFont(textFont(sizes::font_secondary, QFont::DemiBold));
+    const QFontMetricsF metrics(painter.font());
+    const QRectF picture = QRectF(QPointF(0, 0), size).adjusted(4, 4, -4, -4);
+    QRectF box(0, 0, std::min(metrics.horizontalAdvance(text) + 16, picture.width()), metrics.height() + 8);
+    box.moveCenter(0.5 * (ends[0] + ends[1]) - QPointF(0, 18));
+    box.moveLeft(std::clamp(box.left(), picture.left(), picture.right() - box.width()));
+    box.moveTop(std::clamp(box.top(), picture.top(), picture.bottom() - box.height()));
+    painter.setPen(QPen(t.accent, 1));
+    painter.setBrush(t.surface);
+    painter.drawRoundedRect(box, 4, 4);
+    painter.setPen(t.text);
+    painter.drawText(box, Qt::AlignCenter, metrics.elidedText(text, Qt::ElideRight, box.width() - 12));
   }
   painter.restore();
 }

@@ -5,6 +5,7 @@
 #include <vtkActorCollection.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
+#include <vtkCellPicker.h>
 #include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
@@ -12,6 +13,7 @@
 #include <vtkNew.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
+#include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -26,6 +28,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "widgets/view3d/contours.h"
 #include "widgets/view3d/field_texture.h"
@@ -63,6 +66,36 @@ struct Scene::Impl {
   std::vector<std::unique_ptr<Piece>> parts;  // of the cloud; null until first drawn
   std::size_t drawn_parts = 0;
   vtkSmartPointer<vtkLight> sky;
+  vtkNew<vtkPlane> clip;
+  bool clipped = false;
+
+  /// Everything that is drawn.
+  template <class Act>
+  void forEach(const Act& act) {
+    for (Piece* piece : {&table, &table_edges, &grid_lines, &lower, &lower_edges, &upper, &upper_edges, &surface,
+                         &contour_lines, &zero_line, &significance_lines, &border_lines, &shape_faces, &shape_lines})
+      act(*piece);
+    for (const auto& part : parts)
+      if (part != nullptr) act(*part);
+  }
+
+  void applyClip(Piece& piece) {
+    piece.mapper->RemoveAllClippingPlanes();
+    if (clipped) piece.mapper->AddClippingPlane(clip);
+  }
+
+  void aim(const Camera& camera) {
+    vtkCamera* view = renderer->GetActiveCamera();
+    const Eigen::Vector3d eye = camera.eye_mm();
+    const Eigen::Vector3d up = camera.up();
+    view->SetFocalPoint(camera.focal_point_mm.x(), camera.focal_point_mm.y(), camera.focal_point_mm.z());
+    view->SetPosition(eye.x(), eye.y(), eye.z());
+    view->SetViewUp(up.x(), up.y(), up.z());
+    view->SetParallelProjection(camera.orthographic);
+    view->SetParallelScale(camera.half_height_mm);
+    view->SetViewAngle(2 * half_view_angle_rad * 180 / std::numbers::pi);
+    renderer->ResetCameraClippingRange();
+  }
 
   Impl() : window(makeOffscreenWindow()) {
     window->AddRenderer(renderer);
@@ -79,11 +112,11 @@ struct Scene::Impl {
     renderer->AutomaticLightCreationOff();
     renderer->AddLight(from_above);
     renderer->AddLight(from_viewer);
-    for (Piece* piece : {&table, &table_edges, &grid_lines, &lower, &lower_edges, &upper, &upper_edges, &surface,
-                         &contour_lines, &zero_line, &significance_lines, &border_lines, &shape_faces, &shape_lines}) {
-      piece->actor->VisibilityOff();
-      renderer->AddActor(piece->actor);
-    }
+    forEach([this](Piece& piece) {
+      piece.actor->VisibilityOff();
+      renderer->AddActor(piece.actor);
+    });
+    for (Piece* piece : {&table, &lower, &upper, &surface, &shape_faces}) piece->actor->PickableOn();
     texture->SetInputData(texture_image);
     texture->InterpolateOn();
     texture->MipmapOff();
@@ -197,6 +230,7 @@ struct Scene::Impl {
     piece->mapper->SetColorModeToDirectScalars();
     piece->actor->GetProperty()->LightingOff();
     piece->actor->GetProperty()->SetPointSize(static_cast<float>(cloud.point_size));
+    applyClip(*piece);
     renderer->AddActor(piece->actor);
     parts[k] = std::move(piece);
   }
@@ -403,6 +437,32 @@ void Scene::setCloud(const ViewCloud& cloud, const std::optional<ColourScale>& s
   s.cloud_bounds = {low.cast<double>(), high.cast<double>()};
 }
 
+void Scene::setClip(const std::optional<ClipPlane>& plane) {
+  Impl& s = *impl_;
+  s.clipped = plane.has_value();
+  if (plane) {
+    const Eigen::Vector3d normal = (plane->keep_low ? -1.0 : 1.0) * Eigen::Vector3d::Unit(plane->axis);
+    const Eigen::Vector3d origin = plane->offset_mm * Eigen::Vector3d::Unit(plane->axis);
+    s.clip->SetNormal(normal.x(), normal.y(), normal.z());
+    s.clip->SetOrigin(origin.x(), origin.y(), origin.z());
+  }
+  s.forEach([&s](Piece& piece) { s.applyClip(piece); });
+}
+
+std::optional<Eigen::Vector3d> Scene::surfaceAt(const Camera& camera, const QPointF& pixel, const QSizeF& size) const {
+  Impl& s = *impl_;
+  s.aim(camera);
+  const int* pixels = s.window->GetSize();
+  vtkNew<vtkCellPicker> picker;
+  picker->SetTolerance(1e-6);
+  if (picker->Pick(pixel.x() / size.width() * pixels[0], (1.0 - pixel.y() / size.height()) * pixels[1], 0.0,
+                   s.renderer) == 0)
+    return std::nullopt;
+  Eigen::Vector3d at;
+  picker->GetPickPosition(at.data());
+  return at;
+}
+
 std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> Scene::bounds() const {
   std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> box;
   const auto include = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
@@ -449,18 +509,9 @@ QImage Scene::draw(const Camera& camera, const QSize& pixels, double ratio) {
     }
     s.drawn_parts = 1;
   }
-  vtkCamera* view = s.renderer->GetActiveCamera();
-  const Eigen::Vector3d eye = camera.eye_mm();
-  const Eigen::Vector3d up = camera.up();
   s.sky->SetFocalPoint(0, 0, 0);
   s.sky->SetPosition(camera.vertical.x() + 0.2, camera.vertical.y() - 0.1, camera.vertical.z());
-  view->SetFocalPoint(camera.focal_point_mm.x(), camera.focal_point_mm.y(), camera.focal_point_mm.z());
-  view->SetPosition(eye.x(), eye.y(), eye.z());
-  view->SetViewUp(up.x(), up.y(), up.z());
-  view->SetParallelProjection(camera.orthographic);
-  view->SetParallelScale(camera.half_height_mm);
-  view->SetViewAngle(2 * half_view_angle_rad * 180 / 3.14159265358979323846);
-  s.renderer->ResetCameraClippingRange();
+  s.aim(camera);
   s.window->SetErase(1);
   s.window->Render();
   return s.read(pixels);

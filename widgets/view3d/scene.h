@@ -23,6 +23,8 @@ class Scene {
   void setCloud(const ViewCloud& cloud, const std::optional<ColourScale>& scale);
   void setShapes(const std::vector<ViewShape>& shapes);
   void setColours();  ///< from the theme
+  /// The numbers on the table stay, what lies beyond the plane goes.
+  void setClip(const std::optional<ClipPlane>& plane);
 
   [[nodiscard]] const std::optional<MachineBodies>& bodies() const;
   [[nodiscard]] const ViewCloud& cloud() const;
@@ -30,6 +32,10 @@ class Scene {
   [[nodiscard]] bool toolSideShown() const;
   /// Box around everything that is visible; empty if there is nothing.
   [[nodiscard]] std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> bounds() const;
+
+  /// Where the line of sight through a pixel first meets a surface; empty if it meets none.
+  [[nodiscard]] std::optional<Eigen::Vector3d> surfaceAt(const Camera& camera, const QPointF& pixel,
+                                                         const QSizeF& size) const;
 
   /// Draws everything (a large cloud thinned) and reads the picture back.
   [[nodiscard]] QImage draw(const Camera& camera, const QSize& pixels, double device_pixel_ratio);
