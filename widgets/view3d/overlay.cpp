@@ -310,27 +310,59 @@ void paintDistance(QPainter& painter, const QSizeF& size, const std::vector<QPoi
   painter.restore();
 }
 
-void paintArrows(QPainter& painter, const Camera& camera, const QSizeF& size, const std::vector<ViewArrow>& arrows,
-                 double exaggeration) {
+void paintSurfaceAxes(QPainter& painter, const Camera& camera, const QSizeF& size, const ViewSurface& surface,
+                      const SurfaceBox& box, const ColourScale& scale) {
+  const Theme& t = theme();
   painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  for (const ViewArrow& arrow : arrows) {
-    const auto a = camera.project(arrow.from_mm, size);
-    const auto b = camera.project(arrow.from_mm + 1e-3 * exaggeration * arrow.deviation_um, size);
-    if (!a || !b) continue;
-    const QPointF d = *b - *a;
-    const double length = std::hypot(d.x(), d.y());
-    if (length < 3) continue;
-    const QColor colour = arrow.tone == Tone::Neutral ? theme().text : theme().tone(arrow.tone);
-    QColor halo = theme().view_top;
-    halo.setAlphaF(0.8F);
-    const double head = std::min(11.0, 0.5 * length);
-    painter.setPen(QPen(halo, 5, Qt::SolidLine, Qt::RoundCap));
-    painter.drawLine(*a, *b);
-    painter.setPen(QPen(colour, 2, Qt::SolidLine, Qt::RoundCap));
-    painter.drawLine(*a, *b - d * (0.8 * head / length));
-    arrowHead(painter, *b, d, head, colour);
+  painter.setFont(textFont(sizes::font_secondary));
+  const QFontMetricsF metrics(painter.font());
+  const QRectF picture = QRectF(QPointF(0, 0), size).adjusted(4, 4, -4, -4);
+  const Eigen::Vector3d& reach = SurfaceBox::size_mm;
+  const auto at = [&](const Eigen::Vector3d& mm) { return camera.project(mm, size).value_or(QPointF()); };
+  const auto write = [&](const QPointF& edge, const QPointF& inward, const QString& text, double away,
+                         const QColor& c) {
+    QPointF out = edge - inward;
+    out *= away / std::max(1.0, std::hypot(out.x(), out.y()));
+    const double w = metrics.horizontalAdvance(text);
+    const QPointF middle = edge + out + QPointF(out.x() / away * w / 2, 0);
+    const double x = std::clamp(middle.x() - w / 2, picture.left(), std::max(picture.left(), picture.right() - w));
+    const double y =
+        std::clamp(middle.y() + metrics.ascent() / 2 - 1, picture.top() + metrics.ascent(), picture.bottom());
+    haloText(painter, {x, y}, text, c);
+  };
+  const auto steps = [](const std::vector<double>& ticks) { return ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0; };
+  // Along the edges of the floor nearer to the viewer.
+  for (int i = 0; i < 2; ++i) {
+    const int other = 1 - i;
+    Eigen::Vector3d edge = Eigen::Vector3d::Zero();
+    edge[other] = camera.forward()[other] > 0 ? 0.0 : reach[other];
+    const auto place = [&](double mm) {
+      Eigen::Vector3d p = edge;
+      p[i] = mm;
+      Eigen::Vector3d inner = p;
+      inner[other] = 0.5 * reach[other];
+      return std::pair{at(p), at(inner)};
+    };
+    const std::vector<double> ticks = roundTicks(box.low[i], box.high[i], 5);
+    for (const double v : ticks) {
+      const auto [outer, inner] = place((v - box.low[i]) / (box.high[i] - box.low[i]) * reach[i]);
+      write(outer, inner, tickText(v, steps(ticks)), 12, t.text_secondary);
+    }
+    const auto [outer, inner] = place(0.5 * reach[i]);
+    write(outer, inner, i == 0 ? surface.x_title : surface.y_title, 40, t.text);
   }
+  // Along the vertical edge furthest to the left.
+  Eigen::Vector3d left = Eigen::Vector3d::Zero();
+  for (const double x : {0.0, reach.x()})
+    for (const double y : {0.0, reach.y()})
+      if (at({x, y, 0}).x() < at(left).x()) left = {x, y, 0};
+  const std::vector<double> ticks = scale.ticks();
+  for (const double v : ticks) {
+    const QPointF p = at({left.x(), left.y(), (v - box.low.z()) / (box.high.z() - box.low.z()) * reach.z()});
+    write(p, p + QPointF(10, 0), tickText(v, steps(ticks)), 8, t.text_secondary);
+  }
+  const QPointF top = at({left.x(), left.y(), reach.z()});
+  write(top, top + QPointF(0, 10), surface.value_title, 14, t.text);
   painter.restore();
 }
 

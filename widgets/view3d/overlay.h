@@ -30,8 +30,9 @@ struct OverlayText {
                                                   const MachineBodies& bodies);
 /// Those of them that stand in the picture.
 void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies);
-void paintArrows(QPainter& painter, const Camera& camera, const QSizeF& size, const std::vector<ViewArrow>& arrows,
-                 double exaggeration);
+/// Numbers and titles along the axes of a surface.
+void paintSurfaceAxes(QPainter& painter, const Camera& camera, const QSizeF& size, const ViewSurface& surface,
+                      const SurfaceBox& box, const ColourScale& scale);
 /// A line between two places with its length beside it. One place: a mark.
 void paintDistance(QPainter& painter, const QSizeF& size, const std::vector<QPointF>& ends, const QString& text);
 /// Spacing of the table grid, mm: about ten lines on the longer side.

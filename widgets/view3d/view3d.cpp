@@ -20,10 +20,6 @@ namespace spindrift::gui {
 namespace {
 
 constexpr int rest_before_refining_ms = 120;
-/// Shifts of the pictures that are averaged, pixels (a rotated grid).
-const std::array<QPointF, 4> smooth_shifts{QPointF(-0.125, -0.375), QPointF(0.375, -0.125), QPointF(0.125, 0.375),
-                                           QPointF(-0.375, 0.125)};
-
 }  // namespace
 
 View3D::View3D(QWidget* parent) : QWidget(parent), tools_(new ViewTools(this)) {
@@ -62,6 +58,8 @@ void View3D::ensureScene() {
   if (field_ != nullptr && scale_) scene_->setField(field_.get(), field_style_, *scale_);
   if (cloud_.xyz_mm != nullptr) scene_->setCloud(cloud_, scale_);
   scene_->setShapes(shapes_);
+  scene_->setArrows(arrows_, exaggeration_);
+  placeSurface();
   scene_->setClip(clip_);
 }
 
@@ -76,6 +74,7 @@ void View3D::clear() {
   caption_.clear();
   selected_.clear();
   measured_.clear();
+  surface_.reset();
   clip_.reset();
   fitted_ = false;
   if (scene_ != nullptr) {
@@ -84,7 +83,9 @@ void View3D::clear() {
     scene_->setField(nullptr, {}, {});
     scene_->setCloud({}, std::nullopt);
     scene_->setShapes({});
+    scene_->setArrows({}, 0.0);
   }
+  placeSurface();
   changed();
 }
 
@@ -122,7 +123,8 @@ void View3D::setPoints(std::vector<ViewPoint> points) {
 void View3D::setArrows(std::vector<ViewArrow> arrows, double exaggeration) {
   arrows_ = std::move(arrows);
   exaggeration_ = exaggeration;
-  update();
+  if (scene_ != nullptr) scene_->setArrows(arrows_, exaggeration_);
+  changed();
 }
 
 void View3D::setShapes(std::vector<ViewShape> shapes) {
@@ -156,7 +158,32 @@ void View3D::setColourScale(const std::optional<ColourScale>& scale) {
       scene_->setField(scale_ ? field_.get() : nullptr, field_style_, scale_.value_or(ColourScale{}));
     if (cloud_.xyz_mm != nullptr) scene_->setCloud(cloud_, scale_);
   }
+  placeSurface();
   changed();
+}
+
+void View3D::setSurface(std::optional<ViewSurface> surface) {
+  surface_ = std::move(surface);
+  placeSurface();
+  extentChanged();
+  changed();
+}
+
+void View3D::placeSurface() {
+  surface_box_.reset();
+  if (surface_ && scale_) {
+    // A single row or column gets some room.
+    const auto limits = [](const std::vector<double>& v) {
+      const double room = v.back() > v.front() ? 0.0 : std::max(1e-9, 0.5 * std::abs(v.front()) + 0.5);
+      return std::pair{v.front() - room, v.back() + room};
+    };
+    const auto x = limits(surface_->x);
+    const auto y = limits(surface_->y);
+    surface_box_ = SurfaceBox{{x.first, y.first, scale_->low}, {x.second, y.second, scale_->high}};
+  }
+  if (scene_ == nullptr) return;
+  scene_->setSurface(surface_box_ ? surface_ : std::nullopt, surface_box_.value_or(SurfaceBox{}),
+                     scale_.value_or(ColourScale{}));
 }
 
 void View3D::setCaption(const QString& text) {
@@ -177,7 +204,7 @@ void View3D::setSelected(const QString& point_id) {
 
 bool View3D::empty() const {
   return !bodies_ && field_ == nullptr && (cloud_.xyz_mm == nullptr || cloud_.xyz_mm->empty()) && points_.empty() &&
-         shapes_.empty();
+         shapes_.empty() && !surface_;
 }
 
 void View3D::setCamera(const Camera& camera) {
@@ -242,17 +269,17 @@ void View3D::ensureFrame(const QSize& size, double ratio) {
     if (!(camera_ == before)) dirty_ = true;
   }
   if (!dirty_ && frame_pixels_ == pixels) return;
-  frame_ = scene_->draw(camera_, pixels, ratio);
+  frame_ = scene_->draw(camera_, pixels, ratio, false);
   frame_.setDevicePixelRatio(ratio);
   frame_pixels_ = pixels;
   dirty_ = false;
-  smooth_step_ = 0;
+  smooth_ = false;
   refine_timer_.start(rest_before_refining_ms);
 }
 
 bool View3D::showsScale() const {
   return scale_ &&
-         (field_ != nullptr || cloud_.scalar != nullptr ||
+         (field_ != nullptr || surface_ || cloud_.scalar != nullptr ||
           std::any_of(points_.begin(), points_.end(), [](const ViewPoint& p) { return p.value.has_value(); }));
 }
 
@@ -260,40 +287,23 @@ void View3D::refineStep() {
   if (scene_ == nullptr || dirty_) return;
   const double ratio = frame_.devicePixelRatio();
   if (!scene_->complete()) {
-    const bool more = scene_->refine(frame_);
+    const bool more = scene_->refine(frame_, false);
     frame_.setDevicePixelRatio(ratio);
     update();
-    if (more) refine_timer_.start(0);
+    if (more) refine_timer_.start(scene_->sorting() ? rest_before_refining_ms / 4 : 0);
     return;
   }
-  if (cloud_.xyz_mm != nullptr || smooth_step_ >= static_cast<int>(smooth_shifts.size())) return;
-  if (smoothStep()) {
-    update();
-  } else {
-    refine_timer_.start(0);
-  }
-}
-
-bool View3D::smoothStep() {
-  const double ratio = frame_.devicePixelRatio();
-  Camera shifted = camera_;
-  shifted.pan(smooth_shifts[static_cast<std::size_t>(smooth_step_)], QSizeF(frame_pixels_));
-  const QImage next = scene_->draw(shifted, frame_pixels_, ratio);
-  const std::size_t bytes = static_cast<std::size_t>(next.sizeInBytes());
-  if (smooth_step_ == 0) smooth_sum_.assign(bytes, 0);
-  const uchar* in = next.constBits();
-  for (std::size_t i = 0; i < bytes; ++i) smooth_sum_[i] = static_cast<quint16>(smooth_sum_[i] + in[i]);
-  if (++smooth_step_ < static_cast<int>(smooth_shifts.size())) return false;
-  uchar* out = frame_.bits();
-  for (std::size_t i = 0; i < bytes; ++i) out[i] = static_cast<uchar>((smooth_sum_[i] + 2) / 4);
-  smooth_sum_ = {};
-  return true;
+  if (cloud_.xyz_mm != nullptr || smooth_) return;
+  frame_ = scene_->draw(camera_, frame_pixels_, ratio, true);
+  frame_.setDevicePixelRatio(ratio);
+  smooth_ = true;
+  update();
 }
 
 bool View3D::refining() const {
   if (scene_ == nullptr || empty()) return false;
   if (dirty_ || !scene_->complete()) return true;
-  return cloud_.xyz_mm == nullptr && smooth_step_ < static_cast<int>(smooth_shifts.size());
+  return cloud_.xyz_mm == nullptr && !smooth_;
 }
 
 bool View3D::waitsForItsTurn() {
@@ -360,9 +370,7 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size, bool with_tools)
       paintTableScale(painter, camera_, area, *bodies_);
     }
   }
-  std::vector<ViewArrow> arrows = arrows_;
-  std::erase_if(arrows, [this](const ViewArrow& a) { return clip_ && !clip_->keeps(a.from_mm); });
-  paintArrows(painter, camera_, area, arrows, exaggeration_);
+  if (surface_box_) paintSurfaceAxes(painter, camera_, area, *surface_, *surface_box_, *scale_);
   const QMarginsF beside = with_tools ? tools_->margins(arrangement_.tools_in_column) : QMarginsF();
   QRectF bar;
   if (showsScale()) bar = paintColourBar(painter, whole.marginsRemoved(beside), *scale_, arrangement_.bar_below);
@@ -442,14 +450,10 @@ QImage View3D::picture(const QSize& size, double ratio) {
   if (!empty()) {
     ensureFrame(size, ratio);
     if (scene_ != nullptr) {
-      while (scene_->refine(frame_)) {
+      while (scene_->refine(frame_, true)) {
       }
+      if (cloud_.xyz_mm == nullptr) frame_ = scene_->draw(camera_, frame_pixels_, ratio, true);
       frame_.setDevicePixelRatio(ratio);
-      if (cloud_.xyz_mm == nullptr) {
-        smooth_step_ = 0;
-        while (!smoothStep()) {
-        }
-      }
     }
   }
   QPainter painter(&image);

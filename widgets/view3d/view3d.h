@@ -92,7 +92,29 @@ struct FieldStyle {
 struct ViewCloud {
   std::shared_ptr<const std::vector<float>> xyz_mm;  ///< x y z x y z ...
   std::shared_ptr<const std::vector<float>> scalar;  ///< one a point, in the unit of the scale; may be null
+  std::shared_ptr<const std::vector<float>> sigma;   ///< standard uncertainties of the scalars; may be null
   double point_size = 2.0;
+};
+
+/// A quantity over two others as a surface in a box with axes. Rows and columns as far apart as their numbers say.
+struct ViewSurface {
+  std::vector<double> x;                  ///< columns, ascending
+  std::vector<double> y;                  ///< rows, ascending
+  std::vector<double> value;              ///< row major; NaN: no value
+  std::vector<double> sigma;              ///< standard uncertainties, empty or one a node: bars of one each way
+  QString x_title, y_title, value_title;  ///< "Position / mm"
+  [[nodiscard]] std::size_t index(std::size_t column, std::size_t row) const { return row * x.size() + column; }
+};
+
+/// Where a surface stands in the view: the numbers at the ends of its axes and the box they span.
+struct SurfaceBox {
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();  ///< x, y, value
+  Eigen::Vector3d high = Eigen::Vector3d::Ones();
+  /// The box reaches from the origin to here.
+  inline static const Eigen::Vector3d size_mm{100.0, 100.0, 62.0};
+  [[nodiscard]] Eigen::Vector3d place_mm(const Eigen::Vector3d& numbers) const {
+    return (numbers - low).cwiseQuotient(high - low).cwiseProduct(size_mm);
+  }
 };
 
 class View3D : public QWidget {
@@ -114,6 +136,8 @@ class View3D : public QWidget {
   [[nodiscard]] const std::vector<ViewShape>& shapes() const { return shapes_; }
   void setField(std::shared_ptr<const Field> field, const FieldStyle& style = {});
   void setCloud(const ViewCloud& cloud);
+  /// Coloured and as high as the colour scale says; empty: none.
+  void setSurface(std::optional<ViewSurface> surface);
   void setColourScale(const std::optional<ColourScale>& scale);
   void setCaption(const QString& text);  ///< small text at the top left: what is shown
   /// What stands there while there is nothing to draw: what will appear and how to get it.
@@ -170,6 +194,9 @@ class View3D : public QWidget {
   [[nodiscard]] std::optional<Probe> probeAt(const QPointF& pixel) const;
   /// The cloud's point nearest to a pixel (within 6 px), its index.
   [[nodiscard]] std::optional<std::size_t> cloudPointAt(const QPointF& pixel) const;
+  /// The node of the surface nearest to a pixel (within 12 px): its index.
+  [[nodiscard]] std::optional<std::size_t> surfaceNodeAt(const QPointF& pixel) const;
+  [[nodiscard]] const std::optional<SurfaceBox>& surfaceBox() const { return surface_box_; }
   [[nodiscard]] std::optional<QPointF> pixelOf(const Eigen::Vector3d& point_mm) const;
 
   /// A finished picture of any size (device-independent pixels), as it is drawn on screen.
@@ -230,8 +257,8 @@ class View3D : public QWidget {
   void paintOverlay(QPainter& painter, const QSize& size, bool with_tools) const;
   [[nodiscard]] QSizeF viewSize() const { return {static_cast<double>(width()), static_cast<double>(height())}; }
   void refineStep();
-  /// Draws the next of the shifted pictures whose average has smooth edges. True when the average is in frame_.
-  bool smoothStep();
+  [[nodiscard]] QString textAt(const QPointF& position) const;  ///< what stands under the cursor
+  void placeSurface();                                          ///< in the box that the scale spans
   /// True if something is coloured by the scale, so that its bar has to be there.
   [[nodiscard]] bool showsScale() const;
 
@@ -266,8 +293,9 @@ class View3D : public QWidget {
   bool dragging_ = false;
   QTimer refine_timer_;
   QSize frame_pixels_;
-  int smooth_step_ = 0;              ///< shifted pictures drawn so far
-  std::vector<quint16> smooth_sum_;  ///< their sum, four channels a pixel
+  bool smooth_ = false;  ///< the edges of what is shown are smoothed
+  std::optional<ViewSurface> surface_;
+  std::optional<SurfaceBox> surface_box_;
   std::vector<QPointer<View3D>> linked_;
   ViewTools* tools_;
   std::optional<ClipPlane> clip_;

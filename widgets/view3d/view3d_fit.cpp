@@ -17,6 +17,8 @@ namespace {
 constexpr double air_px = 12;
 /// The travels of the machine stand beside it.
 constexpr double motion_label_px = 26;
+/// Numbers and titles of the axes of a surface.
+constexpr double surface_axis_px = 56;
 constexpr double notes_px = 36;
 /// Panes narrower than this are too small for a colour bar with a place of its own.
 constexpr int narrow_px = 240;
@@ -26,13 +28,14 @@ constexpr int narrow_px = 240;
 QMarginsF View3D::marginsFor(const QSize& size, const Arrangement& arrangement) const {
   const double air = bodies_ && machine_visible_ ? motion_label_px : air_px;
   QMarginsF margins(air, air, air, air);
+  if (surface_) margins = QMarginsF(surface_axis_px, 2 * air, surface_axis_px, surface_axis_px);
   // In a low view the notes would cover what is drawn.
   if (size.height() < low_view_px) margins.setTop(std::max(air, notes_px));
   if (showsScale() && size.width() > narrow_px) {
     if (arrangement.bar_below) {
       margins.setBottom(margins.bottom() + colourBarHeight());
     } else {
-      margins.setRight(std::max(air, colourBarWidth(*scale_)));
+      margins.setRight(std::max(margins.right(), colourBarWidth(*scale_)));
     }
   }
   return margins;

@@ -67,26 +67,26 @@ std::optional<View3D::Probe> View3D::probeAt(const QPointF& pixel) const {
 }
 
 std::optional<std::size_t> View3D::cloudPointAt(const QPointF& pixel) const {
-  if (cloud_.xyz_mm == nullptr) return std::nullopt;
-  const QSizeF size = viewSize();
-  double nearest = 6;
-  double depth = 1e300;
+  if (cloud_.xyz_mm == nullptr || scene_ == nullptr) return std::nullopt;
+  return scene_->cloudPointAt(camera_, viewSize(), pixel,
+                              [this](const Eigen::Vector3d& p) { return !clip_ || clip_->keeps(p); });
+}
+
+std::optional<std::size_t> View3D::surfaceNodeAt(const QPointF& pixel) const {
+  if (!surface_box_) return std::nullopt;
   std::optional<std::size_t> best;
-  const std::size_t count = cloud_.xyz_mm->size() / 3;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d p = Eigen::Map<const Eigen::Vector3f>(cloud_.xyz_mm->data() + 3 * i).cast<double>();
-    const auto at = camera_.project(p, size);
+  double nearest = pick_radius_px;
+  for (std::size_t i = 0; i < surface_->value.size(); ++i) {
+    if (!std::isfinite(surface_->value[i])) continue;
+    const std::size_t columns = surface_->x.size();
+    const Eigen::Vector3d place =
+        surface_box_->place_mm({surface_->x[i % columns], surface_->y[i / columns], surface_->value[i]});
+    const auto at = camera_.project(place, viewSize());
     if (!at) continue;
-    const double dx = at->x() - pixel.x();
-    const double dy = at->y() - pixel.y();
-    const double d = std::sqrt(dx * dx + dy * dy);
-    if (d > 6) continue;
-    const double z = camera_.depth_mm(p);
-    if (!best || d < nearest - 1.5 || (d < nearest + 1.5 && z < depth)) {
-      nearest = std::min(nearest, d);
-      depth = z;
-      best = i;
-    }
+    const double distance = std::hypot(at->x() - pixel.x(), at->y() - pixel.y());
+    if (distance > nearest) continue;
+    nearest = distance;
+    best = i;
   }
   return best;
 }
@@ -139,21 +139,48 @@ void View3D::hover(const QPointF& position) {
   const QString id = pointAt(position);
   setHoveredPoint(id);
   if (!measuring_) setCursor(id.isEmpty() ? Qt::ArrowCursor : Qt::PointingHandCursor);
+  Q_EMIT hovered(textAt(position));
+}
+
+QString View3D::textAt(const QPointF& position) const {
+  const QString id = pointAt(position);
   const auto point = std::find_if(points_.begin(), points_.end(), [&](const ViewPoint& p) { return p.id == id; });
-  QString text;
-  if (!id.isEmpty() && point != points_.end() && !point->value_text.isEmpty()) {
-    text = tr("%1: %2").arg(point->label.isEmpty() ? id : point->label, point->value_text);
-  } else if (const auto probe = probeAt(position)) {
-    const FieldGrid& grid = field_->grid;
-    text = tr("%1 %2 mm, %3 %4 mm: %5")
-               .arg(QLatin1Char("xyz"[grid.firstAxis()]))
-               .arg(probe->xy_mm.x(), 0, 'f', 1)
-               .arg(QLatin1Char("xyz"[grid.secondAxis()]))
-               .arg(probe->xy_mm.y(), 0, 'f', 1)
-               .arg(QString::fromStdString(withUncertainty(probe->value, probe->sigma, unitOf(field_->component))));
-    if (probe->extrapolated) text += tr(" (extrapolated)");
+  if (!id.isEmpty() && point != points_.end() && !point->value_text.isEmpty())
+    return tr("%1: %2").arg(point->label.isEmpty() ? id : point->label, point->value_text);
+  const std::string unit = scale_ ? scale_->unit.toStdString() : std::string();
+  const auto valueText = [&](double value, const double* sigma) {
+    return sigma != nullptr && std::isfinite(*sigma)
+               ? QString::fromStdString(withUncertainty(value, *sigma, unit))
+               : tr("%1 %2").arg(value, 0, 'g', 4).arg(scale_ ? scale_->unit : QString());
+  };
+  if (const auto i = surfaceNodeAt(position)) {
+    const ViewSurface& s = *surface_;
+    const auto quantity = [](const QString& title, double value) {  // "Position / mm": "Position 550 mm"
+      const QStringList parts = title.split(QStringLiteral(" / "));
+      return tr("%1 %2 %3").arg(parts.front()).arg(value, 0, 'g', 4).arg(parts.size() > 1 ? parts[1] : QString());
+    };
+    return tr("%1, %2: %3")
+        .arg(quantity(s.x_title, s.x[*i % s.x.size()]), quantity(s.y_title, s.y[*i / s.x.size()]),
+             valueText(s.value[*i], s.sigma.size() == s.value.size() ? &s.sigma[*i] : nullptr));
   }
-  Q_EMIT hovered(text);
+  if (const auto probe = probeAt(position)) {
+    const FieldGrid& grid = field_->grid;
+    const QString text =
+        tr("%1 %2 mm, %3 %4 mm: %5")
+            .arg(QLatin1Char("xyz"[grid.firstAxis()]))
+            .arg(probe->xy_mm.x(), 0, 'f', 1)
+            .arg(QLatin1Char("xyz"[grid.secondAxis()]))
+            .arg(probe->xy_mm.y(), 0, 'f', 1)
+            .arg(QString::fromStdString(withUncertainty(probe->value, probe->sigma, unitOf(field_->component))));
+    return probe->extrapolated ? text + tr(" (extrapolated)") : text;
+  }
+  const auto i = cloudPointAt(position);
+  if (!i) return {};
+  const float* p = cloud_.xyz_mm->data() + 3 * *i;
+  const QString place = tr("x %1 mm, y %2 mm, z %3 mm").arg(p[0], 0, 'f', 2).arg(p[1], 0, 'f', 2).arg(p[2], 0, 'f', 3);
+  if (cloud_.scalar == nullptr) return place;
+  const double sigma = cloud_.sigma == nullptr ? std::nan("") : static_cast<double>((*cloud_.sigma)[*i]);
+  return tr("%1: %2").arg(place, valueText(static_cast<double>((*cloud_.scalar)[*i]), &sigma));
 }
 
 void View3D::mousePressEvent(QMouseEvent* event) {
