@@ -132,6 +132,10 @@ void ArrowLayer::place(double mm_per_pixel, double line_width) {
   if (!arrows_.empty()) build();
 }
 
+void ArrowLayer::raise(const Eigen::Vector3d& by_mm) {
+  for (vtkActor* actor : {shafts_.actor.Get(), heads_.actor.Get()}) actor->SetPosition(by_mm.x(), by_mm.y(), by_mm.z());
+}
+
 void ArrowLayer::onMappers(const std::function<void(vtkMapper*)>& act) {
   act(shafts_.mapper);
   act(heads_.mapper);

@@ -30,6 +30,8 @@ class ArrowLayer {
   void setColours();
   /// For a camera under which a pixel is this large.
   void place(double mm_per_pixel, double line_width);
+  /// Moves all of them, out of a heat map that lies where they begin.
+  void raise(const Eigen::Vector3d& by_mm);
   void onMappers(const std::function<void(vtkMapper*)>& act);
 
  private:

@@ -3,6 +3,7 @@
 
 #include <QCoreApplication>
 #include <QFontMetricsF>
+#include <QLineF>
 #include <QPainterPath>
 #include <QTransform>
 #include <algorithm>
@@ -51,6 +52,8 @@ void arrowHead(QPainter& painter, const QPointF& tip, const QPointF& direction, 
 
 constexpr double bar_width = 14;
 constexpr int table_scale_px = 11;
+/// Between numbers along an axis in space.
+constexpr double tick_px = 40;
 constexpr double triad_px = 92;
 
 /// What stands on the colour bar, and how wide it makes it.
@@ -118,7 +121,11 @@ QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& 
   painter.setBrush(Qt::NoBrush);
   painter.setPen(QPen(t.border_strong, 1));
   painter.drawRect(bar);
+  // On a short bar every second number, or fewer; zero is among them.
+  const double apart = (lying ? bar.width() : bar.height()) * step / (scale.high - scale.low);
+  const int every = std::max(1, static_cast<int>(std::ceil((lying ? text_width + 6 : metrics.height()) / apart)));
   for (const double v : ticks) {
+    if (std::lround(v / step) % every != 0) continue;
     const double share = (v - scale.low) / (scale.high - scale.low);
     const QString text = tickText(v, step);
     const double width = metrics.horizontalAdvance(text);
@@ -133,6 +140,14 @@ QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& 
   }
   painter.restore();
   return panel;
+}
+
+QRectF notesPanel(const QStringList& lines, double room) {
+  if (lines.isEmpty()) return {};
+  const QFontMetricsF metrics(textFont(sizes::font_secondary));
+  double width = 0;
+  for (const QString& line : lines) width = std::max(width, metrics.horizontalAdvance(line));
+  return {8, 8, std::min(width, room) + 16, (metrics.height() + 3) * static_cast<double>(lines.size()) + 9};
 }
 
 void paintTriad(QPainter& painter, const QRectF& area, const Camera& camera) {
@@ -343,7 +358,9 @@ void paintSurfaceAxes(QPainter& painter, const Camera& camera, const QSizeF& siz
       inner[other] = 0.5 * reach[other];
       return std::pair{at(p), at(inner)};
     };
-    const std::vector<double> ticks = roundTicks(box.low[i], box.high[i], 5);
+    const double length = QLineF(place(0).first, place(reach[i]).first).length();
+    const std::vector<double> ticks =
+        roundTicks(box.low[i], box.high[i], std::clamp(static_cast<int>(length / tick_px), 1, 5));
     for (const double v : ticks) {
       const auto [outer, inner] = place((v - box.low[i]) / (box.high[i] - box.low[i]) * reach[i]);
       write(outer, inner, tickText(v, steps(ticks)), 12, t.text_secondary);
@@ -357,7 +374,11 @@ void paintSurfaceAxes(QPainter& painter, const Camera& camera, const QSizeF& siz
     for (const double y : {0.0, reach.y()})
       if (at({x, y, 0}).x() < at(left).x()) left = {x, y, 0};
   const std::vector<double> ticks = scale.ticks();
+  const double high = QLineF(at(left), at({left.x(), left.y(), reach.z()})).length();
+  const double apart = high * steps(ticks) / (scale.high - scale.low);
+  const int every = std::max(1, static_cast<int>(std::ceil(metrics.height() / std::max(apart, 1.0))));
   for (const double v : ticks) {
+    if (std::lround(v / steps(ticks)) % every != 0) continue;
     const QPointF p = at({left.x(), left.y(), (v - box.low.z()) / (box.high.z() - box.low.z()) * reach.z()});
     write(p, p + QPointF(10, 0), tickText(v, steps(ticks)), 8, t.text_secondary);
   }

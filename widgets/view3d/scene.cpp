@@ -42,6 +42,9 @@
 namespace spindrift::gui {
 namespace {
 
+/// Smooth edges cost four times as much in software, which a moving view has no time for.
+constexpr int samples_at_rest = 4;
+
 /// The nodes of a field with their values as a mesh; cells without a value are left out.
 vtkSmartPointer<vtkPolyData> fieldMesh(const Field& field, const std::function<double(std::size_t)>& height_mm) {
   const FieldGrid& grid = field.grid;
@@ -138,7 +141,6 @@ struct Scene::Impl {
 
   Impl() : window(makeOffscreenWindow()) {
     window->AddRenderer(renderer);
-    // Edges are smoothed at rest (FXAA): multisampling costs four times as much in software.
     window->SetMultiSamples(0);
     vtkNew<vtkLight> from_above;
     from_above->SetLightTypeToSceneLight();
@@ -304,6 +306,7 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
     piece->actor->VisibilityOff();
   }
   s.field_bounds.reset();
+  s.arrows.raise(Eigen::Vector3d::Zero());
   if (field == nullptr || field->value.empty()) return;
   const FieldGrid& grid = field->grid;
   const bool relief = style.relief_exaggeration > 0;
@@ -400,6 +403,7 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
       high = std::max(high, height(v));
     }
   }
+  s.arrows.raise(grid.place_mm(0, 0, high + lift) - grid.place_mm(0, 0, 0));
   s.field_bounds = {grid.place_mm(grid.x_from_mm, grid.y_from_mm, low),
                     grid.place_mm(grid.x_to_mm, grid.y_to_mm, high)};
 }
@@ -474,7 +478,7 @@ QImage Scene::draw(const Camera& camera, const QSize& pixels, double ratio, bool
   s.surface_plot.setLineWidth(ratio);
   s.arrows.place(2 * camera.half_height_mm * ratio / pixels.height(), 2 * ratio);
   s.cloud.showSome(camera, QSizeF(pixels) / ratio, ratio);
-  s.renderer->SetUseFXAA(smooth);
+  s.window->SetMultiSamples(smooth ? samples_at_rest : 0);
   s.sky->SetFocalPoint(0, 0, 0);
   s.sky->SetPosition(camera.vertical.x() + 0.2, camera.vertical.y() - 0.1, camera.vertical.z());
   s.aim(camera);

@@ -378,22 +378,19 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size, bool with_tools)
   const QFontMetricsF metrics(painter.font());
   const double room = area.width() - 48 - (bar.isEmpty() || arrangement_.bar_below ? 0.0 : area.width() - bar.left());
   QStringList lines = notes(size);
-  double width = 0;
-  for (QString& line : lines) {
-    line = metrics.elidedText(line, Qt::ElideRight, room);
-    width = std::max(width, metrics.horizontalAdvance(line));
-  }
+  for (QString& line : lines) line = metrics.elidedText(line, Qt::ElideRight, room);
   const double line_height = metrics.height() + 3;
-  const QRectF panel =
-      lines.isEmpty() ? QRectF() : QRectF(8, 8, width + 16, line_height * static_cast<double>(lines.size()) + 9);
+  const QRectF panel = notesPanel(lines, room);
   const QRectF triad(whole.left(), whole.bottom() - 92, 92, 92);
   std::vector<QRectF> keep_out{bar, panel, triad};
   if (with_tools && !tools_->isHidden()) keep_out.emplace_back(tools_->geometry());
+  if (bodies_ && !machine_visible_)
+    for (const OverlayText& text : tableScale(camera_, area, *bodies_)) keep_out.push_back(text.box);
   std::vector<ViewPoint> points = points_;
   std::erase_if(points, [this](const ViewPoint& p) { return clip_ && !clip_->keeps(p.position_mm); });
   paintPoints(painter, camera_, area, points, scale_, {selected_, hovered_point_, keep_out});
   paintMeasurement(painter, area);
-  paintTriad(painter, whole, camera_);
+  if (!surface_) paintTriad(painter, whole, camera_);  // a surface has axes of its own
   if (lines.isEmpty()) return;
   painter.setFont(textFont(sizes::font_secondary));
   QColor back = t.surface;

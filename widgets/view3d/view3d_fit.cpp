@@ -19,18 +19,21 @@ constexpr double air_px = 12;
 constexpr double motion_label_px = 26;
 /// Numbers and titles of the axes of a surface.
 constexpr double surface_axis_px = 56;
-constexpr double notes_px = 36;
+/// Of the height at most this is left to the notes.
+constexpr double most_for_notes = 0.35;
 /// Panes narrower than this are too small for a colour bar with a place of its own.
 constexpr int narrow_px = 240;
+constexpr int least_for_bar_below_px = 280;
 
 }  // namespace
 
 QMarginsF View3D::marginsFor(const QSize& size, const Arrangement& arrangement) const {
   const double air = bodies_ && machine_visible_ ? motion_label_px : air_px;
   QMarginsF margins(air, air, air, air);
-  if (surface_) margins = QMarginsF(surface_axis_px, 2 * air, surface_axis_px, surface_axis_px);
-  // In a low view the notes would cover what is drawn.
-  if (size.height() < low_view_px) margins.setTop(std::max(air, notes_px));
+  if (surface_) {
+    const double below = std::min(surface_axis_px, 0.18 * size.height());
+    margins = QMarginsF(surface_axis_px, 2 * air, surface_axis_px, below);
+  }
   if (showsScale() && size.width() > narrow_px) {
     if (arrangement.bar_below) {
       margins.setBottom(margins.bottom() + colourBarHeight());
@@ -57,8 +60,16 @@ Camera View3D::cameraFor(const QSize& size, const Arrangement& arrangement) cons
                        with_labels.right() - seen.right(), with_labels.bottom() - seen.bottom());
     camera.fit(box.first, box.second, pane, margins + labels);
   }
-  // The buttons move it only where they would cover it.
-  const QRectF seen = camera.frame(box.first, box.second, pane).marginsAdded(labels);
+  // Notes and buttons move it only where they would cover it.
+  const double bar = showsScale() && !arrangement.bar_below ? colourBarWidth(*scale_) : 0.0;
+  const QRectF notes_panel = notesPanel(notes(size), pane.width() - 48 - bar);
+  QRectF seen = camera.frame(box.first, box.second, pane).marginsAdded(labels);
+  if (seen.intersects(notes_panel)) {
+    labels.setTop(labels.top() + std::min(notes_panel.bottom(), most_for_notes * pane.height()) - margins.top() +
+                  sizes::half_step);
+    camera.fit(box.first, box.second, pane, margins + labels);
+    seen = camera.frame(box.first, box.second, pane).marginsAdded(labels);
+  }
   const QMarginsF tools = fitting_for_picture_ ? QMarginsF() : tools_->margins(arrangement.tools_in_column);
   if (!tools.isNull() && (arrangement.bar_below || seen.intersects(tools_->place(arrangement.tools_in_column))))
     camera.fit(box.first, box.second, pane, margins + labels + tools);
@@ -81,7 +92,7 @@ void View3D::fitCamera(const QSize& size) {
   if (!extent()) return;
   // Of the arrangements that the pane has room for, the one that shows most.
   std::vector<Arrangement> arrangements{{}};
-  if (showsScale() && size.height() >= low_view_px) arrangements.push_back({true, false});
+  if (showsScale() && size.height() >= least_for_bar_below_px) arrangements.push_back({true, false});
   if (!fitting_for_picture_ && tools_->columnFits()) arrangements.push_back({false, true});
   std::vector<Camera> cameras;
   for (const Arrangement& arrangement : arrangements) cameras.push_back(cameraFor(size, arrangement));

@@ -21,6 +21,7 @@ namespace {
 constexpr int margin_px = 8;
 constexpr int triad_px = 100;  ///< the axes at the bottom left
 constexpr int least_height_px = 300;
+constexpr int low_px = 200;
 constexpr int slider_steps = 200;
 constexpr int frame_px = 2;
 
@@ -150,7 +151,8 @@ QRectF ViewTools::place(bool in_column) const {
 QMarginsF ViewTools::margins(bool in_column) const {
   if (view_->empty()) return {};
   const QRectF taken = place(in_column);
-  if (in_column) return {0, 0, view_->width() - taken.left(), 0};
+  // Beside a low picture, below others.
+  if (in_column || taken.top() < low_px) return {0, 0, view_->width() - taken.left(), 0};
   return {0, 0, 0, view_->height() - taken.top()};
 }
 
