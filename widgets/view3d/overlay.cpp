@@ -53,7 +53,7 @@ void arrowHead(QPainter& painter, const QPointF& tip, const QPointF& direction, 
 constexpr double bar_width = 14;
 constexpr int table_scale_px = 11;
 /// Between numbers along an axis in space.
-constexpr double tick_px = 40;
+constexpr double tick_px = 28;
 constexpr double triad_px = 92;
 
 /// What stands on the colour bar, and how wide it makes it.

@@ -71,7 +71,8 @@ Camera View3D::cameraFor(const QSize& size, const Arrangement& arrangement) cons
     seen = camera.frame(box.first, box.second, pane).marginsAdded(labels);
   }
   const QMarginsF tools = fitting_for_picture_ ? QMarginsF() : tools_->margins(arrangement.tools_in_column);
-  if (!tools.isNull() && (arrangement.bar_below || seen.intersects(tools_->place(arrangement.tools_in_column))))
+  const bool move_the_bar = showsScale() && (arrangement.bar_below || tools.right() > 0.0);
+  if (!tools.isNull() && (move_the_bar || seen.intersects(tools_->place(arrangement.tools_in_column))))
     camera.fit(box.first, box.second, pane, margins + labels + tools);
   return camera;
 }
