@@ -22,6 +22,7 @@
 #include "widgets/common/table_habits.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/light_colours.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -54,7 +55,8 @@ Exportable exportableOf(const QString& name, const Plot* plot) {
 
 Exportable exportableOf(const QString& name, View3D* view) {
   return {name, {QStringLiteral("png")}, [view](const QString& file) {
-            savePicture(view->picture(view->size().expandedTo({800, 600}), 2.0), file);
+            const LightColours light;
+            savePicture(view->picture(view->size().expandedTo({800, 600}), picture_ratio), file);
           }};
 }
 

@@ -28,6 +28,17 @@ Eigen::Vector3d deviationOf(const ReviewPoint& p) {
   return out;
 }
 
+/// The same with uncertainties, for distances: NaN where a component was not measured.
+PointDeviation measuredDeviation(const ReviewPoint& p) {
+  PointDeviation out;
+  for (const auto& [component, index] : {std::pair{Component::EX, 0}, {Component::EY, 1}, {Component::EZ, 2}}) {
+    const auto v = p.components.find(component);
+    out.deviation_um[index] = v == p.components.end() ? std::nan("") : v->second.value;
+    out.sigma_um[index] = v == p.components.end() ? std::nan("") : v->second.sigma;
+  }
+  return out;
+}
+
 /// As wide as what is chosen, so that it is never cut; with the longest choice the page would be too wide.
 void fitToChoice(QComboBox* box) {
   constexpr int least = 8;
@@ -189,6 +200,7 @@ void ReviewPane::show(const ReviewPicture& picture, const std::optional<double>&
     } else {
       v.tone = Tone::Neutral;
     }
+    if (content() == PaneContent::Measured) v.deviation = measuredDeviation(p);
     points.push_back(std::move(v));
     if (arrows) shown_arrows.push_back({p.position_mm, deviationOf(p), Tone::Accent});
   }

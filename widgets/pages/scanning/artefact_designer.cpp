@@ -245,7 +245,7 @@ void ArtefactDesigner::showSurface() {
   const bool first = view_->empty();
   const Camera camera = view_->camera();
   view_->setColourScale(scale);
-  view_->setCloud({xyz, scalar, 3.0});
+  view_->setCloud({xyz, scalar, nullptr, 3.0});
   if (!first) view_->setCamera(camera);
   view_->setCaption(slope ? tr("Red: steeper than the profiler sees") : tr("Height of the surface"));
 }
