@@ -242,8 +242,13 @@ void Decoding::locateEllipses() {
   const Eigen::Vector2d middle_um = map_.patternOf({map_.centre_x_px, map_.centre_y_px});
   const Eigen::Vector2d seen_um(std::clamp(middle_um.x(), 0.0, (pattern_.columnCount() - 1) * pattern_.pitch_um),
                                 std::clamp(middle_um.y(), 0.0, (pattern_.rowCount() - 1) * pattern_.pitch_um));
-  ring_.emplace(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, 4500);
-  for (int pass = 0; pass < 4; ++pass) {
+  // The marks' moments are right to a few tenths of a pixel: a third of the pixels brings map and blur to where the
+  // match with all of them has to be made once only.
+  constexpr int thinned = 1500;
+  constexpr int all = 4500;
+  constexpr int last_pass = 4;
+  ring_.emplace(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, thinned);
+  for (int pass = 0; pass <= last_pass; ++pass) {
     bool changed = false;
     matched_k1_ = map_.k1_per_px2;
     // Those in view by the present map; matches are kept where they are close to their own prediction.
@@ -279,9 +284,12 @@ void Decoding::locateEllipses() {
     for (const Expected& e : expected_) {
       if (e.match.found) contrasts.push_back(e.match.contrast);
     }
-    if (contrasts.empty()) return;
-    std::nth_element(contrasts.begin(), contrasts.begin() + contrasts.size() / 2, contrasts.end());
-    const double typical = contrasts[contrasts.size() / 2];
+    if (contrasts.empty() && pass > 0) return;
+    double typical = 0.0;
+    if (!contrasts.empty()) {
+      std::nth_element(contrasts.begin(), contrasts.begin() + contrasts.size() / 2, contrasts.end());
+      typical = contrasts[contrasts.size() / 2];
+    }
     std::vector<MapPoint> points;
     for (Expected& e : expected_) {
       if (e.match.found && e.match.contrast < 0.2 * typical) e.match.found = false;
@@ -289,10 +297,10 @@ void Decoding::locateEllipses() {
     }
     const MapFit fit = fitMap(points, map_, points.size() >= 6);
     if (fit.status == FitStatus::Converged) map_ = fit.map;
-    if (pass < 3 && std::abs(map_.k1_per_px2 - matched_k1_) * bendPerK1() > 0.0005) {
+    if (pass < last_pass && std::abs(map_.k1_per_px2 - matched_k1_) * bendPerK1() > 0.0005) {
       for (Expected& e : expected_) e.match.shift_px = 1.0;
     }
-    if (pass == 0 || !changed) {
+    if (pass <= 1 || !changed) {
       std::vector<Eigen::Vector2d> centres;
       std::vector<Eigen::Vector2d> shifts;
       for (const Expected& e : expected_) {
@@ -301,24 +309,18 @@ void Decoding::locateEllipses() {
         shifts.push_back(Eigen::Vector2d(e.match.x_px, e.match.y_px) - map_.imageOf(e.centre_um));
       }
       const double blur = ring_->estimateBlur(image_, map_, centres, shifts);
-      if (blur > 0.0) {
-        const bool rebuild = std::abs(blur / blur_px_ - 1.0) > 0.1;
-        blur_px_ = blur;
-        if (rebuild && pass < 3) {
-          ring_.emplace(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, 4500);
-          for (Expected& e : expected_) e.match.shift_px = 1.0;
-          continue;
-        }
+      const bool other = blur > 0.0 && std::abs(blur / blur_px_ - 1.0) > 0.1;
+      if (blur > 0.0) blur_px_ = blur;
+      if (pass == 0 || (other && pass < last_pass)) {
+        ring_.emplace(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, all);
+        for (Expected& e : expected_) e.match.shift_px = 1.0;
+        continue;
       }
     }
     if (!changed) break;
     const bool settled = std::none_of(expected_.begin(), expected_.end(),
                                       [](const Expected& e) { return e.match.found && e.match.shift_px > 0.15; });
-    if (settled && pass > 0) break;
-    if (settled && pass == 0) {
-      // Nothing moved; only ellipses that newly came into view are left to match.
-      continue;
-    }
+    if (settled) break;
   }
 }
 
@@ -382,12 +384,13 @@ void Decoding::locateCircles() {
   }
   if (!options_.circles) return;
   const Light light(expected_, {map_.centre_x_px, map_.centre_y_px});
+  const EdgeProfile edge(blur_px_);
   for (int j = pattern_.first_circle_row; j <= pattern_.last_circle_row; ++j) {
     for (int i = pattern_.first_circle_column; i <= pattern_.last_circle_column; ++i) {
       const Eigen::Vector2d centre = pattern_.circleCentre(i, j);
       const Eigen::Vector2d at = map_.imageOf(centre);
       if (!(at.x() > 0 && at.y() > 0 && at.x() < image_.width() && at.y() < image_.height())) continue;
-      const RingMatch match = matchCircle(image_, pattern_, map_, centre, blur_px_, light.gradientAt(at));
+      const RingMatch match = matchCircle(image_, pattern_, map_, centre, edge, light.gradientAt(at));
       if (!match.found || match.correlation < 0.7 || match.shift_px > 1.5) continue;
       CircleMark mark;
       mark.i = i;
