@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/imaging/decoder.h"
@@ -144,6 +145,12 @@ struct MapFit {
 
 /// Similarity and, where the points determine it, k1; least squares with Huber's weights from `start`.
 [[nodiscard]] MapFit fitMap(const std::vector<MapPoint>& points, const PatternMap& start, bool fit_distortion);
+
+// ---- pose_check.cpp -----------------------------------------------------------------------------------------------
+
+/// Empty where the ellipses lie as a straight look from above (`map`) shows them; else the reason, one sentence.
+[[nodiscard]] std::string whyThePoseDoesNotHold(const std::vector<Subpattern>& ellipses, const FiducialPattern& pattern,
+                                                const PatternMap& map);
 
 // ---- line_sums.cpp ------------------------------------------------------------------------------------------------
 
