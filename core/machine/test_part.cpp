@@ -17,8 +17,8 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double diamond_turn = 15.0 * degree, inclination = 3.0 * degree;
 // Parts of the side of the square.
-constexpr double diamond_side = 0.6875, circle_diameter = 0.675, bore_diameter = 0.1875, hole_diameter = 0.1625;
-constexpr double hole_place = 0.325, inclined_length = 0.6, inclined_place = 0.45;
+constexpr double diamond_side = 0.6875, circle_diameter = 0.675, bore_diameter = 0.1875, hole_diameter = 0.15;
+constexpr double hole_place = 0.35, inclined_length = 0.6, inclined_place = 0.45;
 
 Eigen::Vector2d leftOf(const Eigen::Vector2d& direction) {
   return {-direction.y(), direction.x()};

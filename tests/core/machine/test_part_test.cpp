@@ -59,8 +59,8 @@ TEST(TestPart, ASquarenessOfTwentyMicroradiansIsOneOnThePart) {
   EXPECT_NEAR(found.at("square.size_x"), 0.0, 1e-9);
   // The circle becomes an ellipse: dr = -E r sin a cos a, peak to valley E r.
   EXPECT_NEAR(found.at("circle.circularity"), 20e-3 * 108.0, 1e-3);
-  // Holes at (±104, ±104): off by E y.
-  EXPECT_NEAR(found.at("hole.3.position"), 2.0 * 20e-3 * 104.0, 1e-9);
+  // Holes at (±112, ±112): off by E y.
+  EXPECT_NEAR(found.at("hole.3.position"), 2.0 * 20e-3 * 112.0, 1e-9);
 }
 
 TEST(TestPart, AScaleErrorIsASize) {
@@ -68,7 +68,7 @@ TEST(TestPart, AScaleErrorIsASize) {
   EXPECT_NEAR(found.at("square.size_x"), 16.0, 1e-9);
   EXPECT_NEAR(found.at("square.size_y"), 0.0, 1e-9);
   EXPECT_NEAR(found.at("circle.diameter"), 50e-3 * 216.0 / 2.0, 1e-3);  // of an axis alone: half
-  EXPECT_NEAR(found.at("holes.distance_x"), 50e-3 * 208.0, 1e-9);
+  EXPECT_NEAR(found.at("holes.distance_x"), 50e-3 * 224.0, 1e-9);
   EXPECT_NEAR(found.at("square.squareness"), 0.0, 1e-9);
   EXPECT_NEAR(found.at("circle.concentricity"), 0.0, 1e-9);
 }
