@@ -17,9 +17,14 @@ class QPushButton;
 class QStackedWidget;
 class QToolButton;
 
+namespace spindrift {
+struct Exercise;
+}
+
 namespace spindrift::gui {
 
 class ActivityDialog;
+class ExerciseDialog;
 class HelpPanel;
 class JobBar;
 class NotesDialog;
@@ -28,6 +33,7 @@ class ClosedLoopPage;
 class PlantPage;
 class StepList;
 class WelcomePage;
+class WhatIfWindow;
 class Badge;
 
 class MainWindow : public QMainWindow {
@@ -72,6 +78,11 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] PlantPage* plant() const { return plant_; }
   void openLiveCompensation();  ///< the closed loop at the control; works without a session
   [[nodiscard]] ClosedLoopPage* liveCompensation() const { return live_compensation_; }
+  /// Errors set by hand on the machine of the campaign at hand, or on a standard one.
+  WhatIfWindow* openWhatIf();
+  ExerciseDialog* openExercise();  ///< stays open beside the work
+  /// Makes the campaign of an exercise and opens it as a session of its own.
+  void startExercise(const Exercise& exercise);
   ActivityDialog* openActivity();  ///< jobs and messages; stays open beside the work
 
  protected:
@@ -116,6 +127,7 @@ class MainWindow : public QMainWindow {
   StepList* steps_;
   JobBar* job_bar_;
   ActivityDialog* activity_ = nullptr;
+  ExerciseDialog* exercise_ = nullptr;
   QLabel* session_name_;
   QComboBox* campaign_;
   QToolButton* theme_button_;
