@@ -65,6 +65,11 @@ TEST(WhatIfWindow, ASliderMovesPartPointsAndArtefacts) {
   keepPictures(window, QStringLiteral("what-if"));
   window.tabs()->setCurrentIndex(1);
   keepPictures(window, QStringLiteral("what-if-points"));
+  window.tabs()->setCurrentIndex(2);
+  window.filter(QStringLiteral("temperature"));
+  EXPECT_EQ(window.slider("column.bending.a")->parentWidget()->height(),
+            window.slider("column.bending.a")->parentWidget()->sizeHint().height());
+  keepPictures(window, QStringLiteral("what-if-effects"));
   window.tabs()->setCurrentIndex(0);
   window.reset();
   EXPECT_EQ(window.slider("EC0Y_urad")->value(), 0);
