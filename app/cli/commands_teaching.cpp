@@ -127,7 +127,8 @@ void addTeachingCommands(CLI::App& app, CommandLine& line) {
       "Set geometric errors and thermal effects of a machine, and show what they do to probing points, artefacts and a "
       "milled test part (ISO 10791-7)",
       [what](JobContext&) { return whatIf(*what); });
-  what_if->add_option("CAMPAIGN", what->campaign, "Campaign folder of the machine; neither: a standard machine");
+  what_if->add_option("CAMPAIGN", what->campaign,
+                      "Campaign folder of the machine; without it and --machine: a standard machine");
   what_if->add_option("--machine", what->machine, "Machine (machine.json), in place of a campaign")->type_name("FILE");
   what_if
       ->add_option("--set", what->settings,

@@ -103,6 +103,8 @@ QString artefactName(const WhatIfArtefact& artefact) {
                  : artefact.kind == "balls"  ? WhatIfWindow::tr("Ball artefact")
                                              : WhatIfWindow::tr("Fiducial plate");
   QString pose = fromCore(artefact.pose);
+  if (artefact.pose == "as it lies") pose = WhatIfWindow::tr("as it lies");
+  if (artefact.pose == "turned by 90 deg") pose = WhatIfWindow::tr("turned by 90°");
   pose.replace(QStringLiteral(" deg"), QStringLiteral("°"));
   return pose.isEmpty() ? name : QStringLiteral("%1, %2").arg(name, pose);
 }
