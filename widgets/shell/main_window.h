@@ -22,9 +22,14 @@ class QPushButton;
 class QStackedWidget;
 class QToolButton;
 
+namespace spindrift {
+struct Exercise;
+}
+
 namespace spindrift::gui {
 
 class ActivityDialog;
+class ExerciseDialog;
 class HelpPanel;
 class JobBar;
 class NotesDialog;
@@ -33,6 +38,7 @@ class ClosedLoopPage;
 class PlantPage;
 class StepList;
 class WelcomePage;
+class WhatIfWindow;
 class Badge;
 struct Command;
 
@@ -79,6 +85,11 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] PlantPage* plant() const { return plant_; }
   void openLiveCompensation();  ///< the closed loop at the control; works without a session
   [[nodiscard]] ClosedLoopPage* liveCompensation() const { return live_compensation_; }
+  /// Errors set by hand on the machine of the campaign at hand, or on a standard one.
+  WhatIfWindow* openWhatIf();
+  ExerciseDialog* openExercise();  ///< stays open beside the work
+  /// Makes the campaign of an exercise and opens it as a session of its own.
+  void startExercise(const Exercise& exercise);
   ActivityDialog* openActivity();  ///< jobs and messages; stays open beside the work
   /// Everything that could be asked for now, and what cannot, with the reason.
   [[nodiscard]] std::vector<Command> commands();
@@ -161,6 +172,7 @@ class MainWindow : public QMainWindow {
   StepList* steps_;
   JobBar* job_bar_;
   ActivityDialog* activity_ = nullptr;
+  ExerciseDialog* exercise_ = nullptr;
   QLabel* session_name_;
   QComboBox* campaign_;
   QToolButton* theme_button_;

@@ -11,6 +11,7 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QStandardPaths>
+#include <QTemporaryDir>
 #include <QToolButton>
 
 #include "core/base/atomic_file.h"
@@ -20,6 +21,8 @@
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/scanning/artefact_designer.h"
+#include "widgets/pages/teaching/exercise_dialog.h"
+#include "widgets/pages/teaching/what_if_window.h"
 #include "widgets/shell/diagnostics.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/main_window.h"
@@ -170,6 +173,10 @@ void MainWindow::buildMenu() {
   });
   add(help, tr("What's &new …"), "info", {}, [this] { showNews(); });
   help->addSeparator();
+  add(help, tr("&What if …"), "model", QKeySequence(tr("Ctrl+Shift+W")), [this] { openWhatIf(); });
+  add(help, tr("&Exercise: find the missing effect …"), "target", QKeySequence(tr("Ctrl+Shift+X")),
+      [this] { openExercise(); });
+  help->addSeparator();
   add(help, tr("&Copy diagnostics"), "table", {}, [this] {
     QGuiApplication::clipboard()->setText(diagnosticsText());
     tell(tr("Version, platform and the last messages are in the clipboard; folders and names are left out."));
@@ -240,6 +247,42 @@ void MainWindow::openEffects() {
   }
   workflow_.goTo(StepId::Discrepancy);
   if (auto* page = qobject_cast<DiscrepancyPage*>(currentPage())) page->showEffects(true);
+}
+
+WhatIfWindow* MainWindow::openWhatIf() {
+  const auto campaign = session_.campaign();
+  auto* window = new WhatIfWindow(campaign != nullptr ? campaign->machine : standardMachine(), this);
+  window->setAttribute(Qt::WA_DeleteOnClose);
+  window->show();
+  return window;
+}
+
+ExerciseDialog* MainWindow::openExercise() {
+  if (exercise_ == nullptr) {
+    exercise_ = new ExerciseDialog(session_, jobs_, this);
+    connect(exercise_, &ExerciseDialog::startWanted, this, &MainWindow::startExercise);
+    connect(exercise_, &ExerciseDialog::searchWanted, this, [this] {
+      workflow_.goTo(StepId::Discrepancy);
+      showSessionOrWelcome();
+    });
+  }
+  exercise_->show();
+  exercise_->raise();
+  return exercise_;
+}
+
+void MainWindow::startExercise(const Exercise& exercise) {
+  auto place = std::make_shared<QTemporaryDir>();
+  const std::filesystem::path folder = std::filesystem::path(place->path().toStdString()) / "campaign";
+  importInBackground(
+      tr("Running the virtual machine: exercise %1").arg(exercise.seed),
+      [place, folder, exercise](JobContext& job) {
+        writeExercise(exercise, folder, job);
+        return folder;
+      },
+      QStringLiteral("exercise_%1_%2")
+          .arg(exercise.seed)
+          .arg(QString::fromStdString(std::string(toString(exercise.level)))));
 }
 
 NotesDialog* MainWindow::openNotes() {
