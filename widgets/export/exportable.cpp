@@ -17,9 +17,11 @@
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
 #include "core/base/error.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -72,7 +74,8 @@ QString tableCsv(const QAbstractItemModel& model) {
     for (int c = 0; c < model.columnCount(); ++c) {
       const QModelIndex index = model.index(r, c);
       const QVariant exact = index.data(Qt::UserRole);
-      fields << QString::fromStdString(csvField((exact.isValid() ? exact : index.data()).toString().toStdString()));
+      const QString text = exact.isValid() ? exact.toString() : plainNumbers(index.data().toString());
+      fields << QString::fromStdString(csvField(text.toStdString()));
     }
     lines << fields.join(QLatin1Char(','));
   }
@@ -196,7 +199,7 @@ bool ExportDialog::exportNow() {
       if (closing_) QDialog::done(QDialog::Rejected);
       return false;
     } catch (const std::exception& e) {
-      message_->show(Tone::Bad, QString::fromUtf8(e.what()));
+      message_->show(Tone::Bad, coreSentence(e.what()));
       return false;
     }
   }

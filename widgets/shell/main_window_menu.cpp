@@ -15,6 +15,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
@@ -177,7 +178,7 @@ void MainWindow::saveLog(const QString& file) {
     writeFileAtomically(file.toStdString(), diagnosticsText().toStdString());
     tell(tr("The log was saved as %1. Folders and names are left out of it.").arg(file));
   } catch (const InputError& e) {
-    tell(QString::fromUtf8(e.what()));
+    tell(coreSentence(e.what()));
   }
 }
 

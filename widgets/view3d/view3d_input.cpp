@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/scene.h"
 #include "widgets/view3d/view3d.h"
 
@@ -110,10 +111,11 @@ void View3D::mouseMoveEvent(QMouseEvent* event) {
       const FieldGrid& grid = field_->grid;
       text = tr("%1 %2 mm, %3 %4 mm: %5")
                  .arg(QLatin1Char("xyz"[grid.firstAxis()]))
-                 .arg(probe->xy_mm.x(), 0, 'f', 1)
+                 .arg(decimalText(probe->xy_mm.x(), 'f', 1))
                  .arg(QLatin1Char("xyz"[grid.secondAxis()]))
-                 .arg(probe->xy_mm.y(), 0, 'f', 1)
-                 .arg(QString::fromStdString(withUncertainty(probe->value, probe->sigma, unitOf(field_->component))));
+                 .arg(decimalText(probe->xy_mm.y(), 'f', 1))
+                 .arg(shownNumbers(
+                     QString::fromStdString(withUncertainty(probe->value, probe->sigma, unitOf(field_->component)))));
       if (probe->extrapolated) text += tr(" (extrapolated)");
     }
     Q_EMIT cursorMoved(position);
