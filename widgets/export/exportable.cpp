@@ -17,12 +17,14 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
 #include "widgets/common/table_habits.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/light_colours.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -189,7 +191,7 @@ bool ExportDialog::exportNow() {
       if (closing_) QDialog::done(QDialog::Rejected);
       return false;
     } catch (const std::exception& e) {
-      message_->show(Tone::Bad, QString::fromUtf8(e.what()));
+      message_->show(Tone::Bad, coreSentence(e.what()));
       return false;
     }
   }

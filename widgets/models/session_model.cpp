@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/preferences.h"
 
 namespace spindrift::gui {
@@ -255,7 +256,7 @@ ResultState SessionModel::state(const std::string& kind) const {
     state.there = true;
     state.current = status.current;
     QStringList changed;
-    for (const std::string& what : status.changed) changed << QString::fromStdString(what);
+    for (const std::string& what : status.changed) changed << coreSentence(what);
     state.changed = changed.join(QStringLiteral(", "));
     state.created_utc = found->provenance.created_utc;
     state.program_version = found->provenance.program_version;
@@ -298,7 +299,7 @@ void SessionModel::setExcluded(const QString& item, const QString& reason) {
       shown_excluded_[item] = reason;
     }
   } catch (const InputError& e) {
-    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+    Q_EMIT storingFailed(coreSentence(e.what()));
     return;
   }
   Q_EMIT inputsChanged();
@@ -314,7 +315,7 @@ bool SessionModel::addNote(const QString& about, const QString& text, const QStr
     session_->addNote(state_.id, about.toStdString(), text.toStdString(), item.toStdString());
     return true;
   } catch (const InputError& e) {
-    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+    Q_EMIT storingFailed(coreSentence(e.what()));
     return false;
   }
 }
@@ -324,7 +325,7 @@ void SessionModel::removeNote(std::int64_t note) {
   try {
     session_->removeNote(note);
   } catch (const InputError& e) {
-    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+    Q_EMIT storingFailed(coreSentence(e.what()));
   }
 }
 
@@ -333,7 +334,7 @@ void SessionModel::setSetting(const std::string& key, const nlohmann::json& valu
   try {
     session_->setSetting(key, value);
   } catch (const InputError& e) {
-    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+    Q_EMIT storingFailed(coreSentence(e.what()));
   }
 }
 

@@ -33,6 +33,7 @@
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/log_campaign.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
 #include "widgets/common/question.h"
@@ -145,7 +146,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
       session_.selectCampaign(id);
     } catch (const InputError& e) {
       refreshCampaigns();
-      tell(QString::fromUtf8(e.what()));
+      tell(coreSentence(e.what()));
     }
   });
   connect(&session_, &SessionModel::storingFailed, this, &MainWindow::tell);
@@ -340,8 +341,8 @@ void MainWindow::openSession(const QString& folder) {
       remember(folder);
       workflow_.goTo(StepId::Machine);
       const Session& session = *session_.session();
-      for (const std::string& message : session.migrationMessages()) tell(QString::fromStdString(message));
-      for (const std::string& message : session.recoveryMessages()) tell(QString::fromStdString(message));
+      for (const std::string& message : session.migrationMessages()) tell(coreSentence(message));
+      for (const std::string& message : session.recoveryMessages()) tell(coreSentence(message));
     };
   };
   job.failed = [this](const QString& sentence) { tell(sentence); };
@@ -418,7 +419,7 @@ void MainWindow::showConnections() {
   for (const LiveSource& source : service.snapshot().sources) {
     if (source.status.state == SourceStatus::State::Lost) lost << QString::fromStdString(source.name);
   }
-  const QString problem = QString::fromStdString(service.snapshot().problem);
+  const QString problem = coreSentence(service.snapshot().problem);
   if (!problem.isEmpty()) {
     job_bar_->setConnections(Tone::Bad, tr("Not written"), problem);
   } else if (!lost.isEmpty()) {
@@ -522,7 +523,7 @@ void MainWindow::addCampaign(const QString& folder) {
         giveGoals(*session_.session(), id);
         session_.selectCampaign(id);
       } catch (const InputError& e) {
-        tell(QString::fromUtf8(e.what()));
+        tell(coreSentence(e.what()));
       }
     };
   };
@@ -638,7 +639,7 @@ void MainWindow::startMeasurement(const nlohmann::json& machine) {
     workflow_.goTo(StepId::Machine);
     showStep();
   } catch (const InputError& e) {
-    job_bar_->setMessage(QString::fromUtf8(e.what()));
+    job_bar_->setMessage(coreSentence(e.what()));
   }
 }
 

@@ -68,6 +68,8 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] Workflow& workflow() { return workflow_; }
   /// The page of the step at hand, complete; null without a campaign.
   [[nodiscard]] Page* currentPage();
+  /// True until the page of the step at hand stands there complete.
+  [[nodiscard]] bool arriving() const { return arrival_ != Arrival::Done; }
   [[nodiscard]] WelcomePage* welcome() const { return welcome_; }
   [[nodiscard]] StepList* stepList() const { return steps_; }
   [[nodiscard]] JobBar* jobBar() const { return job_bar_; }

@@ -52,7 +52,7 @@ std::vector<Command> MainWindow::commands() {
   for (const QAction* top : menuBar()->actions()) {
     if (top->menu() != nullptr) addCommandsOf(*top->menu(), plainText(top->text()), all);
   }
-  if (page_ != nullptr && stack_->currentWidget() == work_) {
+  if (currentPage() != nullptr && stack_->currentWidget() == work_) {
     const QString page = tr("Page %1").arg(stepTitle(workflow_.current()));
     for (QTabWidget* tabs : page_->findChildren<QTabWidget*>()) {
       for (int i = 0; tabs->isVisible() && i < tabs->count(); ++i) {

@@ -16,6 +16,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
 #include "widgets/jobs/job_bar.h"
@@ -132,7 +133,7 @@ void MainWindow::buildMenu() {
   add(go, tr("&Compensate: live"), "compensate", QKeySequence(tr("Ctrl+Shift+L")), [this] { openLiveCompensation(); });
   need(add(go, tr("&Run the step"), "play", QKeySequence(tr("Ctrl+Return")),
            [this] {
-             if (page_ != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
+             if (currentPage() != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
            }),
        [this, no_session] {
          if (page_ == nullptr) return no_session();
@@ -236,7 +237,7 @@ void MainWindow::saveLog(const QString& file) {
     writeFileAtomically(file.toStdString(), diagnosticsText().toStdString());
     tell(tr("The log was saved as %1. Folders and names are left out of it.").arg(file));
   } catch (const InputError& e) {
-    tell(QString::fromUtf8(e.what()));
+    tell(coreSentence(e.what()));
   }
 }
 

@@ -14,6 +14,7 @@
 #include <QScrollArea>
 #include <QVBoxLayout>
 
+#include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/session_model.h"
 
@@ -40,7 +41,9 @@ QLabel* note(const QString& text) {
 }  // namespace
 
 std::vector<std::pair<QString, QString>> languageChoices() {
-  return {{PreferencesDialog::tr("As the system"), QString()}, {QStringLiteral("English"), QStringLiteral("en")}};
+  std::vector<std::pair<QString, QString>> choices = {{PreferencesDialog::tr("As the system"), QString()}};
+  for (const Language& language : availableLanguages()) choices.emplace_back(language.own_name, language.code);
+  return choices;
 }
 
 PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
@@ -64,7 +67,7 @@ PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
   look->addRow(tr("Theme"), look_);
   language_ = named(new QComboBox, "language", tr("Language"));
   for (const auto& [name, code] : languageChoices()) language_->addItem(name, code);
-  look->addRow(tr("Language"), language_);
+  look->addRow(tr("Language, from the next start"), language_);
 
   QFormLayout* numbers = section(outer, tr("Numbers"));
   decimals_ = named(new QComboBox, "length_decimals", tr("Decimals of measured lengths in mm"));

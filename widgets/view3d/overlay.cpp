@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
@@ -202,7 +203,7 @@ void paintMotions(QPainter& painter, const Camera& camera, const QSizeF& size, c
     arrowHead(painter, *b, d, 10, colour);
     arrowHead(painter, *a, -d, 10, colour);
     const QString text =
-        QStringLiteral("%1  %2 mm").arg(motion.name).arg((motion.to_mm - motion.from_mm).norm(), 0, 'f', 0);
+        QStringLiteral("%1  %2 mm").arg(motion.name).arg(decimalText((motion.to_mm - motion.from_mm).norm(), 'f', 0));
     const double text_width = metrics.horizontalAdvance(text);
     QPointF outward(-d.y() / length, d.x() / length);
     const QPointF middle = 0.5 * (*a + *b);
@@ -271,7 +272,7 @@ std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, co
       const double norm = std::hypot(out.x(), out.y());
       if (norm < 4) continue;
       out /= norm;
-      const QString text = QString::number(std::abs(v) < 1e-9 ? 0.0 : v, 'f', spacing < 1 ? 1 : 0);
+      const QString text = decimalText(std::abs(v) < 1e-9 ? 0.0 : v, 'f', spacing < 1 ? 1 : 0);
       const double w = metrics.horizontalAdvance(text);
       const QPointF anchor = *at + out * 9;
       const QPointF baseline(anchor.x() - w / 2 + out.x() * w / 2, anchor.y() + metrics.ascent() / 2 - 1 + out.y() * 4);

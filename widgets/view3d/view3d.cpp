@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/overlay.h"
 #include "widgets/view3d/point_labels.h"
 #include "widgets/view3d/scene.h"
@@ -414,10 +415,10 @@ QStringList View3D::notes(const QSize& size) const {
   }
   if (!caption_.isEmpty()) notes << caption_.split(QLatin1Char('\n'));
   if (!arrows_.empty()) {
-    notes << tr("Arrows %1 times larger than the deviation").arg(QString::number(exaggeration_, 'f', 0));
+    notes << tr("Arrows %1 times larger than the deviation").arg(decimalText(exaggeration_, 'f', 0));
   }
   if (field_ != nullptr && field_style_.relief_exaggeration > 0) {
-    notes << tr("Height %1 times larger").arg(QString::number(field_style_.relief_exaggeration, 'f', 0));
+    notes << tr("Height %1 times larger").arg(decimalText(field_style_.relief_exaggeration, 'f', 0));
   }
   const bool faded = field_ != nullptr && field_style_.significance > 0 && !field_->sigma.empty();
   const bool striped = field_ != nullptr && std::find(field_->extrapolated.begin(), field_->extrapolated.end(), true) !=

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/scene.h"
 #include "widgets/view3d/view3d.h"
 #include "widgets/view3d/view_tools.h"
@@ -150,8 +151,8 @@ QString View3D::textAt(const QPointF& position) const {
   const std::string unit = scale_ ? scale_->unit.toStdString() : std::string();
   const auto valueText = [&](double value, const double* sigma) {
     return sigma != nullptr && std::isfinite(*sigma)
-               ? QString::fromStdString(withUncertainty(value, *sigma, unit))
-               : tr("%1 %2").arg(value, 0, 'g', 4).arg(scale_ ? scale_->unit : QString());
+               ? shownNumbers(QString::fromStdString(withUncertainty(value, *sigma, unit)))
+               : tr("%1 %2").arg(decimalText(value, 'g', 4)).arg(scale_ ? scale_->unit : QString());
   };
   if (const auto i = surfaceNodeAt(position)) {
     const ViewSurface& s = *surface_;

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/imaging/image.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/imaging/decode_marks.h"
 
@@ -98,7 +99,7 @@ QString IncomingService::start(const QString& folder, const QString& template_fi
     }
     intake_.expectTouches(*session_.campaign(), std::move(pattern));
   } catch (const InputError& e) {
-    return QString::fromUtf8(e.what());
+    return coreSentence(e.what());
   }
   failure_.clear();
   folder_ = std::make_unique<IncomingFolder>(QDir(folder).absolutePath().toStdString(), watch_, patience_s_);
@@ -118,10 +119,10 @@ void IncomingService::stop() {
 
 QString IncomingService::problem() const {
   if (!failure_.isEmpty()) return failure_;
-  if (folder_ != nullptr && !folder_->problem().empty()) return fromCore(folder_->problem());
+  if (folder_ != nullptr && !folder_->problem().empty()) return coreSentence(folder_->problem());
   if (touches() != nullptr) {
     const std::vector<std::string> problems = touches()->problems();
-    if (!problems.empty()) return fromCore(problems.back());
+    if (!problems.empty()) return coreSentence(problems.back());
   }
   return {};
 }
@@ -139,8 +140,8 @@ QStringList IncomingService::retakes() const {
   QStringList sentences;
   auto* self = const_cast<IncomingService*>(this);
   for (const CaptureIntake::Retake& retake : intake_.retakes(self->done())) {
-    sentences << (retake.what.empty() ? fromCore(retake.why)
-                                      : tr("Take %1 again: %2").arg(fromCore(retake.what), fromCore(retake.why)));
+    sentences << (retake.what.empty() ? coreSentence(retake.why)
+                                      : tr("Take %1 again: %2").arg(fromCore(retake.what), coreSentence(retake.why)));
   }
   return sentences;
 }
@@ -219,7 +220,7 @@ void IncomingService::record(const ExaminedFile& found) {
     session_.recordArrival(examined);
     failure_.clear();
   } catch (const InputError& e) {
-    failure_ = QString::fromUtf8(e.what());
+    failure_ = coreSentence(e.what());
     return;
   }
   intake_.remember(examined);
@@ -236,7 +237,7 @@ void IncomingService::feed(const ExaminedFile& examined) {
       Q_EMIT touchesChanged();
     }
   } catch (const InputError& e) {
-    failure_ = QString::fromUtf8(e.what());
+    failure_ = coreSentence(e.what());
   }
 }
 
@@ -248,7 +249,7 @@ void IncomingService::flushTouches(bool all) {
     done_.reset();
     Q_EMIT planProgressed();
   } catch (const InputError& e) {
-    failure_ = QString::fromUtf8(e.what());
+    failure_ = coreSentence(e.what());
   }
 }
 
@@ -336,7 +337,7 @@ const MeasurementPlan& IncomingService::plan() {
     try {
       if (session_.session() != nullptr) plan_ = storedPlan(*session_.session(), session_.campaignId());
     } catch (const InputError& e) {
-      failure_ = QString::fromUtf8(e.what());
+      failure_ = coreSentence(e.what());
     }
   }
   return *plan_;

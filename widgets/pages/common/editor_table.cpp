@@ -6,6 +6,7 @@
 
 #include "core/base/text.h"
 #include "widgets/common/table_habits.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -28,7 +29,7 @@ QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_n
 }
 
 QString numberText(const std::optional<double>& value) {
-  return value ? QString::fromStdString(exactNumber(*value)) : QString();
+  return value ? shownNumbers(QString::fromStdString(exactNumber(*value))) : QString();
 }
 
 QString textAt(const QTableWidget* table, int row, int column) {
@@ -41,8 +42,7 @@ void setText(QTableWidget* table, int row, int column, const QString& text) {
 }
 
 nlohmann::json numberOrText(const QString& text) {
-  double value = 0;
-  if (parseNumber(text.toStdString(), value)) return value;
+  if (const std::optional<double> value = typedNumber(text)) return *value;
   return text.toStdString();
 }
 

@@ -16,6 +16,7 @@
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/question.h"
 #include "widgets/jobs/task_job.h"
@@ -28,6 +29,7 @@
 #include "widgets/pages/discrepancy/simulation_panel.h"
 #include "widgets/pages/discrepancy/what_panel.h"
 #include "widgets/pages/discrepancy/where_panel.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -112,7 +114,7 @@ Sentence verdictOf(const DiscrepancyStory& story) {
     DiscrepancyGap gap = *story.proposed;
     const auto missing =
         std::count_if(story.effects.begin(), story.effects.end(), [](const auto& e) { return !e.forced; });
-    QString sure = QString::number(next->confidence, 'f', 2);
+    QString sure = decimalText(next->confidence, 'f', 2);
     if (!next->rivals.empty()) sure = DiscrepancyPage::tr("%1 that it is one of these").arg(sure);
     const QString gain = missing > 1 ? DiscrepancyPage::tr(
                                            "Confidence %1 for the first. Adding all of them takes the "
@@ -259,7 +261,7 @@ void DiscrepancyPage::refresh() {
       story_ = std::make_shared<const DiscrepancyStory>(DiscrepancyStory::parse(stored->payload));
       shown_result_ = stored->id;
     } catch (const InputError& e) {
-      const QString why = QString::fromUtf8(e.what());
+      const QString why = coreSentence(e.what());
       showNothing(tr("What was found cannot be shown"), why);
       callout()->show(Tone::Attention, why);
       return;

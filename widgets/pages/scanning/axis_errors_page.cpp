@@ -14,6 +14,7 @@
 #include "core/scanning/evaluate_scans.h"
 #include "core/scanning/scan_evaluation.h"
 #include "core/tasks/task_options.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
@@ -21,6 +22,7 @@
 #include "widgets/plots/plot.h"
 #include "widgets/plots/plot_grid.h"
 #include "widgets/plots/surface_plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -226,7 +228,7 @@ void AxisErrorsPage::show(const ScanEvaluation& evaluation) {
     if (!by_group.contains(group)) {
       order.push_back(group);
       by_group[group].name =
-          over_time ? tr("%1 at %2 mm").arg(fromCore(group)).arg(s.capture.y_mm, 0, 'f', 0) : fromCore(group);
+          over_time ? tr("%1 at %2 mm").arg(fromCore(group)).arg(decimalText(s.capture.y_mm, 'f', 0)) : fromCore(group);
       by_group[group].colour = static_cast<int>(order.size()) - 1;
     }
     Series& series = by_group[group];
@@ -305,14 +307,14 @@ void AxisErrorsPage::showObservability(const ScanEvaluation& evaluation) {
         ++seen;
       }
       for (const auto& [component, sentence] : s.not_observed) {
-        if (static_cast<int>(component) == c) reason = fromCore(sentence);
+        if (static_cast<int>(component) == c) reason = coreSentence(sentence);
       }
     }
     Row row;
     row.id = component_->button(c)->text();
     const auto text = [&](double v) {
       Cell cell = dashCell();
-      if (v > 0) cell.text = QStringLiteral("%1 %2").arg(v, 0, 'g', 2).arg(unitText(c));
+      if (v > 0) cell.text = QStringLiteral("%1 %2").arg(decimalText(v, 'g', 2)).arg(unitText(c));
       return cell;
     };
     row.cells = {nameCell(row.id), text(origin), text(artefact),
