@@ -305,6 +305,29 @@
     </message>
 </context>
 <context>
+    <name>Dropped</name>
+    <message>
+        <source>%1 cannot be opened; allowed: the folder of a session or a campaign, a log (.csv), point clouds (.pcd, .ply) and images (.jpg, .png, .tif, .bmp, .pgm).</source>
+        <translation>%1 kann nicht geöffnet werden; zulässig: der Ordner einer Sitzung oder einer Kampagne, ein Protokoll (.csv), Punktwolken (.pcd, .ply) und Bilder (.jpg, .png, .tif, .bmp, .pgm).</translation>
+    </message>
+    <message>
+        <source>%1 is not there any more.</source>
+        <translation>%1 ist nicht mehr vorhanden.</translation>
+    </message>
+    <message>
+        <source>Images and point clouds are captures of a campaign; open a session or begin a new measurement first.</source>
+        <translation>Bilder und Punktwolken sind Aufnahmen einer Kampagne; zuerst eine Sitzung öffnen oder eine neue Messung beginnen.</translation>
+    </message>
+    <message>
+        <source>Sessions, campaigns and logs are opened one at a time; drop one of them, or captures alone.</source>
+        <translation>Sitzungen, Kampagnen und Protokolle werden einzeln geöffnet; eines davon oder nur Aufnahmen ablegen.</translation>
+    </message>
+    <message>
+        <source>The folder %1 is neither a session nor a campaign: it has no campaign.json. Captures in it are taken when it is chosen on the page Capture.</source>
+        <translation>Der Ordner %1 ist weder eine Sitzung noch eine Kampagne: er enthält keine campaign.json. Aufnahmen darin werden übernommen, wenn er auf der Seite „Aufnahme“ gewählt wird.</translation>
+    </message>
+</context>
+<context>
     <name>Effect</name>
     <message>
         <source>%1 rms in %2</source>
@@ -451,6 +474,59 @@
     <message>
         <source>Tool</source>
         <translation>Werkzeug</translation>
+    </message>
+</context>
+<context>
+    <name>Print</name>
+    <message>
+        <source>Nothing can be printed to &quot;%1&quot;.</source>
+        <translation>Auf „%1“ kann nicht gedruckt werden.</translation>
+    </message>
+</context>
+<context>
+    <name>QObject</name>
+    <message>
+        <source>Export the table</source>
+        <translation>Tabelle exportieren</translation>
+    </message>
+    <message>
+        <source>Table (*.csv)</source>
+        <translation>Tabelle (*.csv)</translation>
+    </message>
+    <message>
+        <source>Copy with headers</source>
+        <translation>Mit Überschriften kopieren</translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation>Kopieren</translation>
+    </message>
+    <message>
+        <source>Select all</source>
+        <translation>Alles auswählen</translation>
+    </message>
+    <message>
+        <source>Export as CSV …</source>
+        <translation>Als CSV exportieren …</translation>
+    </message>
+    <message>
+        <source>Sort by %1, smallest first</source>
+        <translation>Nach %1 sortieren, kleinste zuerst</translation>
+    </message>
+    <message>
+        <source>Sort by %1, largest first</source>
+        <translation>Nach %1 sortieren, größte zuerst</translation>
+    </message>
+    <message>
+        <source>As the page lists them</source>
+        <translation>In der Reihenfolge der Seite</translation>
+    </message>
+</context>
+<context>
+    <name>Question</name>
+    <message>
+        <source>Do not ask again</source>
+        <translation>Nicht mehr nachfragen</translation>
     </message>
 </context>
 <context>
@@ -8722,6 +8798,336 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{} of {} captures cannot be used. Take them again, or exclude them.</source>
         <translation>{} von {} Aufnahmen sind unbrauchbar. Wiederholen oder ausschließen.</translation>
     </message>
+    <message>
+        <source>({}, {:g} {} per {})</source>
+        <translation>({}, {:g} {} je {})</translation>
+    </message>
+    <message>
+        <source>, {:g} given: {}</source>
+        <translation>, {:g} angegeben: {}</translation>
+    </message>
+    <message>
+        <source>--set &quot;{}&quot; is not allowed; allowed: NAME=NUMBER, for example EC0Y_urad=20.</source>
+        <translation>--set „{}“ ist nicht zulässig; zulässig: NAME=NUMBER, zum Beispiel EC0Y_urad=20.</translation>
+    </message>
+    <message>
+        <source>2 and more</source>
+        <translation>2 und mehr</translation>
+    </message>
+    <message>
+        <source>3 and more</source>
+        <translation>3 und mehr</translation>
+    </message>
+    <message>
+        <source>8 and more</source>
+        <translation>8 und mehr</translation>
+    </message>
+    <message>
+        <source>; driven by {}</source>
+        <translation>; angetrieben von {}</translation>
+    </message>
+    <message>
+        <source>; driver right</source>
+        <translation>; Antriebsgröße richtig</translation>
+    </message>
+    <message>
+        <source>; size {:.1f} ± {:.1f} {} in {}</source>
+        <translation>; Größe {:.1f} ± {:.1f} {} in {}</translation>
+    </message>
+    <message>
+        <source>; {:.1f} µm/m along it</source>
+        <translation>; {:.1f} µm/m in Längsrichtung</translation>
+    </message>
+    <message>
+        <source>; {}, {:g} {} per {}</source>
+        <translation>; {}, {:g} {} je {}</translation>
+    </message>
+    <message>
+        <source>A campaign and --machine are both given; allowed: one of them.</source>
+        <translation>Es sind eine Kampagne und --machine angegeben; zulässig: eines von beiden.</translation>
+    </message>
+    <message>
+        <source>It belongs to: {}.</source>
+        <translation>Gehört zu: {}.</translation>
+    </message>
+    <message>
+        <source>It is driven by: {}.</source>
+        <translation>Angetrieben von: {}.</translation>
+    </message>
+    <message>
+        <source>Nothing in the log drives it.</source>
+        <translation>Nichts im Protokoll treibt es an.</translation>
+    </message>
+    <message>
+        <source>What is missing is largest in {}.</source>
+        <translation>Was fehlt, ist am größten in {}.</translation>
+    </message>
+    <message>
+        <source>&quot;{}&quot; is named twice; allowed: once.</source>
+        <translation>„{}“ ist zweimal benannt; zulässig: einmal.</translation>
+    </message>
+    <message>
+        <source>&quot;{}&quot; is no parameter of machine &quot;{}&quot;; allowed: {}.</source>
+        <translation>„{}“ ist kein Parameter der Maschine „{}“; zulässig: {}.</translation>
+    </message>
+    <message>
+        <source>
+{}{}, relative to {}</source>
+        <translation>
+{}{}, bezogen auf {}</translation>
+    </message>
+    <message>
+        <source>answer &quot;{}&quot; {}; allowed: EFFECT[:DRIVER[:SIZE]], for example column.bending.a:column_difference:12.</source>
+        <translation>Antwort „{}“ {}; zulässig: EFFECT[:DRIVER[:SIZE]], zum Beispiel column.bending.a:column_difference:12.</translation>
+    </message>
+    <message>
+        <source>as it lies</source>
+        <translation>in vorhandener Lage</translation>
+    </message>
+    <message>
+        <source>ball artefact</source>
+        <translation>Kugelnormal</translation>
+    </message>
+    <message>
+        <source>c = {:g} deg</source>
+        <translation>c = {:g} deg</translation>
+    </message>
+    <message>
+        <source>change of the room temperature</source>
+        <translation>Änderung der Raumtemperatur</translation>
+    </message>
+    <message>
+        <source>coolant minus structure temperature</source>
+        <translation>Kühlschmierstoff- minus Strukturtemperatur</translation>
+    </message>
+    <message>
+        <source>distance {} along {}</source>
+        <translation>Abstand {} entlang {}</translation>
+    </message>
+    <message>
+        <source>excess temperature where the nut travels</source>
+        <translation>Übertemperatur im Verfahrbereich der Mutter</translation>
+    </message>
+    <message>
+        <source>exercise {}, {}</source>
+        <translation>Übung {}, {}</translation>
+    </message>
+    <message>
+        <source>fiducial plate</source>
+        <translation>Markenplatte</translation>
+    </message>
+    <message>
+        <source>finite numbers</source>
+        <translation>endliche Zahlen</translation>
+    </message>
+    <message>
+        <source>greater than zero</source>
+        <translation>größer als null</translation>
+    </message>
+    <message>
+        <source>half of the reversal error</source>
+        <translation>halbe Umkehrspanne</translation>
+    </message>
+    <message>
+        <source>has a size that is not a number from 0 on</source>
+        <translation>hat eine Größe, die keine Zahl ab 0 ist</translation>
+    </message>
+    <message>
+        <source>has more than three parts</source>
+        <translation>hat mehr als drei Teile</translation>
+    </message>
+    <message>
+        <source>hint {}; allowed: 1 to {}.</source>
+        <translation>Hinweis {}; zulässig: 1 bis {}.</translation>
+    </message>
+    <message>
+        <source>hole bar</source>
+        <translation>Lochleiste</translation>
+    </message>
+    <message>
+        <source>krpm m</source>
+        <translation>krpm m</translation>
+    </message>
+    <message>
+        <source>level &quot;{}&quot; is not known; allowed: easy, medium or hard.</source>
+        <translation>Stufe „{}“ ist nicht bekannt; zulässig: easy, medium oder hard.</translation>
+    </message>
+    <message>
+        <source>machine &quot;{}&quot; has no axis {}; a test piece is milled with X, Y and Z.</source>
+        <translation>Maschine „{}“ hat keine Achse {}; ein Prüfwerkstück wird mit X, Y und Z gefräst.</translation>
+    </message>
+    <message>
+        <source>machine &quot;{}&quot; has {:g} mm x {:g} mm of travel in X and Y; a test piece needs 45 mm in each at least.</source>
+        <translation>Maschine „{}“ hat {:g} mm x {:g} mm Verfahrweg in X und Y; ein Prüfwerkstück braucht jeweils mindestens 45 mm.</translation>
+    </message>
+    <message>
+        <source>names no effect</source>
+        <translation>nennt keinen Effekt</translation>
+    </message>
+    <message>
+        <source>not named</source>
+        <translation>nicht benannt</translation>
+    </message>
+    <message>
+        <source>of hole {}</source>
+        <translation>der Bohrung {}</translation>
+    </message>
+    <message>
+        <source>of inclined face {}</source>
+        <translation>der geneigten Fläche {}</translation>
+    </message>
+    <message>
+        <source>of side {}</source>
+        <translation>der Seite {}</translation>
+    </message>
+    <message>
+        <source>of the centre bore</source>
+        <translation>der Mittelbohrung</translation>
+    </message>
+    <message>
+        <source>of the circle</source>
+        <translation>des Kreises</translation>
+    </message>
+    <message>
+        <source>of the holes</source>
+        <translation>der Bohrungen</translation>
+    </message>
+    <message>
+        <source>of the square</source>
+        <translation>des Quadrats</translation>
+    </message>
+    <message>
+        <source>part of the warm-up that has passed</source>
+        <translation>abgelaufener Anteil des Warmlaufs</translation>
+    </message>
+    <message>
+        <source>seed {} is not allowed; allowed: 0 to {}.</source>
+        <translation>Startwert {} ist nicht zulässig; zulässig: 0 bis {}.</translation>
+    </message>
+    <message>
+        <source>size {} along {}</source>
+        <translation>Maß {} entlang {}</translation>
+    </message>
+    <message>
+        <source>slip along X</source>
+        <translation>Rutschen entlang X</translation>
+    </message>
+    <message>
+        <source>spindle heat times distance from where it does nothing</source>
+        <translation>Spindelwärme mal Abstand von der Stelle ohne Wirkung</translation>
+    </message>
+    <message>
+        <source>square of the spindle speed</source>
+        <translation>Quadrat der Spindeldrehzahl</translation>
+    </message>
+    <message>
+        <source>temperature difference across the frame</source>
+        <translation>Temperaturdifferenz über das Gestell</translation>
+    </message>
+    <message>
+        <source>temperature difference across the guideway of Y</source>
+        <translation>Temperaturdifferenz über die Führung von Y</translation>
+    </message>
+    <message>
+        <source>temperature difference across the head</source>
+        <translation>Temperaturdifferenz über den Spindelkopf</translation>
+    </message>
+    <message>
+        <source>temperature difference bottom minus top of the beam</source>
+        <translation>Temperaturdifferenz unten minus oben am Querbalken</translation>
+    </message>
+    <message>
+        <source>temperature difference front minus rear of the column</source>
+        <translation>Temperaturdifferenz vorn minus hinten am Ständer</translation>
+    </message>
+    <message>
+        <source>temperature difference left minus right of the column</source>
+        <translation>Temperaturdifferenz links minus rechts am Ständer</translation>
+    </message>
+    <message>
+        <source>temperature difference that the heat makes across the column</source>
+        <translation>durch die Wärme verursachte Temperaturdifferenz über den Ständer</translation>
+    </message>
+    <message>
+        <source>temperature rise of the artefact</source>
+        <translation>Temperaturanstieg des Prüfkörpers</translation>
+    </message>
+    <message>
+        <source>temperature rise of the ball screw</source>
+        <translation>Temperaturanstieg des Kugelgewindetriebs</translation>
+    </message>
+    <message>
+        <source>temperature rise of the column</source>
+        <translation>Temperaturanstieg des Ständers</translation>
+    </message>
+    <message>
+        <source>temperature rise of the part that is heated</source>
+        <translation>Temperaturanstieg des erwärmten Teils</translation>
+    </message>
+    <message>
+        <source>temperature rise of the scale</source>
+        <translation>Temperaturanstieg des Maßstabs</translation>
+    </message>
+    <message>
+        <source>temperature rise of the spindle</source>
+        <translation>Temperaturanstieg der Spindel</translation>
+    </message>
+    <message>
+        <source>temperature rise of the table</source>
+        <translation>Temperaturanstieg des Tisches</translation>
+    </message>
+    <message>
+        <source>temperature rise of the table drive</source>
+        <translation>Temperaturanstieg des Tischantriebs</translation>
+    </message>
+    <message>
+        <source>test part: {} = {:g}; allowed: {}.</source>
+        <translation>Prüfwerkstück: {} = {:g}; zulässig: {}.</translation>
+    </message>
+    <message>
+        <source>those that what-if --list lists</source>
+        <translation>die von what-if --list aufgelisteten</translation>
+    </message>
+    <message>
+        <source>turned by 90 deg</source>
+        <translation>um 90 deg gedreht</translation>
+    </message>
+    <message>
+        <source>version {} is not known; allowed: 1.</source>
+        <translation>Version {} ist nicht bekannt; zulässig: 1.</translation>
+    </message>
+    <message>
+        <source>{} = {}; allowed: a finite number.</source>
+        <translation>{} = {}; zulässig: eine endliche Zahl.</translation>
+    </message>
+    <message>
+        <source>{} hints; allowed: 0 to {}.</source>
+        <translation>{} Hinweise; zulässig: 0 bis {}.</translation>
+    </message>
+    <message>
+        <source>{} is negative; allowed: 0 and more.</source>
+        <translation>{} ist negativ; zulässig: 0 und mehr.</translation>
+    </message>
+    <message>
+        <source>{} named, which is nested with it</source>
+        <translation>{} benannt, eines ist im anderen eingebettet</translation>
+    </message>
+    <message>
+        <source>{} of the diamond</source>
+        <translation>{} der Raute</translation>
+    </message>
+    <message>
+        <source>{} of the square</source>
+        <translation>{} des Quadrats</translation>
+    </message>
+    <message>
+        <source>{} {} to {}</source>
+        <translation>{} {} zu {}</translation>
+    </message>
+    <message>
+        <source>{}, least squares</source>
+        <translation>{}, kleinste Quadrate</translation>
+    </message>
 </context>
 <context>
     <name>main</name>
@@ -8772,6 +9178,33 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Print the reference of the options: a man page, the completion of bash, or Markdown.</source>
         <translation>Referenz der Optionen ausgeben: Handbuchseite (man), Vervollständigung für bash oder Markdown.</translation>
+    </message>
+</context>
+<context>
+    <name>measurement</name>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 bis %2</translation>
+    </message>
+    <message>
+        <source>%1: %2 mm</source>
+        <translation>%1: %2 mm</translation>
+    </message>
+    <message>
+        <source>%1: %2, %3 %4 than nominal</source>
+        <translation>%1: %2, %3 %4 als das Nennmaß</translation>
+    </message>
+    <message>
+        <source>less</source>
+        <translation>weniger</translation>
+    </message>
+    <message>
+        <source>more</source>
+        <translation>mehr</translation>
+    </message>
+    <message>
+        <source>surface</source>
+        <translation>Fläche</translation>
     </message>
 </context>
 <context>
@@ -8978,6 +9411,30 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Left out</source>
         <translation>Ausgelassen</translation>
+    </message>
+    <message>
+        <source>surface</source>
+        <translation>Fläche</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 bis %2</translation>
+    </message>
+    <message>
+        <source>%1: %2 mm</source>
+        <translation>%1: %2 mm</translation>
+    </message>
+    <message>
+        <source>%1: %2, %3 %4 than nominal</source>
+        <translation>%1: %2, %3 %4 als das Nennmaß</translation>
+    </message>
+    <message>
+        <source>less</source>
+        <translation>weniger</translation>
+    </message>
+    <message>
+        <source>more</source>
+        <translation>mehr</translation>
     </message>
 </context>
 <context>
@@ -9778,12 +10235,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Abweichungen der Achse</translation>
     </message>
     <message>
-        <source>Errors over time</source>
-        <translation>Abweichungen über der Zeit</translation>
-    </message>
-    <message>
         <source>Surface over position and time</source>
         <translation>Fläche über Position und Zeit</translation>
+    </message>
+    <message>
+        <source>Errors, %1</source>
+        <translation>Abweichungen, %1</translation>
     </message>
 </context>
 <context>
@@ -10504,6 +10961,41 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>unknown</source>
         <translation>unbekannt</translation>
+    </message>
+</context>
+<context>
+    <name>spindrift::gui::CommandPalette</name>
+    <message>
+        <source>Find a command</source>
+        <translation>Befehl suchen</translation>
+    </message>
+    <message>
+        <source>A few letters of what you want to do</source>
+        <translation>Einige Buchstaben des gewünschten Befehls</translation>
+    </message>
+    <message>
+        <source>The arrows choose in the list, Enter runs, Escape closes</source>
+        <translation>Die Pfeiltasten wählen in der Liste, Enter führt aus, Escape schließt</translation>
+    </message>
+    <message>
+        <source>Command</source>
+        <translation>Befehl</translation>
+    </message>
+    <message>
+        <source>Where</source>
+        <translation>Wo</translation>
+    </message>
+    <message>
+        <source>Keys</source>
+        <translation>Tastenkürzel</translation>
+    </message>
+    <message>
+        <source>Commands</source>
+        <translation>Befehle</translation>
+    </message>
+    <message>
+        <source>Nothing the window can do fits these letters.</source>
+        <translation>Kein Befehl des Fensters passt zu diesen Buchstaben.</translation>
     </message>
 </context>
 <context>
@@ -11674,6 +12166,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>Model</source>
         <translation>Modell</translation>
     </message>
+    <message>
+        <source>Discard</source>
+        <translation>Verwerfen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::EffectEditor</name>
@@ -12198,6 +12694,249 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Shape of the effect</source>
         <translation>Form des Effekts</translation>
+    </message>
+</context>
+<context>
+    <name>spindrift::gui::ExerciseDialog</name>
+    <message>
+        <source>Medium</source>
+        <translation>Mittel</translation>
+    </message>
+    <message>
+        <source>Hard</source>
+        <translation>Schwer</translation>
+    </message>
+    <message>
+        <source>Easy</source>
+        <translation>Leicht</translation>
+    </message>
+    <message>
+        <source>nothing in the log</source>
+        <translation>nichts im Protokoll</translation>
+    </message>
+    <message>
+        <source>What is missing is largest in: %1</source>
+        <translation>Was fehlt, ist am größten in: %1</translation>
+    </message>
+    <message>
+        <source>Driven by: %1</source>
+        <translation>Angetrieben von: %1</translation>
+    </message>
+    <message>
+        <source>Family: %1</source>
+        <translation>Familie: %1</translation>
+    </message>
+    <message>
+        <source>Exercise: find the missing effect</source>
+        <translation>Übung: den fehlenden Effekt finden</translation>
+    </message>
+    <message>
+        <source>The simulation of a machine lacks something. Look at residuals, log and maps in the window, name what is missing, and only then run the search.</source>
+        <translation>In der Simulation einer Maschine fehlt etwas. Residuen, Protokoll und Karten im Fenster ansehen, das Fehlende benennen und erst dann die Suche starten.</translation>
+    </message>
+    <message>
+        <source>New exercise</source>
+        <translation>Neue Übung</translation>
+    </message>
+    <message>
+        <source>Level</source>
+        <translation>Stufe</translation>
+    </message>
+    <message>
+        <source>One effect of ten times the noise</source>
+        <translation>Ein Effekt vom Zehnfachen des Rauschens</translation>
+    </message>
+    <message>
+        <source>Two effects of six times the noise; states shifted as a whole</source>
+        <translation>Zwei Effekte vom Sechsfachen des Rauschens; Zustände als Ganzes verschoben</translation>
+    </message>
+    <message>
+        <source>Three effects of four times the noise, as a workshop leaves its data</source>
+        <translation>Drei Effekte vom Vierfachen des Rauschens, mit Daten, wie sie eine Werkstatt hinterlässt</translation>
+    </message>
+    <message>
+        <source>Number </source>
+        <translation>Nummer </translation>
+    </message>
+    <message>
+        <source>Number of the exercise</source>
+        <translation>Nummer der Übung</translation>
+    </message>
+    <message>
+        <source>The same number and level give the same exercise</source>
+        <translation>Gleiche Nummer und Stufe ergeben dieselbe Übung</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Starten</translation>
+    </message>
+    <message>
+        <source>Your answer</source>
+        <translation>Eigene Antwort</translation>
+    </message>
+    <message>
+        <source>Show a hint (−%1)</source>
+        <translation>Hinweis anzeigen (−%1)</translation>
+    </message>
+    <message>
+        <source>Compare with the search</source>
+        <translation>Mit der Suche vergleichen</translation>
+    </message>
+    <message>
+        <source>Give the answer</source>
+        <translation>Antwort abgeben</translation>
+    </message>
+    <message>
+        <source>Hidden</source>
+        <translation>Verborgen</translation>
+    </message>
+    <message>
+        <source>Named</source>
+        <translation>Benannt</translation>
+    </message>
+    <message>
+        <source>Driver</source>
+        <translation>Antriebsgröße</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>Größe</translation>
+    </message>
+    <message>
+        <source>Marks</source>
+        <translation>Punkte</translation>
+    </message>
+    <message>
+        <source>When</source>
+        <translation>Zeitpunkt</translation>
+    </message>
+    <message>
+        <source>Number</source>
+        <translation>Nummer</translation>
+    </message>
+    <message>
+        <source>Score</source>
+        <translation>Punktzahl</translation>
+    </message>
+    <message>
+        <source>Hints</source>
+        <translation>Hinweise</translation>
+    </message>
+    <message>
+        <source>What was hidden</source>
+        <translation>Was verborgen war</translation>
+    </message>
+    <message>
+        <source>What was hidden appears here after your answer.</source>
+        <translation>Was verborgen war, erscheint hier nach der Antwort.</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Ergebnis</translation>
+    </message>
+    <message>
+        <source>Earlier exercises</source>
+        <translation>Frühere Übungen</translation>
+    </message>
+    <message>
+        <source>Exercises that were marked appear here.</source>
+        <translation>Bewertete Übungen erscheinen hier.</translation>
+    </message>
+    <message>
+        <source>History</source>
+        <translation>Verlauf</translation>
+    </message>
+    <message>
+        <source>Start an exercise: its campaign is opened as if it had been measured.</source>
+        <translation>Eine Übung starten: ihre Kampagne wird geöffnet, als wäre sie gemessen worden.</translation>
+    </message>
+    <message>
+        <source>%1, number %2. Hidden effects: %3. Size is the largest change at one point.</source>
+        <translation>%1, Nummer %2. Verborgene Effekte: %3. Die Größe ist die größte Änderung an einem Punkt.</translation>
+    </message>
+    <message>
+        <source>Reading the effects of the machine</source>
+        <translation>Effekte der Maschine werden gelesen</translation>
+    </message>
+    <message>
+        <source>Family of effect %1</source>
+        <translation>Familie des Effekts %1</translation>
+    </message>
+    <message>
+        <source>Effect %1</source>
+        <translation>Effekt %1</translation>
+    </message>
+    <message>
+        <source>Driver of effect %1</source>
+        <translation>Antriebsgröße des Effekts %1</translation>
+    </message>
+    <message>
+        <source>Size of effect %1</source>
+        <translation>Größe des Effekts %1</translation>
+    </message>
+    <message>
+        <source> µm or µrad</source>
+        <translation> µm oder µrad</translation>
+    </message>
+    <message>
+        <source>size not given</source>
+        <translation>Größe nicht angegeben</translation>
+    </message>
+    <message>
+        <source>Family …</source>
+        <translation>Familie …</translation>
+    </message>
+    <message>
+        <source>Effect …</source>
+        <translation>Effekt …</translation>
+    </message>
+    <message>
+        <source>Driver …</source>
+        <translation>Antriebsgröße …</translation>
+    </message>
+    <message>
+        <source>Nothing in the log</source>
+        <translation>Nichts im Protokoll</translation>
+    </message>
+    <message>
+        <source>Looking up the hint</source>
+        <translation>Hinweis wird nachgeschlagen</translation>
+    </message>
+    <message>
+        <source>Marking the answer</source>
+        <translation>Antwort wird bewertet</translation>
+    </message>
+    <message>
+        <source>%1 in %2</source>
+        <translation>%1 in %2</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>nein</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>ja</translation>
+    </message>
+    <message>
+        <source>nearly: %1</source>
+        <translation>beinahe: %1</translation>
+    </message>
+    <message>
+        <source>not there: %1</source>
+        <translation>nicht vorhanden: %1</translation>
+    </message>
+    <message>
+        <source>%1 of 100.</source>
+        <translation>%1 von 100.</translation>
+    </message>
+    <message>
+        <source>Hints used: %1.</source>
+        <translation>Genutzte Hinweise: %1.</translation>
+    </message>
+    <message>
+        <source>The search had been run before: half the marks.</source>
+        <translation>Die Suche war zuvor ausgeführt worden: halbe Punktzahl.</translation>
     </message>
 </context>
 <context>
@@ -14203,6 +14942,170 @@ endgültig fehlgeschlagen: {}</translation>
         <source>Open a session first; notes belong to it.</source>
         <translation>Zuerst eine Sitzung öffnen; Notizen gehören zu ihr.</translation>
     </message>
+    <message>
+        <source>A machine is being compensated. Quitting fades its compensation to zero and ends the loop; what was measured is kept.</source>
+        <translation>Eine Maschine wird gerade kompensiert. Beim Beenden klingt ihre Kompensation auf null ab und der Regelkreis endet; was gemessen wurde, bleibt erhalten.</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot; is still running. Quitting cancels it; everything that was captured and every result that is done is kept.</source>
+        <translation>„%1“ läuft noch. Beenden bricht es ab; alles Aufgenommene und jedes fertige Ergebnis bleibt erhalten.</translation>
+    </message>
+    <message>
+        <source>Quit</source>
+        <translation>Beenden</translation>
+    </message>
+    <message>
+        <source>Not possible now.</source>
+        <translation>Jetzt nicht möglich.</translation>
+    </message>
+    <message>
+        <source>Page %1</source>
+        <translation>Seite %1</translation>
+    </message>
+    <message>
+        <source>Help: %1</source>
+        <translation>Hilfe: %1</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>Hilfe</translation>
+    </message>
+    <message>
+        <source>&amp;Clear the list</source>
+        <translation>Liste &amp;leeren</translation>
+    </message>
+    <message>
+        <source>&amp;Write as files</source>
+        <translation>Als Dateien &amp;schreiben</translation>
+    </message>
+    <message>
+        <source>Files of: %1</source>
+        <translation>Dateien zu: %1</translation>
+    </message>
+    <message>
+        <source>Where the folder of the sample campaign is to be made</source>
+        <translation>Wo der Ordner der Beispielkampagne angelegt werden soll</translation>
+    </message>
+    <message>
+        <source>%1 is there already and is not written over; choose another folder.</source>
+        <translation>%1 ist schon vorhanden und wird nicht überschrieben; einen anderen Ordner wählen.</translation>
+    </message>
+    <message>
+        <source>Writing sample data: %1</source>
+        <translation>Beispieldaten werden geschrieben: %1</translation>
+    </message>
+    <message>
+        <source>The sample campaign was written to %1.</source>
+        <translation>Die Beispielkampagne wurde nach %1 geschrieben.</translation>
+    </message>
+    <message>
+        <source>Captures taken into the campaign: %1 of %2.</source>
+        <translation>In die Kampagne übernommene Aufnahmen: %1 von %2.</translation>
+    </message>
+    <message>
+        <source>And %1 more.</source>
+        <translation>Und %1 weitere.</translation>
+    </message>
+    <message>
+        <source>Printed on %1.</source>
+        <translation>Auf %1 gedruckt.</translation>
+    </message>
+    <message>
+        <source>Printed to %1.</source>
+        <translation>In die Datei %1 gedruckt.</translation>
+    </message>
+    <message>
+        <source>Open a session first.</source>
+        <translation>Zuerst eine Sitzung öffnen.</translation>
+    </message>
+    <message>
+        <source>%1 · %2 · %3</source>
+        <translation>%1 · %2 · %3</translation>
+    </message>
+    <message>
+        <source>The report has not been written yet; the page Report does.</source>
+        <translation>Der Bericht ist noch nicht geschrieben; das geschieht auf der Seite „Bericht“.</translation>
+    </message>
+    <message>
+        <source>&amp;Recent sessions</source>
+        <translation>&amp;Letzte Sitzungen</translation>
+    </message>
+    <message>
+        <source>Sample &amp;data</source>
+        <translation>Beispiel&amp;daten</translation>
+    </message>
+    <message>
+        <source>&amp;Print this page …</source>
+        <translation>Diese Seite dr&amp;ucken …</translation>
+    </message>
+    <message>
+        <source>Print the repor&amp;t …</source>
+        <translation>Be&amp;richt drucken …</translation>
+    </message>
+    <message>
+        <source>There is nothing to undo.</source>
+        <translation>Es gibt nichts rückgängig zu machen.</translation>
+    </message>
+    <message>
+        <source>There is nothing to redo.</source>
+        <translation>Es gibt nichts zu wiederholen.</translation>
+    </message>
+    <message>
+        <source>&amp;Preferences …</source>
+        <translation>&amp;Einstellungen …</translation>
+    </message>
+    <message>
+        <source>Ctrl+,</source>
+        <translation>Ctrl+,</translation>
+    </message>
+    <message>
+        <source>&amp;Find a command …</source>
+        <translation>&amp;Befehl suchen …</translation>
+    </message>
+    <message>
+        <source>Ctrl+K</source>
+        <translation>Ctrl+K</translation>
+    </message>
+    <message>
+        <source>This is the first step.</source>
+        <translation>Dies ist der erste Schritt.</translation>
+    </message>
+    <message>
+        <source>This is the last step.</source>
+        <translation>Dies ist der letzte Schritt.</translation>
+    </message>
+    <message>
+        <source>This page has nothing to run.</source>
+        <translation>Auf dieser Seite gibt es nichts auszuführen.</translation>
+    </message>
+    <message>
+        <source>Something that it needs is missing on the page.</source>
+        <translation>Auf der Seite fehlt etwas, das dafür nötig ist.</translation>
+    </message>
+    <message>
+        <source>What&apos;s &amp;new …</source>
+        <translation>Ne&amp;uigkeiten …</translation>
+    </message>
+    <message>
+        <source>&amp;What if …</source>
+        <translation>&amp;Was wäre, wenn …</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+W</source>
+        <translation>Ctrl+Shift+W</translation>
+    </message>
+    <message>
+        <source>&amp;Exercise: find the missing effect …</source>
+        <translation>&amp;Übung: den fehlenden Effekt finden …</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+X</source>
+        <translation>Ctrl+Shift+X</translation>
+    </message>
+    <message>
+        <source>Running the virtual machine: exercise %1</source>
+        <translation>Die virtuelle Maschine läuft: Übung %1</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ManualWindow</name>
@@ -14358,6 +15261,17 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>%1 (from a file)</source>
         <translation>%1 (aus einer Datei)</translation>
+    </message>
+</context>
+<context>
+    <name>spindrift::gui::NewsDialog</name>
+    <message>
+        <source>What&apos;s new</source>
+        <translation>Neuigkeiten</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
     </message>
 </context>
 <context>
@@ -15561,6 +16475,153 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Published: new %1 and %2; there already %3 and %4.</source>
         <translation>Veröffentlicht: neu %1 und %2; schon vorhanden %3 und %4.</translation>
+    </message>
+</context>
+<context>
+    <name>spindrift::gui::PreferencesDialog</name>
+    <message>
+        <source>As the system</source>
+        <translation>Wie das System</translation>
+    </message>
+    <message>
+        <source>Preferences</source>
+        <translation>Einstellungen</translation>
+    </message>
+    <message>
+        <source>Look and language</source>
+        <translation>Aussehen und Sprache</translation>
+    </message>
+    <message>
+        <source>Theme</source>
+        <translation>Farbschema</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Hell</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>Dunkel</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>Sprache</translation>
+    </message>
+    <message>
+        <source>Language, from the next start</source>
+        <translation>Sprache, ab dem nächsten Start</translation>
+    </message>
+    <message>
+        <source>Numbers</source>
+        <translation>Zahlen</translation>
+    </message>
+    <message>
+        <source>Decimals of measured lengths in mm</source>
+        <translation>Nachkommastellen gemessener Längen in mm</translation>
+    </message>
+    <message>
+        <source>As each page finds fitting</source>
+        <translation>Wie es auf jeder Seite passt</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>Measured lengths</source>
+        <translation>Gemessene Längen</translation>
+    </message>
+    <message>
+        <source>Folders</source>
+        <translation>Ordner</translation>
+    </message>
+    <message>
+        <source>Folder for new sessions</source>
+        <translation>Ordner für neue Sitzungen</translation>
+    </message>
+    <message>
+        <source>Choose …</source>
+        <translation>Wählen …</translation>
+    </message>
+    <message>
+        <source>Choose the folder for new sessions</source>
+        <translation>Ordner für neue Sitzungen wählen</translation>
+    </message>
+    <message>
+        <source>New sessions</source>
+        <translation>Neue Sitzungen</translation>
+    </message>
+    <message>
+        <source>Goals of a new campaign</source>
+        <translation>Ziele einer neuen Kampagne</translation>
+    </message>
+    <message>
+        <source>Goal of displacements</source>
+        <translation>Ziel für Verschiebungen</translation>
+    </message>
+    <message>
+        <source> µm</source>
+        <translation> µm</translation>
+    </message>
+    <message>
+        <source>Goal of rotations</source>
+        <translation>Ziel für Drehungen</translation>
+    </message>
+    <message>
+        <source> µrad</source>
+        <translation> µrad</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keines</translation>
+    </message>
+    <message>
+        <source>Displacements</source>
+        <translation>Verschiebungen</translation>
+    </message>
+    <message>
+        <source>Rotations</source>
+        <translation>Drehungen</translation>
+    </message>
+    <message>
+        <source>What may remain after compensation. The step Verify keeps the goal of each campaign.</source>
+        <translation>Was nach der Kompensation übrig bleiben darf. Der Schritt „Verifizieren“ behält das Ziel jeder Kampagne.</translation>
+    </message>
+    <message>
+        <source>Ask</source>
+        <translation>Nachfragen</translation>
+    </message>
+    <message>
+        <source>before quitting while work is running</source>
+        <translation>vor dem Beenden bei laufender Arbeit</translation>
+    </message>
+    <message>
+        <source>Ask before quitting while work is running</source>
+        <translation>Vor dem Beenden bei laufender Arbeit nachfragen</translation>
+    </message>
+    <message>
+        <source>before an edited effect is discarded</source>
+        <translation>vor dem Verwerfen eines bearbeiteten Effekts</translation>
+    </message>
+    <message>
+        <source>Ask before an edited effect is discarded</source>
+        <translation>Vor dem Verwerfen eines bearbeiteten Effekts nachfragen</translation>
+    </message>
+    <message>
+        <source>Reset all</source>
+        <translation>Alle zurücksetzen</translation>
+    </message>
+    <message>
+        <source>Reset all preferences</source>
+        <translation>Alle Einstellungen zurücksetzen</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Nothing can be written to &quot;%1&quot;; allowed: a folder of yours, from the root on. New sessions go on to %2.</source>
+        <translation>In „%1“ kann nicht geschrieben werden; zulässig: ein eigener Ordner, mit vollständigem Pfad. Neue Sitzungen kommen weiterhin nach %2.</translation>
     </message>
 </context>
 <context>
@@ -17224,6 +18285,21 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
 </context>
 <context>
+    <name>spindrift::gui::TestPartView</name>
+    <message>
+        <source>Milled test part</source>
+        <translation>Gefrästes Prüfwerkstück</translation>
+    </message>
+    <message>
+        <source>Deviations from bore C, drawn %1 times their size</source>
+        <translation>Abweichungen bezogen auf Bohrung C, %1-fach vergrößert gezeichnet</translation>
+    </message>
+    <message>
+        <source>No deviation: the part is as it should be</source>
+        <translation>Keine Abweichung: Das Werkstück ist, wie es sein soll</translation>
+    </message>
+</context>
+<context>
     <name>spindrift::gui::ThermalModelPage</name>
     <message>
         <source>Train a model over time on one part of the log and judge it in free run on another.</source>
@@ -18644,10 +19720,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>3D-Ansicht</translation>
     </message>
     <message>
-        <source>Arrow keys turn, plus and minus zoom, R resets, 1 to 4 are standard views.</source>
-        <translation>Pfeiltasten drehen, Plus und Minus zoomen, R setzt zurück, 1 bis 4 sind Standardansichten.</translation>
-    </message>
-    <message>
         <source>The 3D view cannot be drawn</source>
         <translation>Die 3D-Ansicht lässt sich nicht zeichnen</translation>
     </message>
@@ -18678,6 +19750,97 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source> (extrapolated)</source>
         <translation> (extrapoliert)</translation>
+    </message>
+    <message>
+        <source>Arrow keys turn, plus and minus zoom, R fits, 1 to 4 are standard views, P switches perspective, M measures a distance, C clips.</source>
+        <translation>Pfeiltasten drehen, Plus und Minus zoomen, R passt ein, 1 bis 4 sind Standardansichten, P schaltet die Perspektive um, M misst einen Abstand, C schneidet.</translation>
+    </message>
+    <message>
+        <source>Distance: click the first place</source>
+        <translation>Abstand: erste Stelle anklicken</translation>
+    </message>
+    <message>
+        <source>Distance: click the second place</source>
+        <translation>Abstand: zweite Stelle anklicken</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>%1 %2</source>
+        <translation>%1 %2</translation>
+    </message>
+    <message>
+        <source>%1 %2 %3</source>
+        <translation>%1 %2 %3</translation>
+    </message>
+    <message>
+        <source>%1, %2: %3</source>
+        <translation>%1, %2: %3</translation>
+    </message>
+    <message>
+        <source>x %1 mm, y %2 mm, z %3 mm</source>
+        <translation>x %1 mm, y %2 mm, z %3 mm</translation>
+    </message>
+    <message>
+        <source>scan</source>
+        <translation>Scan</translation>
+    </message>
+</context>
+<context>
+    <name>spindrift::gui::ViewTools</name>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>Front</source>
+        <translation>Vorn</translation>
+    </message>
+    <message>
+        <source>Top</source>
+        <translation>Oben</translation>
+    </message>
+    <message>
+        <source>Right</source>
+        <translation>Rechts</translation>
+    </message>
+    <message>
+        <source>Isometric</source>
+        <translation>Isometrisch</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>Einpassen</translation>
+    </message>
+    <message>
+        <source>Perspective</source>
+        <translation>Perspektive</translation>
+    </message>
+    <message>
+        <source>Measure a distance</source>
+        <translation>Abstand messen</translation>
+    </message>
+    <message>
+        <source>Clip plane</source>
+        <translation>Schnittebene</translation>
+    </message>
+    <message>
+        <source>Axis the clip plane stands across</source>
+        <translation>Achse senkrecht zur Schnittebene</translation>
+    </message>
+    <message>
+        <source>Place of the clip plane</source>
+        <translation>Lage der Schnittebene</translation>
+    </message>
+    <message>
+        <source>Keep the other side</source>
+        <translation>Andere Seite behalten</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1 (%2)</translation>
     </message>
 </context>
 <context>
@@ -18868,6 +20031,257 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Sessions you open appear here. Everything measured is kept in its session&apos;s folder.</source>
         <translation>Geöffnete Sitzungen erscheinen hier. Alles Gemessene wird im Ordner seiner Sitzung aufbewahrt.</translation>
+    </message>
+</context>
+<context>
+    <name>spindrift::gui::WhatIfWindow</name>
+    <message>
+        <source>Squareness</source>
+        <translation>Rechtwinkligkeit</translation>
+    </message>
+    <message>
+        <source>Location of the rotary table C</source>
+        <translation>Lage des Drehtisches C</translation>
+    </message>
+    <message>
+        <source>Axis %1</source>
+        <translation>Achse %1</translation>
+    </message>
+    <message>
+        <source>Square</source>
+        <translation>Quadrat</translation>
+    </message>
+    <message>
+        <source>Square, side %1</source>
+        <translation>Quadrat, Seite %1</translation>
+    </message>
+    <message>
+        <source>Diamond, side %1</source>
+        <translation>Raute, Seite %1</translation>
+    </message>
+    <message>
+        <source>Inclined face %1</source>
+        <translation>Geneigte Fläche %1</translation>
+    </message>
+    <message>
+        <source>Circle</source>
+        <translation>Kreis</translation>
+    </message>
+    <message>
+        <source>Centre bore</source>
+        <translation>Mittelbohrung</translation>
+    </message>
+    <message>
+        <source>Hole %1</source>
+        <translation>Bohrung %1</translation>
+    </message>
+    <message>
+        <source>Holes</source>
+        <translation>Bohrungen</translation>
+    </message>
+    <message>
+        <source>Straightness</source>
+        <translation>Geradheit</translation>
+    </message>
+    <message>
+        <source>Perpendicularity to %1</source>
+        <translation>Rechtwinkligkeit zu %1</translation>
+    </message>
+    <message>
+        <source>Parallelism to %1</source>
+        <translation>Parallelität zu %1</translation>
+    </message>
+    <message>
+        <source>Angularity to %1</source>
+        <translation>Neigung zu %1</translation>
+    </message>
+    <message>
+        <source>Squareness of its sides</source>
+        <translation>Rechtwinkligkeit der Seiten</translation>
+    </message>
+    <message>
+        <source>Size along X</source>
+        <translation>Maß entlang X</translation>
+    </message>
+    <message>
+        <source>Size along Y</source>
+        <translation>Maß entlang Y</translation>
+    </message>
+    <message>
+        <source>Circularity, minimum zone</source>
+        <translation>Rundheit, Minimumzone</translation>
+    </message>
+    <message>
+        <source>Circularity, least squares</source>
+        <translation>Rundheit, kleinste Quadrate</translation>
+    </message>
+    <message>
+        <source>Diameter</source>
+        <translation>Durchmesser</translation>
+    </message>
+    <message>
+        <source>Concentricity to %1</source>
+        <translation>Konzentrizität zu %1</translation>
+    </message>
+    <message>
+        <source>Position from %1 and B</source>
+        <translation>Position bezogen auf %1 und B</translation>
+    </message>
+    <message>
+        <source>Distance along X</source>
+        <translation>Abstand entlang X</translation>
+    </message>
+    <message>
+        <source>Distance along Y</source>
+        <translation>Abstand entlang Y</translation>
+    </message>
+    <message>
+        <source>Hole bar</source>
+        <translation>Lochleiste</translation>
+    </message>
+    <message>
+        <source>Ball artefact</source>
+        <translation>Kugelnormal</translation>
+    </message>
+    <message>
+        <source>Fiducial plate</source>
+        <translation>Markenplatte</translation>
+    </message>
+    <message>
+        <source>as it lies</source>
+        <translation>wie sie liegt</translation>
+    </message>
+    <message>
+        <source>turned by 90°</source>
+        <translation>um 90° gedreht</translation>
+    </message>
+    <message>
+        <source>What if</source>
+        <translation>Was wäre, wenn</translation>
+    </message>
+    <message>
+        <source>Move an error of the machine and see what it does to probing points, artefacts and a milled part.</source>
+        <translation>Eine Abweichung der Maschine verstellen und sehen, was sie an Antastpunkten, Prüfkörpern und einem gefrästen Werkstück bewirkt.</translation>
+    </message>
+    <message>
+        <source>Machine with the deviations at its probing points</source>
+        <translation>Maschine mit den Abweichungen an ihren Antastpunkten</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>Maschine</translation>
+    </message>
+    <message>
+        <source>Test part (ISO 10791-7)</source>
+        <translation>Prüfwerkstück (ISO 10791-7)</translation>
+    </message>
+    <message>
+        <source>Feature</source>
+        <translation>Merkmal</translation>
+    </message>
+    <message>
+        <source>Characteristic</source>
+        <translation>Kenngröße</translation>
+    </message>
+    <message>
+        <source>Value</source>
+        <translation>Wert</translation>
+    </message>
+    <message>
+        <source>Unit</source>
+        <translation>Einheit</translation>
+    </message>
+    <message>
+        <source>Nominal / mm</source>
+        <translation>Nennwert / mm</translation>
+    </message>
+    <message>
+        <source>Point</source>
+        <translation>Punkt</translation>
+    </message>
+    <message>
+        <source>X / mm</source>
+        <translation>X / mm</translation>
+    </message>
+    <message>
+        <source>Y / mm</source>
+        <translation>Y / mm</translation>
+    </message>
+    <message>
+        <source>Z / mm</source>
+        <translation>Z / mm</translation>
+    </message>
+    <message>
+        <source>EX / µm</source>
+        <translation>EX / µm</translation>
+    </message>
+    <message>
+        <source>EY / µm</source>
+        <translation>EY / µm</translation>
+    </message>
+    <message>
+        <source>EZ / µm</source>
+        <translation>EZ / µm</translation>
+    </message>
+    <message>
+        <source>EA / µrad</source>
+        <translation>EA / µrad</translation>
+    </message>
+    <message>
+        <source>EB / µrad</source>
+        <translation>EB / µrad</translation>
+    </message>
+    <message>
+        <source>EC / µrad</source>
+        <translation>EC / µrad</translation>
+    </message>
+    <message>
+        <source>Characteristics of the test part</source>
+        <translation>Kenngrößen des Prüfwerkstücks</translation>
+    </message>
+    <message>
+        <source>Test part</source>
+        <translation>Prüfwerkstück</translation>
+    </message>
+    <message>
+        <source>Deviations at the probing points</source>
+        <translation>Abweichungen an den Antastpunkten</translation>
+    </message>
+    <message>
+        <source>Probing points</source>
+        <translation>Antastpunkte</translation>
+    </message>
+    <message>
+        <source>Artefact</source>
+        <translation>Prüfkörper</translation>
+    </message>
+    <message>
+        <source>Deviations of the features of the artefact</source>
+        <translation>Abweichungen der Merkmale des Prüfkörpers</translation>
+    </message>
+    <message>
+        <source>Artefacts</source>
+        <translation>Prüfkörper</translation>
+    </message>
+    <message>
+        <source>Find a parameter or effect</source>
+        <translation>Parameter oder Effekt suchen</translation>
+    </message>
+    <message>
+        <source>All to zero</source>
+        <translation>Alle auf null</translation>
+    </message>
+    <message>
+        <source>%1, %2 %3 per %4</source>
+        <translation>%1, %2 %3 je %4</translation>
+    </message>
+    <message>
+        <source>Relative to %1</source>
+        <translation>Bezogen auf %1</translation>
+    </message>
+    <message>
+        <source>; deviation along the bar %1 µm/m</source>
+        <translation>; Abweichung entlang der Leiste %1 µm/m</translation>
     </message>
 </context>
 <context>

@@ -25,6 +25,7 @@
 #include "core/base/text.h"
 #include "widgets/common/preferences.h"
 #include "widgets/theme/icons.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -54,7 +55,7 @@ SortKey sortKeyOf(const QModelIndex& index) {
   if (text.isEmpty() && checked.isValid()) text = QString::number(checked.toInt());
   if (text.isEmpty() || text == QStringLiteral("–")) return key;
   key.text = text;
-  const QRegularExpressionMatch match = leading.match(text.replace(true_minus, QLatin1Char('-')));
+  const QRegularExpressionMatch match = leading.match(plainNumbers(text).replace(true_minus, QLatin1Char('-')));
   key.rank = match.hasMatch() ? 0 : 1;
   if (match.hasMatch()) key.number = match.captured(1).toDouble();
   return key;
@@ -112,7 +113,7 @@ std::vector<int> orderBy(const QAbstractItemModel& model, int column, Qt::SortOr
 
 QString plainField(const QModelIndex& index) {
   const QVariant exact = index.data(Qt::UserRole);
-  QString text = (exact.isValid() ? exact : index.data()).toString();
+  QString text = exact.isValid() ? exact.toString() : plainNumbers(index.data().toString());
   const QVariant checked = index.data(Qt::CheckStateRole);
   if (text.isEmpty() && checked.isValid())
     text = checked.toInt() == Qt::Checked ? QStringLiteral("1") : QStringLiteral("0");

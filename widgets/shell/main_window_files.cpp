@@ -184,7 +184,8 @@ void MainWindow::askAndPrint(const std::function<void(QPrinter&)>& print) {
 }
 
 void MainWindow::printPage(QPrinter& printer) {
-  if (currentPage() == nullptr || session_.campaign() == nullptr) throw InputError(tr("Open a session first.").toStdString());
+  if (currentPage() == nullptr || session_.campaign() == nullptr)
+    throw InputError(tr("Open a session first.").toStdString());
   // Paper is light; the colours on the screen come back at once.
   const ThemeKind shown = theme().kind;
   applyLook(ThemeKind::Light);
