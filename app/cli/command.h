@@ -66,6 +66,7 @@ void addReportingCommands(CLI::App& app, CommandLine& line);
 void addScanningCommands(CLI::App& app, CommandLine& line);
 void addSessionCommands(CLI::App& app, CommandLine& line);
 void addSimulationCommands(CLI::App& app, CommandLine& line);
+void addTeachingCommands(CLI::App& app, CommandLine& line);
 void addThermalCommands(CLI::App& app, CommandLine& line);
 void addThermalReplayCommands(CLI::App& thermal, CommandLine& line);
 

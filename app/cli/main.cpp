@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
                                                goOnInFe(argv);
                                              return spindrift::openFeResult(file);
                                            });
+  spindrift::cli::addTeachingCommands(app, line);
   spindrift::cli::addReportingCommands(app, line);
   spindrift::cli::addSessionCommands(app, line);
   spindrift::cli::addPlantCommands(app, line);

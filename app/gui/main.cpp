@@ -7,7 +7,6 @@
 #include <QDir>
 #include <QElapsedTimer>
 #include <QFile>
-#include <QSettings>
 #include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QTimer>
@@ -25,12 +24,16 @@
 #include "core/base/log.h"
 #include "core/base/program_reference.h"
 #include "core/base/text.h"
+#include "widgets/common/core_sentence.h"
+#include "widgets/common/languages.h"
+#include "widgets/common/preferences.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/diagnostics.h"
 #include "widgets/shell/main_window.h"
 #include "widgets/shell/self_test.h"
 #include "widgets/shell/tour.h"
+#include "widgets/theme/system_look.h"
 #include "widgets/theme/theme.h"
 
 namespace {
@@ -89,6 +92,13 @@ spindrift::ProgramReference referenceOf(const QList<QCommandLineOption>& options
   return reference;
 }
 
+/// "en", "de": what --language may be.
+QStringList languageCodes() {
+  QStringList codes;
+  for (const spindrift::gui::Language& one : spindrift::gui::availableLanguages()) codes << one.code;
+  return codes;
+}
+
 /// What the command line asks for and the program does not have; empty if it is all right.
 std::string wrongUsage(const QCommandLineParser& parser) {
   const QStringList words = parser.positionalArguments();
@@ -98,6 +108,11 @@ std::string wrongUsage(const QCommandLineParser& parser) {
   const QString theme = parser.value(QStringLiteral("theme"));
   if (parser.isSet(QStringLiteral("theme")) && theme != QLatin1String("light") && theme != QLatin1String("dark")) {
     return "--theme " + theme.toStdString() + " is not allowed; allowed: light or dark.";
+  }
+  const QString language = parser.value(QStringLiteral("language"));
+  if (parser.isSet(QStringLiteral("language")) && !spindrift::gui::isAvailableLanguage(language)) {
+    return "--language " + language.toStdString() +
+           " is not allowed; allowed: " + languageCodes().join(QStringLiteral(" or ")).toStdString() + ".";
   }
   if (parser.isSet(QStringLiteral("json")) && !parser.isSet(QStringLiteral("self-test"))) {
     return "--json is allowed only together with --self-test.";
@@ -120,10 +135,11 @@ class Application : public QApplication {
     try {
       return QApplication::notify(receiver, event);
     } catch (const spindrift::InputError& e) {
-      report(QString::fromUtf8(e.what()));
+      report(spindrift::gui::coreSentence(e.what()));
     } catch (const std::exception& e) {
       spindrift::log(spindrift::LogLevel::Error, std::string("internal error: ") + e.what());
-      report(tr("Internal error, please report it: %1").arg(QString::fromUtf8(e.what())));
+      report(
+          QCoreApplication::translate("main", "Internal error, please report it: %1").arg(QString::fromUtf8(e.what())));
     }
     return false;
   }
@@ -216,6 +232,10 @@ int run(int argc, char** argv) {
       QStringLiteral("DIR"));
   const QCommandLineOption theme_option(QStringLiteral("theme"), QCoreApplication::translate("main", "light or dark."),
                                         QStringLiteral("light|dark"));
+  const QCommandLineOption language(
+      QStringLiteral("language"),
+      QCoreApplication::translate("main", "Language of the window; otherwise that of the preferences or the system."),
+      languageCodes().join(QLatin1Char('|')));
   const QCommandLineOption scale(QStringLiteral("scale"),
                                  QCoreApplication::translate("main", "Scale of everything, 0.5 to 4."),
                                  QStringLiteral("N"));
@@ -234,7 +254,8 @@ int run(int argc, char** argv) {
       QCoreApplication::translate(
           "main", "Print the reference of the options: a man page, the completion of bash, or Markdown."),
       QStringLiteral("man|bash|markdown"));
-  const QList<QCommandLineOption> options = {demo, tour, theme_option, scale, self_test, json, start_time, reference};
+  const QList<QCommandLineOption> options = {demo,      tour, theme_option, language, scale,
+                                             self_test, json, start_time,   reference};
   parser.addOptions(options);
   if (!parser.parse(application.arguments())) {
     return refused(parser.errorText().toStdString());
@@ -265,9 +286,16 @@ int run(int argc, char** argv) {
   const QString data = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
   if (!data.isEmpty()) spindrift::startLogFile((data + QStringLiteral("/spindrift.log")).toStdString());
 
-  QString kind = parser.value(theme_option);
-  if (kind.isEmpty() && !parser.isSet(tour)) kind = QSettings().value(QStringLiteral("theme")).toString();
-  applyTheme(application, kind == QLatin1String("dark") ? ThemeKind::Dark : ThemeKind::Light);
+  // Pictures of a tour and what a self-test says are the same everywhere, unless a language is asked for.
+  const bool unattended_run = parser.isSet(tour) || parser.isSet(self_test);
+  applyLanguage(parser.isSet(language) ? parser.value(language)
+                : unattended_run       ? QStringLiteral("en")
+                                       : preferredLanguage());
+  const QString kind = parser.value(theme_option);
+  (void)SystemLook::instance();  // sees the colours of the platform before they are ours
+  ThemeKind look = kind == QLatin1String("dark") ? ThemeKind::Dark : ThemeKind::Light;
+  if (kind.isEmpty() && !parser.isSet(tour)) look = wantedTheme();
+  applyTheme(application, look);
 
   MainWindow window;
   application.tell = [&window](const QString& sentence) { window.jobBar()->setMessage(sentence); };
@@ -287,6 +315,7 @@ int run(int argc, char** argv) {
   if (parser.isSet(self_test)) return selfTest(window, parser.value(json));
   window.show();
   const QStringList folders = parser.positionalArguments();
+  if (folders.isEmpty()) window.showNewsIfDue();
   if (parser.isSet(demo)) {
     window.startDemo(folders.isEmpty() ? QStringLiteral("fiducials") : folders.front());
   } else if (!folders.isEmpty()) {

@@ -55,6 +55,10 @@ constexpr std::string_view every_machine = R"({"format":"spindrift-machine","ver
    {"name":"T_column_front_degC","place":"column front"},{"name":"T_column_rear_degC","place":"column rear"},
    {"name":"T_table_degC","place":"table"},{"name":"T_screw_x_degC","place":"screw of X"}]})";
 
+MachineDescription everyMachine() {
+  return MachineDescription::parse(JsonNode::parse(every_machine, "every"), "every");
+}
+
 OperatingLog everyLog() {
   std::vector<double> time_s;
   for (int i = 0; i < 12; ++i) time_s.push_back(600.0 * i);
@@ -85,7 +89,7 @@ std::vector<Effect> effectsOf(const CatalogueContext& context) {
 
 KnownEffects makeKnownEffects() {
   KnownEffects out;
-  const MachineDescription machine = MachineDescription::parse(JsonNode::parse(every_machine, "every"), "every");
+  const MachineDescription machine = everyMachine();
   const OperatingLog log = everyLog();
   const DriverTable drivers(machine, &log);
   CatalogueContext context;
@@ -140,6 +144,22 @@ const KnownEffects& knownEffects() {
 
 const std::vector<Effect>& everyEffect() {
   return knownEffects().effects;
+}
+
+std::vector<Effect> effectsOfMachine(const MachineDescription& machine, const std::vector<std::string>& points) {
+  MachineDescription equipped = machine;
+  equipped.temperature_sensors = everyMachine().temperature_sensors;
+  const OperatingLog log = everyLog();
+  const DriverTable drivers(equipped, &log);
+  CatalogueContext context;
+  context.machine = &equipped;
+  context.drivers = &drivers;
+  context.points = points;
+  context.point_count = points.size();
+  context.varying_approach = {"x", "y", "z"};
+  context.c_varies = !machine.rotary.empty();
+  context.position_varies = true;
+  return effectCatalogue(context);
 }
 
 std::vector<Effect> effectCatalogue(const CatalogueContext& context) {

@@ -35,6 +35,11 @@ struct CatalogueContext {
 using EffectFamily = void (*)(const CatalogueContext& context, std::vector<Effect>& out);
 [[nodiscard]] std::span<const EffectFamily> effectFamilies();
 
+/// Every effect that a machine can have, whatever its log holds: as if it logged everything and every sensor were
+/// there. `points` may slip. What each holds is of observations that measure rotations as well.
+[[nodiscard]] std::vector<Effect> effectsOfMachine(const MachineDescription& machine,
+                                                   const std::vector<std::string>& points);
+
 /// Every effect of the catalogue, as a machine has it that can have them all and logs everything; the point of
 /// fixture.slip is "<point>". What each holds is of observations that measure rotations as well.
 [[nodiscard]] const std::vector<Effect>& everyEffect();

@@ -9,14 +9,25 @@
 
 namespace spindrift::decoding {
 
+EdgeProfile::EdgeProfile(double blur) : blur_px(blur), band_px(2.3 * blur + 1.0) {
+  cells.resize(static_cast<std::size_t>(2.0 * band_px * cells_per_px) + 2);
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const double e = static_cast<double>(k) / cells_per_px - band_px;
+    cells[k].level = static_cast<float>(0.5 * std::erfc(e / (blur * std::numbers::sqrt2)));
+    cells[k].slope =
+        static_cast<float>(-std::exp(-0.5 * e * e / (blur * blur)) / (blur * std::sqrt(2.0 * std::numbers::pi)));
+  }
+}
+
 RingMatch matchCircle(const GrayImage& image, const FiducialPattern& pattern, const PatternMap& map,
-                      const Eigen::Vector2d& centre_um, double blur_px, const Eigen::Vector2d& light_gradient) {
+                      const Eigen::Vector2d& centre_um, const EdgeProfile& edge,
+                      const Eigen::Vector2d& light_gradient) {
   RingMatch result;
   const Eigen::Vector2d start = map.imageOf(centre_um);
   const double radius = 0.5 * (map.imageOf(centre_um + Eigen::Vector2d(pattern.circle_radius_um, 0)) -
                                map.imageOf(centre_um - Eigen::Vector2d(pattern.circle_radius_um, 0)))
                                   .norm();
-  const double band = 2.3 * blur_px + 1.0;
+  const double band = edge.band_px;
   const double outer = radius + band;
   const double inner = std::max(0.0, radius - band);
   const int x0 = static_cast<int>(std::ceil(start.x() - outer));
@@ -25,20 +36,13 @@ RingMatch matchCircle(const GrayImage& image, const FiducialPattern& pattern, co
   const int y1 = static_cast<int>(std::floor(start.y() + outer));
   if (x0 < 0 || y0 < 0 || x1 >= image.width() || y1 >= image.height()) return result;
 
-  constexpr int steps_per_px = 16;
-  const int cells = static_cast<int>(2.0 * band * steps_per_px) + 2;
-  std::vector<float> profile(cells);
-  std::vector<float> slope(cells);
-  for (int k = 0; k < cells; ++k) {
-    const double e = static_cast<double>(k) / steps_per_px - band;  // r - R
-    profile[k] = static_cast<float>(0.5 * std::erfc(e / (blur_px * std::numbers::sqrt2)));
-    slope[k] = static_cast<float>(-std::exp(-0.5 * e * e / (blur_px * blur_px)) /
-                                  (blur_px * std::sqrt(2.0 * std::numbers::pi)));
-  }
   Eigen::Matrix4f M = Eigen::Matrix4f::Zero();
   Eigen::Vector4f g = Eigen::Vector4f::Zero();
   float square = 0.0F;
   const float first = static_cast<float>(radius - band);
+  const float outer2 = static_cast<float>(outer * outer);
+  const float inner2 = static_cast<float>(inner * inner);
+  const int last = static_cast<int>(edge.cells.size()) - 1;
   const float gx = static_cast<float>(light_gradient.x());
   const float gy = static_cast<float>(light_gradient.y());
   for (int y = y0; y <= y1; ++y) {
@@ -46,16 +50,17 @@ RingMatch matchCircle(const GrayImage& image, const FiducialPattern& pattern, co
     const float dy = static_cast<float>(y - start.y());
     for (int x = x0; x <= x1; ++x) {
       const float dx = static_cast<float>(x - start.x());
-      const float r = std::sqrt(dx * dx + dy * dy);
-      if (r >= outer || r <= inner) continue;
-      const float index = std::max(0.0F, (r - first) * steps_per_px);
-      const int cell = std::min(static_cast<int>(index), cells - 2);
-      const float part = index - static_cast<float>(cell);
-      const float t = profile[cell] + part * (profile[cell + 1] - profile[cell]);
-      const float q = (slope[cell] + part * (slope[cell + 1] - slope[cell])) / std::max(r, 1e-3F);
+      const float r2 = dx * dx + dy * dy;
+      if (r2 >= outer2 || r2 <= inner2) continue;
+      const float r = std::sqrt(r2);
+      const float index = std::max(0.0F, (r - first) * static_cast<float>(EdgeProfile::cells_per_px));
+      const EdgeProfile::Cell& cell =
+          edge.cells[static_cast<std::size_t>(std::min(static_cast<int>(index + 0.5F), last))];
+      const float t = cell.level;
+      const float q = cell.slope / std::max(r, 1e-3F);
       const float qx = q * dx;
       const float qy = q * dy;
-      const float level = static_cast<float>(line[x]) * (1.0F - gx * dx - gy * dy) - 100.0F;
+      const float level = static_cast<float>(line[x]) * (1.0F - gx * dx - gy * dy) - line_ground;
       M(0, 0) += 1.0F;
       M(1, 0) += t;
       M(2, 0) += qx;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -91,8 +90,6 @@ class Decoding {
   void scaleUncertainties();
   void readAllDigits();
   void lookForOthers();
-  /// Empty where the ellipses lie as a straight look from above shows them; else the reason.
-  [[nodiscard]] std::string whyThePoseDoesNotHold() const;
   void rejectWith(std::string message) {
     result_.status = FitStatus::Rejected;
     result_.message = std::move(message);
@@ -242,8 +239,13 @@ void Decoding::locateEllipses() {
   const Eigen::Vector2d middle_um = map_.patternOf({map_.centre_x_px, map_.centre_y_px});
   const Eigen::Vector2d seen_um(std::clamp(middle_um.x(), 0.0, (pattern_.columnCount() - 1) * pattern_.pitch_um),
                                 std::clamp(middle_um.y(), 0.0, (pattern_.rowCount() - 1) * pattern_.pitch_um));
-  ring_.emplace(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, 4500);
-  for (int pass = 0; pass < 4; ++pass) {
+  // The marks' moments are right to a few tenths of a pixel: a third of the pixels brings map and blur to where the
+  // match with all of them has to be made once only.
+  constexpr int thinned = 1500;
+  constexpr int all = 4500;
+  constexpr int last_pass = 4;
+  ring_.emplace(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, thinned);
+  for (int pass = 0; pass <= last_pass; ++pass) {
     bool changed = false;
     matched_k1_ = map_.k1_per_px2;
     // Those in view by the present map; matches are kept where they are close to their own prediction.
@@ -279,9 +281,12 @@ void Decoding::locateEllipses() {
     for (const Expected& e : expected_) {
       if (e.match.found) contrasts.push_back(e.match.contrast);
     }
-    if (contrasts.empty()) return;
-    std::nth_element(contrasts.begin(), contrasts.begin() + contrasts.size() / 2, contrasts.end());
-    const double typical = contrasts[contrasts.size() / 2];
+    if (contrasts.empty() && pass > 0) return;
+    double typical = 0.0;
+    if (!contrasts.empty()) {
+      std::nth_element(contrasts.begin(), contrasts.begin() + contrasts.size() / 2, contrasts.end());
+      typical = contrasts[contrasts.size() / 2];
+    }
     std::vector<MapPoint> points;
     for (Expected& e : expected_) {
       if (e.match.found && e.match.contrast < 0.2 * typical) e.match.found = false;
@@ -289,10 +294,10 @@ void Decoding::locateEllipses() {
     }
     const MapFit fit = fitMap(points, map_, points.size() >= 6);
     if (fit.status == FitStatus::Converged) map_ = fit.map;
-    if (pass < 3 && std::abs(map_.k1_per_px2 - matched_k1_) * bendPerK1() > 0.0005) {
+    if (pass < last_pass && std::abs(map_.k1_per_px2 - matched_k1_) * bendPerK1() > 0.0005) {
       for (Expected& e : expected_) e.match.shift_px = 1.0;
     }
-    if (pass == 0 || !changed) {
+    if (pass <= 1 || !changed) {
       std::vector<Eigen::Vector2d> centres;
       std::vector<Eigen::Vector2d> shifts;
       for (const Expected& e : expected_) {
@@ -301,74 +306,19 @@ void Decoding::locateEllipses() {
         shifts.push_back(Eigen::Vector2d(e.match.x_px, e.match.y_px) - map_.imageOf(e.centre_um));
       }
       const double blur = ring_->estimateBlur(image_, map_, centres, shifts);
-      if (blur > 0.0) {
-        const bool rebuild = std::abs(blur / blur_px_ - 1.0) > 0.1;
-        blur_px_ = blur;
-        if (rebuild && pass < 3) {
-          ring_.emplace(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, 4500);
-          for (Expected& e : expected_) e.match.shift_px = 1.0;
-          continue;
-        }
+      const bool other = blur > 0.0 && std::abs(blur / blur_px_ - 1.0) > 0.1;
+      if (blur > 0.0) blur_px_ = blur;
+      if (pass == 0 || (other && pass < last_pass)) {
+        ring_.emplace(pattern_, image_, frameAt(seen_um, 0, 0), blur_px_, all);
+        for (Expected& e : expected_) e.match.shift_px = 1.0;
+        continue;
       }
     }
     if (!changed) break;
     const bool settled = std::none_of(expected_.begin(), expected_.end(),
                                       [](const Expected& e) { return e.match.found && e.match.shift_px > 0.15; });
-    if (settled && pass > 0) break;
-    if (settled && pass == 0) {
-      // Nothing moved; only ellipses that newly came into view are left to match.
-      continue;
-    }
+    if (settled) break;
   }
-}
-
-/// Median distance of the ellipses from where `place` has them, px.
-template <typename Place>
-double medianDistance(const std::vector<Subpattern>& ellipses, const Place& place) {
-  std::vector<double> off;
-  for (const Subpattern& s : ellipses) off.push_back((Eigen::Vector2d(s.x_px, s.y_px) - place(s)).norm());
-  if (off.empty()) return 0.0;
-  std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
-  return off[off.size() / 2];
-}
-
-/// Projection (homography) from the pattern (um) to the image through the ellipses, by the direct linear transform on
-/// normalised coordinates (Hartley 1997); nothing with fewer than six.
-std::optional<Eigen::Matrix3d> projectionOf(const std::vector<Subpattern>& ellipses, const FiducialPattern& pattern) {
-  if (ellipses.size() < 6) return std::nullopt;
-  const auto n = static_cast<Eigen::Index>(ellipses.size());
-  Eigen::Matrix2Xd from(2, n);
-  Eigen::Matrix2Xd onto(2, n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Subpattern& s = ellipses[static_cast<std::size_t>(k)];
-    from.col(k) = pattern.ellipseCentre(s.row, s.column);
-    onto.col(k) = Eigen::Vector2d(s.x_px, s.y_px);
-  }
-  const auto normaliser = [n](Eigen::Matrix2Xd& points) {
-    const Eigen::Vector2d centre = points.rowwise().mean();
-    points.colwise() -= centre;
-    const double size = std::max(1e-9, points.norm() / std::sqrt(static_cast<double>(n)));
-    points /= size;
-    Eigen::Matrix3d back = Eigen::Matrix3d::Identity();
-    back(0, 0) = back(1, 1) = size;
-    back.topRightCorner<2, 1>() = centre;
-    return back;
-  };
-  const Eigen::Matrix3d from_back = normaliser(from);
-  const Eigen::Matrix3d onto_back = normaliser(onto);
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 9);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::RowVector3d p = from.col(k).homogeneous().transpose();
-    A.block<1, 3>(2 * k, 0) = p;
-    A.block<1, 3>(2 * k, 6) = -onto(0, k) * p;
-    A.block<1, 3>(2 * k + 1, 3) = p;
-    A.block<1, 3>(2 * k + 1, 6) = -onto(1, k) * p;
-  }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullV);
-  const Eigen::VectorXd h = svd.matrixV().col(8);
-  Eigen::Matrix3d projection;
-  projection << h(0), h(1), h(2), h(3), h(4), h(5), h(6), h(7), h(8);
-  return Eigen::Matrix3d(onto_back * projection * from_back.inverse());
 }
 
 void Decoding::locateCircles() {
@@ -382,12 +332,13 @@ void Decoding::locateCircles() {
   }
   if (!options_.circles) return;
   const Light light(expected_, {map_.centre_x_px, map_.centre_y_px});
+  const EdgeProfile edge(blur_px_);
   for (int j = pattern_.first_circle_row; j <= pattern_.last_circle_row; ++j) {
     for (int i = pattern_.first_circle_column; i <= pattern_.last_circle_column; ++i) {
       const Eigen::Vector2d centre = pattern_.circleCentre(i, j);
       const Eigen::Vector2d at = map_.imageOf(centre);
       if (!(at.x() > 0 && at.y() > 0 && at.x() < image_.width() && at.y() < image_.height())) continue;
-      const RingMatch match = matchCircle(image_, pattern_, map_, centre, blur_px_, light.gradientAt(at));
+      const RingMatch match = matchCircle(image_, pattern_, map_, centre, edge, light.gradientAt(at));
       if (!match.found || match.correlation < 0.7 || match.shift_px > 1.5) continue;
       CircleMark mark;
       mark.i = i;
@@ -566,28 +517,6 @@ void Decoding::lookForOthers() {
   }
 }
 
-std::string Decoding::whyThePoseDoesNotHold() const {
-  constexpr double tolerated_px = 0.3;  // hard images, lenses with more than k1 and damaged marks stay below 0.1
-  const double off_px = medianDistance(
-      result_.subpatterns, [&](const Subpattern& s) { return map_.imageOf(pattern_.ellipseCentre(s.row, s.column)); });
-  if (off_px <= tolerated_px) return {};
-  const auto projected = projectionOf(result_.subpatterns, pattern_);
-  if (projected &&
-      medianDistance(result_.subpatterns, [&](const Subpattern& s) {
-        return Eigen::Vector2d((*projected * pattern_.ellipseCentre(s.row, s.column).homogeneous()).hnormalized());
-      }) < off_px / 3.0) {
-    return fmt::format(
-        "the pattern is seen from the side: half of its ellipses lie more than {:.1f} px beside where a look straight "
-        "from above has them; lengths would be wrong",
-        off_px);
-  }
-  return fmt::format(
-      "half of the ellipses lie more than {:.1f} px beside where the pattern has them: it is bent or seen from the "
-      "side, "
-      "or the lens distorts more than a microscope's",
-      off_px);
-}
-
 DecodeResult Decoding::run() {
   result_.exposure = exposureOf(image_);
   if (!findPattern()) return std::move(result_);
@@ -618,7 +547,7 @@ DecodeResult Decoding::run() {
                            result_.subpatterns.size()));
     return std::move(result_);
   }
-  if (std::string why = whyThePoseDoesNotHold(); !why.empty()) {
+  if (std::string why = whyThePoseDoesNotHold(result_.subpatterns, pattern_, map_); !why.empty()) {
     rejectWith(std::move(why));
     return std::move(result_);
   }

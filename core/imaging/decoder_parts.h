@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/imaging/decoder.h"
@@ -144,7 +146,50 @@ struct MapFit {
 /// Similarity and, where the points determine it, k1; least squares with Huber's weights from `start`.
 [[nodiscard]] MapFit fitMap(const std::vector<MapPoint>& points, const PatternMap& start, bool fit_distortion);
 
-// ---- subpixel.cpp, ring_template.cpp ------------------------------------------------------------------------------
+// ---- pose_check.cpp -----------------------------------------------------------------------------------------------
+
+/// Empty where the ellipses lie as a straight look from above (`map`) shows them; else the reason, one sentence.
+[[nodiscard]] std::string whyThePoseDoesNotHold(const std::vector<Subpattern>& ellipses, const FiducialPattern& pattern,
+                                                const PatternMap& map);
+
+// ---- line_sums.cpp ------------------------------------------------------------------------------------------------
+
+/// A bright line of unit contrast blurred by a Gaussian, at `distance_px` from its middle:
+/// Phi((d + h) / sigma) - Phi((d - h) / sigma).
+[[nodiscard]] double lineProfile(double distance_px, double half_line_px, double blur_px);
+
+/// Sums over pixels for the regression I - line_ground = b + c T(d) + q T'(d).
+struct LineSums {
+  float n = 0, t1 = 0, q1 = 0, tt = 0, tq = 0, qq = 0, i1 = 0, it = 0, iq = 0, ii = 0;
+};
+/// Grey level that is taken off before the sums are made, so that single precision does.
+inline constexpr float line_ground = 100.0F;
+
+/// T and T' of a blurred line over |d|, in steps so fine that the nearest is as good as what lies between: half a step
+/// moves the edge by 2 nm of a pixel of 1 um.
+class LineProfile {
+ public:
+  static constexpr int cells_per_px = 256;
+  struct Cell {
+    float level;
+    float slope;  ///< 1/px, for d > 0
+  };
+  LineProfile() = default;
+  LineProfile(double half_line_px, double blur_px, double band_px);
+
+  /// Sums over `count` pixels whose distances from the line are `distance_px` - `shift_px`; those beyond the band are
+  /// left out. `offset` says where the pixels lie from `origin`.
+  [[nodiscard]] LineSums sum(const float* distance_px, const int* offset, int count, float shift_px,
+                             const std::uint8_t* origin) const;
+
+  [[nodiscard]] const std::vector<Cell>& cells() const noexcept { return cells_; }
+
+ private:
+  std::vector<Cell> cells_;
+  float band_px_ = 0.0F;
+};
+
+// ---- ring_template.cpp --------------------------------------------------------------------------------------------
 
 /// Result of matching one mark.
 struct RingMatch {
@@ -189,7 +234,8 @@ class RingTemplate {
     Eigen::Vector2d point_um;  ///< on the middle of the line
     Eigen::Vector2d point_px;  ///< the same in pixels from the centre, as the template was made
     Eigen::Vector2d normal;    ///< outward, pixels
-    double angle = 0.0;        ///< parameter of the ellipse
+    /// Of the shift along x and y and of the shape (1, cos 2t, sin 2t) on how far out the line lies.
+    Eigen::Matrix<double, 5, 1> row;
   };
   [[nodiscard]] bool place(const GrayImage& image, const PatternMap& map, const Eigen::Vector2d& centre_um,
                            const Eigen::Vector2d& shift, int& x0, int& y0, std::array<float, sectors>& offset,
@@ -201,15 +247,29 @@ class RingTemplate {
   double half_line_px_ = 0.0;
   double band_px_ = 0.0;
   double blur_px_ = 0.0;
-  std::vector<float> profile_;  ///< line profile and its slope over |d|
-  std::vector<float> slope_;
+  LineProfile profile_;
   double gradient_bias_ground_ = 0.0;
   double gradient_bias_contrast_ = 0.0;
 };
 
+// ---- circle_match.cpp ---------------------------------------------------------------------------------------------
+
+/// T = Phi(-e / sigma) of a blurred edge over the distance e from it, and its slope; the same for all circles.
+struct EdgeProfile {
+  explicit EdgeProfile(double blur_px);
+  static constexpr int cells_per_px = 64;
+  struct Cell {
+    float level;
+    float slope;
+  };
+  double blur_px;
+  double band_px;  ///< table from -band to +band
+  std::vector<Cell> cells;
+};
+
 /// Matches a filled circle as `map` predicts it, in light that changes by `light_gradient` (relative, per px).
 [[nodiscard]] RingMatch matchCircle(const GrayImage& image, const FiducialPattern& pattern, const PatternMap& map,
-                                    const Eigen::Vector2d& centre_um, double blur_px,
+                                    const Eigen::Vector2d& centre_um, const EdgeProfile& edge,
                                     const Eigen::Vector2d& light_gradient);
 
 // ---- exposure.cpp -------------------------------------------------------------------------------------------------

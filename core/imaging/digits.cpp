@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/imaging/decoder_parts.h"
@@ -23,14 +25,20 @@ double distanceToStroke(const PatternStroke& stroke, double x, double y) {
 
 /// Mean 0, length 1; false if the cell is flat.
 bool normalise(NumberLibrary::Cell& cell) {
-  float mean = 0.0F;
-  for (const float v : cell) mean += v;
-  mean /= NumberLibrary::samples;
-  float square = 0.0F;
-  for (float& v : cell) {
-    v -= mean;
-    square += v * v;
+  // Four partial sums each, so that the compiler may use vector registers.
+  std::array<float, 4> sum{};
+  for (int k = 0; k < NumberLibrary::samples; k += 4) {
+    for (int l = 0; l < 4; ++l) sum[l] += cell[k + l];
   }
+  const float mean = (sum[0] + sum[1] + sum[2] + sum[3]) / NumberLibrary::samples;
+  std::array<float, 4> squares{};
+  for (int k = 0; k < NumberLibrary::samples; k += 4) {
+    for (int l = 0; l < 4; ++l) {
+      cell[k + l] -= mean;
+      squares[l] += cell[k + l] * cell[k + l];
+    }
+  }
+  const float square = squares[0] + squares[1] + squares[2] + squares[3];
   if (square < 1e-6F) return false;
   const float factor = 1.0F / std::sqrt(square);
   for (float& v : cell) v *= factor;
@@ -38,15 +46,11 @@ bool normalise(NumberLibrary::Cell& cell) {
 }
 
 float correlation(const NumberLibrary::Cell& a, const NumberLibrary::Cell& b) {
-  // Four partial sums, so that the compiler may use vector registers.
-  float s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+  std::array<float, 4> sum{};
   for (int k = 0; k < NumberLibrary::samples; k += 4) {
-    s0 += a[k] * b[k];
-    s1 += a[k + 1] * b[k + 1];
-    s2 += a[k + 2] * b[k + 2];
-    s3 += a[k + 3] * b[k + 3];
+    for (int l = 0; l < 4; ++l) sum[l] += a[k + l] * b[k + l];
   }
-  return (s0 + s1) + (s2 + s3);
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 LocalFrame frameOf(const Mark& mark, double pixel_length_um, double tilt_rad) {
@@ -101,7 +105,6 @@ NumberLibrary::Templates NumberLibrary::templates(double sigma_um) const {
 DigitScores readDigits(const GrayImage& image, const FiducialPattern& pattern, const NumberLibrary& library,
                        const NumberLibrary::Templates& templates, const LocalFrame& frame) {
   DigitScores scores{};
-  constexpr float fixed = 256.0F;
   for (int k = 0; k < 4; ++k) {
     const Eigen::Vector2d centre = pattern.digitCentre(k);
     NumberLibrary::Cell cell{};
@@ -118,18 +121,22 @@ DigitScores readDigits(const GrayImage& image, const FiducialPattern& pattern, c
       return p.x() >= 1.0 && p.y() >= 1.0 && p.x() < image.width() - 2.0 && p.y() < image.height() - 2.0;
     };
     if (!inside(first) || !inside(last) || !inside(side) || !inside(other)) continue;
+    // Steps of 1/65536 px: over a cell they add up to less than a thousandth of a pixel.
+    constexpr double unit = 65536.0;
+    const int column_x = static_cast<int>(std::lrint(column_step.x() * unit));
+    const int column_y = static_cast<int>(std::lrint(column_step.y() * unit));
     for (int j = 0; j < NumberLibrary::rows; ++j) {
-      Eigen::Vector2d p = first + j * row_step;
-      for (int i = 0; i < NumberLibrary::columns; ++i, p += column_step) {
-        const int x = static_cast<int>(p.x());
-        const int y = static_cast<int>(p.y());
-        const int fx = static_cast<int>(static_cast<float>(p.x() - x) * fixed);
-        const int fy = static_cast<int>(static_cast<float>(p.y() - y) * fixed);
-        const std::uint8_t* q = image.row(y) + x;
+      const Eigen::Vector2d p = first + j * row_step;
+      auto px = static_cast<std::int64_t>(p.x() * unit);
+      auto py = static_cast<std::int64_t>(p.y() * unit);
+      for (int i = 0; i < NumberLibrary::columns; ++i, px += column_x, py += column_y) {
+        const int fx = static_cast<int>(px >> 8) & 255;
+        const int fy = static_cast<int>(py >> 8) & 255;
+        const std::uint8_t* q = image.row(static_cast<int>(py >> 16)) + (px >> 16);
         const std::uint8_t* r = q + image.width();
-        const int top = (256 - fx) * q[0] + fx * q[1];
-        const int bottom = (256 - fx) * r[0] + fx * r[1];
-        cell[j * NumberLibrary::columns + i] = static_cast<float>((256 - fy) * top + fy * bottom);
+        const int top = 256 * q[0] + fx * (q[1] - q[0]);
+        const int bottom = 256 * r[0] + fx * (r[1] - r[0]);
+        cell[j * NumberLibrary::columns + i] = static_cast<float>(256 * top + fy * (bottom - top));
       }
     }
     if (!normalise(cell)) continue;

@@ -147,7 +147,7 @@ FiducialImages measureFiducialImages(const std::filesystem::path& folder, const 
   rejectRepeated(result, list);
   poolDistortion(result);
   const Eigen::Vector2d centre(0.5 * (result.width - 1), 0.5 * (result.height - 1));
-  for (std::size_t i = 0; i < result.images.size(); ++i) {
+  parallelFor(result.images.size(), job, [&](std::size_t i) {
     FiducialImage& image = result.images[i];
     if (image.usable && list.captures[i].role != CaptureRole::Focus) {
       image.pose = fitImagePose(image.marks, centre, result.k1_per_px2, image.mirrored);
@@ -156,9 +156,11 @@ FiducialImages measureFiducialImages(const std::filesystem::path& folder, const 
         image.reason = fmt::format("the marks do not fix the place of the image: {}.", image.pose.message);
       }
     }
-    if (!image.usable) result.rejected.push_back({list.captures[i].image, image.reason});
     image.marks.clear();
     image.marks.shrink_to_fit();
+  });
+  for (std::size_t i = 0; i < result.images.size(); ++i) {
+    if (!result.images[i].usable) result.rejected.push_back({list.captures[i].image, result.images[i].reason});
   }
   return result;
 }

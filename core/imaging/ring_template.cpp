@@ -15,23 +15,6 @@
 namespace spindrift::decoding {
 namespace {
 
-constexpr int table_steps_per_px = 32;
-
-double phi(double x) {
-  return 0.5 * std::erfc(-x / std::numbers::sqrt2);
-}
-
-double lineProfile(double d, double half, double sigma) {
-  return phi((d + half) / sigma) - phi((d - half) / sigma);
-}
-
-double lineSlope(double d, double half, double sigma) {
-  const auto density = [&](double x) {
-    return std::exp(-0.5 * x * x / (sigma * sigma)) / (sigma * std::sqrt(2.0 * std::numbers::pi));
-  };
-  return density(d + half) - density(d - half);
-}
-
 /// Distance (um) to an ellipse's line to first order; exact on the line.
 double lineDistance(double x, double y, double a, double b) {
   const double u = x / a;
@@ -72,18 +55,15 @@ RingTemplate::RingTemplate(const FiducialPattern& pattern, const GrayImage& imag
   const double free_band = clearance(pattern) * px_per_um - 1.2 * blur_px;
   band_px_ = std::clamp(free_band, half_line_px_ + 0.9 * blur_px, wanted_band);
 
-  profile_.resize(static_cast<std::size_t>(band_px_ * table_steps_per_px) + 3);
-  slope_.resize(profile_.size());
+  profile_ = LineProfile(half_line_px_, blur_px, band_px_);
   double dT = 0.0, cT = 0.0, ss = 0.0;
-  for (std::size_t k = 0; k < profile_.size(); ++k) {
-    const double d = static_cast<double>(k) / table_steps_per_px;
-    profile_[k] = static_cast<float>(lineProfile(d, half_line_px_, blur_px));
-    slope_[k] = static_cast<float>(lineSlope(d, half_line_px_, blur_px));
-    if (d <= band_px_) {
-      dT += d * slope_[k];
-      cT += d * profile_[k] * slope_[k];
-      ss += slope_[k] * slope_[k];
-    }
+  for (std::size_t k = 0; k < profile_.cells().size(); ++k) {
+    const double d = static_cast<double>(k) / LineProfile::cells_per_px;
+    if (d > band_px_) break;
+    const LineProfile::Cell& cell = profile_.cells()[k];
+    dT += d * cell.slope;
+    cT += d * cell.level * cell.slope;
+    ss += cell.slope * cell.slope;
   }
   gradient_bias_ground_ = dT / ss;
   gradient_bias_contrast_ = cT / ss;
@@ -136,10 +116,11 @@ RingTemplate::RingTemplate(const FiducialPattern& pattern, const GrayImage& imag
     Sector& s = sector_[k];
     s.begin = begin[k];
     s.end = begin[k + 1];
-    s.angle = ((k + 0.5) / sectors - 0.5) * 2.0 * std::numbers::pi;
-    s.point_um = {a * std::cos(s.angle), b * std::sin(s.angle)};
+    const double angle = ((k + 0.5) / sectors - 0.5) * 2.0 * std::numbers::pi;
+    s.point_um = {a * std::cos(angle), b * std::sin(angle)};
     s.point_px = to_px * s.point_um;
-    s.normal = (normal_map * Eigen::Vector2d(std::cos(s.angle) / a, std::sin(s.angle) / b)).normalized();
+    s.normal = (normal_map * Eigen::Vector2d(std::cos(angle) / a, std::sin(angle) / b)).normalized();
+    s.row << s.normal.x(), s.normal.y(), 1.0, std::cos(2.0 * angle), std::sin(2.0 * angle);
   }
   for (const Pixel& p : pixels) {
     Sector& s = sector_[p.sector];
@@ -186,34 +167,12 @@ RingMatch RingTemplate::match(const GrayImage& image, const PatternMap& map, con
   std::array<double, sectors> s{}, variance{}, ground{}, contrast{};
   std::array<bool, sectors> good{};
   double explained = 0.0, total = 0.0, residual_sum = 0.0, residual_dof = 0.0;
-  const float band = static_cast<float>(band_px_);
   for (int k = 0; k < sectors; ++k) {
     if (!inside[k]) continue;
     const Sector& sector = sector_[k];
-    const float at = offset[k];
-    float n = 0, t1 = 0, q1 = 0, tt = 0, tq = 0, qq = 0, i1 = 0, it = 0, iq = 0, ii = 0;
-    for (int m = sector.begin; m < sector.end; ++m) {
-      const float d = distance_px_[m] - at;
-      const float size = std::abs(d);
-      if (size > band) continue;
-      const float index = size * table_steps_per_px;
-      const int cell = static_cast<int>(index);
-      const float part = index - static_cast<float>(cell);
-      const float t = profile_[cell] + part * (profile_[cell + 1] - profile_[cell]);
-      float q = slope_[cell] + part * (slope_[cell + 1] - slope_[cell]);
-      if (d < 0.0F) q = -q;
-      const float level = static_cast<float>(origin[offset_[m]]) - 100.0F;
-      n += 1.0F;
-      t1 += t;
-      q1 += q;
-      tt += t * t;
-      tq += t * q;
-      qq += q * q;
-      i1 += level;
-      it += level * t;
-      iq += level * q;
-      ii += level * level;
-    }
+    const auto [n, t1, q1, tt, tq, qq, i1, it, iq, ii] =
+        profile_.sum(distance_px_.data() + sector.begin, offset_.data() + sector.begin, sector.end - sector.begin,
+                     offset[k], origin);
     if (n < 12.0F) continue;
     Eigen::Matrix2d M;
     M << tt - t1 * t1 / n, tq - t1 * q1 / n, 0.0, qq - q1 * q1 / n;
@@ -228,7 +187,7 @@ RingMatch RingTemplate::match(const GrayImage& image, const PatternMap& map, con
     total += all;
     explained += c > 0.0 ? part : 0.0;
     contrast[k] = c;
-    ground[k] = (i1 - c * t1 - q * q1) / n + 100.0;
+    ground[k] = (i1 - c * t1 - q * q1) / n + line_ground;
     if (c <= 1.0) continue;
     residual_sum += all - part;
     residual_dof += n - 3.0;
@@ -255,12 +214,6 @@ RingMatch RingTemplate::match(const GrayImage& image, const PatternMap& map, con
   // Shift and shape over the sectors; sectors beyond 3.5 robust sigma are left out.
   using Vector = Eigen::Matrix<double, 5, 1>;
   using Matrix = Eigen::Matrix<double, 5, 5>;
-  const auto row = [&](int k) {
-    Vector r;
-    r << sector_[k].normal.x(), sector_[k].normal.y(), 1.0, std::cos(2.0 * sector_[k].angle),
-        std::sin(2.0 * sector_[k].angle);
-    return r;
-  };
   std::array<bool, sectors> used = good;
   if (trusted) {
     sorted.clear();
@@ -285,7 +238,7 @@ RingMatch RingTemplate::match(const GrayImage& image, const PatternMap& map, con
     count = 0;
     for (int k = 0; k < sectors; ++k) {
       if (!used[k]) continue;
-      const Vector r = row(k);
+      const Vector& r = sector_[k].row;
       const double w = 1.0 / variance[k];
       N += w * r * r.transpose();
       g += w * r * s[k];
@@ -300,7 +253,7 @@ RingMatch RingTemplate::match(const GrayImage& image, const PatternMap& map, con
     sorted.clear();
     for (int k = 0; k < sectors; ++k) {
       if (!good[k]) continue;
-      z[k] = (s[k] - row(k).dot(fit)) / std::sqrt(variance[k]);
+      z[k] = (s[k] - sector_[k].row.dot(fit)) / std::sqrt(variance[k]);
       sorted.push_back(std::abs(z[k]));
     }
     std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());

@@ -12,7 +12,7 @@ namespace {
 using Entry = std::pair<std::string_view, std::string_view>;
 
 // Hole artefact (FORMATS.md, conventions); the rotary axis is C.
-constexpr std::array<Entry, 10> hole_artefact{{
+constexpr std::array<Entry, 12> hole_artefact{{
     {"EXX", "positioning error of the X axis per metre, from the centre of the rotary axis"},
     {"EX0C", "displacement of the table along X"},
     {"EY0C", "displacement of the table along Y"},
@@ -22,6 +22,8 @@ constexpr std::array<Entry, 10> hole_artefact{{
     {"EB0C", "rotation of the table about Y"},
     {"EC0C", "rotation of the table about Z"},
     {"EC0Y", "squareness of Y to X"},
+    {"EA0Z", "squareness of Z to Y"},
+    {"EB0Z", "squareness of Z to X"},
     {"EME", "thermal expansion of the artefact per metre, from its reference hole"},
 }};
 

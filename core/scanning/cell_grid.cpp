@@ -166,15 +166,15 @@ ProfileCharacter characterOf(const PointCloud& cloud, double spacing) {
 
 }  // namespace
 
-Eigen::Vector2d suitableCell_mm(const PointCloud& cloud) {
-  const CloudSpacing s = cloudSpacing(cloud);
+namespace {
+
+Eigen::Vector2d suitableCell_mm(const PointCloud& cloud, const CloudSpacing& s, const ProfileCharacter& c) {
   const double points = std::clamp(static_cast<double>(cloud.size()) / 2000.0, 6.0, 32.0);
   const double area = points * s.along_profile_mm * s.between_profiles_mm;
   if (cloud.profileCount() == 0) return Eigen::Vector2d::Constant(std::sqrt(std::min(area, 12.0 * area / points)));
   double y = std::sqrt(area);
   double x = area / y;
   // Within a cell the surface may bend by no more than the noise.
-  const ProfileCharacter c = characterOf(cloud, s.along_profile_mm);
   if (c.curvature > 0.0) {
     const double flat = std::sqrt(20.0 * std::max(c.noise, 2e-5) / c.curvature);
     x = std::min(x, flat);
@@ -188,7 +188,9 @@ Eigen::Vector2d suitableCell_mm(const PointCloud& cloud) {
   return {x, y};
 }
 
-namespace {
+ProfileCharacter characterIfProfiles(const PointCloud& cloud, const CloudSpacing& spacing) {
+  return cloud.profileCount() > 0 ? characterOf(cloud, spacing.along_profile_mm) : ProfileCharacter{};
+}
 
 /// Cells of few points cannot see an outlier among themselves: their height is compared with the line through their
 /// neighbours, along and across; a cell that is off both ways is dropped.
@@ -224,10 +226,17 @@ void dropOutlyingCells(CellGrid& grid) {
 
 }  // namespace
 
+Eigen::Vector2d suitableCell_mm(const PointCloud& cloud) {
+  const CloudSpacing spacing = cloudSpacing(cloud);
+  return suitableCell_mm(cloud, spacing, characterIfProfiles(cloud, spacing));
+}
+
 CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options) {
-  requireUsableCloud(cloud, 50);
+  if (!options.checked) requireUsableCloud(cloud, 50);
   CellGrid grid;
-  grid.size = options.cell_mm.minCoeff() > 0.0 ? options.cell_mm : suitableCell_mm(cloud);
+  const CloudSpacing spacing = cloudSpacing(cloud);
+  const ProfileCharacter character = characterIfProfiles(cloud, spacing);
+  grid.size = options.cell_mm.minCoeff() > 0.0 ? options.cell_mm : suitableCell_mm(cloud, spacing, character);
   if (!(grid.size.minCoeff() > 0.0)) throw InputError(fmt::format("{} has no extent in x or y.", cloud.name));
   Eigen::Vector2d low = cloud.points_mm.front().head<2>();
   Eigen::Vector2d high = low;
@@ -236,7 +245,6 @@ CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options) 
     high = high.cwiseMax(p.head<2>());
   }
   // The lattice begins half a spacing before the first sample, so that its lines run between samples.
-  const CloudSpacing spacing = cloudSpacing(cloud);
   grid.low =
       low - (cloud.profileCount() > 0 ? 0.5 * Eigen::Vector2d(spacing.along_profile_mm, spacing.between_profiles_mm)
                                       : Eigen::Vector2d(1e-9 * grid.size));
@@ -274,8 +282,6 @@ CellGrid compressCloud(const PointCloud& cloud, const CellGridOptions& options) 
       grid.cells[k] = cellFrom(sums[k], centre, grid.size);
       if (grid.cells[k].variance >= 0.0) variances.push_back(grid.cells[k].variance);
     }
-  const ProfileCharacter character =
-      cloud.profileCount() > 0 ? characterOf(cloud, spacing.along_profile_mm) : ProfileCharacter{};
   double typical = character.noise * character.noise;
   if (!variances.empty()) {
     // The median of a chi-squared variable lies below its mean.

@@ -47,6 +47,7 @@ struct CellGrid {
 struct CellGridOptions {
   Eigen::Vector2d cell_mm = Eigen::Vector2d::Zero();  ///< 0: from the spacing of the points
   double outlier_threshold = 6.0;                     ///< robust standard deviations
+  bool checked = false;                               ///< the cloud has passed requireUsableCloud()
 };
 
 /// Size of cell that suits a cloud: at least two profiles and four points along the profile, some 6 (small clouds) to

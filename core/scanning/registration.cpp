@@ -6,10 +6,14 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <optional>
 
+#include "core/base/job_context.h"
 #include "core/base/text.h"
 #include "core/scanning/pcl_bridge.h"
 #include "core/scanning/registration_solver.h"
@@ -161,17 +165,17 @@ void RegistrationOptions::validate() const {
     throw InputError("The least parts of overlap and agreement must lie between 0 and 1.");
 }
 
-RegistrationTarget::RegistrationTarget(const PointCloud& cloud)
-    : grid_(compressCloud(cloud)), spline_(grid_), relief_mm_(reliefOf(grid_)) {}
+RegistrationTarget::RegistrationTarget(const PointCloud& cloud, const CellGridOptions& options)
+    : grid_(compressCloud(cloud, options)), spline_(grid_), relief_mm_(reliefOf(grid_)) {}
 
-RegistrationResult registerToSurface(const PointCloud& source, const RegistrationTarget& target,
-                                     const RegistrationOptions& options) {
-  options.validate();
-  const auto begin = Clock::now();
+namespace {
+
+/// Of a source that is compressed already; `begin` is when its work began.
+RegistrationResult registerCells(const PointCloud& source, const CellGrid& grid, const RegistrationTarget& target,
+                                 const RegistrationOptions& options, Clock::time_point begin) {
   RegistrationResult result;
   result.scan_model = options.scan_model;
   result.method = "surface";
-  const CellGrid grid = compressCloud(source);
   const RegistrationSolver solver(grid, target, options);
   RegistrationSolver::Outcome o = match(solver, target, grid, options);
   if (options.scan_model == ScanModel::PushBroom && options.drift_order > 1 && o.converged) o = solver.bend(o);
@@ -293,18 +297,49 @@ RegistrationResult registerToSurface(const PointCloud& source, const Registratio
   return result;
 }
 
+}  // namespace
+
+RegistrationResult registerToSurface(const PointCloud& source, const RegistrationTarget& target,
+                                     const RegistrationOptions& options) {
+  options.validate();
+  const auto begin = Clock::now();
+  return registerCells(source, compressCloud(source), target, options, begin);
+}
+
 RegistrationResult registerClouds(const PointCloud& source, const PointCloud& target,
                                   const RegistrationOptions& options) {
   options.validate();
-  requireUsableCloud(source);
-  requireUsableCloud(target);
-  if (options.method != RegistrationMethod::Surface) return registerWithPcl(source, target, options);
   const auto begin = Clock::now();
+  // The clouds know nothing of each other until they are compressed; what is wrong with the source is said first.
+  const auto forBoth = [](const auto& work) {
+    std::array<std::exception_ptr, 2> failure;
+    parallelFor(2, JobContext(), [&](std::size_t i) {
+      try {
+        work(i);
+      } catch (const InputError&) {
+        failure[i] = std::current_exception();
+      }
+    });
+    for (const std::exception_ptr& f : failure)
+      if (f) std::rethrow_exception(f);
+  };
+  forBoth([&](std::size_t i) { requireUsableCloud(i == 0 ? source : target); });
+  if (options.method != RegistrationMethod::Surface) return registerWithPcl(source, target, options);
   RegistrationResult result;
   std::optional<InputError> unusable;
   try {
-    const RegistrationTarget surface(target);
-    result = registerToSurface(source, surface, options);
+    CellGridOptions cells;
+    cells.checked = true;
+    CellGrid grid;
+    std::optional<RegistrationTarget> surface;
+    forBoth([&](std::size_t i) {
+      if (i == 0) {
+        grid = compressCloud(source, cells);
+      } else {
+        surface.emplace(target, cells);
+      }
+    });
+    result = registerCells(source, grid, *surface, options, begin);
   } catch (const InputError& error) {
     if (!options.fall_back) throw;
     unusable = error;

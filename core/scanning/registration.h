@@ -104,7 +104,7 @@ struct RegistrationResult {
 class RegistrationTarget {
  public:
   /// Throws InputError if the cloud is no height map.
-  explicit RegistrationTarget(const PointCloud& cloud);
+  explicit RegistrationTarget(const PointCloud& cloud, const CellGridOptions& options = {});
   [[nodiscard]] const CellGrid& grid() const noexcept { return grid_; }
   [[nodiscard]] const HeightSpline& surface() const noexcept { return spline_; }
   /// Standard deviation of the heights about their plane (mm): how much relief there is.
@@ -117,6 +117,7 @@ class RegistrationTarget {
 };
 
 /// Throws InputError for clouds that cannot be used at all; a registration that fails gives its status and reason.
+/// The clouds are checked and compressed side by side.
 [[nodiscard]] RegistrationResult registerClouds(const PointCloud& source, const PointCloud& target,
                                                 const RegistrationOptions& options = {});
 /// The same with a prepared target, method Surface.

@@ -1,15 +1,29 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Feeds every reader with mutated files until one breaks: fuzz.sh [SECONDS for each reader | --in-all SECONDS] [READER ...]
+# Feeds every reader with mutated files until one breaks:
+#   fuzz.sh [SECONDS for each reader | --in-all SECONDS | --runs RUNS for each reader] [READER ...]
+# --runs is for nights: 1,000,000 runs of one reader take minutes to hours. A reader that has had its runs (counted in
+# build-fuzz/runs/READER since the program was last built) is passed by, so that what was stopped goes on where it was.
 # What broke one lies in build-fuzz/crashes; put it into tests/fuzz/corpus/READER, where the normal test suite reads it too.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 in_all=
-if [ "${1:-}" = --in-all ]; then
-  in_all=$2
-  shift
+runs=
+case "${1:-}" in
+  --in-all)
+    in_all=$2
+    shift
+    ;;
+  --runs)
+    runs=$2
+    shift
+    ;;
+esac
+amount=${1:-10}
+if ! [[ $amount =~ ^[1-9][0-9]*$ ]]; then
+  echo "fuzz.sh: \"$amount\" is no number of seconds or runs; allowed: a whole number above 0" >&2
+  exit 2
 fi
-seconds=${1:-10}
 shift || true
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --target fuzz_readers
@@ -20,15 +34,29 @@ if [ "${#readers[@]}" -eq 0 ]; then
   echo "$program names no reader" >&2
   exit 1
 fi
-if [ -n "$in_all" ]; then seconds=$(((in_all + ${#readers[@]} - 1) / ${#readers[@]})); fi
+if [ -n "$in_all" ]; then amount=$(((in_all + ${#readers[@]} - 1) / ${#readers[@]})); fi
+mkdir -p build-fuzz/runs
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 status=0
 for reader in "${readers[@]}"; do
   mkdir -p "build-fuzz/found/$reader" "build-fuzz/crashes/$reader"
-  if "$program" --reader="$reader" -max_total_time="$seconds" -rss_limit_mb=2048 -malloc_limit_mb=1200 -timeout=20 -max_len=65536 \
+  limit=-max_total_time=$amount
+  done_before=0
+  if [ -n "$runs" ]; then
+    counted=build-fuzz/runs/$reader
+    if [ "$counted" -nt "$program" ]; then done_before=$(<"$counted"); fi
+    if [ "$done_before" -ge "$runs" ]; then
+      echo "$reader: $done_before runs before"
+      continue
+    fi
+    limit=-runs=$((runs - done_before))
+  fi
+  if "$program" --reader="$reader" "$limit" -rss_limit_mb=2048 -malloc_limit_mb=1200 -timeout=20 -max_len=65536 \
     -artifact_prefix="build-fuzz/crashes/$reader/" -print_final_stats=1 -print_funcs=0 "build-fuzz/found/$reader" "tests/fuzz/corpus/$reader" \
     >"build-fuzz/$reader.log" 2>&1; then
-    echo "$reader: $(sed -n 's/^stat::number_of_executed_units: *//p' "build-fuzz/$reader.log") runs"
+    executed=$(sed -n 's/^stat::number_of_executed_units: *//p' "build-fuzz/$reader.log")
+    if [ -n "$runs" ]; then echo $((done_before + executed)) >"build-fuzz/runs/$reader"; fi
+    echo "$reader: $((done_before + executed)) runs"
   else
     echo "$reader: broken, see build-fuzz/$reader.log"
     status=1

@@ -152,8 +152,9 @@ TEST_F(Package, ManPagesTellWhatTheProgramsTell) {
 // dpkg installed it, so that what is named is to be had; what is linked and what is only loaded is named.
 TEST_F(Package, NamesWhatItNeeds) {
   const std::string depends = ", " + field("spindrift", "Depends");
-  for (const std::string name : {"libc6 (", "libqt6widgets6 (", "libvtk9.1 (", "libopencv-core406 (",
-                                 "libpcl-common1.13 (", "fonts-inter", "libegl1", "libgl1-mesa-dri", "libqt6svg6"})
+  for (const std::string name :
+       {"libc6 (", "libqt6widgets6 (", "libvtk9.1 (", "libopencv-core406 (", "libpcl-common1.13 (", "fonts-inter",
+        "libegl1", "libgl1-mesa-dri", "libqt6svg6", "qt6-translations-l10n"})
     EXPECT_THAT(depends, HasSubstr(", " + name));
   EXPECT_EQ(shell(fmt::format("ldd {}/usr/bin/spindrift* | grep 'not found'", root())).output, "");
   EXPECT_THAT(field("spindrift", "Architecture"), HasSubstr(outputOf("dpkg --print-architecture")));

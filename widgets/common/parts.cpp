@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "widgets/common/table_habits.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
 
@@ -302,7 +303,6 @@ QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
   table->setAccessibleName(accessible_name);
   table->setShowGrid(false);
   table->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table->setSelectionMode(QAbstractItemView::SingleSelection);
   table->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table->setTabKeyNavigation(false);
   table->setWordWrap(false);
@@ -315,6 +315,7 @@ QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
   table->horizontalHeader()->setStretchLastSection(true);
   table->horizontalHeader()->setHighlightSections(false);
   table->setMinimumHeight(120);
+  giveTableHabits(table);
   return table;
 }
 

@@ -13,13 +13,18 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <numeric>
 
 #include "core/base/atomic_file.h"
-#include "core/base/csv.h"
 #include "core/base/error.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
+#include "widgets/common/table_habits.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/light_colours.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -52,7 +57,8 @@ Exportable exportableOf(const QString& name, const Plot* plot) {
 
 Exportable exportableOf(const QString& name, View3D* view) {
   return {name, {QStringLiteral("png")}, [view](const QString& file) {
-            savePicture(view->picture(view->size().expandedTo({800, 600}), 2.0), file);
+            const LightColours light;
+            savePicture(view->picture(view->size().expandedTo({800, 600}), picture_ratio), file);
           }};
 }
 
@@ -61,22 +67,11 @@ Exportable exportableOf(const QString& name, const ImageView* view) {
 }
 
 QString tableCsv(const QAbstractItemModel& model) {
-  QStringList lines;
-  QStringList fields;
-  for (int c = 0; c < model.columnCount(); ++c) {
-    fields << QString::fromStdString(csvField(model.headerData(c, Qt::Horizontal).toString().toStdString()));
-  }
-  lines << fields.join(QLatin1Char(','));
-  for (int r = 0; r < model.rowCount(); ++r) {
-    fields.clear();
-    for (int c = 0; c < model.columnCount(); ++c) {
-      const QModelIndex index = model.index(r, c);
-      const QVariant exact = index.data(Qt::UserRole);
-      fields << QString::fromStdString(csvField((exact.isValid() ? exact : index.data()).toString().toStdString()));
-    }
-    lines << fields.join(QLatin1Char(','));
-  }
-  return lines.join(QLatin1Char('\n')) + QLatin1Char('\n');
+  std::vector<int> rows(static_cast<std::size_t>(model.rowCount()));
+  std::iota(rows.begin(), rows.end(), 0);
+  std::vector<int> columns(static_cast<std::size_t>(model.columnCount()));
+  std::iota(columns.begin(), columns.end(), 0);
+  return tableText(model, rows, columns, true, TableText::Csv);
 }
 
 Exportable exportableOf(const QString& name, const QAbstractItemModel* model) {
@@ -196,11 +191,12 @@ bool ExportDialog::exportNow() {
       if (closing_) QDialog::done(QDialog::Rejected);
       return false;
     } catch (const std::exception& e) {
-      message_->show(Tone::Bad, QString::fromUtf8(e.what()));
+      message_->show(Tone::Bad, coreSentence(e.what()));
       return false;
     }
   }
   if (closing_) QDialog::done(QDialog::Accepted);
+  if (count > 0) rememberFolder(QStringLiteral("export"), folder_->text());
   message_->show(Tone::Good, tr("Files written to %1: %2").arg(folder_->text()).arg(count));
   return true;
 }

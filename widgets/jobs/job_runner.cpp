@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/log.h"
+#include "widgets/common/core_sentence.h"
 
 namespace spindrift::gui {
 
@@ -20,7 +21,7 @@ class JobRunner::Sink : public ProgressSink {
   }
   [[nodiscard]] std::pair<double, QString> read() const {
     const std::lock_guard lock(mutex_);
-    return {fraction_, QString::fromStdString(stage_)};
+    return {fraction_, coreSentence(stage_)};
   }
 
  private:
@@ -144,12 +145,12 @@ void JobRunner::startNext(JobQueue queue) {
       running->outcome = JobOutcome::Cancelled;
     } catch (const InputError& e) {
       running->outcome = JobOutcome::Failed;
-      running->sentence = QString::fromUtf8(e.what());
+      running->sentence = coreSentence(e.what());
     } catch (const std::exception& e) {
       running->outcome = JobOutcome::Failed;
       log(LogLevel::Error, std::string("internal error: ") + e.what());
-      running->sentence = QCoreApplication::translate("JobRunner", "Internal error, please report it: %1")
-                              .arg(QString::fromUtf8(e.what()));
+      running->sentence =
+          QCoreApplication::translate("JobRunner", "Internal error, please report it: %1").arg(coreSentence(e.what()));
     }
     QMetaObject::invokeMethod(
         this, [this, queue] { complete(queue); }, Qt::QueuedConnection);
@@ -172,7 +173,7 @@ void JobRunner::complete(JobQueue queue) {
         if (done->apply) done->apply();
       } catch (const std::exception& e) {
         done->outcome = JobOutcome::Failed;
-        done->sentence = QString::fromUtf8(e.what());
+        done->sentence = coreSentence(e.what());
         if (done->job.failed) done->job.failed(done->sentence);
       }
       break;

@@ -2,12 +2,12 @@
 #include "widgets/models/session_model.h"
 
 #include <QDateTime>
-#include <QDir>
-#include <QStandardPaths>
 #include <algorithm>
 
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
+#include "widgets/common/core_sentence.h"
+#include "widgets/common/preferences.h"
 
 namespace spindrift::gui {
 SessionModel::SessionModel(QObject* parent) : QObject(parent) {}
@@ -256,7 +256,7 @@ ResultState SessionModel::state(const std::string& kind) const {
     state.there = true;
     state.current = status.current;
     QStringList changed;
-    for (const std::string& what : status.changed) changed << QString::fromStdString(what);
+    for (const std::string& what : status.changed) changed << coreSentence(what);
     state.changed = changed.join(QStringLiteral(", "));
     state.created_utc = found->provenance.created_utc;
     state.program_version = found->provenance.program_version;
@@ -299,7 +299,7 @@ void SessionModel::setExcluded(const QString& item, const QString& reason) {
       shown_excluded_[item] = reason;
     }
   } catch (const InputError& e) {
-    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+    Q_EMIT storingFailed(coreSentence(e.what()));
     return;
   }
   Q_EMIT inputsChanged();
@@ -315,7 +315,7 @@ bool SessionModel::addNote(const QString& about, const QString& text, const QStr
     session_->addNote(state_.id, about.toStdString(), text.toStdString(), item.toStdString());
     return true;
   } catch (const InputError& e) {
-    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+    Q_EMIT storingFailed(coreSentence(e.what()));
     return false;
   }
 }
@@ -325,7 +325,7 @@ void SessionModel::removeNote(std::int64_t note) {
   try {
     session_->removeNote(note);
   } catch (const InputError& e) {
-    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+    Q_EMIT storingFailed(coreSentence(e.what()));
   }
 }
 
@@ -334,7 +334,7 @@ void SessionModel::setSetting(const std::string& key, const nlohmann::json& valu
   try {
     session_->setSetting(key, value);
   } catch (const InputError& e) {
-    Q_EMIT storingFailed(QString::fromUtf8(e.what()));
+    Q_EMIT storingFailed(coreSentence(e.what()));
   }
 }
 
@@ -380,9 +380,8 @@ void SessionModel::dropDraft(const std::string& name) {
 std::filesystem::path sessionsFolder() {
   const QString asked = qEnvironmentVariable("SPINDRIFT_SESSIONS");
   if (!asked.isEmpty()) return asked.toStdString();
-  QString place = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
-  if (place.isEmpty()) place = QStandardPaths::writableLocation(QStandardPaths::AppDataLocation);
-  return QDir(place).filePath(QStringLiteral("Spindrift")).toStdString();
+  const QString preferred = preferences().sessions_folder;
+  return (preferred.isEmpty() ? usualSessionsFolder() : preferred).toStdString();
 }
 
 std::filesystem::path newSessionFolder(const QString& name) {

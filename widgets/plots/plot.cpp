@@ -17,6 +17,7 @@
 #include "widgets/plots/marked_graph.h"
 #include "widgets/plots/qcustomplot_header.h"
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/light_colours.h"
 
 namespace spindrift::gui {
 namespace {
@@ -506,6 +507,7 @@ void Plot::exportTo(const QString& file) const {
   const int width = std::max(this->width(), 640);
   const int height = std::max(this->height(), 400);
   bool written = false;
+  const LightColours light;
   const_cast<Plot*>(this)->drawIfStale();
   if (lower.endsWith(QLatin1String(".csv"))) {
     writeFileAtomically(file.toStdString(), csv().toStdString());
@@ -526,7 +528,7 @@ void Plot::exportTo(const QString& file) const {
   } else if (lower.endsWith(QLatin1String(".pdf"))) {
     written = plot_->savePdf(file, width, height);
   } else {
-    written = plot_->savePng(file, width, height, 2.0);
+    written = plot_->savePng(file, width, height, picture_ratio);
   }
   if (!written) throw InputError({file.toStdString(), ""}, "the picture could not be written.");
 }

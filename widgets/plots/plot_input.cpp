@@ -7,6 +7,7 @@
 
 #include "widgets/plots/plot.h"
 #include "widgets/plots/qcustomplot_header.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -107,7 +108,7 @@ bool Plot::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() == QEvent::MouseMove) {
       const QPointF p = static_cast<QMouseEvent*>(event)->position();
       const auto number = [](double v) {
-        QString text = QString::number(v, 'g', 4);
+        QString text = decimalText(v, 'g', 4);
         text.replace(QLatin1Char('-'), QChar(0x2212));
         return text;
       };

@@ -31,8 +31,12 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/tasks/task_options.h"
 #include "core/workflows/log_campaign.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
+#include "widgets/common/question.h"
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/activity_dialog.h"
 #include "widgets/jobs/job_bar.h"
@@ -43,9 +47,11 @@
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/new_measurement_dialog.h"
 #include "widgets/shell/page_area.h"
+#include "widgets/shell/preferences_dialog.h"
 #include "widgets/shell/step_list.h"
 #include "widgets/shell/welcome_page.h"
 #include "widgets/theme/icons.h"
+#include "widgets/theme/system_look.h"
 #include "widgets/view3d/prepare.h"
 
 namespace spindrift::gui {
@@ -113,6 +119,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
 
   buildMenu();
   showHelp();
+  followPreferences();
   watchConnections();
 
   connect(back_, &QPushButton::clicked, &workflow_, &Workflow::back);
@@ -139,19 +146,22 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
       session_.selectCampaign(id);
     } catch (const InputError& e) {
       refreshCampaigns();
-      tell(QString::fromUtf8(e.what()));
+      tell(coreSentence(e.what()));
     }
   });
   connect(&session_, &SessionModel::storingFailed, this, &MainWindow::tell);
   connect(welcome_, &WelcomePage::demoChosen, this, [this](const QString& name) { startDemo(name); });
   connect(welcome_, &WelcomePage::recentChosen, this, &MainWindow::open);
   connect(welcome_, &WelcomePage::openSession, this, [this] {
-    const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a session"),
-                                                             QString::fromStdString(sessionsFolder().string()));
-    if (!folder.isEmpty()) open(folder);
+    const QString folder = QFileDialog::getExistingDirectory(
+        this, tr("Open a session"),
+        lastFolder(QStringLiteral("session"), QString::fromStdString(sessionsFolder().string())));
+    if (folder.isEmpty()) return;
+    rememberFolder(QStringLiteral("session"), QFileInfo(folder).absolutePath());
+    open(folder);
   });
   connect(welcome_, &WelcomePage::openCampaign, this, [this] {
-    const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a campaign folder"));
+    const QString folder = askForCampaign(tr("Open a campaign folder"));
     if (!folder.isEmpty()) open(folder);
   });
   connect(welcome_, &WelcomePage::openPlant, this, &MainWindow::openPlant);
@@ -161,8 +171,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
 
   QCoreApplication::instance()->installEventFilter(this);
   QSettings settings;
-  const QStringList recent = settings.value(QStringLiteral("recent")).toStringList();
-  welcome_->setRecent(recent);
+  const QStringList recent = recentSessions();
+  setAcceptDrops(true);
+  fillRecentMenu();
   if (!recent.isEmpty() && Session::wasLeftOpen(recent.front().toStdString())) welcome_->offerRecovery(recent.front());
   if (!restoreGeometry(settings.value(QStringLiteral("window")).toByteArray())) {
     // Frame and title bar need room too, where there are such.
@@ -187,6 +198,14 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
   return QMainWindow::eventFilter(watched, event);
 }
 
+QString MainWindow::askForCampaign(const QString& title) {
+  const QString kind = QStringLiteral("campaign");
+  const QString folder = QFileDialog::getExistingDirectory(this, title, lastFolder(kind));
+  // Campaigns stand beside one another.
+  if (!folder.isEmpty()) rememberFolder(kind, QFileInfo(folder).absolutePath());
+  return folder;
+}
+
 MainWindow::~MainWindow() {
   finishRecording();
   jobs_.cancelAll();
@@ -195,6 +214,7 @@ MainWindow::~MainWindow() {
 }
 
 void MainWindow::showSessionOrWelcome() {
+  fillRecentMenu();  // folders may have gone meanwhile
   stack_->setCurrentWidget(session_.isOpen() && session_.campaign() != nullptr ? work_
                                                                                : static_cast<QWidget*>(welcome_));
 }
@@ -305,7 +325,7 @@ void MainWindow::remember(const QString& folder) {
   recent.prepend(folder);
   while (recent.size() > 8) recent.removeLast();
   settings.setValue(QStringLiteral("recent"), recent);
-  welcome_->setRecent(recent);
+  fillRecentMenu();
 }
 
 void MainWindow::openSession(const QString& folder) {
@@ -321,8 +341,8 @@ void MainWindow::openSession(const QString& folder) {
       remember(folder);
       workflow_.goTo(StepId::Machine);
       const Session& session = *session_.session();
-      for (const std::string& message : session.migrationMessages()) tell(QString::fromStdString(message));
-      for (const std::string& message : session.recoveryMessages()) tell(QString::fromStdString(message));
+      for (const std::string& message : session.migrationMessages()) tell(coreSentence(message));
+      for (const std::string& message : session.recoveryMessages()) tell(coreSentence(message));
     };
   };
   job.failed = [this](const QString& sentence) { tell(sentence); };
@@ -399,7 +419,7 @@ void MainWindow::showConnections() {
   for (const LiveSource& source : service.snapshot().sources) {
     if (source.status.state == SourceStatus::State::Lost) lost << QString::fromStdString(source.name);
   }
-  const QString problem = QString::fromStdString(service.snapshot().problem);
+  const QString problem = coreSentence(service.snapshot().problem);
   if (!problem.isEmpty()) {
     job_bar_->setConnections(Tone::Bad, tr("Not written"), problem);
   } else if (!lost.isEmpty()) {
@@ -431,6 +451,20 @@ void MainWindow::tell(const QString& sentence) {
       this, [this, sentence] { job_bar_->setMessage(sentence); }, Qt::QueuedConnection);
 }
 
+namespace {
+
+/// A new campaign begins with the goals the user prefers. They are kept with it: the command line judges by them, too.
+void giveGoals(Session& session, std::int64_t campaign) {
+  const Preferences wanted = preferences();
+  VerifyOptions options = VerifyOptions::of(session, campaign);
+  if (wanted.goal_um == options.request.goal_um && wanted.goal_urad == options.request.goal_urad) return;
+  options.request.goal_um = wanted.goal_um;
+  options.request.goal_urad = wanted.goal_urad;
+  session.setSetting(campaignKey(option_keys::verify, campaign), options.json());
+}
+
+}  // namespace
+
 void MainWindow::importInBackground(const QString& title, std::function<std::filesystem::path(JobContext&)> source,
                                     const QString& name) {
   const std::filesystem::path folder = newSessionFolder(name);
@@ -445,6 +479,7 @@ void MainWindow::importInBackground(const QString& title, std::function<std::fil
       *session = std::make_unique<Session>(Session::create(folder));
       JobContext second = context.part(0.8, 1.0);
       const std::int64_t id = (*session)->importCampaign(campaign_folder, second);
+      giveGoals(**session, id);
       auto loaded = std::make_shared<LoadedSession>(loadSession(std::move(*session), id));
       return [this, loaded, folder] {
         finishRecording();
@@ -484,9 +519,11 @@ void MainWindow::addCampaign(const QString& folder) {
     return [this, session_folder, staged] {
       if (session_.folder() != session_folder) return;  // another one was opened meanwhile
       try {
-        session_.selectCampaign(session_.session()->adoptCampaign(*staged));
+        const std::int64_t id = session_.session()->adoptCampaign(*staged);
+        giveGoals(*session_.session(), id);
+        session_.selectCampaign(id);
       } catch (const InputError& e) {
-        tell(QString::fromUtf8(e.what()));
+        tell(coreSentence(e.what()));
       }
     };
   };
@@ -541,10 +578,29 @@ void MainWindow::closeSession() {
 }
 
 void MainWindow::setTheme(ThemeKind kind) {
+  Preferences chosen = preferences();
+  chosen.look = kind == ThemeKind::Dark ? Preferences::Look::Dark : Preferences::Look::Light;
+  setPreferences(chosen);
+  applyLook(kind);
+}
+
+void MainWindow::applyLook(ThemeKind kind) {
+  if (kind == theme().kind) return;
   applyTheme(*static_cast<QApplication*>(QCoreApplication::instance()), kind);
-  QSettings().setValue(QStringLiteral("theme"),
-                       kind == ThemeKind::Dark ? QStringLiteral("dark") : QStringLiteral("light"));
   refreshPage();
+}
+
+void MainWindow::followPreferences() {
+  connect(&PreferencesNotifier::instance(), &PreferencesNotifier::changed, this,
+          [this](const Preferences& before, const Preferences& now) {
+            if (now.look != before.look) applyLook(wantedTheme());
+            if (now.length_decimals != before.length_decimals) refreshPage();
+          });
+  connect(&SystemLook::instance(), &SystemLook::changed, this, [this] { applyLook(wantedTheme()); });
+}
+
+void MainWindow::openPreferences() {
+  if (findChild<PreferencesDialog*>() == nullptr) (new PreferencesDialog(this))->open();
 }
 
 void MainWindow::exportTo(const QString& folder) {
@@ -575,6 +631,7 @@ void MainWindow::startMeasurement(const nlohmann::json& machine) {
     auto session =
         std::make_unique<Session>(Session::create(newSessionFolder(QString::fromStdString(description.name))));
     const std::int64_t id = session->newCampaign(description.name, utcNow(), description.source.dump(1));
+    giveGoals(*session, id);
     const QString folder = QString::fromStdString(session->folder().string());
     finishRecording();
     session_.adopt(std::move(session), id);
@@ -582,7 +639,7 @@ void MainWindow::startMeasurement(const nlohmann::json& machine) {
     workflow_.goTo(StepId::Machine);
     showStep();
   } catch (const InputError& e) {
-    job_bar_->setMessage(QString::fromUtf8(e.what()));
+    job_bar_->setMessage(coreSentence(e.what()));
   }
 }
 
@@ -627,6 +684,19 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     if (page == nullptr || session_.campaign() == nullptr || page->mayBeLeft()) continue;
     event->ignore();
     return;
+  }
+  const bool compensating = ClosedLoopService::of(session_).running();
+  if (compensating || jobs_.working()) {
+    const QString sentence =
+        compensating ? tr("A machine is being compensated. Quitting fades its compensation to zero and ends the loop; "
+                          "what was measured is kept.")
+                     : tr("\"%1\" is still running. Quitting cancels it; everything that was captured and every result "
+                          "that is done is kept.")
+                           .arg(jobs_.title());
+    if (!goAhead({tr("Quit"), sentence, tr("Quit"), &Preferences::ask_before_quitting}, this)) {
+      event->ignore();
+      return;
+    }
   }
   for (const auto& [entry, page] : pages_) {
     if (page == nullptr) continue;

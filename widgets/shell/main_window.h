@@ -3,7 +3,10 @@
 #pragma once
 
 #include <QMainWindow>
+#include <filesystem>
+#include <functional>
 #include <map>
+#include <vector>
 
 #include "widgets/jobs/job_runner.h"
 #include "widgets/models/session_model.h"
@@ -13,13 +16,20 @@
 class QAction;
 class QComboBox;
 class QLabel;
+class QMenu;
+class QPrinter;
 class QPushButton;
 class QStackedWidget;
 class QToolButton;
 
+namespace spindrift {
+struct Exercise;
+}
+
 namespace spindrift::gui {
 
 class ActivityDialog;
+class ExerciseDialog;
 class HelpPanel;
 class JobBar;
 class NotesDialog;
@@ -28,7 +38,9 @@ class ClosedLoopPage;
 class PlantPage;
 class StepList;
 class WelcomePage;
+class WhatIfWindow;
 class Badge;
+struct Command;
 
 class MainWindow : public QMainWindow {
   Q_OBJECT
@@ -56,6 +68,8 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] Workflow& workflow() { return workflow_; }
   /// The page of the step at hand, complete; null without a campaign.
   [[nodiscard]] Page* currentPage();
+  /// True until the page of the step at hand stands there complete.
+  [[nodiscard]] bool arriving() const { return arrival_ != Arrival::Done; }
   [[nodiscard]] WelcomePage* welcome() const { return welcome_; }
   [[nodiscard]] StepList* stepList() const { return steps_; }
   [[nodiscard]] JobBar* jobBar() const { return job_bar_; }
@@ -73,14 +87,48 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] PlantPage* plant() const { return plant_; }
   void openLiveCompensation();  ///< the closed loop at the control; works without a session
   [[nodiscard]] ClosedLoopPage* liveCompensation() const { return live_compensation_; }
+  /// Errors set by hand on the machine of the campaign at hand, or on a standard one.
+  WhatIfWindow* openWhatIf();
+  ExerciseDialog* openExercise();  ///< stays open beside the work
+  /// Makes the campaign of an exercise and opens it as a session of its own.
+  void startExercise(const Exercise& exercise);
   ActivityDialog* openActivity();  ///< jobs and messages; stays open beside the work
+  /// Everything that could be asked for now, and what cannot, with the reason.
+  [[nodiscard]] std::vector<Command> commands();
+  void openPreferences();
+  void findCommand();  ///< opens the list of commands
+  /// Files and folders that were dropped: opened, or taken into the campaign as captures; else one sentence says why
+  /// not.
+  void take(const QStringList& files);
+  /// The campaign of a demo as plain files in a new folder inside `folder` (in the background).
+  void writeSample(const std::string& demo, const QString& folder);
+  void showNews();
+  /// After an update, and only once.
+  void showNewsIfDue();
+  /// What the page at hand shows, in the light theme. Throws InputError.
+  void printPage(QPrinter& printer);
+  /// The report of the campaign as the page Report has it. Throws InputError.
+  void printReportOn(QPrinter& printer);
+  void showHelpOn(StepId step);  ///< beside the page, or in a window of its own where no page is shown
 
  protected:
   void closeEvent(QCloseEvent* event) override;
   bool eventFilter(QObject* watched, QEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
 
  private:
   void buildMenu();
+  /// The action is for what is there only: `why_not` says what is missing, empty: nothing.
+  void need(QAction* action, std::function<QString()> why_not);
+  [[nodiscard]] QString whyNot(const QAction* action) const;
+  void addCommandsOf(const QMenu& menu, const QString& where, std::vector<Command>& commands);
+  [[nodiscard]] static QStringList recentSessions();
+  void fillRecentMenu();
+  [[nodiscard]] std::filesystem::path reportFile();  ///< as PDF; empty: none was written
+  void addSampleMenu(QMenu* menu);
+  /// Asks for a printer and prints with `print`.
+  void askAndPrint(const std::function<void(QPrinter&)>& print);
   void showStep();
   void arrive();
   void arriveSoon();
@@ -91,6 +139,10 @@ class MainWindow : public QMainWindow {
   void remember(const QString& folder);
   void newMeasurement();
   void showHelp();
+  /// Look, numbers and goals as the user and the system want them, now and when that changes.
+  void followPreferences();
+  void applyLook(ThemeKind kind);
+  [[nodiscard]] QString askForCampaign(const QString& title);
   void restoreSplitters(Page& page);
   void tell(const QString& sentence);
   void about();
@@ -122,11 +174,15 @@ class MainWindow : public QMainWindow {
   StepList* steps_;
   JobBar* job_bar_;
   ActivityDialog* activity_ = nullptr;
+  ExerciseDialog* exercise_ = nullptr;
   QLabel* session_name_;
   QComboBox* campaign_;
   QToolButton* theme_button_;
   HelpPanel* help_;
   QAction* help_action_ = nullptr;
+  QAction* palette_action_ = nullptr;
+  QMenu* recent_menu_ = nullptr;
+  std::map<const QAction*, std::function<QString()>> needs_;
   QPushButton* next_;
   QPushButton* back_;
 };

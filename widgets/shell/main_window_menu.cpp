@@ -11,14 +11,19 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QStandardPaths>
+#include <QTemporaryDir>
 #include <QToolButton>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
 #include "widgets/pages/scanning/artefact_designer.h"
+#include "widgets/pages/teaching/exercise_dialog.h"
+#include "widgets/pages/teaching/what_if_window.h"
 #include "widgets/shell/diagnostics.h"
 #include "widgets/shell/help_panel.h"
 #include "widgets/shell/main_window.h"
@@ -38,23 +43,49 @@ void MainWindow::buildMenu() {
     connect(action, &QAction::triggered, this, what);
     return action;
   };
+  const auto no_session = [this] { return session_.campaign() == nullptr ? tr("Open a session first.") : QString(); };
   QMenu* session_menu = menuBar()->addMenu(tr("&Session"));
   add(session_menu, tr("&New measurement …"), "plus", QKeySequence::New, [this] { newMeasurement(); });
   add(session_menu, tr("&Open session …"), "folder-open", QKeySequence::Open,
       [this] { Q_EMIT welcome_->openSession(); });
   add(session_menu, tr("Open &campaign folder …"), "folder-open", QKeySequence(tr("Ctrl+Shift+O")),
       [this] { Q_EMIT welcome_->openCampaign(); });
-  add(session_menu, tr("&Add a campaign to this session …"), "plus", QKeySequence(tr("Ctrl+Shift+A")), [this] {
-    const QString folder = QFileDialog::getExistingDirectory(this, tr("Choose the campaign folder to be added"));
-    if (!folder.isEmpty()) addCampaign(folder);
-  });
+  need(add(session_menu, tr("&Add a campaign to this session …"), "plus", QKeySequence(tr("Ctrl+Shift+A")),
+           [this] {
+             const QString folder = askForCampaign(tr("Choose the campaign folder to be added"));
+             if (!folder.isEmpty()) addCampaign(folder);
+           }),
+       [this] { return session_.isOpen() ? QString() : tr("Open a session first."); });
   add(session_menu, tr("Open &log …"), "folder-open", QKeySequence(tr("Ctrl+L")), [this] {
-    const QString file = QFileDialog::getOpenFileName(this, tr("Open a log over time"), {}, tr("Log (*.csv)"));
-    if (!file.isEmpty()) openLog(file);
+    const QString kind = QStringLiteral("log");
+    const QString file =
+        QFileDialog::getOpenFileName(this, tr("Open a log over time"), lastFolder(kind), tr("Log (*.csv)"));
+    if (file.isEmpty()) return;
+    rememberFolder(kind, file);
+    openLog(file);
   });
+  recent_menu_ = session_menu->addMenu(icon("clock"), tr("&Recent sessions"));
+  connect(session_menu, &QMenu::aboutToShow, this, &MainWindow::fillRecentMenu);
+  addSampleMenu(session_menu->addMenu(icon("play"), tr("Sample &data")));
   session_menu->addSeparator();
-  add(session_menu, tr("&Export …"), "export", QKeySequence(tr("Ctrl+E")),
-      [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); });
+  need(add(session_menu, tr("&Export …"), "export", QKeySequence(tr("Ctrl+E")),
+           [this] {
+             exportTo(lastFolder(QStringLiteral("export"),
+                                 QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)));
+           }),
+       [this, no_session] {
+         if (page_ == nullptr) return no_session();
+         return page_->exportables().empty() ? tr("This page has nothing to export yet.") : QString();
+       });
+  need(add(session_menu, tr("&Print this page …"), "report", QKeySequence::Print,
+           [this] { askAndPrint([this](QPrinter& printer) { printPage(printer); }); }),
+       no_session);
+  need(add(session_menu, tr("Print the repor&t …"), "report", {},
+           [this] { askAndPrint([this](QPrinter& printer) { printReportOn(printer); }); }),
+       [this, no_session] {
+         if (session_.campaign() == nullptr) return no_session();
+         return reportFile().empty() ? tr("The report has not been written yet; the page Report does.") : QString();
+       });
   session_menu->addSeparator();
   add(session_menu, tr("First &screen"), "home", QKeySequence(tr("Ctrl+H")), [this] { closeSession(); });
   add(session_menu, tr("&Quit"), "x", QKeySequence::Quit, [this] { close(); });
@@ -63,33 +94,54 @@ void MainWindow::buildMenu() {
   QAction* undo = undo_.group().createUndoAction(this, tr("&Undo"));
   undo->setShortcut(QKeySequence::Undo);
   undo->setIcon(icon("undo"));
+  need(undo, [undo] { return undo->isEnabled() ? QString() : tr("There is nothing to undo."); });
   edit->addAction(undo);
   QAction* redo = undo_.group().createRedoAction(this, tr("&Redo"));
   // Of the platform, and the other one that hands know.
   redo->setShortcuts({QKeySequence(QKeySequence::Redo), QKeySequence(Qt::CTRL | Qt::Key_Y)});
   redo->setIcon(icon("redo"));
+  need(redo, [redo] { return redo->isEnabled() ? QString() : tr("There is nothing to redo."); });
   edit->addAction(redo);
   edit->addSeparator();
-  add(edit, tr("&Notes …"), "note", QKeySequence(tr("Ctrl+M")), [this] { openNotes(); });
+  need(add(edit, tr("&Notes …"), "note", QKeySequence(tr("Ctrl+M")), [this] { openNotes(); }), no_session);
+  add(edit, tr("&Preferences …"), "settings", QKeySequence(tr("Ctrl+,")), [this] { openPreferences(); });
   add(edit, tr("&Jobs and messages …"), "in-progress", QKeySequence(tr("Ctrl+J")), [this] { openActivity(); });
 
   QMenu* go = menuBar()->addMenu(tr("&Go"));
-  add(go, tr("&Back"), "chevron-left", QKeySequence(tr("Alt+Left")), [this] { workflow_.back(); });
-  add(go, tr("&Next"), "chevron-right", QKeySequence(tr("Alt+Right")), [this] { workflow_.next(); });
+  palette_action_ = add(go, tr("&Find a command …"), "menu", QKeySequence(tr("Ctrl+K")), [this] { findCommand(); });
+  go->addSeparator();
+  const auto end_of_steps = [this, no_session](bool can, const QString& why) {
+    const QString first = no_session();
+    return first.isEmpty() && !can ? why : first;
+  };
+  need(add(go, tr("&Back"), "chevron-left", QKeySequence(tr("Alt+Left")), [this] { workflow_.back(); }),
+       [this, end_of_steps] { return end_of_steps(workflow_.canGoBack(), tr("This is the first step.")); });
+  need(add(go, tr("&Next"), "chevron-right", QKeySequence(tr("Alt+Right")), [this] { workflow_.next(); }),
+       [this, end_of_steps] { return end_of_steps(workflow_.canGoNext(), tr("This is the last step.")); });
   go->addSeparator();
   int number = 1;
   for (const StepId step : all_steps) {
-    add(go, stepTitle(step), stepIcon(step), QKeySequence(QStringLiteral("Ctrl+%1").arg(number++)), [this, step] {
-      workflow_.goTo(step);
-      showSessionOrWelcome();
-    });
+    need(add(go, stepTitle(step), stepIcon(step), QKeySequence(QStringLiteral("Ctrl+%1").arg(number++)),
+             [this, step] {
+               workflow_.goTo(step);
+               showSessionOrWelcome();
+             }),
+         no_session);
   }
   go->addSeparator();
   add(go, tr("&Plant"), "machine", QKeySequence(tr("Ctrl+Shift+P")), [this] { openPlant(); });
   add(go, tr("&Compensate: live"), "compensate", QKeySequence(tr("Ctrl+Shift+L")), [this] { openLiveCompensation(); });
-  add(go, tr("&Run the step"), "play", QKeySequence(tr("Ctrl+Return")), [this] {
-    if (currentPage() != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
-  });
+  need(add(go, tr("&Run the step"), "play", QKeySequence(tr("Ctrl+Return")),
+           [this] {
+             if (currentPage() != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
+           }),
+       [this, no_session] {
+         if (page_ == nullptr) return no_session();
+         const QPushButton* button = page_->primaryButton();
+         if (button == nullptr) return tr("This page has nothing to run.");
+         if (button->isEnabled()) return QString();
+         return button->toolTip().isEmpty() ? tr("Something that it needs is missing on the page.") : button->toolTip();
+       });
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
   add(view, tr("&Light or dark"), "moon", QKeySequence(tr("Ctrl+D")),
@@ -100,7 +152,9 @@ void MainWindow::buildMenu() {
     designer->setAttribute(Qt::WA_DeleteOnClose);
     designer->show();
   });
-  add(tools, tr("&Effects of this machine …"), "table", QKeySequence(tr("Ctrl+Shift+E")), [this] { openEffects(); });
+  need(add(tools, tr("&Effects of this machine …"), "table", QKeySequence(tr("Ctrl+Shift+E")),
+           [this] { openEffects(); }),
+       no_session);
   QMenu* help = menuBar()->addMenu(tr("&Help"));
   help_action_ = add(help, tr("Help &beside the step"), "help", QKeySequence(Qt::Key_F1), [this] {
     QSettings().setValue(QStringLiteral("help"), help_action_->isChecked());
@@ -118,6 +172,11 @@ void MainWindow::buildMenu() {
     manual->setAttribute(Qt::WA_DeleteOnClose);
     manual->show();
   });
+  add(help, tr("What's &new …"), "info", {}, [this] { showNews(); });
+  help->addSeparator();
+  add(help, tr("&What if …"), "model", QKeySequence(tr("Ctrl+Shift+W")), [this] { openWhatIf(); });
+  add(help, tr("&Exercise: find the missing effect …"), "target", QKeySequence(tr("Ctrl+Shift+X")),
+      [this] { openExercise(); });
   help->addSeparator();
   add(help, tr("&Copy diagnostics"), "table", {}, [this] {
     QGuiApplication::clipboard()->setText(diagnosticsText());
@@ -153,8 +212,9 @@ void MainWindow::buildMenu() {
   connect(&undo_.group(), &QUndoGroup::canRedoChanged, redo_button, &QToolButton::setEnabled);
   connect(&undo_.group(), &QUndoGroup::undoTextChanged, undo_button,
           [undo_button](const QString& text) { undo_button->setToolTip(tr("Undo: %1").arg(text)); });
-  tool("export", tr("Export pictures and tables of this page"),
-       [this] { exportTo(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)); });
+  tool("export", tr("Export pictures and tables of this page"), [this] {
+    exportTo(lastFolder(QStringLiteral("export"), QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)));
+  });
   theme_button_ = tool(theme().kind == ThemeKind::Dark ? "sun" : "moon", tr("Light or dark"),
                        [this] { setTheme(theme().kind == ThemeKind::Dark ? ThemeKind::Light : ThemeKind::Dark); });
   menuBar()->setCornerWidget(corner);
@@ -177,7 +237,7 @@ void MainWindow::saveLog(const QString& file) {
     writeFileAtomically(file.toStdString(), diagnosticsText().toStdString());
     tell(tr("The log was saved as %1. Folders and names are left out of it.").arg(file));
   } catch (const InputError& e) {
-    tell(QString::fromUtf8(e.what()));
+    tell(coreSentence(e.what()));
   }
 }
 
@@ -188,6 +248,42 @@ void MainWindow::openEffects() {
   }
   workflow_.goTo(StepId::Discrepancy);
   if (auto* page = qobject_cast<DiscrepancyPage*>(currentPage())) page->showEffects(true);
+}
+
+WhatIfWindow* MainWindow::openWhatIf() {
+  const auto campaign = session_.campaign();
+  auto* window = new WhatIfWindow(campaign != nullptr ? campaign->machine : standardMachine(), this);
+  window->setAttribute(Qt::WA_DeleteOnClose);
+  window->show();
+  return window;
+}
+
+ExerciseDialog* MainWindow::openExercise() {
+  if (exercise_ == nullptr) {
+    exercise_ = new ExerciseDialog(session_, jobs_, this);
+    connect(exercise_, &ExerciseDialog::startWanted, this, &MainWindow::startExercise);
+    connect(exercise_, &ExerciseDialog::searchWanted, this, [this] {
+      workflow_.goTo(StepId::Discrepancy);
+      showSessionOrWelcome();
+    });
+  }
+  exercise_->show();
+  exercise_->raise();
+  return exercise_;
+}
+
+void MainWindow::startExercise(const Exercise& exercise) {
+  auto place = std::make_shared<QTemporaryDir>();
+  const std::filesystem::path folder = std::filesystem::path(place->path().toStdString()) / "campaign";
+  importInBackground(
+      tr("Running the virtual machine: exercise %1").arg(exercise.seed),
+      [place, folder, exercise](JobContext& job) {
+        writeExercise(exercise, folder, job);
+        return folder;
+      },
+      QStringLiteral("exercise_%1_%2")
+          .arg(exercise.seed)
+          .arg(QString::fromStdString(std::string(toString(exercise.level)))));
 }
 
 NotesDialog* MainWindow::openNotes() {

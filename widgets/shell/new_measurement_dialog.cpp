@@ -13,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/machine/machine_description.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 
 static void loadScenarios() {
@@ -114,7 +115,7 @@ void NewMeasurementDialog::takeFile(const QString& file) {
     add({tr("%1 (from a file)").arg(QString::fromStdString(machine.name)), file, machine.source});
     choices_->setCurrentRow(choices_->count() - 1);
   } catch (const InputError& e) {
-    problem_->show(Tone::Bad, QString::fromUtf8(e.what()));
+    problem_->show(Tone::Bad, coreSentence(e.what()));
   }
 }
 

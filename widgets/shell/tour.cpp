@@ -99,7 +99,7 @@ bool waitForJobs(MainWindow& window, int seconds) {
   QElapsedTimer timer;
   timer.start();
   settle(20);
-  while (window.jobs().busy() || viewsBusy(window)) {
+  while (window.arriving() || window.jobs().busy() || viewsBusy(window)) {
     if (timer.elapsed() > 1000LL * seconds) return false;
     settle(20);
   }

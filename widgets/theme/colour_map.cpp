@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/theme/colour_map.h"
+#include "widgets/theme/numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -163,7 +164,7 @@ QString tickText(double value, double step) {
     scaled *= 10;
     ++decimals;
   }
-  QString text = QString::number(value, 'f', decimals);
+  QString text = decimalText(value, 'f', decimals);
   if (text.startsWith(QLatin1Char('-'))) text.replace(0, 1, QChar(0x2212));
   return text;
 }

@@ -97,6 +97,8 @@ QTableView::indicator:checked, QTreeView::indicator:checked { background: @accen
 QHeaderView { background: @surface@; border: none; }
 QHeaderView::section { background: @surface@; color: @text_secondary@; border: none; border-bottom: 1px solid @border@; padding: 6px 6px;
   font-size: 12px; font-weight: 600; }
+QHeaderView::up-arrow { image: url(:/icons/@kind@/chevron-up.svg); width: 12px; height: 12px; }
+QHeaderView::down-arrow { image: url(:/icons/@kind@/chevron-down.svg); width: 12px; height: 12px; }
 QAbstractScrollArea::corner { background: transparent; border: none; }
 QTableCornerButton::section { background: @surface@; border: none; }
 

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/light_colours.h"
 #include "widgets/theme/style_sheet.h"
 
 /// Resources of a static library are linked in only when they are asked for, and only outside of namespaces.
@@ -181,6 +182,18 @@ const Theme& theme() {
 ThemeNotifier& ThemeNotifier::instance() {
   static ThemeNotifier notifier;
   return notifier;
+}
+
+LightColours::LightColours() : before_(theme().kind) {
+  if (before_ == ThemeKind::Light) return;
+  current_theme = &Theme::light();
+  Q_EMIT ThemeNotifier::instance().changed();
+}
+
+LightColours::~LightColours() {
+  if (before_ == ThemeKind::Light) return;
+  current_theme = &Theme::dark();
+  Q_EMIT ThemeNotifier::instance().changed();
 }
 
 void applyTheme(QApplication& application, ThemeKind kind) {

@@ -85,18 +85,36 @@ void Camera::look(StandardView view) {
   }
 }
 
-void Camera::fit(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const QSizeF& size) {
-  focal_point_mm = 0.5 * (low + high);
-  double half_width = 1e-3;
-  double half_height = 1e-3;
+QRectF Camera::frame(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const QSizeF& size) const {
+  double left = 1e300, top = 1e300, right_most = -1e300, bottom = -1e300;
   for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d p((corner & 1) != 0 ? high.x() : low.x(), (corner & 2) != 0 ? high.y() : low.y(),
-                            (corner & 4) != 0 ? high.z() : low.z());
-    half_width = std::max(half_width, std::abs(right().dot(p - focal_point_mm)));
-    half_height = std::max(half_height, std::abs(up().dot(p - focal_point_mm)));
+    const auto at = project({(corner & 1) != 0 ? high.x() : low.x(), (corner & 2) != 0 ? high.y() : low.y(),
+                             (corner & 4) != 0 ? high.z() : low.z()},
+                            size);
+    if (!at) return {};
+    left = std::min(left, at->x());
+    right_most = std::max(right_most, at->x());
+    top = std::min(top, at->y());
+    bottom = std::max(bottom, at->y());
   }
-  const double aspect = size.height() > 0 ? size.width() / size.height() : 1.0;
-  half_height_mm = 1.12 * std::max(half_height, half_width / std::max(aspect, 1e-3));
+  return {left, top, right_most - left, bottom - top};
+}
+
+void Camera::fit(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const QSizeF& size,
+                 const QMarginsF& margins) {
+  constexpr double least_px = 40;
+  const QRectF inner = QRectF(QPointF(0, 0), size).marginsRemoved(margins);
+  const QSizeF free(std::max(least_px, inner.width()), std::max(least_px, inner.height()));
+  focal_point_mm = 0.5 * (low + high);
+  half_height_mm = std::max(1e-3, (high - low).norm());  // everything lies before the eye
+  // What is near grows faster in perspective: a few steps.
+  for (int pass = 0; pass < (orthographic ? 1 : 6); ++pass) {
+    QRectF seen = frame(low, high, size);
+    if (seen.isNull()) break;
+    half_height_mm *= std::max({seen.width() / free.width(), seen.height() / free.height(), 1e-6});
+    seen = frame(low, high, size);
+    pan(QPointF(inner.center() - seen.center()), size);
+  }
 }
 
 std::optional<QPointF> Camera::project(const Eigen::Vector3d& point, const QSizeF& size) const {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <QMarginsF>
 #include <QPointF>
+#include <QRectF>
 #include <QSizeF>
 #include <optional>
 
@@ -32,8 +34,11 @@ struct Camera {
   /// Zooms by `factor` (> 1: closer) and keeps what is under `at` where it is.
   void zoom(double factor, const QPointF& at, const QSizeF& size);
   void look(StandardView view);
-  /// Shows the whole box.
-  void fit(const Eigen::Vector3d& low_mm, const Eigen::Vector3d& high_mm, const QSizeF& size);
+  /// Shows the whole box, as large as the picture without its margins (pixels) allows, in the middle of that.
+  void fit(const Eigen::Vector3d& low_mm, const Eigen::Vector3d& high_mm, const QSizeF& size,
+           const QMarginsF& margins = QMarginsF(2, 2, 2, 2));
+  /// The rectangle around a box as it is seen; empty if a part of it lies behind the eye.
+  [[nodiscard]] QRectF frame(const Eigen::Vector3d& low_mm, const Eigen::Vector3d& high_mm, const QSizeF& size) const;
 
   /// Pixels; empty if the point lies behind the eye.
   [[nodiscard]] std::optional<QPointF> project(const Eigen::Vector3d& point_mm, const QSizeF& size) const;

@@ -3,12 +3,15 @@
 
 #include <QCoreApplication>
 #include <QFontMetricsF>
+#include <QLineF>
 #include <QPainterPath>
+#include <QTransform>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
@@ -48,6 +51,30 @@ void arrowHead(QPainter& painter, const QPointF& tip, const QPointF& direction, 
   painter.restore();
 }
 
+constexpr double bar_width = 14;
+constexpr int table_scale_px = 11;
+/// Between numbers along an axis in space.
+constexpr double tick_px = 28;
+constexpr double triad_px = 92;
+
+/// What stands on the colour bar, and how wide it makes it.
+struct BarLayout {
+  QString title;
+  std::vector<double> ticks;
+  double step = 1.0;
+  double text_width = 0.0;
+  double panel_width = 0.0;
+
+  explicit BarLayout(const ColourScale& scale)
+      : title(scale.title.isEmpty() ? scale.unit : scale.title + QStringLiteral(" / ") + scale.unit),
+        ticks(scale.ticks()) {
+    const QFontMetricsF metrics(textFont(sizes::font_secondary));
+    if (ticks.size() > 1) step = ticks[1] - ticks[0];
+    for (const double v : ticks) text_width = std::max(text_width, metrics.horizontalAdvance(tickText(v, step)));
+    panel_width = std::max(bar_width + 10 + text_width, metrics.horizontalAdvance(title)) + 2 * sizes::step + 4;
+  }
+};
+
 int verticalAxis(const MachineBodies& bodies) {
   for (int i = 0; i < 3; ++i) {
     if (std::abs(bodies.vertical[i]) > 0.5) return i;
@@ -57,22 +84,26 @@ int verticalAxis(const MachineBodies& bodies) {
 
 }  // namespace
 
-QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& scale) {
+double colourBarWidth(const ColourScale& scale) {
+  return BarLayout(scale).panel_width + 2 * sizes::step;
+}
+
+double colourBarHeight() {
+  return 2 * QFontMetricsF(textFont(sizes::font_secondary)).height() + bar_width + 3 * sizes::step;
+}
+
+QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& scale, bool lying) {
   const Theme& t = theme();
   painter.save();
+  const auto [title, ticks, step, text_width, panel_width] = BarLayout(scale);
   painter.setFont(textFont(sizes::font_secondary));
   const QFontMetricsF metrics(painter.font());
-  const std::vector<double> ticks = scale.ticks();
-  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
-  double text_width = 0;
-  for (const double v : ticks) text_width = std::max(text_width, metrics.horizontalAdvance(tickText(v, step)));
-  const QString unit = scale.unit;
-  const QString title = scale.title.isEmpty() ? unit : scale.title + QStringLiteral(" / ") + unit;
-  const double title_width = metrics.horizontalAdvance(title);
-  const double bar_width = 14;
-  const double panel_width = std::max(bar_width + 10 + text_width, title_width) + 2 * sizes::step + 4;
-  const double panel_height = std::min(area.height() - 2 * sizes::step, 300.0);
-  const QRectF panel(area.right() - panel_width - sizes::step, area.top() + sizes::step, panel_width, panel_height);
+  constexpr double longest = 300;
+  const double length = std::min((lying ? area.width() - triad_px : area.height()) - 2 * sizes::step, longest);
+  const QSizeF panel_size = lying ? QSizeF(length, colourBarHeight() - sizes::step) : QSizeF(panel_width, length);
+  const QRectF panel(QPointF(area.right() - panel_size.width() - sizes::step,
+                             lying ? area.bottom() - panel_size.height() - sizes::step : area.top() + sizes::step),
+                     panel_size);
   QColor back = t.surface;
   back.setAlphaF(0.88F);
   painter.setPen(QPen(t.border, 1));
@@ -80,26 +111,44 @@ QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& 
   painter.drawRoundedRect(panel, 6, 6);
   painter.setPen(t.text);
   painter.drawText(QPointF(panel.left() + sizes::step + 2, panel.top() + 6 + metrics.ascent()), title);
-  const QRectF bar(panel.left() + sizes::step + 2, panel.top() + metrics.height() + 16, bar_width,
-                   panel_height - metrics.height() - 28);
-  QImage strip(1, 256, QImage::Format_RGB32);
-  for (int i = 0; i < 256; ++i) strip.setPixel(0, i, colourTable(scale.map)[static_cast<std::size_t>(255 - i)]);
+  const QPointF corner(panel.left() + sizes::step + 2 + (lying ? text_width / 2 : 0),
+                       panel.top() + metrics.height() + (lying ? 8 : 16));
+  const QRectF bar(corner, lying ? QSizeF(panel.right() - sizes::step - 2 - text_width / 2 - corner.x(), bar_width)
+                                 : QSizeF(bar_width, panel.bottom() - 12 - corner.y()));
+  QImage strip(256, 1, QImage::Format_RGB32);
+  for (int i = 0; i < 256; ++i) strip.setPixel(i, 0, colourTable(scale.map)[static_cast<std::size_t>(i)]);
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
-  painter.drawImage(bar, strip);
+  painter.drawImage(bar, lying ? strip : strip.transformed(QTransform().rotate(-90)));
   painter.setBrush(Qt::NoBrush);
   painter.setPen(QPen(t.border_strong, 1));
   painter.drawRect(bar);
+  // On a short bar every second number, or fewer; zero is among them.
+  const double apart = (lying ? bar.width() : bar.height()) * step / (scale.high - scale.low);
+  const int every = std::max(1, static_cast<int>(std::ceil((lying ? text_width + 6 : metrics.height()) / apart)));
   for (const double v : ticks) {
-    const double y = bar.bottom() - (v - scale.low) / (scale.high - scale.low) * bar.height();
-    painter.setPen(QPen(t.text_secondary, 1));
-    painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + 4, y));
-    painter.setPen(t.text);
+    if (std::lround(v / step) % every != 0) continue;
+    const double share = (v - scale.low) / (scale.high - scale.low);
     const QString text = tickText(v, step);
-    painter.drawText(
-        QPointF(bar.right() + 8 + text_width - metrics.horizontalAdvance(text), y + metrics.ascent() / 2 - 1), text);
+    const double width = metrics.horizontalAdvance(text);
+    const QPointF at = lying ? QPointF(bar.left() + share * bar.width(), bar.bottom())
+                             : QPointF(bar.right(), bar.bottom() - share * bar.height());
+    painter.setPen(QPen(t.text_secondary, 1));
+    painter.drawLine(at, at + (lying ? QPointF(0, 4) : QPointF(4, 0)));
+    painter.setPen(t.text);
+    painter.drawText(lying ? QPointF(at.x() - width / 2, at.y() + 4 + metrics.ascent())
+                           : QPointF(at.x() + 8 + text_width - width, at.y() + metrics.ascent() / 2 - 1),
+                     text);
   }
   painter.restore();
   return panel;
+}
+
+QRectF notesPanel(const QStringList& lines, double room) {
+  if (lines.isEmpty()) return {};
+  const QFontMetricsF metrics(textFont(sizes::font_secondary));
+  double width = 0;
+  for (const QString& line : lines) width = std::max(width, metrics.horizontalAdvance(line));
+  return {8, 8, std::min(width, room) + 16, (metrics.height() + 3) * static_cast<double>(lines.size()) + 9};
 }
 
 void paintTriad(QPainter& painter, const QRectF& area, const Camera& camera) {
@@ -154,7 +203,7 @@ void paintMotions(QPainter& painter, const Camera& camera, const QSizeF& size, c
     arrowHead(painter, *b, d, 10, colour);
     arrowHead(painter, *a, -d, 10, colour);
     const QString text =
-        QStringLiteral("%1  %2 mm").arg(motion.name).arg((motion.to_mm - motion.from_mm).norm(), 0, 'f', 0);
+        QStringLiteral("%1  %2 mm").arg(motion.name).arg(decimalText((motion.to_mm - motion.from_mm).norm(), 'f', 0));
     const double text_width = metrics.horizontalAdvance(text);
     QPointF outward(-d.y() / length, d.x() / length);
     const QPointF middle = 0.5 * (*a + *b);
@@ -180,19 +229,20 @@ double gridSpacing_mm(const MachineBodies& bodies) {
   return 10 * power;
 }
 
-void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies) {
-  painter.save();
-  painter.setFont(textFont(11));
-  const QFontMetricsF metrics(painter.font());
+std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, const MachineBodies& bodies) {
+  std::vector<OverlayText> texts;
+  const QFontMetricsF metrics(textFont(table_scale_px));
+  const auto add = [&](const QPointF& baseline, const QString& text) {
+    const QRectF box(baseline.x(), baseline.y() - metrics.ascent(), metrics.horizontalAdvance(text), metrics.height());
+    texts.push_back({baseline, text, box.adjusted(-2, 0, 2, 0)});  // with its halo
+  };
   const double spacing = gridSpacing_mm(bodies);
   const Eigen::Vector3d& low = bodies.table_low_mm;
   const Eigen::Vector3d& high = bodies.table_high_mm;
   const int up = verticalAxis(bodies);
   const auto centre = camera.project(0.5 * (low + high), size);
-  if (!centre) {
-    painter.restore();
-    return;
-  }
+  if (!centre) return texts;
+  const int unit_axis = up == 0 ? 1 : 0;  // its last number carries the unit
   for (int i = 0; i < 3; ++i) {
     if (i == up) continue;
     const int other = 3 - up - i;
@@ -222,49 +272,119 @@ void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size
       const double norm = std::hypot(out.x(), out.y());
       if (norm < 4) continue;
       out /= norm;
-      const QString text = QString::number(std::abs(v) < 1e-9 ? 0.0 : v, 'f', spacing < 1 ? 1 : 0);
+      const QString text = decimalText(std::abs(v) < 1e-9 ? 0.0 : v, 'f', spacing < 1 ? 1 : 0);
       const double w = metrics.horizontalAdvance(text);
       const QPointF anchor = *at + out * 9;
       const QPointF baseline(anchor.x() - w / 2 + out.x() * w / 2, anchor.y() + metrics.ascent() / 2 - 1 + out.y() * 4);
       if (std::abs(baseline.x() - last_x) < w + 6 && std::abs(baseline.y() - last_y) < metrics.height()) continue;
       last_x = baseline.x();
       last_y = baseline.y();
-      haloText(painter, baseline, text, theme().text_secondary);
+      add(baseline, i == unit_axis && v + spacing > high[i] + 1e-9 ? text + QStringLiteral(" mm") : text);
     }
-    const bool show_unit = i == 0;
-    if (show_unit) {
-      Eigen::Vector3d p = low;
-      p[i] = high[i];
-      p[other] = fixed;
-      if (const auto at = camera.project(p, size)) {
-        haloText(painter, *at + QPointF(14, 20), QStringLiteral("mm"), theme().text_secondary);
-      }
-    }
+  }
+  return texts;
+}
+
+void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies) {
+  painter.save();
+  painter.setFont(textFont(table_scale_px));
+  const QRectF picture(QPointF(0, 0), size);
+  for (const OverlayText& text : tableScale(camera, size, bodies))
+    if (picture.contains(text.box)) haloText(painter, text.baseline, text.text, theme().text_secondary);
+  painter.restore();
+}
+
+void paintDistance(QPainter& painter, const QSizeF& size, const std::vector<QPointF>& ends, const QString& text) {
+  const Theme& t = theme();
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  if (ends.size() == 2) {
+    painter.setPen(QPen(t.view_top, 4, Qt::SolidLine, Qt::RoundCap));
+    painter.drawLine(ends[0], ends[1]);
+    painter.setPen(QPen(t.accent, 2, Qt::DashLine, Qt::FlatCap));
+    painter.drawLine(ends[0], ends[1]);
+  }
+  for (const QPointF& end : ends) {
+    painter.setPen(QPen(t.view_top, 1.5));
+    painter.setBrush(t.accent);
+    painter.drawEllipse(end, 5, 5);
+  }
+  if (ends.size() == 2) {
+    painter.setFont(textFont(sizes::font_secondary, QFont::DemiBold));
+    const QFontMetricsF metrics(painter.font());
+    const QRectF picture = QRectF(QPointF(0, 0), size).adjusted(4, 4, -4, -4);
+    QRectF box(0, 0, std::min(metrics.horizontalAdvance(text) + 16, picture.width()), metrics.height() + 8);
+    box.moveCenter(0.5 * (ends[0] + ends[1]) - QPointF(0, 18));
+    box.moveLeft(std::clamp(box.left(), picture.left(), picture.right() - box.width()));
+    box.moveTop(std::clamp(box.top(), picture.top(), picture.bottom() - box.height()));
+    painter.setPen(QPen(t.accent, 1));
+    painter.setBrush(t.surface);
+    painter.drawRoundedRect(box, 4, 4);
+    painter.setPen(t.text);
+    painter.drawText(box, Qt::AlignCenter, metrics.elidedText(text, Qt::ElideRight, box.width() - 12));
   }
   painter.restore();
 }
 
-void paintArrows(QPainter& painter, const Camera& camera, const QSizeF& size, const std::vector<ViewArrow>& arrows,
-                 double exaggeration) {
+void paintSurfaceAxes(QPainter& painter, const Camera& camera, const QSizeF& size, const ViewSurface& surface,
+                      const SurfaceBox& box, const ColourScale& scale) {
+  const Theme& t = theme();
   painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  for (const ViewArrow& arrow : arrows) {
-    const auto a = camera.project(arrow.from_mm, size);
-    const auto b = camera.project(arrow.from_mm + 1e-3 * exaggeration * arrow.deviation_um, size);
-    if (!a || !b) continue;
-    const QPointF d = *b - *a;
-    const double length = std::hypot(d.x(), d.y());
-    if (length < 3) continue;
-    const QColor colour = arrow.tone == Tone::Neutral ? theme().text : theme().tone(arrow.tone);
-    QColor halo = theme().view_top;
-    halo.setAlphaF(0.8F);
-    const double head = std::min(11.0, 0.5 * length);
-    painter.setPen(QPen(halo, 5, Qt::SolidLine, Qt::RoundCap));
-    painter.drawLine(*a, *b);
-    painter.setPen(QPen(colour, 2, Qt::SolidLine, Qt::RoundCap));
-    painter.drawLine(*a, *b - d * (0.8 * head / length));
-    arrowHead(painter, *b, d, head, colour);
+  painter.setFont(textFont(sizes::font_secondary));
+  const QFontMetricsF metrics(painter.font());
+  const QRectF picture = QRectF(QPointF(0, 0), size).adjusted(4, 4, -4, -4);
+  const Eigen::Vector3d& reach = SurfaceBox::size_mm;
+  const auto at = [&](const Eigen::Vector3d& mm) { return camera.project(mm, size).value_or(QPointF()); };
+  const auto write = [&](const QPointF& edge, const QPointF& inward, const QString& text, double away,
+                         const QColor& c) {
+    QPointF out = edge - inward;
+    out *= away / std::max(1.0, std::hypot(out.x(), out.y()));
+    const double w = metrics.horizontalAdvance(text);
+    const QPointF middle = edge + out + QPointF(out.x() / away * w / 2, 0);
+    const double x = std::clamp(middle.x() - w / 2, picture.left(), std::max(picture.left(), picture.right() - w));
+    const double y =
+        std::clamp(middle.y() + metrics.ascent() / 2 - 1, picture.top() + metrics.ascent(), picture.bottom());
+    haloText(painter, {x, y}, text, c);
+  };
+  const auto steps = [](const std::vector<double>& ticks) { return ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0; };
+  // Along the edges of the floor nearer to the viewer.
+  for (int i = 0; i < 2; ++i) {
+    const int other = 1 - i;
+    Eigen::Vector3d edge = Eigen::Vector3d::Zero();
+    edge[other] = camera.forward()[other] > 0 ? 0.0 : reach[other];
+    const auto place = [&](double mm) {
+      Eigen::Vector3d p = edge;
+      p[i] = mm;
+      Eigen::Vector3d inner = p;
+      inner[other] = 0.5 * reach[other];
+      return std::pair{at(p), at(inner)};
+    };
+    const double length = QLineF(place(0).first, place(reach[i]).first).length();
+    const std::vector<double> ticks =
+        roundTicks(box.low[i], box.high[i], std::clamp(static_cast<int>(length / tick_px), 1, 5));
+    for (const double v : ticks) {
+      const auto [outer, inner] = place((v - box.low[i]) / (box.high[i] - box.low[i]) * reach[i]);
+      write(outer, inner, tickText(v, steps(ticks)), 12, t.text_secondary);
+    }
+    const auto [outer, inner] = place(0.5 * reach[i]);
+    write(outer, inner, i == 0 ? surface.x_title : surface.y_title, 40, t.text);
   }
+  // Along the vertical edge furthest to the left.
+  Eigen::Vector3d left = Eigen::Vector3d::Zero();
+  for (const double x : {0.0, reach.x()})
+    for (const double y : {0.0, reach.y()})
+      if (at({x, y, 0}).x() < at(left).x()) left = {x, y, 0};
+  const std::vector<double> ticks = scale.ticks();
+  const double high = QLineF(at(left), at({left.x(), left.y(), reach.z()})).length();
+  const double apart = high * steps(ticks) / (scale.high - scale.low);
+  const int every = std::max(1, static_cast<int>(std::ceil(metrics.height() / std::max(apart, 1.0))));
+  for (const double v : ticks) {
+    if (std::lround(v / steps(ticks)) % every != 0) continue;
+    const QPointF p = at({left.x(), left.y(), (v - box.low.z()) / (box.high.z() - box.low.z()) * reach.z()});
+    write(p, p + QPointF(10, 0), tickText(v, steps(ticks)), 8, t.text_secondary);
+  }
+  const QPointF top = at({left.x(), left.y(), reach.z()});
+  write(top, top + QPointF(0, 10), surface.value_title, 14, t.text);
   painter.restore();
 }
 

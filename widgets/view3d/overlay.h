@@ -9,16 +9,34 @@
 
 namespace spindrift::gui {
 
-/// Vertical colour bar at the right edge, with unit and round ticks. Returns the rectangle it took.
-QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& scale);
+/// What the colour bar takes of the width if it stands, of the height if it lies, pixels.
+[[nodiscard]] double colourBarWidth(const ColourScale& scale);
+[[nodiscard]] double colourBarHeight();
+/// Colour bar with unit and round ticks: standing at the right edge, or lying at the bottom right. Returns the
+/// rectangle it took.
+QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& scale, bool lying = false);
+/// The panel at the top left with some lines, none wider than `room`; empty without lines.
+[[nodiscard]] QRectF notesPanel(const QStringList& lines, double room);
 /// Three short axes with their names at the bottom left.
 void paintTriad(QPainter& painter, const QRectF& area, const Camera& camera);
 /// Travels of the linear axes as double arrows with "X 300 mm".
 void paintMotions(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies);
-/// Numbers in mm along two edges of the table.
+/// Text over the picture and the rectangle it takes.
+struct OverlayText {
+  QPointF baseline;
+  QString text;
+  QRectF box;
+};
+/// Numbers in mm along two edges of the table, wherever they stand.
+[[nodiscard]] std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size,
+                                                  const MachineBodies& bodies);
+/// Those of them that stand in the picture.
 void paintTableScale(QPainter& painter, const Camera& camera, const QSizeF& size, const MachineBodies& bodies);
-void paintArrows(QPainter& painter, const Camera& camera, const QSizeF& size, const std::vector<ViewArrow>& arrows,
-                 double exaggeration);
+/// Numbers and titles along the axes of a surface.
+void paintSurfaceAxes(QPainter& painter, const Camera& camera, const QSizeF& size, const ViewSurface& surface,
+                      const SurfaceBox& box, const ColourScale& scale);
+/// A line between two places with its length beside it. One place: a mark.
+void paintDistance(QPainter& painter, const QSizeF& size, const std::vector<QPointF>& ends, const QString& text);
 /// Spacing of the table grid, mm: about ten lines on the longer side.
 [[nodiscard]] double gridSpacing_mm(const MachineBodies& bodies);
 

@@ -5,13 +5,15 @@
 #include <vtkActorCollection.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
+#include <vtkCellPicker.h>
+#include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
-#include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
+#include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -22,23 +24,53 @@
 #include <vtkTexture.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <QElapsedTimer>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <numbers>
 
-#include "widgets/view3d/contours.h"
+#include "widgets/view3d/cloud_layer.h"
 #include "widgets/view3d/field_texture.h"
+#include "widgets/view3d/glyph_layers.h"
 #include "widgets/view3d/offscreen_window.h"
 #include "widgets/view3d/overlay.h"
 #include "widgets/view3d/scene_pieces.h"
-#include "widgets/view3d/shapes.h"
 
 namespace spindrift::gui {
 namespace {
 
-/// About 35 ms with software rendering.
-constexpr std::size_t points_per_part = 200'000;
+/// Smooth edges cost four times as much in software, which a moving view has no time for.
+constexpr int samples_at_rest = 4;
+
+/// The nodes of a field with their values as a mesh; cells without a value are left out.
+vtkSmartPointer<vtkPolyData> fieldMesh(const Field& field, const std::function<double(std::size_t)>& height_mm) {
+  const FieldGrid& grid = field.grid;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> values;
+  vtkNew<vtkCellArray> quads;
+  const auto known = [&](int ix, int iy) { return std::isfinite(field.value[grid.index(ix, iy)]); };
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const std::size_t i = grid.index(ix, iy);
+      points->InsertNextPoint(grid.place_mm(grid.x_mm(ix), grid.y_mm(iy), height_mm(i)).data());
+      values->InsertNextValue(field.value[i]);
+      if (ix + 1 == grid.nx || iy + 1 == grid.ny) continue;
+      if (!known(ix, iy) || !known(ix + 1, iy) || !known(ix, iy + 1) || !known(ix + 1, iy + 1)) continue;
+      const vtkIdType first = static_cast<vtkIdType>(iy) * grid.nx + ix;
+      const std::array<vtkIdType, 4> ids{first, first + 1, first + grid.nx + 1, first + grid.nx};
+      quads->InsertNextCell(4, ids.data());
+    }
+  }
+  auto mesh = vtkSmartPointer<vtkPolyData>::New();
+  mesh->SetPoints(points);
+  mesh->SetPolys(quads);
+  mesh->GetPointData()->SetScalars(values);
+  return mesh;
+}
 
 }  // namespace
 
@@ -57,16 +89,58 @@ struct Scene::Impl {
   vtkNew<vtkTexture> texture;
   vtkNew<vtkImageData> texture_image;
   std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> field_bounds;
-  ViewCloud cloud;
-  std::optional<ColourScale> cloud_scale;
-  std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> cloud_bounds;
-  std::vector<std::unique_ptr<Piece>> parts;  // of the cloud; null until first drawn
-  std::size_t drawn_parts = 0;
+  CloudLayer cloud{renderer};
+  ArrowLayer arrows{renderer};
+  SurfaceLayer surface_plot{renderer};
+  std::optional<ViewSurface> plotted;
   vtkSmartPointer<vtkLight> sky;
+  vtkNew<vtkPlane> clip;
+  bool clipped = false;
+
+  void setPlane(vtkMapper* mapper) {
+    mapper->RemoveAllClippingPlanes();
+    if (clipped) mapper->AddClippingPlane(clip);
+  }
+
+  void applyClip() {
+    for (Piece* piece : pieces()) setPlane(piece->mapper);
+    arrows.onMappers([this](vtkMapper* mapper) { setPlane(mapper); });
+    surface_plot.onMappers([this](vtkMapper* mapper) { setPlane(mapper); });
+    cloud.onPieces([this](Piece& piece) { setPlane(piece.mapper); });
+  }
+
+  std::vector<Piece*> pieces() {
+    return {&table,       &table_edges, &grid_lines,    &lower,     &lower_edges,        &upper,
+            &upper_edges, &surface,     &contour_lines, &zero_line, &significance_lines, &border_lines,
+            &shape_faces, &shape_lines};
+  }
+
+  void aim(const Camera& camera) {
+    vtkCamera* view = renderer->GetActiveCamera();
+    const Eigen::Vector3d eye = camera.eye_mm();
+    const Eigen::Vector3d up = camera.up();
+    view->SetFocalPoint(camera.focal_point_mm.x(), camera.focal_point_mm.y(), camera.focal_point_mm.z());
+    view->SetPosition(eye.x(), eye.y(), eye.z());
+    view->SetViewUp(up.x(), up.y(), up.z());
+    view->SetParallelProjection(camera.orthographic);
+    view->SetParallelScale(camera.half_height_mm);
+    view->SetViewAngle(2 * half_view_angle_rad * 180 / std::numbers::pi);
+    // Of the cloud all that will be drawn later counts.
+    std::array<double, 6> box{};
+    renderer->ComputeVisiblePropBounds(box.data());
+    if (cloud.bounds()) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto k = static_cast<Eigen::Index>(i);
+        const bool alone = box[2 * i] > box[2 * i + 1];
+        box[2 * i] = alone ? cloud.bounds()->first[k] : std::min(box[2 * i], cloud.bounds()->first[k]);
+        box[2 * i + 1] = alone ? cloud.bounds()->second[k] : std::max(box[2 * i + 1], cloud.bounds()->second[k]);
+      }
+    }
+    renderer->ResetCameraClippingRange(box.data());
+  }
 
   Impl() : window(makeOffscreenWindow()) {
     window->AddRenderer(renderer);
-    // Smooth edges come from averaging shifted pictures (View3D): multisampling costs four times as much in software.
     window->SetMultiSamples(0);
     vtkNew<vtkLight> from_above;
     from_above->SetLightTypeToSceneLight();
@@ -79,11 +153,11 @@ struct Scene::Impl {
     renderer->AutomaticLightCreationOff();
     renderer->AddLight(from_above);
     renderer->AddLight(from_viewer);
-    for (Piece* piece : {&table, &table_edges, &grid_lines, &lower, &lower_edges, &upper, &upper_edges, &surface,
-                         &contour_lines, &zero_line, &significance_lines, &border_lines, &shape_faces, &shape_lines}) {
+    for (Piece* piece : pieces()) {
       piece->actor->VisibilityOff();
       renderer->AddActor(piece->actor);
     }
+    for (Piece* piece : {&table, &lower, &upper, &surface, &shape_faces}) piece->actor->PickableOn();
     texture->SetInputData(texture_image);
     texture->InterpolateOn();
     texture->MipmapOff();
@@ -144,61 +218,22 @@ struct Scene::Impl {
     showBodies();
   }
 
-  void buildShapes() {
-    makeShapeFaces(shape_faces.data, shapes);
-    makeShapeLines(shape_lines.data, shapes);
-    shape_faces.mapper->SetColorModeToDirectScalars();
-    shape_faces.actor->GetProperty()->SetAmbient(0.40);
-    shape_faces.actor->GetProperty()->SetDiffuse(0.85);
-    shape_faces.actor->SetVisibility(shape_faces.data->GetNumberOfPolys() > 0);
-    shape_lines.mapper->SetColorModeToDirectScalars();
-    shape_lines.mapper->SetScalarModeToUseCellData();
-    shape_lines.actor->GetProperty()->LightingOff();
-    shape_lines.actor->SetVisibility(shape_lines.data->GetNumberOfLines() > 0);
-  }
-
-  /// Points k, k + n, k + 2n ... of the cloud: every part is a thinned picture of the whole.
-  void buildPart(std::size_t k) {
-    if (parts[k] != nullptr) return;
-    auto piece = std::make_unique<Piece>();
-    const std::size_t count = cloud.xyz_mm->size() / 3;
-    const std::size_t stride = parts.size();
-    const std::size_t size = k < count ? (count - k - 1) / stride + 1 : 0;
-    vtkNew<vtkFloatArray> coordinates;
-    coordinates->SetNumberOfComponents(3);
-    coordinates->SetNumberOfTuples(static_cast<vtkIdType>(size));
-    vtkNew<vtkUnsignedCharArray> colours;
-    colours->SetNumberOfComponents(3);
-    colours->SetNumberOfTuples(static_cast<vtkIdType>(size));
-    float* xyz = coordinates->GetPointer(0);
-    unsigned char* rgb = colours->GetPointer(0);
-    const QColor plain = theme().series[0];
-    const bool coloured = cloud.scalar != nullptr && cloud_scale.has_value();
-    for (std::size_t i = k, j = 0; i < count; i += stride, ++j) {
-      std::memcpy(xyz + 3 * j, cloud.xyz_mm->data() + 3 * i, 3 * sizeof(float));
-      const QRgb c = coloured ? cloud_scale->rgb(static_cast<double>((*cloud.scalar)[i])) : plain.rgb();
-      rgb[3 * j] = static_cast<unsigned char>(qRed(c));
-      rgb[3 * j + 1] = static_cast<unsigned char>(qGreen(c));
-      rgb[3 * j + 2] = static_cast<unsigned char>(qBlue(c));
+  /// Draws what is visible over the last picture.
+  void addToPicture() {
+    // Clearing a picture also sets what may be written; without it the masks of the last pass would stay.
+    if (auto* gl = vtkOpenGLRenderWindow::SafeDownCast(window); gl != nullptr) {
+      window->MakeCurrent();
+      gl->GetState()->ResetGLColorMaskState();
+      gl->GetState()->ResetGLDepthMaskState();
+      gl->GetState()->vtkglColorMask(true, true, true, true);
+      gl->GetState()->vtkglDepthMask(true);
+      constexpr unsigned int gl_depth_test = 0x0B71;
+      gl->GetState()->ResetEnumState(gl_depth_test);
+      gl->GetState()->vtkglEnable(gl_depth_test);
     }
-    vtkNew<vtkPoints> points;
-    points->SetData(coordinates);
-    vtkNew<vtkIdTypeArray> offsets;
-    offsets->InsertNextValue(0);
-    offsets->InsertNextValue(static_cast<vtkIdType>(size));
-    vtkNew<vtkIdTypeArray> connectivity;
-    connectivity->SetNumberOfValues(static_cast<vtkIdType>(size));
-    for (std::size_t i = 0; i < size; ++i) connectivity->SetValue(static_cast<vtkIdType>(i), static_cast<vtkIdType>(i));
-    vtkNew<vtkCellArray> vertices;
-    vertices->SetData(offsets, connectivity);
-    piece->data->SetPoints(points);
-    piece->data->SetVerts(vertices);
-    piece->data->GetPointData()->SetScalars(colours);
-    piece->mapper->SetColorModeToDirectScalars();
-    piece->actor->GetProperty()->LightingOff();
-    piece->actor->GetProperty()->SetPointSize(static_cast<float>(cloud.point_size));
-    renderer->AddActor(piece->actor);
-    parts[k] = std::move(piece);
+    window->SetErase(0);
+    window->Render();
+    window->SetErase(1);
   }
 
   [[nodiscard]] QImage read(const QSize& pixels) const {
@@ -220,12 +255,23 @@ void Scene::setColours() {
   impl_->renderer->SetBackground(t.view_bottom.redF(), t.view_bottom.greenF(), t.view_bottom.blueF());
   impl_->renderer->SetBackground2(t.view_top.redF(), t.view_top.greenF(), t.view_top.blueF());
   impl_->buildBodies();
-  impl_->buildShapes();
+  makeShapes(impl_->shape_faces, impl_->shape_lines, impl_->shapes);
+  impl_->arrows.setColours();
+  impl_->surface_plot.setColours();
+}
+
+void Scene::setArrows(const std::vector<ViewArrow>& arrows, double exaggeration) {
+  impl_->arrows.set(arrows, exaggeration);
+}
+
+void Scene::setSurface(const std::optional<ViewSurface>& surface, const SurfaceBox& box, const ColourScale& scale) {
+  impl_->plotted = surface;
+  impl_->surface_plot.set(surface, box, scale);
 }
 
 void Scene::setShapes(const std::vector<ViewShape>& shapes) {
   impl_->shapes = shapes;
-  impl_->buildShapes();
+  makeShapes(impl_->shape_faces, impl_->shape_lines, impl_->shapes);
 }
 
 void Scene::setBodies(const MachineBodies& bodies) {
@@ -247,9 +293,6 @@ void Scene::setBodiesVisible(bool all, bool tool_side) {
 const std::optional<MachineBodies>& Scene::bodies() const {
   return impl_->bodies;
 }
-const ViewCloud& Scene::cloud() const {
-  return impl_->cloud;
-}
 bool Scene::bodiesShown() const {
   return impl_->all_bodies;
 }
@@ -263,6 +306,7 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
     piece->actor->VisibilityOff();
   }
   s.field_bounds.reset();
+  s.arrows.raise(Eigen::Vector3d::Zero());
   if (field == nullptr || field->value.empty()) return;
   const FieldGrid& grid = field->grid;
   const bool relief = style.relief_exaggeration > 0;
@@ -319,41 +363,24 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
   s.surface.actor->VisibilityOn();
 
   // Lines of equal value at the ticks of the colour bar; zero a little stronger; where significance ends.
-  using Segments = std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>;
-  const auto lifted = [&](const std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>& flat, double value) {
-    Segments lines;
-    const double out = height(value) + 0.2 * lift;
-    for (const auto& [a, b] : flat)
-      lines.emplace_back(grid.place_mm(a.x(), a.y(), out), grid.place_mm(b.x(), b.y(), out));
-    return lines;
-  };
-  Segments contours, zero, border;
-  if (style.contours) {
-    for (const double level : scale.ticks()) {
-      const Segments lines = lifted(contourSegments(
-                                        grid, [&](std::size_t i) { return field->value[i]; }, level),
-                                    level);
-      Segments& target = level == 0.0 && scale.map == ColourMap::Diverging ? zero : contours;
-      target.insert(target.end(), lines.begin(), lines.end());
-    }
-  }
+  std::vector<double> levels, zero;
+  for (const double level : style.contours ? scale.ticks() : std::vector<double>())
+    (level == 0.0 && scale.map == ColourMap::Diverging ? zero : levels).push_back(level);
+  const auto mesh = fieldMesh(*field, [&](std::size_t i) { return height(field->value[i]) + 0.2 * lift; });
   const QColor ink(0x33, 0x3B, 0x40);
-  makeLines(s.contour_lines, contours);
+  makeContours(s.contour_lines, mesh, levels);
   setColour(s.contour_lines, mixed(ink, QColor(0xDD, 0xDD, 0xDD), 0.45));
-  makeLines(s.zero_line, zero);
+  makeContours(s.zero_line, mesh, zero);
   setColour(s.zero_line, ink);
   if (style.significance > 0 && !field->sigma.empty() && !relief) {
-    Segments edge;
-    for (const double sign : {1.0, -1.0}) {
-      const Segments part = lifted(
-          contourSegments(
-              grid, [&](std::size_t i) { return sign * field->value[i] - style.significance * field->sigma[i]; }, 0.0),
-          0.0);
-      edge.insert(edge.end(), part.begin(), part.end());
-    }
-    makeLines(s.significance_lines, edge);
+    vtkNew<vtkDoubleArray> beyond;  // how far the value lies beyond what counts as zero
+    for (std::size_t i = 0; i < field->value.size(); ++i)
+      beyond->InsertNextValue(std::abs(field->value[i]) - style.significance * field->sigma[i]);
+    mesh->GetPointData()->SetScalars(beyond);
+    makeContours(s.significance_lines, mesh, {0.0});
     setColour(s.significance_lines, QColor(0xFF, 0xFF, 0xFF));
   }
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> border;
   const auto at = [&](int ix, int iy) {
     const double value = field->value[grid.index(ix, iy)];
     return grid.place_mm(grid.x_mm(ix), grid.y_mm(iy), height(relief ? value : 0.0));
@@ -376,31 +403,39 @@ void Scene::setField(const Field* field, const FieldStyle& style, const ColourSc
       high = std::max(high, height(v));
     }
   }
+  s.arrows.raise(grid.place_mm(0, 0, high + lift) - grid.place_mm(0, 0, 0));
   s.field_bounds = {grid.place_mm(grid.x_from_mm, grid.y_from_mm, low),
                     grid.place_mm(grid.x_to_mm, grid.y_to_mm, high)};
 }
 
 void Scene::setCloud(const ViewCloud& cloud, const std::optional<ColourScale>& scale) {
+  impl_->cloud.set(cloud, scale);
+}
+
+void Scene::setClip(const std::optional<ClipPlane>& plane) {
   Impl& s = *impl_;
-  for (const auto& part : s.parts) {
-    if (part != nullptr) s.renderer->RemoveActor(part->actor);
+  s.clipped = plane.has_value();
+  if (plane) {
+    const Eigen::Vector3d normal = (plane->keep_low ? -1.0 : 1.0) * Eigen::Vector3d::Unit(plane->axis);
+    const Eigen::Vector3d origin = plane->offset_mm * Eigen::Vector3d::Unit(plane->axis);
+    s.clip->SetNormal(normal.x(), normal.y(), normal.z());
+    s.clip->SetOrigin(origin.x(), origin.y(), origin.z());
   }
-  s.parts.clear();
-  s.cloud = cloud;
-  s.cloud_scale = scale;
-  s.cloud_bounds.reset();
-  s.drawn_parts = 0;
-  if (cloud.xyz_mm == nullptr || cloud.xyz_mm->size() < 3) return;
-  const std::size_t count = cloud.xyz_mm->size() / 3;
-  s.parts.resize(std::max<std::size_t>(1, (count + points_per_part - 1) / points_per_part));
-  Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::max());
-  Eigen::Vector3f high = -low;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Map<const Eigen::Vector3f> p(cloud.xyz_mm->data() + 3 * i);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  s.cloud_bounds = {low.cast<double>(), high.cast<double>()};
+  s.applyClip();
+}
+
+std::optional<Eigen::Vector3d> Scene::surfaceAt(const Camera& camera, const QPointF& pixel, const QSizeF& size) const {
+  Impl& s = *impl_;
+  s.aim(camera);
+  const int* pixels = s.window->GetSize();
+  vtkNew<vtkCellPicker> picker;
+  picker->SetTolerance(1e-6);
+  if (picker->Pick(pixel.x() / size.width() * pixels[0], (1.0 - pixel.y() / size.height()) * pixels[1], 0.0,
+                   s.renderer) == 0)
+    return std::nullopt;
+  Eigen::Vector3d at;
+  picker->GetPickPosition(at.data());
+  return at;
 }
 
 std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> Scene::bounds() const {
@@ -427,54 +462,53 @@ std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> Scene::bounds() const
     for (const Eigen::Vector3d& p : shape.points_mm) include(p - reach, p + reach);
   }
   if (impl_->field_bounds) include(impl_->field_bounds->first, impl_->field_bounds->second);
-  if (impl_->cloud_bounds) include(impl_->cloud_bounds->first, impl_->cloud_bounds->second);
+  if (impl_->cloud.bounds()) include(impl_->cloud.bounds()->first, impl_->cloud.bounds()->second);
+  if (impl_->plotted) include(Eigen::Vector3d::Zero(), SurfaceBox::size_mm);
   return box;
 }
 
-QImage Scene::draw(const Camera& camera, const QSize& pixels, double ratio) {
+QImage Scene::draw(const Camera& camera, const QSize& pixels, double ratio, bool smooth) {
   Impl& s = *impl_;
+  QElapsedTimer timer;
+  timer.start();
   s.window->SetSize(pixels.width(), pixels.height());
-  for (Piece* piece : {&s.table_edges, &s.lower_edges, &s.upper_edges, &s.grid_lines, &s.contour_lines, &s.border_lines,
-                       &s.shape_lines}) {
-    piece->actor->GetProperty()->SetLineWidth(static_cast<float>(ratio));
-  }
+  for (Piece* piece : s.pieces()) piece->actor->GetProperty()->SetLineWidth(static_cast<float>(ratio));
   s.zero_line.actor->GetProperty()->SetLineWidth(static_cast<float>(1.6 * ratio));
   s.significance_lines.actor->GetProperty()->SetLineWidth(static_cast<float>(2 * ratio));
-  if (!s.parts.empty()) {
-    s.buildPart(0);
-    for (std::size_t k = 0; k < s.parts.size(); ++k) {
-      if (s.parts[k] == nullptr) continue;
-      s.parts[k]->actor->SetVisibility(k == 0);
-      s.parts[k]->actor->GetProperty()->SetPointSize(static_cast<float>(s.cloud.point_size * ratio));
-    }
-    s.drawn_parts = 1;
-  }
-  vtkCamera* view = s.renderer->GetActiveCamera();
-  const Eigen::Vector3d eye = camera.eye_mm();
-  const Eigen::Vector3d up = camera.up();
+  s.surface_plot.setLineWidth(ratio);
+  s.arrows.place(2 * camera.half_height_mm * ratio / pixels.height(), 2 * ratio);
+  s.cloud.showSome(camera, QSizeF(pixels) / ratio, ratio);
+  s.window->SetMultiSamples(smooth ? samples_at_rest : 0);
   s.sky->SetFocalPoint(0, 0, 0);
   s.sky->SetPosition(camera.vertical.x() + 0.2, camera.vertical.y() - 0.1, camera.vertical.z());
-  view->SetFocalPoint(camera.focal_point_mm.x(), camera.focal_point_mm.y(), camera.focal_point_mm.z());
-  view->SetPosition(eye.x(), eye.y(), eye.z());
-  view->SetViewUp(up.x(), up.y(), up.z());
-  view->SetParallelProjection(camera.orthographic);
-  view->SetParallelScale(camera.half_height_mm);
-  view->SetViewAngle(2 * half_view_angle_rad * 180 / 3.14159265358979323846);
-  s.renderer->ResetCameraClippingRange();
+  s.aim(camera);
   s.window->SetErase(1);
   s.window->Render();
-  return s.read(pixels);
+  QImage picture = s.read(pixels);
+  s.cloud.tookTime(1e-6 * static_cast<double>(timer.nsecsElapsed()));
+  return picture;
 }
 
 bool Scene::complete() const {
-  return impl_->drawn_parts >= impl_->parts.size();
+  return impl_->cloud.complete();
 }
 
-bool Scene::refine(QImage& picture) {
+bool Scene::sorting() const {
+  return !impl_->cloud.complete() && impl_->cloud.tree() == nullptr;
+}
+
+std::optional<std::size_t> Scene::cloudPointAt(const Camera& camera, const QSizeF& size, const QPointF& pixel,
+                                               const std::function<bool(const Eigen::Vector3d&)>& shown) const {
+  const CloudOctree* tree = impl_->cloud.tree();
+  constexpr double radius_px = 6;
+  return tree == nullptr ? std::nullopt : tree->pointAt(camera, size, pixel, radius_px, shown);
+}
+
+bool Scene::refine(QImage& picture, bool wait) {
   Impl& s = *impl_;
   if (complete()) return false;
-  s.buildPart(s.drawn_parts);
   // Only the new points are drawn; colours and depths of what is there already are kept.
+  s.cloud.hide();
   vtkActorCollection* actors = s.renderer->GetActors();
   std::vector<vtkActor*> hidden;
   actors->InitTraversal();
@@ -484,27 +518,11 @@ bool Scene::refine(QImage& picture) {
       actor->VisibilityOff();
     }
   }
-  vtkActor* part = s.parts[s.drawn_parts]->actor;
-  part->VisibilityOn();
-  part->GetProperty()->SetPointSize(s.parts[0]->actor->GetProperty()->GetPointSize());
-  // Clearing a picture also sets what may be written; without it the masks of the last pass would stay.
-  if (auto* gl = vtkOpenGLRenderWindow::SafeDownCast(s.window); gl != nullptr) {
-    s.window->MakeCurrent();
-    gl->GetState()->ResetGLColorMaskState();
-    gl->GetState()->ResetGLDepthMaskState();
-    gl->GetState()->vtkglColorMask(true, true, true, true);
-    gl->GetState()->vtkglDepthMask(true);
-    constexpr unsigned int gl_depth_test = 0x0B71;
-    gl->GetState()->ResetEnumState(gl_depth_test);
-    gl->GetState()->vtkglEnable(gl_depth_test);
-  }
-  s.window->SetErase(0);
-  s.window->Render();
-  s.window->SetErase(1);
-  part->VisibilityOff();
+  const bool more = s.cloud.showNext(wait);
+  if (more) s.addToPicture();
+  s.cloud.hide();
   for (vtkActor* actor : hidden) actor->VisibilityOn();
-  ++s.drawn_parts;
-  picture = s.read(picture.size());
+  if (more) picture = s.read(picture.size());
   return !complete();
 }
 

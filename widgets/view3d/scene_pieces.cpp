@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/view3d/scene_pieces.h"
 
+#include <vtkAlgorithm.h>
 #include <vtkCellArray.h>
+#include <vtkContourFilter.h>
+#include <vtkCubeSource.h>
+#include <vtkLineSource.h>
+#include <vtkOutlineSource.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkProperty.h>
+#include <vtkRegularPolygonSource.h>
+#include <vtkSphereSource.h>
+#include <vtkTubeFilter.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <array>
 
 #include "widgets/theme/theme.h"
-#include "widgets/view3d/face_mesh.h"
-#include "widgets/view3d/overlay.h"
+#include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
 namespace {
+
+constexpr int around = 28;
 
 QColor bodyColour(BodyKind kind) {
   const Theme& t = theme();
@@ -33,44 +44,96 @@ QColor bodyColour(BodyKind kind) {
   return t.body;
 }
 
-using Line = std::pair<Eigen::Vector3d, Eigen::Vector3d>;
-
-void addBox(FaceMesh& mesh, const Body& body, std::vector<Line>& edges) {
-  const auto corner = [&](int k) {
-    return Eigen::Vector3d((k & 1) != 0 ? body.high_mm.x() : body.low_mm.x(),
-                           (k & 2) != 0 ? body.high_mm.y() : body.low_mm.y(),
-                           (k & 4) != 0 ? body.high_mm.z() : body.low_mm.z());
-  };
-  constexpr std::array<std::array<int, 4>, 6> faces_of{
-      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
-  for (std::size_t f = 0; f < 6; ++f) {
-    const Eigen::Vector3d normal = (f % 2 == 0 ? -1.0 : 1.0) * Eigen::Vector3d::Unit(static_cast<int>(f / 2));
-    std::vector<vtkIdType> ids;
-    for (const int c : faces_of[f]) ids.push_back(mesh.point(corner(c), normal));
-    mesh.face(ids);
-  }
-  for (int a = 0; a < 8; ++a) {
-    for (const int bit : {1, 2, 4}) {
-      if ((a & bit) == 0) edges.emplace_back(corner(a), corner(a | bit));
-    }
-  }
+QColor shapeColour(const ViewShape& shape) {
+  const Theme& t = theme();
+  if (shape.tone != Tone::Neutral)
+    return mixed(t.tone(shape.tone), t.view_top, shape.kind == ShapeKind::Path ? 0 : 0.2);
+  return shape.kind == ShapeKind::Path ? t.text_secondary : mixed(t.body, t.text, 0.30);
 }
 
-void addCylinder(FaceMesh& mesh, const Body& body, std::vector<Line>& edges) {
+/// Lit, and a little behind the edges and lines that lie on it.
+void shade(Piece& faces) {
+  faces.actor->GetProperty()->SetAmbient(0.40);
+  faces.actor->GetProperty()->SetDiffuse(0.85);
+  faces.mapper->SetResolveCoincidentTopologyToPolygonOffset();
+  faces.mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(2, 2);
+}
+
+void addBox(Parts& faces, Parts& edges, const Body& body) {
+  std::array<double, 6> bounds{};
+  for (int i = 0; i < 3; ++i) {
+    bounds[static_cast<std::size_t>(2 * i)] = body.low_mm[i];
+    bounds[static_cast<std::size_t>(2 * i + 1)] = body.high_mm[i];
+  }
+  vtkNew<vtkCubeSource> cube;
+  cube->SetBounds(bounds.data());
+  faces.add(cube, bodyColour(body.kind));
+  vtkNew<vtkOutlineSource> outline;
+  outline->SetBounds(bounds.data());
+  edges.add(outline, theme().body_edge);
+}
+
+void addCylinder(Parts& faces, Parts& edges, const Body& body) {
   const int about = body.round_about;
   Eigen::Vector3d from = 0.5 * (body.low_mm + body.high_mm);
   Eigen::Vector3d to = from;
   from[about] = body.low_mm[about];
   to[about] = body.high_mm[about];
   const double radius = 0.5 * (body.high_mm - body.low_mm)[(about + 1) % 3];
-  addRod(mesh, from, to, radius);
+  faces.addRod(from, to, radius, bodyColour(body.kind));
+  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(about);
   for (const Eigen::Vector3d& end : {from, to}) {
-    const std::vector<Eigen::Vector3d> rim = circle(end, Eigen::Vector3d::Unit(about), radius);
-    for (std::size_t k = 0; k < rim.size(); ++k) edges.emplace_back(rim[k], rim[(k + 1) % rim.size()]);
+    vtkNew<vtkRegularPolygonSource> rim;
+    rim->GeneratePolygonOff();
+    rim->SetNumberOfSides(around);
+    rim->SetCenter(end.x(), end.y(), end.z());
+    rim->SetNormal(axis.x(), axis.y(), axis.z());
+    rim->SetRadius(radius);
+    edges.add(rim, theme().body_edge);
   }
 }
 
 }  // namespace
+
+void Parts::add(vtkAlgorithm* source, const QColor& colour) {
+  source->Update();
+  vtkNew<vtkPolyData> mesh;
+  mesh->ShallowCopy(source->GetOutputDataObject(0));
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetName("colour");
+  colours->SetNumberOfComponents(3);
+  colours->SetNumberOfTuples(mesh->GetNumberOfPoints());
+  colours->FillComponent(0, colour.red());
+  colours->FillComponent(1, colour.green());
+  colours->FillComponent(2, colour.blue());
+  mesh->GetPointData()->SetTCoords(nullptr);
+  mesh->GetPointData()->SetScalars(colours);
+  // Only what all parts have is kept, by name.
+  if (vtkDataArray* normals = mesh->GetPointData()->GetNormals()) normals->SetName("normal");
+  all_->AddInputData(mesh);
+}
+
+void Parts::addRod(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius_mm, const QColor& colour) {
+  if ((to - from).norm() < 1e-9) return;
+  vtkNew<vtkLineSource> axis;
+  axis->SetPoint1(from.x(), from.y(), from.z());
+  axis->SetPoint2(to.x(), to.y(), to.z());
+  vtkNew<vtkTubeFilter> tube;
+  tube->SetInputConnection(axis->GetOutputPort());
+  tube->SetRadius(radius_mm);
+  tube->SetNumberOfSides(around);
+  tube->CappingOn();
+  add(tube, colour);
+}
+
+void Parts::writeTo(Piece& piece) {
+  const bool some = all_->GetNumberOfInputConnections(0) > 0;
+  if (some) all_->Update();
+  piece.data->Initialize();
+  if (some) piece.data->ShallowCopy(all_->GetOutput());
+  piece.mapper->SetColorModeToDirectScalars();
+  piece.actor->SetVisibility(some);
+}
 
 void setColour(Piece& piece, const QColor& colour) {
   piece.actor->GetProperty()->SetColor(colour.redF(), colour.greenF(), colour.blueF());
@@ -93,21 +156,56 @@ void makeLines(Piece& piece, const std::vector<std::pair<Eigen::Vector3d, Eigen:
 }
 
 void makeBodies(Piece& faces, Piece& edges, const std::vector<const Body*>& bodies) {
-  FaceMesh mesh;
-  std::vector<Line> lines;
-  for (const Body* body : bodies) {
-    mesh.setColour(bodyColour(body->kind));
-    body->round_about < 0 ? addBox(mesh, *body, lines) : addCylinder(mesh, *body, lines);
+  Parts solids, lines;
+  for (const Body* body : bodies)
+    body->round_about < 0 ? addBox(solids, lines, *body) : addCylinder(solids, lines, *body);
+  solids.writeTo(faces);
+  lines.writeTo(edges);
+  shade(faces);
+  edges.actor->GetProperty()->LightingOff();
+}
+
+void makeShapes(Piece& faces, Piece& lines, const std::vector<ViewShape>& shapes) {
+  Parts solids, paths;
+  for (const ViewShape& shape : shapes) {
+    const std::vector<Eigen::Vector3d>& p = shape.points_mm;
+    if (shape.kind == ShapeKind::Sphere && !p.empty()) {
+      vtkNew<vtkSphereSource> sphere;
+      sphere->SetCenter(p[0].x(), p[0].y(), p[0].z());
+      sphere->SetRadius(shape.radius_mm);
+      sphere->SetThetaResolution(around);
+      sphere->SetPhiResolution(around / 2);
+      solids.add(sphere, shapeColour(shape));
+    } else if (shape.kind == ShapeKind::Rod && p.size() == 2) {
+      solids.addRod(p[0], p[1], shape.radius_mm, shapeColour(shape));
+    } else if (shape.kind == ShapeKind::Path && p.size() >= 2) {
+      vtkNew<vtkPoints> points;
+      for (const Eigen::Vector3d& at : p) points->InsertNextPoint(at.x(), at.y(), at.z());
+      vtkNew<vtkLineSource> path;
+      path->SetPoints(points);
+      paths.add(path, shapeColour(shape));
+    }
   }
-  mesh.writeTo(faces.data);
-  faces.mapper->SetColorModeToDirectScalars();
-  faces.actor->GetProperty()->SetAmbient(0.40);
-  faces.actor->GetProperty()->SetDiffuse(0.85);
-  // Faces step back a little so that edges and grid lines stay in front of them.
-  faces.mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  faces.mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(2, 2);
-  makeLines(edges, lines);
-  setColour(edges, theme().body_edge);
+  solids.writeTo(faces);
+  paths.writeTo(lines);
+  shade(faces);
+  lines.actor->GetProperty()->LightingOff();
+}
+
+void makeContours(Piece& piece, vtkPolyData* mesh, const std::vector<double>& levels) {
+  piece.data->Initialize();
+  if (!levels.empty()) {
+    vtkNew<vtkContourFilter> filter;
+    filter->SetInputData(mesh);
+    filter->ComputeScalarsOff();
+    filter->ComputeNormalsOff();
+    for (std::size_t i = 0; i < levels.size(); ++i) filter->SetValue(static_cast<int>(i), levels[i]);
+    filter->Update();
+    piece.data->ShallowCopy(filter->GetOutput());
+  }
+  piece.actor->GetProperty()->LightingOff();
+  piece.mapper->ScalarVisibilityOff();
+  piece.actor->SetVisibility(piece.data->GetNumberOfLines() > 0);
 }
 
 }  // namespace spindrift::gui

@@ -11,30 +11,27 @@
 #include <cmath>
 
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/overlay.h"
 #include "widgets/view3d/point_labels.h"
 #include "widgets/view3d/scene.h"
+#include "widgets/view3d/view_tools.h"
 
 namespace spindrift::gui {
 namespace {
 
 constexpr int rest_before_refining_ms = 120;
-constexpr double edge_label_px = 20;
-/// Views lower than this give the notes at the top a place of their own, two lines.
-constexpr int low_view_px = 360;
-constexpr double notes_px = 36;
-/// Shifts of the pictures that are averaged, pixels (a rotated grid).
-const std::array<QPointF, 4> smooth_shifts{QPointF(-0.125, -0.375), QPointF(0.375, -0.125), QPointF(0.125, 0.375),
-                                           QPointF(-0.375, 0.125)};
-
 }  // namespace
 
-View3D::View3D(QWidget* parent) : QWidget(parent) {
+View3D::View3D(QWidget* parent) : QWidget(parent), tools_(new ViewTools(this)) {
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setAttribute(Qt::WA_OpaquePaintEvent);
+  setAttribute(Qt::WA_AcceptTouchEvents);
   setAccessibleName(tr("3D view"));
-  setAccessibleDescription(tr("Arrow keys turn, plus and minus zoom, R resets, 1 to 4 are standard views."));
+  setAccessibleDescription(
+      tr("Arrow keys turn, plus and minus zoom, R fits, 1 to 4 are standard views, P switches "
+         "perspective, M measures a distance, C clips."));
   refine_timer_.setSingleShot(true);
   connect(&refine_timer_, &QTimer::timeout, this, &View3D::refineStep);
   connect(&ThemeNotifier::instance(), &ThemeNotifier::changed, this, [this] {
@@ -62,6 +59,9 @@ void View3D::ensureScene() {
   if (field_ != nullptr && scale_) scene_->setField(field_.get(), field_style_, *scale_);
   if (cloud_.xyz_mm != nullptr) scene_->setCloud(cloud_, scale_);
   scene_->setShapes(shapes_);
+  scene_->setArrows(arrows_, exaggeration_);
+  placeSurface();
+  scene_->setClip(clip_);
 }
 
 void View3D::clear() {
@@ -74,13 +74,19 @@ void View3D::clear() {
   scale_.reset();
   caption_.clear();
   selected_.clear();
+  measured_.clear();
+  surface_.reset();
+  clip_.reset();
   fitted_ = false;
   if (scene_ != nullptr) {
+    scene_->setClip(clip_);
     scene_->setBodies({});
     scene_->setField(nullptr, {}, {});
     scene_->setCloud({}, std::nullopt);
     scene_->setShapes({});
+    scene_->setArrows({}, 0.0);
   }
+  placeSurface();
   changed();
 }
 
@@ -111,13 +117,15 @@ void View3D::setToolSideVisible(bool visible) {
 void View3D::setPoints(std::vector<ViewPoint> points) {
   points_ = std::move(points);
   extentChanged();
+  tools_->refresh();
   update();
 }
 
 void View3D::setArrows(std::vector<ViewArrow> arrows, double exaggeration) {
   arrows_ = std::move(arrows);
   exaggeration_ = exaggeration;
-  update();
+  if (scene_ != nullptr) scene_->setArrows(arrows_, exaggeration_);
+  changed();
 }
 
 void View3D::setShapes(std::vector<ViewShape> shapes) {
@@ -151,7 +159,32 @@ void View3D::setColourScale(const std::optional<ColourScale>& scale) {
       scene_->setField(scale_ ? field_.get() : nullptr, field_style_, scale_.value_or(ColourScale{}));
     if (cloud_.xyz_mm != nullptr) scene_->setCloud(cloud_, scale_);
   }
+  placeSurface();
   changed();
+}
+
+void View3D::setSurface(std::optional<ViewSurface> surface) {
+  surface_ = std::move(surface);
+  placeSurface();
+  extentChanged();
+  changed();
+}
+
+void View3D::placeSurface() {
+  surface_box_.reset();
+  if (surface_ && scale_) {
+    // A single row or column gets some room.
+    const auto limits = [](const std::vector<double>& v) {
+      const double room = v.back() > v.front() ? 0.0 : std::max(1e-9, 0.5 * std::abs(v.front()) + 0.5);
+      return std::pair{v.front() - room, v.back() + room};
+    };
+    const auto x = limits(surface_->x);
+    const auto y = limits(surface_->y);
+    surface_box_ = SurfaceBox{{x.first, y.first, scale_->low}, {x.second, y.second, scale_->high}};
+  }
+  if (scene_ == nullptr) return;
+  scene_->setSurface(surface_box_ ? surface_ : std::nullopt, surface_box_.value_or(SurfaceBox{}),
+                     scale_.value_or(ColourScale{}));
 }
 
 void View3D::setCaption(const QString& text) {
@@ -172,7 +205,7 @@ void View3D::setSelected(const QString& point_id) {
 
 bool View3D::empty() const {
   return !bodies_ && field_ == nullptr && (cloud_.xyz_mm == nullptr || cloud_.xyz_mm->empty()) && points_.empty() &&
-         shapes_.empty();
+         shapes_.empty() && !surface_;
 }
 
 void View3D::setCamera(const Camera& camera) {
@@ -201,6 +234,7 @@ void View3D::link(View3D* other) {
 void View3D::changed() {
   dirty_ = true;
   refine_timer_.stop();
+  tools_->refresh();
   update();
 }
 
@@ -225,44 +259,6 @@ void View3D::shareCamera() {
   }
 }
 
-void View3D::fitCamera(const QSize& size) {
-  auto box = scene_->bounds();
-  // A view that joins others which show the same machine looks as these do.
-  for (const QPointer<View3D>& other : linked_) {
-    if (other == nullptr || !other->fitted_ || !other->isVisible() || other->scene_ == nullptr || !box) continue;
-    const auto theirs = other->scene_->bounds();
-    if (!theirs || other->camera_.vertical != camera_.vertical) continue;
-    if ((theirs->first - box->first).norm() + (theirs->second - box->second).norm() > 1.0) continue;
-    automatic_ = camera_ = other->camera_;
-    fitted_ = true;
-    return;
-  }
-  for (const ViewPoint& point : points_) {
-    if (!box) box = {point.position_mm, point.position_mm};
-    box->first = box->first.cwiseMin(point.position_mm);
-    box->second = box->second.cwiseMax(point.position_mm);
-  }
-  if (!box) return;
-  // The colour bar gets a place of its own.
-  const double bar = reservedRight(size);
-  // And so do the numbers along the table's edges.
-  // In a low view the notes would cover what is drawn.
-  const double top = size.height() < low_view_px ? notes_px : 0.0;
-  const QSizeF free(std::max(40.0, size.width() - bar - 2 * edgeReserve()),
-                    std::max(40.0, size.height() - top - 2.0 * edge_label_px));
-  camera_.fit(box->first, box->second, free);
-  camera_.half_height_mm *= size.height() / free.height();
-  camera_.pan(QPointF(-bar / 2, top / 2), QSizeF(size));
-  automatic_ = camera_;
-  fitted_ = true;
-  // Linked views that nobody has turned yet look at the same.
-  for (const QPointer<View3D>& other : linked_) {
-    if (other == nullptr || other->fitted_) continue;
-    other->setCamera(camera_);
-    other->automatic_ = camera_;
-  }
-}
-
 void View3D::ensureFrame(const QSize& size, double ratio) {
   ensureScene();
   if (scene_ == nullptr) return;
@@ -274,74 +270,41 @@ void View3D::ensureFrame(const QSize& size, double ratio) {
     if (!(camera_ == before)) dirty_ = true;
   }
   if (!dirty_ && frame_pixels_ == pixels) return;
-  frame_ = scene_->draw(camera_, pixels, ratio);
+  frame_ = scene_->draw(camera_, pixels, ratio, false);
   frame_.setDevicePixelRatio(ratio);
   frame_pixels_ = pixels;
   dirty_ = false;
-  smooth_step_ = 0;
+  smooth_ = false;
   refine_timer_.start(rest_before_refining_ms);
 }
 
 bool View3D::showsScale() const {
   return scale_ &&
-         (field_ != nullptr || cloud_.scalar != nullptr ||
+         (field_ != nullptr || surface_ || cloud_.scalar != nullptr ||
           std::any_of(points_.begin(), points_.end(), [](const ViewPoint& p) { return p.value.has_value(); }));
-}
-
-double View3D::edgeReserve() const {
-  if (!bodies_ || machine_visible_) return edge_label_px;
-  const QFontMetricsF metrics(textFont(11));
-  double widest = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(bodies_->vertical[i]) > 0.5) continue;
-    for (const double mm : {bodies_->table_low_mm[i], bodies_->table_high_mm[i]})
-      widest = std::max(widest, metrics.horizontalAdvance(QString::number(mm, 'f', 0)));
-  }
-  return std::max(edge_label_px, widest + 12);
-}
-
-double View3D::reservedRight(const QSize& size) const {
-  return showsScale() && size.width() > 240 ? 84.0 : 0.0;
 }
 
 void View3D::refineStep() {
   if (scene_ == nullptr || dirty_) return;
   const double ratio = frame_.devicePixelRatio();
   if (!scene_->complete()) {
-    const bool more = scene_->refine(frame_);
+    const bool more = scene_->refine(frame_, false);
     frame_.setDevicePixelRatio(ratio);
     update();
-    if (more) refine_timer_.start(0);
+    if (more) refine_timer_.start(scene_->sorting() ? rest_before_refining_ms / 4 : 0);
     return;
   }
-  if (cloud_.xyz_mm != nullptr || smooth_step_ >= static_cast<int>(smooth_shifts.size())) return;
-  if (smoothStep()) {
-    update();
-  } else {
-    refine_timer_.start(0);
-  }
-}
-
-bool View3D::smoothStep() {
-  const double ratio = frame_.devicePixelRatio();
-  Camera shifted = camera_;
-  shifted.pan(smooth_shifts[static_cast<std::size_t>(smooth_step_)], QSizeF(frame_pixels_));
-  const QImage next = scene_->draw(shifted, frame_pixels_, ratio);
-  const std::size_t bytes = static_cast<std::size_t>(next.sizeInBytes());
-  if (smooth_step_ == 0) smooth_sum_.assign(bytes, 0);
-  const uchar* in = next.constBits();
-  for (std::size_t i = 0; i < bytes; ++i) smooth_sum_[i] = static_cast<quint16>(smooth_sum_[i] + in[i]);
-  if (++smooth_step_ < static_cast<int>(smooth_shifts.size())) return false;
-  uchar* out = frame_.bits();
-  for (std::size_t i = 0; i < bytes; ++i) out[i] = static_cast<uchar>((smooth_sum_[i] + 2) / 4);
-  smooth_sum_ = {};
-  return true;
+  if (cloud_.xyz_mm != nullptr || smooth_) return;
+  frame_ = scene_->draw(camera_, frame_pixels_, ratio, true);
+  frame_.setDevicePixelRatio(ratio);
+  smooth_ = true;
+  update();
 }
 
 bool View3D::refining() const {
   if (scene_ == nullptr || empty()) return false;
   if (dirty_ || !scene_->complete()) return true;
-  return cloud_.xyz_mm == nullptr && smooth_step_ < static_cast<int>(smooth_shifts.size());
+  return cloud_.xyz_mm == nullptr && !smooth_;
 }
 
 bool View3D::waitsForItsTurn() {
@@ -369,7 +332,7 @@ void View3D::paintEvent(QPaintEvent*) {
   } else {
     painter.drawImage(QPointF(0, 0), frame_);
   }
-  paintOverlay(painter, size());
+  paintOverlay(painter, size(), true);
   if (hasFocus()) {
     painter.setPen(QPen(theme().accent, 2));
     painter.setBrush(Qt::NoBrush);
@@ -377,7 +340,7 @@ void View3D::paintEvent(QPaintEvent*) {
   }
 }
 
-void View3D::paintOverlay(QPainter& painter, const QSize& size) const {
+void View3D::paintOverlay(QPainter& painter, const QSize& size, bool with_tools) const {
   painter.setRenderHint(QPainter::Antialiasing);
   const Theme& t = theme();
   if (empty() || !failure_.isEmpty()) {
@@ -408,24 +371,27 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size) const {
       paintTableScale(painter, camera_, area, *bodies_);
     }
   }
-  paintArrows(painter, camera_, area, arrows_, exaggeration_);
+  if (surface_box_) paintSurfaceAxes(painter, camera_, area, *surface_, *surface_box_, *scale_);
+  const QMarginsF beside = with_tools ? tools_->margins(arrangement_.tools_in_column) : QMarginsF();
   QRectF bar;
-  if (showsScale()) bar = paintColourBar(painter, whole, *scale_);
+  if (showsScale()) bar = paintColourBar(painter, whole.marginsRemoved(beside), *scale_, arrangement_.bar_below);
   painter.setFont(textFont(sizes::font_secondary));
   const QFontMetricsF metrics(painter.font());
-  const double room = area.width() - 48 - (bar.isEmpty() ? 0.0 : area.width() - bar.left());
+  const double room = area.width() - 48 - (bar.isEmpty() || arrangement_.bar_below ? 0.0 : area.width() - bar.left());
   QStringList lines = notes(size);
-  double width = 0;
-  for (QString& line : lines) {
-    line = metrics.elidedText(line, Qt::ElideRight, room);
-    width = std::max(width, metrics.horizontalAdvance(line));
-  }
+  for (QString& line : lines) line = metrics.elidedText(line, Qt::ElideRight, room);
   const double line_height = metrics.height() + 3;
-  const QRectF panel =
-      lines.isEmpty() ? QRectF() : QRectF(8, 8, width + 16, line_height * static_cast<double>(lines.size()) + 9);
+  const QRectF panel = notesPanel(lines, room);
   const QRectF triad(whole.left(), whole.bottom() - 92, 92, 92);
-  paintPoints(painter, camera_, area, points_, scale_, {selected_, hovered_point_, {bar, panel, triad}});
-  paintTriad(painter, whole, camera_);
+  std::vector<QRectF> keep_out{bar, panel, triad};
+  if (with_tools && !tools_->isHidden()) keep_out.emplace_back(tools_->geometry());
+  if (bodies_ && !machine_visible_)
+    for (const OverlayText& text : tableScale(camera_, area, *bodies_)) keep_out.push_back(text.box);
+  std::vector<ViewPoint> points = points_;
+  std::erase_if(points, [this](const ViewPoint& p) { return clip_ && !clip_->keeps(p.position_mm); });
+  paintPoints(painter, camera_, area, points, scale_, {selected_, hovered_point_, keep_out});
+  paintMeasurement(painter, area);
+  if (!surface_) paintTriad(painter, whole, camera_);  // a surface has axes of its own
   if (lines.isEmpty()) return;
   painter.setFont(textFont(sizes::font_secondary));
   QColor back = t.surface;
@@ -443,12 +409,16 @@ void View3D::paintOverlay(QPainter& painter, const QSize& size) const {
 
 QStringList View3D::notes(const QSize& size) const {
   QStringList notes;
+  if (measuring_ && measured_.size() < 2) {
+    notes << (measured_.empty() ? tr("Distance: click the first place") : tr("Distance: click the second place"));
+    return notes;
+  }
   if (!caption_.isEmpty()) notes << caption_.split(QLatin1Char('\n'));
   if (!arrows_.empty()) {
-    notes << tr("Arrows %1 times larger than the deviation").arg(QString::number(exaggeration_, 'f', 0));
+    notes << tr("Arrows %1 times larger than the deviation").arg(decimalText(exaggeration_, 'f', 0));
   }
   if (field_ != nullptr && field_style_.relief_exaggeration > 0) {
-    notes << tr("Height %1 times larger").arg(QString::number(field_style_.relief_exaggeration, 'f', 0));
+    notes << tr("Height %1 times larger").arg(decimalText(field_style_.relief_exaggeration, 'f', 0));
   }
   const bool faded = field_ != nullptr && field_style_.significance > 0 && !field_->sigma.empty();
   const bool striped = field_ != nullptr && std::find(field_->extrapolated.begin(), field_->extrapolated.end(), true) !=
@@ -472,26 +442,26 @@ QImage View3D::picture(const QSize& size, double ratio) {
   dirty_ = true;
   const bool had_fit = fitted_;
   const Camera before = camera_;
+  const Arrangement arrangement = arrangement_;
+  fitting_for_picture_ = true;
   fitted_ = had_fit && size == this->size();
   if (!empty()) {
     ensureFrame(size, ratio);
     if (scene_ != nullptr) {
-      while (scene_->refine(frame_)) {
+      while (scene_->refine(frame_, true)) {
       }
+      if (cloud_.xyz_mm == nullptr) frame_ = scene_->draw(camera_, frame_pixels_, ratio, true);
       frame_.setDevicePixelRatio(ratio);
-      if (cloud_.xyz_mm == nullptr) {
-        smooth_step_ = 0;
-        while (!smoothStep()) {
-        }
-      }
     }
   }
   QPainter painter(&image);
   if (!frame_.isNull()) painter.drawImage(QPointF(0, 0), frame_);
-  paintOverlay(painter, size);
+  paintOverlay(painter, size, false);
   painter.end();
   if (had_fit) camera_ = before;
   fitted_ = had_fit;
+  arrangement_ = arrangement;
+  fitting_for_picture_ = false;
   changed();
   return image;
 }

@@ -5,17 +5,20 @@
 // axes are painted on top with the program's own font. Lengths mm in MCF, deviations um or urad.
 //
 // Mouse: left drag turns, middle or right drag (or Shift + left) pans, wheel zooms at the cursor, click picks,
-// double-click resets. Keys: arrows turn, Shift + arrows pan, + and - zoom, R or Home resets, 1 2 3 4 standard views,
-// P switches perspective, N and B pick the next and the previous point.
+// double-click resets. Touch: one finger turns, two fingers pan and pinch; two fingers on a touch pad pan, with Ctrl
+// they zoom. Keys: arrows turn, Shift + arrows pan, + and - zoom, R or Home fits, 1 2 3 4 standard views, P switches
+// perspective, M measures a distance between two picks, C clips, N and B pick the next and the previous point.
 #pragma once
 
 #include <Eigen/Core>
 #include <QImage>
+#include <QMarginsF>
 #include <QPointer>
 #include <QTimer>
 #include <QWidget>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/machine/field.h"
@@ -24,22 +27,38 @@
 #include "widgets/theme/theme.h"
 #include "widgets/view3d/camera.h"
 #include "widgets/view3d/machine_bodies.h"
+#include "widgets/view3d/measurement.h"
+
+class QTouchEvent;
 
 namespace spindrift::gui {
 
 class Scene;
+class ViewTools;
 
 /// A point with a label that faces the viewer. `value` (if there is one) is shown beside the label and colours the
 /// mark.
 struct ViewPoint {
   QString id;
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();
-  QString label;                ///< "F1"
-  QString value_text;           ///< "12.4 ± 0.3 um" or empty
-  std::optional<double> value;  ///< colour by the scale of the view
-  bool used = true;             ///< false: drawn hollow (validation, excluded)
-  Tone tone = Tone::Accent;     ///< colour without a value
-  bool mark = true;             ///< false: the label alone, for what is drawn as a shape
+  QString label;                            ///< "F1"
+  QString value_text;                       ///< "12.4 ± 0.3 um" or empty
+  std::optional<double> value;              ///< colour by the scale of the view
+  bool used = true;                         ///< false: drawn hollow (validation, excluded)
+  Tone tone = Tone::Accent;                 ///< colour without a value
+  bool mark = true;                         ///< false: the label alone, for what is drawn as a shape
+  std::optional<PointDeviation> deviation;  ///< as measured, for distances between points
+};
+
+/// What lies beyond a plane across one axis is not drawn.
+struct ClipPlane {
+  int axis = 2;  ///< 0, 1, 2 for X, Y, Z
+  double offset_mm = 0.0;
+  bool keep_low = true;  ///< the side with the smaller coordinates is kept
+  [[nodiscard]] bool keeps(const Eigen::Vector3d& p_mm) const {
+    return keep_low ? p_mm[axis] <= offset_mm : p_mm[axis] >= offset_mm;
+  }
+  [[nodiscard]] bool operator==(const ClipPlane&) const = default;
 };
 
 /// A deviation at a place, drawn `exaggeration` times larger.
@@ -73,7 +92,29 @@ struct FieldStyle {
 struct ViewCloud {
   std::shared_ptr<const std::vector<float>> xyz_mm;  ///< x y z x y z ...
   std::shared_ptr<const std::vector<float>> scalar;  ///< one a point, in the unit of the scale; may be null
+  std::shared_ptr<const std::vector<float>> sigma;   ///< standard uncertainties of the scalars; may be null
   double point_size = 2.0;
+};
+
+/// A quantity over two others as a surface in a box with axes. Rows and columns as far apart as their numbers say.
+struct ViewSurface {
+  std::vector<double> x;                  ///< columns, ascending
+  std::vector<double> y;                  ///< rows, ascending
+  std::vector<double> value;              ///< row major; NaN: no value
+  std::vector<double> sigma;              ///< standard uncertainties, empty or one a node: bars of one each way
+  QString x_title, y_title, value_title;  ///< "Position / mm"
+  [[nodiscard]] std::size_t index(std::size_t column, std::size_t row) const { return row * x.size() + column; }
+};
+
+/// Where a surface stands in the view: the numbers at the ends of its axes and the box they span.
+struct SurfaceBox {
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();  ///< x, y, value
+  Eigen::Vector3d high = Eigen::Vector3d::Ones();
+  /// The box reaches from the origin to here.
+  inline static const Eigen::Vector3d size_mm{100.0, 100.0, 62.0};
+  [[nodiscard]] Eigen::Vector3d place_mm(const Eigen::Vector3d& numbers) const {
+    return (numbers - low).cwiseQuotient(high - low).cwiseProduct(size_mm);
+  }
 };
 
 class View3D : public QWidget {
@@ -95,6 +136,8 @@ class View3D : public QWidget {
   [[nodiscard]] const std::vector<ViewShape>& shapes() const { return shapes_; }
   void setField(std::shared_ptr<const Field> field, const FieldStyle& style = {});
   void setCloud(const ViewCloud& cloud);
+  /// Coloured and as high as the colour scale says; empty: none.
+  void setSurface(std::optional<ViewSurface> surface);
   void setColourScale(const std::optional<ColourScale>& scale);
   void setCaption(const QString& text);  ///< small text at the top left: what is shown
   /// What stands there while there is nothing to draw: what will appear and how to get it.
@@ -112,8 +155,32 @@ class View3D : public QWidget {
   void setCamera(const Camera& camera);
   void resetCamera(StandardView view = StandardView::Isometric);
   void setOrthographic(bool on);
+  /// Shows everything from where the camera looks.
+  void fit();
+  /// Box around what is shown, mm; empty if there is nothing.
+  [[nodiscard]] std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> extent() const;
   /// From now on both views always look the same way.
   void link(View3D* other);
+
+  // Clip plane and distance.
+  void setClip(const std::optional<ClipPlane>& plane);
+  [[nodiscard]] const std::optional<ClipPlane>& clip() const { return clip_; }
+  /// On: through the middle of what is shown, across the vertical.
+  void setClipping(bool on);
+  /// Where colour bar and buttons stand.
+  struct Arrangement {
+    bool bar_below = false;        ///< the colour bar lies below the picture, for panes higher than what they show
+    bool tools_in_column = false;  ///< the buttons stand one below the other, for panes wider than what they show
+  };
+  [[nodiscard]] const Arrangement& arrangement() const { return arrangement_; }
+  /// While it is on a click picks an end of the distance: a point, a point of the cloud or a place on a surface. The
+  /// third pick begins anew.
+  void setMeasuring(bool on);
+  [[nodiscard]] bool measuring() const { return measuring_; }
+  /// The picked ends, none to two.
+  [[nodiscard]] const std::vector<MeasuredPlace>& measuredPlaces() const { return measured_; }
+  /// What is under a pixel, nearest to the viewer: a point before a cloud before a surface.
+  [[nodiscard]] std::optional<MeasuredPlace> placeAt(const QPointF& pixel) const;
 
   /// The id of the point at a pixel; empty if there is none within 12 px.
   [[nodiscard]] QString pointAt(const QPointF& pixel) const;
@@ -127,6 +194,9 @@ class View3D : public QWidget {
   [[nodiscard]] std::optional<Probe> probeAt(const QPointF& pixel) const;
   /// The cloud's point nearest to a pixel (within 6 px), its index.
   [[nodiscard]] std::optional<std::size_t> cloudPointAt(const QPointF& pixel) const;
+  /// The node of the surface nearest to a pixel (within 12 px): its index.
+  [[nodiscard]] std::optional<std::size_t> surfaceNodeAt(const QPointF& pixel) const;
+  [[nodiscard]] const std::optional<SurfaceBox>& surfaceBox() const { return surface_box_; }
   [[nodiscard]] std::optional<QPointF> pixelOf(const Eigen::Vector3d& point_mm) const;
 
   /// A finished picture of any size (device-independent pixels), as it is drawn on screen.
@@ -146,6 +216,8 @@ class View3D : public QWidget {
   void cursorMoved(const QPointF& pixel);
   /// The value under the cursor, ready to be read ("x 120.0 mm, y 40.0 mm: 3.2 ± 0.4 um"); empty outside.
   void hovered(const QString& text);
+  /// A distance was picked: "F1 to F3: 260.0042 ± 0.0008 mm ...".
+  void distanceMeasured(const QString& text);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -161,10 +233,18 @@ class View3D : public QWidget {
 
  private:
   void changed();  ///< redraw solid things
+  // What mouse and fingers share.
+  void press(const QPointF& position);
+  void drag(const QPointF& position, bool pan);
+  void release(const QPointF& position, bool picks);
+  void hover(const QPointF& position);
+  void touch(QTouchEvent* event);
+  void pickEnd(const QPointF& position);
+  void paintMeasurement(QPainter& painter, const QSizeF& size) const;
   /// What is to be seen has another extent: a view that nobody has turned is fitted again.
   void extentChanged();
-  /// Room beside the machine for the numbers along the edges of its table, pixels.
-  [[nodiscard]] double edgeReserve() const;
+  [[nodiscard]] QMarginsF marginsFor(const QSize& size, const Arrangement& arrangement) const;
+  [[nodiscard]] Camera cameraFor(const QSize& size, const Arrangement& arrangement) const;
   /// What the notes at the top left say: caption, exaggeration, what faded and striped mean.
   [[nodiscard]] QStringList notes(const QSize& size) const;
   void cameraMoved();  ///< redraw, thinned, and refine a moment later
@@ -174,14 +254,13 @@ class View3D : public QWidget {
   void fitCamera(const QSize& size);
   void setHoveredPoint(const QString& id);  ///< its label is always shown
   void shareCamera();                       ///< with the linked views
-  void paintOverlay(QPainter& painter, const QSize& size) const;
+  void paintOverlay(QPainter& painter, const QSize& size, bool with_tools) const;
   [[nodiscard]] QSizeF viewSize() const { return {static_cast<double>(width()), static_cast<double>(height())}; }
   void refineStep();
-  /// Draws the next of the shifted pictures whose average has smooth edges. True when the average is in frame_.
-  bool smoothStep();
+  [[nodiscard]] QString textAt(const QPointF& position) const;  ///< what stands under the cursor
+  void placeSurface();                                          ///< in the box that the scale spans
   /// True if something is coloured by the scale, so that its bar has to be there.
   [[nodiscard]] bool showsScale() const;
-  [[nodiscard]] double reservedRight(const QSize& size) const;
 
   void ensureScene();
 
@@ -214,9 +293,19 @@ class View3D : public QWidget {
   bool dragging_ = false;
   QTimer refine_timer_;
   QSize frame_pixels_;
-  int smooth_step_ = 0;              ///< shifted pictures drawn so far
-  std::vector<quint16> smooth_sum_;  ///< their sum, four channels a pixel
+  bool smooth_ = false;  ///< the edges of what is shown are smoothed
+  std::optional<ViewSurface> surface_;
+  std::optional<SurfaceBox> surface_box_;
   std::vector<QPointer<View3D>> linked_;
+  ViewTools* tools_;
+  std::optional<ClipPlane> clip_;
+  bool measuring_ = false;
+  std::vector<MeasuredPlace> measured_;
+  int fingers_ = 0;
+  Arrangement arrangement_;
+  bool fitting_for_picture_ = false;  ///< without buttons
+  /// Views lower than this give the notes at the top a place of their own, two lines.
+  static constexpr int low_view_px = 360;
 };
 
 }  // namespace spindrift::gui

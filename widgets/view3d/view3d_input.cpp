@@ -2,13 +2,18 @@
 // What the mouse and the keys do in the 3D view, and what stands under the cursor.
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <QNativeGestureEvent>
+#include <QPointingDevice>
+#include <QTouchEvent>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/text.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/scene.h"
 #include "widgets/view3d/view3d.h"
+#include "widgets/view3d/view_tools.h"
 
 namespace spindrift::gui {
 namespace {
@@ -22,6 +27,7 @@ QString View3D::pointAt(const QPointF& pixel) const {
   double nearest = pick_radius_px;
   double depth = 1e300;
   for (const ViewPoint& point : points_) {
+    if (clip_ && !clip_->keeps(point.position_mm)) continue;
     const auto p = camera_.project(point.position_mm, viewSize());
     if (!p) continue;
     const double d = std::hypot(p->x() - pixel.x(), p->y() - pixel.y());
@@ -62,26 +68,26 @@ std::optional<View3D::Probe> View3D::probeAt(const QPointF& pixel) const {
 }
 
 std::optional<std::size_t> View3D::cloudPointAt(const QPointF& pixel) const {
-  if (cloud_.xyz_mm == nullptr) return std::nullopt;
-  const QSizeF size = viewSize();
-  double nearest = 6;
-  double depth = 1e300;
+  if (cloud_.xyz_mm == nullptr || scene_ == nullptr) return std::nullopt;
+  return scene_->cloudPointAt(camera_, viewSize(), pixel,
+                              [this](const Eigen::Vector3d& p) { return !clip_ || clip_->keeps(p); });
+}
+
+std::optional<std::size_t> View3D::surfaceNodeAt(const QPointF& pixel) const {
+  if (!surface_box_) return std::nullopt;
   std::optional<std::size_t> best;
-  const std::size_t count = cloud_.xyz_mm->size() / 3;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d p = Eigen::Map<const Eigen::Vector3f>(cloud_.xyz_mm->data() + 3 * i).cast<double>();
-    const auto at = camera_.project(p, size);
+  double nearest = pick_radius_px;
+  for (std::size_t i = 0; i < surface_->value.size(); ++i) {
+    if (!std::isfinite(surface_->value[i])) continue;
+    const std::size_t columns = surface_->x.size();
+    const Eigen::Vector3d place =
+        surface_box_->place_mm({surface_->x[i % columns], surface_->y[i / columns], surface_->value[i]});
+    const auto at = camera_.project(place, viewSize());
     if (!at) continue;
-    const double dx = at->x() - pixel.x();
-    const double dy = at->y() - pixel.y();
-    const double d = std::sqrt(dx * dx + dy * dy);
-    if (d > 6) continue;
-    const double z = camera_.depth_mm(p);
-    if (!best || d < nearest - 1.5 || (d < nearest + 1.5 && z < depth)) {
-      nearest = std::min(nearest, d);
-      depth = z;
-      best = i;
-    }
+    const double distance = std::hypot(at->x() - pixel.x(), at->y() - pixel.y());
+    if (distance > nearest) continue;
+    nearest = distance;
+    best = i;
   }
   return best;
 }
@@ -92,42 +98,22 @@ std::optional<QPointF> View3D::pixelOf(const Eigen::Vector3d& point_mm) const {
 
 void View3D::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
+  tools_->refresh();
   // A view that nobody has turned yet keeps showing everything.
   if (event->oldSize().isEmpty() || (fitted_ && camera_ == automatic_)) fitted_ = false;
 }
 
-void View3D::mousePressEvent(QMouseEvent* event) {
+void View3D::press(const QPointF& position) {
   setFocus(Qt::MouseFocusReason);
-  press_position_ = last_position_ = event->position();
+  press_position_ = last_position_ = position;
   dragging_ = false;
 }
 
-void View3D::mouseMoveEvent(QMouseEvent* event) {
-  const QPointF position = event->position();
-  if (event->buttons() == Qt::NoButton) {
-    QString text;
-    if (const auto probe = probeAt(position)) {
-      const FieldGrid& grid = field_->grid;
-      text = tr("%1 %2 mm, %3 %4 mm: %5")
-                 .arg(QLatin1Char("xyz"[grid.firstAxis()]))
-                 .arg(probe->xy_mm.x(), 0, 'f', 1)
-                 .arg(QLatin1Char("xyz"[grid.secondAxis()]))
-                 .arg(probe->xy_mm.y(), 0, 'f', 1)
-                 .arg(QString::fromStdString(withUncertainty(probe->value, probe->sigma, unitOf(field_->component))));
-      if (probe->extrapolated) text += tr(" (extrapolated)");
-    }
-    Q_EMIT cursorMoved(position);
-    setHoveredPoint(pointAt(position));
-    setCursor(hovered_point_.isEmpty() ? Qt::ArrowCursor : Qt::PointingHandCursor);
-    Q_EMIT hovered(text);
-    return;
-  }
+void View3D::drag(const QPointF& position, bool pan) {
   if (!dragging_ && (position - press_position_).manhattanLength() < 4) return;
   dragging_ = true;
   const QPointF moved = position - last_position_;
   last_position_ = position;
-  const bool pan =
-      (event->buttons() & (Qt::MiddleButton | Qt::RightButton)) != 0 || (event->modifiers() & Qt::ShiftModifier) != 0;
   if (pan) {
     camera_.pan(moved, viewSize());
   } else {
@@ -136,9 +122,11 @@ void View3D::mouseMoveEvent(QMouseEvent* event) {
   cameraMoved();
 }
 
-void View3D::mouseReleaseEvent(QMouseEvent* event) {
-  if (!dragging_ && event->button() == Qt::LeftButton) {
-    const QString id = pointAt(event->position());
+void View3D::release(const QPointF& position, bool picks) {
+  if (!dragging_ && picks && measuring_) {
+    pickEnd(position);
+  } else if (!dragging_ && picks) {
+    const QString id = pointAt(position);
     if (!id.isEmpty()) {
       setSelected(id);
       Q_EMIT pointPicked(id);
@@ -147,15 +135,82 @@ void View3D::mouseReleaseEvent(QMouseEvent* event) {
   dragging_ = false;
 }
 
-void View3D::mouseDoubleClickEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton && pointAt(event->position()).isEmpty()) {
-    fitted_ = false;
-    cameraMoved();
+void View3D::hover(const QPointF& position) {
+  Q_EMIT cursorMoved(position);
+  const QString id = pointAt(position);
+  setHoveredPoint(id);
+  if (!measuring_) setCursor(id.isEmpty() ? Qt::ArrowCursor : Qt::PointingHandCursor);
+  Q_EMIT hovered(textAt(position));
+}
+
+QString View3D::textAt(const QPointF& position) const {
+  const QString id = pointAt(position);
+  const auto point = std::find_if(points_.begin(), points_.end(), [&](const ViewPoint& p) { return p.id == id; });
+  if (!id.isEmpty() && point != points_.end() && !point->value_text.isEmpty())
+    return tr("%1: %2").arg(point->label.isEmpty() ? id : point->label, point->value_text);
+  const std::string unit = scale_ ? scale_->unit.toStdString() : std::string();
+  const auto valueText = [&](double value, const double* sigma) {
+    return sigma != nullptr && std::isfinite(*sigma)
+               ? shownNumbers(QString::fromStdString(withUncertainty(value, *sigma, unit)))
+               : tr("%1 %2").arg(decimalText(value, 'g', 4)).arg(scale_ ? scale_->unit : QString());
+  };
+  if (const auto i = surfaceNodeAt(position)) {
+    const ViewSurface& s = *surface_;
+    const auto quantity = [](const QString& title, double value) {  // "Position / mm": "Position 550 mm"
+      const QStringList parts = title.split(QStringLiteral(" / "));
+      return tr("%1 %2 %3").arg(parts.front()).arg(value, 0, 'g', 4).arg(parts.size() > 1 ? parts[1] : QString());
+    };
+    return tr("%1, %2: %3")
+        .arg(quantity(s.x_title, s.x[*i % s.x.size()]), quantity(s.y_title, s.y[*i / s.x.size()]),
+             valueText(s.value[*i], s.sigma.size() == s.value.size() ? &s.sigma[*i] : nullptr));
   }
+  if (const auto probe = probeAt(position)) {
+    const FieldGrid& grid = field_->grid;
+    const QString text =
+        tr("%1 %2 mm, %3 %4 mm: %5")
+            .arg(QLatin1Char("xyz"[grid.firstAxis()]))
+            .arg(probe->xy_mm.x(), 0, 'f', 1)
+            .arg(QLatin1Char("xyz"[grid.secondAxis()]))
+            .arg(probe->xy_mm.y(), 0, 'f', 1)
+            .arg(QString::fromStdString(withUncertainty(probe->value, probe->sigma, unitOf(field_->component))));
+    return probe->extrapolated ? text + tr(" (extrapolated)") : text;
+  }
+  const auto i = cloudPointAt(position);
+  if (!i) return {};
+  const float* p = cloud_.xyz_mm->data() + 3 * *i;
+  const QString place = tr("x %1 mm, y %2 mm, z %3 mm").arg(p[0], 0, 'f', 2).arg(p[1], 0, 'f', 2).arg(p[2], 0, 'f', 3);
+  if (cloud_.scalar == nullptr) return place;
+  const double sigma = cloud_.sigma == nullptr ? std::nan("") : static_cast<double>((*cloud_.sigma)[*i]);
+  return tr("%1: %2").arg(place, valueText(static_cast<double>((*cloud_.scalar)[*i]), &sigma));
+}
+
+void View3D::mousePressEvent(QMouseEvent* event) {
+  press(event->position());
+}
+
+void View3D::mouseMoveEvent(QMouseEvent* event) {
+  if (event->buttons() == Qt::NoButton) return hover(event->position());
+  drag(event->position(),
+       (event->buttons() & (Qt::MiddleButton | Qt::RightButton)) != 0 || (event->modifiers() & Qt::ShiftModifier) != 0);
+}
+
+void View3D::mouseReleaseEvent(QMouseEvent* event) {
+  release(event->position(), event->button() == Qt::LeftButton);
+}
+
+void View3D::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && !measuring_ && pointAt(event->position()).isEmpty()) fit();
 }
 
 void View3D::wheelEvent(QWheelEvent* event) {
-  camera_.zoom(std::pow(1.0015, event->angleDelta().y()), event->position(), viewSize());
+  const bool touch_pad = event->pointingDevice() != nullptr &&
+                         event->pointingDevice()->type() == QInputDevice::DeviceType::TouchPad &&
+                         !event->pixelDelta().isNull();
+  if (touch_pad && (event->modifiers() & Qt::ControlModifier) == 0) {
+    camera_.pan(QPointF(event->pixelDelta()), viewSize());
+  } else {
+    camera_.zoom(std::pow(1.0015, event->angleDelta().y()), event->position(), viewSize());
+  }
   cameraMoved();
   event->accept();
 }
@@ -205,8 +260,13 @@ void View3D::keyPressEvent(QKeyEvent* event) {
       return;
     case Qt::Key_R:
     case Qt::Key_Home:
-      fitted_ = false;
-      cameraMoved();
+      fit();
+      return;
+    case Qt::Key_M:
+      setMeasuring(!measuring_);
+      return;
+    case Qt::Key_C:
+      setClipping(!clip_);
       return;
     case Qt::Key_1:
       resetCamera(StandardView::Isometric);
@@ -220,6 +280,10 @@ void View3D::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_4:
       resetCamera(StandardView::Right);
       return;
+    case Qt::Key_Escape:
+      if (!measuring_) break;
+      setMeasuring(false);
+      return;
     case Qt::Key_P:
       setOrthographic(!camera_.orthographic);
       return;
@@ -230,8 +294,9 @@ void View3D::keyPressEvent(QKeyEvent* event) {
       pick(-1);
       return;
     default:
-      QWidget::keyPressEvent(event);
+      break;
   }
+  QWidget::keyPressEvent(event);
 }
 
 void View3D::setHoveredPoint(const QString& id) {
@@ -247,6 +312,23 @@ void View3D::leaveEvent(QEvent* event) {
 }
 
 bool View3D::event(QEvent* event) {
+  switch (event->type()) {
+    case QEvent::TouchBegin:
+    case QEvent::TouchUpdate:
+    case QEvent::TouchEnd:
+    case QEvent::TouchCancel:
+      touch(static_cast<QTouchEvent*>(event));
+      return true;
+    case QEvent::NativeGesture: {  // of a touch pad
+      const auto* gesture = static_cast<QNativeGestureEvent*>(event);
+      if (gesture->gestureType() != Qt::ZoomNativeGesture) break;
+      camera_.zoom(1.0 + gesture->value(), gesture->position(), viewSize());
+      cameraMoved();
+      return true;
+    }
+    default:
+      break;
+  }
   if (event->type() == QEvent::FocusIn || event->type() == QEvent::FocusOut) update();
   return QWidget::event(event);
 }

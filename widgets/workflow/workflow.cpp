@@ -2,6 +2,7 @@
 #include "widgets/workflow/workflow.h"
 
 #include "core/tasks/task_options.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/models/session_model.h"
 
 namespace spindrift::gui {
@@ -178,7 +179,7 @@ void Workflow::refresh() {
     for (const StepId step : all_steps) {
       const StepReport report = stepReport(tasks, step, counts(tasks));
       now[static_cast<std::size_t>(step)] = {
-          report.state, QString::fromStdString(report.sentence),
+          report.state, coreSentence(report.sentence),
           report.of == 0 ? QString() : tr("%1 of %2").arg(report.count).arg(report.of)};
     }
   }

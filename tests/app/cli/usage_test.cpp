@@ -25,7 +25,9 @@ const std::vector<std::vector<std::string>> every_command = {{"plan"},
                                                              {"report"},
                                                              {"session"},
                                                              {"import-touches"},
-                                                             {"cycle"}};
+                                                             {"cycle"},
+                                                             {"what-if"},
+                                                             {"exercise"}};
 
 TEST(Usage, HelpOnEveryLevel) {
   const Outcome top = runCli({"--help"});

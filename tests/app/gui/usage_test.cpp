@@ -49,6 +49,7 @@ TEST(GuiUsage, WhatIsNotAllowedIsRefusedInOneSentence) {
   expectRefused("--scale nan", "nan", "from 0.5 to 4");
   expectRefused("--demo nonsense", "nonsense", "fiducials, holes, balls, scans or discrepancy");
   expectRefused("--theme pink", "pink", "light or dark");
+  expectRefused("--language fr", "fr", "en or de");
   expectRefused("--json x.json", "--json", "--self-test");
   expectRefused("one two", "two", "one session");
   EXPECT_EQ(start("--nonsense").status, 2);

@@ -2,23 +2,35 @@
 // Whole fiducial campaigns through rendered images: images -> displacements -> nine parameters, held against the truth.
 //
 //   fiducial_study [campaigns, default 20] [seed, default 1]
+//   fiducial_study folder [images, default 1000]      time of a folder of images on 1, 2, ... threads
 //
 // Every campaign has its own fiducials, thermal state, light, repeatability and seed. Printed: rms error of X, Y, Z and
 // of the nine parameters, error over stated uncertainty, and how often the truth lies in the 95 % interval.
 #include <fmt/format.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <map>
+#include <thread>
+#include <utility>
+#include <vector>
 
+#include "core/base/job_context.h"
 #include "core/base/random.h"
 #include "core/imaging/evaluate_fiducials.h"
+#include "core/imaging/fiducial_images.h"
+#include "core/imaging/image.h"
 #include "core/imaging/pattern.h"
 #include "core/machine/nine_parameter_model.h"
 #include "core/math/distributions.h"
 #include "core/math/statistics.h"
 #include "core/simulation/virtual_fiducials.h"
+#include "core/simulation/virtual_microscope.h"
 #include "tests/support/temp_folder.h"
 
 using namespace spindrift;
@@ -80,9 +92,71 @@ VirtualFiducialOptions drawOptions(Random& random, NineVector& truth) {
   return o;
 }
 
+double wall_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double processor_s(int whose) {
+  rusage used{};
+  ::getrusage(whose, &used);
+  return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+}
+
+/// A folder of images measured on one thread and on all, by the clock on the wall; where others use the machine too,
+/// the part of the processor time that cannot be shared tells more.
+void folderSpeed(int images) {
+  const testing::TempFolder folder;
+  FiducialCaptureList list;
+  constexpr int scenes = 8;
+  std::vector<GrayImage> rendered;
+  for (int k = 0; k < scenes; ++k) {
+    MicroscopeScene scene;
+    scene.blur_sigma_px = 1.2;
+    scene.noise_level = 2.0;
+    scene.map = poseAt(scene.width_px, scene.height_px, 1.2 + 0.15 * k, 0.4 * k, {1400, 1400}, {960, 540});
+    rendered.push_back(renderFiducial(standardPattern(), scene, static_cast<std::uint64_t>(k)));
+  }
+  for (int k = 0; k < images; ++k) {
+    GrayImage image = rendered[static_cast<std::size_t>(k % scenes)];
+    image.data()[0] = static_cast<std::uint8_t>(k);  // no two files of the same content
+    image.data()[1] = static_cast<std::uint8_t>(k / 256);
+    FiducialCapture c;
+    c.image = fmt::format("{}.png", k);
+    c.fiducial = "F1";
+    c.state = fmt::format("M{}", k / scenes);
+    folder.write(c.image, encodePng(image));
+    list.captures.push_back(c);
+  }
+  const auto measure = [&](int threads) {
+    ::setenv("SPINDRIFT_THREADS", fmt::format("{}", threads).c_str(), 1);
+    const double own = processor_s(RUSAGE_THREAD), all = processor_s(RUSAGE_SELF), begin = wall_s();
+    const FiducialImages result = measureFiducialImages(folder.path(), list, standardPattern(), JobContext());
+    const double wall = wall_s() - begin;
+    const double shared = (processor_s(RUSAGE_THREAD) - own) / (processor_s(RUSAGE_SELF) - all);
+    fmt::print(
+        "{} images on {} threads: {:.2f} s, {:.1f} ms of processor each, {} refused; {:.1f} % of the processor "
+        "time on the first thread\n",
+        images, threads, wall, 1e3 * (processor_s(RUSAGE_SELF) - all) / images, result.rejected.size(), 100.0 * shared);
+    return std::pair(wall, shared);
+  };
+  const double one = measure(1).first;
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  fmt::print("speed-up on {} cores {:.2f}\n", cores, one / measure(cores).first);
+  // With many threads the first has its share and all that only one can do.
+  constexpr int many = 16;
+  const double serial = std::max(0.0, (measure(many).second - 1.0 / many) / (1.0 - 1.0 / many));
+  fmt::print("part that only one thread can do: {:.1f} %, so at most {:.2f} on {} cores\n", 100.0 * serial,
+             1.0 / (serial + (1.0 - serial) / cores), cores);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::strcmp(argv[1], "folder") == 0) {
+    folderSpeed(argc > 2 ? std::atoi(argv[2]) : 1000);
+    return 0;
+  }
   const int campaigns = argc > 1 ? std::atoi(argv[1]) : 20;
   const auto seed = static_cast<std::uint64_t>(argc > 2 ? std::atoll(argv[2]) : 1);
   const double quantile = normalQuantile(0.975);

@@ -7,13 +7,16 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "core/base/random.h"
+#include "core/base/text.h"
 #include "core/imaging/image.h"
 #include "core/imaging/pattern.h"
+#include "core/simulation/virtual_microscope.h"
 #include "tests/support/child_process.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
@@ -65,6 +68,42 @@ TEST(FiducialImagesTest, AnImageThatTheMemoryCannotHoldCostsItselfAndNotTheRun) 
     return text;
   });
   EXPECT_THAT(answer, AllOf(HasSubstr("small is there"), HasSubstr("large.pgm: "), HasSubstr("memory")));
+}
+
+double processor_s(int whose) {
+  rusage used{};
+  ::getrusage(whose, &used);
+  return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+}
+
+TEST(FiducialImagesTest, AFolderOfImagesIsSharedAmongTheThreads) {
+  const testing::TempFolder folder;
+  MicroscopeScene scene;
+  scene.width_px = 960;
+  scene.height_px = 640;
+  scene.map = poseAt(scene.width_px, scene.height_px, 1.6, 0.2, {1230, 1310}, {470, 330});
+  GrayImage image = renderFiducial(standardPattern(), scene, 7);
+  FiducialCaptureList list;
+  for (int k = 0; k < 60; ++k) {
+    image.at(0, 0) = static_cast<std::uint8_t>(k);  // no two files of the same content
+    FiducialCapture capture = focusOf("image_" + std::to_string(k) + ".png", k);
+    capture.role = CaptureRole::Rotation;
+    folder.write(capture.image, encodePng(image));
+    list.captures.push_back(capture);
+  }
+  // Of the processor's time, so that it does not matter what else the machine does: with four threads the first has its
+  // own images and whatever only one can do.
+  const std::string answer = testing::inChildProcess([&] {
+    ::setenv("SPINDRIFT_THREADS", "4", 1);
+    const double own = processor_s(RUSAGE_THREAD), all = processor_s(RUSAGE_SELF);
+    const FiducialImages images = measureFiducialImages(folder.path(), list, standardPattern(), JobContext());
+    if (!images.rejected.empty()) return images.rejected.front().reason;
+    return std::to_string((processor_s(RUSAGE_THREAD) - own) / (processor_s(RUSAGE_SELF) - all));
+  });
+  double share = 1.0;
+  ASSERT_TRUE(parseNumber(answer, share)) << answer;
+  EXPECT_LT(share, 0.7);  // 0.25 of work that is shared evenly, 1 of work that is not
 }
 
 TEST(ReadImage, OnlyTheFormatsThatAreNamedAreRead) {

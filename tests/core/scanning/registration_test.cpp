@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <functional>
+#include <string>
 
 #include "core/base/error.h"
 #include "core/base/random.h"
@@ -173,6 +174,33 @@ TEST(Registration, ReachesTheBoundOfWhiteNoise) {
     for (int i = 0; i < 6; ++i) squares += e[i] * e[i] / bound(i, i);
   }
   EXPECT_LT(std::sqrt(squares / (6.0 * runs)), 1.2);
+}
+
+TEST(Registration, CloudsAreCompressedSideBySideAndTheNumbersStay) {
+  Random random(41);
+  const Grid grid;
+  const PointCloud target = scan(paperSurface, RigidTransform(), grid, 0.5e-3, random);
+  const PointCloud source = scan(paperSurface, small_motion, grid, 0.5e-3, random);
+  const RegistrationResult together = registerClouds(source, target);
+  ASSERT_TRUE(together.usable()) << together.message;
+  const RegistrationResult prepared = registerToSurface(source, RegistrationTarget(target));
+  EXPECT_EQ(together.translation_mm, prepared.translation_mm);
+  EXPECT_EQ(together.rotation_rad, prepared.rotation_rad);
+  EXPECT_EQ(together.covariance, prepared.covariance);
+  // What is wrong with both is said of the source, whichever thread comes first.
+  PointCloud few;
+  few.name = "few.pcd";
+  few.points_mm.assign(10, Eigen::Vector3d::Zero());
+  PointCloud none;
+  none.name = "none.pcd";
+  for (int round = 0; round < 20; ++round) {
+    try {
+      (void)registerClouds(few, none);
+      FAIL() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("few.pcd"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(Registration, IsNotStuckFromFarStarts) {

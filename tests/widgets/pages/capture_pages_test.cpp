@@ -14,6 +14,7 @@
 #include "tests/widgets/pages/page_test.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/jobs/job_bar.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/arriving_panel.h"
 #include "widgets/pages/capture/camera_panel.h"
@@ -70,6 +71,31 @@ class CapturePages : public PageTest {
   }
   ArrivingPanel* arriving() { return window_->currentPage()->findChild<ArrivingPanel*>(); }
 };
+
+TEST_F(CapturePages, WhatIsDroppedOntoTheWindowIsCheckedLikeWhatArrives) {
+  newMeasurement(mill_text);
+  const auto message = [&] { return window_->jobBar()->message().toStdString(); };
+  const auto file = [&](const char* name) { return QString::fromStdString((folder_ / name).string()); };
+  folder_.write("M0_F1_rotation_0.png", encodePng(picture(2)));
+  folder_.write("broken.png", "no picture");
+  window_->take({file("M0_F1_rotation_0.png")});
+  waitFor([&] { return message().find("0 of 1") != std::string::npos; }, "without a plan");
+  EXPECT_NE(message().find("There is no plan"), std::string::npos) << message();
+  auto* page = go<NewCapturePage>(StepId::Capture);
+  ASSERT_NE(page, nullptr);
+  page->setInstrument(Instrument::Microscope);
+  page->arriving()->plan()->makePlan();
+  window_->workflow().goTo(StepId::Machine);
+  folder_.write("again_M0_F1_rotation_0.png", encodePng(picture(3)));
+  window_->take({file("again_M0_F1_rotation_0.png"), file("broken.png")});
+  waitFor([&] { return message().find("1 of 2") != std::string::npos; }, "one good, one broken");
+  EXPECT_NE(message().find("broken.png: "), std::string::npos) << message();
+  EXPECT_EQ(window_->workflow().current(), StepId::Capture);
+  EXPECT_EQ(stateOf("again_M0_F1_rotation_0.png"), IncomingState::Accepted);
+  EXPECT_TRUE(service().done().contains("M0_F1_rotation_0"));
+  window_->take({file("again_M0_F1_rotation_0.png")});
+  waitFor([&] { return message().find("0 of 1") != std::string::npos; }, "the same once more");
+}
 
 TEST_F(CapturePages, ANewFiducialMeasurementFillsFromAWatchedFolder) {
   newMeasurement(mill_text);

@@ -5,8 +5,6 @@
 
 #include <QRectF>
 
-#include "widgets/view3d/contours.h"
-
 namespace spindrift::gui {
 namespace {
 
@@ -81,27 +79,5 @@ TEST(Camera, FitShowsEveryCorner) {
 }
 
 // A plane f = x - 30 crosses zero on the straight line x = 30.
-TEST(Contours, StraightLine) {
-  FieldGrid grid;
-  grid.x_to_mm = 100;
-  grid.y_to_mm = 50;
-  grid.nx = 11;
-  grid.ny = 6;
-  std::vector<double> value(grid.size());
-  for (int iy = 0; iy < grid.ny; ++iy) {
-    for (int ix = 0; ix < grid.nx; ++ix) value[grid.index(ix, iy)] = grid.x_mm(ix) - 33.0;
-  }
-  const auto segments = contourSegments(
-      grid, [&](std::size_t i) { return value[i]; }, 0.0);
-  ASSERT_EQ(segments.size(), 5U);
-  double length = 0;
-  for (const auto& [a, b] : segments) {
-    EXPECT_NEAR(a.x(), 33, tiny);
-    EXPECT_NEAR(b.x(), 33, tiny);
-    length += (b - a).norm();
-  }
-  EXPECT_NEAR(length, 50, tiny);
-}
-
 }  // namespace
 }  // namespace spindrift::gui

@@ -112,6 +112,112 @@ TEST(View3D, HeatMapHasTheColoursOfItsValues) {
   EXPECT_LT(distance(picture.pixel(middle->toPoint()), qRgb(230, 230, 230)), 40);
 }
 
+// The lines stand where the values are those of the ticks, and end where values are missing.
+TEST(View3D, ContoursFollowTheValues) {
+  auto field = tiltedField(31);
+  field->sigma.clear();
+  field->extrapolated.clear();
+  for (int iy = 20; iy < 31; ++iy)
+    for (int ix = 0; ix < 31; ++ix) field->value[field->grid.index(ix, iy)] = std::nan("");
+  const ColourScale scale = ColourScale::symmetric(15, QStringLiteral("EX"), QStringLiteral("um"));
+  QImage with, without;
+  std::vector<QPoint> on, off, beyond;
+  for (const bool contours : {true, false}) {
+    View3D view;
+    view.resize(700, 420);
+    view.setMachine(desktopMill());
+    view.setMachineVisible(false);
+    view.setColourScale(scale);
+    FieldStyle style;
+    style.contours = contours;
+    view.setField(field, style);
+    view.resetCamera(StandardView::Top);
+    (contours ? with : without) = view.grab().toImage();
+    on.clear();
+    off.clear();
+    beyond.clear();
+    for (const double tick : scale.ticks()) {
+      const double x = 150 + 10 * tick;
+      if (x < 10 || x > 290) continue;
+      on.push_back(view.pixelOf({x, 40, 0})->toPoint());
+      off.push_back(view.pixelOf({x + 9, 40, 0})->toPoint());
+      beyond.push_back(view.pixelOf({x, 118, 0})->toPoint());
+    }
+  }
+  const auto changedNear = [&](const QPoint& p) {
+    for (int dx = -2; dx <= 2; ++dx)
+      if (with.pixel(p + QPoint(dx, 0)) != without.pixel(p + QPoint(dx, 0))) return true;
+    return false;
+  };
+  ASSERT_GE(on.size(), 5U);
+  for (std::size_t i = 0; i < on.size(); ++i) {
+    EXPECT_TRUE(changedNear(on[i])) << i;
+    EXPECT_FALSE(changedNear(off[i])) << i;
+    EXPECT_FALSE(changedNear(beyond[i])) << i;
+  }
+}
+
+// What stands before an arrow hides it.
+TEST(View3D, ArrowsAreCoveredByWhatStandsBeforeThem) {
+  View3D view;
+  view.setShapes({{ShapeKind::Sphere, {{0, 0, 0}}, 20.0, Tone::Neutral},
+                  {ShapeKind::Path, {{-60, -60, -60}, {60, 60, 60}}, 1.0, Tone::Neutral}});
+  view.resetCamera(StandardView::Front);
+  const auto red = [&] {
+    const QImage picture = view.picture({400, 300}, 1.0);
+    int count = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const QColor c = picture.pixelColor(x, y);
+        count += c.red() > c.green() + 60 && c.red() > c.blue() + 60 ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  const int none = red();
+  const double length_um = 16e3;
+  view.setArrows({{{-8, -30, 0}, {length_um, 0, 0}, Tone::Bad}}, 1.0);
+  EXPECT_GT(red(), none + 60) << "before the ball";
+  view.setArrows({{{-8, 30, 0}, {length_um, 0, 0}, Tone::Bad}}, 1.0);
+  EXPECT_EQ(red(), none) << "behind the ball";
+}
+
+TEST(View3D, ASurfaceStandsInItsBoxAndTellsItsNodes) {
+  View3D view;
+  view.resize(640, 480);
+  ViewSurface surface;
+  surface.x = {150, 550, 1350};
+  surface.y = {0, 30, 90};
+  surface.x_title = QStringLiteral("Position / mm");
+  surface.y_title = QStringLiteral("Time / min");
+  surface.value_title = QStringLiteral("EXY / um");
+  surface.value = {0, 0, 0, 4, -6, 8, 9, std::nan(""), -12};
+  surface.sigma = {0, 0, 0, 2, 2, 2, 2, 2, 2};
+  view.setColourScale(ColourScale::symmetric(12, QStringLiteral("EXY"), QStringLiteral("um")));
+  view.setSurface(surface);
+  EXPECT_FALSE(view.empty());
+  const QImage picture = view.grab().toImage();
+  ASSERT_TRUE(view.surfaceBox());
+  const auto pixel = view.pixelOf(view.surfaceBox()->place_mm({550, 30, -6}));
+  EXPECT_EQ(view.surfaceNodeAt(*pixel), surface.index(1, 1));
+  // A node without a value is nowhere.
+  for (int y = 0; y < 480; y += 5)
+    for (int x = 0; x < 640; x += 5) EXPECT_NE(view.surfaceNodeAt(QPointF(x, y)), surface.index(1, 2));
+  QSignalSpy hovered(&view, &View3D::hovered);
+  QMouseEvent move(QEvent::MouseMove, *pixel, *pixel, Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&view, &move);
+  ASSERT_FALSE(hovered.empty());
+  EXPECT_EQ(hovered.back()[0].toString().toStdString(), "Position 550 mm, Time 30 min: −6.0 ± 2.0 µm");
+  // Coloured by the scale: blue where it is low.
+  const QColor low = picture.pixelColor(view.pixelOf(view.surfaceBox()->place_mm({1350, 90, -12}))->toPoint());
+  EXPECT_GT(low.blue(), low.red() + 20);
+  if (qEnvironmentVariableIsSet("SPINDRIFT_KEEP_PICTURES"))
+    view.picture({640, 480}, 1.0)
+        .save(qEnvironmentVariable("SPINDRIFT_KEEP_PICTURES") + QStringLiteral("/surface.png"));
+  view.setSurface(std::nullopt);
+  EXPECT_TRUE(view.empty());
+}
+
 TEST(View3D, ProbeReadsTheValueUnderTheCursor) {
   View3D view;
   view.resize(700, 420);
@@ -362,7 +468,7 @@ TEST(View3D, ALargeCloudIsDrawnBitByBitAndCompletes) {
   View3D view;
   view.resize(640, 480);
   view.setColourScale(ColourScale::symmetric(15, QStringLiteral("EZ"), QStringLiteral("um")));
-  view.setCloud({xyz, scalar, 2.0});
+  view.setCloud({xyz, scalar, nullptr, 2.0});
   const QImage first = view.grab().toImage();
   EXPECT_TRUE(view.refining());
   EXPECT_TRUE(QTest::qWaitFor([&] { return !view.refining(); }, 20000));
@@ -387,6 +493,18 @@ TEST(View3D, ALargeCloudIsDrawnBitByBitAndCompletes) {
   ASSERT_TRUE(picked);
   const Eigen::Vector3d q((*xyz)[3 * *picked], (*xyz)[3 * *picked + 1], (*xyz)[3 * *picked + 2]);
   EXPECT_LT((view.pixelOf(q)->toPoint() - view.pixelOf(p)->toPoint()).manhattanLength(), 4);
+  // Under the cursor: the value with its uncertainty, if there is one.
+  auto sigma = std::make_shared<std::vector<float>>(count, 3.0F);
+  view.setCloud({xyz, scalar, sigma, 2.0});
+  (void)view.grab();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !view.refining(); }, 20000));
+  QSignalSpy hovered(&view, &View3D::hovered);
+  const QPointF at = *view.pixelOf(p);
+  QMouseEvent move(QEvent::MouseMove, at, at, Qt::NoButton, Qt::NoButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(&view, &move);
+  ASSERT_FALSE(hovered.empty());
+  EXPECT_TRUE(hovered.back()[0].toString().contains(QStringLiteral("± 3 µm")))
+      << hovered.back()[0].toString().toStdString();
 }
 
 TEST(View3D, PictureOfAnyScaleAndBothThemes) {

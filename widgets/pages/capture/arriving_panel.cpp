@@ -10,6 +10,7 @@
 #include <QTableView>
 #include <QVBoxLayout>
 
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/incoming_service.h"
@@ -145,7 +146,8 @@ void ArrivingPanel::refresh() {
     Row row;
     row.id = fromCore(item.name);
     row.cells = {nameCell(row.id), stateCell(item.state),
-                 item.plan_item.empty() ? dashCell() : Cell{fromCore(item.plan_item)}, Cell{fromCore(item.sentence)}};
+                 item.plan_item.empty() ? dashCell() : Cell{fromCore(item.plan_item)},
+                 Cell{coreSentence(item.sentence)}};
     const QImage picture = service_.thumbnail(item.name);
     if (!picture.isNull()) {
       row.cells.front().picture =

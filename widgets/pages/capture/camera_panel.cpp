@@ -17,6 +17,7 @@
 #include "core/connect/source.h"
 #include "core/imaging/camera.h"
 #include "core/imaging/evaluate_fiducials.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/pages/capture/incoming_service.h"
@@ -25,6 +26,7 @@
 #include "widgets/pages/imaging/decode_marks.h"
 #include "widgets/pages/machine/connections_service.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -104,13 +106,13 @@ void CameraPanel::open(const QString& source) {
     pattern_ = campaign ? campaignPattern(campaign->folder) : campaignPattern({});
   } catch (const InputError& e) {
     pattern_ = campaignPattern({});
-    state_->show(Tone::Attention, QString::fromUtf8(e.what()));
+    state_->show(Tone::Attention, coreSentence(e.what()));
   }
   GenicamSettings settings;
   try {
     settings = settingsOf(source.toStdString());
   } catch (const InputError& e) {
-    state_->show(Tone::Attention, QString::fromUtf8(e.what()));
+    state_->show(Tone::Attention, coreSentence(e.what()));
   }
   reader_ = std::jthread(
       [this, name = source.toStdString(), settings](std::stop_token stop) { readFrames(stop, name, settings); });
@@ -151,7 +153,7 @@ void CameraPanel::readFrames(std::stop_token stop, const std::string& source, co
   };
   const auto fail = [this](const char* sentence) {
     const std::lock_guard lock(mutex_);
-    failure_ = QString::fromUtf8(sentence);
+    failure_ = coreSentence(sentence);
   };
   try {
     if (source.starts_with(genicam_prefix)) {
@@ -166,9 +168,10 @@ void CameraPanel::readFrames(std::stop_token stop, const std::string& source, co
         if (image) show(std::move(*image));
       }
       if (!stop.stop_requested())
-        throw ConnectionError(
-            fmt::format("The camera has sent no whole frame for {:.0f} s, and {} with packets missing.", patience_s,
-                        camera.counts().incomplete));
+        throw ConnectionError(tr("The camera has sent no whole frame for %1 s, and %2 with packets missing.")
+                                  .arg(decimalText(patience_s, 'f', 0))
+                                  .arg(camera.counts().incomplete)
+                                  .toStdString());
     } else {
       CameraSource camera = CameraSource::open(source);
       const double rate = camera.framesPerSecond();
@@ -221,12 +224,12 @@ void CameraPanel::showLatest() {
   if (history_.size() > history_length) history_.pop_front();
   view_->setImage(toImage(*image_));
   view_->setMarks(marksOf(verdict_.decoded, *pattern_));
-  sharp_->set(QString::number(sharpness, 'f', 3), tr("contrast over coarse contrast"),
+  sharp_->set(decimalText(sharpness, 'f', 3), tr("contrast over coarse contrast"),
               sharpness > 0.97 * peak_ ? Tone::Good : Tone::Neutral);
-  best_->set(QString::number(peak_, 'f', 3),
-             tr("%1 % of it now").arg(100 * sharpness / std::max(peak_, 1e-9), 0, 'f', 0));
+  best_->set(decimalText(peak_, 'f', 3),
+             tr("%1 % of it now").arg(decimalText(100 * sharpness / std::max(peak_, 1e-9), 'f', 0)));
   decoded_->set(QString::number(verdict_.decoded.subpatterns.size()),
-                tr("blur %1 px").arg(verdict_.decoded.exposure.blur_sigma_px, 0, 'f', 1),
+                tr("blur %1 px").arg(decimalText(verdict_.decoded.exposure.blur_sigma_px, 'f', 1)),
                 verdict_.good ? Tone::Good : Tone::Attention);
   Series series;
   series.name = tr("Sharpness");
@@ -237,7 +240,7 @@ void CameraPanel::showLatest() {
   }
   plot_->setContent({series});
   take_->setEnabled(true);
-  state_->show(verdict_.good ? Tone::Good : Tone::Attention, fromCore(verdict_.sentence));
+  state_->show(verdict_.good ? Tone::Good : Tone::Attention, coreSentence(verdict_.sentence));
   Q_EMIT frameShown();
 }
 

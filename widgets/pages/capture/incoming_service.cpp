@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/imaging/image.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/imaging/decode_marks.h"
 
@@ -98,7 +99,7 @@ QString IncomingService::start(const QString& folder, const QString& template_fi
     }
     intake_.expectTouches(*session_.campaign(), std::move(pattern));
   } catch (const InputError& e) {
-    return QString::fromUtf8(e.what());
+    return coreSentence(e.what());
   }
   failure_.clear();
   folder_ = std::make_unique<IncomingFolder>(QDir(folder).absolutePath().toStdString(), watch_, patience_s_);
@@ -118,10 +119,10 @@ void IncomingService::stop() {
 
 QString IncomingService::problem() const {
   if (!failure_.isEmpty()) return failure_;
-  if (folder_ != nullptr && !folder_->problem().empty()) return fromCore(folder_->problem());
+  if (folder_ != nullptr && !folder_->problem().empty()) return coreSentence(folder_->problem());
   if (touches() != nullptr) {
     const std::vector<std::string> problems = touches()->problems();
-    if (!problems.empty()) return fromCore(problems.back());
+    if (!problems.empty()) return coreSentence(problems.back());
   }
   return {};
 }
@@ -139,8 +140,8 @@ QStringList IncomingService::retakes() const {
   QStringList sentences;
   auto* self = const_cast<IncomingService*>(this);
   for (const CaptureIntake::Retake& retake : intake_.retakes(self->done())) {
-    sentences << (retake.what.empty() ? fromCore(retake.why)
-                                      : tr("Take %1 again: %2").arg(fromCore(retake.what), fromCore(retake.why)));
+    sentences << (retake.what.empty() ? coreSentence(retake.why)
+                                      : tr("Take %1 again: %2").arg(fromCore(retake.what), coreSentence(retake.why)));
   }
   return sentences;
 }
@@ -219,7 +220,7 @@ void IncomingService::record(const ExaminedFile& found) {
     session_.recordArrival(examined);
     failure_.clear();
   } catch (const InputError& e) {
-    failure_ = QString::fromUtf8(e.what());
+    failure_ = coreSentence(e.what());
     return;
   }
   intake_.remember(examined);
@@ -236,7 +237,7 @@ void IncomingService::feed(const ExaminedFile& examined) {
       Q_EMIT touchesChanged();
     }
   } catch (const InputError& e) {
-    failure_ = QString::fromUtf8(e.what());
+    failure_ = coreSentence(e.what());
   }
 }
 
@@ -248,7 +249,7 @@ void IncomingService::flushTouches(bool all) {
     done_.reset();
     Q_EMIT planProgressed();
   } catch (const InputError& e) {
-    failure_ = QString::fromUtf8(e.what());
+    failure_ = coreSentence(e.what());
   }
 }
 
@@ -282,13 +283,61 @@ void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage>
   jobs_.run(std::move(job));
 }
 
+void IncomingService::takeFiles(const QStringList& files, std::function<void(const std::vector<IncomingItem>&)> done) {
+  follow();
+  if (session_.campaign() != nullptr) takeNext(files, {}, std::move(done));
+}
+
+/// One after the other: each is held against those before it.
+void IncomingService::takeNext(QStringList files, std::vector<IncomingItem> taken,
+                               std::function<void(const std::vector<IncomingItem>&)> done) {
+  if (files.isEmpty()) {
+    done(taken);
+    return;
+  }
+  const QFileInfo file(files.takeFirst());
+  const auto next = [this, files, done, folder = campaign_folder_](std::vector<IncomingItem> so_far) {
+    if (folder == campaign_folder_) takeNext(files, std::move(so_far), done);
+  };
+  Job job;
+  job.title = tr("Checking %1").arg(file.fileName());
+  job.quiet = true;
+  job.work = [this, next, taken, path = std::filesystem::path(file.absoluteFilePath().toStdString()),
+              name = file.fileName().toStdString(), written_ns = file.lastModified().toMSecsSinceEpoch() * 1'000'000,
+              context = contextNow(), folder = campaign_folder_](JobContext&) {
+    auto examined = std::make_shared<ExaminedFile>(examineArrival(path, name, written_ns, context));
+    const QImage picture = smallPicture(path, examined->item.kind);
+    return std::function<void()>([this, next, taken, examined, picture, folder] {
+      if (folder != campaign_folder_) return;
+      if (!picture.isNull()) thumbnails_[examined->item.name] = picture;
+      ExaminedFile answer = *examined;
+      answer.item = intake_.show(examined->item);
+      record(answer);
+      std::vector<IncomingItem> all = taken;
+      all.push_back(examined->item);  // "there already", where the list keeps its first answer
+      Q_EMIT changed();
+      next(std::move(all));
+    });
+  };
+  job.failed = [this, next, taken, name = file.fileName().toStdString()](const QString& sentence) {
+    std::vector<IncomingItem> all = taken;
+    IncomingItem failed;
+    failed.name = name;
+    failed.state = IncomingState::Ignored;
+    failed.sentence = sentence.toStdString();
+    all.push_back(failed);
+    next(std::move(all));
+  };
+  jobs_.run(std::move(job));
+}
+
 const MeasurementPlan& IncomingService::plan() {
   if (!plan_) {
     plan_.emplace();
     try {
       if (session_.session() != nullptr) plan_ = storedPlan(*session_.session(), session_.campaignId());
     } catch (const InputError& e) {
-      failure_ = QString::fromUtf8(e.what());
+      failure_ = coreSentence(e.what());
     }
   }
   return *plan_;

@@ -7,6 +7,7 @@
 #include <QImage>
 #include <QObject>
 #include <QTimer>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -42,6 +43,9 @@ class IncomingService : public QObject {
   [[nodiscard]] const TouchFeed* touches() const { return intake_.touches(); }
   /// A picture of a camera, checked and taken over like a file.
   void take(const QString& name, std::shared_ptr<const GrayImage> image);
+  /// Files that were given by hand, one after the other: checked, copied and taken over as those that arrive in the
+  /// watched folder. `done` gets what became of each.
+  void takeFiles(const QStringList& files, std::function<void(const std::vector<IncomingItem>&)> done);
   /// True while nothing is waiting to be read or checked.
   [[nodiscard]] bool idle() const;
 
@@ -67,6 +71,8 @@ class IncomingService : public QObject {
   void look();
   void examineNext();
   void finished(const IncomingFolder::Task& task, ExaminedFile examined, const QImage& picture);
+  void takeNext(QStringList files, std::vector<IncomingItem> taken,
+                std::function<void(const std::vector<IncomingItem>&)> done);
   void record(const ExaminedFile& found);
   void feed(const ExaminedFile& examined);
   void flushTouches(bool all);

@@ -6,10 +6,13 @@
 #include <QTableView>
 #include <QVBoxLayout>
 
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/incoming_service.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -19,9 +22,9 @@ constexpr std::size_t shown_touches = 300;
 
 QString vectorText(const Eigen::Vector3d& n) {
   return QStringLiteral("%1, %2, %3")
-      .arg(n.x(), 0, 'f', 2)
-      .arg(n.y(), 0, 'f', 2)
-      .arg(n.z(), 0, 'f', 2)
+      .arg(decimalText(n.x(), 'f', 2))
+      .arg(decimalText(n.y(), 'f', 2))
+      .arg(decimalText(n.z(), 'f', 2))
       .replace(QLatin1Char('-'), QChar(0x2212));
 }
 
@@ -78,12 +81,12 @@ void LiveTouchPanel::refresh() {
                  live.replaced    ? Cell{tr("replaced")}
                  : live.plausible ? toneCell(tr("plausible"), Tone::Good)
                                   : toneCell(tr("touch again"), Tone::Bad),
-                 numberCell(live.from_nominal_mm, 3),
+                 numberCell(live.from_nominal_mm, lengthDecimals(3)),
                  numberCell(live.change_um, 1),
                  numberCell(live.feature_spread_um, 1),
                  Cell{vectorText(t.approach)},
-                 Cell{fromCore(live.reason)}};
-    row.cells.back().tip = fromCore(live.reason);
+                 Cell{coreSentence(live.reason)}};
+    row.cells.back().tip = coreSentence(live.reason);
     rows.push_back(std::move(row));
   }
   rows_->setRows(std::move(rows));

@@ -2,6 +2,7 @@
 #include "widgets/pages/capture/machine_state_line.h"
 
 #include "core/connect/live_recording.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/machine/connections_service.h"
 
@@ -23,7 +24,7 @@ void MachineStateLine::showNow() {
   if (rest.at_rest) {
     set(Tone::Good, tr("The machine stands still: %1.").arg(now));
   } else {
-    set(Tone::Attention, fromCore(rest.sentence));
+    set(Tone::Attention, coreSentence(rest.sentence));
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/incoming_service.h"
@@ -22,7 +23,7 @@ namespace {
 
 /// The name of an image says fiducial, role and number; what is to be done is where to move.
 Cell todoCell(const PlannedItem& item) {
-  const QString whole = fromCore(item.instruction());
+  const QString whole = coreSentence(item.instruction());
   const qsizetype colon = item.kind == PlannedKind::Image ? whole.indexOf(QLatin1String(": ")) : -1;
   Cell cell{colon < 0 ? whole : whole.mid(colon + 2)};
   cell.tip = whole;
@@ -100,7 +101,7 @@ void PlanPanel::makePlan() {
                                           "plan/" + std::to_string(context_.session.campaignId()), plan.json(),
                                           [this] { service_.planChanged(); }));
   } catch (const InputError& e) {
-    next_->show(Tone::Bad, QString::fromUtf8(e.what()));
+    next_->show(Tone::Bad, coreSentence(e.what()));
   }
 }
 
@@ -113,7 +114,7 @@ void PlanPanel::showCountdown() {
   }
   const PlanProgress progress = service_.progress();
   const Tone tone = !progress.next ? Tone::Good : progress.countdown_s > 0 ? Tone::Neutral : Tone::Accent;
-  if (next_->sentence() != fromCore(progress.sentence)) next_->show(tone, fromCore(progress.sentence));
+  if (next_->sentence() != coreSentence(progress.sentence)) next_->show(tone, coreSentence(progress.sentence));
   count_->setText(tr("%1 of %2 captured").arg(progress.done).arg(service_.plan().items.size()));
 }
 

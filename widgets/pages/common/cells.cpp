@@ -6,6 +6,7 @@
 
 #include "core/base/text.h"
 #include "widgets/common/parts.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -24,16 +25,17 @@ Cell dashCell() {
 Cell numberCell(double value, int decimals) {
   Cell cell = dashCell();
   if (!std::isfinite(value)) return cell;
-  cell.text = QString::number(value, 'f', decimals);
+  cell.text = decimalText(value, 'f', decimals);
   // A rounded zero has no sign.
-  if (cell.text.toDouble() == 0.0) cell.text.remove(QLatin1Char('-'));
+  if (typedNumber(cell.text) == 0.0) cell.text.remove(QLatin1Char('-'));
   cell.text.replace(QLatin1Char('-'), QChar(0x2212));
   return cell;
 }
 
 Cell quantityCell(double value, double sigma) {
   Cell cell = dashCell();
-  if (std::isfinite(value)) cell.text = QString::fromStdString(withUncertainty(value, sigma, "")).trimmed();
+  if (std::isfinite(value))
+    cell.text = shownNumbers(QString::fromStdString(withUncertainty(value, sigma, ""))).trimmed();
   return cell;
 }
 
@@ -72,7 +74,7 @@ QString firstOf(const QStringList& names, qsizetype most) {
 
 QString quantityText(double value, double sigma, const QString& unit) {
   if (!std::isfinite(value)) return QStringLiteral("–");
-  return QString::fromStdString(withUncertainty(value, sigma, unit.toStdString()));
+  return shownNumbers(QString::fromStdString(withUncertainty(value, sigma, unit.toStdString())));
 }
 
 }  // namespace spindrift::gui

@@ -5,6 +5,8 @@
 #include <QTableWidget>
 
 #include "core/base/text.h"
+#include "widgets/common/table_habits.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -22,11 +24,12 @@ QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_n
   table->setSelectionMode(QAbstractItemView::SingleSelection);
   table->setTabKeyNavigation(false);
   table->setMinimumHeight(150);
+  giveTableCopying(table);
   return table;
 }
 
 QString numberText(const std::optional<double>& value) {
-  return value ? QString::fromStdString(exactNumber(*value)) : QString();
+  return value ? shownNumbers(QString::fromStdString(exactNumber(*value))) : QString();
 }
 
 QString textAt(const QTableWidget* table, int row, int column) {
@@ -39,8 +42,7 @@ void setText(QTableWidget* table, int row, int column, const QString& text) {
 }
 
 nlohmann::json numberOrText(const QString& text) {
-  double value = 0;
-  if (parseNumber(text.toStdString(), value)) return value;
+  if (const std::optional<double> value = typedNumber(text)) return *value;
   return text.toStdString();
 }
 

@@ -11,23 +11,28 @@
 #include "core/base/text.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/common/editor_table.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
 
-QString textOf(const nlohmann::json& value) {
-  if (value.is_number()) return QString::fromStdString(exactNumber(value.get<double>()));
+/// Numbers of a list keep their point: commas part them.
+QString textOf(const nlohmann::json& value, bool in_list = false) {
+  if (value.is_number()) {
+    const QString text = QString::fromStdString(exactNumber(value.get<double>()));
+    return in_list ? text : shownNumbers(text);
+  }
   if (value.is_string()) return QString::fromStdString(value.get<std::string>());
   if (value.is_null()) return {};
   if (value.is_array()) {
     QStringList numbers;
-    for (const nlohmann::json& each : value) numbers << textOf(each);
+    for (const nlohmann::json& each : value) numbers << textOf(each, true);
     return numbers.join(QStringLiteral(", "));
   }
   if (!value.is_object()) return QString::fromStdString(value.dump());
   QStringList words;
   for (const auto& [word, number] : value.items())
-    words << QString::fromStdString(word) + QLatin1Char('=') + textOf(number);
+    words << QString::fromStdString(word) + QLatin1Char('=') + textOf(number, true);
   return words.join(QStringLiteral(", "));
 }
 

@@ -9,12 +9,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/models/session_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -25,14 +27,14 @@ QString text(const std::string& s) {
 
 QString signedNumber(double value, int digits) {
   if (std::abs(value) < 0.5 * std::pow(10.0, -digits)) value = 0.0;
-  return QString::number(value, 'f', digits).replace(QLatin1Char('-'), QChar(0x2212));
+  return decimalText(value, 'f', digits).replace(QLatin1Char('-'), QChar(0x2212));
 }
 
 /// "+12.4 ± 0.6 µm".
 QString sureNumber(double value, double sigma) {
   const QString sign = value > 0.05 ? QStringLiteral("+") : QString();
   if (!std::isfinite(sigma)) return sign + signedNumber(value, 1) + QStringLiteral(" µm");
-  return QStringLiteral("%1%2 ± %3 µm").arg(sign, signedNumber(value, 1)).arg(sigma, 0, 'f', 1);
+  return QStringLiteral("%1%2 ± %3 µm").arg(sign, signedNumber(value, 1)).arg(decimalText(sigma, 'f', 1));
 }
 
 }  // namespace
@@ -229,14 +231,14 @@ void ClosedLoopPage::refresh() {
         tr("The machine will be switched on and homed. A measuring cycle moves: %1. Between cycles the "
            "spindle turns by the programme, %2 h in all. The compensation stays within ±%3 µm and changes "
            "by at most %4 µm/s. Keep clear of the machine.")
-            .arg(text(run.summary()))
-            .arg(plan->duration_s / 3600.0, 0, 'g', 3)
+            .arg(coreSentence(run.summary()))
+            .arg(decimalText(plan->duration_s / 3600.0, 'g', 3))
             .arg(plan->limits.limit_um)
             .arg(plan->limits.rate_um_s));
   if (plan != nullptr && !run.good() && notice_.isEmpty())
     notice_ = tr("The measuring cycle may not run: line %1: %2.")
                   .arg(run.issues.front().line)
-                  .arg(text(run.issues.front().what));
+                  .arg(coreSentence(run.issues.front().what));
   silence_->setCurrent(service_.hold() ? 1 : 0);
   silence_->setEnabled(plan != nullptr);
   silence_note_->setText(service_.hold() ? tr("The last compensation stays, whatever the machine does then.")
@@ -258,17 +260,18 @@ void ClosedLoopPage::showState() {
     callout_->show(Tone::Accent, tr("Connecting with the control, looking at its limits and its watchdog …"));
   } else if (service_.running() && status.stopping) {
     callout_->show(Tone::Attention,
-                   tr("Stopping: the compensation fades to zero. %1").arg(text(status.control.sentence)));
+                   tr("Stopping: the compensation fades to zero. %1").arg(coreSentence(status.control.sentence)));
   } else if (service_.running()) {
     const QString measuring = status.measuring ? tr(" A measuring cycle is running.") : QString();
-    const QString control = text(status.control.sentence) + measuring;
+    const QString control = coreSentence(status.control.sentence) + measuring;
     if (status.active) {
       callout_->show(Tone::Good,
-                     tr("Active, by the %1. Control: %2").arg(text(std::string(toString(status.stage))), control));
+                     tr("Active, by the %1. Control: %2").arg(coreSentence(toString(status.stage)), control));
     } else {
-      callout_->show(Tone::Attention, status.reason == status.control.sentence
-                                          ? tr("Not active. %1").arg(control)
-                                          : tr("Not active: %1. Control: %2").arg(text(status.reason), control));
+      callout_->show(Tone::Attention,
+                     status.reason == status.control.sentence
+                         ? tr("Not active. %1").arg(control)
+                         : tr("Not active: %1. Control: %2").arg(coreSentence(status.reason), control));
     }
   } else if (now.any) {
     callout_->show(Tone::Neutral,
@@ -303,15 +306,17 @@ void ClosedLoopPage::showNumbers() {
     }
   }
   if (known) {
-    age_->set(tr("%1 s").arg(status.age_s, 0, 'f', 0), tr("machine time %1 h").arg(status.time_s / 3600.0, 0, 'f', 2));
+    age_->set(tr("%1 s").arg(decimalText(status.age_s, 'f', 0)),
+              tr("machine time %1 h").arg(decimalText(status.time_s / 3600.0, 'f', 2)));
   } else {
     age_->set(QStringLiteral("–"));
   }
   if (now.any) {
     const double left_s = std::max(0.0, status.next_cycle_s - status.time_s);
-    spent_->set(
-        tr("%n cycles", nullptr, static_cast<int>(now.result.cycles.size())),
-        service_.running() && !status.stopping ? tr("the next in %1 min").arg(left_s / 60.0, 0, 'f', 0) : QString());
+    spent_->set(tr("%n cycles", nullptr, static_cast<int>(now.result.cycles.size())),
+                service_.running() && !status.stopping
+                    ? tr("the next in %1 min").arg(decimalText(left_s / 60.0, 'f', 0))
+                    : QString());
   } else {
     spent_->set(QStringLiteral("–"));
   }
@@ -351,8 +356,8 @@ void ClosedLoopPage::showCycles() {
     for (std::size_t i = result.events.size(); i-- > 0;) {
       const LoopEvent& event = result.events[i];
       rows.push_back({QString::number(i),
-                      {Cell{tr("%1 h").arg(event.time_s / 3600.0, 0, 'f', 2)},
-                       Cell{titledSentence(sentenceStart(text(event.text)).toStdString())}}});
+                      {Cell{tr("%1 h").arg(decimalText(event.time_s / 3600.0, 'f', 2))},
+                       Cell{sentenceStart(titledSentence(event.text))}}});
     }
     events_->setRows(std::move(rows));
     event_table_->resizeRowsToContents();
@@ -384,8 +389,8 @@ void ClosedLoopPage::showCycles() {
   errors_->setText(count == 0 ? tr("Error without and with: no cycle has been compensated yet.")
                               : tr("%1: %2 µm rms without, %3 µm rms with, over %4 since the compensation began.")
                                     .arg(text(std::string(toString(static_cast<Component>(axis)))))
-                                    .arg(std::sqrt(squares_without / count), 0, 'f', 1)
-                                    .arg(std::sqrt(squares_with / count), 0, 'f', 1)
+                                    .arg(decimalText(std::sqrt(squares_without / count), 'f', 1))
+                                    .arg(decimalText(std::sqrt(squares_with / count), 'f', 1))
                                     .arg(count == 1 ? tr("1 cycle") : tr("%1 cycles").arg(count)));
 }
 

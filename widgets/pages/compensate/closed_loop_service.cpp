@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/control/linuxcnc_control.h"
 #include "core/workflows/loop_state.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/models/session_model.h"
 
 namespace spindrift::gui {
@@ -42,7 +43,7 @@ QString ClosedLoopService::load(const QString& file) {
     LoopPlan plan = LoopPlan::read(file.toStdString());
     plan_ = std::move(plan);
   } catch (const InputError& e) {
-    return QString::fromUtf8(e.what());
+    return coreSentence(e.what());
   }
   file_ = file;
   const QFileInfo info(file);
@@ -81,7 +82,7 @@ QString ClosedLoopService::start() {
   try {
     control_ = make_(*plan_);
   } catch (const InputError& e) {
-    return QString::fromUtf8(e.what());
+    return coreSentence(e.what());
   }
   {
     const std::scoped_lock lock(mutex_);
@@ -128,7 +129,7 @@ void ClosedLoopService::run(MachineControl& control) {
     const std::scoped_lock lock(mutex_);
     latest_.result = result;
   } catch (const std::exception& e) {
-    failure = QString::fromUtf8(e.what());
+    failure = coreSentence(e.what());
   }
   const std::scoped_lock lock(mutex_);
   latest_.failure = failure;

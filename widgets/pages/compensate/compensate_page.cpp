@@ -24,6 +24,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/tasks/task_options.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
@@ -277,7 +278,7 @@ void CompensatePage::refresh() {
     // A correction from a model that does not describe the state must not be given away unnoticed.
     QStringList warnings;
     if (plan_)
-      for (const std::string& w : plan_->warnings) warnings << sentenceStart(QString::fromStdString(w));
+      for (const std::string& w : plan_->warnings) warnings << sentenceStart(coreSentence(w));
     callout()->set(warnings.isEmpty() ? Tone::Neutral : Tone::Attention, warnings.join(QLatin1Char(' ')));
     if (plan_ && !plan_->richer_model.empty()) {
       callout()->setAction(tr("Use the higher order"), [this] {
@@ -345,7 +346,7 @@ void CompensatePage::exportFiles(const QString& folder) {
     callout()->show(Tone::Good, tr("Files written to %1: %2").arg(folder).arg(plan_->files.size()));
   } catch (const std::exception& e) {
     callout()->setAction({}, {});
-    callout()->show(Tone::Bad, QString::fromUtf8(e.what()));
+    callout()->show(Tone::Bad, coreSentence(e.what()));
   }
 }
 

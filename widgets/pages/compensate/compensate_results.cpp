@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/compensate/compensate_page.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -39,10 +41,10 @@ QString valueText(double value, double sigma) {
   if (!(sigma > 0.0)) return sizeText(value, {});
   const double shown = std::max(sigma, 0.01);
   const int decimals = shown < 0.295 ? 2 : shown < 2.95 ? 1 : 0;
-  QString text = QString::number(value, 'f', decimals);
-  if (text.toDouble() == 0.0) text.remove(QLatin1Char('-'));
+  QString text = decimalText(value, 'f', decimals);
+  if (typedNumber(text) == 0.0) text.remove(QLatin1Char('-'));
   text.replace(QLatin1Char('-'), QChar(0x2212));
-  return text + QStringLiteral(" ± ") + QString::number(shown, 'f', decimals);
+  return text + QStringLiteral(" ± ") + decimalText(shown, 'f', decimals);
 }
 
 }  // namespace
@@ -63,11 +65,11 @@ void CompensatePage::showPlan() {
   const QString state = QString::fromStdString(plan_->state);
   before_->set(sizeText(plan_->rms_before_um, um), tr("state %1").arg(state));
   // What counts is what remains where nothing was fitted.
-  const QString unseen = plan_->rms_after_unseen_um ? tr("%1 (before %2) %3")
-                                                          .arg(sizeText(*plan_->rms_after_unseen_um, um),
-                                                               sizeText(*plan_->rms_before_unseen_um, um),
-                                                               QString::fromStdString(plan_->unseen))
-                                                    : QString::fromStdString(plan_->unseen);
+  const QString unseen = plan_->rms_after_unseen_um
+                             ? tr("%1 (before %2) %3")
+                                   .arg(sizeText(*plan_->rms_after_unseen_um, um),
+                                        sizeText(*plan_->rms_before_unseen_um, um), coreSentence(plan_->unseen))
+                             : coreSentence(plan_->unseen);
   after_->setToolTip(tr("On values that trained nothing: %1.").arg(unseen));
   after_->set(sizeText(plan_->rms_after_um, um),
               plan_->rms_after_unseen_um
@@ -76,12 +78,12 @@ void CompensatePage::showPlan() {
               plan_->rms_after_um < plan_->rms_before_um ? Tone::Good : Tone::Attention);
   expected_->set(QStringLiteral("± ") + sizeText(plan_->rms_sigma_um, um), tr("one standard uncertainty, rms"));
   largest_->set(sizeText(plan_->largest_um, um), tr("length of the vector at a point"));
-  QString text = QString::fromStdString(plan_->model) + QLatin1Char('.');
+  QString text = coreSentence(plan_->model) + QLatin1Char('.');
   if (request().source == CompensationSource::CompletedModel) {
     text = tr("Simulation completed by %1.").arg(effectTitles(request().added, tr("and")));
   }
-  text += QLatin1Char(' ') + tr("Relative to %1.").arg(QString::fromStdString(plan_->reference));
-  if (!plan_->limitation.empty()) text += QLatin1Char(' ') + QString::fromStdString(plan_->limitation);
+  text += QLatin1Char(' ') + tr("Relative to %1.").arg(coreSentence(plan_->reference));
+  if (!plan_->limitation.empty()) text += QLatin1Char(' ') + coreSentence(plan_->limitation);
   model_->setText(text);
   showPoints();
   std::vector<Row> rows;
@@ -90,7 +92,7 @@ void CompensatePage::showPlan() {
     row.id = QString::fromStdString(f.name);
     Cell name{row.id};
     name.bold = true;
-    row.cells = {name, {QString::fromStdString(f.title)}};
+    row.cells = {name, {coreSentence(f.title)}};
     rows.push_back(std::move(row));
   }
   const QModelIndex chosen = file_table_->selectionModel()->currentIndex();
@@ -142,7 +144,7 @@ void CompensatePage::showFiles() {
   const QModelIndex now = file_table_->selectionModel()->currentIndex();
   if (!plan_ || !now.isValid() || now.row() >= static_cast<int>(plan_->files.size())) return;
   const CompensationFile& f = plan_->files[static_cast<std::size_t>(now.row())];
-  convention_->setText(QString::fromStdString(f.convention));
+  convention_->setText(coreSentence(f.convention));
   const QStringList lines = QString::fromStdString(f.content).split(QLatin1Char('\n'));
   QString text = lines.mid(0, preview_lines).join(QLatin1Char('\n'));
   if (lines.size() > preview_lines) text += tr("\n… %1 lines in all").arg(lines.size() - 1);

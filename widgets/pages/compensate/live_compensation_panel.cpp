@@ -11,11 +11,13 @@
 #include "core/thermal/thermal_model.h"
 #include "core/workflows/campaign_series.h"
 #include "core/workflows/live_compensation.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/session_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/machine/connections_service.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -71,8 +73,9 @@ void LiveCompensationPanel::refresh() {
   LiveCompensation* run = compensator();
   const LiveSnapshot& snapshot = service_.snapshot();
   if (run == nullptr) {
-    state_->show(problem_.empty() ? Tone::Neutral : Tone::Bad,
-                 problem_.empty() ? tr("There is no model over time yet: identify one (Model).") : fromCore(problem_));
+    state_->show(
+        problem_.empty() ? Tone::Neutral : Tone::Bad,
+        problem_.empty() ? tr("There is no model over time yet: identify one (Model).") : coreSentence(problem_));
   } else if (!service_.running()) {
     state_->show(Tone::Neutral,
                  tr("Nothing is connected at present: look at the columns live, or record them (Machine, "
@@ -123,7 +126,7 @@ void LiveCompensationPanel::showValues() {
   const QString unit = fromCore(unitOfSignal(run->output()));
   const auto text = [&](double value) {
     return std::isfinite(value)
-               ? QString::number(value, 'f', 2).replace(QLatin1Char('-'), QChar(0x2212)) + QLatin1Char(' ') + unit
+               ? decimalText(value, 'f', 2).replace(QLatin1Char('-'), QChar(0x2212)) + QLatin1Char(' ') + unit
                : QStringLiteral("–");
   };
   const LiveCompensation::Point& now = run->points().back();
@@ -135,7 +138,7 @@ void LiveCompensationPanel::showValues() {
                                             : tr("%1 is not connected").arg(fromCore(run->output())));
   remainder_->set(
       text(run->remainderRms()),
-      tr("about its mean, since %1 min").arg((now.time_s - run->points().front().time_s) / 60.0, 0, 'f', 0));
+      tr("about its mean, since %1 min").arg(decimalText((now.time_s - run->points().front().time_s) / 60.0, 'f', 0)));
   Series predicted, measured;
   predicted.name = tr("predicted");
   predicted.style = SeriesStyle::Line;

@@ -10,11 +10,13 @@
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/workflows/campaign_series.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/compensate/closed_loop_service.h"
 #include "widgets/pages/compensate/live_compensation_panel.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -177,7 +179,7 @@ void LogCompensatePage::refresh() {
     // What speaks against the model is said before what it achieves.
     QString against;
     for (const std::string& warning : result_->result.warnings) {
-      QString sentence = fromCore(warning);
+      QString sentence = coreSentence(warning);
       if (!sentence.isEmpty()) sentence[0] = sentence[0].toUpper();
       against += sentence + QLatin1Char(' ');
     }
@@ -185,13 +187,13 @@ void LogCompensatePage::refresh() {
         better && against.isEmpty() ? Tone::Good : Tone::Attention,
         against + (better ? tr("In the test range %1 %3 rms are left of %2 %3. Export the thermal model for the "
                                "control.")
-                                .arg(result_->after_rms, 0, 'g', 3)
-                                .arg(result_->before_rms, 0, 'g', 3)
+                                .arg(decimalText(result_->after_rms, 'g', 3))
+                                .arg(decimalText(result_->before_rms, 'g', 3))
                                 .arg(unit)
                           : tr("In the test range the compensator leaves %1 %3 rms of %2 %3: it would not help. "
                                "Train on a longer or livelier part (Model).")
-                                .arg(result_->after_rms, 0, 'g', 3)
-                                .arg(result_->before_rms, 0, 'g', 3)
+                                .arg(decimalText(result_->after_rms, 'g', 3))
+                                .arg(decimalText(result_->before_rms, 'g', 3))
                                 .arg(unit)));
   }
   showResult();
@@ -205,7 +207,7 @@ void LogCompensatePage::showResult() {
   }
   const CompensatorRun& r = *result_;
   const QString unit = fromCore(unitOfSignal(r.output));
-  const auto text = [&](double value) { return QStringLiteral("%1 %2").arg(value, 0, 'g', 3).arg(unit); };
+  const auto text = [&](double value) { return QStringLiteral("%1 %2").arg(decimalText(value, 'g', 3)).arg(unit); };
   before_->set(text(r.before_rms), tr("%1, about its mean").arg(fromCore(r.output)));
   after_->set(text(r.after_rms),
               r.result.fallback == 0

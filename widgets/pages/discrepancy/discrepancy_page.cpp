@@ -5,7 +5,6 @@
 #include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
-#include <QMessageBox>
 #include <QStackedWidget>
 #include <QTabWidget>
 #include <QTimer>
@@ -17,7 +16,9 @@
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/question.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/discrepancy/effects_panel.h"
@@ -28,6 +29,7 @@
 #include "widgets/pages/discrepancy/simulation_panel.h"
 #include "widgets/pages/discrepancy/what_panel.h"
 #include "widgets/pages/discrepancy/where_panel.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -112,7 +114,7 @@ Sentence verdictOf(const DiscrepancyStory& story) {
     DiscrepancyGap gap = *story.proposed;
     const auto missing =
         std::count_if(story.effects.begin(), story.effects.end(), [](const auto& e) { return !e.forced; });
-    QString sure = QString::number(next->confidence, 'f', 2);
+    QString sure = decimalText(next->confidence, 'f', 2);
     if (!next->rivals.empty()) sure = DiscrepancyPage::tr("%1 that it is one of these").arg(sure);
     const QString gain = missing > 1 ? DiscrepancyPage::tr(
                                            "Confidence %1 for the first. Adding all of them takes the "
@@ -259,7 +261,7 @@ void DiscrepancyPage::refresh() {
       story_ = std::make_shared<const DiscrepancyStory>(DiscrepancyStory::parse(stored->payload));
       shown_result_ = stored->id;
     } catch (const InputError& e) {
-      const QString why = QString::fromUtf8(e.what());
+      const QString why = coreSentence(e.what());
       showNothing(tr("What was found cannot be shown"), why);
       callout()->show(Tone::Attention, why);
       return;
@@ -364,10 +366,10 @@ void DiscrepancyPage::showEffects(bool shown) {
 
 bool DiscrepancyPage::mayBeLeft() {
   if (effects_ == nullptr || !effects_->hasUnsavedEdit()) return true;
-  QMessageBox box(QMessageBox::Question, tr("Effects"), tr("The effect that is being edited has not been taken over."),
-                  QMessageBox::Discard | QMessageBox::Cancel, this);
-  box.setDefaultButton(QMessageBox::Cancel);
-  if (box.exec() != QMessageBox::Discard) return false;
+  if (!goAhead({tr("Effects"), tr("The effect that is being edited has not been taken over."), tr("Discard"),
+                &Preferences::ask_before_discarding},
+               this))
+    return false;
   effects_->leaveEditor();
   return true;
 }

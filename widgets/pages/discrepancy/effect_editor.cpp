@@ -16,6 +16,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/pages/common/editor_table.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -350,7 +351,7 @@ void EffectEditor::setEntry(const nlohmann::json& entry) {
   for (std::size_t i = 0; i < 2; ++i) {
     const bool there = bounds.is_array() && bounds.size() > i && bounds[i].is_number();
     (i == 0 ? lag_from_ : lag_to_)
-        ->setText(there ? QString::fromStdString(exactNumber(bounds[i].get<double>())) : QString());
+        ->setText(there ? shownNumbers(QString::fromStdString(exactNumber(bounds[i].get<double>()))) : QString());
   }
   const bool lag = dynamics_->currentData().toString() == QLatin1String("lag");
   for (QLineEdit* edit : {lag_from_, lag_to_}) edit->setEnabled(lag);

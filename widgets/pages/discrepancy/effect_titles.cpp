@@ -15,15 +15,17 @@
 #include "core/discrepancy/effect_titles.h"
 #include "core/reporting/discrepancy_report.h"
 #include "core/reporting/report_wording.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/words.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
 namespace {
 
 QString translated(const char* text) {
-  return QCoreApplication::translate("Effect", text);
+  return QCoreApplication::translate("core", text);
 }
 
 /// Titles of the effects of the user's, of the campaign at hand.
@@ -64,7 +66,7 @@ QString effectTitles(const std::vector<std::string>& ids, const QString& last_wo
 
 QString titledSentence(const std::string& sentence) {
   static const QRegularExpression id(QStringLiteral("[a-z_]+(?:\\.\\w+)+"));
-  const QString text = QString::fromStdString(sentence);
+  const QString text = coreSentence(sentence);
   QString out;
   qsizetype done = 0;
   for (QRegularExpressionMatchIterator i = id.globalMatch(text); i.hasNext();) {
@@ -78,13 +80,13 @@ QString titledSentence(const std::string& sentence) {
 QString sizeText(double value, const QString& unit) {
   if (!std::isfinite(value)) return QStringLiteral("–");
   const double magnitude = std::abs(value);
-  QString text = QString::number(value, 'f', magnitude < 9.95 ? 2 : magnitude < 99.5 ? 1 : 0);
+  QString text = decimalText(value, 'f', magnitude < 9.95 ? 2 : magnitude < 99.5 ? 1 : 0);
   text.replace(QLatin1Char('-'), QChar(0x2212));
   return unit.isEmpty() ? text : text + QLatin1Char(' ') + unitText(unit.toStdString());
 }
 
 QString probabilityText(double p) {
-  return QString::fromStdString(probabilityInWords(p));
+  return coreSentence(probabilityInWords(p));
 }
 
 QString percentOf(double probability) {
@@ -108,7 +110,7 @@ QPixmap probabilityBar(double probability, double device_pixel_ratio) {
 }
 
 QString withError(double value, double standard_uncertainty, const QString& unit) {
-  return QString::fromStdString(withUncertainty(value, standard_uncertainty, unit.toStdString()));
+  return shownNumbers(QString::fromStdString(withUncertainty(value, standard_uncertainty, unit.toStdString())));
 }
 
 QString remainderText(const std::vector<ComponentRemainder>& remainder) {
@@ -126,8 +128,8 @@ QString remainderText(const std::vector<ComponentRemainder>& remainder) {
 QString spanText(double from_s, double to_s, double whole_s) {
   const TimeUnit unit = timeUnit(whole_s);
   return QStringLiteral("%1–%2 %3")
-      .arg(from_s / unit.seconds, 0, 'f', 1)
-      .arg(to_s / unit.seconds, 0, 'f', 1)
+      .arg(decimalText(from_s / unit.seconds, 'f', 1))
+      .arg(decimalText(to_s / unit.seconds, 'f', 1))
       .arg(unit.name);
 }
 

@@ -25,6 +25,7 @@
 #include "core/discrepancy/effect_listing.h"
 #include "core/discrepancy/effect_titles.h"
 #include "core/reporting/report_wording.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
@@ -60,7 +61,7 @@ EffectListing listingOf(const Campaign& campaign, const StoredEvaluation* evalua
   const ObservationSet* observations = observationsOf(campaign, evaluation);
   const auto take = [&](EffectsAnswer answer) {
     out.effects = std::move(answer.effects);
-    for (const std::string& w : answer.warnings) out.warnings << QString::fromStdString(w);
+    for (const std::string& w : answer.warnings) out.warnings << coreSentence(w);
   };
   try {
     if (edited.is_object()) {
@@ -73,7 +74,7 @@ EffectListing listingOf(const Campaign& campaign, const StoredEvaluation* evalua
     }
     take(listEffects(campaign, observations, out.own));
   } catch (const InputError& wrong) {
-    out.problem = QString::fromUtf8(wrong.what());
+    out.problem = coreSentence(wrong.what());
     if (out.own == nullptr || out.own->builtIn()) take(listEffects(campaign, observations, nullptr));
   }
   // Those that cannot be tried are listed too: they may be put right.
@@ -166,7 +167,7 @@ QString detailsOf(const Effect& effect, const EffectListing& listing, const QStr
   const auto plain = [](const std::string& text) { return QString::fromStdString(text).toHtmlEscaped(); };
   const OwnEffect* written = effect.own && own != nullptr ? own->find(effect.id) : nullptr;
   QString html = QStringLiteral("<table cellspacing=\"0\">");
-  html += row(EffectsPanel::tr("Physics"), QString::fromStdString(effect.physics).toHtmlEscaped());
+  html += row(EffectsPanel::tr("Physics"), coreSentence(effect.physics).toHtmlEscaped());
   html += row(EffectsPanel::tr("In the search"), state.toHtmlEscaped());
   html += row(EffectsPanel::tr("Id"), QString::fromStdString(effect.id).toHtmlEscaped());
   html += row(EffectsPanel::tr("Formula"), QString::fromStdString(effect.formula).toHtmlEscaped());
@@ -401,7 +402,7 @@ void EffectsPanel::fillTree() {
     QStringList words{item->text(0),
                       family,
                       QString::fromStdString(effect.id),
-                      QString::fromStdString(effect.physics),
+                      coreSentence(effect.physics),
                       QString::fromStdString(effect.formula),
                       driversText(writtenDrivers(effect, listing_.own.get()))};
     item->setData(0, words_role, words.join(QLatin1Char(' ')));
@@ -612,7 +613,7 @@ void EffectsPanel::loadFile(const QString& file) {
       const auto own = OwnEffects::read(path);
       (void)listEffects(*campaign, observationsOf(*campaign, evaluation.get()), own);
     } catch (const InputError& wrong) {
-      problem = QString::fromUtf8(wrong.what());
+      problem = coreSentence(wrong.what());
     }
     return [this, problem, document] {
       if (!problem.isEmpty()) {
@@ -635,7 +636,7 @@ void EffectsPanel::saveFile(const QString& file) {
     writeFileAtomically(path, listing_.document.dump(2) + "\n");
     callout_->show(Tone::Good, tr("Saved as %1.").arg(file));
   } catch (const InputError& wrong) {
-    callout_->show(Tone::Bad, QString::fromUtf8(wrong.what()));
+    callout_->show(Tone::Bad, coreSentence(wrong.what()));
   }
 }
 
@@ -756,7 +757,7 @@ void EffectsPanel::editorChanged() {
 void EffectsPanel::showProblem(const InputError& wrong) {
   const std::string prefix = "$.effects[" + std::to_string(editedIndex()) + "].";
   const std::string& place = wrong.where().place;
-  const QString sentence = QString::fromUtf8(wrong.what());
+  const QString sentence = coreSentence(wrong.what());
   accept_->setEnabled(false);
   editor_state_->setAction({}, {});
   if (place.starts_with(prefix) && editor_->showProblem(place.substr(prefix.size()), sentence)) {
@@ -803,7 +804,7 @@ void EffectsPanel::checkEdited() {
       const ObservationSet* observations = observationsOf(*campaign, evaluation.get());
       if (observations != nullptr) count = observations->points().size();
       const EffectsAnswer answer = listEffects(*campaign, observations, own);
-      for (const std::string& w : answer.warnings) warnings << QString::fromStdString(w);
+      for (const std::string& w : answer.warnings) warnings << coreSentence(w);
     } catch (const InputError& e) {
       wrong = std::make_shared<InputError>(e);
     }

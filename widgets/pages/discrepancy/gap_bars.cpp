@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/theme/theme.h"
 
 namespace spindrift::gui {
@@ -23,7 +24,7 @@ constexpr int foot_height = 24;
 constexpr int more_height = 20;
 
 QString signedText(double value, int digits) {
-  return QString::number(value, 'f', digits).replace(QLatin1Char('-'), QChar(0x2212));
+  return decimalText(value, 'f', digits).replace(QLatin1Char('-'), QChar(0x2212));
 }
 
 /// "p2p 12.4 → 2.6 um, fit 61 → 92 %"; empty where nothing is known.

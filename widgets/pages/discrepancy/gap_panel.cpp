@@ -12,11 +12,13 @@
 #include <cmath>
 
 #include "core/reporting/report_wording.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/discrepancy/gap_bars.h"
 #include "widgets/pages/discrepancy/residual_map.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -281,8 +283,8 @@ void GapPanel::showNoise() {
     if (found->common_um > 0.0) noise += tr(", common shift %1").arg(sizeText(found->common_um, componentUnit(c)));
     if (found->correlated_part > 0.05) {
       noise += tr(", %1 % of it correlated over %2")
-                   .arg(100 * found->correlated_part, 0, 'f', 0)
-                   .arg(QString::fromStdString(spanOfTime(found->correlation_time_s)));
+                   .arg(decimalText(100 * found->correlated_part, 'f', 0))
+                   .arg(coreSentence(spanOfTime(found->correlation_time_s)));
     }
     noise += QLatin1Char('.');
   }
@@ -364,7 +366,7 @@ void GapPanel::showViews() {
   const QString unit = componentUnit(component);
   const double time_s = moments_s_[static_cast<std::size_t>(moment_->value())];
   const TimeUnit time = timeUnit(moments_s_.back());
-  const QString when = tr("%1 %2").arg(time_s / time.seconds, 0, 'f', 2).arg(time.name);
+  const QString when = tr("%1 %2").arg(decimalText(time_s / time.seconds, 'f', 2)).arg(time.name);
   moment_text_->setText(tr("On the machine at %1").arg(when));
   // One scale for both sides and all moments: that of the worst moment before.
   const ColourScale scale = ColourScale::symmetric(largest_, componentName(component), unit);
@@ -393,8 +395,10 @@ void GapPanel::showSide(std::size_t side, Component component, double time_s, bo
     p.position_mm = marker.position_mm;
     p.value = marker.value;
     if (p.id == point_->currentText()) {
-      p.value_text =
-          tr("%1 ± %2 %3").arg(marker.value, 0, 'f', 1).arg(marker.sigma, 0, 'f', 1).arg(componentUnit(component));
+      p.value_text = tr("%1 ± %2 %3")
+                         .arg(decimalText(marker.value, 'f', 1))
+                         .arg(decimalText(marker.sigma, 'f', 1))
+                         .arg(componentUnit(component));
     }
     points.push_back(std::move(p));
   }

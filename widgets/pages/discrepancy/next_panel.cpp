@@ -8,11 +8,13 @@
 #include <QVBoxLayout>
 
 #include "core/base/text.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -20,9 +22,9 @@ namespace {
 /// What the machine does at a time of the suggested programme.
 QString stepAt(const MeasurementSuggestion& suggestion, double time_s) {
   for (const ProgrammeStep& step : suggestion.programme) {
-    if (time_s < step.to_s) return QString::fromStdString(step.action);
+    if (time_s < step.to_s) return coreSentence(step.action);
   }
-  return suggestion.programme.empty() ? QString() : QString::fromStdString(suggestion.programme.back().action);
+  return suggestion.programme.empty() ? QString() : coreSentence(suggestion.programme.back().action);
 }
 
 }  // namespace
@@ -77,7 +79,7 @@ void NextPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
       row.id = QString::number(index++);
       Cell name{sentenceStart(effectTitle(s.id))};
       name.tip = QString::fromStdString(s.id);
-      Cell gain{QString::number(s.delta_bic, 'f', 0).replace(QLatin1Char('-'), QChar(0x2212))};
+      Cell gain{decimalText(s.delta_bic, 'f', 0).replace(QLatin1Char('-'), QChar(0x2212))};
       gain.right = true;
       const bool out_again = takenOutAgain(s, story_->effects);
       Cell reason{titledSentence(s.reason)};
@@ -111,7 +113,7 @@ void NextPanel::showSuggestion() {
       for (const std::string& point : s.points) {
         Row row;
         row.id = QString::number(t);
-        row.cells = {{QString::number(t, 'f', 0)}, {QString::fromStdString(point)}, {stepAt(s, t)}};
+        row.cells = {{decimalText(t, 'f', 0)}, {QString::fromStdString(point)}, {stepAt(s, t)}};
         rows.push_back(std::move(row));
       }
     }
@@ -120,12 +122,11 @@ void NextPanel::showSuggestion() {
     // "After a night at rest", then a line for every part of the programme: "0:00 to 2:24 X alone at 12 m/min".
     QStringList programme;
     if (s.programme.empty()) {
-      programme << QString::fromStdString(s.conditions);
+      programme << coreSentence(s.conditions);
     } else {
       programme << tr("After a night at rest:");
       for (const ProgrammeStep& step : s.programme) {
-        programme
-            << tr("%1 to %2 %3").arg(clockText(step.from_s), clockText(step.to_s), QString::fromStdString(step.action));
+        programme << tr("%1 to %2 %3").arg(clockText(step.from_s), clockText(step.to_s), coreSentence(step.action));
       }
       if (s.restart_instrument) programme << tr("The instrument is off until the start.");
       if (!s.c_deg.empty()) programme << tr("The table stands at its angles in turn.");
@@ -139,8 +140,8 @@ void NextPanel::showSuggestion() {
                          item(tr("What the machine does (h:min)"), programme) +
                          item(tr("Where"), {places.join(QStringLiteral("; "))}) +
                          item(tr("When, from the start of the programme (h:min)"), {times.join(QStringLiteral(", "))}));
-    gain_->set(tr("%1 %").arg(100.0 * s.probability_alone_expected, 0, 'f', 0),
-               tr("most probable one now: %1 %").arg(100.0 * s.probability_alone_now, 0, 'f', 0));
+    gain_->set(tr("%1 %").arg(decimalText(100.0 * s.probability_alone_expected, 'f', 0)),
+               tr("most probable one now: %1 %").arg(decimalText(100.0 * s.probability_alone_now, 'f', 0)));
   } else if (!story_->decided) {
     suggestion_->setText(sentenceStart(titledSentence(story_->message)));
   } else if (story_->verdict == DiscrepancyVerdict::Unknown) {

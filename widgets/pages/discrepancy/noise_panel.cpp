@@ -15,10 +15,12 @@
 #include <map>
 
 #include "core/reporting/report_wording.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -33,7 +35,7 @@ Cell number(const QString& text) {
 }
 
 QString signedSize(double value, int digits) {
-  return QString::number(value, 'f', digits).replace(QLatin1Char('-'), QChar(0x2212));
+  return decimalText(value, 'f', digits).replace(QLatin1Char('-'), QChar(0x2212));
 }
 
 QWidget* scrolled(QWidget* inside) {
@@ -160,11 +162,10 @@ void NoisePanel::fillNoise() {
     scale.tip = tr("Scatter of the readings over their stated σ");
     Cell common = number(n.common_um > 0.0 ? sizeText(n.common_um, componentUnit(n.component)) : QStringLiteral("–"));
     common.tip = tr("Standard deviation of the shift common to all points of a state");
-    Cell correlated =
-        number(n.correlated_part > 0.0 ? tr("%1 % over %2")
-                                             .arg(100 * n.correlated_part, 0, 'f', 0)
-                                             .arg(QString::fromStdString(spanOfTime(n.correlation_time_s)))
-                                       : QStringLiteral("–"));
+    Cell correlated = number(n.correlated_part > 0.0 ? tr("%1 % over %2")
+                                                           .arg(decimalText(100 * n.correlated_part, 'f', 0))
+                                                           .arg(coreSentence(spanOfTime(n.correlation_time_s)))
+                                                     : QStringLiteral("–"));
     correlated.tip = tr("Part of the variance of the noise that is correlated in time, and its correlation time");
     row.cells = {name, scale, common, correlated};
     rows.push_back(std::move(row));
@@ -181,7 +182,7 @@ void NoisePanel::fillFacts() {
   lines << tr("Noise scale: how much the readings scatter, over their stated σ.");
   lines << (story_->tail_dof > 0.0 ? tr("Tails: heavier than normal (Student t, %1 degrees of freedom); readings far "
                                         "out have little weight.")
-                                         .arg(story_->tail_dof, 0, 'f', 0)
+                                         .arg(decimalText(story_->tail_dof, 'f', 0))
                                    : tr("Tails: normal distribution."));
   if (story_->clock_offset_uncertainty_s > 0.0) {
     const QString offset =
@@ -244,7 +245,7 @@ void NoisePanel::fillShifts() {
     row.id = QString::fromStdString(key.second) + QString::number(key.first);
     Cell name{QString::fromStdString(key.second)};
     name.bold = true;
-    row.cells = {name, number(QString::number(key.first / unit.seconds, 'f', 2))};
+    row.cells = {name, number(decimalText(key.first / unit.seconds, 'f', 2))};
     for (const Component c : components) {
       const auto found = of_state.find(c);
       row.cells.push_back(number(found == of_state.end()
@@ -296,7 +297,7 @@ void NoisePanel::fillReadings() {
                  point,
                  {QString::fromStdString(o.state)},
                  {componentName(o.component)},
-                 number(tr("%1 %2").arg(o.time_s / unit.seconds, 0, 'f', 2).arg(unit.name)),
+                 number(tr("%1 %2").arg(decimalText(o.time_s / unit.seconds, 'f', 2)).arg(unit.name)),
                  number(l.outlying ? signedSize(o.deviation, 1) : QStringLiteral("–")),
                  status};
     row.cells[5].tip = tr("Measured: %1").arg(sizeText(o.value, componentUnit(o.component)));

@@ -6,6 +6,7 @@
 
 #include "core/simulator/simulator_file.h"
 #include "core/workflows/open_simulator.h"
+#include "widgets/common/core_sentence.h"
 
 namespace spindrift::gui {
 namespace {
@@ -64,7 +65,7 @@ OpenedSimulator OpenedSimulator::read(const std::filesystem::path& file, const C
     out.parameters = opened->parameters();
     out.windows = opened->windows();
   } catch (const std::exception& e) {
-    out.error = QString::fromUtf8(e.what());
+    out.error = coreSentence(e.what());
   }
   return out;
 }

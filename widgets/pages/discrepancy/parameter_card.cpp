@@ -8,10 +8,12 @@
 
 #include "core/reporting/report_wording.h"
 #include "core/workflows/simulation_story.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -23,11 +25,11 @@ constexpr int column_effects = 4;
 constexpr int column_put_in = 5;
 
 QString text(const std::string& words) {
-  return QString::fromStdString(words);
+  return coreSentence(words);
 }
 
 QString number(double value) {
-  return QString::number(value, 'g', 5).replace(QLatin1Char('-'), QChar(0x2212));
+  return decimalText(value, 'g', 5).replace(QLatin1Char('-'), QChar(0x2212));
 }
 
 /// Plain numbers have no unit.

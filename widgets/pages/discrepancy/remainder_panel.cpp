@@ -14,6 +14,7 @@
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -186,8 +187,8 @@ void RemainderPanel::fillComponents() {
             ? tr("Nothing smooth in time and space remains")
             : tr("rms of what is smooth in time and space and neither effect nor noise. Evidence that it is more "
                  "than noise: %1 (2 ln of the odds, clear from %2 on)")
-                  .arg(found->evidence, 0, 'f', 0)
-                  .arg(clear_evidence, 0, 'f', 0);
+                  .arg(decimalText(found->evidence, 'f', 0))
+                  .arg(decimalText(clear_evidence, 'f', 0));
     row.cells = {name, number(sizeText(sizes.residual, {})), number(sizeText(sizes.effects, {})),
                  number(sizeText(sizes.noise, {})), size};
     row.cells[1].tip = tr("rms of measured − simulated");
@@ -225,10 +226,10 @@ void RemainderPanel::fillPoints() {
       const auto most = std::max_element(s.remaining.begin(), s.remaining.end(),
                                          [&](double a, double b) { return size_of(a) < size_of(b); });
       row.cells[2] = number(sizeText(*most, {}));
-      row.cells[3] =
-          number(tr("%1 %2")
-                     .arg(s.time_s[static_cast<std::size_t>(most - s.remaining.begin())] / time.seconds, 0, 'f', 1)
-                     .arg(time.name));
+      row.cells[3] = number(
+          tr("%1 %2")
+              .arg(decimalText(s.time_s[static_cast<std::size_t>(most - s.remaining.begin())] / time.seconds, 'f', 1))
+              .arg(time.name));
     }
     if (std::isfinite(size) && size > largest_rms) {
       largest_rms = size;

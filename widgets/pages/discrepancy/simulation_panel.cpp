@@ -20,6 +20,7 @@
 #include "core/discrepancy/mechanism_choice.h"
 #include "core/workflows/open_simulator.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
@@ -29,6 +30,7 @@
 #include "widgets/pages/discrepancy/put_in_dialog.h"
 #include "widgets/pages/discrepancy/simulation_views.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/workflow/simulator_choice.h"
 
 namespace spindrift::gui {
@@ -227,7 +229,7 @@ void SimulationPanel::load() {
     story_ = std::make_shared<const SimulationStory>(
         SimulationStory::parse(context_.session.session()->payload(stored_.id)));
   } catch (const InputError& e) {
-    failure_ = QString::fromUtf8(e.what());
+    failure_ = coreSentence(e.what());
   }
 }
 
@@ -438,7 +440,8 @@ void SimulationPanel::showFound() {
   for (const FoundEffect& e : story_->effects) {
     QString words = sentenceStart(titledSentence(e.drivers));
     if (!words.isEmpty()) words += QLatin1Char('.');
-    if (std::isfinite(e.confidence)) words += QLatin1Char(' ') + tr("Confidence %1.").arg(e.confidence, 0, 'f', 2);
+    if (std::isfinite(e.confidence))
+      words += QLatin1Char(' ') + tr("Confidence %1.").arg(decimalText(e.confidence, 'f', 2));
     if (!e.rivals.empty())
       words += QLatin1Char(' ') + tr("These data cannot tell it from %1.").arg(effectTitles(e.rivals, tr("or")));
     html +=
@@ -453,7 +456,7 @@ void SimulationPanel::showFound() {
                 .arg(tr("%1 runs of the simulation to search, %2 to fit (%3 s).")
                          .arg(done->runs_to_search)
                          .arg(done->runs)
-                         .arg(done->elapsed_s, 0, 'f', 0)
+                         .arg(decimalText(done->elapsed_s, 'f', 0))
                          .toHtmlEscaped());
   } else {
     warnings = story_->warnings;

@@ -13,6 +13,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -144,7 +145,7 @@ void SimulationMaps::show(const std::vector<DiscrepancyReportRow>& rows, const M
     views_[i]->setColourScale(scale);
     views_[i]->setCaption(tr("%1, measured − simulation at %2 %3")
                               .arg(componentName(component))
-                              .arg(time_s / unit.seconds, 0, 'f', 2)
+                              .arg(decimalText(time_s / unit.seconds, 'f', 2))
                               .arg(unit.name));
     std::vector<ViewPoint> points;
     for (const Field::Marker& marker : field.markers) {

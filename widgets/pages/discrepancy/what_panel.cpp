@@ -15,11 +15,13 @@
 
 #include "core/base/text.h"
 #include "core/reporting/report_wording.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -133,7 +135,7 @@ void WhatPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
       name.tip = row.id;
       Cell state =
           e.forced ? Cell{tr("added"), Tone::Good, "check-circle"} : Cell{tr("proposed"), Tone::Accent, "discrepancy"};
-      row.cells = {name, state, number(QString::number(e.delta_bic, 'f', 0))};
+      row.cells = {name, state, number(decimalText(e.delta_bic, 'f', 0))};
       if (!e.forced && !first) first = static_cast<int>(rows.size());
       rows.push_back(std::move(row));
       for (const std::string& rival : e.rivals) {
@@ -244,9 +246,9 @@ void WhatPanel::showEffect() {
   physics_title_->show();
   const bool rival = id != e->id;
   detail_->setTitle(sentenceStart(effectTitle(id)));
-  confidence_->set(QString::number(e->confidence, 'f', 2),
+  confidence_->set(decimalText(e->confidence, 'f', 2),
                    e->rivals.empty() ? tr("that the name is right") : tr("that it is one of these"));
-  gain_->set(QString::number(e->delta_bic, 'f', 0), tr("above 10 is very strong"));
+  gain_->set(decimalText(e->delta_bic, 'f', 0), tr("above 10 is very strong"));
   held_out_->set(tr("%1 → %2").arg(sizeText(e->heldout_rms_before_um, {}),
                                    sizeText(e->heldout_rms_after_um, QStringLiteral("um"))),
                  story_->has_holdout ? tr("observations held out") : tr("blocks left out in turn"));
@@ -260,7 +262,7 @@ void WhatPanel::showEffect() {
                      "what the last tab proposes.")
                       .arg(effectTitles(all, tr("or"))));
   }
-  QString drivers = tr("Driven by %1.").arg(QString::fromStdString(driversInWords(e->drivers)));
+  QString drivers = tr("Driven by %1.").arg(coreSentence(driversInWords(e->drivers)));
   if (!e->containers.empty()) {
     drivers += QLatin1Char(' ') + tr("Also part of %1.").arg(effectTitles(e->containers, tr("and")));
   }
@@ -269,14 +271,15 @@ void WhatPanel::showEffect() {
   drivers_->setText(drivers);
   physics_->setText(rival ? tr("The numbers are those of %1, which fits as well. Add this one instead to see its own.")
                                 .arg(effectTitle(e->id))
-                          : QString::fromStdString(e->physics));
+                          : coreSentence(e->physics));
   if (!rival) {
     for (const FittedParameter& p : e->parameters) {
       Row row;
       row.id = QString::fromStdString(p.name);
       Cell name{QString::fromStdString(parameterTitle(p.name))};
       name.tip = row.id;
-      row.cells = {name, number(QString::fromStdString(withUncertainty(p.value, p.standard_uncertainty, "")))};
+      row.cells = {name,
+                   number(shownNumbers(QString::fromStdString(withUncertainty(p.value, p.standard_uncertainty, ""))))};
       rows.push_back(std::move(row));
     }
   }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <optional>
 
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
@@ -187,12 +188,11 @@ void WherePanel::fillPlaces() {
     for (const std::string& p : place.points) names << QString::fromStdString(p);
     Cell points{pointsText(place.points, all.size())};
     points.tip = names.join(QStringLiteral(", "));
-    row.cells = {
-        what,
-        points,
-        {place.condition.empty() ? spanText(place.from_s, place.to_s, last) : QString::fromStdString(place.condition)},
-        number(sizeText(place.excess_um, componentUnit(place.component))),
-        number(probabilityText(place.p_value))};
+    row.cells = {what,
+                 points,
+                 {place.condition.empty() ? spanText(place.from_s, place.to_s, last) : coreSentence(place.condition)},
+                 number(sizeText(place.excess_um, componentUnit(place.component))),
+                 number(probabilityText(place.p_value))};
     row.cells[3].tip = tr("rms beyond what the noise explains");
     row.cells[4].tip = tr("Probability of this by chance, for all places looked at together");
     rows.push_back(std::move(row));

@@ -15,9 +15,11 @@
 #include "core/base/text.h"
 #include "core/imaging/jog_validation.h"
 #include "core/workflows/evaluate_campaign.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -33,8 +35,8 @@ Cell cellOf(const nlohmann::json& quantity) {
   Cell cell = dash();
   if (!quantity.is_object() || !quantity.value("value", nlohmann::json()).is_number()) return cell;
   const nlohmann::json sigma = quantity.value("standard_uncertainty", nlohmann::json());
-  cell.text = QString::fromStdString(
-                  withUncertainty(quantity["value"].get<double>(), sigma.is_number() ? sigma.get<double>() : 0.0, ""))
+  cell.text = shownNumbers(QString::fromStdString(withUncertainty(quantity["value"].get<double>(),
+                                                                  sigma.is_number() ? sigma.get<double>() : 0.0, "")))
                   .trimmed();
   return cell;
 }
@@ -135,7 +137,7 @@ void FiducialCalibratePage::refresh() {
     callout()->show(Tone::Outdated, tr("Changed since this was evaluated: %1. Evaluate again.").arg(state.changed));
   } else if (!evaluation->good_enough || !evaluation->warnings.empty()) {
     QStringList sentences;
-    for (const std::string& w : evaluation->warnings) sentences << QString::fromStdString(w);
+    for (const std::string& w : evaluation->warnings) sentences << coreSentence(w);
     callout()->show(Tone::Attention,
                     sentences.mid(0, 2).join(QLatin1Char(' ')) +
                         (sentences.size() > 2 ? tr(" And %1 more.").arg(sentences.size() - 2) : QString()));
@@ -167,7 +169,8 @@ void FiducialCalibratePage::showDetails(const StoredEvaluation& evaluation) {
       cell.text =
           found == table[key].end()
               ? QStringLiteral("–")
-              : QString::fromStdString(withUncertainty(found->second->value, found->second->sigma, "")).trimmed();
+              : shownNumbers(QString::fromStdString(withUncertainty(found->second->value, found->second->sigma, "")))
+                    .trimmed();
       row.cells.push_back(cell);
     }
     rows.push_back(std::move(row));
@@ -177,7 +180,7 @@ void FiducialCalibratePage::showDetails(const StoredEvaluation& evaluation) {
   for (const RejectedCapture& r : evaluation.rejected) {
     Row row;
     row.id = QString::fromStdString(r.capture);
-    row.cells = {{row.id, Tone::Bad, "error"}, {QString::fromStdString(r.reason)}};
+    row.cells = {{coreSentence(r.capture), Tone::Bad, "error"}, {coreSentence(r.reason)}};
     row.cells[1].tip = row.cells[1].text;
     rows.push_back(std::move(row));
   }
@@ -204,19 +207,20 @@ void FiducialCalibratePage::showResolutionCheck() {
       row.id = QString::fromStdString(std::string(toString(v.component)));
       Cell name{row.id};
       name.bold = true;
-      row.cells = {name,
-                   {QString::fromStdString(withUncertainty(v.largest_um, v.largest_sigma_um, "")).trimmed()},
-                   {QString::fromStdString(v.largest_at)},
-                   {QString::number(v.rms_um, 'f', 2)},
-                   {QString::number(v.limit_um, 'f', 2)},
-                   {v.passed ? tr("passed") : tr("not passed"), v.passed ? Tone::Good : Tone::Bad,
-                    v.passed ? "check-circle" : "error"}};
+      row.cells = {
+          name,
+          {shownNumbers(QString::fromStdString(withUncertainty(v.largest_um, v.largest_sigma_um, ""))).trimmed()},
+          {QString::fromStdString(v.largest_at)},
+          {decimalText(v.rms_um, 'f', 2)},
+          {decimalText(v.limit_um, 'f', 2)},
+          {v.passed ? tr("passed") : tr("not passed"), v.passed ? Tone::Good : Tone::Bad,
+           v.passed ? "check-circle" : "error"}};
       rows.push_back(std::move(row));
     }
     resolution_->setRows(std::move(rows));
-    check_verdict_->show(check.passed ? Tone::Good : Tone::Attention, QString::fromStdString(check.reason));
+    check_verdict_->show(check.passed ? Tone::Good : Tone::Attention, coreSentence(check.reason));
   } catch (const InputError& e) {
-    check_verdict_->show(Tone::Attention, QString::fromUtf8(e.what()));
+    check_verdict_->show(Tone::Attention, coreSentence(e.what()));
   }
 }
 
@@ -245,7 +249,7 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
       row.cells.push_back(c.is_object() ? cellOf(c.value("y_px", nlohmann::json())) : dash());
       Cell scatter = dash();
       if (c.is_object() && c.value("rms_um", nlohmann::json()).is_number()) {
-        scatter.text = QString::number(c["rms_um"].get<double>(), 'f', 2);
+        scatter.text = decimalText(c["rms_um"].get<double>(), 'f', 2);
       }
       row.cells.push_back(scatter);
       const nlohmann::json o = a.is_object() ? a.value("orthogonality_urad", nlohmann::json()) : nlohmann::json();
@@ -264,35 +268,37 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
 
   const nlohmann::json camera = d.value("camera", nlohmann::json::object());
   const nlohmann::json length = camera.value("pixel_length_um", nlohmann::json());
-  pixel_->set(length.is_number() ? QStringLiteral("%1 um").arg(length.get<double>(), 0, 'f', 4) : QStringLiteral("–"),
-              tr("from the pattern itself"));
+  pixel_->set(
+      length.is_number() ? QStringLiteral("%1 um").arg(decimalText(length.get<double>(), 'f', 4)) : QStringLiteral("–"),
+      tr("from the pattern itself"));
   const nlohmann::json pooled = d.value("centre_of_rotation", nlohmann::json::object());
   if (centre.is_object()) {
     const double x = centre["x_px"].value("value", 0.0);
     const double y = centre["y_px"].value("value", 0.0);
     const double s = centre["x_px"].value("standard_uncertainty", 0.0);
     const QString pooling = QString::fromStdString(pooled.value("pooling", std::string("?")));
-    centre_->set(QStringLiteral("%1, %2 px").arg(x, 0, 'f', 1).arg(y, 0, 'f', 1),
+    centre_->set(QStringLiteral("%1, %2 px").arg(decimalText(x, 'f', 1)).arg(decimalText(y, 'f', 1)),
                  tr("± %1 px, %2; spindle repeats to %3 um")
-                     .arg(s, 0, 'f', 2)
+                     .arg(decimalText(s, 'f', 2))
                      .arg(pooling)
-                     .arg(pooled.value("spindle_repeatability_um", 0.0), 0, 'f', 2));
+                     .arg(decimalText(pooled.value("spindle_repeatability_um", 0.0), 'f', 2)));
     const nlohmann::json circles = pooled.value("algebraic_minus_joint_um", nlohmann::json());
     centre_->setToolTip(
         circles.is_object()
             ? tr("Algebraic circles through the measured tracks (P0 (6)–(9)), for comparison: %1, %2 um "
                  "from this centre, scatter %3, %4 um. Short arcs pull them; they are not used.")
-                  .arg(circles["mean"][0].get<double>(), 0, 'f', 1)
-                  .arg(circles["mean"][1].get<double>(), 0, 'f', 1)
-                  .arg(circles["standard_deviation"][0].get<double>(), 0, 'f', 1)
-                  .arg(circles["standard_deviation"][1].get<double>(), 0, 'f', 1)
+                  .arg(decimalText(circles["mean"][0].get<double>(), 'f', 1))
+                  .arg(decimalText(circles["mean"][1].get<double>(), 'f', 1))
+                  .arg(decimalText(circles["standard_deviation"][0].get<double>(), 'f', 1))
+                  .arg(decimalText(circles["standard_deviation"][1].get<double>(), 'f', 1))
             : QString());
   } else {
     centre_->set(QStringLiteral("–"), tr("needs three spindle orientations"));
   }
   if (weight > 0) {
-    axes_->set(QString::fromStdString(withUncertainty(orthogonality / weight, 1 / std::sqrt(weight), "urad")),
-               tr("off a right angle, mean of all fiducials"));
+    axes_->set(
+        shownNumbers(QString::fromStdString(withUncertainty(orthogonality / weight, 1 / std::sqrt(weight), "urad"))),
+        tr("off a right angle, mean of all fiducials"));
   } else {
     axes_->set(QStringLiteral("–"), tr("needs positions along both axes"));
   }

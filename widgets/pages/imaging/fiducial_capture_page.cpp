@@ -17,12 +17,14 @@
 #include "core/imaging/image.h"
 #include "core/workflows/capture_check.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/capture_tabs.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/imaging/decode_marks.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -131,7 +133,7 @@ void FiducialCapturePage::load() {
       captures_.push_back(std::move(c));
     }
   } catch (const InputError& e) {
-    callout()->show(Tone::Bad, QString::fromUtf8(e.what()));
+    callout()->show(Tone::Bad, coreSentence(e.what()));
   }
   if (const auto stored = session().result("check")) {
     std::map<QString, const nlohmann::json*> by_image;
@@ -144,7 +146,7 @@ void FiducialCapturePage::load() {
       const nlohmann::json& e = *found->second;
       c.checked = true;
       c.good = e.at("good").get<bool>();
-      c.sentence = QString::fromStdString(e.at("sentence").get<std::string>());
+      c.sentence = coreSentence(e.at("sentence").get<std::string>());
       c.ellipses = e.at("ellipses").get<int>();
       c.sharpness_px = e.at("blur_px").get<double>();
     }
@@ -287,7 +289,7 @@ void FiducialCapturePage::fillTable() {
     }
     if (row.cells[3].tip.isEmpty()) row.cells[3].tip = c.sentence;
     Cell blur;
-    blur.text = c.checked && c.sharpness_px > 0 ? QString::number(c.sharpness_px, 'f', 1) : QStringLiteral("–");
+    blur.text = c.checked && c.sharpness_px > 0 ? decimalText(c.sharpness_px, 'f', 1) : QStringLiteral("–");
     row.cells.push_back(blur);
     rows.push_back(std::move(row));
   }

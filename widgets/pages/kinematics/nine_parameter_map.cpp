@@ -7,8 +7,10 @@
 
 #include "core/base/text.h"
 #include "core/workflows/fit_campaign.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/kinematics/nine_parameter_page.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -66,7 +68,8 @@ void NineParameterPage::showDifference(const NineParameterComparison& comparison
     point.used = r.used;
     if (std::isfinite(difference.sigma)) {
       point.value = difference.value;
-      point.value_text = QString::fromStdString(withUncertainty(difference.value, difference.sigma, "um"));
+      point.value_text =
+          shownNumbers(QString::fromStdString(withUncertainty(difference.value, difference.sigma, "um")));
     }
     points.push_back(point);
   }
@@ -130,7 +133,7 @@ void NineParameterPage::showField() {
     point.id = point.label = QString::fromStdString(r.point);
     point.position_mm = r.position_mm;
     point.value = r.value_um;
-    point.value_text = QString::fromStdString(withUncertainty(r.value_um, r.sigma_um, "um"));
+    point.value_text = shownNumbers(QString::fromStdString(withUncertainty(r.value_um, r.sigma_um, "um")));
     point.used = r.used;
     points.push_back(point);
   }
@@ -156,7 +159,7 @@ void NineParameterPage::showField() {
   QString caption = tr("%1 of state %2 against %3")
                         .arg(name, QString::fromStdString(f.state),
                              QString::fromStdString(f.reference_state.empty() ? "zero" : f.reference_state));
-  if (higher) caption += QStringLiteral(", ") + QString::fromStdString(orderText(order_.orders));
+  if (higher) caption += QStringLiteral(", ") + coreSentence(orderText(order_.orders));
   view_->setCaption(caption);
 }
 

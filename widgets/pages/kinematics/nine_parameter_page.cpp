@@ -19,11 +19,13 @@
 #include "core/reporting/parameter_meanings.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/fit_campaign.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -36,12 +38,12 @@ QString parameterName(int i) {
 }
 
 QString meaningOf(int i) {
-  return QString::fromStdString(parameterMeaning(nine_parameter_names[static_cast<std::size_t>(i)]));
+  return coreSentence(parameterMeaning(nine_parameter_names[static_cast<std::size_t>(i)]));
 }
 
 Cell number(double value, double sigma, std::string_view unit) {
   Cell cell;
-  cell.text = QString::fromStdString(withUncertainty(value, sigma, unit));
+  cell.text = shownNumbers(QString::fromStdString(withUncertainty(value, sigma, unit)));
   cell.right = true;
   return cell;
 }
@@ -254,16 +256,16 @@ void NineParameterPage::fillPoints() {
       Cell name{row.id};
       name.bold = true;
       name.checked = o.points.empty() || std::find(o.points.begin(), o.points.end(), point) != o.points.end();
-      row.cells = {
-          name, {QString::number(positions[point].x(), 'g', 5)}, {QString::number(positions[point].y(), 'g', 5)}};
+      row.cells = {name, {decimalText(positions[point].x(), 'g', 5)}, {decimalText(positions[point].y(), 'g', 5)}};
       for (Cell* c : {&row.cells[1], &row.cells[2]}) c->right = true;
       for (const Component c : shown_components) {
         const auto found = values[point].find(c);
         Cell cell;
         cell.right = true;
-        cell.text = found == values[point].end()
-                        ? QStringLiteral("–")
-                        : QString::fromStdString(withUncertainty(found->second.first, found->second.second, ""));
+        cell.text =
+            found == values[point].end()
+                ? QStringLiteral("–")
+                : shownNumbers(QString::fromStdString(withUncertainty(found->second.first, found->second.second, "")));
         cell.text = cell.text.trimmed();
         row.cells.push_back(cell);
       }
@@ -322,11 +324,11 @@ void NineParameterPage::showFit() {
   }
   const NineParameterFit& f = *result_;
   callout()->setAction({}, {});
-  const QString message = QString::fromStdString(f.message);
+  const QString message = coreSentence(f.message);
   QString warnings;
-  for (const std::string& w : f.warnings) warnings += QLatin1Char(' ') + QString::fromStdString(w);
+  for (const std::string& w : f.warnings) warnings += QLatin1Char(' ') + coreSentence(w);
   higher_->setEnabled(order_.richer());
-  const QString order = sentenceStart(QString::fromStdString(order_.reason));
+  const QString order = sentenceStart(coreSentence(order_.reason));
   higher_->setToolTip(order);
   if (f.status == FitStatus::Converged) {
     if (order_.richer() || !warnings.isEmpty()) warnings += QLatin1Char(' ') + order;
@@ -380,32 +382,31 @@ void NineParameterPage::showFit() {
     Cell name{QString::fromStdString(r.point)};
     name.bold = true;
     const double ratio = r.sigma_um > 0 ? r.residual_um / r.sigma_um : 0;
-    Cell in_sigma{QString::number(std::abs(ratio), 'f', 1)};
+    Cell in_sigma{decimalText(std::abs(ratio), 'f', 1)};
     in_sigma.right = true;
     if (std::abs(ratio) > 3) {
       in_sigma.tone = Tone::Attention;
       in_sigma.icon = "alert";
     }
-    Cell residual{QString::number(r.residual_um, 'f', 2).replace(QLatin1Char('-'), QChar(0x2212)) +
-                  QStringLiteral(" um")};
+    Cell residual{decimalText(r.residual_um, 'f', 2).replace(QLatin1Char('-'), QChar(0x2212)) + QStringLiteral(" um")};
     residual.right = true;
-    row.cells = {
-        name,
-        {QString::fromStdString(std::string(toString(r.component)))},
-        number(r.value_um, r.sigma_um, "um"),
-        residual,
-        in_sigma,
-        {r.used ? (r.weight < 0.99 ? tr("weight %1").arg(r.weight, 0, 'f', 2) : tr("fit")) : tr("validation")}};
+    row.cells = {name,
+                 {QString::fromStdString(std::string(toString(r.component)))},
+                 number(r.value_um, r.sigma_um, "um"),
+                 residual,
+                 in_sigma,
+                 {r.used ? (r.weight < 0.99 ? tr("weight %1").arg(decimalText(r.weight, 'f', 2)) : tr("fit"))
+                         : tr("validation")}};
     rows.push_back(std::move(row));
   }
   residuals_->setRows(std::move(rows));
   const auto rms = [](const std::optional<double>& v) {
-    return v ? QStringLiteral("%1 um").arg(*v, 0, 'f', 2) : QStringLiteral("–");
+    return v ? QStringLiteral("%1 um").arg(decimalText(*v, 'f', 2)) : QStringLiteral("–");
   };
   rms_fit_->set(rms(f.rms_fit_um), tr("over the checked points"));
   rms_validation_->set(rms(f.rms_validation_um),
                        f.rms_validation_um ? tr("over the other points") : tr("uncheck a point to validate"));
-  condition_->set(QString::number(f.condition_number, 'g', 3),
+  condition_->set(decimalText(f.condition_number, 'g', 3),
                   f.p_value ? tr("χ² test: %1").arg(QString::fromStdString(pValueText(*f.p_value)))
                             : tr("no degrees of freedom left"));
   showComparison();
@@ -444,7 +445,7 @@ void NineParameterPage::showComparison() {
                                      : Cell{QStringLiteral("–")},
                    known ? number(c.difference[i], std::sqrt(std::max(0.0, c.covariance(i, i))), nineParameterUnit(i))
                          : Cell{QStringLiteral("–")},
-                   {known ? QString::number(c.p_value[static_cast<std::size_t>(i)], 'g', 2) : QStringLiteral("–")}};
+                   {known ? decimalText(c.p_value[static_cast<std::size_t>(i)], 'g', 2) : QStringLiteral("–")}};
       if (std::find(c.significant.begin(), c.significant.end(), i) != c.significant.end()) {
         row.cells[3].tone = Tone::Attention;
         row.cells[3].icon = "alert";
@@ -457,14 +458,14 @@ void NineParameterPage::showComparison() {
     if (differing.isEmpty()) {
       comparison_verdict_->show(Tone::Good,
                                 tr("Both sets of points give the same model within their uncertainty (p = %1).")
-                                    .arg(c.p_value_all, 0, 'g', 2));
+                                    .arg(decimalText(c.p_value_all, 'g', 2)));
     } else {
       comparison_verdict_->show(Tone::Attention,
                                 tr("The sets differ in %1: one of them sees something the model does not have.")
                                     .arg(differing.join(QStringLiteral(", "))));
     }
   } catch (const InputError& e) {
-    comparison_verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
+    comparison_verdict_->show(Tone::Bad, coreSentence(e.what()));
   }
 }
 

@@ -12,12 +12,14 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/common/editor_table.h"
 #include "widgets/pages/machine/artefact_fields.h"
 #include "widgets/pages/probing/probing_scene.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -27,7 +29,7 @@ constexpr auto draft_name = "artefacts";
 constexpr std::array edited_keys{"artefacts", "styli"};
 
 QString valueText(const nlohmann::json& value) {
-  if (value.is_number()) return QString::fromStdString(exactNumber(value.get<double>()));
+  if (value.is_number()) return shownNumbers(QString::fromStdString(exactNumber(value.get<double>())));
   return value.is_string() ? QString::fromStdString(value.get<std::string>()) : QString();
 }
 
@@ -247,7 +249,7 @@ void ArtefactEditor::check() {
                                   : QString());
     return;
   }
-  QString sentence = fromCore(findings_.front().sentence);
+  QString sentence = coreSentence(findings_.front().sentence);
   if (findings_.size() > 1) sentence += tr(" And %1 more: look for the marks.").arg(findings_.size() - 1);
   verdict_->show(wrong > 0 ? Tone::Bad : Tone::Attention, sentence);
 }
@@ -273,7 +275,7 @@ void ArtefactEditor::showPreview() {
     }
   } catch (const InputError& e) {
     // What is wrong with a cell stands in the verdict; what only the picture needs is said here.
-    if (findings_.empty()) verdict_->show(Tone::Attention, QString::fromUtf8(e.what()));
+    if (findings_.empty()) verdict_->show(Tone::Attention, coreSentence(e.what()));
     view_->setCaption(tr("As it was before the mistake"));
     return;
   }
@@ -286,7 +288,7 @@ void ArtefactEditor::apply() {
   try {
     (void)MachineDescription::parse(JsonNode::parse(machine_.dump(), "machine as edited"), "machine as edited");
   } catch (const InputError& e) {
-    verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
+    verdict_->show(Tone::Bad, coreSentence(e.what()));
     return;
   }
   nlohmann::json machine = machine_;

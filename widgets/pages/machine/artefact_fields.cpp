@@ -12,16 +12,18 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/common/editor_table.h"
 #include "widgets/theme/icons.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
 
 QString shownValue(const nlohmann::json& value) {
-  if (value.is_number()) return QString::fromStdString(exactNumber(value.get<double>()));
+  if (value.is_number()) return shownNumbers(QString::fromStdString(exactNumber(value.get<double>())));
   return value.is_string() ? QString::fromStdString(value.get<std::string>()) : QString();
 }
 
@@ -53,7 +55,7 @@ void markCells(QTableWidget* table, const std::vector<ArtefactFinding>& findings
     if (item == nullptr) continue;
     item->setForeground(toneOfFinding(f));
     item->setIcon(icon("alert", toneOfFinding(f)));
-    item->setToolTip(fromCore(f.sentence));
+    item->setToolTip(coreSentence(f.sentence));
   }
 }
 
@@ -185,13 +187,12 @@ void ArtefactFields::showDistances() {
     double squares = 0.0;
     bool known = true;
     for (int k = 0; k < 3; ++k) {
-      double here = 0.0;
-      double first = 0.0;
-      known = known && parseNumber(textAt(features_, row, 2 + k).toStdString(), here) &&
-              parseNumber(textAt(features_, 0, 2 + k).toStdString(), first);
-      squares += (here - first) * (here - first);
+      const std::optional<double> here = typedNumber(textAt(features_, row, 2 + k));
+      const std::optional<double> first = typedNumber(textAt(features_, 0, 2 + k));
+      known = known && here && first;
+      if (known) squares += (*here - *first) * (*here - *first);
     }
-    fixed(row, 5, known ? QString::number(std::sqrt(squares), 'f', 4) : QStringLiteral("–"));
+    fixed(row, 5, known ? decimalText(std::sqrt(squares), 'f', 4) : QStringLiteral("–"));
   }
 }
 
@@ -247,7 +248,7 @@ void ArtefactFields::mark(const std::vector<ArtefactFinding>& findings) {
       QPalette palette = edits[k]->parentWidget() != nullptr ? edits[k]->parentWidget()->palette() : QPalette();
       if (found != nullptr) palette.setColor(QPalette::Text, toneOfFinding(*found));
       edits[k]->setPalette(palette);
-      edits[k]->setToolTip(found != nullptr ? fromCore(found->sentence) : labels_[key]->toolTip());
+      edits[k]->setToolTip(found != nullptr ? coreSentence(found->sentence) : labels_[key]->toolTip());
     }
   }
 }

@@ -11,9 +11,11 @@
 
 #include "core/machine/operating_log.h"
 #include "core/machine/sensor_role.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/common/editor_table.h"
 #include "widgets/pages/machine/connections_service.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -23,9 +25,9 @@ enum ColumnOfTable { ColumnName, Now, Age, QualityWord, From, Unit, Role };
 QString ageText(double age_s) {
   if (!std::isfinite(age_s)) return QStringLiteral("–");
   if (age_s < 1.0) return ColumnsCard::tr("< 1 s");
-  if (age_s < 120.0) return ColumnsCard::tr("%1 s").arg(age_s, 0, 'f', 0);
-  if (age_s < 7200.0) return ColumnsCard::tr("%1 min").arg(age_s / 60.0, 0, 'f', 0);
-  return ColumnsCard::tr("%1 h").arg(age_s / 3600.0, 0, 'f', 0);
+  if (age_s < 120.0) return ColumnsCard::tr("%1 s").arg(decimalText(age_s, 'f', 0));
+  if (age_s < 7200.0) return ColumnsCard::tr("%1 min").arg(decimalText(age_s / 60.0, 'f', 0));
+  return ColumnsCard::tr("%1 h").arg(decimalText(age_s / 3600.0, 'f', 0));
 }
 
 }  // namespace
@@ -127,7 +129,7 @@ void ColumnsCard::show(const nlohmann::json& description, const UnitThere& unit_
     role->addItem(tr("not stated"), QString());
     for (const std::string& each : sensorRoleNames()) {
       const std::string_view text = describe(*sensorRoleFromString(each));
-      role->addItem(QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())), fromCore(each));
+      role->addItem(coreSentence(text), fromCore(each));
     }
     role->setCurrentIndex(std::max(0, role->findData(fromCore(entry.value("role", std::string())))));
     role->setEnabled(!recording);
@@ -171,7 +173,7 @@ void ColumnsCard::showLive(const LiveSnapshot& snapshot, bool recording) {
     table_->item(row, Age)->setText(age);
     table_->item(row, QualityWord)->setText(word);
     table_->item(row, QualityWord)->setForeground(tone == Tone::Neutral ? theme().text_secondary : theme().tone(tone));
-    table_->item(row, Now)->setToolTip(column == nullptr ? QString() : fromCore(column->conversion));
+    table_->item(row, Now)->setToolTip(column == nullptr ? QString() : coreSentence(column->conversion));
   }
   filling_ = false;
   for (QPushButton* button : {options_, remove_}) button->setEnabled(table_->rowCount() > 0 && !recording);

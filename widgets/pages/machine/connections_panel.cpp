@@ -21,6 +21,7 @@
 #include "core/connect/column_suggestion.h"
 #include "core/connect/connections.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
@@ -112,7 +113,7 @@ QString ConnectionsPanel::apply(const QString& what, const nlohmann::json& after
   try {
     (void)Connections::parse(JsonNode::parse(after.dump(), "connections.json"));
   } catch (const InputError& e) {
-    return fromCore(e.what());
+    return coreSentence(e.what());
   }
   if (after == service_.description()) return {};
   context_.undo.push(new OptionsCommand(context_.session, what, service_.descriptionKey(), after, [this] {
@@ -138,7 +139,7 @@ void ConnectionsPanel::lookAt(const QString& address) {
   try {
     described = sourceForAddress(url);
   } catch (const InputError& e) {
-    say(fromCore(e.what()));
+    say(coreSentence(e.what()));
     return;
   }
   nlohmann::json after = service_.description();
@@ -379,7 +380,7 @@ void ConnectionsPanel::openFile() {
     (void)Connections::parse(root);
     change(tr("take over %1").arg(QFileInfo(file).fileName()), root.value());
   } catch (const InputError& e) {
-    say(fromCore(e.what()));
+    say(coreSentence(e.what()));
   }
 }
 
@@ -447,12 +448,12 @@ void ConnectionsPanel::showState() {
   if (!refusal_.isEmpty()) {
     state_->show(Tone::Bad, refusal_);
   } else if (!snapshot.problem.empty()) {
-    state_->show(Tone::Bad, fromCore(snapshot.problem));
+    state_->show(Tone::Bad, coreSentence(snapshot.problem));
   } else if (!lost.isEmpty()) {
     state_->show(Tone::Bad, lost + QLatin1Char(' ') + tr("It is tried again and again."));
   } else if (service_.recording()) {
     const QString gaps =
-        snapshot.gaps.empty() ? QString() : tr(" The last gap: %1.").arg(fromCore(snapshot.gaps.back()));
+        snapshot.gaps.empty() ? QString() : tr(" The last gap: %1.").arg(coreSentence(snapshot.gaps.back()));
     state_->show(Tone::Good,
                  tr("Recording into log.csv of this campaign: %1 rows, %2 of %3 columns have values. You may "
                     "leave this page; recording goes on.%4")
@@ -461,9 +462,10 @@ void ConnectionsPanel::showState() {
                      .arg(snapshot.columns.size())
                      .arg(gaps));
   } else if (service_.running()) {
-    state_->show(Tone::Good,
-                 tr("Live: %1 of %2 columns have values; nothing is written.").arg(known).arg(snapshot.columns.size()) +
-                     (snapshot.sentences.empty() ? QString() : QLatin1Char(' ') + fromCore(snapshot.sentences.back())));
+    state_->show(
+        Tone::Good,
+        tr("Live: %1 of %2 columns have values; nothing is written.").arg(known).arg(snapshot.columns.size()) +
+            (snapshot.sentences.empty() ? QString() : QLatin1Char(' ') + coreSentence(snapshot.sentences.back())));
   } else if (sources()->rows().empty()) {
     state_->show(Tone::Neutral, tr("Enter the address of a machine, a broker, a module or a logger, and see what is "
                                    "there. It is only read; nothing is written to it."));

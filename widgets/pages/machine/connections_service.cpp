@@ -11,7 +11,9 @@
 #include "core/machine/operating_log.h"
 #include "core/session/session.h"
 #include "core/tasks/task_options.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -27,7 +29,7 @@ QString columnTitle(const std::string& column) {
 QString columnValue(const std::string& column, double value) {
   const std::string unit = unitOfColumn(column);
   const bool temperature = OperatingLog::isTemperature(column);
-  QString text = temperature ? QString::number(value, 'f', 2) : QString::number(value, 'g', 6);
+  QString text = temperature ? decimalText(value, 'f', 2) : decimalText(value, 'g', 6);
   text.replace(QLatin1Char('-'), QChar(0x2212));
   if (unit.empty()) return text;
   return text + QLatin1Char(' ') +
@@ -96,7 +98,7 @@ QString ConnectionsService::start(bool record) {
     live_session_ = session_.sessionNumber();
     snapshot_ = live_->snapshot();
   } catch (const InputError& e) {
-    return fromCore(e.what());
+    return coreSentence(e.what());
   }
   timer_.start();
   Q_EMIT changed();
@@ -144,14 +146,14 @@ void ConnectionsService::poll() {
       if (now.status.state == SourceStatus::State::Lost) {
         Q_EMIT told(Tone::Bad,
                     now.status.connections == 0
-                        ? tr("%1 cannot be reached: %2").arg(fromCore(now.name), fromCore(now.status.sentence))
-                        : tr("%1 is lost: %2").arg(fromCore(now.name), fromCore(now.status.sentence)));
+                        ? tr("%1 cannot be reached: %2").arg(fromCore(now.name), coreSentence(now.status.sentence))
+                        : tr("%1 is lost: %2").arg(fromCore(now.name), coreSentence(now.status.sentence)));
       } else if (now.status.state == SourceStatus::State::Live && was == SourceStatus::State::Lost) {
         Q_EMIT told(Tone::Good, tr("%1 is there again.").arg(fromCore(now.name)));
       }
     }
     if (snapshot_.problem != before.problem && !snapshot_.problem.empty())
-      Q_EMIT told(Tone::Bad, fromCore(snapshot_.problem));
+      Q_EMIT told(Tone::Bad, coreSentence(snapshot_.problem));
   }
   reap();
   if (live_ == nullptr && ending_.empty()) timer_.stop();
@@ -178,7 +180,7 @@ void ConnectionsService::takeOver(std::int64_t campaign) {
     // Reads the campaign at hand anew, with the log as it is now.
     if (campaign == session_.campaignId()) session_.setClockOffsets(session_.clockOffsets());
   } catch (const InputError& e) {
-    Q_EMIT told(Tone::Bad, fromCore(e.what()));
+    Q_EMIT told(Tone::Bad, coreSentence(e.what()));
   }
 }
 
@@ -194,7 +196,7 @@ QString ConnectionsService::lost() const {
   QStringList sentences;
   for (const LiveSource& source : snapshot_.sources) {
     if (source.status.state == SourceStatus::State::Lost)
-      sentences << tr("%1 is lost: %2").arg(fromCore(source.name), fromCore(source.status.sentence));
+      sentences << tr("%1 is lost: %2").arg(fromCore(source.name), coreSentence(source.status.sentence));
   }
   return sentences.join(QLatin1Char(' '));
 }

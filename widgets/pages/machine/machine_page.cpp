@@ -21,6 +21,7 @@
 #include "core/machine/sensor_role.h"
 #include "core/workflows/fit_campaign.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/pages/common/cells.h"
@@ -29,6 +30,7 @@
 #include "widgets/pages/machine/connections_panel.h"
 #include "widgets/pages/machine/connections_service.h"
 #include "widgets/pages/machine/stated_role.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -200,8 +202,8 @@ void MachinePage::refresh() {
   for (int row = 0; row < axes_->rowCount(); ++row) {
     const LinearAxis& axis = machine.axes[static_cast<std::size_t>(row)];
     setText(axes_, row, 0, QString::fromStdString(axis.name));
-    setText(axes_, row, 1, QString::fromStdString(exactNumber(axis.travel_mm[0])));
-    setText(axes_, row, 2, QString::fromStdString(exactNumber(axis.travel_mm[1])));
+    setText(axes_, row, 1, shownNumbers(QString::fromStdString(exactNumber(axis.travel_mm[0]))));
+    setText(axes_, row, 2, shownNumbers(QString::fromStdString(exactNumber(axis.travel_mm[1]))));
     setText(axes_, row, 3, numberText(axis.resolution_um));
     setText(axes_, row, 4, QString::fromStdString(axis.drive_type));
     setText(axes_, row, 5, numberText(axis.pitch_mm));
@@ -214,7 +216,8 @@ void MachinePage::refresh() {
     const MachinePoint& point = machine.points[static_cast<std::size_t>(row)];
     setText(points_, row, 0, QString::fromStdString(point.id));
     setText(points_, row, 1, QString::fromStdString(point.kind));
-    for (int i = 0; i < 3; ++i) setText(points_, row, 2 + i, QString::fromStdString(exactNumber(point.position_mm[i])));
+    for (int i = 0; i < 3; ++i)
+      setText(points_, row, 2 + i, shownNumbers(QString::fromStdString(exactNumber(point.position_mm[i]))));
     ViewPoint v;
     v.id = v.label = QString::fromStdString(point.id);
     v.position_mm = point.position_mm;
@@ -284,14 +287,14 @@ void MachinePage::showSensors() {
     role->setAccessibleName(tr("Role of %1").arg(QString::fromStdString(reading.column)));
     for (const std::string& name : sensorRoleNames()) {
       const std::string_view text = describe(*sensorRoleFromString(name));
-      role->addItem(QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size())), QString::fromStdString(name));
+      role->addItem(coreSentence(text), QString::fromStdString(name));
     }
     role->setCurrentIndex(static_cast<int>(reading.role));
     sensors_->setCellWidget(row, 2, role);
     const bool stated = reading.from == "machine.json";
     setText(sensors_, row, 3, stated ? tr("machine.json") : tr("its name: please confirm"));
     sensors_->item(row, 3)->setData(Qt::UserRole, stated);
-    sensors_->item(row, 3)->setToolTip(QString::fromStdString(reading.note));
+    sensors_->item(row, 3)->setToolTip(coreSentence(reading.note));
     role_width = std::max(role_width, role->sizeHint().width());
     connect(role, &QComboBox::activated, this, [this, row] { stateRole(row); });
   }
@@ -452,7 +455,7 @@ void MachinePage::suggestPoints() {
 
 void MachinePage::showSuggestion(const PlacementAnswer& answer) {
   if (answer.result.status != FitStatus::Converged) {
-    callout()->show(Tone::Attention, QString::fromStdString(answer.result.message));
+    callout()->show(Tone::Attention, coreSentence(answer.result.message));
     return;
   }
   int number = 1;
@@ -469,7 +472,7 @@ void MachinePage::showSuggestion(const PlacementAnswer& answer) {
     points_->insertRow(row);
     setText(points_, row, 0, QStringLiteral("P%1").arg(number));
     setText(points_, row, 1, QStringLiteral("fiducial"));
-    for (int i = 0; i < 3; ++i) setText(points_, row, 2 + i, QString::number(at[i], 'f', 1));
+    for (int i = 0; i < 3; ++i) setText(points_, row, 2 + i, decimalText(at[i], 'f', 1));
   }
   points_->scrollToBottom();
   markEdited();
@@ -478,8 +481,8 @@ void MachinePage::showSuggestion(const PlacementAnswer& answer) {
       tr("%1 points added below. With them the heat map would be uncertain by %2 um on average and %3 um at "
          "worst (0.5 um in X and Y, 1 um in Z per fiducial). Apply the changes, or discard them.")
           .arg(answer.result.chosen.size())
-          .arg(answer.result.mean_sigma_um, 0, 'f', 2)
-          .arg(answer.result.largest_sigma_um, 0, 'f', 2));
+          .arg(decimalText(answer.result.mean_sigma_um, 'f', 2))
+          .arg(decimalText(answer.result.largest_sigma_um, 'f', 2)));
 }
 
 void MachinePage::apply() {
@@ -487,7 +490,7 @@ void MachinePage::apply() {
   try {
     (void)MachineDescription::parse(JsonNode::parse(machine.dump(), "machine as edited"), "machine as edited");
   } catch (const InputError& e) {
-    callout()->show(Tone::Bad, QString::fromUtf8(e.what()));
+    callout()->show(Tone::Bad, coreSentence(e.what()));
     return;
   }
   session().dropDraft(draft_name);

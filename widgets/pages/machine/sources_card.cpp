@@ -5,6 +5,7 @@
 #include <QTableView>
 #include <algorithm>
 
+#include "widgets/common/core_sentence.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 
@@ -20,7 +21,7 @@ Cell stateCell(const SourceStatus* status) {
       return {SourcesCard::tr("live"), Tone::Good, "check-circle"};
     case SourceStatus::State::Lost: {
       Cell cell{SourcesCard::tr("lost"), Tone::Bad, "error"};
-      cell.tip = fromCore(status->sentence);
+      cell.tip = coreSentence(status->sentence);
       return cell;
     }
     case SourceStatus::State::Stopped:

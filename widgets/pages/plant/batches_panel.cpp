@@ -16,9 +16,11 @@
 #include "core/base/error.h"
 #include "core/plant/batch_engine.h"
 #include "core/plant/plant_store.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/plant/plant_parts.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -84,19 +86,20 @@ void BatchesPanel::look() {
         },
         [this](const std::vector<BatchState>& batches) { show(batches); }));
   } catch (const InputError& e) {
-    callout_.show(Tone::Bad, QString::fromUtf8(e.what()));
+    callout_.show(Tone::Bad, coreSentence(e.what()));
   }
 }
 
 void BatchesPanel::show(const std::vector<BatchState>& batches) {
   const auto hours = [](double s) {
-    if (s < 120.0) return tr("%1 s").arg(s, 0, 'f', 0);
-    return s < 7200.0 ? tr("%1 min").arg(s / 60.0, 0, 'f', 0) : tr("%1 h").arg(s / 3600.0, 0, 'f', 1);
+    if (s < 120.0) return tr("%1 s").arg(decimalText(s, 'f', 0));
+    return s < 7200.0 ? tr("%1 min").arg(decimalText(s / 60.0, 'f', 0))
+                      : tr("%1 h").arg(decimalText(s / 3600.0, 'f', 1));
   };
   std::vector<Row> rows;
   for (const BatchState& b : batches) {
     const double part = b.items > 0 ? 100.0 * static_cast<double>(b.answered) / static_cast<double>(b.items) : 100.0;
-    Cell running{text(countOf(b.running, "chunk"))};
+    Cell running{coreSentence(countOf(b.running, "chunk"))};
     if (b.idle()) {
       running = {tr("nobody"), Tone::Attention, "alert"};
       running.tip = tr("Nothing works on it: it waits in Slurm, or what worked on it has ended; Resume goes on.");
@@ -105,13 +108,13 @@ void BatchesPanel::show(const std::vector<BatchState>& batches) {
     if (b.cancelled) running = {tr("cancelled"), Tone::Attention, "stop"};
     Cell failed{QString::number(b.failed_items), b.failed_items > 0 ? Tone::Bad : Tone::Neutral,
                 b.failed_items > 0 ? "error" : nullptr, true};
-    failed.tip = text(b.error);
+    failed.tip = coreSentence(b.error);
     rows.push_back(
         {QString::number(b.id),
          {{tr("%1 %2").arg(b.id).arg(text(b.name))},
           {text(b.work)},
-          {tr("%1 of %2 (%3 %)").arg(b.answered).arg(b.items).arg(std::floor(part), 0, 'f', 0), Tone::Neutral, nullptr,
-           true},
+          {tr("%1 of %2 (%3 %)").arg(b.answered).arg(b.items).arg(decimalText(std::floor(part), 'f', 0)), Tone::Neutral,
+           nullptr, true},
           failed,
           running,
           {hours(b.spent_s), Tone::Neutral, nullptr, true},
@@ -164,10 +167,10 @@ void BatchesPanel::workOn(const QString& title, std::function<std::int64_t(const
         else if (state.failed_items > 0)
           callout_.show(Tone::Attention, tr("%1 is finished, %2 failed: spindrift-cli batch status %3 --results FILE "
                                             "says why.")
-                                             .arg(name, text(countOf(state.failed_items, "item")))
+                                             .arg(name, coreSentence(countOf(state.failed_items, "item")))
                                              .arg(state.id));
         else
-          callout_.show(Tone::Good, tr("%1 is finished: %2.").arg(name, text(countOf(state.answered, "item"))));
+          callout_.show(Tone::Good, tr("%1 is finished: %2.").arg(name, coreSentence(countOf(state.answered, "item"))));
         look();
       };
     };
@@ -179,7 +182,7 @@ void BatchesPanel::workOn(const QString& title, std::function<std::int64_t(const
     };
     jobs_.run(std::move(job));
   } catch (const InputError& e) {
-    callout_.show(Tone::Bad, QString::fromUtf8(e.what()));
+    callout_.show(Tone::Bad, coreSentence(e.what()));
   }
 }
 

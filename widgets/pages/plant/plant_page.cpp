@@ -32,6 +32,7 @@
 #include "core/base/unit_text.h"
 #include "core/connect/utc_time.h"
 #include "core/plant/publish.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
@@ -39,6 +40,7 @@
 #include "widgets/pages/plant/plant_parts.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -169,7 +171,8 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
 
   event_kind_ = new QComboBox;
   event_kind_->setAccessibleName(tr("What was done to the machine"));
-  for (const std::string& kind : eventKinds()) event_kind_->addItem(sentenceStart(text(eventWords(kind))), text(kind));
+  for (const std::string& kind : eventKinds())
+    event_kind_->addItem(sentenceStart(coreSentence(eventWords(kind))), text(kind));
   event_time_ = new QLineEdit(text(utcText(now()).substr(0, 10)));
   event_time_->setAccessibleName(tr("When it was done (UTC)"));
   event_time_->setToolTip(tr("UTC: a day such as 2026-01-31, or a time such as 2026-01-31T08:00:00Z"));
@@ -237,7 +240,7 @@ void PlantPage::refresh() {
     job.failed = [this](const QString& sentence) { fail(sentence); };
     jobs_.run(std::move(job));
   } catch (const InputError& e) {
-    fail(QString::fromUtf8(e.what()));
+    fail(coreSentence(e.what()));
   }
 }
 
@@ -249,7 +252,7 @@ void PlantPage::show(const PlantLook& look) {
   else if (look.warnings.empty())
     callout_->set(Tone::Neutral, {});
   else
-    callout_->show(Tone::Attention, text(look.warnings.front()));
+    callout_->show(Tone::Attention, coreSentence(look.warnings.front()));
   notice_.reset();
   showMachines();
   batches_->show(look.batches);
@@ -272,20 +275,20 @@ void PlantPage::showMachines() {
     if (model.model) {
       holds = model.reasons.empty() ? Cell{tr("holds"), Tone::Good, "check-circle"}
                                     : Cell{tr("no longer holds"), Tone::Attention, "alert"};
-      if (!model.reasons.empty()) holds.tip = text(model.reasons.front());
+      if (!model.reasons.empty()) holds.tip = coreSentence(model.reasons.front());
     }
     const bool due = m.every_days > 0.0 && m.overdue_days > 0.0;
-    Cell next{
-        due ? tr("due for %1").arg(text(countOf(static_cast<long>(std::ceil(m.overdue_days)), "day"))) : day(m.due_s),
-        due ? Tone::Attention : Tone::Neutral, due ? "clock" : nullptr};
-    next.tip = text(m.dueSentence());
-    rows.push_back(
-        {text(m.machine.name),
-         {{text(m.machine.name), Tone::Neutral, nullptr, false, true},
-          next,
-          holds,
-          {day(m.machine.last_s)},
-          {text(m.machine.last_verdict.empty() ? "–" : m.machine.last_verdict), toneOf(m.machine.last_verdict)}}});
+    Cell next{due ? tr("due for %1").arg(coreSentence(countOf(static_cast<long>(std::ceil(m.overdue_days)), "day")))
+                  : day(m.due_s),
+              due ? Tone::Attention : Tone::Neutral, due ? "clock" : nullptr};
+    next.tip = coreSentence(m.dueSentence());
+    rows.push_back({text(m.machine.name),
+                    {{text(m.machine.name), Tone::Neutral, nullptr, false, true},
+                     next,
+                     holds,
+                     {day(m.machine.last_s)},
+                     {coreSentence(m.machine.last_verdict.empty() ? "–" : m.machine.last_verdict),
+                      toneOf(m.machine.last_verdict)}}});
   }
   machines_->setRows(std::move(rows));
 }
@@ -433,10 +436,10 @@ void PlantPage::showTrends() {
           series.push_back(std::move(measured));
           for (Series& s : limits) series.push_back(std::move(s));
           for (const NamedChange& c : t.chart.changes)
-            sentences << (alone ? sentenceStart(text(c.sentence(t.chart.unit)))
-                                : text(t.machine) + QStringLiteral(": ") + text(c.sentence(t.chart.unit)));
+            sentences << (alone ? sentenceStart(coreSentence(c.sentence(t.chart.unit)))
+                                : text(t.machine) + QStringLiteral(": ") + coreSentence(c.sentence(t.chart.unit)));
           if (alone) {
-            for (const std::string& note : t.chart.notes) sentences << text(note);
+            for (const std::string& note : t.chart.notes) sentences << coreSentence(note);
           }
         }
         if (trends.empty() || trends.front().chart.points.empty()) {
@@ -456,7 +459,7 @@ void PlantPage::showTrends() {
         for (const MachineTrend& t : trends) {
           for (const MachineEvent& e : t.events) {
             if (!alone && !changesMachine(e.kind)) continue;
-            const QString what = text(eventWords(e.kind));
+            const QString what = coreSentence(eventWords(e.kind));
             plot_->addMark((e.time_s - first_s) / day_s, alone ? what : text(t.machine) + QStringLiteral(": ") + what,
                            changesMachine(e.kind) ? Tone::Attention : Tone::Neutral);
           }
@@ -483,7 +486,7 @@ void PlantPage::showCampaigns() {
                      {text(c->machine)},
                      {text(c->name)},
                      {day(c->start_s)},
-                     {text(c->verdict.empty() ? "–" : c->verdict), toneOf(c->verdict)},
+                     {coreSentence(c->verdict.empty() ? "–" : c->verdict), toneOf(c->verdict)},
                      {text(c->publisher)}}});
   }
   campaigns_->setRows(std::move(rows));
@@ -510,12 +513,13 @@ void PlantPage::compareChecked() {
         for (const CampaignComparison::ComparedRow& r : c.rows) {
           Row row{text(r.kind + "/" + r.name + "/" + r.state), {{text(r.name)}, {text(r.state)}}};
           for (const auto& e : r.entries)
-            row.cells.push_back({e ? text(withUncertainty(e->value, e->standard_uncertainty, "")) : QStringLiteral("–"),
-                                 Tone::Neutral, nullptr, true});
+            row.cells.push_back(
+                {e ? shownNumbers(text(withUncertainty(e->value, e->standard_uncertainty, ""))) : QStringLiteral("–"),
+                 Tone::Neutral, nullptr, true});
           const bool large = r.largest > 3.0;
-          row.cells.push_back(
-              {r.largest > 0.0 ? tr("%1 standard uncertainties").arg(r.largest, 0, 'f', 1) : QStringLiteral("–"),
-               large ? Tone::Attention : Tone::Neutral, large ? "alert" : nullptr});
+          row.cells.push_back({r.largest > 0.0 ? tr("%1 standard uncertainties").arg(decimalText(r.largest, 'f', 1))
+                                               : QStringLiteral("–"),
+                               large ? Tone::Attention : Tone::Neutral, large ? "alert" : nullptr});
           rows.push_back(std::move(row));
         }
         comparison_->setHeaders(headers);
@@ -588,22 +592,22 @@ void PlantPage::publish() {
           endPublication(*session_.session(), *publication, outcome);
         if (outcome.waiting > 0) {
           callout_->show(Tone::Attention, tr("%1 waiting in the session until the next publishing. %2")
-                                              .arg(text(countOf(outcome.waiting, "campaign")))
-                                              .arg(text(outcome.reason)));
+                                              .arg(coreSentence(countOf(outcome.waiting, "campaign")))
+                                              .arg(coreSentence(outcome.reason)));
           return;
         }
         notice_ = {Tone::Good, tr("Published: new %1 and %2; there already %3 and %4.")
-                                   .arg(text(countOf(outcome.count.campaigns_new, "campaign")),
-                                        text(countOf(outcome.count.results_new, "result")),
-                                        text(countOf(outcome.count.campaigns_there, "campaign")),
-                                        text(countOf(outcome.count.results_there, "result")))};
+                                   .arg(coreSentence(countOf(outcome.count.campaigns_new, "campaign")),
+                                        coreSentence(countOf(outcome.count.results_new, "result")),
+                                        coreSentence(countOf(outcome.count.campaigns_there, "campaign")),
+                                        coreSentence(countOf(outcome.count.results_there, "result")))};
         refresh();
       };
     };
     job.failed = [this](const QString& sentence) { fail(sentence); };
     jobs_.run(std::move(job));
   } catch (const InputError& e) {
-    fail(QString::fromUtf8(e.what()));
+    fail(coreSentence(e.what()));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -17,11 +18,13 @@
 
 #include "core/base/atomic_file.h"
 #include "core/tasks/task_options.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/probing/touch_results.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -33,13 +36,13 @@ const std::array<const char*, 3> group_units{"um", "urad", "um/m"};
 QString weakText(const Eigen::VectorXd& combination, const std::vector<std::string>& names) {
   std::vector<std::string> titles;
   for (const std::string& name : names) titles.push_back(parameterTitle(name).toStdString());
-  return fromCore(combinationText(combination, titles)).replace(QLatin1Char('-'), QChar(0x2212));
+  return coreSentence(combinationText(combination, titles)).replace(QLatin1Char('-'), QChar(0x2212));
 }
 
 QString meaningOf(const std::string& name) {
   const QString n = parameterTitle(name);
   const QString axis = n.mid(1, 1);
-  const auto tr = [](const char* text) { return CycleModelPage::tr(text); };
+  const auto tr = [](const char* text) { return QCoreApplication::translate("CycleModelPage", text); };
   if (n.startsWith(QLatin1Char('h'))) return tr("head turns about %1").arg(axis);
   if (n.startsWith(QLatin1Char('a'))) return tr("column turns about %1").arg(axis);
   if (n.startsWith(QLatin1Char('d'))) return tr("spindle drifts along %1").arg(axis);
@@ -209,8 +212,8 @@ void CycleModelPage::refresh() {
         tr("%1 parameters are determined in each of %2 cycles.").arg(cycles->names.size()).arg(cycles->cycles.size()));
   } else {
     QStringList sentences;
-    for (const std::string& w : cycles->warnings) sentences << fromCore(w);
-    if (sentences.isEmpty()) sentences << fromCore(cycles->message);
+    for (const std::string& w : cycles->warnings) sentences << coreSentence(w);
+    if (sentences.isEmpty()) sentences << coreSentence(cycles->message);
     callout()->show(Tone::Attention, sentences.mid(0, 2).join(QLatin1Char(' ')));
   }
   const QString chosen = cycle_->currentText();
@@ -309,7 +312,7 @@ void CycleModelPage::showCycle() {
     QString worst = parts.value(0).section(QLatin1Char(' '), 0, 0);
     if (parts.size() > 1) worst = tr("%1 and %2").arg(worst, parts[1].section(QLatin1Char(' '), 0, 0));
     condition_->setText(
-        tr("Condition number %1; told apart worst: %2").arg(solution.condition_number, 0, 'f', 1).arg(worst));
+        tr("Condition number %1; told apart worst: %2").arg(decimalText(solution.condition_number, 'f', 1)).arg(worst));
   }
   showVolume();
 }

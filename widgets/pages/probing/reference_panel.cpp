@@ -12,10 +12,12 @@
 #include "core/base/error.h"
 #include "core/probing/evaluate_touches.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/probing/touch_results.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -102,7 +104,7 @@ void ReferencePanel::load(const QString& file) {
     change(tr("load %1").arg(QFileInfo(file).fileName()), {{"record", name}, {"parameter", parameter}});
     compare();
   } catch (const InputError& e) {
-    verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
+    verdict_->show(Tone::Bad, coreSentence(e.what()));
   }
 }
 
@@ -121,11 +123,11 @@ void ReferencePanel::compare() {
   try {
     comparison_ = compareWithReference(*cycles, parameter, context_.session.folder() / "references" / record);
   } catch (const InputError& e) {
-    verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
+    verdict_->show(Tone::Bad, coreSentence(e.what()));
     return;
   }
   if (comparison_.status != FitStatus::Converged) {
-    verdict_->show(Tone::Attention, fromCore(comparison_.message) + QLatin1Char('.'));
+    verdict_->show(Tone::Attention, coreSentence(comparison_.message) + QLatin1Char('.'));
     return;
   }
   const QString unit = parameterUnit(parameter);
@@ -160,12 +162,12 @@ void ReferencePanel::compare() {
       tr("%1 differs from the reference by %2 rms, at most %3 %4; %5 % of %6 cycles agree within two standard "
          "uncertainties; correlation %7. A constant of %8 %4 is taken out: both zeros are arbitrary.")
           .arg(title, quantityText(comparison_.rms, rms_sigma, unit))
-          .arg(comparison_.largest, 0, 'g', 3)
+          .arg(decimalText(comparison_.largest, 'g', 3))
           .arg(unit)
-          .arg(100.0 * comparison_.within_two_sigma, 0, 'f', 0)
+          .arg(decimalText(100.0 * comparison_.within_two_sigma, 'f', 0))
           .arg(comparison_.points.size())
-          .arg(comparison_.correlation, 0, 'f', 3)
-          .arg(comparison_.offset, 0, 'g', 3));
+          .arg(decimalText(comparison_.correlation, 'f', 3))
+          .arg(decimalText(comparison_.offset, 'g', 3)));
 }
 
 std::vector<Exportable> ReferencePanel::exportables() const {

@@ -6,12 +6,14 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/probing/printed_text.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/probing/probing_scene.h"
 #include "widgets/pages/probing/touch_capture_page.h"
 #include "widgets/pages/probing/touch_results.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -43,11 +45,11 @@ void TouchCapturePage::showScene() {
     }
     view_->setPoints(featureLabels(campaign->machine, *a, first_ball, c_deg));
   } catch (const InputError& e) {
-    program_verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
+    program_verdict_->show(Tone::Bad, coreSentence(e.what()));
   }
   view_->setShapes(std::move(shapes));
   QString caption = tr("Cycle %1").arg(cycle_);
-  if (a->kind == "hole_bar") caption += tr(", table at %1°").arg(c_deg, 0, 'g', 4);
+  if (a->kind == "hole_bar") caption += tr(", table at %1°").arg(decimalText(c_deg, 'g', 4));
   view_->setCaption(caption);
 }
 
@@ -79,7 +81,7 @@ void TouchCapturePage::makeProgram() {
         return [this, made, failure] {
           program_ = std::move(*made);
           if (!program_) {
-            program_verdict_->show(Tone::Bad, tr("No programme: %1").arg(QString::fromUtf8(failure.c_str())));
+            program_verdict_->show(Tone::Bad, tr("No programme: %1").arg(coreSentence(failure.c_str())));
           } else if (!program_->check.good()) {
             const ProgramIssue& first = program_->check.issues.front();
             program_verdict_->show(Tone::Bad,
@@ -94,7 +96,7 @@ void TouchCapturePage::makeProgram() {
                    "retract after each, safe height %3 mm. Export writes it.")
                     .arg(program_->check.touches)
                     .arg(program_->check.moves.size())
-                    .arg(program_->plan.safe_height_mm, 0, 'f', 1));
+                    .arg(decimalText(program_->plan.safe_height_mm, 'f', 1)));
           }
           showScene();
         };

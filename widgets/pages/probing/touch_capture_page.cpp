@@ -14,13 +14,16 @@
 #include <map>
 
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/capture_tabs.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/probing/probing_scene.h"
 #include "widgets/pages/probing/touch_results.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -333,7 +336,7 @@ void TouchCapturePage::fillTouches() {
         Cell{a != nullptr && a->kind == "hole_bar" ? QStringLiteral("%1°").arg(v.touch.c_deg)
                                                    : fromCore(v.touch.stylus)},
         Cell{direction(v.touch.approach)}};
-    row.cells[1].tip = fromCore(v.reason);
+    row.cells[1].tip = coreSentence(v.reason);
     rows.push_back(std::move(row));
   }
   filling_ = true;
@@ -371,11 +374,11 @@ void TouchCapturePage::showVerdict() {
       sentence = tr("%1 · %2 at x %3, y %4, z %5 mm")
                      .arg(fromCore(v.touch.feature))
                      .arg(v.touch.touch)
-                     .arg(p.x(), 0, 'f', 4)
-                     .arg(p.y(), 0, 'f', 4)
-                     .arg(p.z(), 0, 'f', 4);
+                     .arg(decimalText(p.x(), 'f', lengthDecimals(4)))
+                     .arg(decimalText(p.y(), 'f', lengthDecimals(4)))
+                     .arg(decimalText(p.z(), 'f', lengthDecimals(4)));
       if (v.state == TouchState::Missing) sentence = tr("%1 · %2").arg(fromCore(v.touch.feature)).arg(v.touch.touch);
-      if (!v.reason.empty()) sentence += QStringLiteral(": ") + fromCore(v.reason);
+      if (!v.reason.empty()) sentence += QStringLiteral(": ") + coreSentence(v.reason);
       sentence += QLatin1Char('.');
       tone = judged_ ? toneOf(v.state) : Tone::Neutral;
     }

@@ -12,12 +12,15 @@
 
 #include "core/base/units.h"
 #include "core/workflows/evaluate_campaign.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/preferences.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/probing/reference_panel.h"
 #include "widgets/pages/probing/touch_results.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -189,7 +192,7 @@ void TouchEvaluationPage::refresh() {
     callout()->show(Tone::Outdated, tr("Changed since this was evaluated: %1. Evaluate again.").arg(state.changed));
   } else if (!stored->good_enough || !stored->warnings.empty()) {
     QStringList sentences;
-    for (const std::string& w : stored->warnings) sentences << fromCore(w);
+    for (const std::string& w : stored->warnings) sentences << coreSentence(w);
     callout()->show(Tone::Attention,
                     sentences.mid(0, 2).join(QLatin1Char(' ')) +
                         (sentences.size() > 2 ? tr(" And %1 more.").arg(sentences.size() - 2) : QString()));
@@ -230,18 +233,18 @@ void TouchEvaluationPage::showTiles(const CycleEvaluation& cycles) {
   const auto& sigma = cycles.fit.group_sigma_mm;
   if (!sigma.empty()) {
     QString note = tr("across the surface, one standard deviation");
-    if (sigma.size() > 1) note = tr("%1 um along the axis").arg(sigma[1] * um_per_mm, 0, 'f', 2);
-    noise_->set(QStringLiteral("%1 um").arg(sigma[0] * um_per_mm, 0, 'f', 2), note);
+    if (sigma.size() > 1) note = tr("%1 um along the axis").arg(decimalText(sigma[1] * um_per_mm, 'f', 2));
+    noise_->set(QStringLiteral("%1 um").arg(decimalText(sigma[0] * um_per_mm, 'f', 2)), note);
   }
   if (!details_.evaluation->hole_cycles.empty()) {
     const HoleCycleResult& holes = details_.evaluation->hole_cycles.front();
-    length_->set(QStringLiteral("%1 um").arg(holes.largest_nonlinearity_um, 0, 'f', 2),
+    length_->set(QStringLiteral("%1 um").arg(decimalText(holes.largest_nonlinearity_um, 'f', 2)),
                  tr("of a hole off the straight line, all cycles"));
   } else {
     double largest = 0;
     for (const BallDistance& d : details_.evaluation->ball_cycles.front().distances)
       largest = std::max(largest, std::abs(d.error_um));
-    length_->set(QStringLiteral("%1 um").arg(largest, 0, 'f', 1), tr("of a distance between balls"));
+    length_->set(QStringLiteral("%1 um").arg(decimalText(largest, 'f', 1)), tr("of a distance between balls"));
   }
   int known = 0;
   int healthy = 0;
@@ -269,15 +272,15 @@ void TouchEvaluationPage::showFeatures() {
     row.id = fromCore(f.cycle) + QLatin1Char('/') + name;
     const bool good = f.status == FitStatus::Converged;
     row.cells = {good ? nameCell(name) : toneCell(name, Tone::Bad)};
-    row.cells.front().tip = fromCore(f.message);
+    row.cells.front().tip = coreSentence(f.message);
     double largest_sigma = 0;
     for (int k = 0; k < 3; ++k) {
-      row.cells.push_back(numberCell(good ? f.centre_mm(k) : std::nan(""), 4));
+      row.cells.push_back(numberCell(good ? f.centre_mm(k) : std::nan(""), lengthDecimals(4)));
       largest_sigma = std::max(largest_sigma, std::sqrt(f.covariance(k, k)) * um_per_mm);
     }
     row.cells.push_back(numberCell(good ? largest_sigma : std::nan(""), 2));
     row.cells.back().tip = tr("The largest standard uncertainty of x, y and z");
-    row.cells.push_back(numberCell(good ? f.diameter_mm : std::nan(""), 4));
+    row.cells.push_back(numberCell(good ? f.diameter_mm : std::nan(""), lengthDecimals(4)));
     row.cells.back().tip = quantityText(f.diameter_mm, f.diameter_sigma_mm, QStringLiteral("mm"));
     row.cells.push_back(numberCell(good ? f.form_mm * um_per_mm : std::nan(""), 2));
     rows.push_back(std::move(row));
@@ -291,7 +294,7 @@ void TouchEvaluationPage::showLeftOut(const TouchEvaluation& evaluation, const C
     const Touch& t = evaluation.touches.touches[r.touch];
     Row row;
     row.id = fromCore(t.id());
-    row.cells = {toneCell(fromCore(t.label()), Tone::Bad), Cell{fromCore(r.reason)}};
+    row.cells = {toneCell(fromCore(t.label()), Tone::Bad), Cell{coreSentence(r.reason)}};
     row.cells[1].tip = row.cells[1].text;
     rows.push_back(std::move(row));
   }
@@ -332,7 +335,7 @@ void TouchEvaluationPage::showLengths() {
                    Cell{fromCore(d.cycle)},
                    Cell{fromCore(d.stylus)},
                    quantityCell(d.error_um, d.standard_uncertainty_um),
-                   numberCell(d.certified_mm, 4),
+                   numberCell(d.certified_mm, lengthDecimals(4)),
                    inside ? toneCell(tr("within two uncertainties"), Tone::Good)
                           : toneCell(tr("the machine differs"), Tone::Attention)};
       rows.push_back(std::move(row));
@@ -356,7 +359,7 @@ void TouchEvaluationPage::showRepeatability() {
     repeatability_verdict_->show(Tone::Neutral, tr("Drifts slower than nine cycles are taken out; what is left is how "
                                                    "well one cycle repeats."));
   } else {
-    repeatability_verdict_->set(Tone::Attention, fromCore(study.message));
+    repeatability_verdict_->set(Tone::Attention, coreSentence(study.message));
   }
 }
 
@@ -378,9 +381,9 @@ void TouchEvaluationPage::showHealth() {
                  : h.movement.kind == MovementKind::Undecided ? toneCell(tr("loose, or warming"), Tone::Attention)
                  : h.healthy                                  ? toneCell(tr("healthy"), Tone::Good)
                                                               : toneCell(tr("look at it"), Tone::Attention)};
-    row.cells.back().tip = fromCore(h.message);
+    row.cells.back().tip = coreSentence(h.message);
     if (!h.healthy && worst.isEmpty()) {
-      worst = tr("%1 on %2: %3").arg(fromCore(h.stylus), fromCore(h.feature), fromCore(h.message));
+      worst = tr("%1 on %2: %3").arg(fromCore(h.stylus), fromCore(h.feature), coreSentence(h.message));
     }
     rows.push_back(std::move(row));
   }

@@ -2,6 +2,7 @@
 #include "widgets/pages/probing/touch_results.h"
 
 #include "core/base/error.h"
+#include "widgets/common/core_sentence.h"
 
 namespace spindrift::gui {
 
@@ -33,7 +34,7 @@ std::shared_ptr<const TouchList> TouchResults::touches() {
       try {
         touches_ = std::make_shared<TouchList>(TouchList::read(*file));
       } catch (const InputError& e) {
-        failure_ = QString::fromUtf8(e.what());
+        failure_ = coreSentence(e.what());
       }
     }
   }

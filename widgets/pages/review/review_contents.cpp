@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/review/review_page.h"
@@ -57,7 +58,7 @@ std::vector<PaneAnswer> answersTo(const std::vector<PaneRequest>& requests, cons
       if (r.difference && answers[0].picture) picture = reviewDifference(*answers[0].picture, picture);
       answers[i].picture = std::move(picture);
     } catch (const InputError& e) {
-      answers[i].problem = QString::fromUtf8(e.what());
+      answers[i].problem = coreSentence(e.what());
     }
   }
   return answers;

@@ -17,12 +17,14 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/review/review_pane.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -312,7 +314,7 @@ void ReviewPage::showSection() {
     if (pane->isHidden() || pane->isScan()) continue;
     const ReviewPicture& picture = pane->picture();
     Series s;
-    s.name = tr("%1: %2").arg(i + 1).arg(fromCore(picture.title));
+    s.name = tr("%1: %2").arg(i + 1).arg(coreSentence(picture.title));
     s.colour = static_cast<int>(i);
     if (picture.field) {
       const ReviewSection section = reviewSection(*picture.field, along_x, at);
@@ -355,9 +357,9 @@ void ReviewPage::probe(View3D* view, const QPointF& pixel) {
     // The same place in every pane: the cameras are linked.
     if (const auto found = pane->view()->probeAt(pixel)) {
       pane->setValue(tr("x %1 mm, y %2 mm: %3%4")
-                         .arg(found->xy_mm.x(), 0, 'f', 1)
-                         .arg(found->xy_mm.y(), 0, 'f', 1)
-                         .arg(fromCore(withUncertainty(found->value, found->sigma, unitOf(component))),
+                         .arg(decimalText(found->xy_mm.x(), 'f', 1))
+                         .arg(decimalText(found->xy_mm.y(), 'f', 1))
+                         .arg(shownNumbers(fromCore(withUncertainty(found->value, found->sigma, unitOf(component)))),
                               found->extrapolated ? tr(" (extrapolated)") : QString()));
       continue;
     }
@@ -370,7 +372,8 @@ void ReviewPage::probe(View3D* view, const QPointF& pixel) {
       continue;
     }
     const ReviewValue& v = at->components.at(component);
-    pane->setValue(QStringLiteral("%1: %2").arg(id, fromCore(withUncertainty(v.value, v.sigma, unitOf(component)))));
+    pane->setValue(
+        QStringLiteral("%1: %2").arg(id, shownNumbers(fromCore(withUncertainty(v.value, v.sigma, unitOf(component))))));
   }
 }
 

@@ -10,10 +10,12 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/review/review_sources.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -24,6 +26,17 @@ Eigen::Vector3d deviationOf(const ReviewPoint& p) {
   for (const auto& [component, index] : {std::pair{Component::EX, 0}, {Component::EY, 1}, {Component::EZ, 2}}) {
     const auto v = p.components.find(component);
     if (v != p.components.end() && std::isfinite(v->second.value)) out[index] = v->second.value;
+  }
+  return out;
+}
+
+/// The same with uncertainties, for distances: NaN where a component was not measured.
+PointDeviation measuredDeviation(const ReviewPoint& p) {
+  PointDeviation out;
+  for (const auto& [component, index] : {std::pair{Component::EX, 0}, {Component::EY, 1}, {Component::EZ, 2}}) {
+    const auto v = p.components.find(component);
+    out.deviation_um[index] = v == p.components.end() ? std::nan("") : v->second.value;
+    out.sigma_um[index] = v == p.components.end() ? std::nan("") : v->second.sigma;
   }
   return out;
 }
@@ -185,17 +198,19 @@ void ReviewPane::show(const ReviewPicture& picture, const std::optional<double>&
     if (value != p.components.end() && std::isfinite(value->second.value)) {
       v.value = value->second.value;
       if (values)
-        v.value_text = fromCore(withUncertainty(value->second.value, value->second.sigma, unitOf(picture.component)));
+        v.value_text = shownNumbers(
+            fromCore(withUncertainty(value->second.value, value->second.sigma, unitOf(picture.component))));
     } else {
       v.tone = Tone::Neutral;
     }
+    if (content() == PaneContent::Measured) v.deviation = measuredDeviation(p);
     points.push_back(std::move(v));
     if (arrows) shown_arrows.push_back({p.position_mm, deviationOf(p), Tone::Accent});
   }
   view_->setPoints(std::move(points));
   view_->setArrows(std::move(shown_arrows), exaggeration);
   view_->setCaption(fromCore(picture.title + ", " + std::string(toString(picture.component))) +
-                    (picture.message.empty() ? QString() : QLatin1Char('\n') + fromCore(picture.message)));
+                    (picture.message.empty() ? QString() : QLatin1Char('\n') + coreSentence(picture.message)));
 }
 
 void ReviewPane::showScan(const ScanPicture& picture, const QString& title, double limit) {
@@ -219,7 +234,7 @@ void ReviewPane::showScan(const ScanPicture& picture, const QString& title, doub
   if (!first) scan_view_->setCamera(camera);
   scan_view_->setCaption(picture.colouring == ScanColouring::Height
                              ? title + tr(": the reference itself, height")
-                             : title + tr(", median |dz| %1 um").arg(picture.median_magnitude, 0, 'f', 2));
+                             : title + tr(", median |dz| %1 um").arg(decimalText(picture.median_magnitude, 'f', 2)));
 }
 
 void ReviewPane::showMessage(const QString& title, const QString& how) {

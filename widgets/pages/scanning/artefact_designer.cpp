@@ -14,9 +14,11 @@
 
 #include "core/base/error.h"
 #include "core/machine/component.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -39,7 +41,7 @@ std::vector<ArtefactSurface> surfaces() {
 }
 
 QString lengthText(double um) {
-  return std::isfinite(um) ? QString::number(um, 'g', 3) : ArtefactDesigner::tr("free");
+  return std::isfinite(um) ? decimalText(um, 'g', 3) : ArtefactDesigner::tr("free");
 }
 
 }  // namespace
@@ -164,7 +166,7 @@ void ArtefactDesigner::recompute() {
     options.scan_model = ScanModel::PushBroom;
     showDesigns(rigid, designArtefact(surface_, options));
   } catch (const InputError& e) {
-    verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
+    verdict_->show(Tone::Bad, coreSentence(e.what()));
     sigmas_->setRows({});
     weak_->setRows({});
   }
@@ -179,7 +181,7 @@ void ArtefactDesigner::showDesigns(const ArtefactDesign& rigid, const ArtefactDe
     row.id = fromCore(std::string(toString(k)));
     row.cells.push_back(nameCell(QStringLiteral("%1 / %2").arg(row.id, fromCore(std::string(unitOf(k))))));
     for (const ArtefactDesign* d : {&rigid, &push_broom}) {
-      Cell cell = std::isfinite(d->sigma[i]) ? Cell{QString::number(d->sigma[i], 'g', 3)}
+      Cell cell = std::isfinite(d->sigma[i]) ? Cell{decimalText(d->sigma[i], 'g', 3)}
                                              : toneCell(tr("not determined"), Tone::Attention);
       cell.right = true;
       row.cells.push_back(cell);
@@ -201,18 +203,18 @@ void ArtefactDesigner::showDesigns(const ArtefactDesign& rigid, const ArtefactDe
   }
   weak_->setRows(std::move(rows));
   const QString slopes = tr("Slope up to %1 along X and %2 along Y.")
-                             .arg(rigid.largest_slope_x, 0, 'f', 2)
-                             .arg(rigid.largest_slope_y, 0, 'f', 2);
+                             .arg(decimalText(rigid.largest_slope_x, 'f', 2))
+                             .arg(decimalText(rigid.largest_slope_y, 'f', 2));
   if (rigid.status == FitStatus::Rejected) {
-    verdict_->show(Tone::Bad, fromCore(rigid.message));
+    verdict_->show(Tone::Bad, coreSentence(rigid.message));
   } else if (rigid.visible_part < 0.999) {
     verdict_->show(Tone::Attention, tr("%1 The profiler sees only %2 % of the surface; the rest is too steep (red).")
                                         .arg(slopes)
-                                        .arg(100.0 * rigid.visible_part, 0, 'f', 1));
+                                        .arg(decimalText(100.0 * rigid.visible_part, 'f', 1)));
   } else if (rigid.status == FitStatus::Degenerate) {
-    verdict_->show(Tone::Attention, fromCore(rigid.message) + QLatin1Char(' ') + slopes);
+    verdict_->show(Tone::Attention, coreSentence(rigid.message) + QLatin1Char(' ') + slopes);
   } else {
-    verdict_->show(Tone::Good, fromCore(rigid.message) + QLatin1Char(' ') + slopes + QLatin1Char(' ') +
+    verdict_->show(Tone::Good, coreSentence(rigid.message) + QLatin1Char(' ') + slopes + QLatin1Char(' ') +
                                    tr("The profiler sees all of it."));
   }
 }
@@ -245,7 +247,7 @@ void ArtefactDesigner::showSurface() {
   const bool first = view_->empty();
   const Camera camera = view_->camera();
   view_->setColourScale(scale);
-  view_->setCloud({xyz, scalar, 3.0});
+  view_->setCloud({xyz, scalar, nullptr, 3.0});
   if (!first) view_->setCamera(camera);
   view_->setCaption(slope ? tr("Red: steeper than the profiler sees") : tr("Height of the surface"));
 }
@@ -263,7 +265,7 @@ void ArtefactDesigner::askForStl() {
     writeStl(file.toStdString());
     verdict_->show(Tone::Good, tr("Saved as %1.").arg(file));
   } catch (const InputError& e) {
-    verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
+    verdict_->show(Tone::Bad, coreSentence(e.what()));
   }
 }
 

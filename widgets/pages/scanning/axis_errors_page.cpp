@@ -14,12 +14,15 @@
 #include "core/scanning/evaluate_scans.h"
 #include "core/scanning/scan_evaluation.h"
 #include "core/tasks/task_options.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/scanning/scan_results.h"
 #include "widgets/plots/plot.h"
+#include "widgets/plots/plot_grid.h"
 #include "widgets/plots/surface_plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -89,11 +92,11 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
   auto* left = new Card(tr("At the slide's origin"));
   over_ = new Segments({tr("Over time"), tr("Over position")}, tr("Horizontal axis"));
   left->addToTitle(over_);
-  series_ = new Plot;
+  series_ = new PlotGrid;
   series_->setAxes(tr("Time / min"), tr("EXY / um"));
   series_->setEmptyText(tr("Errors of the axis will appear here"),
                         tr("Find the six errors: each is drawn over time with its uncertainty."));
-  left->body()->addWidget(series_, 5);
+  left->body()->addWidget(series_, 1);
   tabs_ = makeTabs();
   values_ = new RowsModel({tr("Scan"), tr("At the origin"), tr("At the artefact"), tr("Observed")}, this);
   tabs_->addTab(makeTable(values_, tr("Values"), tr("Every scan's error with its uncertainty appears here.")),
@@ -102,14 +105,15 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
   tabs_->addTab(makeTable(observability_, tr("What the scan model can observe"),
                           tr("Which errors this scan model can show appears after the fit.")),
                 tr("Observability"));
-  left->body()->addWidget(tabs_, 5);
   auto* right = new Card(tr("Over position and time"));
   surface_ = new SurfacePlot;
   surface_->setEmptyText(tr("The surface will appear here"),
                          tr("It needs at least two positions and two times with a determined error."));
-  right->body()->addWidget(surface_, 1);
+  right->body()->addWidget(surface_, 6);
+  right->body()->addWidget(tabs_, 4);
   content()->addWidget(makeSplitter(left, right, 6, 6), 1);
   showHints(series_);
+  showHints(surface_);
   connect(fit_, &QPushButton::clicked, this, [this] { fit(true); });
   connect(model_, &Segments::chosen, this, &AxisErrorsPage::chooseModel);
   const auto again = [this] {
@@ -224,7 +228,7 @@ void AxisErrorsPage::show(const ScanEvaluation& evaluation) {
     if (!by_group.contains(group)) {
       order.push_back(group);
       by_group[group].name =
-          over_time ? tr("%1 at %2 mm").arg(fromCore(group)).arg(s.capture.y_mm, 0, 'f', 0) : fromCore(group);
+          over_time ? tr("%1 at %2 mm").arg(fromCore(group)).arg(decimalText(s.capture.y_mm, 'f', 0)) : fromCore(group);
       by_group[group].colour = static_cast<int>(order.size()) - 1;
     }
     Series& series = by_group[group];
@@ -242,7 +246,7 @@ void AxisErrorsPage::show(const ScanEvaluation& evaluation) {
   for (const ScanResult& s : evaluation.scans) {
     if (s.axis.determined(c)) samples.push_back({s.capture.time_s, s.capture.y_mm, s.axis});
   }
-  SurfaceData grid;
+  ViewSurface grid;
   double largest = 0;
   if (!samples.empty()) {
     const AxisErrorSurface found = axisErrorSurfaces(samples, cycleDuration(evaluation))[static_cast<std::size_t>(c)];
@@ -254,7 +258,9 @@ void AxisErrorsPage::show(const ScanEvaluation& evaluation) {
       if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
     }
   }
-  surface_->setAxes(tr("Position / mm"), tr("Time / %1").arg(unit.name), tr("%1 / %2").arg(name, unitText(c)));
+  grid.x_title = tr("Position / mm");
+  grid.y_title = tr("Time / %1").arg(unit.name);
+  grid.value_title = tr("%1 / %2").arg(name, unitText(c));
   surface_->setData(std::move(grid), ColourScale::symmetric(std::max(largest, 0.1), name, unitText(c)));
   showValues(evaluation);
   showObservability(evaluation);
@@ -301,14 +307,14 @@ void AxisErrorsPage::showObservability(const ScanEvaluation& evaluation) {
         ++seen;
       }
       for (const auto& [component, sentence] : s.not_observed) {
-        if (static_cast<int>(component) == c) reason = fromCore(sentence);
+        if (static_cast<int>(component) == c) reason = coreSentence(sentence);
       }
     }
     Row row;
     row.id = component_->button(c)->text();
     const auto text = [&](double v) {
       Cell cell = dashCell();
-      if (v > 0) cell.text = QStringLiteral("%1 %2").arg(v, 0, 'g', 2).arg(unitText(c));
+      if (v > 0) cell.text = QStringLiteral("%1 %2").arg(decimalText(v, 'g', 2)).arg(unitText(c));
       return cell;
     };
     row.cells = {nameCell(row.id), text(origin), text(artefact),
@@ -324,7 +330,9 @@ void AxisErrorsPage::showObservability(const ScanEvaluation& evaluation) {
 std::vector<Exportable> AxisErrorsPage::exportables() {
   std::vector<Exportable> items{exportableOf(tr("Errors of the axis"), values_),
                                 exportableOf(tr("Observability"), observability_)};
-  if (!series_->empty()) items.push_back(exportableOf(tr("Errors over time"), series_));
+  const std::vector<Plot*> panels = series_->panels();
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    items.push_back(exportableOf(tr("Errors, %1").arg(series_->titleOf(static_cast<int>(i))), panels[i]));
   if (!surface_->empty()) {
     items.push_back({tr("Surface over position and time"),
                      {QStringLiteral("png"), QStringLiteral("csv")},

@@ -17,7 +17,7 @@ struct ScanEvaluation;
 
 namespace spindrift::gui {
 
-class Plot;
+class PlotGrid;
 class RowsModel;
 class ScanResults;
 class Segments;
@@ -33,7 +33,7 @@ class AxisErrorsPage : public Page {
   void runAll() override { fit(true); }
   [[nodiscard]] RowsModel* values() const { return values_; }
   [[nodiscard]] RowsModel* observability() const { return observability_; }
-  [[nodiscard]] Plot* series() const { return series_; }
+  [[nodiscard]] PlotGrid* series() const { return series_; }
   [[nodiscard]] SurfacePlot* surface() const { return surface_; }
   /// 0 ... 5: EX, EY, EZ, EA, EB, EC of the axis.
   void setComponent(int index);
@@ -53,7 +53,7 @@ class AxisErrorsPage : public Page {
   Segments* model_;
   Segments* component_;
   Segments* over_;
-  Plot* series_;
+  PlotGrid* series_;
   SurfacePlot* surface_;
   QTabWidget* tabs_;
   RowsModel* values_;

@@ -12,11 +12,13 @@
 
 #include "core/base/units.h"
 #include "core/workflows/evaluate_campaign.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/scanning/scan_results.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -113,7 +115,7 @@ void ProfilerCalibrationPage::refresh() {
     QStringList sentences;
     for (const std::string& w : stored->warnings) {
       // What the calibration cannot determine stands beside its numbers.
-      if (w.rfind("Calibration of the profiler", 0) != 0) sentences << fromCore(w);
+      if (w.rfind("Calibration of the profiler", 0) != 0) sentences << coreSentence(w);
     }
     if (sentences.isEmpty()) {
       callout()->show(Tone::Good, tr("Deviations found: %1; see what the calibration cannot determine.")
@@ -160,13 +162,13 @@ void ProfilerCalibrationPage::showCalibration(const ScanEvaluation& evaluation) 
   if (!c.usable()) {
     undetermined_->show(
         Tone::Attention,
-        fromCore(c.message.empty() && !evaluation.warnings.empty() ? evaluation.warnings.front() : c.message));
+        coreSentence(c.message.empty() && !evaluation.warnings.empty() ? evaluation.warnings.front() : c.message));
   } else {
-    undetermined_->set(c.undetermined.empty() ? Tone::Neutral : Tone::Attention, fromCore(c.message));
+    undetermined_->set(c.undetermined.empty() ? Tone::Neutral : Tone::Attention, coreSentence(c.message));
   }
-  rim_->set(c.usable() ? QStringLiteral("%1 um").arg(c.rim_rms_um, 0, 'f', 2) : QStringLiteral("–"),
+  rim_->set(c.usable() ? QStringLiteral("%1 um").arg(decimalText(c.rim_rms_um, 'f', 2)) : QStringLiteral("–"),
             tr("%1 crossings").arg(c.rim.size()));
-  plane_->set(c.usable() ? QStringLiteral("%1 um").arg(c.plane_rms_um, 0, 'f', 2) : QStringLiteral("–"),
+  plane_->set(c.usable() ? QStringLiteral("%1 um").arg(decimalText(c.plane_rms_um, 'f', 2)) : QStringLiteral("–"),
               tr("around the pocket"));
   Series used, unused;
   used.name = tr("Used");
@@ -198,7 +200,7 @@ void ProfilerCalibrationPage::showScans(const ScanEvaluation& evaluation) {
       row.id = fromCore(s.capture.cloud) + (first == 0 ? QString() : QStringLiteral("/rotation"));
       const QString scan = QStringLiteral("%1 · %2").arg(fromCore(s.capture.artefact), fromCore(s.capture.cycle));
       row.cells = {first == 0 ? nameCell(tr("%1 / um").arg(scan)) : Cell{s.reference ? tr("reference") : tr("urad")}};
-      row.cells[0].tip = tr("%1 % of the reference seen").arg(100.0 * s.registration.overlap, 0, 'f', 0);
+      row.cells[0].tip = tr("%1 % of the reference seen").arg(decimalText(100.0 * s.registration.overlap, 'f', 0));
       const double factor = first == 0 ? um_per_mm : urad_per_rad;
       for (int i = first; i < first + 3; ++i) {
         const double value = i < 3 ? s.registration.translation_mm(i) : s.registration.rotation_rad(i - 3);
@@ -222,7 +224,7 @@ void ProfilerCalibrationPage::showScans(const ScanEvaluation& evaluation) {
   for (const RejectedCapture& r : evaluation.rejected) {
     Row row;
     row.id = fromCore(r.capture);
-    row.cells = {toneCell(row.id, Tone::Bad), Cell{fromCore(r.reason)}};
+    row.cells = {toneCell(row.id, Tone::Bad), Cell{coreSentence(r.reason)}};
     row.cells[1].tip = row.cells[1].text;
     rows.push_back(std::move(row));
   }

@@ -15,6 +15,7 @@
 
 #include "core/base/error.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
@@ -26,6 +27,7 @@
 #include "widgets/pages/scanning/scan_mask_bar.h"
 #include "widgets/pages/scanning/scan_results.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -201,7 +203,7 @@ void ScanCapturePage::fillTable() {
   const QString chosen = selected();
   std::map<QString, QString> rejected;
   if (const auto evaluation = session().evaluation()) {
-    for (const RejectedCapture& r : evaluation->rejected) rejected[fromCore(r.capture)] = fromCore(r.reason);
+    for (const RejectedCapture& r : evaluation->rejected) rejected[fromCore(r.capture)] = coreSentence(r.reason);
   }
   std::vector<Row> rows;
   for (const ScanCapture& c : results_.captures()) {
@@ -219,10 +221,10 @@ void ScanCapturePage::fillTable() {
       row.cells.push_back(toneCell(tr("not checked"), Tone::Neutral));
     } else if (!check->usable || rejected.contains(row.id)) {
       row.cells.push_back(toneCell(tr("rejected"), Tone::Bad));
-      row.cells.back().tip = rejected.contains(row.id) ? rejected[row.id] : fromCore(check->reason);
+      row.cells.back().tip = rejected.contains(row.id) ? rejected[row.id] : coreSentence(check->reason);
     } else if (!check->reason.empty()) {
       row.cells.push_back(toneCell(tr("incomplete"), Tone::Attention));
-      row.cells.back().tip = fromCore(check->reason);
+      row.cells.back().tip = coreSentence(check->reason);
     } else {
       row.cells.push_back(toneCell(tr("good"), Tone::Good));
     }
@@ -348,7 +350,7 @@ void ScanCapturePage::showIn(View3D* view, const ScanPicture& picture, const QSt
       scale.title = tr("z");
       scale.unit = QStringLiteral("mm");
       if (!picture.message.empty()) {
-        caption += QStringLiteral(": ") + fromCore(picture.message);
+        caption += QStringLiteral(": ") + coreSentence(picture.message);
       } else if (picture.reference == nullptr && colouring_->current() != 0) {
         caption += tr(": the reference itself");
       }
@@ -370,8 +372,8 @@ void ScanCapturePage::showIn(View3D* view, const ScanPicture& picture, const QSt
       scale = ColourScale::symmetric(std::max({std::abs(picture_.low), std::abs(picture_.high), 0.1}), tr("dz"),
                                      QStringLiteral("um"));
       caption += picture.colouring == ScanColouring::Measured
-                     ? tr(" over the cold scan, median |dz| %1 um").arg(picture.median_magnitude, 0, 'f', 2)
-                     : tr(" after registration, median |dz| %1 um").arg(picture.median_magnitude, 0, 'f', 2);
+                     ? tr(" over the cold scan, median |dz| %1 um").arg(decimalText(picture.median_magnitude, 'f', 2))
+                     : tr(" after registration, median |dz| %1 um").arg(decimalText(picture.median_magnitude, 'f', 2));
   }
   const Camera camera = view->camera();
   const bool first = view->empty();
@@ -418,7 +420,7 @@ void ScanCapturePage::showProfile(int index) {
     slider_text_->setText(tr("%1 of %2, y %3 mm")
                               .arg(index + 1)
                               .arg(picture_.scan->profileCount())
-                              .arg(carriageOf(*picture_.scan, static_cast<std::size_t>(index)), 0, 'f', 2));
+                              .arg(decimalText(carriageOf(*picture_.scan, static_cast<std::size_t>(index)), 'f', 2)));
   }
   profile_->setContent(profileSeries(picture_, index));
 }

@@ -2,6 +2,7 @@
 #include "widgets/pages/scanning/scan_results.h"
 
 #include "core/base/error.h"
+#include "widgets/common/core_sentence.h"
 
 namespace spindrift::gui {
 
@@ -32,7 +33,7 @@ const std::vector<ScanCapture>& ScanResults::captures() {
     try {
       captures_ = readScanList(*session_.campaign());
     } catch (const InputError& e) {
-      failure_ = QString::fromUtf8(e.what());
+      failure_ = coreSentence(e.what());
     }
   }
   return captures_;

@@ -12,10 +12,12 @@
 
 #include "core/base/error.h"
 #include "widgets/commands/campaign_undo.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/models/session_model.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -99,11 +101,12 @@ void ClockPanel::estimate() {
     const ClockOffset found = estimateFromMotion(*session_.campaign(), *set, source, longest_search_s);
     const ClockOffsets now = session_.clockOffsets();
     const auto before = now.find(source);
-    change(found.offset_s + (before == now.end() ? 0.0 : before->second.offset_s), found.sigma_s, fromCore(found.how));
+    change(found.offset_s + (before == now.end() ? 0.0 : before->second.offset_s), found.sigma_s,
+           coreSentence(found.how));
     message_->set(Tone::Good,
                   tr("Offset of %1: %2.").arg(fromCore(source), quantityText(found.offset_s, found.sigma_s, tr("s"))));
   } catch (const InputError& e) {
-    message_->set(Tone::Attention, QString::fromUtf8(e.what()));
+    message_->set(Tone::Attention, coreSentence(e.what()));
   }
 }
 
@@ -130,8 +133,8 @@ void ClockPanel::refresh() {
     row.id = fromCore(source);
     row.cells = {nameCell(row.id),
                  Cell{o.sigma_s > 0.0 ? quantityText(o.offset_s, o.sigma_s, tr("s"))
-                                      : QStringLiteral("%1 s").arg(o.offset_s, 0, 'f', 2)},
-                 Cell{fromCore(o.how)}};
+                                      : QStringLiteral("%1 s").arg(decimalText(o.offset_s, 'f', 2))},
+                 Cell{coreSentence(o.how)}};
     rows.push_back(std::move(row));
   }
   rows_->setRows(std::move(rows));

@@ -12,10 +12,12 @@
 
 #include "core/base/error.h"
 #include "core/machine/sensor_role.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -81,7 +83,7 @@ void IsoPanel::evaluate() {
     if (result.etve) showEtve(*result.etve);
     if (result.spindle) showSpindle(*result.spindle);
   } catch (const InputError& e) {
-    note_->show(Tone::Attention, QString::fromUtf8(e.what()));
+    note_->show(Tone::Attention, coreSentence(e.what()));
     return;
   }
   std::vector<Series> all;
@@ -110,7 +112,7 @@ void IsoPanel::showEtve(const EtveResult& result) {
     row.id = fromCore(c.name);
     const QString unit = fromCore(c.unit);
     row.cells = {nameCell(row.id), Cell{tr("range %1").arg(quantityText(c.range, c.range_sigma, unit))},
-                 Cell{std::isfinite(c.range_per_K) ? tr("%1 %2/K").arg(c.range_per_K, 0, 'g', 3).arg(unit)
+                 Cell{std::isfinite(c.range_per_K) ? tr("%1 %2/K").arg(decimalText(c.range_per_K, 'g', 3)).arg(unit)
                                                    : QStringLiteral("–")},
                  Cell{std::isfinite(c.slope_per_K)
                           ? tr("slope %1").arg(quantityText(c.slope_per_K, c.slope_sigma, unit + QStringLiteral("/K")))
@@ -119,8 +121,8 @@ void IsoPanel::showEtve(const EtveResult& result) {
   }
   rows_->setRows(std::move(rows));
   note_->set(Tone::Neutral, tr("Over %1 h, ambient temperature within %2 K.")
-                                .arg(result.duration_s / 3600, 0, 'f', 1)
-                                .arg(result.temperature_range_K, 0, 'f', 2));
+                                .arg(decimalText(result.duration_s / 3600, 'f', 1))
+                                .arg(decimalText(result.temperature_range_K, 'f', 2)));
 }
 
 void IsoPanel::showSpindle(const SpindleResult& result) {
@@ -132,15 +134,15 @@ void IsoPanel::showSpindle(const SpindleResult& result) {
     row.cells = {nameCell(row.id), Cell{tr("at the end %1").arg(quantityText(c.at_end, c.change_sigma, unit))},
                  Cell{tr("first hour %1").arg(quantityText(c.first_hour, c.change_sigma, unit))},
                  Cell{std::isfinite(c.time_to_fraction_s) ? tr("%1 % after %2 min")
-                                                                .arg(100 * result.fraction, 0, 'f', 0)
-                                                                .arg(c.time_to_fraction_s / 60, 0, 'f', 0)
+                                                                .arg(decimalText(100 * result.fraction, 'f', 0))
+                                                                .arg(decimalText(c.time_to_fraction_s / 60, 'f', 0))
                                                           : QStringLiteral("–")}};
     rows.push_back(std::move(row));
   }
   rows_->setRows(std::move(rows));
   note_->set(Tone::Neutral, tr("The spindle ran from %1 h to %2 h.")
-                                .arg(result.start_s / 3600, 0, 'f', 2)
-                                .arg(result.stop_s / 3600, 0, 'f', 2));
+                                .arg(decimalText(result.start_s / 3600, 'f', 2))
+                                .arg(decimalText(result.stop_s / 3600, 'f', 2)));
 }
 
 }  // namespace spindrift::gui

@@ -7,9 +7,11 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/models/session_model.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -59,14 +61,14 @@ void ResolutionCheckPanel::check() {
     }
   } catch (const InputError& e) {
     rows_->setRows({});
-    verdict_->show(Tone::Bad, QString::fromUtf8(e.what()));
+    verdict_->show(Tone::Bad, coreSentence(e.what()));
   }
 }
 
 void ResolutionCheckPanel::show(const ResolutionCheck& check) {
   std::vector<Row> rows;
   const auto um = [](double value, int digits) {
-    Cell cell{QStringLiteral("%1 um").arg(value, 0, 'f', digits)};
+    Cell cell{QStringLiteral("%1 um").arg(decimalText(value, 'f', digits))};
     cell.right = true;
     return cell;
   };
@@ -75,7 +77,7 @@ void ResolutionCheckPanel::show(const ResolutionCheck& check) {
     row.id = QString::fromStdString(std::string(toString(v.component)));
     Cell name{row.id};
     name.bold = true;
-    Cell largest{QString::fromStdString(withUncertainty(v.largest_um, v.largest_sigma_um, "um"))};
+    Cell largest{shownNumbers(QString::fromStdString(withUncertainty(v.largest_um, v.largest_sigma_um, "um")))};
     largest.right = true;
     row.cells = {name,
                  largest,
@@ -87,7 +89,7 @@ void ResolutionCheckPanel::show(const ResolutionCheck& check) {
     rows.push_back(std::move(row));
   }
   rows_->setRows(std::move(rows));
-  QString reason = QString::fromStdString(check.reason);
+  QString reason = coreSentence(check.reason);
   if (!reason.isEmpty()) reason[0] = reason[0].toUpper();
   verdict_->show(check.passed ? Tone::Good : Tone::Attention, reason);
 }

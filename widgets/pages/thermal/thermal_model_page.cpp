@@ -18,12 +18,14 @@
 #include "core/tasks/task_options.h"
 #include "core/thermal/response_fit.h"
 #include "core/workflows/campaign_series.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/thermal/iso_panel.h"
 #include "widgets/pages/thermal/update_panel.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -236,7 +238,7 @@ void ThermalModelPage::load() {
             }
             return [this, series, sigma, failure, key] {
               if (key != loaded_) return;
-              failure_ = QString::fromStdString(failure);
+              failure_ = coreSentence(failure);
               sigma_ = sigma;
               if (failure.empty()) series_ = series;
               refresh();
@@ -307,10 +309,11 @@ void ThermalModelPage::refresh() {
     callout()->show(Tone::Attention, tr("In the test range the model is no better than the plain ones. Train on a "
                                         "longer or livelier part, or choose other inputs."));
   } else {
-    callout()->show(Tone::Good, tr("Free run over the test range: rms %1 %2, without a model %3 %2.")
-                                    .arg(result_->test.rmse, 0, 'g', 3)
-                                    .arg(outputUnit())
-                                    .arg(result_->plain.empty() ? 0.0 : result_->plain.front().test.rmse, 0, 'g', 3));
+    callout()->show(Tone::Good,
+                    tr("Free run over the test range: rms %1 %2, without a model %3 %2.")
+                        .arg(decimalText(result_->test.rmse, 'g', 3))
+                        .arg(outputUnit())
+                        .arg(decimalText(result_->plain.empty() ? 0.0 : result_->plain.front().test.rmse, 'g', 3)));
   }
   fillInputs();
   showSeries();

@@ -6,11 +6,13 @@
 
 #include "core/thermal/response_fit.h"
 #include "core/workflows/campaign_series.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/thermal/thermal_model_page.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -28,7 +30,7 @@ std::vector<double> hours(const std::vector<double>& time_s) {
 QString durationText(double seconds, double sigma_s) {
   if (!std::isfinite(seconds)) return QStringLiteral("–");
   const TimeUnit unit = timeUnit(seconds);
-  if (!(sigma_s > 0)) return QStringLiteral("%1 %2").arg(seconds / unit.seconds, 0, 'g', 3).arg(unit.name);
+  if (!(sigma_s > 0)) return QStringLiteral("%1 %2").arg(decimalText(seconds / unit.seconds, 'g', 3)).arg(unit.name);
   return quantityText(seconds / unit.seconds, sigma_s / unit.seconds, unit.name);
 }
 
@@ -62,7 +64,7 @@ void ThermalModelPage::fillInputs() {
                                         [&](const InputVerdict& v) { return v.name == name; });
       if (verdict != result_->verdicts.end()) {
         row.cells[1] = verdict->kept ? toneCell(tr("kept"), Tone::Good) : toneCell(tr("dropped"), Tone::Neutral);
-        row.cells[1].tip = fromCore(verdict->reason);
+        row.cells[1].tip = coreSentence(verdict->reason);
         if (verdict->contribution_rms > 0) {
           row.cells[2] = numberCell(verdict->contribution_rms, 3);
           row.cells[3] = numberCell(verdict->error_without_percent, 0);
@@ -126,8 +128,9 @@ void ThermalModelPage::showSeries() {
         high = std::max(high, v);
       }
       for (double& v : values) v = high > low ? (v - low) / (high - low) : 0.0;
-      series.push_back(line(tr("%1 (%2 … %3)").arg(fromCore(names[i])).arg(low, 0, 'g', 3).arg(high, 0, 'g', 3), values,
-                            static_cast<int>(i)));
+      series.push_back(
+          line(tr("%1 (%2 … %3)").arg(fromCore(names[i])).arg(decimalText(low, 'g', 3)).arg(decimalText(high, 'g', 3)),
+               values, static_cast<int>(i)));
     }
     series_plot_->setAxes(tr("Time / h"), tr("Part of its range"));
   } else {
@@ -154,9 +157,9 @@ void ThermalModelPage::showResult() {
     return;
   }
   const QString unit = outputUnit();
-  rms_->set(QStringLiteral("%1 %2").arg(result_->test.rmse, 0, 'g', 3).arg(unit));
-  fit_->set(QStringLiteral("%1 %").arg(result_->test.fit_percent, 0, 'f', 1));
-  p2p_->set(QStringLiteral("%1 %2").arg(result_->test.p2p, 0, 'g', 3).arg(unit));
+  rms_->set(QStringLiteral("%1 %2").arg(decimalText(result_->test.rmse, 'g', 3)).arg(unit));
+  fit_->set(QStringLiteral("%1 %").arg(decimalText(result_->test.fit_percent, 'f', 1)));
+  p2p_->set(QStringLiteral("%1 %2").arg(decimalText(result_->test.p2p, 'g', 3)).arg(unit));
   std::vector<Row> rows;
   const auto add = [&](const QString& name, const RunQuality& train, const RunQuality& test, const QString& note) {
     Row row;
@@ -169,8 +172,8 @@ void ThermalModelPage::showResult() {
   add(tr("This model"), result_->train, result_->test, tr("free run, inputs: %1").arg(result_->inputs.size()));
   for (const ModelComparison& m : result_->plain) {
     // The name without what it is made of: the whole stands in the tip.
-    add(fromCore(m.name).section(QStringLiteral(" on "), 0, 0), m.train, m.test,
-        fromCore(m.name) + QStringLiteral(": ") + fromCore(m.note));
+    add(coreSentence(fromCore(m.name).section(QStringLiteral(" on "), 0, 0)), m.train, m.test,
+        coreSentence(m.name) + QStringLiteral(": ") + coreSentence(m.note));
   }
   comparison_->setRows(std::move(rows));
   const QString chosen = step_input_->currentText();
@@ -188,12 +191,12 @@ void ThermalModelPage::showStep() {
     if (fromCore(s.input) != step_input_->currentText()) continue;
     Series line;
     line.style = SeriesStyle::Line;
-    line.name = tr("Step of %1 by %2, 95 % interval").arg(fromCore(s.input)).arg(s.step, 0, 'g', 4);
+    line.name = tr("Step of %1 by %2, 95 % interval").arg(fromCore(s.input)).arg(decimalText(s.step, 'g', 4));
     line.x = hours(s.time_s);
     line.y = s.value;
     line.sigma = s.sigma;
     line.sigma_factor = s.coverage_factor;
-    step_plot_->setAxes(tr("Time after a step of %1 by %2 / h").arg(fromCore(s.input)).arg(s.step, 0, 'g', 4),
+    step_plot_->setAxes(tr("Time after a step of %1 by %2 / h").arg(fromCore(s.input)).arg(decimalText(s.step, 'g', 4)),
                         tr("Response / %1").arg(outputUnit()));
     step_plot_->setContent({line});
     if (std::isfinite(s.time_to_63_percent_s)) {
@@ -266,7 +269,8 @@ void ThermalModelPage::showResiduals() {
   }
   residual_plot_->setLeastRange(0.3);
   residual_plot_->setContent(bars.x.empty() ? std::vector<Series>{} : std::vector<Series>{bars});
-  const QString p = d.whiteness_p_value < 0.001 ? tr("p < 0.001") : tr("p = %1").arg(d.whiteness_p_value, 0, 'g', 2);
+  const QString p =
+      d.whiteness_p_value < 0.001 ? tr("p < 0.001") : tr("p = %1").arg(decimalText(d.whiteness_p_value, 'g', 2));
   if (d.whiteness_p_value < 0.01) {
     whiteness_->show(Tone::Attention,
                      tr("The residual is not white (%1): something slow is left, a drift or a missing input. The "
@@ -279,7 +283,7 @@ void ThermalModelPage::showResiduals() {
   for (const ResidualDiagnosis::Cross& c : d.cross) {
     Row row;
     row.id = fromCore(c.input);
-    const QString text = tr("%1 at %2 min").arg(c.largest, 0, 'f', 2).arg(c.lag_s / 60, 0, 'f', 0);
+    const QString text = tr("%1 at %2 min").arg(decimalText(c.largest, 'f', 2)).arg(decimalText(c.lag_s / 60, 'f', 0));
     row.cells = {nameCell(row.id), c.largest > c.limit ? toneCell(text, Tone::Attention) : toneCell(text, Tone::Good),
                  numberCell(c.limit, 2)};
     rows.push_back(std::move(row));

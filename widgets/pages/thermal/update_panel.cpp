@@ -10,9 +10,11 @@
 #include <array>
 #include <cmath>
 
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
@@ -85,14 +87,14 @@ void UpdatePanel::show() {
   const TrackResult& r = *result_;
   const QString unit = fromCore(r.unit);
   QString text = tr("From %1 h on: rms %2 %3 with %4 measurements, %5 %3 without; fit %6 %, without %7 %.")
-                     .arg(r.from_s / 3600, 0, 'f', 1)
-                     .arg(r.with.rmse, 0, 'g', 3)
+                     .arg(decimalText(r.from_s / 3600, 'f', 1))
+                     .arg(decimalText(r.with.rmse, 'g', 3))
                      .arg(unit)
                      .arg(r.run.events.size())
-                     .arg(r.without.rmse, 0, 'g', 3)
-                     .arg(r.with.fit_percent, 0, 'f', 0)
-                     .arg(r.without.fit_percent, 0, 'f', 0);
-  for (const std::string& note : r.notes) text += QLatin1Char(' ') + fromCore(note);
+                     .arg(decimalText(r.without.rmse, 'g', 3))
+                     .arg(decimalText(r.with.fit_percent, 'f', 0))
+                     .arg(decimalText(r.without.fit_percent, 'f', 0));
+  for (const std::string& note : r.notes) text += QLatin1Char(' ') + coreSentence(note);
   summary_->show(r.with.rmse <= r.without.rmse ? Tone::Good : Tone::Attention, text);
   std::vector<Series> all;
   if (what_->current() == 0) {

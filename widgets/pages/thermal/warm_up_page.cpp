@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/imaging/warm_up.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/machine_state_line.h"
@@ -20,6 +21,7 @@
 #include "widgets/pages/thermal/clock_panel.h"
 #include "widgets/pages/thermal/resolution_check_panel.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -212,7 +214,7 @@ void WarmUpPage::refresh() {
     if (set) judged = judgeWarmUp(*set, {}, {}, campaign->log ? &*campaign->log : nullptr);
   } catch (const InputError& e) {
     judged.reset();
-    unreadable = QString::fromUtf8(e.what());
+    unreadable = coreSentence(e.what());
   }
   if (judged && judged->status == FitStatus::Converged) {
     double last = 0;
@@ -237,13 +239,14 @@ void WarmUpPage::refresh() {
       row.id = name;
       Cell first{name};
       first.bold = true;
-      row.cells = {
-          first,
-          {QString::fromStdString(withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "um/h"))},
-          {axis.tau_s ? tr("%1 min").arg(*axis.tau_s / 60, 0, 'f', 0) : QStringLiteral("–")},
-          {axis.settled_after_s ? tr("%1 min").arg(*axis.settled_after_s / 60, 0, 'f', 0) : QStringLiteral("–")},
-          {axis.settled ? tr("settled") : tr("not settled"), axis.settled ? Tone::Good : Tone::Attention,
-           axis.settled ? "check-circle" : "alert"}};
+      row.cells = {first,
+                   {shownNumbers(QString::fromStdString(
+                       withUncertainty(axis.drift_um_per_h, axis.drift_sigma_um_per_h, "um/h")))},
+                   {axis.tau_s ? tr("%1 min").arg(decimalText(*axis.tau_s / 60, 'f', 0)) : QStringLiteral("–")},
+                   {axis.settled_after_s ? tr("%1 min").arg(decimalText(*axis.settled_after_s / 60, 'f', 0))
+                                         : QStringLiteral("–")},
+                   {axis.settled ? tr("settled") : tr("not settled"), axis.settled ? Tone::Good : Tone::Attention,
+                    axis.settled ? "check-circle" : "alert"}};
       rows.push_back(std::move(row));
     }
     drift_->setAxes(tr("Time / %1").arg(unit.name),
@@ -256,8 +259,8 @@ void WarmUpPage::refresh() {
   if (stated) {
     callout()->show(Tone::Good, tr("You stated that the instrument was warm. Reports written from now on say so."));
   } else if (measured) {
-    QString sentence = QString::fromStdString(judged->reason);
-    if (!judged->cause_reason.empty()) sentence += QLatin1Char(' ') + QString::fromStdString(judged->cause_reason);
+    QString sentence = coreSentence(judged->reason);
+    if (!judged->cause_reason.empty()) sentence += QLatin1Char(' ') + coreSentence(judged->cause_reason);
     callout()->show(judged->settled ? Tone::Good : Tone::Attention, sentence);
   } else if (!unreadable.isEmpty()) {
     callout()->show(Tone::Attention, unreadable);

@@ -14,6 +14,7 @@
 #include "core/workflows/fit_campaign.h"
 #include "widgets/common/parts.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -117,7 +118,7 @@ void VerifyMaps::show(const VerifyMap& map, const MachineDescription& machine, d
       v.id = v.label = fromCore(p.point);
       v.position_mm = p.position_mm;
       v.value = p.value;
-      v.value_text = fromCore(withUncertainty(p.value, p.sigma, unitOf(map.component)));
+      v.value_text = shownNumbers(fromCore(withUncertainty(p.value, p.sigma, unitOf(map.component))));
       points.push_back(std::move(v));
     }
     view->setPoints(std::move(points));

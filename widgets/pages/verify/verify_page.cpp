@@ -17,6 +17,7 @@
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/evaluate_campaign.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
@@ -25,6 +26,7 @@
 #include "widgets/pages/verify/verify_maps.h"
 #include "widgets/pages/verify/verify_series.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -273,8 +275,8 @@ void VerifyPage::refresh() {
   } else if (result_options_ != now || !state.current) {
     callout()->show(Tone::Outdated, tr("Changed since: %1. Compare again.").arg(state.changed));
   } else {
-    QString text = fromCore(result_->reason);
-    for (const std::string& note : result_->notes) text += QLatin1Char(' ') + fromCore(note);
+    QString text = coreSentence(result_->reason);
+    for (const std::string& note : result_->notes) text += QLatin1Char(' ') + coreSentence(note);
     callout()->show(toneOf(result_->verdict), text);
   }
   showResult();
@@ -327,7 +329,7 @@ void VerifyPage::showResult() {
     left_->set(text(worst->after), largest ? tr("largest %1").arg(name) : tr("rms %1").arg(name));
     if (chosen.isEmpty()) component_->setCurrentText(name);
   }
-  verdict_->set(wordOf(result_->verdict), tr("goal %1 um").arg(result_->request.goal_um, 0, 'g', 3),
+  verdict_->set(wordOf(result_->verdict), tr("goal %1 um").arg(decimalText(result_->request.goal_um, 'g', 3)),
                 toneOf(result_->verdict));
   if (component_->findText(chosen) >= 0) component_->setCurrentText(chosen);
   QStringList states;

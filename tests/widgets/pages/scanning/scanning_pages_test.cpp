@@ -18,6 +18,7 @@
 #include "widgets/pages/scanning/scan_capture_page.h"
 #include "widgets/pages/scanning/scan_mask_bar.h"
 #include "widgets/plots/plot.h"
+#include "widgets/plots/plot_grid.h"
 #include "widgets/plots/surface_plot.h"
 #include "widgets/view3d/view3d.h"
 
@@ -226,7 +227,15 @@ TEST_F(ScanningPages, ModelShowsTheSixErrorsUnderEitherScanModel) {
   EXPECT_EQ(page->scanModel()->current(), 1);
   page->setComponent(2);  // EZY
   EXPECT_EQ(page->values()->rowCount(), 4);
-  EXPECT_EQ(page->series()->series().size(), 2U);
+  // One panel an artefact, all on the same axes.
+  const auto panels = page->series()->panels();
+  ASSERT_EQ(panels.size(), 2U);
+  const auto height = [](const Plot* plot) { return plot->pixelOf(0, 0).y() - plot->pixelOf(0, 1).y(); };
+  for (const Plot* panel : panels) {
+    EXPECT_EQ(panel->series().size(), 1U);
+    EXPECT_NEAR(height(panel) / panel->height(), height(panels[0]) / panels[0]->height(), 0.05);
+  }
+  EXPECT_NE(page->series()->titleOf(0), page->series()->titleOf(1));
   ASSERT_FALSE(page->surface()->empty());
   EXPECT_EQ(page->surface()->data().x.size(), 2U);
   EXPECT_EQ(page->surface()->data().y.size(), 3U);

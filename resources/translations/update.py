@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Collects every sentence a user may read into the catalogues of translations.
+
+Sentences of the window stand in tr(); lupdate finds them. Sentences of `core` are English formats of {fmt} ("file {} is
+not there"); this script finds them and writes them into widgets/common/core_formats.cpp, where lupdate sees them under
+the context "core" and the program looks them up (widgets/common/core_sentence.h).
+
+    update.py           writes core_formats.cpp and brings all resources/translations/*.ts up to date
+    update.py --check   writes nothing; exit status 1 and what is missing if a file is not up to date
+"""
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+FORMATS = TOP / "widgets/common/core_formats.cpp"
+CATALOGUES = TOP / "resources/translations"
+# Reports, decks for solvers and the reference of the command line are documents of their own: English.
+LEFT_OUT = re.compile(r"core/(reporting|finite_elements)/|report|core/workflows/manual|core/base/program_reference|"
+                      r"core/plant/plant_schema|core/discrepancy/catalogue\.h")
+# Arguments of these are for machines or for programmers.
+NOT_SHOWN = {"SPINDRIFT_ASSERT", "guarded", "writing", "prepare", "log", "demand", "send", "set_pattern", "set_name",
+             "starts_with", "ends_with", "rfind", "find", "selectResults", "writeFileAtomically", "open",
+             "InternalError", "invalid_argument", "logic_error", "countOf", "format_to"}
+TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\((?:.*?)\)\1"|"((?:[^"\\\n]|\\.)*)"|\'(?:[^\'\\\n]|\\.)+\''
+                   r'|[A-Za-z_]\w*|\d[\w.\']*|::|->|<<|\S', re.S)
+# Sentences that core puts together in more than one place.
+COMPOSED = ("displacement along {} at the origin of the table", "rotation about {} at the origin of the table",
+            "thermal expansion along {} over the table", "squareness of {} to {}",
+            "{} of {} captures cannot be used. Take them again, or exclude them.")
+# Words that stand alone.
+ALONE = ("converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
+         "table", "rotary drive")
+PLACEHOLDER = re.compile(r"\{[^{}]*(?:\{\}[^{}]*)*\}")
+STATEMENT = re.compile(r"\s*(select|insert|update|delete|create|drop|alter|pragma|where|from|order by|for update|begin "
+                       r"|set [a-z_.]+ =|set default_|setp |sets |addf |net |newsig |show (pin|sig)|timeout |bigint |integer "
+                       r"|do \$|while (executing|preparing)$|  +|--(wrap|dependency)=|TCH |FN |L [XZ{]|%Y|%\d)")
+MARKUP = re.compile(r'</|<\w+[ >]|=\\"|^#|^\*[A-Z]|\\n.*\\n', re.S)
+WORDS = re.compile(r"[A-Za-z}][.,:;)'\"\\]* +\S|^ +[a-z]{2}|[a-z]{2}: *$")
+
+
+def literals(text):
+    """(literal, token before, names of the calls around it, token after) of all string literals."""
+    text = re.sub(r"^[ \t]*#[^\n]*", "", text, flags=re.M)
+    calls, before, current = [], "", None
+    for match in TOKEN.finditer(text):
+        token = match.group(0)
+        if token[:2] in ("//", "/*"):
+            continue
+        if match.group(2) is not None:
+            if current is None:
+                current = [match.group(2), before, list(calls)]
+            else:
+                current[0] += match.group(2)
+            continue
+        if current is not None:
+            yield current[0], current[1], current[2], token
+            current = None
+        if token in ("(", "[", "{"):
+            calls.append(before if token == "(" else "")
+        elif token in (")", "]", "}") and calls:
+            calls.pop()
+        before = token
+
+
+def isSentence(text):
+    """Words for people: a word of three small letters beside the placeholders, in more than a key, a path, a statement or
+    a line of the command line (which ends with its line break)."""
+    words = re.sub(r"\\.", " ", PLACEHOLDER.sub(" ", text))
+    if text.endswith("\\n") or STATEMENT.match(text) or MARKUP.search(text.rstrip("\\n")):
+        return False
+    return re.search(r"\b[A-Z]?[a-z]{2,}\b", words) is not None and WORDS.search(text) is not None
+
+
+def coreFormats():
+    found = dict.fromkeys(ALONE + COMPOSED, "")
+    for path in sorted((TOP / "core").rglob("*")):
+        name = path.relative_to(TOP).as_posix()
+        if path.suffix not in (".cpp", ".h") or LEFT_OUT.search(name):
+            continue
+        for text, before, calls, after in literals(path.read_text(encoding="utf-8")):
+            if any(call in NOT_SHOWN for call in calls) or not isSentence(text):
+                continue
+            # What is joined with + to something else is part of a longer sentence.
+            joined = "format" not in calls[-1:]
+            if before in ("+", "+=") and joined and calls[-1:] != ["string"]:
+                text = "{}" + text
+            if after == "+" and joined:
+                text = text + "{}"
+            found.setdefault(text.strip() if text.strip().strip("{}") == text.strip() else text, name)
+    for path in sorted([*(TOP / "core").rglob("*.cpp"), *(TOP / "widgets").rglob("*.cpp")]):
+        for text in counts(path.read_text(encoding="utf-8")):
+            found.setdefault(text, "")
+    return found
+
+
+def counts(text):
+    """"1 touch" and "{} touches" of countOf(n, "touch", "touches"); `many` where it is not `one` with an s."""
+    for one, _, many in re.findall(r'countOf\([^;"]*?"([a-z ]+)"(, *"([a-z ]+)")?', text):
+        yield "1 " + one
+        yield "{} " + (many or one + "s")
+
+
+HELPER = re.compile(r'(?:QString |auto )(\w+)(?: = \[[^\]]*\])?\(const char\* (\w+)\) \{\s*return '
+                    r'QCoreApplication::translate\("([\w:]+)", \2\);')
+
+
+def collectedTexts():
+    """Texts of functions in the window that translate in a context of their own, which lupdate does not look into."""
+    found = set()
+    for path in sorted((TOP / "widgets").rglob("*.cpp")):
+        text = path.read_text(encoding="utf-8")
+        contexts = {name: context for name, _, context in HELPER.findall(text)}
+        if not contexts or path == FORMATS:
+            continue
+        for literal, _, calls, _ in literals(text):
+            if calls and calls[-1] in contexts:
+                found.add((contexts[calls[-1]], literal))
+    return sorted(found)
+
+
+def formatsFile(found):
+    lines = ["// SPDX-License-Identifier: GPL-3.0-or-later",
+             "// Written by resources/translations/update.py from the sources of core; do not edit.",
+             '#include "widgets/common/core_formats.h"', "", "#include <QtGlobal>", "", "// clang-format off", "",
+             "namespace spindrift::gui {", "namespace {", "", "const char* const formats[] = {"]
+    lines += ['    QT_TRANSLATE_NOOP("core", "%s"),' % text for text in sorted(found)]
+    lines += ["};", ""]
+    lines += ["// Found by lupdate here, looked up where they stand.", "[[maybe_unused]] constexpr const char* texts[] = {"]
+    lines += ['    QT_TRANSLATE_NOOP("%s", "%s"),' % each for each in collectedTexts()]
+    lines += ["};", "", "}  // namespace", "",
+              "std::span<const char* const> coreFormats() noexcept {", "  return formats;", "}", "",
+              "}  // namespace spindrift::gui", ""]
+    return "\n".join(lines)
+
+
+def runLupdate(catalogue, *options):
+    command = ["/usr/lib/qt6/bin/lupdate", "-silent", "-I", ".", "-locations", "none", "-no-obsolete", *options,
+               "widgets", "app/gui", "-ts", str(catalogue)]
+    subprocess.run(command, cwd=TOP, check=True, stderr=subprocess.DEVNULL)
+
+
+def sources(catalogue):
+    return {(context.findtext("name"), message.findtext("source"), message.findtext("comment") or "")
+            for context in ElementTree.parse(catalogue).getroot().iter("context")
+            for message in context.iter("message")}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="write nothing; exit status 1 if something is not up to date")
+    arguments = parser.parse_args()
+    text = formatsFile(coreFormats())
+    catalogues = sorted(CATALOGUES.glob("*.ts"))
+    if not arguments.check:
+        if FORMATS.read_text(encoding="utf-8") != text:
+            FORMATS.write_text(text, encoding="utf-8")
+        for catalogue in catalogues:
+            runLupdate(catalogue, *(["-pluralonly"] if catalogue.stem.endswith("_en") else []))
+        return 0
+    wrong = []
+    if FORMATS.read_text(encoding="utf-8") != text:
+        wrong.append(f"{FORMATS.relative_to(TOP)} is not what the sources of core say")
+    for catalogue in catalogues:
+        with tempfile.TemporaryDirectory() as folder:
+            copy = pathlib.Path(folder) / catalogue.name
+            copy.write_bytes(catalogue.read_bytes())
+            runLupdate(copy, *(["-pluralonly"] if catalogue.stem.endswith("_en") else []))
+            for where, source, _ in sorted(sources(copy) ^ sources(catalogue)):
+                wrong.append(f"{catalogue.name}: {where}: {source}")
+    for sentence in wrong:
+        print(sentence, file=sys.stderr)
+    if wrong:
+        print("Run resources/translations/update.py (target translations).", file=sys.stderr)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

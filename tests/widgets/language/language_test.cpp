@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The catalogues are complete and true to their sources; sentences of core and numbers are shown in the language of the
+// window, and files keep their point.
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QLineEdit>
+#include <QRegularExpression>
+#include <QSettings>
+#include <QTest>
+#include <QXmlStreamReader>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/json_reader.h"
+#include "core/machine/observation.h"
+#include "tests/support/temp_folder.h"
+#include "widgets/common/core_formats.h"
+#include "widgets/common/core_sentence.h"
+#include "widgets/common/languages.h"
+#include "widgets/export/exportable.h"
+#include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/pages/common/editor_table.h"
+#include "widgets/theme/numbers.h"
+
+namespace spindrift::gui {
+namespace {
+
+struct Text {
+  QString context;
+  QString source;
+  QStringList translations;  ///< one for each form of a plural
+  bool unfinished = false;
+};
+
+std::vector<Text> textsOf(const QString& name) {
+  QFile file(QStringLiteral(SPINDRIFT_SOURCE_DIR "/resources/translations/") + name);
+  EXPECT_TRUE(file.open(QIODevice::ReadOnly)) << name.toStdString();
+  QXmlStreamReader xml(&file);
+  std::vector<Text> texts;
+  QString context;
+  while (!xml.atEnd()) {
+    if (xml.readNext() != QXmlStreamReader::StartElement) continue;
+    if (xml.name() == QLatin1String("name")) context = xml.readElementText();
+    if (xml.name() == QLatin1String("source")) texts.push_back({context, xml.readElementText(), {}, false});
+    if (xml.name() == QLatin1String("translation")) {
+      texts.back().unfinished = xml.attributes().hasAttribute(QStringLiteral("type"));
+      QString text;
+      while (xml.readNext() != QXmlStreamReader::EndElement || xml.name() != QLatin1String("translation")) {
+        if (xml.isStartElement()) texts.back().translations << xml.readElementText();
+        if (xml.isCharacters()) text += xml.text();
+      }
+      if (texts.back().translations.isEmpty()) texts.back().translations << text;
+    }
+  }
+  EXPECT_FALSE(xml.hasError()) << xml.errorString().toStdString();
+  return texts;
+}
+
+/// "%1", "{:.2f}", ... in order of their text. Their numbers in a translation, which may turn them round, do not count.
+std::multiset<QString> placeholdersOf(QString text, bool of_core) {
+  static const QRegularExpression qt(QStringLiteral("%(?:[1-9]|n)"));
+  static const QRegularExpression fmt(QStringLiteral("\\{[^{} ]*(?:\\{\\}[^{} ]*)*\\}"));
+  static const QRegularExpression number(QStringLiteral("^\\{\\d+"));
+  if (of_core) text.remove(QStringLiteral("{{")).remove(QStringLiteral("}}"));
+  std::multiset<QString> found;
+  for (auto i = (of_core ? fmt : qt).globalMatch(text); i.hasNext();) {
+    QString one = i.next().captured();
+    if (of_core) one.replace(number, QStringLiteral("{"));
+    found.insert(one);
+  }
+  return found;
+}
+
+bool hasMnemonic(const QString& text) {
+  static const QRegularExpression mnemonic(QStringLiteral("&\\w"), QRegularExpression::UseUnicodePropertiesOption);
+  return mnemonic.match(text).hasMatch();
+}
+
+class CatalogueTest : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(CatalogueTest, IsCompleteAndKeepsPlaceholdersBordersAndMnemonics) {
+  const std::vector<Text> texts = textsOf(QString::fromLatin1(GetParam()));
+  ASSERT_FALSE(texts.empty());
+  for (const Text& text : texts) {
+    SCOPED_TRACE(text.context.toStdString() + ": " + text.source.toStdString());
+    EXPECT_FALSE(text.unfinished);
+    const bool of_core = text.context == QLatin1String("core");
+    for (const QString& translation : text.translations) {
+      EXPECT_FALSE(translation.isEmpty());
+      if (translation.isEmpty()) continue;
+      auto wanted = placeholdersOf(text.source, of_core);
+      auto there = placeholdersOf(translation, of_core);
+      if (text.translations.size() > 1) {  // "one cycle" may do without its number
+        wanted.erase(QStringLiteral("%n"));
+        there.erase(QStringLiteral("%n"));
+      }
+      EXPECT_EQ(wanted, there) << translation.toStdString();
+      EXPECT_EQ(text.source.front().isSpace(), translation.front().isSpace()) << translation.toStdString();
+      EXPECT_EQ(text.source.back().isSpace(), translation.back().isSpace()) << translation.toStdString();
+      EXPECT_EQ(hasMnemonic(text.source), hasMnemonic(translation)) << translation.toStdString();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CatalogueTest, ::testing::Values("spindrift_de.ts", "spindrift_en.ts"),
+                         [](const auto& test) { return std::string(test.param).substr(10, 2); });
+
+class LanguageTest : public ::testing::Test {
+ protected:
+  void SetUp() override { QSettings().clear(); }
+  void TearDown() override { applyLanguage(QStringLiteral("en")); }
+};
+
+TEST_F(LanguageTest, IsThatOfTheCallThePreferenceOrTheSystemAndElseEnglish) {
+  ASSERT_GE(availableLanguages().size(), 2U);
+  EXPECT_EQ(availableLanguages().front().code, QStringLiteral("en"));
+  EXPECT_EQ(systemLanguage(), QStringLiteral("en")) << "tests run in the C locale";
+  EXPECT_EQ(preferredLanguage(), QString());
+  setPreferredLanguage(QStringLiteral("de"));
+  EXPECT_EQ(preferredLanguage(), QStringLiteral("de"));
+  applyLanguage(preferredLanguage());
+  EXPECT_EQ(currentLanguage(), QStringLiteral("de"));
+  EXPECT_EQ(QCoreApplication::translate("spindrift::gui::MainWindow", "&Help"), QStringLiteral("&Hilfe"));
+  EXPECT_EQ(QCoreApplication::translate("spindrift::gui::JobBar", "%n waiting", nullptr, 1),
+            QStringLiteral("1 wartet"));
+  EXPECT_EQ(QCoreApplication::translate("spindrift::gui::JobBar", "%n waiting", nullptr, 3),
+            QStringLiteral("3 warten"));
+  EXPECT_EQ(QCoreApplication::translate("QPlatformTheme", "Cancel"), QStringLiteral("Abbrechen")) << "Qt's own dialogs";
+  applyLanguage(QStringLiteral("xx"));
+  EXPECT_EQ(currentLanguage(), QStringLiteral("en"));
+  EXPECT_EQ(QCoreApplication::translate("spindrift::gui::MainWindow", "&Help"), QStringLiteral("&Help"));
+  EXPECT_EQ(QCoreApplication::translate("spindrift::gui::ClosedLoopPage", "%n cycles", nullptr, 1),
+            QStringLiteral("1 cycle"));
+}
+
+TEST_F(LanguageTest, SentencesOfCoreAreFoundAgainByTheirFormat) {
+  const testing::TempFolder folder;
+  folder.write("observations.csv",
+               "time_s,state,point,x_mm,y_mm,z_mm,c_deg,component,value,sigma,instrument\n"
+               "0,M0,P1,1,2,3,0,EQ,1,0.5,probe\n");
+  std::string english;
+  try {
+    (void)ObservationSet::read(folder / "observations.csv");
+  } catch (const InputError& e) {
+    english = e.what();
+  }
+  ASSERT_NE(english.find("component \"EQ\" is not known; allowed: EX"), std::string::npos) << english;
+  EXPECT_EQ(coreSentence(english), QString::fromStdString(english)) << "English as it is";
+  applyLanguage(QStringLiteral("de"));
+  const QString german = coreSentence(english);
+  EXPECT_TRUE(german.contains(QStringLiteral("Komponente „EQ“ ist nicht bekannt; zulässig: EX, EY")))
+      << german.toStdString();
+  EXPECT_TRUE(german.contains(QStringLiteral("Zeile 2"))) << german.toStdString();
+  EXPECT_TRUE(german.startsWith(QString::fromStdString(folder.path().string()))) << german.toStdString();
+}
+
+TEST_F(LanguageTest, ValuesOfASentenceAreTranslatedAndNumbersWrittenAsTheLanguageDoes) {
+  applyLanguage(QStringLiteral("de"));
+  EXPECT_EQ(coreSentence("Sharpness 0.512, 14 ellipses and 3 circles decoded."),
+            QStringLiteral("Schärfe 0,512, 14 Ellipsen und 3 Kreise decodiert."));
+  EXPECT_EQ(coreSentence("The goal of 2.5 um is met: largest EX is 1.2 ± 0.3 um."),
+            QStringLiteral("Das Ziel von 2,5 um ist erreicht: largest EX ist 1,2 ± 0,3 um."));
+  EXPECT_EQ(coreSentence("All captures are checked."), QStringLiteral("Alle Aufnahmen sind geprüft."));
+  EXPECT_EQ(coreSentence("3 of 12 captures are checked."), QStringLiteral("3 von 12 Aufnahmen sind geprüft."));
+  EXPECT_EQ(coreSentence("Not settled: X drifts faster than 0.5 µm/h."),
+            QStringLiteral("Nicht eingelaufen: X driftet schneller als 0,5 µm/h."))
+      << "a sentence that begins with a capital where its format does not";
+  EXPECT_EQ(coreSentence("Nobody ever wrote such a thing 1.5 times."),
+            QStringLiteral("Nobody ever wrote such a thing 1,5 times."));
+}
+
+/// Every format of core, filled with values, comes out in German: no format hides behind another one.
+TEST_F(LanguageTest, EveryFormatOfCoreIsFoundWithItsValues) {
+  applyLanguage(QStringLiteral("de"));
+  static const QRegularExpression hole(QStringLiteral("\\{[^{} ]*(?:\\{\\}[^{} ]*)*\\}"));
+  int changed = 0;
+  int asked = 0;
+  for (const char* format : coreFormats()) {
+    QString english = QString::fromUtf8(format);
+    if (english == QCoreApplication::translate("core", format) || english.contains(QStringLiteral("{{"))) continue;
+    int value = 10;
+    for (auto match = hole.match(english); match.hasMatch(); match = hole.match(english))
+      english.replace(match.capturedStart(), match.capturedLength(), QString::number(++value));
+    ++asked;
+    if (coreSentence(english) != english)
+      ++changed;
+    else
+      ADD_FAILURE() << english.toStdString();
+  }
+  EXPECT_EQ(changed, asked);
+  EXPECT_GT(asked, 1500);
+}
+
+TEST_F(LanguageTest, NumbersOnScreenHaveTheCommaAndThoseTypedMayHaveEither) {
+  EXPECT_EQ(decimalText(12.34, 'f', 1), QStringLiteral("12.3"));
+  applyLanguage(QStringLiteral("de"));
+  EXPECT_EQ(decimalText(12.34, 'f', 1), QStringLiteral("12,3"));
+  EXPECT_EQ(decimalText(123456.0, 'f', 0), QStringLiteral("123456")) << "no separators of thousands";
+  EXPECT_EQ(numberCell(-1.25, 2).text, QStringLiteral("−1,25"));
+  EXPECT_EQ(quantityText(12.4, 0.3, QStringLiteral("µm")), QStringLiteral("12,4 ± 0,3 µm"));
+  EXPECT_EQ(shownNumbers(QStringLiteral("12.4 ± 0.3 µm")), QStringLiteral("12,4 ± 0,3 µm"));
+  EXPECT_EQ(shownNumbers(QStringLiteral("version 0.1.0 of run1.5/a2.5.csv")),
+            QStringLiteral("version 0.1.0 of run1.5/a2.5.csv"));
+  EXPECT_EQ(typedNumber(QStringLiteral(" 12,3 ")), 12.3);
+  EXPECT_EQ(typedNumber(QStringLiteral("12.3")), 12.3);
+  EXPECT_EQ(typedNumber(QStringLiteral("−1e-3")), -1e-3);
+  EXPECT_EQ(typedNumber(QStringLiteral("1,2,3")), std::nullopt);
+  EXPECT_EQ(typedNumber(QStringLiteral("x")), std::nullopt);
+  EXPECT_EQ(numberOrText(QStringLiteral("12,3")), nlohmann::json(12.3)) << "a table that is edited";
+  QDoubleSpinBox box;
+  box.setDecimals(2);
+  box.setRange(0.0, 100.0);
+  EXPECT_EQ(box.textFromValue(12.5), QStringLiteral("12,50"));
+  for (const char* keys : {"12.5", "12,5"}) {
+    box.clear();
+    QTest::keyClicks(box.findChild<QLineEdit*>(), QString::fromLatin1(keys));
+    box.interpretText();
+    EXPECT_EQ(box.value(), 12.5) << keys;
+  }
+}
+
+TEST_F(LanguageTest, ATableInGermanIsExportedWithPoints) {
+  applyLanguage(QStringLiteral("de"));
+  RowsModel model({QStringLiteral("Punkt"), QStringLiteral("EX / µm"), QStringLiteral("EY / µm")});
+  model.setRows({Row{QStringLiteral("P1"),
+                     {nameCell(QStringLiteral("P1, P2")), numberCell(-12.34, 2), quantityCell(12.4, 0.3)}}});
+  EXPECT_EQ(model.index(0, 1).data().toString(), QStringLiteral("−12,34"));
+  EXPECT_EQ(tableCsv(model), QStringLiteral("Punkt,EX / µm,EY / µm\n\"P1, P2\",−12.34,12.4 ± 0.3\n"));
+}
+
+}  // namespace
+}  // namespace spindrift::gui

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What every table of results can do.
+#include "widgets/common/table_habits.h"
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+#include <QClipboard>
+#include <QContextMenuEvent>
+#include <QHeaderView>
+#include <QMenu>
+#include <QTableView>
+#include <QTest>
+
+#include "widgets/common/parts.h"
+#include "widgets/export/exportable.h"
+#include "widgets/models/rows_model.h"
+
+namespace spindrift::gui {
+namespace {
+
+class TableHabitsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    table_.reset(makeTable(&model_, QStringLiteral("Points")));
+    model_.setRows(rows({"−5.1", "12.4 ± 0.3", "–", "3.2", "100", ""}));
+    table_->resize(500, 400);
+    table_->show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(table_.get()));
+  }
+  static std::vector<Row> rows(const std::vector<const char*>& values) {
+    std::vector<Row> rows;
+    int number = 12;
+    for (const char* value : values) {
+      Row row;
+      row.id = QStringLiteral("F%1").arg(--number);
+      row.cells = {{row.id}, {QString::fromUtf8(value)}};
+      rows.push_back(std::move(row));
+    }
+    return rows;
+  }
+  void clickHeader(int column) {
+    QHeaderView* header = table_->horizontalHeader();
+    const QPoint at(header->sectionViewportPosition(column) + 8, header->height() / 2);
+    QTest::mouseClick(header->viewport(), Qt::LeftButton, Qt::NoModifier, at);
+    QCoreApplication::processEvents();
+  }
+  [[nodiscard]] QStringList shown(int column) const {
+    QStringList texts;
+    for (const int row : shownRows(*table_)) texts << model_.index(row, column).data().toString();
+    return texts;
+  }
+  QMenu* openMenu(int row) {
+    const QPoint at = table_->visualRect(model_.index(row, 1)).center();
+    QContextMenuEvent event(QContextMenuEvent::Mouse, at, table_->viewport()->mapToGlobal(at));
+    QCoreApplication::sendEvent(table_.get(), &event);
+    return table_->findChild<QMenu*>(QStringLiteral("tableMenu"));
+  }
+  void choose(int row, const char* action) {
+    QMenu* menu = openMenu(row);
+    ASSERT_NE(menu, nullptr);
+    auto* found = menu->findChild<QAction*>(QLatin1String(action));
+    ASSERT_NE(found, nullptr) << action;
+    found->trigger();
+    menu->close();
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    QCoreApplication::processEvents();
+  }
+
+  RowsModel model_{{QStringLiteral("Point"), QStringLiteral("X / µm")}};
+  std::unique_ptr<QTableView> table_;
+};
+
+TEST_F(TableHabitsTest, AClickSortsNumbersAsNumbersAndAThirdOneGoesBack) {
+  const QStringList as_given = shown(1);
+  clickHeader(1);
+  EXPECT_EQ(shown(1), QStringList({"−5.1", "3.2", "12.4 ± 0.3", "100", "–", ""}));
+  EXPECT_TRUE(table_->horizontalHeader()->isSortIndicatorShown());
+  clickHeader(1);
+  EXPECT_EQ(shown(1), QStringList({"100", "12.4 ± 0.3", "3.2", "−5.1", "–", ""})) << "nothing is last either way";
+  clickHeader(1);
+  EXPECT_EQ(shown(1), as_given);
+  EXPECT_FALSE(table_->horizontalHeader()->isSortIndicatorShown());
+  clickHeader(0);
+  EXPECT_EQ(shown(0), QStringList({"F6", "F7", "F8", "F9", "F10", "F11"})) << "F9 before F10";
+}
+
+TEST_F(TableHabitsTest, RowsStayWhatTheyAreForThePage) {
+  table_->selectRow(3);
+  clickHeader(1);
+  EXPECT_EQ(table_->currentIndex().row(), 3);
+  EXPECT_EQ(model_.idAt(table_->currentIndex().row()), QStringLiteral("F8"));
+  // What is clicked is what is seen there: the second from the top is "3.2".
+  const QRect second = table_->visualRect(model_.index(3, 0));
+  EXPECT_EQ(second.top(), table_->rowHeight(0));
+  QTest::mouseClick(table_->viewport(), Qt::LeftButton, Qt::NoModifier, QPoint(10, 5));
+  EXPECT_EQ(model_.idAt(table_->currentIndex().row()), QStringLiteral("F11")) << "the smallest is on top";
+  QTest::keyClick(table_.get(), Qt::Key_Down);
+  EXPECT_EQ(model_.idAt(table_->currentIndex().row()), QStringLiteral("F8")) << "arrows go as the eye does";
+}
+
+TEST_F(TableHabitsTest, NewRowsAreSortedToo) {
+  clickHeader(1);
+  model_.setRows(rows({"7", "6", "5"}));
+  QCoreApplication::processEvents();
+  EXPECT_EQ(shown(1), QStringList({"5", "6", "7"}));
+  model_.setRows(rows({"1", "3", "2"}));  // as many: no reset
+  QCoreApplication::processEvents();
+  EXPECT_EQ(shown(1), QStringList({"1", "2", "3"}));
+}
+
+TEST_F(TableHabitsTest, SeveralRowsAreCopiedWithHeadersAsTheyAreShown) {
+  clickHeader(1);
+  QTest::mouseClick(table_->viewport(), Qt::LeftButton, Qt::NoModifier, QPoint(10, 5));
+  QTest::mouseClick(table_->viewport(), Qt::LeftButton, Qt::ShiftModifier, QPoint(10, 2 * table_->rowHeight(0) + 5));
+  EXPECT_EQ(table_->selectionModel()->selectedRows().size(), 3);
+  QTest::keyClick(table_.get(), Qt::Key_C, Qt::ControlModifier);
+  EXPECT_EQ(QApplication::clipboard()->text(), QStringLiteral("Point\tX / µm\nF11\t-5.1\nF8\t3.2\nF10\t12.4 ± 0.3\n"));
+  choose(0, "copy");
+  EXPECT_EQ(QApplication::clipboard()->text(), QStringLiteral("F11\t-5.1\nF8\t3.2\nF10\t12.4 ± 0.3\n"));
+  choose(0, "selectAll");
+  EXPECT_EQ(table_->selectionModel()->selectedRows().size(), 6);
+  table_->clearSelection();
+  choose(0, "copyWithHeaders");
+  EXPECT_EQ(QApplication::clipboard()->text().count(QLatin1Char('\n')), 7) << "nothing selected: all of it";
+}
+
+TEST_F(TableHabitsTest, TheMenuSortsForWhoHasNoMouse) {
+  choose(0, "sortDown");
+  EXPECT_EQ(shown(1).front(), QStringLiteral("100"));
+  choose(0, "unsorted");
+  EXPECT_EQ(shown(1).front(), QStringLiteral("−5.1"));
+}
+
+TEST_F(TableHabitsTest, NoFormulaGetsIntoASpreadsheetAndNumbersStayNumbers) {
+  model_.setRows(rows({"=1+1", "−7.5", "a, \"b\"", "two\tparts"}));
+  const std::vector<int> all{0, 1, 2, 3};
+  EXPECT_EQ(tableText(model_, all, {1}, false, TableText::Csv),
+            QStringLiteral("'=1+1\n-7.5\n\"a, \"\"b\"\"\"\ntwo\tparts\n"));
+  EXPECT_EQ(tableText(model_, all, {1}, false, TableText::Tabs), QStringLiteral("'=1+1\n-7.5\na, \"b\"\ntwo parts\n"));
+  EXPECT_TRUE(tableCsv(model_).contains(QStringLiteral("F10,-7.5\n"))) << tableCsv(model_).toStdString();
+}
+
+}  // namespace
+}  // namespace spindrift::gui

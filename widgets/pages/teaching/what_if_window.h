@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// "What if": a slider for every error parameter and every effect of a machine; machine, part, probing points and
+// artefacts follow while it moves. Nothing of it goes into a session.
+#pragma once
+
+#include <QDialog>
+#include <memory>
+#include <vector>
+
+#include "core/workflows/what_if.h"
+
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QLineEdit;
+class QSlider;
+class QTabWidget;
+class QVBoxLayout;
+
+namespace spindrift::gui {
+
+class Callout;
+class RowsModel;
+class View3D;
+
+/// The milled part with its deviations exaggerated.
+class TestPartView : public QWidget {
+  Q_OBJECT
+ public:
+  explicit TestPartView(QWidget* parent = nullptr);
+  void show(const TestPart* part, std::vector<Eigen::Vector3d> deviation_um, const QString& why_none);
+  [[nodiscard]] QSize sizeHint() const override { return {380, 360}; }
+  [[nodiscard]] QSize minimumSizeHint() const override { return {240, 220}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  const TestPart* part_ = nullptr;
+  std::vector<Eigen::Vector3d> deviation_um_;
+  QString why_none_;
+};
+
+class WhatIfWindow : public QDialog {
+  Q_OBJECT
+ public:
+  explicit WhatIfWindow(const MachineDescription& machine, QWidget* parent = nullptr);
+
+  /// As the user does with slider or box. Throws InputError for a parameter that there is not.
+  void set(const std::string& id, double value);
+  void reset();
+  /// Shows the rows whose symbol, title or driver holds this text.
+  void filter(const QString& text);
+  [[nodiscard]] const WhatIf& model() const { return what_if_; }
+  [[nodiscard]] QSlider* slider(const std::string& id) const;
+  [[nodiscard]] QDoubleSpinBox* box(const std::string& id) const;
+  [[nodiscard]] RowsModel* partRows() const { return part_rows_; }
+  [[nodiscard]] RowsModel* pointRows() const { return point_rows_; }
+  [[nodiscard]] RowsModel* artefactRows() const { return artefact_rows_; }
+  [[nodiscard]] QTabWidget* tabs() const { return tabs_; }
+  [[nodiscard]] View3D* machineView() const { return view_; }
+  [[nodiscard]] int visibleSliders() const;
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  struct Control {
+    QWidget* row = nullptr;
+    QLabel* heading = nullptr;  ///< of its group
+    QSlider* slider = nullptr;
+    QDoubleSpinBox* box = nullptr;
+    QString text;  ///< searched by filter()
+  };
+  QWidget* makeControls();
+  void addControl(std::size_t parameter, QLabel* heading, QVBoxLayout* column);
+  void changed(std::size_t parameter, double value);
+  void refresh();
+  void refreshTable(const WhatIfAnswer& answer);
+  void refreshMachine(const WhatIfAnswer& answer);
+
+  WhatIf what_if_;
+  std::vector<Control> controls_;
+  bool filling_ = false;
+  QLineEdit* search_;
+  View3D* view_;
+  TestPartView* part_view_;
+  QTabWidget* tabs_;
+  RowsModel* part_rows_;
+  RowsModel* point_rows_;
+  RowsModel* artefact_rows_;
+  QComboBox* artefact_;
+  QLabel* artefact_note_;
+};
+
+}  // namespace spindrift::gui

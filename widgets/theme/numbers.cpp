@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/theme/numbers.h"
+
+#include <QLocale>
+#include <QRegularExpression>
+
+#include "core/base/text.h"
+
+namespace spindrift::gui {
+namespace {
+
+QString decimalPoint() {
+  return QLocale().decimalPoint();
+}
+
+}  // namespace
+
+QString decimalText(double value, char format, int digits) {
+  QString text = QString::number(value, format, digits);
+  const QString point = decimalPoint();
+  if (point != QLatin1String(".")) text.replace(QLatin1Char('.'), point);
+  return text;
+}
+
+QString shownNumbers(QString text) {
+  const QString point = decimalPoint();
+  if (point == QLatin1String(".") || !text.contains(QLatin1Char('.'))) return text;
+  // Neither part of a word, a path or a quoted text nor of a version such as 0.1.0.
+  static const QRegularExpression number(QStringLiteral(R"((?<![\w./\\"])(\d+)\.(\d+)(?![\w/\\"]|\.\d))"));
+  static const QRegularExpression power(QStringLiteral(R"((?<![\w./\\"])(\d+)\.(\d+)(e[+-]?\d+)(?![\w/\\"]))"));
+  text.replace(power, QStringLiteral("\\1") + point + QStringLiteral("\\2\\3"));
+  return text.replace(number, QStringLiteral("\\1") + point + QStringLiteral("\\2"));
+}
+
+std::optional<double> typedNumber(const QString& text) {
+  QString plain = text.trimmed();
+  plain.replace(QChar(0x2212), QLatin1Char('-'));
+  if (plain.count(QLatin1Char(',')) == 1 && !plain.contains(QLatin1Char('.'))) {
+    plain.replace(QLatin1Char(','), QLatin1Char('.'));
+  }
+  double value = 0.0;
+  if (!parseNumber(plain.toStdString(), value)) return std::nullopt;
+  return value;
+}
+
+QString plainNumbers(const QString& text) {
+  const QString point = decimalPoint();
+  if (point == QLatin1String(".")) return text;
+  static const QRegularExpression numbers(
+      QStringLiteral("\\A[-+\u2212<]? ?[\\d.,e+-]+( \u00b1 [\\d.,e+-]+)?( [^ \\d]+)?\\z"));
+  if (!numbers.match(text).hasMatch()) return text;
+  QString plain = text;
+  return plain.replace(point, QLatin1String("."));
+}
+
+}  // namespace spindrift::gui
