@@ -166,6 +166,33 @@ bool seenElsewhere(const Effect& effect) {
          });
 }
 
+/// True if what a term moves changes over time no faster than a room does: in the series that it moves most, a
+/// polynomial of a few terms follows it.
+bool couldBeAnySlowCourse(const ResidualProblem& problem, const JointFit& fit, std::size_t t) {
+  constexpr int terms = 5;
+  constexpr double alike = 0.03;
+  const Eigen::VectorXd& moved = fit.contribution[t];
+  double most = 0.0;
+  double left = 0.0;
+  for (int s = 0; s < problem.seriesCount(); ++s) {
+    const Index from = problem.series_begin[static_cast<std::size_t>(s)];
+    const Index count = problem.series_begin[static_cast<std::size_t>(s) + 1] - from;
+    if (count <= terms) continue;
+    const Eigen::VectorXd course = moved.segment(from, count).array() - moved.segment(from, count).mean();
+    if (course.squaredNorm() <= most) continue;
+    most = course.squaredNorm();
+    const double begin_s = problem.time_s[static_cast<std::size_t>(from)];
+    const double span_s = std::max(1.0, problem.time_s[static_cast<std::size_t>(from + count - 1)] - begin_s);
+    Eigen::MatrixXd powers(count, terms);
+    for (Index i = 0; i < count; ++i) {
+      const double x = 2.0 * (problem.time_s[static_cast<std::size_t>(from + i)] - begin_s) / span_s - 1.0;
+      for (int k = 0; k < terms; ++k) powers(i, k) = std::pow(x, k);
+    }
+    left = (course - powers * powers.colPivHouseholderQr().solve(course)).squaredNorm();
+  }
+  return left < alike * most;
+}
+
 /// True if an effect that cannot be fitted (nothing in the log drives it) has the pattern of this one: with any course
 /// in time it would have moved the same readings as this one does.
 bool hasPatternOf(const ResidualProblem& problem, const EffectSearch& search, const Effect& other, const JointFit& fit,
@@ -349,8 +376,10 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       if (!name.closest) name.closest = a.joint;
       name.rivals.push_back(a.id);
     }
+    const bool slow_course = couldBeAnySlowCourse(problem, fit, t);
     for (const Effect& other : search.catalogue()) {
-      if ((!other.variants.empty() && !seenElsewhere(other)) || other.id == effect.id) continue;
+      if (other.id == effect.id) continue;
+      if (!other.variants.empty() && !(slow_course && seenElsewhere(other))) continue;
       if (std::find(name.rivals.begin(), name.rivals.end(), other.id) != name.rivals.end()) continue;
       // Whoever wrote down what drives an effect knows what it is; that its course follows speaks for it.
       if (effect.own && (effect.over_time || !fit.terms[t].variant.inputs[0].driver.empty())) continue;
