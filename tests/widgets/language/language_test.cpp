@@ -231,7 +231,7 @@ TEST_F(LanguageTest, ATableInGermanIsExportedWithPoints) {
   model.setRows({Row{QStringLiteral("P1"),
                      {nameCell(QStringLiteral("P1, P2")), numberCell(-12.34, 2), quantityCell(12.4, 0.3)}}});
   EXPECT_EQ(model.index(0, 1).data().toString(), QStringLiteral("−12,34"));
-  EXPECT_EQ(tableCsv(model), QStringLiteral("Punkt,EX / µm,EY / µm\n\"P1, P2\",−12.34,12.4 ± 0.3\n"));
+  EXPECT_EQ(tableCsv(model), QStringLiteral("Punkt,EX / µm,EY / µm\n\"P1, P2\",-12.34,12.4 ± 0.3\n"));
 }
 
 }  // namespace
