@@ -156,10 +156,10 @@ double imitationRatio(const ResidualProblem& problem, const EffectSearch& search
   return std::hypot(strict * std::sqrt(left / power), cancelling > 0.2 ? cancelling : 0.0);
 }
 
-/// True if the log lacks what drives an effect and has only temperatures of other places in its stead: they follow
-/// another course. Speeds, and spans of time that are found freely, are no such stand-ins.
+/// True if the log lacks what drives an effect at all times and has only temperatures of other places in its stead:
+/// they follow another course.
 bool seenElsewhere(const Effect& effect) {
-  return effect.driver_missing &&
+  return effect.driver_missing && effect.always_driven &&
          std::all_of(effect.variants.begin(), effect.variants.end(), [](const EffectVariant& variant) {
            return std::all_of(variant.inputs.begin(), variant.inputs.end(),
                               [](const EffectInput& input) { return input.driver.starts_with("T_"); });

@@ -82,6 +82,7 @@ struct Effect {
   std::vector<std::string> same_cause;
   int choices = 1;              ///< among so many forms the one at hand was chosen by the data
   bool driver_missing = false;  ///< the driver that matters most for this effect is not in the log
+  bool always_driven = false;   ///< what drives it changes whether the log tells or not: the room
 };
 
 }  // namespace spindrift

@@ -21,6 +21,7 @@ void ambient(const CatalogueContext& context, std::vector<Effect>& out) {
         "The structure follows the temperature of the room and shifts the tool, the same at every position.";
     effect.shape = {constantShape(static_cast<Component>(axis))};
     addLagVariants(effect, room);
+    effect.always_driven = true;
     effect.driver_missing = context.drivers->temperatures({SensorRole::Room}).empty();
     out.push_back(std::move(effect));
   }

@@ -88,7 +88,9 @@ TEST_F(Review, StatesStandSideBySideWithOneScaleAndOneCamera) {
   EXPECT_EQ(page->table()->idAt(page->tableView()->currentIndex().row()), QStringLiteral("P3"));
 
   // The value under the cursor with its uncertainty, at the same place in every pane that has a field.
-  const QPointF middle(model->width() / 2.0, model->height() / 2.0);
+  const auto on_table = model->pixelOf({140.0, 140.0, 0.0});
+  ASSERT_TRUE(on_table.has_value());
+  const QPointF middle = *on_table;
   const auto valueAtMiddle = [&] {
     QMouseEvent move(QEvent::MouseMove, middle, model->mapToGlobal(middle), Qt::NoButton, Qt::NoButton, {});
     QApplication::sendEvent(model, &move);
