@@ -85,12 +85,20 @@ void setPreferences(const Preferences& wanted) {
   keep(goal_urad_key, wanted.goal_urad != usual.goal_urad, wanted.goal_urad);
   keep(quitting_key, wanted.ask_before_quitting != usual.ask_before_quitting, wanted.ask_before_quitting);
   keep(discarding_key, wanted.ask_before_discarding != usual.ask_before_discarding, wanted.ask_before_discarding);
-  Q_EMIT PreferencesNotifier::instance().changed(before, wanted);
+  PreferencesNotifier& notifier = PreferencesNotifier::instance();
+  notifier.now_ = wanted;
+  Q_EMIT notifier.changed(before, wanted);
 }
 
 PreferencesNotifier& PreferencesNotifier::instance() {
   static PreferencesNotifier notifier;
   return notifier;
+}
+
+PreferencesNotifier::PreferencesNotifier() : now_(preferences()) {}
+
+void PreferencesNotifier::readAgain() {
+  now_ = preferences();
 }
 
 ThemeKind wantedTheme() {
@@ -111,7 +119,7 @@ QString usualSessionsFolder() {
 }
 
 int lengthDecimals(int usual) {
-  return preferences().length_decimals.value_or(usual);
+  return PreferencesNotifier::instance().now().length_decimals.value_or(usual);
 }
 
 QString lastFolder(const QString& kind, const QString& otherwise) {

@@ -29,7 +29,7 @@ struct Preferences {
 
 inline constexpr int most_length_decimals = 6;
 
-/// As kept. What cannot be read, or is outside its range, has its default.
+/// As kept, read from the settings at each call. What cannot be read, or is outside its range, has its default.
 [[nodiscard]] Preferences preferences();
 /// Keeps them and tells everybody, if anything is another.
 void setPreferences(const Preferences& wanted);
@@ -38,9 +38,18 @@ class PreferencesNotifier : public QObject {
   Q_OBJECT
  public:
   static PreferencesNotifier& instance();
+  /// Held in memory, for what is asked for every cell of a table.
+  [[nodiscard]] const Preferences& now() const { return now_; }
+  /// Of a new window: another process may have changed what is kept.
+  void readAgain();
 
  Q_SIGNALS:
   void changed(const spindrift::gui::Preferences& before, const spindrift::gui::Preferences& now);
+
+ private:
+  PreferencesNotifier();
+  friend void setPreferences(const Preferences& wanted);
+  Preferences now_;
 };
 
 /// What the user wants now; light or dark as the desktop is, if so wished.
