@@ -5,13 +5,18 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QHelpEvent>
 #include <QPainter>
+#include <QScrollBar>
 #include <QSplitter>
 #include <QTabBar>
 #include <QTabWidget>
 #include <QTableView>
+#include <QToolTip>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "widgets/common/table_habits.h"
 #include "widgets/theme/fonts.h"
@@ -273,15 +278,52 @@ QPushButton* makeButton(const QString& text, const char* icon_name, const char* 
 
 namespace {
 
-/// A table that says what will appear while it has no rows.
+/// A table that says what will appear while it has no rows, and whose titles are read whatever the rows hold: where one
+/// column takes what the others leave, the widest of these give way until it has room for its title.
 class QuietTable : public QTableView {
+ public:
+  [[nodiscard]] QSize minimumSizeHint() const override {
+    const QSize hint = QTableView::minimumSizeHint();
+    if (stretched() < 0) return hint;
+    int width = 2 * frameWidth() + verticalScrollBar()->sizeHint().width();
+    for (int c = 0; c < horizontalHeader()->count(); ++c) width += titleWidth(c);
+    return {std::max(hint.width(), std::min(width, most_asked_width)), hint.height()};
+  }
+
  protected:
   int sizeHintForColumn(int column) const override {
-    const int hint = QTableView::sizeHintForColumn(column);
-    // The style sheet's check box is wider than the one the style counts with.
-    const bool checks =
-        model() != nullptr && model()->rowCount() > 0 && model()->index(0, column).data(Qt::CheckStateRole).isValid();
-    return checks ? hint + 16 : hint;
+    const int wanted = contentWidth(column);
+    const int stretch = stretched();
+    if (stretch < 0 || stretch == column) return wanted;
+    const int least = titleWidth(column);
+    if (wanted <= least) return wanted;
+    std::vector<std::pair<int, int>> others;  // title, content
+    for (int c = 0; c < horizontalHeader()->count(); ++c) {
+      if (c != stretch && !isColumnHidden(c))
+        others.emplace_back(titleWidth(c), c == column ? wanted : contentWidth(c));
+    }
+    const int room = viewport()->width() - titleWidth(stretch);
+    // The width to which columns are limited so that all of them fit, found from the widest down.
+    int limit = wanted;
+    const auto total = [&] {
+      int sum = 0;
+      for (const auto& [title, content] : others) sum += std::max(title, std::min(limit, content));
+      return sum;
+    };
+    while (limit > least && total() > room) --limit;
+    return limit;
+  }
+  bool viewportEvent(QEvent* event) override {
+    if (event->type() == QEvent::ToolTip) {
+      const auto* help = static_cast<QHelpEvent*>(event);
+      const QModelIndex index = indexAt(help->pos());
+      if (index.isValid() && index.data(Qt::ToolTipRole).toString().isEmpty() &&
+          sizeHintForIndex(index).width() > visualRect(index).width()) {
+        QToolTip::showText(help->globalPos(), index.data().toString(), this);
+        return true;
+      }
+    }
+    return QTableView::viewportEvent(event);
   }
   void paintEvent(QPaintEvent* event) override {
     QTableView::paintEvent(event);
@@ -292,6 +334,27 @@ class QuietTable : public QTableView {
     painter.drawText(viewport()->rect().adjusted(16, 8, -16, -8), Qt::AlignCenter | Qt::TextWordWrap,
                      property("emptyText").toString());
   }
+
+ private:
+  [[nodiscard]] int stretched() const {
+    for (int c = 0; model() != nullptr && c < horizontalHeader()->count(); ++c) {
+      if (!isColumnHidden(c) && horizontalHeader()->sectionResizeMode(c) == QHeaderView::Stretch) return c;
+    }
+    return -1;
+  }
+  [[nodiscard]] int titleWidth(int column) const {
+    if (isColumnHidden(column)) return 0;
+    return std::max(horizontalHeader()->minimumSectionSize(), horizontalHeader()->sectionSizeHint(column));
+  }
+  [[nodiscard]] int contentWidth(int column) const {
+    const int hint = QTableView::sizeHintForColumn(column);
+    // The style sheet's check box is wider than the one the style counts with.
+    const bool checks =
+        model() != nullptr && model()->rowCount() > 0 && model()->index(0, column).data(Qt::CheckStateRole).isValid();
+    return checks ? hint + 16 : hint;
+  }
+
+  static constexpr int most_asked_width = 480;
 };
 
 }  // namespace

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <QCoreApplication>
 #include <QSettings>
+#include <QTabWidget>
 #include <cmath>
 
 #include "core/base/random.h"
 #include "core/machine/observation.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/pages/page.h"
 #include "widgets/shell/tour.h"
 
 namespace spindrift::gui {
@@ -105,6 +108,29 @@ void StoryTest::TearDown() {
 
 void StoryTest::wait() {
   ASSERT_TRUE(waitForJobs(*window_, 60));
+}
+
+void StoryTest::walk(const QString& demo, const std::function<void(const std::string& what)>& look) {
+  window_->startDemo(demo, true);
+  wait();
+  ASSERT_NE(window_->session().campaign(), nullptr);
+  for (const StepId step : all_steps) {
+    window_->workflow().goTo(step);
+    wait();
+    window_->currentPage()->runAll();
+    wait();
+    QCoreApplication::processEvents();
+    const std::string what = demo.toStdString() + "/" + std::string(toString(step));
+    look(what);
+    for (auto* tabs : window_->currentPage()->findChildren<QTabWidget*>()) {
+      for (int i = 1; tabs->isVisible() && i < tabs->count(); ++i) {
+        tabs->setCurrentIndex(i);
+        QCoreApplication::processEvents();
+        look(what + "/" + tabs->tabText(i).toStdString());
+      }
+      tabs->setCurrentIndex(0);
+    }
+  }
 }
 
 void StoryTest::open(const std::filesystem::path& campaign, StepId step) {

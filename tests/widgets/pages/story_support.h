@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ class StoryTest : public ::testing::Test {
     return qobject_cast<PageType*>(window_->currentPage());
   }
   void wait();
+  /// Every step of the demo, run, and each of the tabs of its page: `look` is called with the name of what is shown.
+  void walk(const QString& demo, const std::function<void(const std::string& what)>& look);
 
   testing::TempFolder folder_;
   std::vector<std::filesystem::path> sessions_;

@@ -27,6 +27,16 @@ namespace {
 /// From this height on plots and views fit below one another.
 constexpr int height_for_both = 500;
 constexpr std::size_t most_single_dots = 300;
+constexpr int side_width = 280;
+
+/// As narrow as its controls allow in the language of the window.
+class SideCard : public Card {
+ public:
+  explicit SideCard(const QString& title) : Card(title) { setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred); }
+  [[nodiscard]] QSize sizeHint() const override {
+    return {std::max(side_width, minimumSizeHint().width()), Card::sizeHint().height()};
+  }
+};
 
 }  // namespace
 
@@ -34,8 +44,7 @@ GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   auto* line = new QHBoxLayout(this);
   line->setContentsMargins(0, 8, 0, 0);
   line->setSpacing(12);
-  auto* left = new Card(tr("How large the gap is"));
-  left->setFixedWidth(280);
+  auto* left = new SideCard(tr("How large the gap is"));
   // In a low window the bars scroll rather than being squeezed.
   auto* inside = new QWidget;
   auto* column = new QVBoxLayout(inside);

@@ -18,6 +18,7 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
@@ -90,9 +91,8 @@ WhatPanel::WhatPanel(QWidget* parent) : QWidget(parent) {
   scroll->setMinimumHeight(112);
   detail_->body()->addWidget(scroll, 3);
   plot_title_ = makeLabel({}, "sectionTitle");
-  auto* plot_line = new QHBoxLayout;
+  auto* plot_line = new WrapLayout(16);
   plot_line->addWidget(plot_title_);
-  plot_line->addStretch(1);
   legend_ = makeLabel({}, "secondaryText");
   plot_line->addWidget(legend_);
   detail_->body()->addLayout(plot_line);
@@ -190,7 +190,7 @@ void WhatPanel::fillCandidates() {
         break;
       case CandidateRole::Container:
         answer.text = tr("nested model");
-        answer.tip = tr("Holds what is named as a special case");
+        answer.tip = tr("Contains the named effect as a special case");
         break;
       case CandidateRole::None:
         if (c.rejected) answer.text = tr("rejected");
@@ -247,7 +247,7 @@ void WhatPanel::showEffect() {
   const bool rival = id != e->id;
   detail_->setTitle(sentenceStart(effectTitle(id)));
   confidence_->set(decimalText(e->confidence, 'f', 2),
-                   e->rivals.empty() ? tr("that the name is right") : tr("that it is one of these"));
+                   e->rivals.empty() ? tr("that the named effect is the right one") : tr("that it is one of these"));
   gain_->set(decimalText(e->delta_bic, 'f', 0), tr("above 10 is very strong"));
   held_out_->set(tr("%1 → %2").arg(sizeText(e->heldout_rms_before_um, {}),
                                    sizeText(e->heldout_rms_after_um, QStringLiteral("um"))),
@@ -257,21 +257,21 @@ void WhatPanel::showEffect() {
   } else {
     std::vector<std::string> all{e->id};
     all.insert(all.end(), e->rivals.begin(), e->rivals.end());
-    rivals_->show(Tone::Attention,
-                  tr("These data cannot tell apart: %1. Choose the one you know to be there, or measure "
-                     "what the last tab proposes.")
-                      .arg(effectTitles(all, tr("or"))));
+    rivals_->show(Tone::Attention, tr("These data cannot distinguish %1. Choose the one that is known to be present, "
+                                      "or measure what the last tab proposes.")
+                                       .arg(effectTitles(all, tr("or"))));
   }
   QString drivers = tr("Driven by %1.").arg(coreSentence(driversInWords(e->drivers)));
   if (!e->containers.empty()) {
     drivers += QLatin1Char(' ') + tr("Also part of %1.").arg(effectTitles(e->containers, tr("and")));
   }
-  drivers += QLatin1Char(' ') + tr("It moves the tool by %1 rms. Id: %2.")
+  drivers += QLatin1Char(' ') + tr("Displacement at the tool: %1 rms. Id: %2.")
                                     .arg(sizeText(e->rms_um, QStringLiteral("um")), QString::fromStdString(e->id));
   drivers_->setText(drivers);
-  physics_->setText(rival ? tr("The numbers are those of %1, which fits as well. Add this one instead to see its own.")
-                                .arg(effectTitle(e->id))
-                          : coreSentence(e->physics));
+  physics_->setText(
+      rival ? tr("The values are those of %1, which fits equally well. Add this effect instead to see its own.")
+                  .arg(effectTitle(e->id))
+            : coreSentence(e->physics));
   if (!rival) {
     for (const FittedParameter& p : e->parameters) {
       Row row;

@@ -13,6 +13,7 @@
 
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
@@ -38,7 +39,7 @@ WherePanel::WherePanel(QWidget* parent) : QWidget(parent) {
   auto* left = new Card(tr("Places, the clearest first"));
   places_ = new RowsModel({tr("What"), tr("Points"), tr("When"), tr("Excess"), tr("p")}, this);
   place_table_ = makeTable(places_, tr("Places where measured and simulated disagree"),
-                           tr("Places that deviate more than the noise allows appear after the search."));
+                           tr("Places where the residual exceeds the noise appear after the search."));
   stretchColumn(place_table_, 1);
   left->body()->addWidget(place_table_, 4);
   auto* points_line = new QHBoxLayout;
@@ -71,9 +72,8 @@ WherePanel::WherePanel(QWidget* parent) : QWidget(parent) {
   plot_card_ = new Card;
   auto* plot_card = plot_card_;
   plot_title_ = makeLabel({}, "sectionTitle");
-  auto* plot_line = new QHBoxLayout;
+  auto* plot_line = new WrapLayout(16);
   plot_line->addWidget(plot_title_);
-  plot_line->addStretch(1);
   legend_ = makeLabel({}, "secondaryText");
   plot_line->addWidget(legend_);
   plot_card->body()->addLayout(plot_line);
@@ -197,7 +197,7 @@ void WherePanel::fillPlaces() {
     row.cells[4].tip = tr("Probability of this by chance, for all places looked at together");
     rows.push_back(std::move(row));
   }
-  place_table_->setProperty("emptyText", tr("No place deviates more than the noise allows."));
+  place_table_->setProperty("emptyText", tr("At no place does the residual exceed the noise."));
   places_->setRows(std::move(rows));
   place_ = -1;
   following_ = false;

@@ -67,9 +67,9 @@ ArtefactFields::ArtefactFields(QWidget* parent) : QWidget(parent) {
   addField(form, 0, 0, tr("Name"), "id", 1, tr("As the touches name it"));
   addField(form, 0, 1, tr("Serial number"), "serial_number", 1, tr("Goes into the report"));
   addField(form, 1, 0, tr("Material"), "material", 1, tr("Goes into the report"));
-  addField(form, 1, 1, tr("Expansion / um/m/K"), "expansion_um_per_m_K", 1, tr("Steel 11.5, Invar 1.2"));
+  addField(form, 1, 1, tr("Expansion / µm/m/K"), "expansion_um_per_m_K", 1, tr("Steel 11.5, Invar 1.2"));
   addField(form, 2, 0, tr("Temperature / °C"), "temperature_degC", 1, tr("Of the artefact, where no sensor says it"));
-  addField(form, 2, 1, tr("Certificate ± / um"), "certificate_uncertainty_um", 1,
+  addField(form, 2, 1, tr("Certificate ± / µm"), "certificate_uncertainty_um", 1,
            tr("Standard uncertainty of a certified position"));
   addField(form, 3, 0, tr("Hole diameter / mm"), "hole_diameter_mm", 1, {});
   addField(form, 3, 1, tr("Reference hole"), "reference_hole", 1, tr("H1, H2, …"));
@@ -98,6 +98,7 @@ ArtefactFields::ArtefactFields(QWidget* parent) : QWidget(parent) {
 void ArtefactFields::addField(QGridLayout* form, int row, int column, const QString& title, const std::string& key,
                               int parts, const QString& tip) {
   auto* label = new QLabel(title);
+  label->setWordWrap(true);  // titles of some languages are long
   label->setToolTip(tip);
   labels_[key] = label;
   form->addWidget(label, row, 2 * column);

@@ -105,14 +105,14 @@ ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)
   tabs->addTab(table_, tr("Points"));
   auto* section_tab = new QWidget;
   auto* section_column = new QVBoxLayout(section_tab);
-  auto* section_line = new QHBoxLayout;
+  auto* section_line = new WrapLayout;
   direction_ = new Segments({tr("Along X"), tr("Along Y")}, tr("Direction of the section"));
   place_ = new QDoubleSpinBox;
   place_->setDecimals(1);
   place_->setSuffix(tr(" mm"));
   place_->setAccessibleName(tr("Where the section runs"));
   section_line->addWidget(direction_);
-  section_line->addWidget(place_, 1);
+  section_line->addWidget(place_);
   section_column->addLayout(section_line);
   section_ = new Plot;
   section_->setEmptyText(tr("A section will appear here"), tr("Let a pane show a model, or points near the line."));

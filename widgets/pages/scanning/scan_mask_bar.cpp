@@ -10,6 +10,7 @@
 #include "widgets/commands/campaign_undo.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/wrap_layout.h"
 #include "widgets/pages/scanning/cloud_painter.h"
 
 namespace spindrift::gui {
@@ -18,7 +19,7 @@ ScanMaskBar::ScanMaskBar(View3D* view, SessionModel& session, CampaignUndo& undo
     : QWidget(parent), session_(session), undo_(undo), painter_(new CloudPainter(view)) {
   auto* rows = new QVBoxLayout(this);
   rows->setContentsMargins(0, 0, 0, 0);
-  auto* line = new QHBoxLayout;
+  auto* line = new WrapLayout;
   rows->addLayout(line);
   tools_ = new Segments({tr("Look"), tr("Brush"), tr("Rectangle"), tr("Lasso")}, tr("Tool on the scan"));
   tools_->setToolTip(tr("Brush, rectangle and lasso look straight down on the scan"));
@@ -39,10 +40,9 @@ ScanMaskBar::ScanMaskBar(View3D* view, SessionModel& session, CampaignUndo& undo
   reason_->setMinimumContentsLength(10);
   reason_->addItems(
       {tr("dirt or chips on the surface"), tr("reflection"), tr("something lay in the way"), tr("damaged surface")});
-  reason_->setAccessibleName(tr("Why it is painted away"));
+  reason_->setAccessibleName(tr("Reason for the mask"));
   reason_->setToolTip(tr("The report will say so"));
   clear_ = makeButton(tr("Take all back"), "restore");
-  line->addStretch();
   // Only while something is painted: the row above already is as wide as the list beside it can bear.
   detail_ = new QWidget;
   auto* second = new QHBoxLayout(detail_);
@@ -62,7 +62,7 @@ ScanMaskBar::ScanMaskBar(View3D* view, SessionModel& session, CampaignUndo& undo
   });
   connect(radius_, &QDoubleSpinBox::valueChanged, painter_, &CloudPainter::setBrushRadius);
   connect(painter_, &CloudPainter::painted, this, &ScanMaskBar::add);
-  connect(clear_, &QPushButton::clicked, this, [this] { push({}, tr("take back what was painted away")); });
+  connect(clear_, &QPushButton::clicked, this, [this] { push({}, tr("clear the mask")); });
   connect(&session_, &SessionModel::inputsChanged, this, &ScanMaskBar::refresh);
   refresh();
 }

@@ -89,13 +89,15 @@ VerifyPage::VerifyPage(PageContext page_context, QWidget* parent)
       makeTable(points_, tr("Before and after of each point"), tr("Every point appears here after the comparison."));
   stretchColumn(point_table, 0);
   left->body()->addWidget(point_table, 3);
-  auto* right = new Card(tr("Before and after"));
+  auto* right = new Card;
+  auto* choice = new WrapLayout;
   shown_ = new Segments({tr("Every value"), tr("On the table")}, tr("How before and after are shown"));
-  right->addToTitle(shown_);
+  choice->addWidget(shown_);
   component_ = new QComboBox;
   component_->setAccessibleName(tr("Component that is drawn"));
   component_->setMinimumWidth(90);
-  right->addToTitle(component_);
+  choice->addWidget(component_);
+  right->body()->addLayout(choice);
   plot_ = new Plot;
   plot_->setEmptyText(tr("Before and after will appear here"),
                       tr("Choose the campaign that was measured with the compensation on, then compare."));
@@ -164,9 +166,9 @@ QWidget* VerifyPage::makeChoices() {
     inner->addWidget(spin);
     return spin;
   };
-  goal_um_ = goal(tr("Goal"), tr("Goal of displacements"), tr(" um"), 1000);
+  goal_um_ = goal(tr("Goal"), tr("Goal of displacements"), tr(" µm"), 1000);
   goal_um_->setMinimum(0.1);
-  goal_urad_ = goal(tr("and"), tr("Goal of rotations"), tr(" urad"), 10000);
+  goal_urad_ = goal(tr("and"), tr("Goal of rotations"), tr(" µrad"), 10000);
   goal_urad_->setSpecialValueText(tr("none"));
   auto* criterion = group();
   criterion->addWidget(new QLabel(tr("for the")));
@@ -308,7 +310,7 @@ void VerifyPage::showResult() {
       return out;
     };
     Cell named = nameCell(name);
-    named.tip = tr("%1 values compared").arg(c.values);
+    named.tip = tr("%n values compared", nullptr, static_cast<int>(c.values));
     row.cells = {named,
                  cell(c.before.rms, c.before.rms_sigma),
                  cell(c.after.rms, c.after.rms_sigma),
@@ -323,13 +325,13 @@ void VerifyPage::showResult() {
   if (worst != nullptr) {
     const QString name = fromCore(std::string(toString(worst->component)));
     const auto text = [&](const VerifyFigures& f) {
-      return largest ? quantityText(f.largest, f.largest_sigma, tr("um")) : quantityText(f.rms, f.rms_sigma, tr("um"));
+      return largest ? quantityText(f.largest, f.largest_sigma, tr("µm")) : quantityText(f.rms, f.rms_sigma, tr("µm"));
     };
     before_->set(text(worst->before), largest ? tr("largest %1").arg(name) : tr("rms %1").arg(name));
     left_->set(text(worst->after), largest ? tr("largest %1").arg(name) : tr("rms %1").arg(name));
     if (chosen.isEmpty()) component_->setCurrentText(name);
   }
-  verdict_->set(wordOf(result_->verdict), tr("goal %1 um").arg(decimalText(result_->request.goal_um, 'g', 3)),
+  verdict_->set(wordOf(result_->verdict), tr("goal %1 µm").arg(decimalText(result_->request.goal_um, 'g', 3)),
                 toneOf(result_->verdict));
   if (component_->findText(chosen) >= 0) component_->setCurrentText(chosen);
   QStringList states;
