@@ -125,7 +125,7 @@ void addTeachingCommands(CLI::App& app, CommandLine& line) {
   CLI::App* what_if = addCommand(
       app, line, "what-if",
       "Set geometric errors and thermal effects of a machine, and show what they do to probing points, artefacts and a "
-      "milled test part (ISO 10791-7)",
+      "milled test part",
       [what](JobContext&) { return whatIf(*what); });
   what_if->add_option("CAMPAIGN", what->campaign,
                       "Campaign folder of the machine; without it and --machine: a standard machine");

@@ -67,15 +67,6 @@ nlohmann::json effectsJson(const std::vector<Effect>& effects, const OwnEffects*
   return {{"effects", list}, {"count", effects.size()}};
 }
 
-std::string effectsHtml(const std::vector<Effect>& effects) {
-  std::string out = "<ul>";
-  for (const Effect& effect : effects) {
-    out += fmt::format("<li><b>{}</b> ({}): {} <i>{}</i></li>\n", escapedXml(titleOf(effect)), escapedXml(effect.id),
-                       escapedXml(effect.physics), escapedXml(effect.formula));
-  }
-  return out + "</ul>";
-}
-
 std::string effectsText(const std::vector<Effect>& effects) {
   std::string text;
   for (const Effect& effect : effects) {

@@ -23,7 +23,5 @@ namespace spindrift {
 /// `own`: where expressions of the user's effects come from; may be null.
 [[nodiscard]] nlohmann::json effectsJson(const std::vector<Effect>& effects, const OwnEffects* own);
 [[nodiscard]] std::string effectsText(const std::vector<Effect>& effects);
-/// For the help: a list of titles with physics and formula, HTML.
-[[nodiscard]] std::string effectsHtml(const std::vector<Effect>& effects);
 
 }  // namespace spindrift

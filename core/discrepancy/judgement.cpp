@@ -295,7 +295,7 @@ std::string describedRemainder(const ResidualProblem& problem, const JointFit& f
   const std::vector<Component> together = movedTogether(problem);
   for (const Component c : together) {
     const auto period = commonPeriod(problem, fit, c);
-    parts.push_back(fmt::format("{} of all points follows a common course in time{}, {:.2f} {} rms", toString(c),
+    parts.push_back(fmt::format("{} of all points has a common time history{}, {:.2f} {} rms", toString(c),
                                 period ? fmt::format(" with a period of about {:.0f} s", *period) : "",
                                 problem.noise.of(c).common, printedUnit(unitOf(c))));
   }
@@ -310,9 +310,9 @@ std::string describedRemainder(const ResidualProblem& problem, const JointFit& f
     }
     const bool some = !points.empty() && points.size() <= 3;
     const auto period = some ? std::nullopt : commonPeriod(problem, fit, r.component);
-    parts.push_back(fmt::format("{} of {} follows {} in time{}, {:.2f} {} rms", toString(r.component),
+    parts.push_back(fmt::format("{} of {} has {}{}, {:.2f} {} rms", toString(r.component),
                                 some ? joinedList(points) : "all points",
-                                some ? "a course of its own" : "a common course",
+                                some ? "a time history of its own" : "a common time history",
                                 period ? fmt::format(" with a period of about {:.0f} s", *period) : "", r.rms_um,
                                 printedUnit(unitOf(r.component))));
   }

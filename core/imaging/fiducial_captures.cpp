@@ -100,7 +100,7 @@ FiducialCaptureList readFiducialCaptures(const std::filesystem::path& file) {
     const auto [same, unique] = seen.try_emplace({c.state, c.fiducial, c.role, c.index}, row);
     if (!unique) {
       throw InputError(table.place(row),
-                       fmt::format("{} {} of fiducial {} in state {} stands twice, first in {}; allowed: one row each.",
+                       fmt::format("duplicate {} {} of fiducial {} in state {}, first in {}; allowed: one row each.",
                                    toString(c.role), c.index, c.fiducial, c.state, table.place(same->second).place));
     }
     list.captures.push_back(std::move(c));

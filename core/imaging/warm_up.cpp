@@ -228,9 +228,8 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
       "measure one point of the machine at rest again and again, or state that the instrument was warm";
   if (log == nullptr || log->empty() || log->time_s().front() > from || log->time_s().back() < to) {
     result.cause_reason = fmt::format(
-        "No log says what the machine did meanwhile: its own thermal course and a drift of the instrument cannot be "
-        "told "
-        "apart; {}.",
+        "Without a log of what the machine did meanwhile, its own thermal drift and a drift of the instrument cannot "
+        "be separated; {}.",
         advice);
     return result;
   }
@@ -274,7 +273,7 @@ WarmUpResult judgeWarmUp(const ObservationSet& observations, const std::string& 
     why = fmt::format("{} changed", joinedList(warming));
   }
   result.cause_reason = fmt::format(
-      "The machine's own thermal course and a drift of the instrument cannot be told apart here, because {}; {}.", why,
+      "The thermal drift of the machine and a drift of the instrument cannot be separated here, because {}; {}.", why,
       advice);
   return result;
 }

@@ -138,9 +138,9 @@ ObservationSet ObservationSet::fromTable(const CsvTable& table) {
                        o.c_deg, o.approach.x(), o.approach.y(), o.approach.z(), o.tool_offset_mm.x(),
                        o.tool_offset_mm.y(), o.tool_offset_mm.z());
     if (!keys.insert(std::move(key)).second) {
-      throw InputError(table.place(row), fmt::format("{} of point {} at {} s stands twice; allowed: one row per "
-                                                     "observation.",
-                                                     toString(o.component), o.point, o.time_s));
+      throw InputError(table.place(row),
+                       fmt::format("duplicate {} of point {} at {} s; allowed: one row per observation.",
+                                   toString(o.component), o.point, o.time_s));
     }
     set.rows.push_back(std::move(o));
   }

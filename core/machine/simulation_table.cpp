@@ -97,7 +97,7 @@ SimulationTable SimulationTable::read(const std::filesystem::path& file) {
     const auto [before, fresh] =
         last.try_emplace({row.point, by_place ? keyOf(row.position_mm) : PlaceKey{}, row.component}, row.time_s);
     if (!fresh && std::abs(row.time_s - before->second) < 0.5 * same_time_s) {
-      throw InputError(table.place(i), fmt::format("{} of {} at {} s stands twice; allowed: one prediction each.",
+      throw InputError(table.place(i), fmt::format("duplicate {} of {} at {} s; allowed: one prediction each.",
                                                    toString(row.component), what(), row.time_s));
     }
     if (!fresh && row.time_s < before->second) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A contouring test piece after ISO 10791-7, as a machine with a given error field would mill it, and what a measuring
-// machine would find on it.
+// A contouring test piece of the kind of ISO 10791-7, as a machine with a given error field would mill it, and what a
+// measuring machine would find on it.
 //
 // From below: a square of side l whose lower side is datum B, two faces inclined by 3 degrees, a square turned by 15
 // degrees ("diamond", its sides at 75 degrees to the sides of the square), a circle; a bore through the middle (datum
 // C) and four bored holes. The table is datum A and without error. The tool is where it should be plus the deviation of
 // the tool relative to the table: that is the form of the part (um, MCF). Contours are milled counter-clockwise, so
 // that a deviation that depends on the direction of approach (backlash) shows where an axis reverses. Holes are bored:
-// round, their axis is what deviates. The proportions follow the standard, the exact lengths are options.
+// round, their axis is what deviates. Which features there are is that of the standard; their proportions are our own
+// and not taken from it.
 //
 // Evaluation, first order in the deviations (the next order is below 1e-3 um):
 //   straightness, circularity   width of the minimum zone; circularity also about the least-squares centre
@@ -19,7 +20,7 @@
 //   position                    twice the largest distance of the axis from its place, from C along B
 //   concentricity               twice the distance of the circle's least-squares centre from the mean of the bore C
 //   perpendicularity of the bore to A   diameter of the smallest cylinder square to A that holds its axis
-// Sources: ISO 10791-7:2020; ISO 1101:2017; ISO 5459:2011; ISO 12181-1:2011.
+// Sources: ISO 1101:2017; ISO 5459:2011; ISO 12181-1:2011.
 #pragma once
 
 #include <Eigen/Core>

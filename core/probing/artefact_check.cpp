@@ -69,7 +69,7 @@ class Checker {
     if (!value.is_string() || value.get<std::string>().empty()) {
       add(key, row, column, fmt::format("{} has no name; allowed: letters and digits, such as B1.", what));
     } else if (!taken.insert(value.get<std::string>()).second) {
-      add(key, row, column, fmt::format("{} stands twice; allowed: every name once.", shown(value)));
+      add(key, row, column, fmt::format("duplicate name {}; allowed: every name once.", shown(value)));
     }
   }
 

@@ -115,15 +115,16 @@ TouchList TouchList::parse(std::string text, const std::filesystem::path& file) 
     if (!first && t.time_s == last->second) {
       throw InputError(
           table.place(row, time),
-          fmt::format("time {} s of artefact {} stands twice; allowed: one touch at a time.", t.time_s, t.artefact));
+          fmt::format("duplicate time {} s of artefact {}; allowed: one touch at a time.", t.time_s, t.artefact));
     }
     last->second = t.time_s;
     if (!keys.insert(fmt::format("{}|{}|{}|{}|{}|{}", t.cycle, t.artefact, t.feature, t.stylus, t.c_deg, t.touch))
              .second) {
-      throw InputError(table.place(row),
-                       fmt::format("touch {} of {} with stylus {} at {} deg stands twice in cycle {}; allowed: every "
-                                   "touch of a cycle once.",
-                                   t.touch, t.feature, t.stylus, t.c_deg, t.cycle));
+      throw InputError(
+          table.place(row),
+          fmt::format(
+              "duplicate touch {} of {} with stylus {} at {} deg in cycle {}; allowed: every touch of a cycle once.",
+              t.touch, t.feature, t.stylus, t.c_deg, t.cycle));
     }
     const std::string& place = table.place(row).place;  // "line 12"
     const std::size_t digits = place.find_first_of("0123456789");

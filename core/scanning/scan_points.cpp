@@ -60,8 +60,8 @@ ScanPoints readScanPoints(const Campaign& campaign, const std::string& cloud) {
   const std::size_t used = scan.count(PointFate::Used);
   if (used < least_points)
     throw InputError(fmt::format(
-        "{}: only {} of {} points are left ({} painted away, {} near edges, {} outliers); at least {} are needed.",
-        cloud, used, scan.cloud.size(), scan.count(PointFate::Painted), scan.count(PointFate::Edge),
+        "{}: only {} of {} points are left ({} masked, {} near edges, {} outliers); at least {} are needed.", cloud,
+        used, scan.cloud.size(), scan.count(PointFate::Painted), scan.count(PointFate::Edge),
         scan.count(PointFate::Outlier), least_points));
   return scan;
 }

@@ -34,7 +34,7 @@ StepReport ofTask(const TaskGraph& graph, const std::string& task, const char* h
     case TaskState::Blocked:
       return report(StepState::Blocked, status.reason);
     case TaskState::Running:
-      return report(StepState::InProgress, "It is being worked out.");
+      return report(StepState::InProgress, "Calculation in progress.");
     case TaskState::Failed:
       return report(StepState::Attention, status.reason);
     case TaskState::Outdated:
@@ -135,7 +135,7 @@ StepReport calibrate(const TaskGraph& graph, const CaptureCounts& counts) {
   if (!payload.value("good_enough", true)) {
     const nlohmann::json warnings = details.value("warnings", nlohmann::json::array());
     return report(StepState::Attention,
-                  warnings.empty() ? "What was found is not good enough." : warnings.front().get<std::string>());
+                  warnings.empty() ? "The result is not good enough." : warnings.front().get<std::string>());
   }
   step.sentence = "Captures are evaluated.";
   return step;
@@ -154,7 +154,7 @@ StepReport model(const TaskGraph& graph) {
   const nlohmann::json& payload = graph.latest(task)->payload;
   if (over_time) {
     if (payload.value("good_enough", true)) return report(StepState::Current, "The model is identified.");
-    return report(StepState::Attention, "In the test range the model is no better than the plain ones.");
+    return report(StepState::Attention, "In the test range the model is no better than the baselines.");
   }
   const std::string status = payload.value("status", std::string("converged"));
   if (status != "converged") return report(StepState::Attention, payload.value("message", status));
@@ -168,18 +168,18 @@ StepReport discrepancy(const TaskGraph& graph) {
   const nlohmann::json result = graph.latest("discrepancy")->payload.value("result", nlohmann::json::object());
   if (result.value("verdict", std::string()) == "unknown")
     return report(StepState::Attention, "Something is missing, and no effect of the catalogue explains it.");
-  step.sentence = "Searched.";
+  step.sentence = "The search is done.";
   return step;
 }
 
 StepReport compensate(const TaskGraph& graph) {
   const bool log_only = graph.facts().log_only;
   const char* task = log_only ? "log-compensation" : "compensation";
-  StepReport step = ofTask(graph, task, log_only ? "Run the compensator over the log." : "Work out the corrections.");
+  StepReport step = ofTask(graph, task, log_only ? "Run the compensator over the log." : "Calculate the compensation.");
   if (step.state != StepState::Current) return step;
   const nlohmann::json warnings = graph.latest(task)->payload.value("warnings", nlohmann::json::array());
   if (!warnings.empty()) return report(StepState::Attention, warnings.front().get<std::string>());
-  step.sentence = log_only ? "The compensator was run over the log." : "Corrections are worked out.";
+  step.sentence = log_only ? "The compensator was run over the log." : "The compensation is calculated.";
   return step;
 }
 
@@ -204,10 +204,11 @@ StepReport warmUp(const TaskGraph& graph) {
   // Versions before kept the statement as a result; an empty object takes it back.
   if (given.is_null() && graph.latest("warm-up") != nullptr)
     return report(StepState::Current, "You stated that the instrument was warm.");
-  return report(StepState::NotStarted, graph.hasObservations()
-                                           ? "Not checked: a drift of the instrument would stand in every deviation "
-                                             "as if the machine had moved."
-                                           : "Check whether the instrument had settled.");
+  return report(
+      StepState::NotStarted,
+      graph.hasObservations()
+          ? "Not checked: a drift of the instrument would appear in every deviation as a motion of the machine."
+          : "Check whether the instrument had settled.");
 }
 
 StepReport review(const TaskGraph& graph) {
@@ -215,7 +216,7 @@ StepReport review(const TaskGraph& graph) {
     return report(StepState::Blocked, "A log over time has no points to compare; Model compares models of it.");
   if (!graph.hasObservations() && !graph.facts().scans)
     return report(StepState::Blocked, "There is nothing to compare yet.");
-  return report(StepState::Current, "Look at it whenever you like.");
+  return report(StepState::Current, "Available at any time.");
 }
 
 std::size_t rowsOf(const Campaign& campaign, const char* list) {

@@ -65,7 +65,7 @@
         <translation>Konditionszahl</translation>
     </message>
     <message>
-        <source>Condition number %1; told apart worst: %2</source>
+        <source>Condition number %1; most strongly correlated: %2</source>
         <translation>Konditionszahl %1; am stärksten korreliert: %2</translation>
     </message>
     <message>
@@ -85,7 +85,7 @@
         <translation>Abweichung von einer Geraden</translation>
     </message>
     <message>
-        <source>Displacement / um</source>
+        <source>Displacement / µm</source>
         <translation>Verschiebung / µm</translation>
     </message>
     <message>
@@ -125,12 +125,8 @@
         <translation>Ausdehnung</translation>
     </message>
     <message>
-        <source>Growth / um/m</source>
+        <source>Growth / µm/m</source>
         <translation>Ausdehnung / µm/m</translation>
-    </message>
-    <message>
-        <source>In sigma</source>
-        <translation>Wert / σ</translation>
     </message>
     <message>
         <source>Meaning</source>
@@ -161,7 +157,7 @@
         <translation>Zyklen werden gelesen</translation>
     </message>
     <message>
-        <source>Rotation / urad</source>
+        <source>Rotation / µrad</source>
         <translation>Drehung / µrad</translation>
     </message>
     <message>
@@ -217,19 +213,19 @@
         <translation>Welche Kombinationen von Parametern die Antastungen kaum trennen, erscheint nach der Anpassung.</translation>
     </message>
     <message>
-        <source>axis %1 grows</source>
-        <translation>Ausdehnung der Achse %1</translation>
+        <source>linear expansion of axis %1</source>
+        <translation>Längenausdehnung der Achse %1</translation>
     </message>
     <message>
-        <source>bar grows</source>
-        <translation>Ausdehnung der Lochleiste</translation>
+        <source>thermal expansion of the bar</source>
+        <translation>Wärmeausdehnung der Lochleiste</translation>
     </message>
     <message>
-        <source>column turns about %1</source>
+        <source>column tilt about %1</source>
         <translation>Neigung des Ständers um %1</translation>
     </message>
     <message>
-        <source>head turns about %1</source>
+        <source>head tilt about %1</source>
         <translation>Neigung des Spindelkopfs um %1</translation>
     </message>
     <message>
@@ -241,24 +237,28 @@
         <translation>nicht bestimmt</translation>
     </message>
     <message>
-        <source>screw of %1 grows</source>
-        <translation>Ausdehnung des Kugelgewindetriebs von %1</translation>
+        <source>thermal expansion of the %1 ball screw</source>
+        <translation>Wärmeausdehnung des Kugelgewindetriebs %1</translation>
     </message>
     <message>
-        <source>spindle drifts along %1</source>
-        <translation>Spindeldrift entlang %1</translation>
+        <source>displacement of the spindle along %1</source>
+        <translation>Verlagerung der Spindel entlang %1</translation>
     </message>
     <message>
-        <source>table moves along %1</source>
-        <translation>Verschiebung des Tisches entlang %1</translation>
+        <source>displacement of the table along %1</source>
+        <translation>Verlagerung des Tisches entlang %1</translation>
     </message>
     <message>
-        <source>table radius grows</source>
-        <translation>Zunahme des Tischradius</translation>
+        <source>radial expansion of the table</source>
+        <translation>radiale Ausdehnung des Tisches</translation>
     </message>
     <message>
-        <source>table turns, %1</source>
+        <source>rotation of the table, %1</source>
         <translation>Verdrehung des Tisches, %1</translation>
+    </message>
+    <message>
+        <source>Value / u</source>
+        <translation>Wert / u</translation>
     </message>
 </context>
 <context>
@@ -536,7 +536,7 @@
         <translation>%1 MB belegt nach allen Demos, höchstens %2 MB</translation>
     </message>
     <message>
-        <source>%1 deviations, %2 % within three standard uncertainties of the truth, rms error %3 um</source>
+        <source>%1 deviations, %2 % within three standard uncertainties of the truth, rms error %3 µm</source>
         <translation>%1 Abweichungen, %2 % innerhalb von drei Standardunsicherheiten der Wahrheit, rms-Fehler %3 µm</translation>
     </message>
     <message>
@@ -670,11 +670,11 @@
         <translation>Thermischer Zustand, in der Reihenfolge des Plans</translation>
     </message>
     <message>
-        <source>um</source>
+        <source>µm</source>
         <translation>µm</translation>
     </message>
     <message>
-        <source>urad</source>
+        <source>µrad</source>
         <translation>µrad</translation>
     </message>
 </context>
@@ -1185,8 +1185,8 @@
         <translation>Korrektur, die zum Sollwert zu addieren ist: minus die vorhergesagte Abweichung (Ist minus Soll), {}.</translation>
     </message>
     <message>
-        <source>Corrections are worked out.</source>
-        <translation>Die Korrekturen sind berechnet.</translation>
+        <source>The compensation is calculated.</source>
+        <translation>Die Kompensation ist berechnet.</translation>
     </message>
     <message>
         <source>Corrections at the measured points</source>
@@ -1333,8 +1333,8 @@
         <translation>Ein Modell über der Zeit identifizieren.</translation>
     </message>
     <message>
-        <source>In the test range the model is no better than the plain ones.</source>
-        <translation>Im Prüfbereich ist das Modell nicht besser als die einfachen.</translation>
+        <source>In the test range the model is no better than the baselines.</source>
+        <translation>Im Prüfbereich ist das Modell nicht besser als die Vergleichsmodelle.</translation>
     </message>
     <message>
         <source>Input {} has the scale {} and the power {}; allowed: finite and positive.</source>
@@ -1353,8 +1353,8 @@
         <translation>Derselbe Inhalt wie {}.</translation>
     </message>
     <message>
-        <source>It is being worked out.</source>
-        <translation>Wird gerade berechnet.</translation>
+        <source>Calculation in progress.</source>
+        <translation>Berechnung läuft.</translation>
     </message>
     <message>
         <source>It is being written: {} bytes so far.</source>
@@ -1421,7 +1421,7 @@
         <translation>LinuxCNC-Spindelsteigungskompensation von {}, als Trimm</translation>
     </message>
     <message>
-        <source>Look at it whenever you like.</source>
+        <source>Available at any time.</source>
         <translation>Jederzeit einsehbar.</translation>
     </message>
     <message>
@@ -1489,8 +1489,8 @@
         <translation>In {} lässt sich kein Ordner für einen Lauf anlegen: {}.</translation>
     </message>
     <message>
-        <source>No log says what the machine did meanwhile: its own thermal course and a drift of the instrument cannot be told apart; {}.</source>
-        <translation>Kein Protokoll sagt, was die Maschine inzwischen tat: ihr eigenes thermisches Verhalten und eine Drift des Messgeräts sind nicht trennbar; {}.</translation>
+        <source>Without a log of what the machine did meanwhile, its own thermal drift and a drift of the instrument cannot be separated; {}.</source>
+        <translation>Ohne Protokoll dessen, was die Maschine inzwischen tat, sind ihre eigene thermische Drift und eine Drift des Messgeräts nicht trennbar; {}.</translation>
     </message>
     <message>
         <source>No mechanism of the simulation causes what was named: {}</source>
@@ -1545,8 +1545,8 @@
         <translation>Nicht alle Werte konnten geprüft werden; das Ergebnis beschränkt sich auf die prüfbaren. {}</translation>
     </message>
     <message>
-        <source>Not checked: a drift of the instrument would stand in every deviation as if the machine had moved.</source>
-        <translation>Nicht geprüft: eine Drift des Messgeräts stünde in jeder Abweichung, als hätte sich die Maschine bewegt.</translation>
+        <source>Not checked: a drift of the instrument would appear in every deviation as a motion of the machine.</source>
+        <translation>Nicht geprüft: eine Drift des Messgeräts erschiene in jeder Abweichung als Bewegung der Maschine.</translation>
     </message>
     <message>
         <source>Not to be decided, because the log lacks what drives {}: {}.</source>
@@ -1997,10 +1997,6 @@
         <translation>Die Maschine stand, und ihre Temperaturen hielten sich inzwischen: es driftet das Messgerät.</translation>
     </message>
     <message>
-        <source>The machine&apos;s own thermal course and a drift of the instrument cannot be told apart here, because {}; {}.</source>
-        <translation>Das eigene thermische Verhalten der Maschine und eine Drift des Messgeräts sind hier nicht trennbar, weil {}; {}.</translation>
-    </message>
-    <message>
         <source>The measuring instrument warms itself after it was switched on and drifts to its steady state; the machine has no part in it.</source>
         <translation>Das Messgerät erwärmt sich nach dem Einschalten und driftet in seinen Beharrungszustand; die Maschine ist daran nicht beteiligt.</translation>
     </message>
@@ -2425,8 +2421,8 @@
         <translation>Ungleichmäßige Erwärmung von Bett und Ständer dreht das Maschinengestell als einen Körper; die Abweichung wächst proportional zum Abstand von der Drehachse.</translation>
     </message>
     <message>
-        <source>What was found is not good enough.</source>
-        <translation>Das Gefundene ist nicht gut genug.</translation>
+        <source>The result is not good enough.</source>
+        <translation>Das Ergebnis ist nicht gut genug.</translation>
     </message>
     <message>
         <source>What {} does is not known: {}</source>
@@ -2437,7 +2433,7 @@
         <translation>Der Ort der Sensoren wurde aus ihren Namen geschlossen, bitte bestätigen: {}. Eine &quot;role&quot; in machine.json entscheidet.</translation>
     </message>
     <message>
-        <source>Work out the corrections.</source>
+        <source>Calculate the compensation.</source>
         <translation>Kompensation berechnen.</translation>
     </message>
     <message>
@@ -2643,12 +2639,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>eine noch nicht zugeordnete Spalte</translation>
     </message>
     <message>
-        <source>a common course</source>
-        <translation>ein gemeinsamer Verlauf</translation>
+        <source>a common time history</source>
+        <translation>einen gemeinsamen zeitlichen Verlauf</translation>
     </message>
     <message>
-        <source>a course of its own</source>
-        <translation>ein eigener Verlauf</translation>
+        <source>a time history of its own</source>
+        <translation>einen eigenen zeitlichen Verlauf</translation>
     </message>
     <message>
         <source>a distance of {:g} mm between positions is not allowed; allowed: 0 or more.</source>
@@ -3784,7 +3780,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>drift of the squareness of Y to X</source>
-        <translation>Drift der Rechtwinkligkeit von Y zu X</translation>
+        <translation>Drift der Rechtwinkligkeitsabweichung von Y zu X</translation>
     </message>
     <message>
         <source>drift of {} from {} to {} ({})</source>
@@ -3892,7 +3888,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>environmental temperature variation error along %1</source>
-        <translation>Abweichung durch Umgebungstemperatur (ETVE) entlang %1</translation>
+        <translation>Abweichung durch Änderung der Umgebungstemperatur (ETVE) entlang %1</translation>
     </message>
     <message>
         <source>erase or restore, then brush, rectangle or lasso, then places x,y in mm</source>
@@ -7147,8 +7143,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zeit seit {}</translation>
     </message>
     <message>
-        <source>time {} s of artefact {} stands twice; allowed: one touch at a time.</source>
-        <translation>Zeit {} s des Prüfkörpers {} steht zweimal da; zulässig: eine Antastung zur gleichen Zeit.</translation>
+        <source>duplicate time {} s of artefact {}; allowed: one touch at a time.</source>
+        <translation>doppelte Zeit {} s des Prüfkörpers {}; zulässig: eine Antastung zur gleichen Zeit.</translation>
     </message>
     <message>
         <source>time {} s of {} of point {} follows {} s; allowed: rising times for each parameter, point and component.</source>
@@ -7199,8 +7195,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Antastung {} von {} ist schon vorhanden; die erste wird behalten</translation>
     </message>
     <message>
-        <source>touch {} of {} with stylus {} at {} deg stands twice in cycle {}; allowed: every touch of a cycle once.</source>
-        <translation>Antastung {} von {} mit Tastereinsatz {} bei {} deg steht zweimal in Zyklus {}; zulässig: jede Antastung eines Zyklus einmal.</translation>
+        <source>duplicate touch {} of {} with stylus {} at {} deg in cycle {}; allowed: every touch of a cycle once.</source>
+        <translation>doppelte Antastung {} von {} mit Tastereinsatz {} bei {} deg in Zyklus {}; zulässig: jede Antastung eines Zyklus einmal.</translation>
     </message>
     <message>
         <source>touch {} {} does not run along its axis.</source>
@@ -8043,12 +8039,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} von 3 Achsen werden davon geschaltet</translation>
     </message>
     <message>
-        <source>{} of all points follows a common course in time{}, {:.2f} {} rms</source>
-        <translation>{} aller Punkte folgt einem gemeinsamen zeitlichen Verlauf{}, {:.2f} {} rms</translation>
+        <source>{} of all points has a common time history{}, {:.2f} {} rms</source>
+        <translation>{} aller Punkte hat einen gemeinsamen zeitlichen Verlauf{}, {:.2f} {} rms</translation>
     </message>
     <message>
-        <source>{} of point {} at {} s stands twice; allowed: one row per observation.</source>
-        <translation>{} des Punkts {} bei {} s steht zweimal da; zulässig: eine Zeile je Beobachtung.</translation>
+        <source>duplicate {} of point {} at {} s; allowed: one row per observation.</source>
+        <translation>{} des Punkts {} bei {} s doppelt; zulässig: eine Zeile je Beobachtung.</translation>
     </message>
     <message>
         <source>{} of point {} is {:g} mm, the travel {:g} to {:g} mm</source>
@@ -8071,8 +8067,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} von {}</translation>
     </message>
     <message>
-        <source>{} of {} at {} s stands twice; allowed: one prediction each.</source>
-        <translation>{} von {} bei {} s steht zweimal da; zulässig: je eine Vorhersage.</translation>
+        <source>duplicate {} of {} at {} s; allowed: one prediction each.</source>
+        <translation>{} von {} bei {} s doppelt; zulässig: je eine Vorhersage.</translation>
     </message>
     <message>
         <source>{} of {} captures are checked.</source>
@@ -8081,10 +8077,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{} of {} captures could not be used and were left out.</source>
         <translation>{} von {} Aufnahmen waren unbrauchbar und wurden ausgelassen.</translation>
-    </message>
-    <message>
-        <source>{} of {} follows {} in time{}, {:.2f} {} rms</source>
-        <translation>{} von {} folgt {} über der Zeit{}, {:.2f} {} rms</translation>
     </message>
     <message>
         <source>{} of {} images show {} different spindle orientation{}; at least 3 are needed for the centre of rotation.</source>
@@ -8283,8 +8275,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} bisher</translation>
     </message>
     <message>
-        <source>{} stands twice; allowed: every name once.</source>
-        <translation>{} kommt zweimal vor; zulässig: jeder Name einmal.</translation>
+        <source>duplicate name {}; allowed: every name once.</source>
+        <translation>doppelter Name {}; zulässig: jeder Name einmal.</translation>
     </message>
     <message>
         <source>{} stands {:.1f} mm beside where the machine file has it; its place in the machine file enters the evaluation.</source>
@@ -8447,8 +8439,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} {} ist nicht zulässig; zulässig: {} bis {}.</translation>
     </message>
     <message>
-        <source>{} {} of fiducial {} in state {} stands twice, first in {}; allowed: one row each.</source>
-        <translation>{} {} der Marke {} in Zustand {} steht zweimal da, zuerst in {}; zulässig: je eine Zeile.</translation>
+        <source>duplicate {} {} of fiducial {} in state {}, first in {}; allowed: one row each.</source>
+        <translation>{} {} der Marke {} in Zustand {} doppelt, zuerst in {}; zulässig: je eine Zeile.</translation>
     </message>
     <message>
         <source>{} {} read at one point only: whether the state was shifted or the point moved cannot be told there.</source>
@@ -8531,7 +8523,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{}: es lässt sich kein Client anlegen.</translation>
     </message>
     <message>
-        <source>{}: only {} of {} points are left ({} painted away, {} near edges, {} outliers); at least {} are needed.</source>
+        <source>{}: only {} of {} points are left ({} masked, {} near edges, {} outliers); at least {} are needed.</source>
         <translation>{}: nur {} von {} Punkten bleiben ({} maskiert, {} nahe Kanten, {} Ausreißer); mindestens {} sind nötig.</translation>
     </message>
     <message>
@@ -8788,7 +8780,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>squareness of {} to {}</source>
-        <translation>Rechtwinkligkeit von {} zu {}</translation>
+        <translation>Rechtwinkligkeitsabweichung von {} zu {}</translation>
     </message>
     <message>
         <source>thermal expansion along {} over the table</source>
@@ -9128,6 +9120,665 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{}, least squares</source>
         <translation>{}, kleinste Quadrate</translation>
     </message>
+    <message>
+        <source>Captures</source>
+        <translation>Aufnahmen</translation>
+    </message>
+    <message>
+        <source>Compensation</source>
+        <translation>Kompensation</translation>
+    </message>
+    <message>
+        <source>Compensation over the log</source>
+        <translation>Kompensation über das Protokoll</translation>
+    </message>
+    <message>
+        <source>Events</source>
+        <translation>Ereignisse</translation>
+    </message>
+    <message>
+        <source>ISO 230-3: environmental temperature variation error</source>
+        <translation>ISO 230-3: Abweichung durch Änderung der Umgebungstemperatur</translation>
+    </message>
+    <message>
+        <source>ISO 230-3: thermal distortion caused by the rotating spindle</source>
+        <translation>ISO 230-3: thermische Verlagerung durch die drehende Spindel</translation>
+    </message>
+    <message>
+        <source>Laser profiler</source>
+        <translation>Laser-Profilsensor</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>Maschine</translation>
+    </message>
+    <message>
+        <source>Measured with: {}</source>
+        <translation>Gemessen mit: {}</translation>
+    </message>
+    <message>
+        <source>Measurement plan</source>
+        <translation>Messplan</translation>
+    </message>
+    <message>
+        <source>Microscope and coded fiducials</source>
+        <translation>Mikroskop und codierte Marken</translation>
+    </message>
+    <message>
+        <source>Model over time</source>
+        <translation>Modell über der Zeit</translation>
+    </message>
+    <message>
+        <source>Notes</source>
+        <translation>Notizen</translation>
+    </message>
+    <message>
+        <source>Observations</source>
+        <translation>Beobachtungen</translation>
+    </message>
+    <message>
+        <source>Operating conditions</source>
+        <translation>Betriebsbedingungen</translation>
+    </message>
+    <message>
+        <source>Provenance</source>
+        <translation>Herkunft</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Ergebnis</translation>
+    </message>
+    <message>
+        <source>State</source>
+        <translation>Zustand</translation>
+    </message>
+    <message>
+        <source>State of the instrument</source>
+        <translation>Zustand des Messgeräts</translation>
+    </message>
+    <message>
+        <source>Summary</source>
+        <translation>Zusammenfassung</translation>
+    </message>
+    <message>
+        <source>Taken out by the user</source>
+        <translation>Vom Anwender ausgeschlossen</translation>
+    </message>
+    <message>
+        <source>The search is done.</source>
+        <translation>Die Suche ist abgeschlossen.</translation>
+    </message>
+    <message>
+        <source>The thermal drift of the machine and a drift of the instrument cannot be separated here, because {}; {}.</source>
+        <translation>Die thermische Drift der Maschine und eine Drift des Messgeräts sind hier nicht trennbar, weil {}; {}.</translation>
+    </message>
+    <message>
+        <source>Thermal error of the table</source>
+        <translation>Thermische Abweichung des Tisches</translation>
+    </message>
+    <message>
+        <source>Touch probe</source>
+        <translation>Messtaster</translation>
+    </message>
+    <message>
+        <source>Trends</source>
+        <translation>Verläufe</translation>
+    </message>
+    <message>
+        <source>Verification</source>
+        <translation>Verifizierung</translation>
+    </message>
+    <message>
+        <source>What happened</source>
+        <translation>Ereignisse</translation>
+    </message>
+    <message>
+        <source>{} of {} has {}{}, {:.2f} {} rms</source>
+        <translation>{} von {} hat {}{}, {:.2f} {} rms</translation>
+    </message>
+</context>
+<context>
+    <name>help</name>
+    <message>
+        <source>30 GB</source>
+        <translation>30 GB</translation>
+    </message>
+    <message>
+        <source>329 million</source>
+        <translation>329 Millionen</translation>
+    </message>
+    <message>
+        <source>34 GB</source>
+        <translation>34 GB</translation>
+    </message>
+    <message>
+        <source>36.5 million</source>
+        <translation>36,5 Millionen</translation>
+    </message>
+    <message>
+        <source>440 million</source>
+        <translation>440 Millionen</translation>
+    </message>
+    <message>
+        <source>8 GB</source>
+        <translation>8 GB</translation>
+    </message>
+    <message>
+        <source>80 GB</source>
+        <translation>80 GB</translation>
+    </message>
+    <message>
+        <source>9 GB</source>
+        <translation>9 GB</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Effects:&lt;/b&gt; the button beside &lt;i&gt;Search&lt;/i&gt; lists every effect this machine can have, with its physics, formula and shape. What is switched off is not named. &lt;i&gt;New effect&lt;/i&gt; writes one of your own: drivers are columns of the log, shapes are expressions in x, y, z; both are checked while you type. The campaign folder is never written to.</source>
+        <translation>&lt;b&gt;Effekte:&lt;/b&gt; Die Schaltfläche neben &lt;i&gt;Suchen&lt;/i&gt; listet jeden Effekt, den diese Maschine haben kann, mit Physik, Formel und Form. Was abgeschaltet ist, wird nicht benannt. &lt;i&gt;Neuer Effekt&lt;/i&gt; legt einen eigenen an: Treiber sind Spalten des Protokolls, Formen sind Ausdrücke in x, y, z; beides wird während der Eingabe geprüft. In den Kampagnenordner wird nie geschrieben.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Gap:&lt;/b&gt; rms, peak-to-peak and fit before and after, also on data that were held out of the fit. What was measured is known up to a constant of each point and component; the line of a model is drawn with the one that fits best.</source>
+        <translation>&lt;b&gt;Differenz:&lt;/b&gt; rms, Spitze-Spitze und Anpassungsgüte vorher und nachher, auch an Daten, die von der Anpassung zurückgehalten wurden. Messwerte sind bis auf eine Konstante je Punkt und Komponente bekannt; die Linie eines Modells ist mit der am besten passenden gezeichnet.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Into the simulation:&lt;/b&gt; a simulation that can be run (&lt;i&gt;simulator.json&lt;/i&gt;) is searched as well: its mechanisms that are switched off, its uncertain parameters and the sensors that drive it. &lt;i&gt;Put it into the simulation&lt;/i&gt; fits the physical parameters on the simulation itself, runs it again and judges its own new prediction on data that were held out. The new version is written to a folder of its own; no program runs before you say so.</source>
+        <translation>&lt;b&gt;In die Simulation:&lt;/b&gt; Eine ausführbare Simulation (&lt;i&gt;simulator.json&lt;/i&gt;) wird ebenfalls durchsucht: ihre abgeschalteten Mechanismen, ihre unsicheren Parameter und die Sensoren, die sie antreiben. &lt;i&gt;In die Simulation einsetzen&lt;/i&gt; passt die physikalischen Parameter an der Simulation selbst an, führt sie erneut aus und beurteilt ihre neue Vorhersage an zurückgehaltenen Daten. Die neue Version wird in einen eigenen Ordner geschrieben; kein Programm läuft ohne Ihre Zustimmung.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Laser profiler:&lt;/b&gt; the whole artefact in every scan, cold and warm with the same settings.</source>
+        <translation>&lt;b&gt;Laser-Profilsensor:&lt;/b&gt; der ganze Prüfkörper in jedem Scan, kalt und warm mit denselben Einstellungen.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Laser profiler:&lt;/b&gt; warm and cold clouds are laid on each other; a component that the scan cannot see has no value and says why.</source>
+        <translation>&lt;b&gt;Laser-Profilsensor:&lt;/b&gt; Warme und kalte Punktwolken werden zur Deckung gebracht; eine Komponente, die der Scan nicht erfassen kann, hat keinen Wert und nennt den Grund.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Microscope:&lt;/b&gt; 3 or more spindle orientations at one position, 3 to 5 positions along X and Y, 5 or more heights for the focus.</source>
+        <translation>&lt;b&gt;Mikroskop:&lt;/b&gt; mindestens 3 Spindelstellungen an einer Position, 3 bis 5 Positionen entlang X und Y, mindestens 5 Höhen für den Fokus.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Microscope:&lt;/b&gt; the centre of rotation is free of how the camera sits in the spindle.</source>
+        <translation>&lt;b&gt;Mikroskop:&lt;/b&gt; Der Drehmittelpunkt hängt nicht davon ab, wie die Kamera in der Spindel sitzt.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Next:&lt;/b&gt; what to measure to tell rivals apart, and how the search decided.</source>
+        <translation>&lt;b&gt;Nächste Messung:&lt;/b&gt; was zu messen ist, um Rivalen zu unterscheiden, und wie die Suche entschieden hat.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Noise:&lt;/b&gt; what was taken as noise: its scale (actual scatter over stated &amp;sigma;), the shift common to all points of a state, tails, the clock of the log, and outlying readings. Each reading can be looked at, excluded and brought back.</source>
+        <translation>&lt;b&gt;Rauschen:&lt;/b&gt; was als Rauschen galt: sein Maßstab (tatsächliche Streuung zu angegebenem &amp;sigma;), die allen Punkten eines Zustands gemeinsame Verschiebung, die Ausläufer der Verteilung, die Uhr des Protokolls und Ausreißer. Jede Ablesung lässt sich ansehen, ausschließen und zurückholen.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Remains:&lt;/b&gt; what is smooth in time and space and neither effect nor noise: its rms in every component, its time history beside what the effects explain, its pattern over the points.</source>
+        <translation>&lt;b&gt;Was verbleibt:&lt;/b&gt; was über Zeit und Ort glatt verläuft und weder Effekt noch Rauschen ist: sein rms in jeder Komponente, sein zeitlicher Verlauf neben dem, was die Effekte erklären, sein Muster über den Punkten.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Touch probe:&lt;/b&gt; a probe reads true position minus deviation: the observation is minus the change of what it reads.</source>
+        <translation>&lt;b&gt;Messtaster:&lt;/b&gt; Er zeigt wahre Position minus Abweichung an: Die Beobachtung ist die negative Änderung der Anzeige.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Touch probe:&lt;/b&gt; each feature from all sides; the stylus tight, the probe dry.</source>
+        <translation>&lt;b&gt;Messtaster:&lt;/b&gt; jedes Element von allen Seiten; Tastereinsatz fest, Messtaster trocken.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;What:&lt;/b&gt; the effect, its parameters, and which rivals cannot be told from it with these data; the ten most probable effects with their probabilities, named or not.</source>
+        <translation>&lt;b&gt;Was:&lt;/b&gt; der Effekt, seine Parameter und die Rivalen, die diese Daten nicht von ihm unterscheiden; die zehn wahrscheinlichsten Effekte mit ihren Wahrscheinlichkeiten, benannt oder nicht.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Where:&lt;/b&gt; the points and times at which the residual is larger than noise explains.</source>
+        <translation>&lt;b&gt;Wo:&lt;/b&gt; die Punkte und Zeiten, an denen das Residuum größer ist, als das Rauschen erklärt.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;rms of the fit&lt;/b&gt; much above the uncertainty: something is missing in the model. &lt;b&gt;rms of the validation&lt;/b&gt; much above that of the fit: too few points.</source>
+        <translation>&lt;b&gt;rms der Anpassung&lt;/b&gt; weit über der Unsicherheit: im Modell fehlt etwas. &lt;b&gt;rms der Validierung&lt;/b&gt; weit über dem der Anpassung: zu wenige Punkte.</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;rows&lt;/b&gt;</source>
+        <translation>&lt;b&gt;Zeilen&lt;/b&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;size&lt;/b&gt;</source>
+        <translation>&lt;b&gt;Größe&lt;/b&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;table&lt;/b&gt;</source>
+        <translation>&lt;b&gt;Tabelle&lt;/b&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;Connections&lt;/i&gt;: enter an address (http, mqtt, modbus, serial, linuxcnc, genicam &amp;hellip;), see what is there, tick what becomes a column of log.csv. &lt;i&gt;Look live&lt;/i&gt; writes nothing; &lt;i&gt;Record&lt;/i&gt; goes on while you leave the page. Machines are only read. Passwords stand in the environment or in a file of yours, never in the session.</source>
+        <translation>&lt;i&gt;Verbindungen&lt;/i&gt;: eine Adresse eingeben (http, mqtt, modbus, serial, linuxcnc, genicam &amp;hellip;), ansehen, was es dort gibt, und ankreuzen, was eine Spalte von log.csv wird. &lt;i&gt;Live ansehen&lt;/i&gt; schreibt nichts; &lt;i&gt;Aufzeichnen&lt;/i&gt; läuft weiter, wenn Sie die Seite verlassen. Maschinen werden nur gelesen. Passwörter stehen in der Umgebung oder in einer eigenen Datei, nie in der Sitzung.</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;Live &amp;hellip;&lt;/i&gt; closes the loop at the control: open a plan, press Start, read what will move, and confirm it at the machine. The page says whether the compensation is active, what it adds per axis and how sure that is (one standard uncertainty of the model; no number before a measuring cycle has judged it).</source>
+        <translation>&lt;i&gt;Live &amp;hellip;&lt;/i&gt; schließt den Regelkreis an der Steuerung: einen Plan öffnen, „Starten“ drücken, lesen, was sich bewegen wird, und es an der Maschine bestätigen. Die Seite zeigt, ob die Kompensation aktiv ist, was sie je Achse aufschaltet und wie sicher das ist (eine Standardunsicherheit des Modells; keine Zahl, bevor ein Messzyklus sie geprüft hat).</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;Publish this session&lt;/i&gt; puts its campaigns with their newest results into the store. Publishing again adds nothing. Where the store cannot be reached, what is published waits in the session.</source>
+        <translation>&lt;i&gt;Diese Sitzung veröffentlichen&lt;/i&gt; legt ihre Kampagnen mit den neuesten Ergebnissen im Speicher ab. Erneutes Veröffentlichen fügt nichts hinzu. Ist der Speicher nicht erreichbar, wartet das Veröffentlichte in der Sitzung.</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;Stop&lt;/i&gt; lets the compensation fade to zero. If Spindrift stops responding, the control lets it fade as well, or holds it: your choice. A loop that was ended goes on from its folder.</source>
+        <translation>&lt;i&gt;Anhalten&lt;/i&gt; lässt die Kompensation auf null abklingen. Wenn Spindrift nicht mehr antwortet, lässt die Steuerung sie ebenfalls abklingen oder hält sie: nach Ihrer Wahl. Ein beendeter Regelkreis wird aus seinem Ordner fortgesetzt.</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;U = 2 u&amp;nbsp; (expanded uncertainty, about 95 %)&lt;/i&gt;</source>
+        <translation>&lt;i&gt;U = 2 u&amp;nbsp; (erweiterte Messunsicherheit, etwa 95 %)&lt;/i&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;c = mean centre of the circle that a pattern draws while the spindle turns;&amp;nbsp; &amp;Delta;XY = c(state) &amp;minus; c(first),&amp;nbsp; &amp;Delta;Z from the peak of sharpness over height&lt;/i&gt;</source>
+        <translation>&lt;i&gt;c = mittlerer Mittelpunkt des Kreises, den ein Muster beim Drehen der Spindel beschreibt;&amp;nbsp; &amp;Delta;XY = c(Zustand) &amp;minus; c(erster),&amp;nbsp; &amp;Delta;Z aus dem Maximum der Schärfe über der Höhe&lt;/i&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;correction = &amp;minus; predicted deviation;&amp;nbsp; expected rest = sqrt(model uncertainty&amp;sup2; + residual&amp;sup2;)&lt;/i&gt;</source>
+        <translation>&lt;i&gt;Korrektur = &amp;minus; vorhergesagte Abweichung;&amp;nbsp; erwarteter Rest = sqrt(Modellunsicherheit&amp;sup2; + Residuum&amp;sup2;)&lt;/i&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;d(t) = a + b (1 &amp;minus; exp(&amp;minus;t / &amp;tau;)),&amp;nbsp; settled when |b| / &amp;tau; &amp;middot; exp(&amp;minus;t / &amp;tau;) &amp;lt; 1 &amp;micro;m/h&lt;/i&gt;</source>
+        <translation>&lt;i&gt;d(t) = a + b (1 &amp;minus; exp(&amp;minus;t / &amp;tau;)),&amp;nbsp; eingelaufen, wenn |b| / &amp;tau; &amp;middot; exp(&amp;minus;t / &amp;tau;) &amp;lt; 1 &amp;micro;m/h&lt;/i&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;deviation = actual &amp;minus; commanded position of the tool relative to the table&lt;/i&gt;</source>
+        <translation>&lt;i&gt;Abweichung = Ist- &amp;minus; Sollposition des Werkzeugs relativ zum Tisch&lt;/i&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;difference = pane &amp;minus; pane 1;&amp;nbsp; u(difference)&amp;sup2; = u(pane)&amp;sup2; + u(pane 1)&amp;sup2;&lt;/i&gt;</source>
+        <translation>&lt;i&gt;Differenz = Bereich &amp;minus; Bereich 1;&amp;nbsp; u(Differenz)&amp;sup2; = u(Bereich)&amp;sup2; + u(Bereich 1)&amp;sup2;&lt;/i&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;ex = EX &amp;minus; EC y + EB z + &amp;alpha;&lt;sub&gt;X&lt;/sub&gt; x,&amp;nbsp; ey = EY + EC x &amp;minus; EA z &amp;minus; EC0Y &amp;hellip; + &amp;alpha;&lt;sub&gt;Y&lt;/sub&gt; y,&amp;nbsp; ez = EZ &amp;minus; EB x + EA y&lt;/i&gt;</source>
+        <translation>&lt;i&gt;ex = EX &amp;minus; EC y + EB z + &amp;alpha;&lt;sub&gt;X&lt;/sub&gt; x,&amp;nbsp; ey = EY + EC x &amp;minus; EA z &amp;minus; EC0Y &amp;hellip; + &amp;alpha;&lt;sub&gt;Y&lt;/sub&gt; y,&amp;nbsp; ez = EZ &amp;minus; EB x + EA y&lt;/i&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;met: |rest| + U &amp;le; goal;&amp;nbsp; not met: |rest| &amp;minus; U &amp;gt; goal;&amp;nbsp; U = 2 u&lt;/i&gt;</source>
+        <translation>&lt;i&gt;erreicht: |Rest| + U &amp;le; Ziel;&amp;nbsp; nicht erreicht: |Rest| &amp;minus; U &amp;gt; Ziel;&amp;nbsp; U = 2 u&lt;/i&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;residual = observation &amp;minus; prediction;&amp;nbsp; &amp;Delta;BIC = &amp;Delta;&amp;chi;&amp;sup2; &amp;minus; k ln n,&amp;nbsp; above 10: strong evidence&lt;/i&gt;</source>
+        <translation>&lt;i&gt;Residuum = Beobachtung &amp;minus; Vorhersage;&amp;nbsp; &amp;Delta;BIC = &amp;Delta;&amp;chi;&amp;sup2; &amp;minus; k ln n,&amp;nbsp; über 10: starke Evidenz&lt;/i&gt;</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;usable when: code found, sharp, not over-exposed; touch within 5 standard deviations of its feature; scan complete&lt;/i&gt;</source>
+        <translation>&lt;i&gt;verwendbar, wenn: Code gefunden, scharf, nicht überbelichtet; Antastung innerhalb von 5 Standardabweichungen ihres Elements; Scan vollständig&lt;/i&gt;</translation>
+    </message>
+    <message>
+        <source>A chain is written from the workpiece to the tool; an axis that carries the workpiece has a prime: V [w-X&apos;-Y&apos;-b-Z-t].</source>
+        <translation>Eine Kette wird vom Werkstück zum Werkzeug geschrieben; eine Achse, die das Werkstück trägt, hat einen Strich: V [w-X&apos;-Y&apos;-b-Z-t].</translation>
+    </message>
+    <message>
+        <source>A day is 10,000 campaigns. At the rates that were measured (1,000 in 0.5 s to 1.7 s, on two processors that others used as well) they are published in 5 s to 17 s.</source>
+        <translation>Ein Tag sind 10.000 Kampagnen. Bei den gemessenen Raten (1.000 in 0,5 s bis 1,7 s auf zwei auch anderweitig genutzten Prozessoren) sind sie in 5 s bis 17 s veröffentlicht.</translation>
+    </message>
+    <message>
+        <source>A log alone has a report too: conditions, displacements, ISO 230-3 where it is such a test, model and compensation.</source>
+        <translation>Auch ein Protokoll allein hat einen Bericht: Bedingungen, Verlagerungen, ISO 230-3, wo es eine solche Prüfung ist, Modell und Kompensation.</translation>
+    </message>
+    <message>
+        <source>A model no longer holds after a spindle change, a re-levelling, a crash, a repair or a move, after a named step or drift, and where a later campaign came out otherwise.</source>
+        <translation>Ein Modell gilt nicht mehr nach Spindelwechsel, Neuausrichtung, Kollision, Reparatur oder Umzug, nach einem benannten Sprung oder einer benannten Drift und wo eine spätere Kampagne anders ausfiel.</translation>
+    </message>
+    <message>
+        <source>A trend has one value a campaign. Dashed: control limits (3 standard deviations: scatter from campaign to campaign and uncertainty of the value). The moving average (EWMA) sees small shifts that last. Limits begin anew after an event that makes the machine another one. A change is named where chance makes one in fewer than 1 of 100 records. &lt;i&gt;Report&lt;/i&gt; writes all of a machine into one file.</source>
+        <translation>Ein Verlauf hat einen Wert je Kampagne. Gestrichelt: Eingriffsgrenzen (3 Standardabweichungen: Streuung von Kampagne zu Kampagne und Unsicherheit des Werts). Der gleitende Mittelwert (EWMA) erkennt kleine, anhaltende Verschiebungen. Nach einem Ereignis, das die Maschine verändert, beginnen die Grenzen neu. Eine Änderung wird benannt, wo der Zufall sie in weniger als 1 von 100 Verläufen hervorbringt. &lt;i&gt;Bericht&lt;/i&gt; schreibt alles zu einer Maschine in eine Datei.</translation>
+    </message>
+    <message>
+        <source>An instrument that is still warming up measures itself. Measure one point every 5 minutes: the page fits the drift and says when it has settled.</source>
+        <translation>Ein Messgerät, das noch warm wird, misst sich selbst. Einen Punkt alle 5 Minuten messen: Die Seite passt die Drift an und zeigt, wann sie abgeklungen ist.</translation>
+    </message>
+    <message>
+        <source>An uncertainty is one standard deviation unless stated otherwise.</source>
+        <translation>Eine Unsicherheit ist, wenn nicht anders angegeben, eine Standardabweichung.</translation>
+    </message>
+    <message>
+        <source>Arrows are drawn larger by the factor that is stated. A click on a point chooses its row, a row its point.</source>
+        <translation>Pfeile sind um den angegebenen Faktor vergrößert. Ein Klick auf einen Punkt wählt seine Zeile, eine Zeile ihren Punkt.</translation>
+    </message>
+    <message>
+        <source>Batches</source>
+        <translation>Stapel</translation>
+    </message>
+    <message>
+        <source>Below the trend, enter what was done to the machine: a new spindle, a re-levelling, a crash, a repair, a move, or a note; with its day (UTC) and a few words. All but a note let the limits begin anew.</source>
+        <translation>Unter dem Verlauf wird eingetragen, was an der Maschine geschah: neue Spindel, Neuausrichtung, Kollision, Reparatur, Umzug oder eine Notiz; mit Tag (UTC) und einigen Worten. Alle außer einer Notiz lassen die Grenzen neu beginnen.</translation>
+    </message>
+    <message>
+        <source>Calibrate</source>
+        <translation>Kalibrieren</translation>
+    </message>
+    <message>
+        <source>Capture</source>
+        <translation>Aufnahme</translation>
+    </message>
+    <message>
+        <source>Captures become observations: a deviation with its uncertainty, a time and a thermal state.</source>
+        <translation>Aus Aufnahmen werden Beobachtungen: eine Abweichung mit ihrer Unsicherheit, einer Zeit und einem thermischen Zustand.</translation>
+    </message>
+    <message>
+        <source>Choose a plan (a JSON file, format spindrift-batch) and press &lt;i&gt;Start&lt;/i&gt;: all processors of this computer work on its campaigns or seeds, beside whatever else you do. The table shows how far each batch of the store is and what it has cost. &lt;i&gt;Cancel the batch&lt;/i&gt; stops it wherever it runs, and &lt;i&gt;Resume&lt;/i&gt; goes on, here, after a cancellation, a crash or a failure; each item has its answer exactly once. A batch that you only stop in the job bar, or by closing the window, is not cancelled: other computers go on.</source>
+        <translation>Einen Plan wählen (JSON-Datei, Format spindrift-batch) und &lt;i&gt;Starten&lt;/i&gt; drücken: Alle Prozessoren dieses Rechners bearbeiten seine Kampagnen oder Startwerte, neben allem, was Sie sonst tun. Die Tabelle zeigt, wie weit jeder Stapel des Speichers ist und was er gekostet hat. &lt;i&gt;Stapel abbrechen&lt;/i&gt; hält ihn überall an, und &lt;i&gt;Auf diesem Rechner fortsetzen&lt;/i&gt; führt ihn nach Abbruch, Absturz oder Fehler hier weiter; jedes Element wird genau einmal bearbeitet. Ein Stapel, der nur in der Auftragsleiste oder durch Schließen des Fensters angehalten wird, ist nicht abgebrochen: Andere Rechner arbeiten weiter.</translation>
+    </message>
+    <message>
+        <source>Cold repeatability: the same point again and again comes back within half a resolution.</source>
+        <translation>Wiederholpräzision kalt: Derselbe Punkt kommt bei wiederholter Messung innerhalb einer halben Auflösung wieder.</translation>
+    </message>
+    <message>
+        <source>Compensate</source>
+        <translation>Kompensieren</translation>
+    </message>
+    <message>
+        <source>Describe the machine once: the chain from workpiece to tool, the travel of each axis, where its drive is held and where its scale counts from. Everything that is fitted and drawn later takes its frame from here.</source>
+        <translation>Die Maschine einmal beschreiben: die Kette vom Werkstück zum Werkzeug, den Verfahrweg jeder Achse, wo ihr Antrieb gelagert ist und von wo ihr Maßstab zählt. Alles, was später angepasst und gezeichnet wird, bezieht sich auf dieses Koordinatensystem.</translation>
+    </message>
+    <message>
+        <source>Discrepancy</source>
+        <translation>Diskrepanz</translation>
+    </message>
+    <message>
+        <source>EZ</source>
+        <translation>EZ</translation>
+    </message>
+    <message>
+        <source>Each capture is judged at once, while you stand at the machine. Take again what is marked; nothing that is there is altered.</source>
+        <translation>Jede Aufnahme wird sofort beurteilt, solange Sie an der Maschine sind. Markiertes erneut aufnehmen; Vorhandenes wird nicht verändert.</translation>
+    </message>
+    <message>
+        <source>Each file states its sign and its units; try one point by hand before you trust a table.</source>
+        <translation>Jede Datei nennt ihr Vorzeichen und ihre Einheiten; einen Punkt von Hand prüfen, bevor man einer Tabelle vertraut.</translation>
+    </message>
+    <message>
+        <source>Everything in one document: machine, conditions, captures, results with their uncertainty, the models, the discrepancy and where each number came from.</source>
+        <translation>Alles in einem Dokument: Maschine, Bedingungen, Aufnahmen, Ergebnisse mit ihrer Unsicherheit, Modelle, Diskrepanz und die Herkunft jeder Zahl.</translation>
+    </message>
+    <message>
+        <source>Excluding a capture needs a reason and can be taken back (Ctrl+Z).</source>
+        <translation>Der Ausschluss einer Aufnahme braucht einen Grund und lässt sich rückgängig machen (Strg+Z).</translation>
+    </message>
+    <message>
+        <source>Exclusions stand in it with their reasons, and the notes of this session (Edit, Notes).</source>
+        <translation>Ausschlüsse stehen mit ihren Gründen darin, ebenso die Notizen dieser Sitzung (Bearbeiten, Notizen).</translation>
+    </message>
+    <message>
+        <source>Frame: right-handed, axes X Y Z of ISO 841. Positions in mm, deviations in &amp;micro;m, tilts in &amp;micro;rad.</source>
+        <translation>Koordinatensystem: rechtshändig, Achsen X Y Z nach ISO 841. Positionen in mm, Abweichungen in &amp;micro;m, Winkel in &amp;micro;rad.</translation>
+    </message>
+    <message>
+        <source>HTML is self-contained; PDF has pages to sign and is what this step shows.</source>
+        <translation>HTML ist in sich abgeschlossen; PDF hat Seiten zum Unterschreiben und wird in diesem Schritt gezeigt.</translation>
+    </message>
+    <message>
+        <source>ISO 230-1 tables hold errors (EXX, EYX, &amp;hellip;), not corrections: the sign is that of the deviation.</source>
+        <translation>Tabellen nach ISO 230-1 enthalten Abweichungen (EXX, EYX, &amp;hellip;), keine Korrekturen: Das Vorzeichen ist das der Abweichung.</translation>
+    </message>
+    <message>
+        <source>If nothing of the catalogue fits, the answer is &lt;i&gt;unknown&lt;/i&gt;, and that is an answer.</source>
+        <translation>Passt nichts aus dem Katalog, lautet die Antwort &lt;i&gt;unbekannt&lt;/i&gt;, und auch das ist eine Antwort.</translation>
+    </message>
+    <message>
+        <source>If the instrument was warm already, say so: the report tells on what it rests.</source>
+        <translation>War das Messgerät bereits warm, dies angeben: Der Bericht nennt, worauf er sich stützt.</translation>
+    </message>
+    <message>
+        <source>It turns outdated when anything it tells has changed; write it again then.</source>
+        <translation>Er veraltet, sobald sich etwas ändert, das er enthält; dann neu schreiben.</translation>
+    </message>
+    <message>
+        <source>Jogs: what the instrument reads beside a commanded step must stay within one resolution of the axis.</source>
+        <translation>Tippschritte: Die Abweichung der Anzeige vom Sollschritt muss innerhalb einer Auflösung der Achse bleiben.</translation>
+    </message>
+    <message>
+        <source>Log when the control compensates (compensation_on): such data must not enter a fit unnoticed.</source>
+        <translation>Protokollieren, wann die Steuerung kompensiert (compensation_on): Solche Daten dürfen nicht unbemerkt in eine Anpassung eingehen.</translation>
+    </message>
+    <message>
+        <source>Machine</source>
+        <translation>Maschine</translation>
+    </message>
+    <message>
+        <source>Machines stand in the order in which they are due. The interval is what &lt;i&gt;plant event --every-days&lt;/i&gt; said, else what was usual so far.</source>
+        <translation>Maschinen stehen in der Reihenfolge ihrer Fälligkeit. Das Intervall ist das mit &lt;i&gt;plant event --every-days&lt;/i&gt; angegebene, sonst das bisher übliche.</translation>
+    </message>
+    <message>
+        <source>Measured with 14,000 campaigns on PostgreSQL 15, each with one fit of nine parameters, its covariance and one file: 2.2 kB a campaign (campaign 0.21, files 0.23, result 0.81, parameters 0.93 kB, indexes among them); SQLite 1.6 kB. What follows is worked out from that.</source>
+        <translation>Gemessen mit 14.000 Kampagnen auf PostgreSQL 15, jede mit einer Anpassung von neun Parametern, ihrer Kovarianz und einer Datei: 2,2 kB je Kampagne (Kampagne 0,21, Dateien 0,23, Ergebnis 0,81, Parameter 0,93 kB, einschließlich Indizes); SQLite 1,6 kB. Das Folgende ist daraus hochgerechnet.</translation>
+    </message>
+    <message>
+        <source>Model</source>
+        <translation>Modell</translation>
+    </message>
+    <message>
+        <source>Nine parameters: three displacements, three rotations, squareness, expansion of X and Y.</source>
+        <translation>Neun Parameter: drei Verlagerungen, drei Drehungen, Rechtwinkligkeitsabweichung, Ausdehnung von X und Y.</translation>
+    </message>
+    <message>
+        <source>Of a log: the tab &lt;i&gt;Live&lt;/i&gt; shows what the compensator predicts beside what is measured now; nothing is sent to the machine.</source>
+        <translation>Bei einem Protokoll: Der Reiter &lt;i&gt;Live&lt;/i&gt; zeigt die Vorhersage des Kompensators neben der aktuellen Messung; an die Maschine wird nichts gesendet.</translation>
+    </message>
+    <message>
+        <source>On a cluster: &lt;tt&gt;spindrift-cli batch PLAN.json --engine slurm --wait&lt;/tt&gt;. &lt;i&gt;Nobody&lt;/i&gt; under &lt;i&gt;Running&lt;/i&gt; means that the batch waits in Slurm or that Slurm has lost it; &lt;tt&gt;spindrift-cli batch status&lt;/tt&gt; says which, and &lt;tt&gt;batch resume --engine slurm&lt;/tt&gt; gives it what is missing.</source>
+        <translation>Auf einem Cluster: &lt;tt&gt;spindrift-cli batch PLAN.json --engine slurm --wait&lt;/tt&gt;. &lt;i&gt;Niemand&lt;/i&gt; unter &lt;i&gt;Laufend&lt;/i&gt; bedeutet, dass der Stapel in Slurm wartet oder dass Slurm ihn verloren hat; &lt;tt&gt;spindrift-cli batch status&lt;/tt&gt; sagt, was zutrifft, und &lt;tt&gt;batch resume --engine slurm&lt;/tt&gt; reicht das Fehlende nach.</translation>
+    </message>
+    <message>
+        <source>On paper: 10,000 machines, daily, ten years</source>
+        <translation>Auf dem Papier: 10.000 Maschinen, täglich, zehn Jahre</translation>
+    </message>
+    <message>
+        <source>One machine has 3,650 campaigns, fourteen times as many as in five years of weeks. They are found by machine and time, whatever else is in the store; a trend of them takes fourteen times as long.</source>
+        <translation>Eine Maschine hat 3.650 Kampagnen, vierzehnmal so viele wie bei wöchentlicher Messung in fünf Jahren. Sie werden über Maschine und Zeit gefunden, unabhängig vom übrigen Inhalt des Speichers; ein Verlauf daraus dauert vierzehnmal so lange.</translation>
+    </message>
+    <message>
+        <source>Open the store of your plant: a file, or the PostgreSQL server that your department has. Its password stands in the file that PGPASSFILE names, never in the address.</source>
+        <translation>Den Speicher des Werks öffnen: eine Datei oder den PostgreSQL-Server der Abteilung. Sein Passwort steht in der Datei, die PGPASSFILE nennt, nie in der Adresse.</translation>
+    </message>
+    <message>
+        <source>Over time (touches, logs): a transfer function from speeds and temperatures to the deviation, always predicted freely, never one step ahead.</source>
+        <translation>Über der Zeit (Antastungen, Protokolle): eine Übertragungsfunktion von Drehzahlen und Temperaturen auf die Abweichung, immer im freien Lauf vorhergesagt, nie nur einen Schritt voraus.</translation>
+    </message>
+    <message>
+        <source>Plant</source>
+        <translation>Werk</translation>
+    </message>
+    <message>
+        <source>Put at least &lt;b&gt;6&lt;/b&gt; points over the whole table; &lt;i&gt;Suggest points&lt;/i&gt; places them where the nine parameters become surest.</source>
+        <translation>Mindestens &lt;b&gt;6&lt;/b&gt; Punkte über den ganzen Tisch verteilen; &lt;i&gt;Punkte vorschlagen&lt;/i&gt; setzt sie dorthin, wo die neun Parameter am sichersten bestimmt werden.</translation>
+    </message>
+    <message>
+        <source>Report</source>
+        <translation>Bericht</translation>
+    </message>
+    <message>
+        <source>Review</source>
+        <translation>Durchsicht</translation>
+    </message>
+    <message>
+        <source>SQLite: one writer at a time. Some 50 machines and a few people are what it is for.</source>
+        <translation>SQLite: ein Schreibzugriff zur gleichen Zeit. Gedacht für etwa 50 Maschinen und wenige Anwender.</translation>
+    </message>
+    <message>
+        <source>Select several machines to lay their trends over each other. Check campaigns, of whatever session and machine, to see them side by side.</source>
+        <translation>Mehrere Maschinen auswählen, um ihre Verläufe übereinanderzulegen. Kampagnen ankreuzen, gleich welcher Sitzung und Maschine, um sie nebeneinander zu sehen.</translation>
+    </message>
+    <message>
+        <source>Set the goal first; it stays with the session. Between the two limits the measurement cannot decide: measure more often, or with less uncertainty (ISO 14253-1).</source>
+        <translation>Zuerst das Ziel festlegen; es bleibt bei der Sitzung. Zwischen den beiden Grenzen kann die Messung nicht entscheiden: häufiger oder mit kleinerer Messunsicherheit messen (ISO 14253-1).</translation>
+    </message>
+    <message>
+        <source>States are compared in their order: warm up and measure as you did before.</source>
+        <translation>Zustände werden in ihrer Reihenfolge verglichen: warmfahren und messen wie zuvor.</translation>
+    </message>
+    <message>
+        <source>Striped areas of the map lie outside the measured points; faded ones are within two standard uncertainties of zero.</source>
+        <translation>Gestreifte Bereiche der Karte liegen außerhalb der gemessenen Punkte; verblasste liegen innerhalb von zwei Standardunsicherheiten um null.</translation>
+    </message>
+    <message>
+        <source>The first to break is what reads all campaigns: the list without a machine (0.2 s for 14,000; ten minutes for all) and the list of machines, which reads every start (0.03 s for 14,000; more than a minute for all). From about 300,000 campaigns on, name the machine, and keep the last start of each machine in its row.</source>
+        <translation>Als Erstes versagt, was alle Kampagnen liest: die Liste ohne Maschine (0,2 s für 14.000; zehn Minuten für alle) und die Liste der Maschinen, die jeden Beginn liest (0,03 s für 14.000; über eine Minute für alle). Ab etwa 300.000 Kampagnen die Maschine nennen und den letzten Beginn jeder Maschine in ihrer Zeile führen.</translation>
+    </message>
+    <message>
+        <source>The log marks the time with compensation_on; such readings enter no fit of the machine&apos;s own errors.</source>
+        <translation>Das Protokoll kennzeichnet die Zeit mit compensation_on; solche Ablesungen gehen in keine Anpassung der Abweichungen der Maschine selbst ein.</translation>
+    </message>
+    <message>
+        <source>The observations of one state become a model of the machine; the points you leave out of the fit say whether to believe it.</source>
+        <translation>Aus den Beobachtungen eines Zustands wird ein Modell der Maschine; die von der Anpassung zurückgehaltenen Punkte zeigen, ob man ihm glauben kann.</translation>
+    </message>
+    <message>
+        <source>The same plan, measured again while the control compensates: is what is left small enough?</source>
+        <translation>Derselbe Plan, erneut gemessen, während die Steuerung kompensiert: Ist der Rest klein genug?</translation>
+    </message>
+    <message>
+        <source>The second is the list of files: a campaign of 100 images has 100 rows in it, 0.9 billion a year. Such plants publish one fingerprint a campaign.</source>
+        <translation>Als Zweites die Liste der Dateien: Eine Kampagne mit 100 Bildern hat darin 100 Zeilen, 0,9 Milliarden im Jahr. Solche Werke veröffentlichen einen Fingerabdruck je Kampagne.</translation>
+    </message>
+    <message>
+        <source>The slider goes through the thermal states; Play runs through them.</source>
+        <translation>Der Schieber geht durch die thermischen Zustände; „Zustände abspielen“ durchläuft sie.</translation>
+    </message>
+    <message>
+        <source>The third is upkeep: from some 10 million campaigns on, partition result, parameter and capture by the year in which they were published (ten partitions of about 7 GB), so that a year is vacuumed, backed up and taken away by itself. The unique keys then need the year in them; this has not been tried.</source>
+        <translation>Als Drittes die Pflege: Ab etwa 10 Millionen Kampagnen result, parameter und capture nach dem Jahr der Veröffentlichung partitionieren (zehn Partitionen zu etwa 7 GB), damit sich ein Jahr für sich bereinigen, sichern und entfernen lässt. Die eindeutigen Schlüssel brauchen dann das Jahr; dies wurde nicht erprobt.</translation>
+    </message>
+    <message>
+        <source>Turn one view and the others follow. Faded: within two standard uncertainties of zero; striped: outside the points that were measured.</source>
+        <translation>Dreht man eine Ansicht, folgen die anderen. Verblasst: innerhalb von zwei Standardunsicherheiten um null; gestreift: außerhalb der gemessenen Punkte.</translation>
+    </message>
+    <message>
+        <source>Two to four panes side by side: states, models, campaigns and scans under one camera and one colour scale.</source>
+        <translation>Zwei bis vier Bereiche nebeneinander: Zustände, Modelle, Kampagnen und Scans mit gemeinsamer Kamera und Farbskala.</translation>
+    </message>
+    <message>
+        <source>Verify</source>
+        <translation>Verifizieren</translation>
+    </message>
+    <message>
+        <source>Warm-up</source>
+        <translation>Warmlauf</translation>
+    </message>
+    <message>
+        <source>What the control shall add at each point, and the error that is left when it does.</source>
+        <translation>Was die Steuerung an jedem Punkt aufschalten soll und welche Abweichung dann verbleibt.</translation>
+    </message>
+    <message>
+        <source>What the discrepancy step names is added only after you have ticked it (plan: &lt;i&gt;&quot;accept&quot;: &quot;ask&quot;&lt;/i&gt;).</source>
+        <translation>Was der Schritt Diskrepanz benennt, wird erst hinzugefügt, wenn Sie es angekreuzt haben (Plan: &lt;i&gt;&quot;accept&quot;: &quot;ask&quot;&lt;/i&gt;).</translation>
+    </message>
+    <message>
+        <source>Where measurement and simulation disagree, the search tries every effect of the catalogue and names the one that explains the gap, with its rivals.</source>
+        <translation>Wo Messung und Simulation voneinander abweichen, erprobt die Suche jeden Effekt des Katalogs und benennt den, der die Differenz erklärt, mit seinen Rivalen.</translation>
+    </message>
+    <message>
+        <source>Which machine is to be measured next, what has changed on it, and does its model still hold?</source>
+        <translation>Welche Maschine ist als Nächstes zu messen, was hat sich an ihr geändert, und gilt ihr Modell noch?</translation>
+    </message>
+    <message>
+        <source>While something is connected (Machine, Connections), temperatures are shown as they come.</source>
+        <translation>Solange etwas verbunden ist (Maschine, Verbindungen), werden Temperaturen laufend angezeigt.</translation>
+    </message>
+    <message>
+        <source>With a connected spindle speed or feed the page says when the machine stands still; wait for that.</source>
+        <translation>Sind Spindeldrehzahl oder Vorschub verbunden, zeigt die Seite, wann die Maschine stillsteht; darauf warten.</translation>
+    </message>
+    <message>
+        <source>before</source>
+        <translation>vorher</translation>
+    </message>
+    <message>
+        <source>campaign</source>
+        <translation>Kampagne</translation>
+    </message>
+    <message>
+        <source>capture (one file each)</source>
+        <translation>Aufnahme (je eine Datei)</translation>
+    </message>
+    <message>
+        <source>centre of rotation</source>
+        <translation>Drehmittelpunkt</translation>
+    </message>
+    <message>
+        <source>cold</source>
+        <translation>kalt</translation>
+    </message>
+    <message>
+        <source>compensated</source>
+        <translation>kompensiert</translation>
+    </message>
+    <message>
+        <source>correction = - deviation</source>
+        <translation>Korrektur = − Abweichung</translation>
+    </message>
+    <message>
+        <source>deviation</source>
+        <translation>Abweichung</translation>
+    </message>
+    <message>
+        <source>focus height</source>
+        <translation>Fokushöhe</translation>
+    </message>
+    <message>
+        <source>gap</source>
+        <translation>Differenz</translation>
+    </message>
+    <message>
+        <source>goal</source>
+        <translation>Ziel</translation>
+    </message>
+    <message>
+        <source>image</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>measured</source>
+        <translation>gemessen</translation>
+    </message>
+    <message>
+        <source>measured points and fitted table</source>
+        <translation>gemessene Punkte und angepasster Tisch</translation>
+    </message>
+    <message>
+        <source>parameter</source>
+        <translation>Parameter</translation>
+    </message>
+    <message>
+        <source>result</source>
+        <translation>Ergebnis</translation>
+    </message>
+    <message>
+        <source>scan</source>
+        <translation>Scan</translation>
+    </message>
+    <message>
+        <source>settled</source>
+        <translation>eingelaufen</translation>
+    </message>
+    <message>
+        <source>signed</source>
+        <translation>unterschrieben</translation>
+    </message>
+    <message>
+        <source>simulated</source>
+        <translation>simuliert</translation>
+    </message>
+    <message>
+        <source>time</source>
+        <translation>Zeit</translation>
+    </message>
+    <message>
+        <source>together</source>
+        <translation>zusammen</translation>
+    </message>
+    <message>
+        <source>tool</source>
+        <translation>Werkzeug</translation>
+    </message>
+    <message>
+        <source>touch</source>
+        <translation>Antastung</translation>
+    </message>
+    <message>
+        <source>warm</source>
+        <translation>warm</translation>
+    </message>
+    <message>
+        <source>workpiece</source>
+        <translation>Werkstück</translation>
+    </message>
 </context>
 <context>
     <name>main</name>
@@ -9164,8 +9815,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Skalierung der gesamten Oberfläche, 0.5 bis 4.</translation>
     </message>
     <message>
-        <source>Run all demos and hold them against the truth: pass or fail for each.</source>
-        <translation>Alle Demos ausführen und mit der Wahrheit vergleichen: für jede bestanden oder nicht bestanden.</translation>
+        <source>Run all demos and compare their results with the known truth: pass or fail for each.</source>
+        <translation>Alle Demos ausführen und ihre Ergebnisse mit der bekannten Wahrheit vergleichen: bestanden oder nicht bestanden.</translation>
     </message>
     <message>
         <source>With --self-test: write the result to FILE, or to standard output with -.</source>
@@ -9178,6 +9829,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Print the reference of the options: a man page, the completion of bash, or Markdown.</source>
         <translation>Referenz der Optionen ausgeben: Handbuchseite (man), Vervollständigung für bash oder Markdown.</translation>
+    </message>
+    <message>
+        <source>With --tour: size of the window; every page with each of its tabs is shown.</source>
+        <translation>Mit --tour: Größe des Fensters; jede Seite wird mit allen Reitern gezeigt.</translation>
     </message>
 </context>
 <context>
@@ -9365,40 +10020,40 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>none, even oder odd</translation>
     </message>
     <message>
-        <source>head turns about %1</source>
+        <source>head tilt about %1</source>
         <translation>Neigung des Spindelkopfs um %1</translation>
     </message>
     <message>
-        <source>column turns about %1</source>
+        <source>column tilt about %1</source>
         <translation>Neigung des Ständers um %1</translation>
     </message>
     <message>
-        <source>spindle drifts along %1</source>
-        <translation>Spindeldrift entlang %1</translation>
+        <source>displacement of the spindle along %1</source>
+        <translation>Verlagerung der Spindel entlang %1</translation>
     </message>
     <message>
-        <source>screw of %1 grows</source>
-        <translation>Ausdehnung des Kugelgewindetriebs von %1</translation>
+        <source>thermal expansion of the %1 ball screw</source>
+        <translation>Wärmeausdehnung des Kugelgewindetriebs %1</translation>
     </message>
     <message>
-        <source>bar grows</source>
-        <translation>Ausdehnung der Lochleiste</translation>
+        <source>thermal expansion of the bar</source>
+        <translation>Wärmeausdehnung der Lochleiste</translation>
     </message>
     <message>
-        <source>table radius grows</source>
-        <translation>Zunahme des Tischradius</translation>
+        <source>radial expansion of the table</source>
+        <translation>radiale Ausdehnung des Tisches</translation>
     </message>
     <message>
-        <source>table turns, %1</source>
+        <source>rotation of the table, %1</source>
         <translation>Verdrehung des Tisches, %1</translation>
     </message>
     <message>
-        <source>table moves along %1</source>
-        <translation>Verschiebung des Tisches entlang %1</translation>
+        <source>displacement of the table along %1</source>
+        <translation>Verlagerung des Tisches entlang %1</translation>
     </message>
     <message>
-        <source>axis %1 grows</source>
-        <translation>Ausdehnung der Achse %1</translation>
+        <source>linear expansion of axis %1</source>
+        <translation>Längenausdehnung der Achse %1</translation>
     </message>
     <message>
         <source>Cold</source>
@@ -9690,7 +10345,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Rauschen eines Punktes</translation>
     </message>
     <message>
-        <source> um</source>
+        <source> µm</source>
         <translation> µm</translation>
     </message>
     <message>
@@ -9754,7 +10409,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Schwache Richtung</translation>
     </message>
     <message>
-        <source>Known to / um</source>
+        <source>Known to / µm</source>
         <translation>Bekannt auf / µm</translation>
     </message>
     <message>
@@ -9928,7 +10583,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Werkstoff</translation>
     </message>
     <message>
-        <source>Expansion / um/m/K</source>
+        <source>Expansion / µm/m/K</source>
         <translation>Ausdehnung / µm/(m·K)</translation>
     </message>
     <message>
@@ -9944,7 +10599,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Des Prüfkörpers, sofern kein Sensor sie misst</translation>
     </message>
     <message>
-        <source>Certificate ± / um</source>
+        <source>Certificate ± / µm</source>
         <translation>Zertifikat ± / µm</translation>
     </message>
     <message>
@@ -10079,7 +10734,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zeit / min</translation>
     </message>
     <message>
-        <source>EXY / um</source>
+        <source>EXY / µm</source>
         <translation>EXY / µm</translation>
     </message>
     <message>
@@ -10187,10 +10842,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Laut Maschinenbeschreibung sind die Scans %1. Unter einem anderen Scanmodell sind die folgenden Zahlen um mehr falsch, als sie angeben.</translation>
     </message>
     <message>
-        <source>%1 scans, six errors each, relative to the first scan of their artefact.</source>
-        <translation>%1 Scans mit je sechs Abweichungen, bezogen auf den ersten Scan ihres Prüfkörpers.</translation>
-    </message>
-    <message>
         <source>%1 at %2 mm</source>
         <translation>%1 bei %2 mm</translation>
     </message>
@@ -10241,6 +10892,13 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Errors, %1</source>
         <translation>Abweichungen, %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n scans, six errors each, relative to the first scan of their artefact.</source>
+        <translation>
+            <numerusform>%n Scan, sechs Abweichungen, relativ zum ersten Scan seines Prüfkörpers.</numerusform>
+            <numerusform>%n Scans, je sechs Abweichungen, relativ zum ersten Scan ihres Prüfkörpers.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -10298,16 +10956,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Starten</translation>
     </message>
     <message>
-        <source>Works on the plan&apos;s campaigns or seeds with all processors of this computer; the same plan again goes on where it ended</source>
-        <translation>Bearbeitet die Kampagnen oder Startwerte des Plans mit allen Prozessoren dieses Rechners; derselbe Plan setzt später dort fort, wo er endete</translation>
-    </message>
-    <message>
         <source>Cancel the batch</source>
         <translation>Stapel abbrechen</translation>
     </message>
     <message>
-        <source>Nothing more is begun, wherever it runs; what is done stays</source>
-        <translation>Es wird nirgends mehr etwas begonnen; Erledigtes bleibt erhalten</translation>
+        <source>Stops the batch on every computer; finished items are kept</source>
+        <translation>Hält den Stapel auf allen Rechnern an; Erledigtes bleibt erhalten</translation>
     </message>
     <message>
         <source>Resume on this computer</source>
@@ -10346,8 +11000,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>niemand</translation>
     </message>
     <message>
-        <source>Nothing works on it: it waits in Slurm, or what worked on it has ended; Resume goes on.</source>
-        <translation>Niemand arbeitet daran: der Stapel wartet in Slurm, oder das bearbeitende Programm ist beendet; „Fortsetzen“ führt ihn weiter.</translation>
+        <source>Not running: it waits in Slurm, or its processes have ended; Resume continues it.</source>
+        <translation>Läuft nicht: der Stapel wartet in Slurm, oder seine Prozesse sind beendet; „Fortsetzen“ führt ihn weiter.</translation>
     </message>
     <message>
         <source>finished</source>
@@ -10392,6 +11046,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Cancelling a batch</source>
         <translation>Stapel wird abgebrochen</translation>
+    </message>
+    <message>
+        <source>Processes the campaigns or seeds of the plan on all processors of this computer; starting the same plan again continues it</source>
+        <translation>Bearbeitet die Kampagnen oder Startwerte des Plans mit allen Prozessoren dieses Rechners; derselbe Plan, erneut gestartet, wird fortgesetzt</translation>
     </message>
 </context>
 <context>
@@ -10536,8 +11194,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Uhrversatz</translation>
     </message>
     <message>
-        <source>Every clock is taken as it is.</source>
-        <translation>Jede Uhr wird so verwendet, wie sie ist.</translation>
+        <source>No clock offset is applied.</source>
+        <translation>Es wird kein Uhrenversatz angewandt.</translation>
     </message>
     <message>
         <source>Offset of %1: %2.</source>
@@ -10591,8 +11249,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Nicht jetzt</translation>
     </message>
     <message>
-        <source>I stand at the machine: start</source>
-        <translation>Ich stehe an der Maschine: starten</translation>
+        <source>I am at the machine: start</source>
+        <translation>Ich bin an der Maschine: starten</translation>
     </message>
     <message>
         <source>Missing in the simulation: what is added?</source>
@@ -10604,10 +11262,10 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Confidence</source>
-        <translation>Sicherheit</translation>
+        <translation>Konfidenz</translation>
     </message>
     <message>
-        <source>Not to be told from</source>
+        <source>Indistinguishable from</source>
         <translation>Nicht unterscheidbar von</translation>
     </message>
     <message>
@@ -10615,8 +11273,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Benannte Effekte</translation>
     </message>
     <message>
-        <source>Add the ticked ones</source>
-        <translation>Markierte hinzufügen</translation>
+        <source>Add the selected effects</source>
+        <translation>Markierte Effekte hinzufügen</translation>
     </message>
     <message>
         <source>%1, applied now</source>
@@ -10631,8 +11289,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Verbrauchte Messungen</translation>
     </message>
     <message>
-        <source>When Spindrift falls silent:</source>
-        <translation>Wenn Spindrift verstummt:</translation>
+        <source>If Spindrift stops responding:</source>
+        <translation>Wenn Spindrift nicht mehr antwortet:</translation>
     </message>
     <message>
         <source>Fade to zero</source>
@@ -10643,8 +11301,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Halten</translation>
     </message>
     <message>
-        <source>Compensation when Spindrift falls silent</source>
-        <translation>Kompensation, wenn Spindrift verstummt</translation>
+        <source>Compensation if Spindrift stops responding</source>
+        <translation>Kompensation, wenn Spindrift nicht mehr antwortet</translation>
     </message>
     <message>
         <source>Error at the tool point, without and with</source>
@@ -10715,12 +11373,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Der Messzyklus darf nicht laufen: Zeile %1: %2.</translation>
     </message>
     <message>
-        <source>The last compensation stays, whatever the machine does then.</source>
-        <translation>Die letzte Kompensation bleibt bestehen, was die Maschine danach auch tut.</translation>
+        <source>The last compensation value is held, whatever the machine does afterwards.</source>
+        <translation>Der letzte Kompensationswert wird gehalten, was auch immer die Maschine danach tut.</translation>
     </message>
     <message>
-        <source>Nothing is applied that nobody watches.</source>
-        <translation>Nichts bleibt aufgeschaltet, was niemand überwacht.</translation>
+        <source>No compensation is applied without supervision.</source>
+        <translation>Ohne Überwachung wird nichts kompensiert.</translation>
     </message>
     <message>
         <source>The loop has ended: %1</source>
@@ -11013,7 +11671,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Dateien exportieren …</translation>
     </message>
     <message>
-        <source>Work out the corrections</source>
+        <source>Calculate the compensation</source>
         <translation>Kompensation berechnen</translation>
     </message>
     <message>
@@ -11073,15 +11731,15 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Punkt</translation>
     </message>
     <message>
-        <source>X / um</source>
+        <source>X / µm</source>
         <translation>X / µm</translation>
     </message>
     <message>
-        <source>Y / um</source>
+        <source>Y / µm</source>
         <translation>Y / µm</translation>
     </message>
     <message>
-        <source>Z / um</source>
+        <source>Z / µm</source>
         <translation>Z / µm</translation>
     </message>
     <message>
@@ -11145,7 +11803,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Hier erscheinen die Pfeile an den Punkten</translation>
     </message>
     <message>
-        <source>Work out the corrections.</source>
+        <source>Calculate the compensation.</source>
         <translation>Kompensation berechnen.</translation>
     </message>
     <message>
@@ -11189,15 +11847,15 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Die neun Parameter anpassen (Modell) oder einen fehlenden Effekt zur Simulation hinzufügen (Diskrepanz). Dann zeigt diese Seite die Korrektur an jedem Punkt und schreibt die Dateien für die Steuerung.</translation>
     </message>
     <message>
-        <source>Choose model and state, then press Work out the corrections.</source>
+        <source>Choose model and state, then press Calculate the compensation.</source>
         <translation>Modell und Zustand wählen, dann „Kompensation berechnen“ drücken.</translation>
     </message>
     <message>
-        <source>Changed since the corrections were worked out: %1.</source>
-        <translation>Geändert, seit die Korrekturen berechnet wurden: %1.</translation>
+        <source>Changed since the compensation was calculated: %1.</source>
+        <translation>Geändert, seit die Kompensation berechnet wurde: %1.</translation>
     </message>
     <message>
-        <source>Work out again</source>
+        <source>Calculate again</source>
         <translation>Erneut berechnen</translation>
     </message>
     <message>
@@ -11205,8 +11863,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Höhere Ordnung verwenden</translation>
     </message>
     <message>
-        <source>Working out the corrections</source>
-        <translation>Korrekturen werden berechnet</translation>
+        <source>Calculating the compensation</source>
+        <translation>Kompensation wird berechnet</translation>
     </message>
     <message>
         <source>Files written to %1: %2</source>
@@ -11265,7 +11923,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Nicht in der Anpassung verwendet: nur zur Validierung</translation>
     </message>
     <message>
-        <source>Measured %1 um; remains / um: %2</source>
+        <source>Measured %1 µm; remains / µm: %2</source>
         <translation>Gemessen %1 µm; verbleibt / µm: %2</translation>
     </message>
     <message>
@@ -11458,10 +12116,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation> Die letzte Lücke: %1.</translation>
     </message>
     <message>
-        <source>Recording into log.csv of this campaign: %1 rows, %2 of %3 columns have values. You may leave this page; recording goes on.%4</source>
-        <translation>Aufzeichnung in log.csv dieser Kampagne: %1 Zeilen, %2 von %3 Spalten haben Werte. Die Seite kann verlassen werden; die Aufzeichnung läuft weiter.%4</translation>
-    </message>
-    <message>
         <source>Live: %1 of %2 columns have values; nothing is written.</source>
         <translation>Live: %1 von %2 Spalten haben Werte; es wird nichts geschrieben.</translation>
     </message>
@@ -11476,10 +12130,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The log is being closed.</source>
         <translation>Das Protokoll wird geschlossen.</translation>
-    </message>
-    <message>
-        <source>%1 columns are mapped. Look at them live, or record them into the log of this campaign.</source>
-        <translation>%1 Spalten sind zugeordnet. Live ansehen oder in das Protokoll dieser Kampagne aufzeichnen.</translation>
     </message>
     <message>
         <source>Live values</source>
@@ -11613,6 +12263,20 @@ endgültig fehlgeschlagen: {}</translation>
         <source>x, y, width, height in pixels</source>
         <translation>x, y, Breite, Höhe in Pixeln</translation>
     </message>
+    <message numerus="yes">
+        <source>Recording into log.csv of this campaign: %n rows, %1 of %2 columns have values. You may leave this page; recording goes on.%3</source>
+        <translation>
+            <numerusform>Aufzeichnung in log.csv dieser Kampagne: %n Zeile, %1 von %2 Spalten haben Werte. Sie können diese Seite verlassen; die Aufzeichnung läuft weiter.%3</numerusform>
+            <numerusform>Aufzeichnung in log.csv dieser Kampagne: %n Zeilen, %1 von %2 Spalten haben Werte. Sie können diese Seite verlassen; die Aufzeichnung läuft weiter.%3</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n columns are mapped. Look at them live, or record them into the log of this campaign.</source>
+        <translation>
+            <numerusform>%n Spalte ist zugeordnet. Live ansehen oder in das Protokoll dieser Kampagne aufzeichnen.</numerusform>
+            <numerusform>%n Spalten sind zugeordnet. Live ansehen oder in das Protokoll dieser Kampagne aufzeichnen.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ConnectionsService</name>
@@ -11680,7 +12344,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zeit / h</translation>
     </message>
     <message>
-        <source>Displacement / um</source>
+        <source>Displacement / µm</source>
         <translation>Verschiebung / µm</translation>
     </message>
     <message>
@@ -11706,10 +12370,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Value</source>
         <translation>Wert</translation>
-    </message>
-    <message>
-        <source>In sigma</source>
-        <translation>Wert / σ</translation>
     </message>
     <message>
         <source>Meaning</source>
@@ -11780,11 +12440,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Diese Seite zeigt %1. Die anderen Prüfkörper werden ebenfalls ausgewertet: ihre Abweichungen stehen in den Beobachtungen und im Bericht.</translation>
     </message>
     <message>
-        <source>Rotation / urad</source>
+        <source>Rotation / µrad</source>
         <translation>Drehung / µrad</translation>
     </message>
     <message>
-        <source>Growth / um/m</source>
+        <source>Growth / µm/m</source>
         <translation>Ausdehnung / µm/m</translation>
     </message>
     <message>
@@ -11808,7 +12468,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>%1 und %2</translation>
     </message>
     <message>
-        <source>Condition number %1; told apart worst: %2</source>
+        <source>Condition number %1; most strongly correlated: %2</source>
         <translation>Konditionszahl %1; am stärksten korreliert: %2</translation>
     </message>
     <message>
@@ -11860,7 +12520,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Entlang der Leiste / mm</translation>
     </message>
     <message>
-        <source>Off line / um</source>
+        <source>Off line / µm</source>
         <translation>Neben der Geraden / µm</translation>
     </message>
     <message>
@@ -11868,8 +12528,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Hier erscheinen die Abweichungen von einer Geraden</translation>
     </message>
     <message>
-        <source>Fit all cycles: what the axis does beyond a uniform growth is drawn per hole.</source>
-        <translation>Alle Zyklen anpassen: dargestellt wird je Loch, was die Achse über eine gleichmäßige Ausdehnung hinaus tut.</translation>
+        <source>Fit all cycles: the deviation of the axis from uniform expansion is drawn for each hole.</source>
+        <translation>Alle Zyklen anpassen: dargestellt wird je Loch, wie die Achse von einer gleichmäßigen Ausdehnung abweicht.</translation>
     </message>
     <message>
         <source>Second axis expands too</source>
@@ -11888,15 +12548,15 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Standardunsicherheit dieser Ausdehnung</translation>
     </message>
     <message>
-        <source>Bar grows by</source>
-        <translation>Leiste dehnt sich aus um</translation>
+        <source>Expansion of the bar</source>
+        <translation>Ausdehnung der Leiste</translation>
     </message>
     <message>
-        <source>What an unnoticed growth of the second axis does</source>
+        <source>Effect of an undetected expansion of the second axis</source>
         <translation>Wirkung einer unbemerkten Ausdehnung der zweiten Achse</translation>
     </message>
     <message>
-        <source>Change per um/m</source>
+        <source>Change per µm/m</source>
         <translation>Änderung je µm/m</translation>
     </message>
     <message>
@@ -11934,6 +12594,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Largest</source>
         <translation>Größte</translation>
+    </message>
+    <message>
+        <source>Value / u</source>
+        <translation>Wert / u</translation>
     </message>
 </context>
 <context>
@@ -12012,19 +12676,19 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Confidence %1 for the first. Adding all of them takes the rms from %2 to %3; the noise alone is %4. %5</source>
-        <translation>Sicherheit %1 für den ersten. Alle hinzuzufügen senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
+        <translation>Konfidenz %1 für den ersten. Alle hinzuzufügen senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
     </message>
     <message>
         <source>Confidence %1. Adding it takes the rms from %2 to %3; the noise alone is %4. %5</source>
-        <translation>Sicherheit %1. Ihn hinzuzufügen senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
+        <translation>Konfidenz %1. Ihn hinzuzufügen senkt den rms von %2 auf %3; das Rauschen allein beträgt %4. %5</translation>
     </message>
     <message>
         <source>Search</source>
         <translation>Suchen</translation>
     </message>
     <message>
-        <source>Look where measured and simulated disagree and try every effect of the catalogue</source>
-        <translation>Sehen, wo Messung und Simulation voneinander abweichen, und jeden Effekt des Katalogs prüfen</translation>
+        <source>Find where measurement and simulation disagree, and try every effect of the catalogue</source>
+        <translation>Finden, wo Messung und Simulation voneinander abweichen, und jeden Effekt des Katalogs erproben</translation>
     </message>
     <message>
         <source>Effects</source>
@@ -12043,8 +12707,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zum Modell hinzufügen</translation>
     </message>
     <message>
-        <source>Take out again</source>
-        <translation>Wieder herausnehmen</translation>
+        <source>Remove from the model</source>
+        <translation>Aus dem Modell nehmen</translation>
     </message>
     <message>
         <source>What is missing</source>
@@ -12115,8 +12779,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>%1 hinzufügen</translation>
     </message>
     <message>
-        <source>take out %1</source>
-        <translation>%1 herausnehmen</translation>
+        <source>remove %1</source>
+        <translation>%1 entfernen</translation>
     </message>
     <message>
         <source>Add %1 and fit all parameters again</source>
@@ -12306,8 +12970,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Kennungen einfacherer Effekte, durch Kommas getrennt</translation>
     </message>
     <message>
-        <source>Effects that this one holds as special cases: they are named in its place where they suffice</source>
-        <translation>Effekte, die dieser als Sonderfall enthält: sie werden an seiner Stelle genannt, wo sie genügen</translation>
+        <source>Effects that are special cases of this one; they are named instead where they are sufficient</source>
+        <translation>Effekte, die Sonderfälle von diesem sind; sie werden stattdessen genannt, wo sie genügen</translation>
     </message>
     <message>
         <source>Where the physics is described, one a line</source>
@@ -12588,10 +13252,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Eigene</translation>
     </message>
     <message>
-        <source>%1 effects</source>
-        <translation>%1 Effekte</translation>
-    </message>
-    <message>
         <source>%1 of %2 effects</source>
         <translation>%1 von %2 Effekten</translation>
     </message>
@@ -12676,10 +13336,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Anzeigen</translation>
     </message>
     <message>
-        <source>It can be read, and has a value at all %1 points observed.</source>
-        <translation>Lesbar, mit einem Wert an allen %1 beobachteten Punkten.</translation>
-    </message>
-    <message>
         <source>It can be read. There are no observations yet to evaluate it at.</source>
         <translation>Lesbar. Es gibt noch keine Beobachtungen, an denen er ausgewertet werden kann.</translation>
     </message>
@@ -12694,6 +13350,20 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Shape of the effect</source>
         <translation>Form des Effekts</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n effects</source>
+        <translation>
+            <numerusform>%n Effekt</numerusform>
+            <numerusform>%n Effekte</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>It can be read, and has a value at all %n points observed.</source>
+        <translation>
+            <numerusform>Lesbar, und am einzigen beobachteten Punkt hat er einen Wert.</numerusform>
+            <numerusform>Lesbar, und an allen %n beobachteten Punkten hat er einen Wert.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -13017,15 +13687,15 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zustand</translation>
     </message>
     <message>
-        <source>EX / um</source>
+        <source>EX / µm</source>
         <translation>EX / µm</translation>
     </message>
     <message>
-        <source>EY / um</source>
+        <source>EY / µm</source>
         <translation>EY / µm</translation>
     </message>
     <message>
-        <source>EZ / um</source>
+        <source>EZ / µm</source>
         <translation>EZ / µm</translation>
     </message>
     <message>
@@ -13045,15 +13715,15 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zentrum y / px</translation>
     </message>
     <message>
-        <source>Scatter / um</source>
+        <source>Scatter / µm</source>
         <translation>Streuung / µm</translation>
     </message>
     <message>
-        <source>Angle X to Y − 90° / urad</source>
+        <source>Angle X to Y − 90° / µrad</source>
         <translation>Winkel X nach Y − 90° / µrad</translation>
     </message>
     <message>
-        <source>Peak height / um</source>
+        <source>Peak height / µm</source>
         <translation>Höhe des Maximums / µm</translation>
     </message>
     <message>
@@ -13101,7 +13771,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Achse</translation>
     </message>
     <message>
-        <source>Largest / um</source>
+        <source>Largest / µm</source>
         <translation>Größte / µm</translation>
     </message>
     <message>
@@ -13109,11 +13779,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Bei</translation>
     </message>
     <message>
-        <source>rms / um</source>
+        <source>rms / µm</source>
         <translation>rms / µm</translation>
     </message>
     <message>
-        <source>Allowed / um</source>
+        <source>Allowed / µm</source>
         <translation>Zulässig / µm</translation>
     </message>
     <message>
@@ -13141,7 +13811,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Marke, deren Kontrastkurven gezeigt werden</translation>
     </message>
     <message>
-        <source>Commanded height / um</source>
+        <source>Commanded height / µm</source>
         <translation>Sollhöhe / µm</translation>
     </message>
     <message>
@@ -13201,11 +13871,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>aus dem Muster selbst</translation>
     </message>
     <message>
-        <source>± %1 px, %2; spindle repeats to %3 um</source>
+        <source>± %1 px, %2; spindle repeats to %3 µm</source>
         <translation>± %1 px, %2; Wiederholpräzision der Spindel %3 µm</translation>
     </message>
     <message>
-        <source>Algebraic circles through the measured tracks (P0 (6)–(9)), for comparison: %1, %2 um from this centre, scatter %3, %4 um. Short arcs pull them; they are not used.</source>
+        <source>Algebraic circles through the measured tracks (P0 (6)–(9)), for comparison: %1, %2 µm from this centre, scatter %3, %4 µm. Short arcs pull them; they are not used.</source>
         <translation>Algebraische Kreise durch die gemessenen Spuren (P0 (6)–(9)), zum Vergleich: %1, %2 µm von diesem Zentrum, Streuung %3, %4 µm. Kurze Bögen verfälschen sie; sie werden nicht verwendet.</translation>
     </message>
     <message>
@@ -13213,8 +13883,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>setzt drei Spindelstellungen voraus</translation>
     </message>
     <message>
-        <source>off a right angle, mean of all fiducials</source>
-        <translation>Abweichung vom rechten Winkel, Mittel aller Marken</translation>
+        <source>deviation from 90°, mean of all fiducials</source>
+        <translation>Abweichung von 90°, Mittel aller Marken</translation>
     </message>
     <message>
         <source>needs positions along both axes</source>
@@ -13376,24 +14046,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Die Kampagne führt noch keine Aufnahmen auf.</translation>
     </message>
     <message>
-        <source>%1 captures are there and none is checked yet. Checking decodes every image and says which to take again.</source>
-        <translation>%1 Aufnahmen sind vorhanden, noch keine ist geprüft. Die Prüfung decodiert jedes Bild und sagt, welche zu wiederholen sind.</translation>
-    </message>
-    <message>
-        <source>All %1 captures are checked and can be used.</source>
-        <translation>Alle %1 Aufnahmen sind geprüft und brauchbar.</translation>
-    </message>
-    <message>
         <source>Of %1 captures %2 can be used, %3 excluded.</source>
         <translation>Von %1 Aufnahmen sind %2 brauchbar, %3 ausgeschlossen.</translation>
-    </message>
-    <message>
-        <source>one is</source>
-        <translation>eine ist</translation>
-    </message>
-    <message>
-        <source>%1 are</source>
-        <translation>%1 sind</translation>
     </message>
     <message>
         <source>%1 in state %2 has %3 for %4</source>
@@ -13476,16 +14130,40 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Warum wird sie ausgelassen?</translation>
     </message>
     <message>
-        <source>Checking %1 captures</source>
-        <translation>%1 Aufnahmen werden geprüft</translation>
-    </message>
-    <message>
         <source>Capture plan</source>
         <translation>Aufnahmeplan</translation>
     </message>
     <message>
         <source>Image with overlay</source>
         <translation>Bild mit Überlagerung</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n captures are there and none is checked yet. Checking decodes every image and says which to take again.</source>
+        <translation>
+            <numerusform>%n Aufnahme ist vorhanden und noch nicht geprüft. Die Prüfung decodiert jedes Bild und sagt, welche zu wiederholen ist.</numerusform>
+            <numerusform>%n Aufnahmen sind vorhanden, noch keine ist geprüft. Die Prüfung decodiert jedes Bild und sagt, welche zu wiederholen sind.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>All %n captures are checked and can be used.</source>
+        <translation>
+            <numerusform>Die einzige Aufnahme ist geprüft und verwendbar.</numerusform>
+            <numerusform>Alle %n Aufnahmen sind geprüft und verwendbar.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n are</source>
+        <translation>
+            <numerusform>eine ist</numerusform>
+            <numerusform>%n sind</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Checking %n captures</source>
+        <translation>
+            <numerusform>%n Aufnahme wird geprüft</numerusform>
+            <numerusform>%n Aufnahmen werden geprüft</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -13562,7 +14240,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Over time</source>
-        <translation>Über der Zeit</translation>
+        <translation>Verlauf</translation>
     </message>
     <message>
         <source>On the machine</source>
@@ -13888,7 +14566,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zeit / h</translation>
     </message>
     <message>
-        <source>Change / um or urad</source>
+        <source>Change / µm or µrad</source>
         <translation>Änderung / µm oder µrad</translation>
     </message>
     <message>
@@ -14150,13 +14828,13 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Change
-/ um</source>
+/ µm</source>
         <translation>Änderung
 / µm</translation>
     </message>
     <message>
         <source>Spread
-/ um</source>
+/ µm</source>
         <translation>Streuung
 / µm</translation>
     </message>
@@ -14201,16 +14879,19 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>, %1 von %2 Antastungen</translation>
     </message>
     <message>
-        <source>, %1 touches</source>
-        <translation>, %1 Antastungen</translation>
-    </message>
-    <message>
         <source>; next %1</source>
         <translation>; als Nächstes %1</translation>
     </message>
     <message>
         <source> (a line is half written)</source>
         <translation> (eine Zeile ist halb geschrieben)</translation>
+    </message>
+    <message numerus="yes">
+        <source>, %n touches</source>
+        <translation>
+            <numerusform>, %n Antastung</numerusform>
+            <numerusform>, %n Antastungen</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -14244,8 +14925,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Größte Korrektur</translation>
     </message>
     <message>
-        <source>Measured, correction and what is left will appear here</source>
-        <translation>Hier erscheinen Messung, Korrektur und Rest</translation>
+        <source>Measured deviation, correction and residual will appear here</source>
+        <translation>Hier erscheinen gemessene Abweichung, Korrektur und Residuum</translation>
     </message>
     <message>
         <source>Identify a model (Model), then press Run the compensator.</source>
@@ -14268,12 +14949,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Die Kompensation wird gelesen</translation>
     </message>
     <message>
-        <source>In the test range %1 %3 rms are left of %2 %3. Export the thermal model for the control.</source>
-        <translation>Im Prüfbereich bleiben %1 %3 rms von %2 %3. Das thermische Modell für die Steuerung exportieren.</translation>
+        <source>In the test range %1 %3 rms remain of %2 %3. Export the thermal model for the control.</source>
+        <translation>Im Prüfbereich verbleiben %1 %3 rms von %2 %3. Das thermische Modell für die Steuerung exportieren.</translation>
     </message>
     <message>
-        <source>In the test range the compensator leaves %1 %3 rms of %2 %3: it would not help. Train on a longer or livelier part (Model).</source>
-        <translation>Im Prüfbereich lässt der Kompensator %1 %3 rms von %2 %3 übrig: er würde nicht helfen. An einem längeren oder stärker angeregten Abschnitt trainieren (Modell).</translation>
+        <source>In the test range the compensator leaves %1 %3 rms of %2 %3: it would not help. Train on a longer range with more excitation (Model).</source>
+        <translation>Im Prüfbereich lässt der Kompensator %1 %3 rms von %2 %3 übrig: er würde nicht helfen. An einem längeren Bereich mit mehr Anregung trainieren (Modell).</translation>
     </message>
     <message>
         <source>%1, about its mean</source>
@@ -14400,7 +15081,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Resolution
-/ um</source>
+/ µm</source>
         <translation>Auflösung
 / µm</translation>
     </message>
@@ -14478,7 +15159,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Chooses, from a lattice over the table, where so many fiducials determine the nine parameters best: smallest mean variance of the heat map (I-optimal) or smallest confidence region of the parameters (D-optimal)</source>
-        <translation>Wählt aus einem Raster über dem Tisch die Stellen, an denen so viele Marken die neun Parameter am besten bestimmen: kleinste mittlere Varianz der Farbkarte (I-optimal) oder kleinster Vertrauensbereich der Parameter (D-optimal)</translation>
+        <translation>Wählt aus einem Raster über dem Tisch die Stellen, an denen so viele Marken die neun Parameter am besten bestimmen: kleinste mittlere Varianz der Farbkarte (I-optimal) oder kleinster Konfidenzbereich der Parameter (D-optimal)</translation>
     </message>
     <message>
         <source>How it is built</source>
@@ -14565,16 +15246,19 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Messpunkte werden gewählt</translation>
     </message>
     <message>
-        <source>%1 points added below. With them the heat map would be uncertain by %2 um on average and %3 um at worst (0.5 um in X and Y, 1 um in Z per fiducial). Apply the changes, or discard them.</source>
-        <translation>%1 Punkte unten hinzugefügt. Mit ihnen wäre die Farbkarte im Mittel auf %2 µm und höchstens auf %3 µm unsicher (0,5 µm in X und Y, 1 µm in Z je Marke). Änderungen übernehmen oder verwerfen.</translation>
-    </message>
-    <message>
         <source>Machine</source>
         <translation>Maschine</translation>
     </message>
     <message>
         <source>Machine description</source>
         <translation>Maschinenbeschreibung</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n points added below. With them the heat map would be uncertain by %1 µm on average and %2 µm at worst (0.5 µm in X and Y, 1 µm in Z per fiducial). Apply the changes, or discard them.</source>
+        <translation>
+            <numerusform>%n Punkt unten hinzugefügt. Mit ihm wäre die Farbkarte im Mittel auf %1 µm und schlimmstenfalls auf %2 µm unsicher (0,5 µm in X und Y, 1 µm in Z je Marke). Die Änderungen übernehmen oder verwerfen.</numerusform>
+            <numerusform>%n Punkte unten hinzugefügt. Mit ihnen wäre die Farbkarte im Mittel auf %1 µm und schlimmstenfalls auf %2 µm unsicher (0,5 µm in X und Y, 1 µm in Z je Marke). Die Änderungen übernehmen oder verwerfen.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -14623,12 +15307,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>%1 wird geöffnet</translation>
     </message>
     <message>
-        <source>Looking whether files have changed</source>
-        <translation>Es wird geprüft, ob sich Dateien geändert haben</translation>
+        <source>Checking files for changes</source>
+        <translation>Dateien werden auf Änderungen geprüft</translation>
     </message>
     <message>
-        <source>Files of the campaign %1 are not what they were when results were made from them: %2.</source>
-        <translation>Dateien der Kampagne %1 sind nicht mehr wie zu der Zeit, als Ergebnisse daraus gewonnen wurden: %2.</translation>
+        <source>Files of the campaign %1 have changed since its results were calculated: %2.</source>
+        <translation>Dateien der Kampagne %1 haben sich geändert, seit ihre Ergebnisse berechnet wurden: %2.</translation>
     </message>
     <message>
         <source>Not written</source>
@@ -14653,10 +15337,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Recording</source>
         <translation>Aufzeichnung</translation>
-    </message>
-    <message>
-        <source>%1 rows of log.csv</source>
-        <translation>%1 Zeilen von log.csv</translation>
     </message>
     <message>
         <source>Live</source>
@@ -14821,10 +15501,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Ctrl+Shift+L</source>
         <translation>Ctrl+Shift+L</translation>
-    </message>
-    <message>
-        <source>&amp;Run the step</source>
-        <translation>Schritt &amp;ausführen</translation>
     </message>
     <message>
         <source>Ctrl+Return</source>
@@ -15105,6 +15781,33 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Running the virtual machine: exercise %1</source>
         <translation>Die virtuelle Maschine läuft: Übung %1</translation>
+    </message>
+    <message>
+        <source>&amp;Run the step, or go on</source>
+        <translation>Schritt a&amp;usführen oder weitergehen</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n rows of log.csv</source>
+        <translation>
+            <numerusform>%n Zeile von log.csv</numerusform>
+            <numerusform>%n Zeilen von log.csv</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>All steps are done and the report is written.</source>
+        <translation>Alle Schritte sind erledigt, und der Bericht ist geschrieben.</translation>
+    </message>
+    <message>
+        <source>The step %1 needs you: look at it, then go on.</source>
+        <translation>Der Schritt %1 braucht Sie: ansehen, dann weitergehen.</translation>
+    </message>
+    <message>
+        <source>Run &amp;all steps</source>
+        <translation>&amp;Alle Schritte ausführen</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+Return</source>
+        <translation>Ctrl+Shift+Return</translation>
     </message>
 </context>
 <context>
@@ -15401,7 +16104,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Nichts: Messung und Simulation stimmen überein.</translation>
     </message>
     <message>
-        <source>Nothing: no rival fits as well as the effect that was named.</source>
+        <source>Nothing: no rival fits as well as the named effect.</source>
         <translation>Nichts: kein Rivale passt so gut wie der benannte Effekt.</translation>
     </message>
 </context>
@@ -15472,15 +16175,15 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>y / mm</translation>
     </message>
     <message>
-        <source>EX / um</source>
+        <source>EX / µm</source>
         <translation>EX / µm</translation>
     </message>
     <message>
-        <source>EY / um</source>
+        <source>EY / µm</source>
         <translation>EY / µm</translation>
     </message>
     <message>
-        <source>EZ / um</source>
+        <source>EZ / µm</source>
         <translation>EZ / µm</translation>
     </message>
     <message>
@@ -15534,10 +16237,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Residual</source>
         <translation>Residuum</translation>
-    </message>
-    <message>
-        <source>In sigma</source>
-        <translation>Wert / σ</translation>
     </message>
     <message>
         <source>Used</source>
@@ -15696,8 +16395,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Beide Punktsätze ergeben innerhalb ihrer Unsicherheit dasselbe Modell (p = %1).</translation>
     </message>
     <message>
-        <source>The sets differ in %1: one of them sees something the model does not have.</source>
-        <translation>Die Sätze unterscheiden sich in %1: einer von ihnen sieht etwas, das das Modell nicht enthält.</translation>
+        <source>The sets differ in %1: one of them contains an error that the model does not describe.</source>
+        <translation>Die Sätze unterscheiden sich in %1: einer von ihnen enthält eine Abweichung, die das Modell nicht beschreibt.</translation>
     </message>
     <message>
         <source>Heat map %1</source>
@@ -15706,6 +16405,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Heat map %1 values</source>
         <translation>Werte der Farbkarte %1</translation>
+    </message>
+    <message>
+        <source>Residual / σ</source>
+        <translation>Residuum / σ</translation>
     </message>
 </context>
 <context>
@@ -15847,14 +16550,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Uhr: diese Daten zeigen keinen Versatz zwischen Protokoll und Beobachtungen.</translation>
     </message>
     <message>
-        <source>One reading lies far from all others; it has little weight.</source>
-        <translation>Eine Ablesung liegt weit von allen anderen entfernt; sie hat wenig Gewicht.</translation>
-    </message>
-    <message>
-        <source>%1 readings lie far from all others; they have little weight.</source>
-        <translation>%1 Ablesungen liegen weit von allen anderen entfernt; sie haben wenig Gewicht.</translation>
-    </message>
-    <message>
         <source>Time / %1</source>
         <translation>Zeit / %1</translation>
     </message>
@@ -15925,6 +16620,13 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Common shift over time</source>
         <translation>Gemeinsame Verschiebung über der Zeit</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n readings lie far from all others; they have little weight.</source>
+        <translation>
+            <numerusform>Eine Ablesung liegt weit von allen anderen; sie hat wenig Gewicht.</numerusform>
+            <numerusform>%n Ablesungen liegen weit von allen anderen; sie haben wenig Gewicht.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -16687,7 +17389,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Z</translation>
     </message>
     <message>
-        <source>rms / um</source>
+        <source>rms / µm</source>
         <translation>rms / µm</translation>
     </message>
     <message>
@@ -16723,7 +17425,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Winkel um die Tasche / °</translation>
     </message>
     <message>
-        <source>Distance from the circle / um</source>
+        <source>Distance from the circle / µm</source>
         <translation>Abstand vom Kreis / µm</translation>
     </message>
     <message>
@@ -16807,7 +17509,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Verwendet</translation>
     </message>
     <message>
-        <source>%1 / um</source>
+        <source>%1 / µm</source>
         <translation>%1 / µm</translation>
     </message>
     <message>
@@ -16815,7 +17517,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Referenz</translation>
     </message>
     <message>
-        <source>urad</source>
+        <source>µrad</source>
         <translation>µrad</translation>
     </message>
     <message>
@@ -17144,20 +17846,20 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Name des Bedieners</translation>
     </message>
     <message>
-        <source>Tell the discrepancy</source>
-        <translation>Diskrepanz aufnehmen</translation>
+        <source>Include the discrepancy analysis</source>
+        <translation>Diskrepanzanalyse aufnehmen</translation>
     </message>
     <message>
-        <source>Search for what the simulation lacks and tell it with the effects that were added</source>
-        <translation>Nach dem suchen, was in der Simulation fehlt, und es mit den hinzugefügten Effekten berichten</translation>
+        <source>Search for what the simulation lacks, and report it together with the effects that were added</source>
+        <translation>Suchen, was der Simulation fehlt, und zusammen mit den hinzugefügten Effekten berichten</translation>
     </message>
     <message>
-        <source>tell the discrepancy</source>
-        <translation>Diskrepanz aufnehmen</translation>
+        <source>include the discrepancy analysis</source>
+        <translation>Diskrepanzanalyse aufnehmen</translation>
     </message>
     <message>
-        <source>leave the discrepancy out</source>
-        <translation>Diskrepanz auslassen</translation>
+        <source>omit the discrepancy analysis</source>
+        <translation>Diskrepanzanalyse auslassen</translation>
     </message>
     <message>
         <source>Sections</source>
@@ -17236,10 +17938,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Erneut schreiben. %1</translation>
     </message>
     <message>
-        <source>Written %1 by Spindrift %2: %3 pages, %4 figures, %5 tables.</source>
-        <translation>Geschrieben am %1 von Spindrift %2: %3 Seiten, %4 Bilder, %5 Tabellen.</translation>
-    </message>
-    <message>
         <source>Writing the report</source>
         <translation>Der Bericht wird geschrieben</translation>
     </message>
@@ -17262,6 +17960,31 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The report was saved as %1.</source>
         <translation>Der Bericht wurde als %1 gespeichert.</translation>
+    </message>
+    <message>
+        <source>Written %1 by Spindrift %2: %3, %4, %5.</source>
+        <translation>Geschrieben %1 von Spindrift %2: %3, %4, %5.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n pages</source>
+        <translation>
+            <numerusform>%n Seite</numerusform>
+            <numerusform>%n Seiten</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n figures</source>
+        <translation>
+            <numerusform>%n Bild</numerusform>
+            <numerusform>%n Bilder</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n tables</source>
+        <translation>
+            <numerusform>%n Tabelle</numerusform>
+            <numerusform>%n Tabellen</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -17544,8 +18267,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Scan, Änderung</translation>
     </message>
     <message>
-        <source>Scan, left over</source>
-        <translation>Scan, Rest</translation>
+        <source>Scan residual</source>
+        <translation>Residuum des Scans</translation>
     </message>
     <message>
         <source>dz</source>
@@ -17560,7 +18283,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>: die Referenz selbst, Höhe</translation>
     </message>
     <message>
-        <source>, median |dz| %1 um</source>
+        <source>, median |dz| %1 µm</source>
         <translation>, Median |dz| %1 µm</translation>
     </message>
 </context>
@@ -17623,8 +18346,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Änderung</translation>
     </message>
     <message>
-        <source>Left over</source>
-        <translation>Rest</translation>
+        <source>Residual</source>
+        <translation>Residuum</translation>
     </message>
     <message>
         <source>What is used</source>
@@ -17643,7 +18366,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Höhe über dem kalten Scan nach der Registrierung</translation>
     </message>
     <message>
-        <source>0 used, 1 near an edge, 2 outlier, 3 painted away</source>
+        <source>0 used, 1 near an edge, 2 outlier, 3 masked</source>
         <translation>0 verwendet, 1 nahe einer Kante, 2 Ausreißer, 3 maskiert</translation>
     </message>
     <message>
@@ -17663,7 +18386,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Vor oder nach der Bereinigung</translation>
     </message>
     <message>
-        <source>Before or after trimming of edges, removal of outliers and what was painted away</source>
+        <source>Before or after edge trimming, outlier removal and masking</source>
         <translation>Vor oder nach dem Beschneiden der Kanten, dem Entfernen von Ausreißern und der Maskierung</translation>
     </message>
     <message>
@@ -17703,10 +18426,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Scans werden geprüft</translation>
     </message>
     <message>
-        <source>%1 scans are there and none is checked yet. Checking reads every cloud and says which to take again.</source>
-        <translation>%1 Scans sind vorhanden, noch keiner ist geprüft. Die Prüfung liest jede Punktwolke und sagt, welche zu wiederholen sind.</translation>
-    </message>
-    <message>
         <source>Changed since: %1. Check the scans again.</source>
         <translation>Geändert seitdem: %1. Scans erneut prüfen.</translation>
     </message>
@@ -17717,10 +18436,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>%1 of %2 scans are incomplete or cannot be used (%3). Scan again, or exclude them: the rest is evaluated without.</source>
         <translation>%1 von %2 Scans sind unvollständig oder unbrauchbar (%3). Erneut scannen oder ausschließen: die übrigen werden ohne sie ausgewertet.</translation>
-    </message>
-    <message>
-        <source>All %1 scans are complete and can be used.</source>
-        <translation>Alle %1 Scans sind vollständig und brauchbar.</translation>
     </message>
     <message>
         <source>excluded</source>
@@ -17755,7 +18470,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>%1 Profile; %2 Punkte nahe Kanten und %3 Ausreißer werden nicht verwendet.</translation>
     </message>
     <message>
-        <source>A part is painted away: %1.</source>
+        <source>A part is masked: %1.</source>
         <translation>Ein Teil ist maskiert: %1.</translation>
     </message>
     <message>
@@ -17807,11 +18522,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>dz</translation>
     </message>
     <message>
-        <source> over the cold scan, median |dz| %1 um</source>
+        <source> over the cold scan, median |dz| %1 µm</source>
         <translation> über dem kalten Scan, Median |dz| %1 µm</translation>
     </message>
     <message>
-        <source> after registration, median |dz| %1 um</source>
+        <source> after registration, median |dz| %1 µm</source>
         <translation> nach der Registrierung, Median |dz| %1 µm</translation>
     </message>
     <message>
@@ -17829,6 +18544,20 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Cloud</source>
         <translation>Punktwolke</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n scans are there and none is checked yet. Checking reads every cloud and says which to take again.</source>
+        <translation>
+            <numerusform>%n Scan ist vorhanden und noch nicht geprüft. Die Prüfung liest jede Punktwolke und sagt, welche zu wiederholen ist.</numerusform>
+            <numerusform>%n Scans sind vorhanden, noch keiner ist geprüft. Die Prüfung liest jede Punktwolke und sagt, welche zu wiederholen sind.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>All %n scans are complete and can be used.</source>
+        <translation>
+            <numerusform>Der einzige Scan ist vollständig und verwendbar.</numerusform>
+            <numerusform>Alle %n Scans sind vollständig und verwendbar.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -17898,8 +18627,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>beschädigte Fläche</translation>
     </message>
     <message>
-        <source>Why it is painted away</source>
-        <translation>Warum maskiert wird</translation>
+        <source>Reason for the mask</source>
+        <translation>Grund der Maskierung</translation>
     </message>
     <message>
         <source>The report will say so</source>
@@ -17914,8 +18643,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Grund</translation>
     </message>
     <message>
-        <source>take back what was painted away</source>
-        <translation>Maskierung zurücknehmen</translation>
+        <source>clear the mask</source>
+        <translation>Maskierung aufheben</translation>
     </message>
     <message>
         <source>paint a part of a scan away</source>
@@ -18136,10 +18865,10 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Confidence %1.</source>
-        <translation>Sicherheit %1.</translation>
+        <translation>Konfidenz %1.</translation>
     </message>
     <message>
-        <source>These data cannot tell it from %1.</source>
+        <source>These data cannot distinguish it from %1.</source>
         <translation>Diese Daten können ihn nicht von %1 unterscheiden.</translation>
     </message>
     <message>
@@ -18318,8 +19047,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Eingänge</translation>
     </message>
     <message>
-        <source>Left over</source>
-        <translation>Rest</translation>
+        <source>Residual</source>
+        <translation>Residuum</translation>
     </message>
     <message>
         <source>What is drawn</source>
@@ -18510,8 +19239,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Hier erscheint die Autokorrelation des Residuums</translation>
     </message>
     <message>
-        <source>Identify the model: what it leaves over in training should look like noise.</source>
-        <translation>Modell identifizieren: was es im Training übrig lässt, sollte wie Rauschen aussehen.</translation>
+        <source>Identify the model: its residual in training should be white noise.</source>
+        <translation>Modell identifizieren: sein Residuum im Training sollte weißes Rauschen sein.</translation>
     </message>
     <message>
         <source>Largest correlation</source>
@@ -18526,8 +19255,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Residuum gegen Eingänge</translation>
     </message>
     <message>
-        <source>How the residual goes with each input appears here.</source>
-        <translation>Hier erscheint, wie das Residuum mit jedem Eingang zusammenhängt.</translation>
+        <source>How the residual depends on each input appears here.</source>
+        <translation>Hier erscheint, wie das Residuum von jedem Eingang abhängt.</translation>
     </message>
     <message>
         <source>Residuals</source>
@@ -18570,8 +19299,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Die Ränder von Trainings- und Prüfbereich ziehen, dann „Modell identifizieren“ drücken. Nichts im Prüfbereich Gemessenes wird verwendet.</translation>
     </message>
     <message>
-        <source>In the test range the model is no better than the plain ones. Train on a longer or livelier part, or choose other inputs.</source>
-        <translation>Im Prüfbereich ist das Modell nicht besser als die einfachen. An einem längeren oder stärker angeregten Abschnitt trainieren oder andere Eingänge wählen.</translation>
+        <source>In the test range the model is no better than the baselines. Train on a longer range with more excitation, or choose other inputs.</source>
+        <translation>Im Prüfbereich ist das Modell nicht besser als die Vergleichsmodelle. An einem längeren Bereich mit mehr Anregung trainieren oder andere Eingänge wählen.</translation>
     </message>
     <message>
         <source>Free run over the test range: rms %1 %2, without a model %3 %2.</source>
@@ -18618,8 +19347,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Gemessen minus vorhergesagt</translation>
     </message>
     <message>
-        <source>Left over / %1</source>
-        <translation>Rest / %1</translation>
+        <source>Residual / %1</source>
+        <translation>Residuum / %1</translation>
     </message>
     <message>
         <source>Training</source>
@@ -18729,8 +19458,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>, Tisch bei %1°</translation>
     </message>
     <message>
-        <source>Where the first ball stands is not known. Touch it once by hand; then the programme can be planned.</source>
-        <translation>Wo die erste Kugel steht, ist nicht bekannt. Sie einmal von Hand antasten; dann lässt sich das Programm planen.</translation>
+        <source>The position of the first ball is not known. Probe it once by hand; then the programme can be planned.</source>
+        <translation>Die Position der ersten Kugel ist nicht bekannt. Sie einmal von Hand antasten; dann lässt sich das Programm planen.</translation>
     </message>
     <message>
         <source>Planning the measuring cycle</source>
@@ -18741,8 +19470,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Kein Programm: %1</translation>
     </message>
     <message>
-        <source>Issues found by the check: %1; the programme is not given away. Line %2: %3</source>
-        <translation>Beanstandungen der Prüfung: %1; das Programm wird nicht ausgegeben. Zeile %2: %3</translation>
+        <source>Programme not exported, issues found by the check: %1. Line %2: %3</source>
+        <translation>Programm nicht ausgegeben, Beanstandungen der Prüfung: %1. Zeile %2: %3</translation>
     </message>
     <message>
         <source>Programme checked: %1 touches in %2 moves inside the travel, none through the artefact, a retract after each, safe height %3 mm. Export writes it.</source>
@@ -18849,7 +19578,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zustand</translation>
     </message>
     <message>
-        <source>Residual / um</source>
+        <source>Residual / µm</source>
         <translation>Residuum / µm</translation>
     </message>
     <message>
@@ -18929,10 +19658,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Die Kampagne führt noch keine Antastungen auf.</translation>
     </message>
     <message>
-        <source>%1 touches are there and none is checked yet. Checking compares every touch with all others and says which to take again.</source>
-        <translation>%1 Antastungen sind vorhanden, noch keine ist geprüft. Die Prüfung vergleicht jede mit allen anderen und sagt, welche zu wiederholen sind.</translation>
-    </message>
-    <message>
         <source>Changed since: %1. Check the touches again.</source>
         <translation>Geändert seitdem: %1. Antastungen erneut prüfen.</translation>
     </message>
@@ -18943,14 +19668,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>%1 touches are rejected and %2 are missing (%3). Take them again while the machine is in this state; the rest is evaluated without them.</source>
         <translation>%1 Antastungen sind verworfen und %2 fehlen (%3). Wiederholen, solange die Maschine in diesem Zustand ist; die übrigen werden ohne sie ausgewertet.</translation>
-    </message>
-    <message>
-        <source>All %1 touches are plausible and none is missing.</source>
-        <translation>Alle %1 Antastungen sind plausibel, keine fehlt.</translation>
-    </message>
-    <message>
-        <source>All %1 touches are plausible. Whether one is missing shows when a second cycle is there to compare with.</source>
-        <translation>Alle %1 Antastungen sind plausibel. Ob eine fehlt, zeigt sich mit einem zweiten Zyklus zum Vergleich.</translation>
     </message>
     <message>
         <source>not checked</source>
@@ -18983,6 +19700,27 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>bad touch</source>
         <translation>unbrauchbare Antastung</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n touches are there and none is checked yet. Checking compares every touch with all others and says which to take again.</source>
+        <translation>
+            <numerusform>%n Antastung ist vorhanden und noch nicht geprüft. Die Prüfung vergleicht jede Antastung mit allen anderen und sagt, welche zu wiederholen ist.</numerusform>
+            <numerusform>%n Antastungen sind vorhanden, noch keine ist geprüft. Die Prüfung vergleicht jede Antastung mit allen anderen und sagt, welche zu wiederholen sind.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>All %n touches are plausible and none is missing.</source>
+        <translation>
+            <numerusform>Die einzige Antastung ist plausibel, und keine fehlt.</numerusform>
+            <numerusform>Alle %n Antastungen sind plausibel, und keine fehlt.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>All %n touches are plausible. Whether one is missing shows when a second cycle is there to compare with.</source>
+        <translation>
+            <numerusform>Die einzige Antastung ist plausibel. Ob eine fehlt, zeigt sich, wenn ein zweiter Zyklus zum Vergleich vorliegt.</numerusform>
+            <numerusform>Alle %n Antastungen sind plausibel. Ob eine fehlt, zeigt sich, wenn ein zweiter Zyklus zum Vergleich vorliegt.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -19036,7 +19774,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>z / mm</translation>
     </message>
     <message>
-        <source>± / um</source>
+        <source>± / µm</source>
         <translation>± / µm</translation>
     </message>
     <message>
@@ -19044,7 +19782,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>D / mm</translation>
     </message>
     <message>
-        <source>Form / um</source>
+        <source>Form / µm</source>
         <translation>Form / µm</translation>
     </message>
     <message>
@@ -19112,15 +19850,15 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Radius / mm</translation>
     </message>
     <message>
-        <source>Pre-travel / um</source>
+        <source>Pre-travel / µm</source>
         <translation>Vorlauf / µm</translation>
     </message>
     <message>
-        <source>Repeats / um</source>
+        <source>Repeats / µm</source>
         <translation>Wiederholung / µm</translation>
     </message>
     <message>
-        <source>Step / um</source>
+        <source>Step / µm</source>
         <translation>Sprung / µm</translation>
     </message>
     <message>
@@ -19152,7 +19890,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zeit / h</translation>
     </message>
     <message>
-        <source>Deviation / um</source>
+        <source>Deviation / µm</source>
         <translation>Abweichung / µm</translation>
     </message>
     <message>
@@ -19204,12 +19942,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>quer zur Fläche, eine Standardabweichung</translation>
     </message>
     <message>
-        <source>%1 um along the axis</source>
+        <source>%1 µm along the axis</source>
         <translation>%1 µm entlang der Achse</translation>
     </message>
     <message>
-        <source>of a hole off the straight line, all cycles</source>
-        <translation>eines Lochs neben der Geraden, alle Zyklen</translation>
+        <source>deviation of a hole from the straight line, all cycles</source>
+        <translation>Abweichung eines Lochs von der Geraden, alle Zyklen</translation>
     </message>
     <message>
         <source>of a distance between balls</source>
@@ -19248,11 +19986,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Loch</translation>
     </message>
     <message>
-        <source>rms / um</source>
+        <source>rms / µm</source>
         <translation>rms / µm</translation>
     </message>
     <message>
-        <source>Largest / um</source>
+        <source>Largest / µm</source>
         <translation>Größte / µm</translation>
     </message>
     <message>
@@ -19260,7 +19998,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Im Zyklus</translation>
     </message>
     <message>
-        <source>Noise / um</source>
+        <source>Noise / µm</source>
         <translation>Rauschen / µm</translation>
     </message>
     <message>
@@ -19276,7 +20014,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zyklus</translation>
     </message>
     <message>
-        <source>Error / um</source>
+        <source>Error / µm</source>
         <translation>Abweichung / µm</translation>
     </message>
     <message>
@@ -19304,31 +20042,31 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>locker</translation>
     </message>
     <message>
-        <source>loose, or warming</source>
-        <translation>locker oder warm werdend</translation>
+        <source>loose or still warming up</source>
+        <translation>locker oder noch nicht warm</translation>
     </message>
     <message>
         <source>healthy</source>
         <translation>in Ordnung</translation>
     </message>
     <message>
-        <source>look at it</source>
-        <translation>nachsehen</translation>
+        <source>to be checked</source>
+        <translation>zu prüfen</translation>
     </message>
     <message>
         <source>%1 on %2: %3</source>
         <translation>%1 an %2: %3</translation>
     </message>
     <message>
-        <source>All styli repeat as a healthy probe does.</source>
-        <translation>Alle Tastereinsätze wiederholen sich wie bei einem intakten Messtaster.</translation>
+        <source>All styli repeat as well as an intact probe does.</source>
+        <translation>Alle Tastereinsätze wiederholen so gut wie ein intakter Messtaster.</translation>
     </message>
     <message>
         <source>Time / %1</source>
         <translation>Zeit / %1</translation>
     </message>
     <message>
-        <source>Deviation of %1 / um</source>
+        <source>Deviation of %1 / µm</source>
         <translation>Abweichung von %1 / µm</translation>
     </message>
     <message>
@@ -19593,7 +20331,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ziel für Verschiebungen</translation>
     </message>
     <message>
-        <source> um</source>
+        <source> µm</source>
         <translation> µm</translation>
     </message>
     <message>
@@ -19605,7 +20343,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ziel für Drehungen</translation>
     </message>
     <message>
-        <source> urad</source>
+        <source> µrad</source>
         <translation> µrad</translation>
     </message>
     <message>
@@ -19669,11 +20407,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Geändert seitdem: %1. Erneut vergleichen.</translation>
     </message>
     <message>
-        <source>%1 values compared</source>
-        <translation>%1 Werte verglichen</translation>
-    </message>
-    <message>
-        <source>um</source>
+        <source>µm</source>
         <translation>µm</translation>
     </message>
     <message>
@@ -19685,7 +20419,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>rms %1</translation>
     </message>
     <message>
-        <source>goal %1 um</source>
+        <source>goal %1 µm</source>
         <translation>Ziel %1 µm</translation>
     </message>
     <message>
@@ -19711,6 +20445,13 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>After on the table</source>
         <translation>Nachher auf dem Tisch</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n values compared</source>
+        <translation>
+            <numerusform>%n Wert verglichen</numerusform>
+            <numerusform>%n Werte verglichen</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -19966,7 +20707,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>nicht eingelaufen</translation>
     </message>
     <message>
-        <source>Deviation of %1 / um</source>
+        <source>Deviation of %1 / µm</source>
         <translation>Abweichung von %1 / µm</translation>
     </message>
     <message>
@@ -20009,8 +20750,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Werk …</translation>
     </message>
     <message>
-        <source>Many machines over years: what is due, trends, batches</source>
-        <translation>Viele Maschinen über Jahre: was fällig ist, Verläufe, Stapel</translation>
+        <source>All machines of a plant: due dates, trends, batches</source>
+        <translation>Alle Maschinen eines Werks: Fälligkeiten, Verläufe, Stapel</translation>
     </message>
     <message>
         <source>Try it on the virtual machine</source>
@@ -20021,8 +20762,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Letzte Sitzungen</translation>
     </message>
     <message>
-        <source>Spindrift did not end in order the last time. Everything that was captured in %1 is there; a computation that was running has to be started again.</source>
-        <translation>Spindrift wurde beim letzten Mal nicht ordnungsgemäß beendet. Alles in %1 Aufgenommene ist vorhanden; eine laufende Berechnung muss neu gestartet werden.</translation>
+        <source>Session %1 was not closed properly. Everything that was captured is there; a calculation that was running must be started again.</source>
+        <translation>Die Sitzung %1 wurde nicht ordnungsgemäß geschlossen. Alles Aufgenommene ist vorhanden; eine laufende Berechnung muss neu gestartet werden.</translation>
     </message>
     <message>
         <source>Open it again</source>
@@ -20037,7 +20778,7 @@ endgültig fehlgeschlagen: {}</translation>
     <name>spindrift::gui::WhatIfWindow</name>
     <message>
         <source>Squareness</source>
-        <translation>Rechtwinkligkeit</translation>
+        <translation>Rechtwinkligkeitsabweichungen</translation>
     </message>
     <message>
         <source>Location of the rotary table C</source>
@@ -20172,8 +20913,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Maschine</translation>
     </message>
     <message>
-        <source>Test part (ISO 10791-7)</source>
-        <translation>Prüfwerkstück (ISO 10791-7)</translation>
+        <source>Test part (of the kind of ISO 10791-7)</source>
+        <translation>Prüfwerkstück (nach Art der ISO 10791-7)</translation>
     </message>
     <message>
         <source>Feature</source>
@@ -20364,7 +21105,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Confidence</source>
-        <translation>Sicherheit</translation>
+        <translation>Konfidenz</translation>
     </message>
     <message>
         <source>Held-out rms</source>
@@ -20427,8 +21168,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>eingebettetes Modell</translation>
     </message>
     <message>
-        <source>Holds what is named as a special case</source>
-        <translation>Enthält das Benannte als Sonderfall</translation>
+        <source>Contains the named effect as a special case</source>
+        <translation>Enthält den benannten Effekt als Sonderfall</translation>
     </message>
     <message>
         <source>rejected</source>
@@ -20455,8 +21196,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>In der Simulation fehlt nichts.</translation>
     </message>
     <message>
-        <source>that the name is right</source>
-        <translation>dass die Benennung stimmt</translation>
+        <source>that the named effect is the right one</source>
+        <translation>dass der benannte Effekt der richtige ist</translation>
     </message>
     <message>
         <source>that it is one of these</source>
@@ -20479,7 +21220,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>reihum ausgelassene Blöcke</translation>
     </message>
     <message>
-        <source>These data cannot tell apart: %1. Choose the one you know to be there, or measure what the last tab proposes.</source>
+        <source>These data cannot distinguish %1. Choose the one that is known to be present, or measure what the last tab proposes.</source>
         <translation>Diese Daten können nicht unterscheiden: %1. Den wählen, der bekanntermaßen vorliegt, oder messen, was der letzte Reiter vorschlägt.</translation>
     </message>
     <message>
@@ -20499,12 +21240,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>und</translation>
     </message>
     <message>
-        <source>It moves the tool by %1 rms. Id: %2.</source>
-        <translation>Er bewegt das Werkzeug um %1 rms. Kennung: %2.</translation>
+        <source>Displacement at the tool: %1 rms. Id: %2.</source>
+        <translation>Verlagerung am Werkzeug: %1 rms. Kennung: %2.</translation>
     </message>
     <message>
-        <source>The numbers are those of %1, which fits as well. Add this one instead to see its own.</source>
-        <translation>Die Zahlen sind die von %1, der ebenso gut passt. Diesen stattdessen hinzufügen, um seine eigenen zu sehen.</translation>
+        <source>The values are those of %1, which fits equally well. Add this effect instead to see its own.</source>
+        <translation>Die Werte sind die von %1, der ebenso gut passt. Diesen Effekt stattdessen hinzufügen, um seine eigenen zu sehen.</translation>
     </message>
     <message>
         <source>%1 of %2: unexplained</source>
@@ -20566,8 +21307,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Stellen, an denen Messung und Simulation voneinander abweichen</translation>
     </message>
     <message>
-        <source>Places that deviate more than the noise allows appear after the search.</source>
-        <translation>Stellen, die mehr abweichen, als das Rauschen zulässt, erscheinen nach der Suche.</translation>
+        <source>Places where the residual exceeds the noise appear after the search.</source>
+        <translation>Stellen, an denen das Residuum das Rauschen übersteigt, erscheinen nach der Suche.</translation>
     </message>
     <message>
         <source>Point</source>
@@ -20638,8 +21379,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Wahrscheinlichkeit, dass dies zufällig auftritt, für alle betrachteten Stellen zusammen</translation>
     </message>
     <message>
-        <source>No place deviates more than the noise allows.</source>
-        <translation>Keine Stelle weicht mehr ab, als das Rauschen zulässt.</translation>
+        <source>At no place does the residual exceed the noise.</source>
+        <translation>An keiner Stelle übersteigt das Residuum das Rauschen.</translation>
     </message>
     <message>
         <source>Component</source>

@@ -36,6 +36,11 @@ COMPOSED = ("displacement along {} at the origin of the table", "rotation about 
 # Words that stand alone.
 ALONE = ("converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
          "table", "rotary drive")
+# A report is English, but the window lists its sections.
+HEADING = re.compile(r'(?:\bsection\((?:fmt::format\()?|\bsections\.(?:push_back|emplace_back)\(\{?)\s*"([^"]+)"')
+INSTRUMENT = re.compile(r'if \(instrument == "\w+"\) return "([^"]+)";')
+# Help is HTML with drawings: every block of it is a text of its own, with its marks (widgets/common/help_text.cpp).
+HELP = re.compile(r"<(h3|h4|p|li|td|text)\b[^>]*>(.*?)</\1>", re.S)
 PLACEHOLDER = re.compile(r"\{[^{}]*(?:\{\}[^{}]*)*\}")
 STATEMENT = re.compile(r"\s*(select|insert|update|delete|create|drop|alter|pragma|where|from|order by|for update|begin "
                        r"|set [a-z_.]+ =|set default_|setp |sets |addf |net |newsig |show (pin|sig)|timeout |bigint |integer "
@@ -93,6 +98,10 @@ def coreFormats():
             if after == "+" and joined:
                 text = text + "{}"
             found.setdefault(text.strip() if text.strip().strip("{}") == text.strip() else text, name)
+    for path in sorted((TOP / "core").rglob("*.cpp")):
+        text = path.read_text(encoding="utf-8")
+        if path.name != "manual.cpp":
+            found.update(dict.fromkeys(HEADING.findall(text) + INSTRUMENT.findall(text), ""))
     for path in sorted([*(TOP / "core").rglob("*.cpp"), *(TOP / "widgets").rglob("*.cpp")]):
         for text in counts(path.read_text(encoding="utf-8")):
             found.setdefault(text, "")
@@ -121,6 +130,11 @@ def collectedTexts():
         for literal, _, calls, _ in literals(text):
             if calls and calls[-1] in contexts:
                 found.add((contexts[calls[-1]], literal))
+    for path in sorted([*(TOP / "resources/help").glob("*.html"), *(TOP / "resources/help").glob("*.svg")]):
+        for _, block in HELP.findall(path.read_text(encoding="utf-8")):
+            text = " ".join(block.split())
+            if re.search(r"[A-Za-z]{2}", re.sub(r"<[^>]*>|&\w+;", "", text)):
+                found.add(("help", text.replace("\\", "\\\\").replace('"', '\\"')))
     return sorted(found)
 
 

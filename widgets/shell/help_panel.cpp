@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "widgets/shell/help_panel.h"
 
-#include <QFile>
 #include <QHBoxLayout>
-#include <QTextBrowser>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include "core/discrepancy/catalogue.h"
-#include "core/discrepancy/effect_listing.h"
+#include "widgets/common/core_sentence.h"
+#include "widgets/common/help_text.h"
 #include "widgets/common/parts.h"
-#include "widgets/theme/fonts.h"
+#include "widgets/common/words.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/theme/icons.h"
-
-static void loadHelp() {
-  Q_INIT_RESOURCE(help);
-}
 
 namespace spindrift::gui {
 namespace {
@@ -45,10 +41,21 @@ const char* helpName(StepId step) {
   }
 }
 
+/// The catalogue speaks for itself, so that the help cannot fall behind it.
+QString effectsHtml() {
+  QString html = QStringLiteral("<h4>%1</h4><ul>").arg(HelpPanel::tr("Effects of the catalogue"));
+  for (const Effect& effect : everyEffect()) {
+    html += QStringLiteral("<li><b>%1</b> (%2): %3 <i>%4</i></li>")
+                .arg(sentenceStart(effectTitle(effect.id)).toHtmlEscaped(),
+                     QString::fromStdString(effect.id).toHtmlEscaped(), coreSentence(effect.physics).toHtmlEscaped(),
+                     QString::fromStdString(effect.formula).toHtmlEscaped());
+  }
+  return html + QStringLiteral("</ul>");
+}
+
 }  // namespace
 
 HelpPanel::HelpPanel(QWidget* parent) : QFrame(parent) {
-  loadHelp();
   setAccessibleName(tr("Help on this step"));
   setFixedWidth(320);
   auto* column = new QVBoxLayout(this);
@@ -62,25 +69,14 @@ HelpPanel::HelpPanel(QWidget* parent) : QFrame(parent) {
   connect(close, &QToolButton::clicked, this, &HelpPanel::closed);
   head->addWidget(close);
   column->addLayout(head);
-  text_ = new QTextBrowser;
-  text_->setFrameShape(QFrame::NoFrame);
-  text_->setAccessibleName(tr("Help text"));
-  text_->document()->setDefaultFont(textFont(sizes::font_body));
+  text_ = new HelpText(tr("Help text"));
   column->addWidget(text_, 1);
 }
 
 void HelpPanel::showStep(StepId step) {
   if (step == step_ && !text_->document()->isEmpty()) return;
   step_ = step;
-  QFile file(QStringLiteral(":/help/%1.html").arg(QLatin1String(helpName(step))));
-  if (!file.open(QIODevice::ReadOnly)) return;
-  QString html = QString::fromUtf8(file.readAll());
-  // The catalogue speaks for itself, so that the help cannot fall behind it.
-  if (step == StepId::Discrepancy) {
-    html += QStringLiteral("<h4>%1</h4>").arg(tr("Effects of the catalogue"));
-    html += QString::fromStdString(effectsHtml(everyEffect()));
-  }
-  text_->setHtml(html);
+  text_->showHelp(QLatin1String(helpName(step)), step == StepId::Discrepancy ? effectsHtml() : QString());
 }
 
 }  // namespace spindrift::gui

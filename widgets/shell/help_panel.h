@@ -7,16 +7,16 @@
 
 #include "widgets/workflow/workflow.h"
 
-class QTextBrowser;
-
 namespace spindrift::gui {
+
+class HelpText;
 
 class HelpPanel : public QFrame {
   Q_OBJECT
  public:
   explicit HelpPanel(QWidget* parent = nullptr);
   void showStep(StepId step);
-  [[nodiscard]] QTextBrowser* text() const { return text_; }
+  [[nodiscard]] HelpText* text() const { return text_; }
   [[nodiscard]] QSize sizeHint() const override { return {320, 400}; }
 
  Q_SIGNALS:
@@ -24,7 +24,7 @@ class HelpPanel : public QFrame {
 
  private:
   StepId step_ = StepId::Machine;
-  QTextBrowser* text_;
+  HelpText* text_;
 };
 
 }  // namespace spindrift::gui

@@ -56,7 +56,7 @@ SelfTestPart judgeDeviations(const QString& name, const ObservationSet& measured
   const double rms = count > 0 ? std::sqrt(squares / count) : 0.0;
   part.passed = count > 0 && share >= part_within_three_sigma;
   part.figures = {{"deviations", count}, {"within_three_sigma", share}, {"rms_error_um", rms}};
-  part.sentence = translated("%1 deviations, %2 % within three standard uncertainties of the truth, rms error %3 um")
+  part.sentence = translated("%1 deviations, %2 % within three standard uncertainties of the truth, rms error %3 µm")
                       .arg(count)
                       .arg(100.0 * share, 0, 'f', 1)
                       .arg(rms, 0, 'f', 2);

@@ -208,7 +208,7 @@ WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
   start->addWidget(open_session);
   start->addWidget(open_campaign);
   auto* plant = makeButton(tr("Plant …"), "machine");
-  plant->setToolTip(tr("Many machines over years: what is due, trends, batches"));
+  plant->setToolTip(tr("All machines of a plant: due dates, trends, batches"));
   start->addWidget(plant);
   connect(plant, &QPushButton::clicked, this, &WelcomePage::openPlant);
   start->addStretch();
@@ -244,10 +244,9 @@ void WelcomePage::offerRecovery(const QString& folder) {
     recovery_->set(Tone::Neutral, {});
     return;
   }
-  recovery_->show(Tone::Attention,
-                  tr("Spindrift did not end in order the last time. Everything that was captured in %1 is "
-                     "there; a computation that was running has to be started again.")
-                      .arg(QFileInfo(folder).fileName()));
+  recovery_->show(Tone::Attention, tr("Session %1 was not closed properly. Everything that was captured is there; a "
+                                      "calculation that was running must be started again.")
+                                       .arg(QFileInfo(folder).fileName()));
   recovery_->setAction(tr("Open it again"), [this, folder] { Q_EMIT recentChosen(folder); });
 }
 

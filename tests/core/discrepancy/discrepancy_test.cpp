@@ -70,7 +70,7 @@ TEST(Discrepancy, DescribesAnUnknownCauseHoweverLargeItIs) {
   for (const double strength : {5.0, 60.0}) {  // p-values too small for a double at the end
     const DiscrepancyResult result = run(campaign(Hidden::Wave, 24, strength));
     EXPECT_EQ(result.verdict, DiscrepancyVerdict::Unknown);
-    EXPECT_EQ(result.leftover.rfind("EX of all points follows a common course in time", 0), 0U)
+    EXPECT_EQ(result.leftover.rfind("EX of all points has a common time history", 0), 0U)
         << result.leftover << " at strength " << strength;
   }
 }

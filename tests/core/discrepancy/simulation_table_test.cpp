@@ -132,9 +132,9 @@ TEST(SimulationTable, RefusesWhatIsWrongInOneSentence) {
   EXPECT_THAT(refusal(head + "0,F1,EX,inf\n"), HasSubstr("inf"));
   EXPECT_THAT(refusal(head + "nan,F1,EX,1\n"), HasSubstr("nan"));
   EXPECT_THAT(refusal(head + "5,F1,EX,1\n0,F1,EX,1\n"), HasSubstr("backwards from 5 s to 0 s"));
-  EXPECT_THAT(refusal(head + "5,F1,EX,1\n5,F2,EX,1\n5,F1,EX,1\n"), HasSubstr("stands twice"));
+  EXPECT_THAT(refusal(head + "5,F1,EX,1\n5,F2,EX,1\n5,F1,EX,1\n"), HasSubstr("duplicate EX of point F1 at 5 s"));
   const std::string placed = "time_s,x_mm,y_mm,z_mm,component,predicted\n";
-  EXPECT_THAT(refusal(placed + "5,1,2,3,EX,1\n5,1,2,3,EX,1\n"), HasSubstr("place (1, 2, 3) mm at 5 s stands twice"));
+  EXPECT_THAT(refusal(placed + "5,1,2,3,EX,1\n5,1,2,3,EX,1\n"), HasSubstr("place (1, 2, 3) mm at 5 s"));
   EXPECT_THAT(refusal(placed + "5,1,2,3,EX,1\n4,1,2,3,EX,1\n"), HasSubstr("backwards"));
   EXPECT_THAT(refusal(placed + "5,1,2,x,EX,1\n"), HasSubstr("column z_mm"));
 }

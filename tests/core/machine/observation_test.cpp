@@ -85,7 +85,8 @@ TEST(Observation, BadRowsAreNamed) {
   EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,1,1,m,maybe\n"), HasSubstr("\"maybe\""));
   EXPECT_THAT(complaint("5,M0,F1,1,2,3,0,EX,1,1,m,fit\n4,M1,F1,1,2,3,0,EX,1,1,m,fit\n"), HasSubstr("runs backwards"));
   EXPECT_EQ(complaint("5,M0,F1,1,2,3,0,EX,1,1,m,fit\n4,M0,F2,1,2,3,0,EX,1,1,m,fit\n"), "accepted");
-  EXPECT_THAT(complaint("5,M0,F1,1,2,3,0,EX,1,1,m,fit\n5,M0,F1,1,2,3,0,EX,2,1,m,fit\n"), HasSubstr("stands twice"));
+  EXPECT_THAT(complaint("5,M0,F1,1,2,3,0,EX,1,1,m,fit\n5,M0,F1,1,2,3,0,EX,2,1,m,fit\n"),
+              HasSubstr("duplicate EX of point F1"));
   folder.write("observations.cov.csv", "row,column,covariance\n1,2,0.5\n");
   EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,1,1,m,fit\n"), HasSubstr("allowed: 1 to 1"));
 }

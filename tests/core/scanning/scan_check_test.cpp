@@ -97,13 +97,13 @@ TEST(ScanPoints, WhatIsPaintedAwayIsNotEvaluated) {
   EXPECT_EQ(
       pictureOfScan(campaign, cloud, "", ScanColouring::Height, ScanModel::Rigid, job, ScanPart::AsUsed).scalar->size(),
       after.count(PointFate::Used));
-  // Everything painted away: the scan is rejected with what took its points, the others are evaluated.
+  // Everything masked: the scan is rejected with what took its points, the others are evaluated.
   campaign.excluded_captures.insert(
       maskItem(cloud, {{StrokeShape::Rectangle, true, 0.0, {{-1000.0, -1000.0}, {1000.0, 1000.0}}}}));
   const ScanEvaluation rest = evaluateScanCampaign(campaign, "", job);
   EXPECT_EQ(rest.scans.size(), 2U);
   ASSERT_EQ(rest.rejected.size(), 1U);
-  EXPECT_NE(rest.rejected.front().reason.find("painted away"), std::string::npos) << rest.rejected.front().reason;
+  EXPECT_NE(rest.rejected.front().reason.find("masked"), std::string::npos) << rest.rejected.front().reason;
 }
 
 TEST(ScanPicture, ShowsTheChangeAndWhatRegistrationLeaves) {

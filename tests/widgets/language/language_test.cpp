@@ -111,6 +111,44 @@ TEST_P(CatalogueTest, IsCompleteAndKeepsPlaceholdersBordersAndMnemonics) {
 INSTANTIATE_TEST_SUITE_P(All, CatalogueTest, ::testing::Values("spindrift_de.ts", "spindrift_en.ts"),
                          [](const auto& test) { return std::string(test.param).substr(10, 2); });
 
+/// The glossary of the manual has a German word for each term: sentences that have the term have that word too, by the
+/// beginning of its parts (they are declined).
+TEST(Glossary, TermsAreTranslatedAsItSays) {
+  QFile file(QStringLiteral(SPINDRIFT_SOURCE_DIR "/resources/manual/70-glossary.md"));
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  const std::vector<Text> texts = textsOf(QStringLiteral("spindrift_de.ts"));
+  constexpr qsizetype stem = 4;
+  int terms = 0;
+  int sentences = 0;
+  for (const QString& line : QString::fromUtf8(file.readAll()).split(QLatin1Char('\n'))) {
+    const QStringList cells = line.split(QLatin1Char('|'));
+    if (cells.size() < 5 || cells[1].trimmed() == QLatin1String("Term") || cells[1].startsWith(QLatin1Char('-')))
+      continue;
+    const QString term = cells[1].trimmed().section(QStringLiteral(" ("), 0, 0);
+    const QRegularExpression word(
+        QStringLiteral("(?<![\\w\"-])%1(?![\\w\".-]\\w|[\\w\"-])").arg(QRegularExpression::escape(term)),
+        QRegularExpression::CaseInsensitiveOption);
+    ++terms;
+    for (const Text& text : texts) {
+      if (!word.match(text.source).hasMatch()) continue;
+      ++sentences;
+      for (const QString& translation : text.translations) {
+        bool said = false;
+        for (const QString& choice : cells[2].split(QLatin1Char('/'))) {
+          bool all = true;
+          for (const QString& part : choice.split(QLatin1Char(' '), Qt::SkipEmptyParts))
+            all = all && translation.contains(part.left(stem), Qt::CaseInsensitive);
+          said = said || all;
+        }
+        EXPECT_TRUE(said) << term.toStdString() << ": " << text.source.toStdString() << " | "
+                          << translation.toStdString();
+      }
+    }
+  }
+  EXPECT_GT(terms, 25);
+  EXPECT_GT(sentences, 400);
+}
+
 class LanguageTest : public ::testing::Test {
  protected:
   void SetUp() override { QSettings().clear(); }

@@ -18,6 +18,7 @@
 #include "core/base/atomic_file.h"
 #include "tests/widgets/pages/story_support.h"
 #include "widgets/commands/commands.h"
+#include "widgets/common/help_text.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/job_bar.h"
 #include "widgets/models/rows_model.h"

@@ -42,7 +42,7 @@ LiveTouchPanel::LiveTouchPanel(SessionModel& session, QWidget* parent)
   bar_->setTextVisible(false);
   bar_->setVisible(false);
   column->addWidget(bar_);
-  rows_ = new RowsModel({tr("Touch"), tr("Verdict"), tr("Off place\n/ mm"), tr("Change\n/ um"), tr("Spread\n/ um"),
+  rows_ = new RowsModel({tr("Touch"), tr("Verdict"), tr("Off place\n/ mm"), tr("Change\n/ µm"), tr("Spread\n/ µm"),
                          tr("Approach"), tr("Why")},
                         this);
   table_ = makeTable(rows_, tr("Touches as they come in"),
@@ -95,7 +95,7 @@ void LiveTouchPanel::refresh() {
       tr("Cycle %1: %2 with %3").arg(fromCore(progress.cycle), fromCore(progress.feature), fromCore(progress.stylus));
   if (progress.c_deg != 0.0) text += tr(" at %1°").arg(progress.c_deg);
   text += progress.expected > 0 ? tr(", %1 of %2 touches").arg(progress.done).arg(progress.expected)
-                                : tr(", %1 touches").arg(progress.done);
+                                : tr(", %n touches", nullptr, static_cast<int>(progress.done));
   if (!progress.next.empty()) text += tr("; next %1").arg(fromCore(progress.next));
   if (feed->waiting()) text += tr(" (a line is half written)");
   now_->setText(text);

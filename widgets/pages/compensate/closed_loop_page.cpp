@@ -81,7 +81,7 @@ ClosedLoopPage::ClosedLoopPage(SessionModel& session, QWidget* parent)
   auto* answers = new QHBoxLayout;
   answers->setSpacing(8);
   auto* not_now = makeButton(tr("Not now"), nullptr);
-  confirm_ = makeButton(tr("I stand at the machine: start"), nullptr, "primary");
+  confirm_ = makeButton(tr("I am at the machine: start"), nullptr, "primary");
   answers->addStretch();
   answers->addWidget(not_now);
   answers->addWidget(confirm_);
@@ -89,13 +89,13 @@ ClosedLoopPage::ClosedLoopPage(SessionModel& session, QWidget* parent)
   outer->addWidget(confirmation_);
 
   decision_ = new Card(tr("Missing in the simulation: what is added?"));
-  choice_ = new RowsModel({tr("Effect"), tr("Confidence"), tr("Not to be told from")}, this);
+  choice_ = new RowsModel({tr("Effect"), tr("Confidence"), tr("Indistinguishable from")}, this);
   auto* choice_table = makeTable(choice_, tr("Named effects"));
   stretchColumn(choice_table, 0);
   decision_->body()->addWidget(choice_table);
   auto* choose = new QHBoxLayout;
   choose->addStretch();
-  accept_ = makeButton(tr("Add the ticked ones"), nullptr, "primary");
+  accept_ = makeButton(tr("Add the selected effects"), nullptr, "primary");
   choose->addWidget(accept_);
   decision_->body()->addLayout(choose);
 
@@ -110,8 +110,8 @@ ClosedLoopPage::ClosedLoopPage(SessionModel& session, QWidget* parent)
   numbers->body()->addLayout(tiles);
   auto* silent = new QHBoxLayout;
   silent->setSpacing(8);
-  silent->addWidget(new QLabel(tr("When Spindrift falls silent:")));
-  silence_ = new Segments({tr("Fade to zero"), tr("Hold")}, tr("Compensation when Spindrift falls silent"));
+  silent->addWidget(new QLabel(tr("If Spindrift stops responding:")));
+  silence_ = new Segments({tr("Fade to zero"), tr("Hold")}, tr("Compensation if Spindrift stops responding"));
   silent->addWidget(silence_);
   silent->addStretch();
   silence_note_ = makeLabel({}, "secondaryText");
@@ -181,7 +181,7 @@ ClosedLoopPage::ClosedLoopPage(SessionModel& session, QWidget* parent)
   connect(choice_, &RowsModel::checkedChanged, this, [this](const QString&, int, bool) {
     bool any = false;
     for (const Row& row : choice_->rows()) any = any || row.cells[0].checked.value_or(false);
-    accept_->setText(any ? tr("Add the ticked ones") : tr("Add nothing"));
+    accept_->setText(any ? tr("Add the selected effects") : tr("Add nothing"));
   });
   connect(accept_, &QPushButton::clicked, this, [this] {
     std::vector<std::string> ids;
@@ -241,8 +241,9 @@ void ClosedLoopPage::refresh() {
                   .arg(coreSentence(run.issues.front().what));
   silence_->setCurrent(service_.hold() ? 1 : 0);
   silence_->setEnabled(plan != nullptr);
-  silence_note_->setText(service_.hold() ? tr("The last compensation stays, whatever the machine does then.")
-                                         : tr("Nothing is applied that nobody watches."));
+  silence_note_->setText(service_.hold()
+                             ? tr("The last compensation value is held, whatever the machine does afterwards.")
+                             : tr("No compensation is applied without supervision."));
   showState();
   showNumbers();
   showChoice();
@@ -345,7 +346,7 @@ void ClosedLoopPage::showChoice() {
     }
   }
   choice_->setRows(std::move(rows));
-  accept_->setText(tr("Add the ticked ones"));
+  accept_->setText(tr("Add the selected effects"));
 }
 
 void ClosedLoopPage::showCycles() {

@@ -55,7 +55,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   addAction(live_button);
   export_ = makeButton(tr("Export files …"), "export");
   addAction(export_);
-  compute_ = makeButton(tr("Work out the corrections"), nullptr, "primary");
+  compute_ = makeButton(tr("Calculate the compensation"), nullptr, "primary");
   addAction(compute_);
 
   stack_ = new QStackedWidget;
@@ -110,7 +110,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
 
   auto* left = new Card;
   tabs_ = makeTabs();
-  points_ = new RowsModel({tr("Point"), tr("X / um"), tr("Y / um"), tr("Z / um"), tr("Remains")}, this);
+  points_ = new RowsModel({tr("Point"), tr("X / µm"), tr("Y / µm"), tr("Z / µm"), tr("Remains")}, this);
   point_table_ = makeTable(points_, tr("Correction at each point"), tr("Corrections appear here."));
   stretchColumn(point_table_, 0);
   tabs_->addTab(point_table_, tr("Correction at the points"));
@@ -144,7 +144,7 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   right->body()->addLayout(view_line);
   view_ = new View3D;
   view_->setMachineVisible(false);
-  view_->setEmptyText(tr("Arrows at the points will appear here"), tr("Work out the corrections."));
+  view_->setEmptyText(tr("Arrows at the points will appear here"), tr("Calculate the compensation."));
   right->body()->addWidget(view_, 1);
   column->addWidget(makeSplitter(left, right, 6, 6), 1);
   stack_->addWidget(work);
@@ -268,12 +268,12 @@ void CompensatePage::refresh() {
   if (!stored) {
     plan_.reset();
     showPlan();
-    callout()->show(Tone::Accent, tr("Choose model and state, then press Work out the corrections."));
+    callout()->show(Tone::Accent, tr("Choose model and state, then press Calculate the compensation."));
     return;
   }
   if (const ResultState state = session().state(result_kind); !state.current) {
-    callout()->show(Tone::Outdated, tr("Changed since the corrections were worked out: %1.").arg(state.changed));
-    callout()->setAction(tr("Work out again"), [this] { compute(); });
+    callout()->show(Tone::Outdated, tr("Changed since the compensation was calculated: %1.").arg(state.changed));
+    callout()->setAction(tr("Calculate again"), [this] { compute(); });
   } else {
     // A correction from a model that does not describe the state must not be given away unnoticed.
     QStringList warnings;
@@ -306,7 +306,7 @@ void CompensatePage::runPlan(bool store) {
     return;
   const PendingResult pending = session().begin(result_kind);
   Job job;
-  job.title = tr("Working out the corrections");
+  job.title = tr("Calculating the compensation");
   job.work = [this, store, set = *observations, asked = request(), pending, choice = DiscrepancyChoice::of(session()),
               effects_file = DiscrepancyChoice::file(session()),
               data = session().snapshot().campaign](JobContext& progress) -> std::function<void()> {

@@ -132,11 +132,11 @@ void CompensatePage::showPoints() {
                                std::hypot(p.measured_sigma_um[i], p.sigma_um[static_cast<Eigen::Index>(i)]));
       }
     }
-    row.cells.back().tip = tr("Measured %1 um; remains / um: %2")
+    row.cells.back().tip = tr("Measured %1 µm; remains / µm: %2")
                                .arg(sizeText(length(p.measured_um), {}), parts.join(QStringLiteral(", ")));
     rows.push_back(std::move(row));
   }
-  points_->setHeaders({tr("Point"), tr("X / um"), tr("Y / um"), tr("Z / um"), tr("Remains")});
+  points_->setHeaders({tr("Point"), tr("X / µm"), tr("Y / µm"), tr("Z / µm"), tr("Remains")});
   points_->setRows(std::move(rows));
 }
 

@@ -111,7 +111,7 @@ LogCompensatePage::LogCompensatePage(PageContext page_context, QWidget* parent)
   for (NumberTile* tile : {before_, after_, largest_}) tiles->addWidget(tile, 1);
   card->body()->addLayout(tiles);
   plot_ = new Plot;
-  plot_->setEmptyText(tr("Measured, correction and what is left will appear here"),
+  plot_->setEmptyText(tr("Measured deviation, correction and residual will appear here"),
                       tr("Identify a model (Model), then press Run the compensator."));
   card->body()->addWidget(plot_, 1);
   auto* tabs = makeTabs();
@@ -185,13 +185,12 @@ void LogCompensatePage::refresh() {
     }
     callout()->show(
         better && against.isEmpty() ? Tone::Good : Tone::Attention,
-        against + (better ? tr("In the test range %1 %3 rms are left of %2 %3. Export the thermal model for the "
-                               "control.")
+        against + (better ? tr("In the test range %1 %3 rms remain of %2 %3. Export the thermal model for the control.")
                                 .arg(decimalText(result_->after_rms, 'g', 3))
                                 .arg(decimalText(result_->before_rms, 'g', 3))
                                 .arg(unit)
-                          : tr("In the test range the compensator leaves %1 %3 rms of %2 %3: it would not help. "
-                               "Train on a longer or livelier part (Model).")
+                          : tr("In the test range the compensator leaves %1 %3 rms of %2 %3: it would not help. Train "
+                               "on a longer range with more excitation (Model).")
                                 .arg(decimalText(result_->after_rms, 'g', 3))
                                 .arg(decimalText(result_->before_rms, 'g', 3))
                                 .arg(unit)));

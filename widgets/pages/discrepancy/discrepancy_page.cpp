@@ -134,7 +134,7 @@ Sentence verdictOf(const DiscrepancyStory& story) {
 DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
     : Page(std::move(page_context), StepId::Discrepancy, parent) {
   search_ = makeButton(tr("Search"), nullptr, "primary");
-  search_->setToolTip(tr("Look where measured and simulated disagree and try every effect of the catalogue"));
+  search_->setToolTip(tr("Find where measurement and simulation disagree, and try every effect of the catalogue"));
   effects_button_ = makeButton(tr("Effects"), "table");
   effects_button_->setCheckable(true);
   effects_button_->setToolTip(
@@ -166,7 +166,7 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
   words->addWidget(verdict_note_);
   line->addLayout(words, 1);
   add_ = makeButton(tr("Add to the model"), nullptr, "primary");
-  remove_ = makeButton(tr("Take out again"), "undo");
+  remove_ = makeButton(tr("Remove from the model"), "undo");
   line->addWidget(remove_, 0, Qt::AlignVCenter);
   line->addWidget(add_, 0, Qt::AlignVCenter);
   banner_->body()->addLayout(line);
@@ -418,7 +418,7 @@ void DiscrepancyPage::removeLast() {
   if (choice.added.empty()) return;
   const QString title = effectTitle(choice.added.back());
   choice.added.pop_back();
-  change(tr("take out %1").arg(title), choice);
+  change(tr("remove %1").arg(title), choice);
 }
 
 void DiscrepancyPage::updateButtons() {

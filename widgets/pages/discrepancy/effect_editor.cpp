@@ -177,7 +177,7 @@ EffectEditor::EffectEditor(QWidget* parent) : QWidget(parent) {
   addField(column, "sign", tr("Sign of gain 1"), sign_);
   contains_ =
       addLine(column, "contains", tr("Contains"), tr("ids of simpler effects, separated by commas"),
-              tr("Effects that this one holds as special cases: they are named in its place where they suffice"));
+              tr("Effects that are special cases of this one; they are named instead where they are sufficient"));
   references_ = makeText(tr("Where the physics is described, one a line"));
   addField(column, "references", tr("References"), references_);
   column->addStretch(1);

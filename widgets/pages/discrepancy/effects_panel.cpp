@@ -496,7 +496,8 @@ void EffectsPanel::filter() {
     shown += here;
   }
   filling_ = false;
-  count_->setText(words.isEmpty() ? tr("%1 effects").arg(all) : tr("%1 of %2 effects").arg(shown).arg(all));
+  count_->setText(words.isEmpty() ? tr("%n effects", nullptr, static_cast<int>(all))
+                                  : tr("%1 of %2 effects").arg(shown).arg(all));
 }
 
 void EffectsPanel::switched() {
@@ -819,7 +820,8 @@ void EffectsPanel::checkEdited() {
       if (!warnings.isEmpty()) {
         editor_state_->show(Tone::Attention, warnings.join(QLatin1Char(' ')));
       } else if (count > 0) {
-        editor_state_->show(Tone::Good, tr("It can be read, and has a value at all %1 points observed.").arg(count));
+        editor_state_->show(Tone::Good, tr("It can be read, and has a value at all %n points observed.", nullptr,
+                                           static_cast<int>(count)));
       } else {
         editor_state_->show(Tone::Good, tr("It can be read. There are no observations yet to evaluate it at."));
       }

@@ -151,7 +151,7 @@ void NextPanel::showSuggestion() {
   } else if (story_->verdict == DiscrepancyVerdict::None) {
     suggestion_->setText(tr("Nothing: measured and simulated agree."));
   } else {
-    suggestion_->setText(tr("Nothing: no rival fits as well as the effect that was named."));
+    suggestion_->setText(tr("Nothing: no rival fits as well as the named effect."));
   }
   times_->setRows(std::move(rows));
 }

@@ -192,10 +192,9 @@ void NoisePanel::fillFacts() {
   } else {
     lines << tr("Clock: these data show no offset between log and observations.");
   }
-  const std::size_t count = story_->outliers.size();
-  lines << (count == 0   ? tr("No reading lies far from all others.")
-            : count == 1 ? tr("One reading lies far from all others; it has little weight.")
-                         : tr("%1 readings lie far from all others; they have little weight.").arg(count));
+  const int count = static_cast<int>(story_->outliers.size());
+  lines << (count == 0 ? tr("No reading lies far from all others.")
+                       : tr("%n readings lie far from all others; they have little weight.", nullptr, count));
   facts_->setText(lines.join(QLatin1Char('\n')));
 }
 

@@ -443,7 +443,7 @@ void SimulationPanel::showFound() {
     if (std::isfinite(e.confidence))
       words += QLatin1Char(' ') + tr("Confidence %1.").arg(decimalText(e.confidence, 'f', 2));
     if (!e.rivals.empty())
-      words += QLatin1Char(' ') + tr("These data cannot tell it from %1.").arg(effectTitles(e.rivals, tr("or")));
+      words += QLatin1Char(' ') + tr("These data cannot distinguish it from %1.").arg(effectTitles(e.rivals, tr("or")));
     html +=
         QStringLiteral("<p><b>%1</b><br>%2</p>").arg(sentenceStart(titleOf(e)).toHtmlEscaped(), words.toHtmlEscaped());
   }

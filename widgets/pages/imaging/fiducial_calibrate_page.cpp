@@ -60,12 +60,12 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
 
   auto* left = new Card;
   tabs_ = makeTabs();
-  displacements_ = new RowsModel({tr("Fiducial"), tr("State"), tr("EX / um"), tr("EY / um"), tr("EZ / um")}, this);
+  displacements_ = new RowsModel({tr("Fiducial"), tr("State"), tr("EX / µm"), tr("EY / µm"), tr("EZ / µm")}, this);
   tabs_->addTab(
       makeTable(displacements_, tr("Deviations"), tr("Deviations of each fiducial appear after the evaluation.")),
       tr("Deviations"));
-  sets_ = new RowsModel({tr("Fiducial"), tr("State"), tr("Centre x / px"), tr("Centre y / px"), tr("Scatter / um"),
-                         tr("Angle X to Y − 90° / urad"), tr("Peak height / um")},
+  sets_ = new RowsModel({tr("Fiducial"), tr("State"), tr("Centre x / px"), tr("Centre y / px"), tr("Scatter / µm"),
+                         tr("Angle X to Y − 90° / µrad"), tr("Peak height / µm")},
                         this);
   tabs_->addTab(makeTable(sets_, tr("Sets"), tr("Centres, directions and heights appear after the evaluation.")),
                 tr("Sets"));
@@ -83,7 +83,7 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   check_verdict_ = new Callout;
   checks_column->addWidget(check_verdict_);
   resolution_ = new RowsModel(
-      {tr("Axis"), tr("Largest / um"), tr("At"), tr("rms / um"), tr("Allowed / um"), tr("Verdict")}, this);
+      {tr("Axis"), tr("Largest / µm"), tr("At"), tr("rms / µm"), tr("Allowed / µm"), tr("Verdict")}, this);
   checks_column->addWidget(makeTable(resolution_, tr("Check against the resolution"),
                                      tr("Say what the states are to compare them with the resolution of the axes.")),
                            1);
@@ -97,7 +97,7 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   right->addToTitle(fiducial_);
   connect(fiducial_, &QComboBox::activated, this, &FiducialCalibratePage::showContrast);
   contrast_ = new Plot;
-  contrast_->setAxes(tr("Commanded height / um"), tr("Contrast, normalised"));
+  contrast_->setAxes(tr("Commanded height / µm"), tr("Contrast, normalised"));
   contrast_->setEmptyText(tr("Contrast curves will appear here"),
                           tr("Evaluate the captures: the peak of each curve is the height of its fiducial."));
   right->body()->addWidget(contrast_, 1);
@@ -269,7 +269,7 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
   const nlohmann::json camera = d.value("camera", nlohmann::json::object());
   const nlohmann::json length = camera.value("pixel_length_um", nlohmann::json());
   pixel_->set(
-      length.is_number() ? QStringLiteral("%1 um").arg(decimalText(length.get<double>(), 'f', 4)) : QStringLiteral("–"),
+      length.is_number() ? QStringLiteral("%1 µm").arg(decimalText(length.get<double>(), 'f', 4)) : QStringLiteral("–"),
       tr("from the pattern itself"));
   const nlohmann::json pooled = d.value("centre_of_rotation", nlohmann::json::object());
   if (centre.is_object()) {
@@ -278,15 +278,15 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
     const double s = centre["x_px"].value("standard_uncertainty", 0.0);
     const QString pooling = QString::fromStdString(pooled.value("pooling", std::string("?")));
     centre_->set(QStringLiteral("%1, %2 px").arg(decimalText(x, 'f', 1)).arg(decimalText(y, 'f', 1)),
-                 tr("± %1 px, %2; spindle repeats to %3 um")
+                 tr("± %1 px, %2; spindle repeats to %3 µm")
                      .arg(decimalText(s, 'f', 2))
                      .arg(pooling)
                      .arg(decimalText(pooled.value("spindle_repeatability_um", 0.0), 'f', 2)));
     const nlohmann::json circles = pooled.value("algebraic_minus_joint_um", nlohmann::json());
     centre_->setToolTip(
         circles.is_object()
-            ? tr("Algebraic circles through the measured tracks (P0 (6)–(9)), for comparison: %1, %2 um "
-                 "from this centre, scatter %3, %4 um. Short arcs pull them; they are not used.")
+            ? tr("Algebraic circles through the measured tracks (P0 (6)–(9)), for comparison: %1, %2 µm "
+                 "from this centre, scatter %3, %4 µm. Short arcs pull them; they are not used.")
                   .arg(decimalText(circles["mean"][0].get<double>(), 'f', 1))
                   .arg(decimalText(circles["mean"][1].get<double>(), 'f', 1))
                   .arg(decimalText(circles["standard_deviation"][0].get<double>(), 'f', 1))
@@ -298,7 +298,7 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
   if (weight > 0) {
     axes_->set(
         shownNumbers(QString::fromStdString(withUncertainty(orthogonality / weight, 1 / std::sqrt(weight), "urad"))),
-        tr("off a right angle, mean of all fiducials"));
+        tr("deviation from 90°, mean of all fiducials"));
   } else {
     axes_->set(QStringLiteral("–"), tr("needs positions along both axes"));
   }

@@ -186,9 +186,9 @@ void FiducialCapturePage::refresh() {
     if (captures_.empty()) {
       callout()->show(Tone::Attention, tr("The campaign lists no captures yet."));
     } else if (unchecked == static_cast<std::ptrdiff_t>(captures_.size())) {
-      callout()->show(Tone::Accent, tr("%1 captures are there and none is checked yet. Checking decodes every image "
-                                       "and says which to take again.")
-                                        .arg(captures_.size()));
+      callout()->show(Tone::Accent, tr("%n captures are there and none is checked yet. Checking decodes every image "
+                                       "and says which to take again.",
+                                       nullptr, static_cast<int>(captures_.size())));
     } else if (!bad.empty()) {
       showBad(bad);
     } else {
@@ -210,11 +210,12 @@ void FiducialCapturePage::showComplete() {
   const auto excluded = std::count_if(captures_.begin(), captures_.end(), [this](const CaptureVerdict& c) {
     return session().excluded().contains(c.image);
   });
-  QString text = excluded == 0 ? tr("All %1 captures are checked and can be used.").arg(captures_.size())
-                               : tr("Of %1 captures %2 can be used, %3 excluded.")
-                                     .arg(captures_.size())
-                                     .arg(static_cast<std::ptrdiff_t>(captures_.size()) - excluded)
-                                     .arg(excluded == 1 ? tr("one is") : tr("%1 are").arg(excluded));
+  QString text = excluded == 0
+                     ? tr("All %n captures are checked and can be used.", nullptr, static_cast<int>(captures_.size()))
+                     : tr("Of %1 captures %2 can be used, %3 excluded.")
+                           .arg(captures_.size())
+                           .arg(static_cast<std::ptrdiff_t>(captures_.size()) - excluded)
+                           .arg(tr("%n are", nullptr, static_cast<int>(excluded)));
   QStringList lacking;
   for (const Row& row : plan_->rows()) {
     for (std::size_t c = 2; c < row.cells.size(); ++c) {
@@ -432,7 +433,7 @@ void FiducialCapturePage::checkAll() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr || captures_.empty()) return;
   const PendingResult pending = session().begin("check");
-  run(tr("Checking %1 captures").arg(captures_.size()), pending,
+  run(tr("Checking %n captures", nullptr, static_cast<int>(captures_.size())), pending,
       [this, snapshot, pending](JobContext& job) -> std::function<void()> {
         Campaign campaign = *snapshot.campaign;
         campaign.excluded_captures = snapshot.excluded;

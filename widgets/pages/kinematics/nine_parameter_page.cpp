@@ -75,7 +75,7 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   choices->addWidget(robust_, 1);
   left->body()->addLayout(choices);
   left->body()->addWidget(makeLabel(tr("Points: checked ones fit, the others validate"), "sectionTitle"));
-  points_ = new RowsModel({tr("Point"), tr("x / mm"), tr("y / mm"), tr("EX / um"), tr("EY / um"), tr("EZ / um")}, this);
+  points_ = new RowsModel({tr("Point"), tr("x / mm"), tr("y / mm"), tr("EX / µm"), tr("EY / µm"), tr("EZ / µm")}, this);
   auto* point_table = makeTable(points_, tr("Points"), tr("Points appear when there are observations."));
   left->body()->addWidget(point_table, 2);
 
@@ -94,8 +94,8 @@ NineParameterPage::NineParameterPage(PageContext page_context, QWidget* parent)
   tabs_->addTab(
       makeTable(parameters_, tr("Parameters"), tr("Nine parameters with their uncertainty appear after the fit.")),
       tr("Parameters"));
-  residuals_ =
-      new RowsModel({tr("Point"), tr("Component"), tr("Measured"), tr("Residual"), tr("In sigma"), tr("Used")}, this);
+  residuals_ = new RowsModel(
+      {tr("Point"), tr("Component"), tr("Measured"), tr("Residual"), tr("Residual / σ"), tr("Used")}, this);
   residual_table_ =
       makeTable(residuals_, tr("Residuals"), tr("What the model does not explain appears after the fit."));
   tabs_->addTab(residual_table_, tr("Residuals"));
@@ -388,7 +388,7 @@ void NineParameterPage::showFit() {
       in_sigma.tone = Tone::Attention;
       in_sigma.icon = "alert";
     }
-    Cell residual{decimalText(r.residual_um, 'f', 2).replace(QLatin1Char('-'), QChar(0x2212)) + QStringLiteral(" um")};
+    Cell residual{decimalText(r.residual_um, 'f', 2).replace(QLatin1Char('-'), QChar(0x2212)) + QStringLiteral(" µm")};
     residual.right = true;
     row.cells = {name,
                  {QString::fromStdString(std::string(toString(r.component)))},
@@ -401,7 +401,7 @@ void NineParameterPage::showFit() {
   }
   residuals_->setRows(std::move(rows));
   const auto rms = [](const std::optional<double>& v) {
-    return v ? QStringLiteral("%1 um").arg(decimalText(*v, 'f', 2)) : QStringLiteral("–");
+    return v ? QStringLiteral("%1 µm").arg(decimalText(*v, 'f', 2)) : QStringLiteral("–");
   };
   rms_fit_->set(rms(f.rms_fit_um), tr("over the checked points"));
   rms_validation_->set(rms(f.rms_validation_um),
@@ -460,9 +460,9 @@ void NineParameterPage::showComparison() {
                                 tr("Both sets of points give the same model within their uncertainty (p = %1).")
                                     .arg(decimalText(c.p_value_all, 'g', 2)));
     } else {
-      comparison_verdict_->show(Tone::Attention,
-                                tr("The sets differ in %1: one of them sees something the model does not have.")
-                                    .arg(differing.join(QStringLiteral(", "))));
+      comparison_verdict_->show(
+          Tone::Attention, tr("The sets differ in %1: one of them contains an error that the model does not describe.")
+                               .arg(differing.join(QStringLiteral(", "))));
     }
   } catch (const InputError& e) {
     comparison_verdict_->show(Tone::Bad, coreSentence(e.what()));

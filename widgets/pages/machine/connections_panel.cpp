@@ -454,13 +454,12 @@ void ConnectionsPanel::showState() {
   } else if (service_.recording()) {
     const QString gaps =
         snapshot.gaps.empty() ? QString() : tr(" The last gap: %1.").arg(coreSentence(snapshot.gaps.back()));
-    state_->show(Tone::Good,
-                 tr("Recording into log.csv of this campaign: %1 rows, %2 of %3 columns have values. You may "
-                    "leave this page; recording goes on.%4")
-                     .arg(snapshot.rows)
-                     .arg(known)
-                     .arg(snapshot.columns.size())
-                     .arg(gaps));
+    state_->show(Tone::Good, tr("Recording into log.csv of this campaign: %n rows, %1 of %2 columns have values. You "
+                                "may leave this page; recording goes on.%3",
+                                nullptr, static_cast<int>(snapshot.rows))
+                                 .arg(known)
+                                 .arg(snapshot.columns.size())
+                                 .arg(gaps));
   } else if (service_.running()) {
     state_->show(
         Tone::Good,
@@ -472,11 +471,11 @@ void ConnectionsPanel::showState() {
   } else if (columns()->rowCount() == 0) {
     state_->show(Tone::Accent, tr("Tick the data items that are to be recorded; each becomes a column of the log."));
   } else {
-    state_->show(Tone::Accent, service_.ending()
-                                   ? tr("The log is being closed.")
-                                   : tr("%1 columns are mapped. Look at them live, or record them into the log of this "
-                                        "campaign.")
-                                         .arg(columns()->rowCount()));
+    state_->show(Tone::Accent,
+                 service_.ending()
+                     ? tr("The log is being closed.")
+                     : tr("%n columns are mapped. Look at them live, or record them into the log of this campaign.",
+                          nullptr, columns()->rowCount()));
   }
 }
 

@@ -104,7 +104,7 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
   form->setColumnStretch(3, 1);
   card->body()->addLayout(form);
   card->body()->addWidget(makeLabel(tr("Linear axes"), "sectionTitle"));
-  axes_ = makeEditor({tr("Axis"), tr("From\n/ mm"), tr("To\n/ mm"), tr("Resolution\n/ um"), tr("Drive"),
+  axes_ = makeEditor({tr("Axis"), tr("From\n/ mm"), tr("To\n/ mm"), tr("Resolution\n/ µm"), tr("Drive"),
                       tr("Pitch\n/ mm"), tr("Fixed bearing\n/ mm"), tr("Scale")},
                      tr("Linear axes"));
   axes_->setMinimumHeight(176);  // three axes under a header of two lines
@@ -478,9 +478,9 @@ void MachinePage::showSuggestion(const PlacementAnswer& answer) {
   markEdited();
   callout()->show(
       Tone::Accent,
-      tr("%1 points added below. With them the heat map would be uncertain by %2 um on average and %3 um at "
-         "worst (0.5 um in X and Y, 1 um in Z per fiducial). Apply the changes, or discard them.")
-          .arg(answer.result.chosen.size())
+      tr("%n points added below. With them the heat map would be uncertain by %1 µm on average and %2 µm at "
+         "worst (0.5 µm in X and Y, 1 µm in Z per fiducial). Apply the changes, or discard them.",
+         nullptr, static_cast<int>(answer.result.chosen.size()))
           .arg(decimalText(answer.result.mean_sigma_um, 'f', 2))
           .arg(decimalText(answer.result.largest_sigma_um, 'f', 2)));
 }

@@ -36,10 +36,10 @@ BatchesPanel::BatchesPanel(JobRunner& jobs, Callout& callout, std::function<QStr
   auto* choose = makeButton(tr("Plan …"), "folder-open");
   start_ = makeButton(tr("Start"), "play");
   start_->setToolTip(
-      tr("Works on the plan's campaigns or seeds with all processors of this computer; the same "
-         "plan again goes on where it ended"));
+      tr("Processes the campaigns or seeds of the plan on all processors of this computer; starting the same plan "
+         "again continues it"));
   cancel_ = makeButton(tr("Cancel the batch"), "stop");
-  cancel_->setToolTip(tr("Nothing more is begun, wherever it runs; what is done stays"));
+  cancel_->setToolTip(tr("Stops the batch on every computer; finished items are kept"));
   resume_ = makeButton(tr("Resume on this computer"), "play");
   resume_->setToolTip(tr("Goes on after a cancellation, and tries again what has failed"));
   start_->setEnabled(false);
@@ -102,7 +102,7 @@ void BatchesPanel::show(const std::vector<BatchState>& batches) {
     Cell running{coreSentence(countOf(b.running, "chunk"))};
     if (b.idle()) {
       running = {tr("nobody"), Tone::Attention, "alert"};
-      running.tip = tr("Nothing works on it: it waits in Slurm, or what worked on it has ended; Resume goes on.");
+      running.tip = tr("Not running: it waits in Slurm, or its processes have ended; Resume continues it.");
     }
     if (b.finished()) running = {tr("finished"), Tone::Good, "check-circle"};
     if (b.cancelled) running = {tr("cancelled"), Tone::Attention, "stop"};

@@ -2,7 +2,6 @@
 #include "widgets/pages/plant/plant_page.h"
 
 #include <QComboBox>
-#include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -16,7 +15,6 @@
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTableView>
-#include <QTextBrowser>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <array>
@@ -33,13 +31,13 @@
 #include "core/connect/utc_time.h"
 #include "core/plant/publish.h"
 #include "widgets/common/core_sentence.h"
+#include "widgets/common/help_text.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/plant/batches_panel.h"
 #include "widgets/pages/plant/plant_parts.h"
 #include "widgets/plots/plot.h"
-#include "widgets/theme/fonts.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -194,12 +192,8 @@ PlantPage::PlantPage(SessionModel& session, JobRunner& jobs, QWidget* parent)
                 tr("Campaigns"));
   batches_ = new BatchesPanel(jobs_, *callout_, [this] { return addressText(); });
   tabs_->addTab(batches_, tr("Batches"));
-  auto* help = new QTextBrowser;
-  help->setFrameShape(QFrame::NoFrame);
-  help->setAccessibleName(tr("Help on the plant"));
-  help->document()->setDefaultFont(textFont(sizes::font_body));
-  if (QFile file(QStringLiteral(":/help/plant.html")); file.open(QIODevice::ReadOnly))
-    help->setHtml(QString::fromUtf8(file.readAll()));
+  auto* help = new HelpText(tr("Help on the plant"));
+  help->showHelp(QStringLiteral("plant"));
   tabs_->addTab(column({help}), tr("Help"));
   outer->addWidget(makeSplitter(list, tabs_, 9, 11), 1);
 }

@@ -43,17 +43,17 @@ QString meaningOf(const std::string& name) {
   const QString n = parameterTitle(name);
   const QString axis = n.mid(1, 1);
   const auto tr = [](const char* text) { return QCoreApplication::translate("CycleModelPage", text); };
-  if (n.startsWith(QLatin1Char('h'))) return tr("head turns about %1").arg(axis);
-  if (n.startsWith(QLatin1Char('a'))) return tr("column turns about %1").arg(axis);
-  if (n.startsWith(QLatin1Char('d'))) return tr("spindle drifts along %1").arg(axis);
-  if (n.startsWith(QLatin1Char('g'))) return tr("screw of %1 grows").arg(axis);
-  if (n == QLatin1String("EME")) return tr("bar grows");
-  if (n.startsWith(QLatin1String("ER"))) return tr("table radius grows");
+  if (n.startsWith(QLatin1Char('h'))) return tr("head tilt about %1").arg(axis);
+  if (n.startsWith(QLatin1Char('a'))) return tr("column tilt about %1").arg(axis);
+  if (n.startsWith(QLatin1Char('d'))) return tr("displacement of the spindle along %1").arg(axis);
+  if (n.startsWith(QLatin1Char('g'))) return tr("thermal expansion of the %1 ball screw").arg(axis);
+  if (n == QLatin1String("EME")) return tr("thermal expansion of the bar");
+  if (n.startsWith(QLatin1String("ER"))) return tr("radial expansion of the table");
   if (n.contains(QLatin1Char('0'))) {
     const bool turn = QStringLiteral("ABC").contains(axis);
-    return turn ? tr("table turns, %1").arg(axis) : tr("table moves along %1").arg(axis);
+    return turn ? tr("rotation of the table, %1").arg(axis) : tr("displacement of the table along %1").arg(axis);
   }
-  return tr("axis %1 grows").arg(n.right(1));
+  return tr("linear expansion of axis %1").arg(n.right(1));
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   group_ = new Segments({tr("Displacements"), tr("Rotations"), tr("Growth")}, tr("Group of parameters"));
   left->addToTitle(group_);
   trends_ = new Plot;
-  trends_->setAxes(tr("Time / h"), tr("Displacement / um"));
+  trends_->setAxes(tr("Time / h"), tr("Displacement / µm"));
   trends_->setEmptyText(tr("Trends will appear here"),
                         tr("Fit all cycles: every error parameter is drawn over time with its uncertainty."));
   left->body()->addWidget(trends_, 5);
@@ -89,7 +89,7 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
   choice->addWidget(condition_, 1);
   left->body()->addLayout(choice);
   auto* tabs = makeTabs();
-  parameters_ = new RowsModel({tr("Parameter"), tr("Value"), tr("In sigma"), tr("Meaning")}, this);
+  parameters_ = new RowsModel({tr("Parameter"), tr("Value"), tr("Value / u"), tr("Meaning")}, this);
   tabs->addTab(makeTable(parameters_, tr("Parameters of the cycle"),
                          tr("Every parameter with its uncertainty appears after the fit.")),
                tr("Parameters"));
@@ -251,7 +251,7 @@ void CycleModelPage::showTrends() {
     }
     if (!s.x.empty()) series.push_back(std::move(s));
   }
-  const std::array<QString, 3> titles{tr("Displacement / um"), tr("Rotation / urad"), tr("Growth / um/m")};
+  const std::array<QString, 3> titles{tr("Displacement / µm"), tr("Rotation / µrad"), tr("Growth / µm/m")};
   trends_->setAxes(tr("Time / %1").arg(time.name), titles[static_cast<std::size_t>(group_->current())]);
   trends_->setContent(std::move(series));
   const int k = cycle_->currentIndex();
@@ -311,8 +311,9 @@ void CycleModelPage::showCycle() {
     const QStringList parts = weakText(solution.weakest, cycles->names).split(QStringLiteral(", "));
     QString worst = parts.value(0).section(QLatin1Char(' '), 0, 0);
     if (parts.size() > 1) worst = tr("%1 and %2").arg(worst, parts[1].section(QLatin1Char(' '), 0, 0));
-    condition_->setText(
-        tr("Condition number %1; told apart worst: %2").arg(decimalText(solution.condition_number, 'f', 1)).arg(worst));
+    condition_->setText(tr("Condition number %1; most strongly correlated: %2")
+                            .arg(decimalText(solution.condition_number, 'f', 1))
+                            .arg(worst));
   }
   showVolume();
 }

@@ -79,9 +79,9 @@ QWidget* CycleModelPage::makeVolumePart() {
 QWidget* CycleModelPage::makeBarPart() {
   auto* card = new Card(tr("Straightness and the second axis"));
   line_ = new Plot;
-  line_->setAxes(tr("Along the bar / mm"), tr("Off line / um"));
+  line_->setAxes(tr("Along the bar / mm"), tr("Off line / µm"));
   line_->setEmptyText(tr("Deviations from a straight line will appear here"),
-                      tr("Fit all cycles: what the axis does beyond a uniform growth is drawn per hole."));
+                      tr("Fit all cycles: the deviation of the axis from uniform expansion is drawn for each hole."));
   card->body()->addWidget(line_, 3);
   auto* extend = new WrapLayout;
   second_axis_ = new QCheckBox(tr("Second axis expands too"));
@@ -93,22 +93,22 @@ QWidget* CycleModelPage::makeBarPart() {
     box->setRange(low, high);
     box->setDecimals(2);
     box->setValue(value);
-    box->setSuffix(QStringLiteral(" um/m"));
+    box->setSuffix(QStringLiteral(" µm/m"));
     box->setAccessibleName(name);
     box->setMinimumHeight(sizes::control_height);
   };
   prepare(growth_, -1000, 1000, 0, tr("Known growth of the bar"));
   prepare(trust_, 0.01, 100, 0.1, tr("Standard uncertainty of that growth"));
   card->body()->addWidget(second_axis_);
-  extend->addWidget(new QLabel(tr("Bar grows by")));
+  extend->addWidget(new QLabel(tr("Expansion of the bar")));
   extend->addWidget(growth_);
   extend->addWidget(new QLabel(QStringLiteral("±")));
   extend->addWidget(trust_);
   card->body()->addLayout(extend);
-  auto* unnoticed = makeLabel(tr("What an unnoticed growth of the second axis does"), "sectionTitle");
+  auto* unnoticed = makeLabel(tr("Effect of an undetected expansion of the second axis"), "sectionTitle");
   unnoticed->setWordWrap(true);
   card->body()->addWidget(unnoticed);
-  bias_ = new RowsModel({tr("Parameter"), tr("Change per um/m"), tr("Unit")}, this);
+  bias_ = new RowsModel({tr("Parameter"), tr("Change per µm/m"), tr("Unit")}, this);
   card->body()->addWidget(makeTable(bias_, tr("Bias by the second axis"), tr("The bias appears after the fit.")), 3);
   connect(second_axis_, &QCheckBox::toggled, this, [this](bool on) {
     options_.change(tr("extend by the second axis"), {{"second_axis", on}});

@@ -61,8 +61,9 @@ void TouchCapturePage::makeProgram() {
   const auto ball = firstBallPosition(*a, results_.touches().get(), results_.last().get());
   if (a->kind == "balls") {
     if (!ball) {
-      program_verdict_->show(Tone::Attention, tr("Where the first ball stands is not known. Touch it once by hand; "
-                                                 "then the programme can be planned."));
+      program_verdict_->show(
+          Tone::Attention,
+          tr("The position of the first ball is not known. Probe it once by hand; then the programme can be planned."));
       return;
     }
     plan.first_ball_mm = *ball;
@@ -84,11 +85,10 @@ void TouchCapturePage::makeProgram() {
             program_verdict_->show(Tone::Bad, tr("No programme: %1").arg(coreSentence(failure.c_str())));
           } else if (!program_->check.good()) {
             const ProgramIssue& first = program_->check.issues.front();
-            program_verdict_->show(Tone::Bad,
-                                   tr("Issues found by the check: %1; the programme is not given away. Line %2: %3")
-                                       .arg(program_->check.issues.size())
-                                       .arg(first.line)
-                                       .arg(fromCore(first.what)));
+            program_verdict_->show(Tone::Bad, tr("Programme not exported, issues found by the check: %1. Line %2: %3")
+                                                  .arg(program_->check.issues.size())
+                                                  .arg(first.line)
+                                                  .arg(fromCore(first.what)));
           } else {
             program_verdict_->show(
                 Tone::Good,

@@ -80,7 +80,7 @@ TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
   state_filter_->addItems({tr("All states"), tr("Plausible"), tr("Rejected"), tr("Excluded"), tr("Missing")});
   filters->addWidget(state_filter_);
   list->body()->addLayout(filters);
-  touches_ = new RowsModel({tr("Touch"), tr("State"), tr("Residual / um"), tr("Station"), tr("Towards")}, this);
+  touches_ = new RowsModel({tr("Touch"), tr("State"), tr("Residual / µm"), tr("Station"), tr("Towards")}, this);
   touch_table_ = makeTable(touches_, tr("Touches"), tr("No touch of this cycle has this state."));
   touch_table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   list->body()->addWidget(touch_table_, 4);
@@ -224,9 +224,9 @@ void TouchCapturePage::refresh() {
   }
   callout()->setAction({}, {});
   if (!judged_) {
-    callout()->show(Tone::Accent, tr("%1 touches are there and none is checked yet. Checking compares every touch "
-                                     "with all others and says which to take again.")
-                                      .arg(verdicts_.size()));
+    callout()->show(Tone::Accent, tr("%n touches are there and none is checked yet. Checking compares every touch "
+                                     "with all others and says which to take again.",
+                                     nullptr, static_cast<int>(verdicts_.size())));
   } else if (!state.current || !results_.current()) {
     callout()->show(Tone::Outdated, tr("Changed since: %1. Check the touches again.").arg(state.changed));
   } else if (first_bad != nullptr) {
@@ -244,10 +244,11 @@ void TouchCapturePage::refresh() {
                                          .arg(firstOf(bad)));
   } else {
     callout()->show(Tone::Good, cycles_->rowCount() > 1
-                                    ? tr("All %1 touches are plausible and none is missing.").arg(verdicts_.size())
-                                    : tr("All %1 touches are plausible. Whether one is missing shows when a second "
-                                         "cycle is there to compare with.")
-                                          .arg(verdicts_.size()));
+                                    ? tr("All %n touches are plausible and none is missing.", nullptr,
+                                         static_cast<int>(verdicts_.size()))
+                                    : tr("All %n touches are plausible. Whether one is missing shows when a second "
+                                         "cycle is there to compare with.",
+                                         nullptr, static_cast<int>(verdicts_.size())));
   }
   showScene();
 }

@@ -64,7 +64,7 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   left->addToTitle(cycle_);
   tabs_ = makeTabs();
   features_ = new RowsModel(
-      {tr("Feature"), tr("x / mm"), tr("y / mm"), tr("z / mm"), tr("± / um"), tr("D / mm"), tr("Form / um")}, this);
+      {tr("Feature"), tr("x / mm"), tr("y / mm"), tr("z / mm"), tr("± / µm"), tr("D / mm"), tr("Form / µm")}, this);
   tabs_->addTab(makeTable(features_, tr("Features"),
                           tr("Centre, diameter and form of every hole or ball appear after the evaluation.")),
                 tr("Features"));
@@ -81,8 +81,8 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
                                                     tr("How well a cycle repeats appears with at least 18 cycles."))),
       tr("Repeatability"));
   health_verdict_ = new Callout;
-  health_ = new RowsModel({tr("Stylus"), tr("Sphere"), tr("Radius / mm"), tr("Pre-travel / um"), tr("Repeats / um"),
-                           tr("Step / um"), tr("Verdict")},
+  health_ = new RowsModel({tr("Stylus"), tr("Sphere"), tr("Radius / mm"), tr("Pre-travel / µm"), tr("Repeats / µm"),
+                           tr("Step / µm"), tr("Verdict")},
                           this);
   tabs_->addTab(
       withVerdict(health_verdict_, makeTable(health_, tr("Health of the probe"),
@@ -98,7 +98,7 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   point_->setMinimumWidth(140);
   right->addToTitle(point_);
   plot_ = new Plot;
-  plot_->setAxes(tr("Time / h"), tr("Deviation / um"));
+  plot_->setAxes(tr("Time / h"), tr("Deviation / µm"));
   plot_->setEmptyText(tr("Deviations will appear here"),
                       tr("Evaluate the touches: every feature is compared with the first cycle."));
   right->body()->addWidget(plot_, 1);
@@ -233,18 +233,18 @@ void TouchEvaluationPage::showTiles(const CycleEvaluation& cycles) {
   const auto& sigma = cycles.fit.group_sigma_mm;
   if (!sigma.empty()) {
     QString note = tr("across the surface, one standard deviation");
-    if (sigma.size() > 1) note = tr("%1 um along the axis").arg(decimalText(sigma[1] * um_per_mm, 'f', 2));
-    noise_->set(QStringLiteral("%1 um").arg(decimalText(sigma[0] * um_per_mm, 'f', 2)), note);
+    if (sigma.size() > 1) note = tr("%1 µm along the axis").arg(decimalText(sigma[1] * um_per_mm, 'f', 2));
+    noise_->set(QStringLiteral("%1 µm").arg(decimalText(sigma[0] * um_per_mm, 'f', 2)), note);
   }
   if (!details_.evaluation->hole_cycles.empty()) {
     const HoleCycleResult& holes = details_.evaluation->hole_cycles.front();
-    length_->set(QStringLiteral("%1 um").arg(decimalText(holes.largest_nonlinearity_um, 'f', 2)),
-                 tr("of a hole off the straight line, all cycles"));
+    length_->set(QStringLiteral("%1 µm").arg(decimalText(holes.largest_nonlinearity_um, 'f', 2)),
+                 tr("deviation of a hole from the straight line, all cycles"));
   } else {
     double largest = 0;
     for (const BallDistance& d : details_.evaluation->ball_cycles.front().distances)
       largest = std::max(largest, std::abs(d.error_um));
-    length_->set(QStringLiteral("%1 um").arg(decimalText(largest, 'f', 1)), tr("of a distance between balls"));
+    length_->set(QStringLiteral("%1 µm").arg(decimalText(largest, 'f', 1)), tr("of a distance between balls"));
   }
   int known = 0;
   int healthy = 0;
@@ -314,7 +314,7 @@ void TouchEvaluationPage::showLeftOut(const TouchEvaluation& evaluation, const C
 void TouchEvaluationPage::showLengths() {
   std::vector<Row> rows;
   if (!details_.evaluation->hole_cycles.empty()) {
-    lengths_->setHeaders({tr("Hole"), tr("rms / um"), tr("Largest / um"), tr("In cycle"), tr("Noise / um")});
+    lengths_->setHeaders({tr("Hole"), tr("rms / µm"), tr("Largest / µm"), tr("In cycle"), tr("Noise / µm")});
     tabs_->setTabText(2, tr("Straight line"));
     for (const LinearityDeviation& d : details_.evaluation->hole_cycles.front().linearity) {
       Row row;
@@ -325,7 +325,7 @@ void TouchEvaluationPage::showLengths() {
     }
   } else {
     lengths_->setHeaders(
-        {tr("Balls"), tr("Cycle"), tr("Stylus"), tr("Error / um"), tr("Certified / mm"), tr("Verdict")});
+        {tr("Balls"), tr("Cycle"), tr("Stylus"), tr("Error / µm"), tr("Certified / mm"), tr("Verdict")});
     tabs_->setTabText(2, tr("Distances"));
     for (const BallDistance& d : details_.evaluation->ball_cycles.front().distances) {
       Row row;
@@ -376,11 +376,12 @@ void TouchEvaluationPage::showHealth() {
                  numberCell(good ? h.pre_travel_range_um : std::nan(""), 2),
                  numberCell(good && h.repeatability_dof > 0 ? h.repeatability_um : std::nan(""), 2),
                  numberCell(good ? h.largest_step_um : std::nan(""), 2),
-                 !good                                        ? toneCell(tr("not judged"), Tone::Attention)
-                 : h.loose                                    ? toneCell(tr("loose"), Tone::Bad)
-                 : h.movement.kind == MovementKind::Undecided ? toneCell(tr("loose, or warming"), Tone::Attention)
-                 : h.healthy                                  ? toneCell(tr("healthy"), Tone::Good)
-                                                              : toneCell(tr("look at it"), Tone::Attention)};
+                 !good     ? toneCell(tr("not judged"), Tone::Attention)
+                 : h.loose ? toneCell(tr("loose"), Tone::Bad)
+                 : h.movement.kind == MovementKind::Undecided
+                     ? toneCell(tr("loose or still warming up"), Tone::Attention)
+                 : h.healthy ? toneCell(tr("healthy"), Tone::Good)
+                             : toneCell(tr("to be checked"), Tone::Attention)};
     row.cells.back().tip = coreSentence(h.message);
     if (!h.healthy && worst.isEmpty()) {
       worst = tr("%1 on %2: %3").arg(fromCore(h.stylus), fromCore(h.feature), coreSentence(h.message));
@@ -392,7 +393,7 @@ void TouchEvaluationPage::showHealth() {
   if (none) {
     health_verdict_->set(Tone::Neutral, {});
   } else if (worst.isEmpty()) {
-    health_verdict_->show(Tone::Good, tr("All styli repeat as a healthy probe does."));
+    health_verdict_->show(Tone::Good, tr("All styli repeat as well as an intact probe does."));
   } else {
     health_verdict_->show(Tone::Attention, worst + QLatin1Char('.'));
   }
@@ -428,7 +429,7 @@ void TouchEvaluationPage::showDeviations() {
     }
     if (!s.x.empty()) series.push_back(std::move(s));
   }
-  plot_->setAxes(tr("Time / %1").arg(unit.name), tr("Deviation of %1 / um").arg(point_->currentText()));
+  plot_->setAxes(tr("Time / %1").arg(unit.name), tr("Deviation of %1 / µm").arg(point_->currentText()));
   plot_->setContent(std::move(series));
 }
 

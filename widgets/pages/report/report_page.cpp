@@ -21,6 +21,7 @@
 #include "core/base/error.h"
 #include "core/tasks/report_task.h"
 #include "core/tasks/task_options.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
@@ -70,11 +71,13 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
     context().workflow.refresh();
     refresh();
   });
-  discrepancy_ = new QCheckBox(tr("Tell the discrepancy"));
-  discrepancy_->setToolTip(tr("Search for what the simulation lacks and tell it with the effects that were added"));
+  discrepancy_ = new QCheckBox(tr("Include the discrepancy analysis"));
+  discrepancy_->setToolTip(
+      tr("Search for what the simulation lacks, and report it together with the effects that were added"));
   left->body()->addWidget(discrepancy_);
   connect(discrepancy_, &QCheckBox::clicked, this, [this](bool tell) {
-    options_.change(tell ? tr("tell the discrepancy") : tr("leave the discrepancy out"), {{"tells_discrepancy", tell}});
+    options_.change(tell ? tr("include the discrepancy analysis") : tr("omit the discrepancy analysis"),
+                    {{"tells_discrepancy", tell}});
   });
   facts_ = makeLabel({}, "secondaryText");
   facts_->setWordWrap(true);
@@ -189,12 +192,12 @@ void ReportPage::showFacts() {
     return;
   }
   facts_->setText(
-      tr("Written %1 by Spindrift %2: %3 pages, %4 figures, %5 tables.")
+      tr("Written %1 by Spindrift %2: %3, %4, %5.")
           .arg(QString::fromStdString(stored->provenance.created_utc).replace(QLatin1Char('T'), QLatin1Char(' ')),
                QString::fromStdString(stored->provenance.program_version))
-          .arg(document_->pageCount())
-          .arg(stored->payload.value("figures", 0))
-          .arg(stored->payload.value("tables", 0)));
+          .arg(tr("%n pages", nullptr, document_->pageCount()),
+               tr("%n figures", nullptr, stored->payload.value("figures", 0)),
+               tr("%n tables", nullptr, stored->payload.value("tables", 0))));
 }
 
 void ReportPage::showDocument(std::shared_ptr<ReportPages> document) {
@@ -210,8 +213,9 @@ void ReportPage::showDocument(std::shared_ptr<ReportPages> document) {
       row.id = QString::number(index++);
       Cell page{QString::number(section.page + 1)};
       page.right = true;
-      row.cells = {{section.title}, page};
-      row.cells[0].tip = section.title;
+      const QString title = coreSentence(section.title);
+      row.cells = {{title}, page};
+      row.cells[0].tip = title;
       rows.push_back(std::move(row));
     }
   }

@@ -142,7 +142,7 @@ void ReviewPane::fillStates() {
     for (const std::string& s : from->states) state_->addItem(fromCore(s));
     if (!from->scans.empty()) {
       offer(tr("Scan, change"), PaneContent::ScanChange);
-      offer(tr("Scan, left over"), PaneContent::ScanLeftOver);
+      offer(tr("Scan residual"), PaneContent::ScanLeftOver);
     }
   }
   state_->setCurrentIndex(std::max(0, state_->findText(state)));
@@ -234,7 +234,7 @@ void ReviewPane::showScan(const ScanPicture& picture, const QString& title, doub
   if (!first) scan_view_->setCamera(camera);
   scan_view_->setCaption(picture.colouring == ScanColouring::Height
                              ? title + tr(": the reference itself, height")
-                             : title + tr(", median |dz| %1 um").arg(decimalText(picture.median_magnitude, 'f', 2)));
+                             : title + tr(", median |dz| %1 µm").arg(decimalText(picture.median_magnitude, 'f', 2)));
 }
 
 void ReviewPane::showMessage(const QString& title, const QString& how) {

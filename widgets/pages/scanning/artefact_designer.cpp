@@ -66,7 +66,7 @@ ArtefactDesigner::ArtefactDesigner(QWidget* parent) : QDialog(parent) {
   addNumber(form, "amplitude y", tr("Wave along Y, amplitude"), tr(" mm"), 0, 20, 0.1, 2.5, 2);
   addNumber(form, "wave y", tr("Wave along Y"), tr(" rad/mm"), 0.01, 5, 0.05, 1.0 / 6.0, 3);
   addNumber(form, "amplitude xy", tr("Oblique wave, amplitude"), tr(" mm"), 0, 10, 0.1, 0, 2);
-  addNumber(form, "noise", tr("Noise of a point"), tr(" um"), 0.01, 100, 0.1, 0.5, 2);
+  addNumber(form, "noise", tr("Noise of a point"), tr(" µm"), 0.01, 100, 0.1, 0.5, 2);
   addNumber(form, "points", tr("Points of a scan"), tr(" thousand"), 1, 20000, 10, 640, 0);
   addNumber(form, "steepest slope", tr("Steepest slope seen"), tr(" mm/mm"), 0.05, 10, 0.1, 1.2, 2);
   addNumber(form, "base", tr("Base under the lowest point"), tr(" mm"), 0.5, 100, 1, 10, 1);
@@ -84,7 +84,7 @@ ArtefactDesigner::ArtefactDesigner(QWidget* parent) : QDialog(parent) {
   view_ = new View3D;
   right->body()->addWidget(view_, 3);
   sigmas_ = new RowsModel({tr("Uncertainty of"), tr("rigid"), tr("push broom")}, this);
-  weak_ = new RowsModel({tr("Scan model"), tr("Weak direction"), tr("Known to / um")}, this);
+  weak_ = new RowsModel({tr("Scan model"), tr("Weak direction"), tr("Known to / µm")}, this);
   auto* weak = makeTable(weak_, tr("Weak directions"), tr("No direction is weak."));
   weak->setToolTip(
       tr("Directions of the motion that are known thirty times less well than the best one; rotations "

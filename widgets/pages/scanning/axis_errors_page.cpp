@@ -93,7 +93,7 @@ AxisErrorsPage::AxisErrorsPage(PageContext page_context, QWidget* parent)
   over_ = new Segments({tr("Over time"), tr("Over position")}, tr("Horizontal axis"));
   left->addToTitle(over_);
   series_ = new PlotGrid;
-  series_->setAxes(tr("Time / min"), tr("EXY / um"));
+  series_->setAxes(tr("Time / min"), tr("EXY / µm"));
   series_->setEmptyText(tr("Errors of the axis will appear here"),
                         tr("Find the six errors: each is drawn over time with its uncertainty."));
   left->body()->addWidget(series_, 1);
@@ -205,9 +205,8 @@ void AxisErrorsPage::refresh() {
                                         "the numbers below are wrong by more than they say.")
                                          .arg(model_->button(model_->current() == 0 ? 1 : 0)->text().toLower()));
   } else {
-    callout()->show(
-        Tone::Good,
-        tr("%1 scans, six errors each, relative to the first scan of their artefact.").arg(evaluation->scans.size()));
+    callout()->show(Tone::Good, tr("%n scans, six errors each, relative to the first scan of their artefact.", nullptr,
+                                   static_cast<int>(evaluation->scans.size())));
   }
   show(*evaluation);
 }

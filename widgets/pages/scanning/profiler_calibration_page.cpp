@@ -50,7 +50,7 @@ ProfilerCalibrationPage::ProfilerCalibrationPage(PageContext page_context, QWidg
                               tr("Three angles and three lengths with their uncertainty appear after the evaluation.")),
                     1);
   tabs_->addTab(first, tr("Calibration"));
-  registrations_ = new RowsModel({tr("Scan"), tr("X"), tr("Y"), tr("Z"), tr("rms / um")}, this);
+  registrations_ = new RowsModel({tr("Scan"), tr("X"), tr("Y"), tr("Z"), tr("rms / µm")}, this);
   tabs_->addTab(makeTable(registrations_, tr("Registrations"),
                           tr("The deviation at every artefact appears after the evaluation.")),
                 tr("At the artefacts"));
@@ -59,7 +59,7 @@ ProfilerCalibrationPage::ProfilerCalibrationPage(PageContext page_context, QWidg
   left->body()->addWidget(tabs_, 1);
   auto* right = new Card(tr("Residuals of the rim"));
   residuals_ = new Plot;
-  residuals_->setAxes(tr("Angle around the pocket / °"), tr("Distance from the circle / um"));
+  residuals_->setAxes(tr("Angle around the pocket / °"), tr("Distance from the circle / µm"));
   residuals_->setEmptyText(tr("Residuals will appear here"),
                            tr("Evaluate the scans: every crossing of the rim is compared with the fitted circle."));
   right->body()->addWidget(residuals_, 1);
@@ -166,9 +166,9 @@ void ProfilerCalibrationPage::showCalibration(const ScanEvaluation& evaluation) 
   } else {
     undetermined_->set(c.undetermined.empty() ? Tone::Neutral : Tone::Attention, coreSentence(c.message));
   }
-  rim_->set(c.usable() ? QStringLiteral("%1 um").arg(decimalText(c.rim_rms_um, 'f', 2)) : QStringLiteral("–"),
+  rim_->set(c.usable() ? QStringLiteral("%1 µm").arg(decimalText(c.rim_rms_um, 'f', 2)) : QStringLiteral("–"),
             tr("%1 crossings").arg(c.rim.size()));
-  plane_->set(c.usable() ? QStringLiteral("%1 um").arg(decimalText(c.plane_rms_um, 'f', 2)) : QStringLiteral("–"),
+  plane_->set(c.usable() ? QStringLiteral("%1 µm").arg(decimalText(c.plane_rms_um, 'f', 2)) : QStringLiteral("–"),
               tr("around the pocket"));
   Series used, unused;
   used.name = tr("Used");
@@ -199,7 +199,7 @@ void ProfilerCalibrationPage::showScans(const ScanEvaluation& evaluation) {
       Row row;
       row.id = fromCore(s.capture.cloud) + (first == 0 ? QString() : QStringLiteral("/rotation"));
       const QString scan = QStringLiteral("%1 · %2").arg(fromCore(s.capture.artefact), fromCore(s.capture.cycle));
-      row.cells = {first == 0 ? nameCell(tr("%1 / um").arg(scan)) : Cell{s.reference ? tr("reference") : tr("urad")}};
+      row.cells = {first == 0 ? nameCell(tr("%1 / µm").arg(scan)) : Cell{s.reference ? tr("reference") : tr("µrad")}};
       row.cells[0].tip = tr("%1 % of the reference seen").arg(decimalText(100.0 * s.registration.overlap, 'f', 0));
       const double factor = first == 0 ? um_per_mm : urad_per_rad;
       for (int i = first; i < first + 3; ++i) {

@@ -51,13 +51,13 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   list->body()->addLayout(buttons);
 
   auto* right = new Card;
-  colouring_ = new Segments({tr("Height"), tr("Cold and warm"), tr("Change"), tr("Left over"), tr("What is used")},
+  colouring_ = new Segments({tr("Height"), tr("Cold and warm"), tr("Change"), tr("Residual"), tr("What is used")},
                             tr("Colours"));
   colouring_->button(2)->setToolTip(tr("Height over the cold scan as it was measured"));
   colouring_->button(3)->setToolTip(tr("Height over the cold scan after registration"));
-  colouring_->button(4)->setToolTip(tr("0 used, 1 near an edge, 2 outlier, 3 painted away"));
+  colouring_->button(4)->setToolTip(tr("0 used, 1 near an edge, 2 outlier, 3 masked"));
   part_ = new Segments({tr("Before"), tr("After"), tr("Side by side")}, tr("Before or after cleaning"));
-  part_->setToolTip(tr("Before or after trimming of edges, removal of outliers and what was painted away"));
+  part_->setToolTip(tr("Before or after edge trimming, outlier removal and masking"));
   part_->setCurrent(1);
   auto* choices = new WrapLayout;
   choices->addWidget(colouring_);
@@ -174,9 +174,10 @@ void ScanCapturePage::refresh() {
   if (!results_.failure().isEmpty()) {
     callout()->show(Tone::Bad, results_.failure());
   } else if (checks_.empty()) {
-    callout()->show(Tone::Accent, tr("%1 scans are there and none is checked yet. Checking reads every cloud and says "
-                                     "which to take again.")
-                                      .arg(captures.size()));
+    callout()->show(
+        Tone::Accent,
+        tr("%n scans are there and none is checked yet. Checking reads every cloud and says which to take again.",
+           nullptr, static_cast<int>(captures.size())));
   } else if (!session().state("check").current) {
     callout()->show(Tone::Outdated,
                     tr("Changed since: %1. Check the scans again.").arg(session().state("check").changed));
@@ -188,7 +189,8 @@ void ScanCapturePage::refresh() {
                                          .arg(captures.size())
                                          .arg(firstOf(bad)));
   } else {
-    callout()->show(Tone::Good, tr("All %1 scans are complete and can be used.").arg(captures.size()));
+    callout()->show(Tone::Good,
+                    tr("All %n scans are complete and can be used.", nullptr, static_cast<int>(captures.size())));
   }
   if (selected().isEmpty() && rows_->rowCount() > 0) {
     table_->selectRow(0);
@@ -273,7 +275,7 @@ void ScanCapturePage::showVerdict() {
                            .arg(check->second.edge_points)
                            .arg(check->second.outlier_points);
     if (const auto [item, reason] = ScanMaskBar::maskOf(session(), id); !item.isEmpty())
-      sentence += QLatin1Char(' ') + tr("A part is painted away: %1.").arg(reason);
+      sentence += QLatin1Char(' ') + tr("A part is masked: %1.").arg(reason);
     verdict_->show(Tone::Good, sentence);
   } else {
     verdict_->set(Tone::Neutral, {});
@@ -372,8 +374,8 @@ void ScanCapturePage::showIn(View3D* view, const ScanPicture& picture, const QSt
       scale = ColourScale::symmetric(std::max({std::abs(picture_.low), std::abs(picture_.high), 0.1}), tr("dz"),
                                      QStringLiteral("um"));
       caption += picture.colouring == ScanColouring::Measured
-                     ? tr(" over the cold scan, median |dz| %1 um").arg(decimalText(picture.median_magnitude, 'f', 2))
-                     : tr(" after registration, median |dz| %1 um").arg(decimalText(picture.median_magnitude, 'f', 2));
+                     ? tr(" over the cold scan, median |dz| %1 µm").arg(decimalText(picture.median_magnitude, 'f', 2))
+                     : tr(" after registration, median |dz| %1 µm").arg(decimalText(picture.median_magnitude, 'f', 2));
   }
   const Camera camera = view->camera();
   const bool first = view->empty();

@@ -167,7 +167,7 @@ WhatIfWindow::WhatIfWindow(const MachineDescription& machine, QWidget* parent) :
   auto* machine_card = new Card(tr("Machine"));
   machine_card->body()->addWidget(view_, 1);
   part_view_ = new TestPartView;
-  auto* part_card = new Card(tr("Test part (ISO 10791-7)"));
+  auto* part_card = new Card(tr("Test part (of the kind of ISO 10791-7)"));
   part_card->body()->addWidget(part_view_, 1);
   auto* pictures = makeSplitter(machine_card, part_card, 1, 1);
 

@@ -72,7 +72,7 @@ ClockPanel::ClockPanel(SessionModel& session, CampaignUndo& undo, QWidget* paren
   message_->set(Tone::Neutral, {});
   column->addWidget(message_);
   rows_ = new RowsModel({tr("Source"), tr("Offset"), tr("From")}, this);
-  column->addWidget(makeTable(rows_, tr("Offsets of the clocks"), tr("Every clock is taken as it is.")), 1);
+  column->addWidget(makeTable(rows_, tr("Offsets of the clocks"), tr("No clock offset is applied.")), 1);
   connect(source_, &QComboBox::activated, this, [this](int) { refresh(); });
   connect(offset_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
     if (!filling_) change(value, 0.0, QStringLiteral("entered"));

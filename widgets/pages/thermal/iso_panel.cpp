@@ -41,7 +41,7 @@ IsoPanel::IsoPanel(QWidget* parent) : QWidget(parent) {
   column->addWidget(note_);
   rows_ = new RowsModel({tr("Component"), tr("Over the test"), tr("Per K, or first hour"), tr("Slope, or time")}, this);
   plot_ = new Plot;
-  plot_->setAxes(tr("Time / h"), tr("Change / um or urad"));
+  plot_->setAxes(tr("Time / h"), tr("Change / µm or µrad"));
   plot_->setEmptyText(tr("The test will appear here"), tr("It needs displacements over time."));
   column->addWidget(makeSplitter(makeTable(rows_, tr("Parameters of ISO 230-3"),
                                            tr("Range, change and time of each component appear here.")),

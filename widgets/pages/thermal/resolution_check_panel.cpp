@@ -68,7 +68,7 @@ void ResolutionCheckPanel::check() {
 void ResolutionCheckPanel::show(const ResolutionCheck& check) {
   std::vector<Row> rows;
   const auto um = [](double value, int digits) {
-    Cell cell{QStringLiteral("%1 um").arg(decimalText(value, 'f', digits))};
+    Cell cell{QStringLiteral("%1 µm").arg(decimalText(value, 'f', digits))};
     cell.right = true;
     return cell;
   };

@@ -44,7 +44,7 @@ ThermalModelPage::ThermalModelPage(PageContext page_context, QWidget* parent)
   addAction(identify_);
   content()->addWidget(makeChoices());
   auto* top = new Card;
-  what_ = new Segments({tr("Output"), tr("Inputs"), tr("Left over")}, tr("What is drawn"));
+  what_ = new Segments({tr("Output"), tr("Inputs"), tr("Residual")}, tr("What is drawn"));
   top->body()->addWidget(what_);
   auto* tiles = new QHBoxLayout;
   rms_ = new NumberTile(tr("Test, rms"));
@@ -147,11 +147,11 @@ QWidget* ThermalModelPage::makeDetails() {
   residual_plot_ = new Plot;
   residual_plot_->setAxes(tr("Lag / min"), tr("Autocorrelation"));
   residual_plot_->setEmptyText(tr("The autocorrelation of the residual will appear here"),
-                               tr("Identify the model: what it leaves over in training should look like noise."));
+                               tr("Identify the model: its residual in training should be white noise."));
   cross_ = new RowsModel({tr("Input"), tr("Largest correlation"), tr("Limit, 99 %")}, this);
   column->addWidget(makeSplitter(residual_plot_,
                                  makeTable(cross_, tr("Residual against inputs"),
-                                           tr("How the residual goes with each input appears here.")),
+                                           tr("How the residual depends on each input appears here.")),
                                  6, 5, Qt::Vertical),
                     1);
   tabs_->addTab(residuals, tr("Residuals"));
@@ -306,8 +306,8 @@ void ThermalModelPage::refresh() {
   } else if (!state.current || result_options_ != options_.json()) {
     callout()->show(Tone::Outdated, tr("Changed since: %1. Identify the model again.").arg(state.changed));
   } else if (!result_->good_enough) {
-    callout()->show(Tone::Attention, tr("In the test range the model is no better than the plain ones. Train on a "
-                                        "longer or livelier part, or choose other inputs."));
+    callout()->show(Tone::Attention, tr("In the test range the model is no better than the baselines. Train on a "
+                                        "longer range with more excitation, or choose other inputs."));
   } else {
     callout()->show(Tone::Good,
                     tr("Free run over the test range: rms %1 %2, without a model %3 %2.")

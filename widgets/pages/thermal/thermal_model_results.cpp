@@ -139,7 +139,7 @@ void ThermalModelPage::showSeries() {
       for (std::size_t i = 0; i < residual.size(); ++i) residual[i] = result_->measured[i] - result_->predicted[i];
       series.push_back(measured(tr("Measured minus predicted"), residual));
     }
-    series_plot_->setAxes(tr("Time / h"), tr("Left over / %1").arg(outputUnit()));
+    series_plot_->setAxes(tr("Time / h"), tr("Residual / %1").arg(outputUnit()));
   }
   std::vector<Span> spans{
       {now.train.from_s / seconds_per_hour, now.train.to_s / seconds_per_hour, tr("Training"), Tone::Accent},

@@ -250,7 +250,7 @@ void WarmUpPage::refresh() {
       rows.push_back(std::move(row));
     }
     drift_->setAxes(tr("Time / %1").arg(unit.name),
-                    tr("Deviation of %1 / um").arg(QString::fromStdString(judged->point)));
+                    tr("Deviation of %1 / µm").arg(QString::fromStdString(judged->point)));
   }
   drift_->setContent(std::move(drift));
   verdicts_->setRows(std::move(rows));

@@ -104,7 +104,7 @@ VerifyCurves verifyCurves(const VerifyResult& result, Component component) {
   curves.x_title =
       single ? text("Measured value, points in order of the plan") : text("Thermal state, in order of the plan");
   curves.y_title =
-      text("Change of %1 / %2").arg(fromCore(std::string(toString(component))), rotation ? text("urad") : text("um"));
+      text("Change of %1 / %2").arg(fromCore(std::string(toString(component))), rotation ? text("µrad") : text("µm"));
   return curves;
 }
 
