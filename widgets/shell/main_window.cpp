@@ -125,6 +125,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), workflow_(session
   connect(back_, &QPushButton::clicked, &workflow_, &Workflow::back);
   connect(next_, &QPushButton::clicked, &workflow_, &Workflow::next);
   connect(&workflow_, &Workflow::currentChanged, this, &MainWindow::showStep);
+  connect(&workflow_, &Workflow::statusChanged, this, &MainWindow::offerNextSoon);
+  connect(&jobs_, &JobRunner::changed, this, &MainWindow::offerNextSoon);
   connect(&session_, &SessionModel::sessionChanged, this, [this] {
     jobs_.cancelOfSession();  // of a session that nobody looks at any more
     verifyFiles();
@@ -276,14 +278,83 @@ void MainWindow::arrive() {
       if (!page_stack_->holds(page_)) {
         page_stack_->add(page_);
         restoreSplitters(*page_);
+        for (const QTabWidget* tabs : page_->findChildren<QTabWidget*>())
+          connect(tabs, &QTabWidget::currentChanged, this, &MainWindow::offerNextSoon);
       }
       page_stack_->show(page_);
       arrival_ = Arrival::Fill;
       return;
     case Arrival::Fill:
       page_->refresh();
+      offerNextSoon();
       return;
   }
+}
+
+void MainWindow::runAllSteps() {
+  running_all_ = true;
+  run_last_.reset();
+  goOnRunning();
+}
+
+void MainWindow::goOnRunning() {
+  if (!running_all_ || jobs_.busy() || arriving()) return;
+  QPushButton* due = dueButton();
+  if (due != nullptr && due->isEnabled() && due == next_) {
+    due->click();
+  } else if (due != nullptr && due->isEnabled() && run_last_ != workflow_.current()) {
+    run_last_ = workflow_.current();
+    due->click();
+  } else {
+    running_all_ = false;
+    const StepId step = workflow_.current();
+    tell(step == StepId::Report && workflow_.status(step).state == StepState::Current
+             ? tr("All steps are done and the report is written.")
+             : tr("The step %1 needs you: look at it, then go on.").arg(stepTitle(step)));
+  }
+}
+
+QPushButton* MainWindow::dueButton() {
+  if (currentPage() == nullptr) return nullptr;
+  offerNext();
+  return next_->property("role").toString() == QLatin1String("primary") ? next_ : page_->primaryButton();
+}
+
+void MainWindow::offerNextSoon() {
+  if (offer_queued_) return;
+  offer_queued_ = true;
+  QMetaObject::invokeMethod(
+      this,
+      [this] {
+        offer_queued_ = false;
+        offerNext();
+        goOnRunning();
+      },
+      Qt::QueuedConnection);
+}
+
+void MainWindow::offerNext() {
+  if (page_ == nullptr || arrival_ != Arrival::Done || session_.campaign() == nullptr || jobs_.busy()) return;
+  QPushButton* run = page_->primaryButton();
+  const auto isPrimary = [](const QPushButton& button) {
+    return button.property("role").toString() == QLatin1String("primary");
+  };
+  // What a result asks for, such as an effect to be added, comes before going on.
+  const auto buttons = page_->findChildren<QPushButton*>();
+  const bool asked = std::any_of(buttons.begin(), buttons.end(), [&](const QPushButton* b) {
+    return b != run && b->isVisible() && b->isEnabled() && isPrimary(*b);
+  });
+  const TaskGraph tasks = session_.tasks();
+  const StepState state = workflow_.status(workflow_.current()).state;
+  const std::string task = taskOfStep(tasks, workflow_.current());
+  const bool done = state == StepState::Current ||
+                    (state == StepState::Attention && !task.empty() && tasks.status(task).state == TaskState::Current);
+  const bool go_on = workflow_.canGoNext() && !asked && (run == nullptr || !run->isEnabled() || done);
+  const auto show = [&](QPushButton* button, bool primary) {
+    if (button != nullptr && isPrimary(*button) != primary) setRole(button, primary ? "primary" : "secondary");
+  };
+  show(run, !asked && !go_on);
+  show(next_, go_on);
 }
 
 Page* MainWindow::currentPage() {
@@ -300,6 +371,7 @@ void MainWindow::refreshPage() {
         refresh_queued_ = false;
         if (arrival_ != Arrival::Done) return;  // It is filled anyway.
         if (page_ != nullptr && session_.campaign() != nullptr) page_->refresh();
+        offerNextSoon();
       },
       Qt::QueuedConnection);
 }
@@ -354,7 +426,7 @@ void MainWindow::openSession(const QString& folder) {
 void MainWindow::verifyFiles() {
   if (!session_.isOpen()) return;
   Job job;
-  job.title = tr("Looking whether files have changed");
+  job.title = tr("Checking files for changes");
   job.quiet = true;
   job.queue = JobQueue::Display;
   job.key = "files";
@@ -374,7 +446,7 @@ void MainWindow::verifyFiles() {
         if (!same) continue;
         const FileCheck check = session_.takeFiles(record.id, files);
         if (!check.same())
-          tell(tr("Files of the campaign %1 are not what they were when results were made from them: %2.")
+          tell(tr("Files of the campaign %1 have changed since its results were calculated: %2.")
                    .arg(QString::fromStdString(record.name), QString::fromStdString(check.sentence())));
       }
     };
@@ -432,7 +504,8 @@ void MainWindow::showConnections() {
                              status.active ? tr("Compensating") : tr("Compensation off"),
                              QString::fromStdString(status.channel));
   } else if (service.recording()) {
-    job_bar_->setConnections(Tone::Good, tr("Recording"), tr("%1 rows of log.csv").arg(service.snapshot().rows));
+    job_bar_->setConnections(Tone::Good, tr("Recording"),
+                             tr("%n rows of log.csv", nullptr, static_cast<int>(service.snapshot().rows)));
   } else {
     job_bar_->setConnections(Tone::Good, tr("Live"), tr("Connected; nothing is written"));
   }
@@ -591,6 +664,7 @@ void MainWindow::applyLook(ThemeKind kind) {
 }
 
 void MainWindow::followPreferences() {
+  PreferencesNotifier::instance().readAgain();
   connect(&PreferencesNotifier::instance(), &PreferencesNotifier::changed, this,
           [this](const Preferences& before, const Preferences& now) {
             if (now.look != before.look) applyLook(wantedTheme());

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "widgets/jobs/job_runner.h"
@@ -75,6 +76,8 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] JobBar* jobBar() const { return job_bar_; }
   [[nodiscard]] QPushButton* nextButton() const { return next_; }
   [[nodiscard]] QPushButton* backButton() const { return back_; }
+  /// Pressed by Ctrl+Return: Next where it is what to do next, else the button that runs the page; null: there is none.
+  [[nodiscard]] QPushButton* dueButton();
   [[nodiscard]] bool welcomeShown() const;
   [[nodiscard]] HelpPanel* help() const { return help_; }
   [[nodiscard]] QAction* helpAction() const { return help_action_; }
@@ -130,6 +133,12 @@ class MainWindow : public QMainWindow {
   /// Asks for a printer and prints with `print`.
   void askAndPrint(const std::function<void(QPrinter&)>& print);
   void showStep();
+  /// The one button to press next: that which runs the step, or Next where nothing is left to be done.
+  void offerNext();
+  void offerNextSoon();
+  /// Presses what is to be pressed next, until the report is written or a step needs its user.
+  void runAllSteps();
+  void goOnRunning();
   void arrive();
   void arriveSoon();
   void refreshTitle();
@@ -164,6 +173,9 @@ class MainWindow : public QMainWindow {
   /// none is long.
   enum class Arrival { Done, Place, Fill } arrival_ = Arrival::Done;
   bool refresh_queued_ = false;
+  bool offer_queued_ = false;
+  bool running_all_ = false;
+  std::optional<StepId> run_last_;  ///< of all steps that are run
 
   QStackedWidget* stack_;
   WelcomePage* welcome_;

@@ -131,17 +131,20 @@ void MainWindow::buildMenu() {
   go->addSeparator();
   add(go, tr("&Plant"), "machine", QKeySequence(tr("Ctrl+Shift+P")), [this] { openPlant(); });
   add(go, tr("&Compensate: live"), "compensate", QKeySequence(tr("Ctrl+Shift+L")), [this] { openLiveCompensation(); });
-  need(add(go, tr("&Run the step"), "play", QKeySequence(tr("Ctrl+Return")),
+  need(add(go, tr("&Run the step, or go on"), "play", QKeySequence(tr("Ctrl+Return")),
            [this] {
-             if (currentPage() != nullptr && page_->primaryButton() != nullptr) page_->primaryButton()->click();
+             if (QPushButton* button = dueButton()) button->click();
            }),
        [this, no_session] {
          if (page_ == nullptr) return no_session();
-         const QPushButton* button = page_->primaryButton();
+         const QPushButton* button = dueButton();
          if (button == nullptr) return tr("This page has nothing to run.");
          if (button->isEnabled()) return QString();
          return button->toolTip().isEmpty() ? tr("Something that it needs is missing on the page.") : button->toolTip();
        });
+
+  need(add(go, tr("Run &all steps"), "play", QKeySequence(tr("Ctrl+Shift+Return")), [this] { runAllSteps(); }),
+       no_session);
 
   QMenu* view = menuBar()->addMenu(tr("&View"));
   add(view, tr("&Light or dark"), "moon", QKeySequence(tr("Ctrl+D")),

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From nothing to a report to sign, as a new user does it on the window: what is to be pressed next is the one primary
+// button; actions and the program's own time are counted.
+#include <gtest/gtest.h>
+
+#include <QElapsedTimer>
+#include <QPushButton>
+#include <QTest>
+#include <cstdio>
+
+#include "core/base/atomic_file.h"
+#include "tests/widgets/pages/story_support.h"
+#include "widgets/jobs/job_bar.h"
+#include "widgets/pages/report/report_page.h"
+
+namespace spindrift::gui {
+namespace {
+
+/// Actions of the user, and how long the program took after them.
+class FirstReportTest : public StoryTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+  void click(QPushButton* button) {
+    ASSERT_TRUE(button != nullptr && button->isVisible() && button->isEnabled());
+    ++clicks_;
+    timer_.start();
+    QTest::mouseClick(button, Qt::LeftButton);
+    wait();
+    QCoreApplication::processEvents();
+    wait();
+    program_ms_ += timer_.elapsed();
+  }
+  void press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
+    ++keys_;
+    timer_.start();
+    QTest::keyClick(window_.get(), key, modifiers);
+    wait();
+    QCoreApplication::processEvents();
+    wait();
+    program_ms_ += timer_.elapsed();
+  }
+  void startDemo() {
+    window_->activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
+    // A click on its card makes the demo in full, which takes longer than a test may.
+    ++clicks_;
+    timer_.start();
+    window_->startDemo(QString::fromLatin1(GetParam()), true);
+    wait();
+    program_ms_ += timer_.elapsed();
+    ASSERT_NE(window_->session().campaign(), nullptr);
+  }
+  void expectReport() {
+    ASSERT_EQ(window_->workflow().current(), StepId::Report)
+        << stepTitle(window_->workflow().current()).toStdString() << ": "
+        << static_cast<int>(window_->workflow().status(window_->workflow().current()).state) << " "
+        << window_->workflow().status(window_->workflow().current()).sentence.toStdString() << " | "
+        << window_->jobBar()->message().toStdString();
+    EXPECT_EQ(window_->workflow().status(StepId::Report).state, StepState::Current);
+    const StoredResult* report = window_->session().latest("report");
+    ASSERT_NE(report, nullptr);
+    const auto file = window_->session().folder() / report->payload.value("pdf", std::string());
+    EXPECT_EQ(readFile(file).rfind("%PDF", 0), 0U) << file;
+    std::printf("%s: %d clicks, %d keys, %.1f s of the program\n", GetParam(), clicks_, keys_,
+                static_cast<double>(program_ms_) / 1000.0);
+  }
+
+  int clicks_ = 0;
+  int keys_ = 0;
+  qint64 program_ms_ = 0;
+  QElapsedTimer timer_;
+};
+
+TEST_P(FirstReportTest, OneButtonLeadsFromTheDemoToTheReport) {
+  startDemo();
+  constexpr int most_clicks = 20;
+  while (clicks_ < most_clicks && window_->workflow().status(StepId::Report).state != StepState::Current)
+    click(window_->dueButton());
+  expectReport();
+  // Each step once to run it and once to leave it, at most.
+  EXPECT_LE(clicks_, 2 * static_cast<int>(all_steps.size()) - 4);
+}
+
+TEST_P(FirstReportTest, OneCommandRunsAllSteps) {
+  startDemo();
+  press(Qt::Key_Return, Qt::ControlModifier | Qt::ShiftModifier);
+  for (int turn = 0; turn < 200 && window_->workflow().status(StepId::Report).state != StepState::Current; ++turn) {
+    QTest::qWait(20);
+    wait();
+  }
+  expectReport();
+  EXPECT_EQ(clicks_ + keys_, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Demos, FirstReportTest, ::testing::Values("holes"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace spindrift::gui
