@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <ctime>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -92,6 +93,17 @@ spindrift::ProgramReference referenceOf(const QList<QCommandLineOption>& options
   return reference;
 }
 
+constexpr QSize smallest_window(1024, 700);
+constexpr QSize largest_window(7680, 4320);
+
+/// "1280x800"; nothing if it is no size that a window may have.
+std::optional<QSize> sizeOf(const QString& text) {
+  const QStringList parts = text.split(QLatin1Char('x'));
+  const QSize size(parts.value(0).toInt(), parts.value(1).toInt());
+  const bool allowed = parts.size() == 2 && size == size.expandedTo(smallest_window).boundedTo(largest_window);
+  return allowed ? std::optional(size) : std::nullopt;
+}
+
 /// "en", "de": what --language may be.
 QStringList languageCodes() {
   QStringList codes;
@@ -116,6 +128,10 @@ std::string wrongUsage(const QCommandLineParser& parser) {
   }
   if (parser.isSet(QStringLiteral("json")) && !parser.isSet(QStringLiteral("self-test"))) {
     return "--json is allowed only together with --self-test.";
+  }
+  const QString size = parser.value(QStringLiteral("size"));
+  if (parser.isSet(QStringLiteral("size")) && (!parser.isSet(QStringLiteral("tour")) || !sizeOf(size))) {
+    return "--size " + size.toStdString() + " is not allowed; allowed: 1024x700 to 7680x4320, together with --tour.";
   }
   if (!parser.isSet(QStringLiteral("demo")) || words.isEmpty()) return {};
   std::vector<std::string> known;
@@ -230,6 +246,11 @@ int run(int argc, char** argv) {
       QStringLiteral("tour"),
       QCoreApplication::translate("main", "Walk through every step on demo data and save pictures in DIR."),
       QStringLiteral("DIR"));
+  const QCommandLineOption size(
+      QStringLiteral("size"),
+      QCoreApplication::translate("main",
+                                  "With --tour: size of the window; every page with each of its tabs is shown."),
+      QStringLiteral("WIDTHxHEIGHT"));
   const QCommandLineOption theme_option(QStringLiteral("theme"), QCoreApplication::translate("main", "light or dark."),
                                         QStringLiteral("light|dark"));
   const QCommandLineOption language(
@@ -241,7 +262,8 @@ int run(int argc, char** argv) {
                                  QStringLiteral("N"));
   const QCommandLineOption self_test(
       QStringLiteral("self-test"),
-      QCoreApplication::translate("main", "Run all demos and hold them against the truth: pass or fail for each."));
+      QCoreApplication::translate(
+          "main", "Run all demos and compare their results with the known truth: pass or fail for each."));
   const QCommandLineOption json(
       QStringLiteral("json"),
       QCoreApplication::translate("main", "With --self-test: write the result to FILE, or to standard output with -."),
@@ -254,8 +276,8 @@ int run(int argc, char** argv) {
       QCoreApplication::translate(
           "main", "Print the reference of the options: a man page, the completion of bash, or Markdown."),
       QStringLiteral("man|bash|markdown"));
-  const QList<QCommandLineOption> options = {demo,      tour, theme_option, language, scale,
-                                             self_test, json, start_time,   reference};
+  const QList<QCommandLineOption> options = {demo,  tour,      size, theme_option, language,
+                                             scale, self_test, json, start_time,   reference};
   parser.addOptions(options);
   if (!parser.parse(application.arguments())) {
     return refused(parser.errorText().toStdString());
@@ -303,7 +325,9 @@ int run(int argc, char** argv) {
   if (parser.isSet(tour)) {
     QElapsedTimer timer;
     timer.start();
-    const TourResult result = runTour(window, parser.value(tour));
+    TourOptions asked;
+    if (parser.isSet(size)) asked = {*sizeOf(parser.value(size)), true};
+    const TourResult result = runTour(window, parser.value(tour), asked);
     std::printf("%d pictures in %s, %.1f s\n", static_cast<int>(result.pictures.size()), qPrintable(parser.value(tour)),
                 static_cast<double>(timer.elapsed()) / 1000.0);
     if (!result.failure.isEmpty()) {

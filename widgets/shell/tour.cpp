@@ -5,6 +5,7 @@
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QEventLoop>
+#include <QTabWidget>
 #include <QTemporaryDir>
 #include <QTimer>
 #include <algorithm>
@@ -106,7 +107,7 @@ bool waitForJobs(MainWindow& window, int seconds) {
   return true;
 }
 
-TourResult runTour(MainWindow& window, const QString& folder) {
+TourResult runTour(MainWindow& window, const QString& folder, const TourOptions& options) {
   TourResult result;
   QDir().mkpath(folder);
   const QTemporaryDir scratch;
@@ -121,7 +122,7 @@ TourResult runTour(MainWindow& window, const QString& folder) {
       result.failure = QStringLiteral("%1 could not be written").arg(file);
     result.pictures << file;
   };
-  window.resize(1440, 900);
+  window.resize(options.size);
   window.show();
   for (const ThemeKind kind : {ThemeKind::Dark, ThemeKind::Light}) {
     window.setTheme(kind);
@@ -130,6 +131,15 @@ TourResult runTour(MainWindow& window, const QString& folder) {
         QDir(folder).filePath(QStringLiteral("00-artefact-designer-%1.png")
                                   .arg(kind == ThemeKind::Light ? QStringLiteral("light") : QStringLiteral("dark"))),
         result);
+  }
+  for (const ThemeKind kind : {ThemeKind::Dark, ThemeKind::Light}) {
+    if (!options.every_page) break;
+    window.setTheme(kind);
+    for (const auto& [name, open] : tourWindows()) {
+      QWidget* shown = open(window);
+      shoot(0, QLatin1String(name), kind, shown);
+      if (shown != nullptr) shown->close();
+    }
   }
   int number = 1;
   for (const TourStop& stop : tourStops()) {
@@ -151,22 +161,37 @@ TourResult runTour(MainWindow& window, const QString& folder) {
       }
       return at;
     };
+    const auto shootTabs = [&](StepId step, int first, ThemeKind kind) {
+      int at = first;
+      auto* tabs = options.every_page && window.currentPage() != nullptr
+                       ? window.currentPage()->findChild<QTabWidget*>()
+                       : nullptr;
+      for (int i = 1; tabs != nullptr && tabs->isVisible() && i < tabs->count(); ++i) {
+        if (!tabs->isTabVisible(i) || !tabs->isTabEnabled(i)) continue;
+        tabs->setCurrentIndex(i);
+        shoot(at++, name(step) + QStringLiteral("-tab%1").arg(i + 1), kind);
+      }
+      if (tabs != nullptr) tabs->setCurrentIndex(0);
+      return at;
+    };
     int light = number;
     for (const StepId step : all_steps) {
       window.workflow().goTo(step);
       if (window.currentPage() != nullptr) window.currentPage()->runAll();
       if (!waitForJobs(window, 120)) result.failure = QStringLiteral("%1 did not finish").arg(stepTitle(step));
-      if (shows(stop, step)) {
+      if (options.every_page || shows(stop, step)) {
         shoot(light++, name(step), ThemeKind::Light);
         if (step == StepId::Report) writeReports(window, QDir(folder).filePath(name(step)), result);
       }
+      light = shootTabs(step, light, ThemeKind::Light);
       light = shootDetails(step, light, ThemeKind::Light);
     }
     // All dark ones at once: a change of theme styles the whole window anew.
     window.setTheme(ThemeKind::Dark);
     for (const StepId step : all_steps) {
       window.workflow().goTo(step);
-      if (shows(stop, step)) shoot(number++, name(step), ThemeKind::Dark);
+      if (options.every_page || shows(stop, step)) shoot(number++, name(step), ThemeKind::Dark);
+      number = shootTabs(step, number, ThemeKind::Dark);
       number = shootDetails(step, number, ThemeKind::Dark);
     }
     window.setTheme(ThemeKind::Light);

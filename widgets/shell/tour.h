@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Walks through every step on demo data and saves a picture of each page, light and dark.
+// Walks through the steps on demo data and saves pictures of pages, light and dark.
 #pragma once
 
+#include <QSize>
 #include <QString>
 #include <QStringList>
 
@@ -15,7 +16,13 @@ struct TourResult {
   QString failure;      ///< empty: everything went well
 };
 
-[[nodiscard]] TourResult runTour(MainWindow& window, const QString& folder);
+struct TourOptions {
+  QSize size{1440, 900};  ///< of the window
+  /// Every step of every demo with each of its tabs, and the windows beside; else what shows the program best.
+  bool every_page = false;
+};
+
+[[nodiscard]] TourResult runTour(MainWindow& window, const QString& folder, const TourOptions& options = {});
 /// Runs the event loop until no job is left (and 3D views are finished), at most `seconds`. False: time is over.
 bool waitForJobs(MainWindow& window, int seconds);
 

@@ -15,6 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "widgets/common/parts.h"
+#include "widgets/jobs/activity_dialog.h"
 #include "widgets/pages/capture/arriving_panel.h"
 #include "widgets/pages/capture/incoming_service.h"
 #include "widgets/pages/capture/new_capture_page.h"
@@ -29,9 +30,14 @@
 #include "widgets/pages/discrepancy/simulation_panel.h"
 #include "widgets/pages/discrepancy/what_panel.h"
 #include "widgets/pages/probing/reference_panel.h"
+#include "widgets/pages/teaching/exercise_dialog.h"
+#include "widgets/pages/teaching/what_if_window.h"
 #include "widgets/pages/verify/verify_page.h"
+#include "widgets/shell/command_palette.h"
 #include "widgets/shell/main_window.h"
+#include "widgets/shell/new_measurement_dialog.h"
 #include "widgets/shell/notes_dialog.h"
+#include "widgets/shell/preferences_dialog.h"
 #include "widgets/shell/tour.h"
 
 namespace spindrift::gui {
@@ -281,6 +287,43 @@ void blur(const QString& from, const QString& to) {
 }
 
 }  // namespace
+
+std::vector<std::pair<const char*, std::function<QWidget*(MainWindow&)>>> tourWindows() {
+  return {{"what-if",
+           [](MainWindow& window) -> QWidget* {
+             WhatIfWindow* shown = window.openWhatIf();
+             shown->set("EC0Y_urad", 20.0);
+             return shown;
+           }},
+          {"exercise", [](MainWindow& window) -> QWidget* { return window.openExercise(); }},
+          {"jobs", [](MainWindow& window) -> QWidget* { return window.openActivity(); }},
+          {"preferences",
+           [](MainWindow& window) -> QWidget* {
+             window.openPreferences();
+             return window.findChild<PreferencesDialog*>();
+           }},
+          {"find-a-command",
+           [](MainWindow& window) -> QWidget* {
+             window.findCommand();
+             return window.findChild<CommandPalette*>();
+           }},
+          {"new-measurement",
+           [](MainWindow& window) -> QWidget* {
+             auto* dialog = new NewMeasurementDialog(std::nullopt, &window);
+             dialog->setAttribute(Qt::WA_DeleteOnClose);
+             dialog->show();
+             return dialog;
+           }},
+          {"plant",
+           [](MainWindow& window) -> QWidget* {
+             window.openPlant();
+             return nullptr;
+           }},
+          {"compensate-live", [](MainWindow& window) -> QWidget* {
+             window.openLiveCompensation();
+             return nullptr;
+           }}};
+}
 
 std::vector<TourDetail> tourDetails(const QString& demo, const QString& scratch) {
   const auto close_help = [](MainWindow& window) { window.helpAction()->trigger(); };

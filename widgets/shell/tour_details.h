@@ -4,6 +4,7 @@
 
 #include <QString>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "widgets/workflow/workflow.h"
@@ -22,6 +23,8 @@ struct TourDetail {
   std::function<void(MainWindow&)> leave;  ///< may be empty
 };
 
+/// Windows and pages that need no session, each with its name; null: the window itself is to be photographed.
+[[nodiscard]] std::vector<std::pair<const char*, std::function<QWidget*(MainWindow&)>>> tourWindows();
 /// Of a demo; files are made in `scratch`.
 [[nodiscard]] std::vector<TourDetail> tourDetails(const QString& demo, const QString& scratch);
 /// Begins a new measurement on the machine at hand, for which a few of its images arrive in a watched folder: three
