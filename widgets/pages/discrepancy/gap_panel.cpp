@@ -43,7 +43,7 @@ class SideCard : public Card {
 GapPanel::GapPanel(QWidget* parent) : QWidget(parent) {
   auto* line = new QHBoxLayout(this);
   line->setContentsMargins(0, 8, 0, 0);
-  line->setSpacing(12);
+  line->setSpacing(4);
   auto* left = new SideCard(tr("How large the gap is"));
   // In a low window the bars scroll rather than being squeezed.
   auto* inside = new QWidget;
