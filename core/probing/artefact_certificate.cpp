@@ -56,15 +56,14 @@ ArtefactGrowth artefactGrowth(const ArtefactCertificate& certificate, const Arte
   const auto cycles = static_cast<Eigen::Index>(cycle_time_s.size());
   const double alpha = *certificate.expansion_per_K;
   // A temperature that the machine file states once is the same error in all cycles, and no growth.
-  const bool measured = artefactTemperature(artefact, log, cycle_time_s.front()) &&
-                        (log != nullptr && !log->empty() &&
-                         (log->has(fmt::format("T_{}_degC", artefact.id)) || log->has("T_artefact_degC")));
+  growth.measured = log != nullptr && !log->empty() &&
+                    (log->has(fmt::format("T_{}_degC", artefact.id)) || log->has("T_artefact_degC"));
   growth.factors = Eigen::MatrixXd::Zero(cycles, cycles + 1);
   for (Eigen::Index k = 0; k < cycles; ++k) {
     const double warmer = growth.temperature_degC[static_cast<std::size_t>(k)] - growth.temperature_degC.front();
     growth.strain.push_back(alpha * warmer);
     growth.factors(k, 0) = warmer * certificate.expansion_sigma_per_K;
-    if (k == 0 || !measured) continue;
+    if (k == 0 || !growth.measured) continue;
     growth.factors(k, 1) = -alpha * certificate.temperature_sigma_K;
     growth.factors(k, 1 + k) = alpha * certificate.temperature_sigma_K;
   }

@@ -43,6 +43,7 @@ struct ArtefactGrowth {
   /// cycles x causes, strain: one standard uncertainty of each cause (coefficient, first temperature, the temperature
   /// of every later cycle); the covariance of the strains is factors factors^T.
   Eigen::MatrixXd factors;
+  bool measured = false;  ///< by a column of the log; else the machine file states one temperature for all cycles
 };
 [[nodiscard]] ArtefactGrowth artefactGrowth(const ArtefactCertificate& certificate, const Artefact& artefact,
                                             const OperatingLog* log, const std::vector<double>& cycle_time_s);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -39,12 +40,14 @@ Eigen::MatrixXd CycleFitResult::covarianceBetween(int cycle_a, int cycle_b) cons
   const auto b = static_cast<std::size_t>(cycle_b);
   Eigen::MatrixXd common = from_constant[a] * constant_covariance * from_constant[b].transpose();
   if (!causes.empty()) common += causes[a] * causes[b].transpose();
+  if (!known.empty()) common -= known[a] * known[b].transpose();
   return common;
 }
 
 void addCauses(const CycleProblem& problem, const Eigen::MatrixXd& shift_mm, CycleFitResult& fit) {
   SPINDRIFT_ASSERT(shift_mm.rows() == static_cast<Eigen::Index>(problem.rows.size()), "causes and rows do not match");
   const auto n = static_cast<Eigen::Index>(problem.parameters.size());
+  SPINDRIFT_ASSERT(fit.causes.empty() && fit.known.empty(), "causes come first, and once");
   fit.causes.assign(fit.cycles.size(), Eigen::MatrixXd::Zero(n, shift_mm.cols()));
   for (std::size_t r = 0; r < problem.rows.size(); ++r) {
     const CycleRow& row = problem.rows[r];
@@ -63,6 +66,75 @@ void addCauses(const CycleProblem& problem, const Eigen::MatrixXd& shift_mm, Cyc
         if (determined) solution.covariance(i, j) += more(i, j);
       }
     }
+  }
+}
+
+void combineWith(const CycleProblem& problem, const KnownCombination& known, CycleFitResult& fit) {
+  std::vector<Eigen::Index> entries;
+  for (std::size_t i = 0; i < known.cycles.size(); ++i) {
+    SPINDRIFT_ASSERT(known.cycles[i] != problem.reference_cycle, "the reference cycle is zero by definition");
+    const CycleSolution& solution = fit.cycles[static_cast<std::size_t>(known.cycles[i])];
+    bool open = false;
+    for (Eigen::Index p = 0; p < known.row.size(); ++p)
+      open = open || (known.row(p) != 0.0 && !solution.determined[static_cast<std::size_t>(p)]);
+    if (!open) entries.push_back(static_cast<Eigen::Index>(i));
+  }
+  const auto count = static_cast<Eigen::Index>(entries.size());
+  if (count == 0) return;
+  const auto n = static_cast<Eigen::Index>(problem.parameters.size());
+  const auto cycleOf = [&](Eigen::Index e) {
+    return known.cycles[static_cast<std::size_t>(entries[static_cast<std::size_t>(e)])];
+  };
+  // cov(theta_k, combination in every cycle); parameters that a cycle leaves open are told nothing.
+  std::vector<Eigen::MatrixXd> cross(fit.cycles.size(), Eigen::MatrixXd::Zero(n, count));
+  Eigen::MatrixXd of_constant(fit.constant_mm.size(), count);
+  for (Eigen::Index e = 0; e < count; ++e) {
+    const int there = cycleOf(e);
+    of_constant.col(e) = fit.constant_covariance *
+                         (fit.from_constant[static_cast<std::size_t>(there)].transpose() * known.row.transpose());
+    for (std::size_t k = 0; k < fit.cycles.size(); ++k) {
+      if (static_cast<int>(k) == problem.reference_cycle) continue;
+      const CycleSolution& solution = fit.cycles[k];
+      Eigen::MatrixXd covariance =
+          static_cast<int>(k) == there ? solution.covariance : fit.covarianceBetween(static_cast<int>(k), there);
+      for (Eigen::Index p = 0; p < n; ++p)
+        if (!solution.determined[static_cast<std::size_t>(p)]) covariance.row(p).setZero();
+      for (Eigen::Index p = 0; p < n; ++p)
+        if (known.row(p) != 0.0) cross[k].col(e) += covariance.col(p) * known.row(p);
+    }
+  }
+  Eigen::MatrixXd S(count, count);
+  Eigen::VectorXd innovation(count);
+  for (Eigen::Index e = 0; e < count; ++e) {
+    const auto there = static_cast<std::size_t>(cycleOf(e));
+    innovation(e) = known.value(entries[static_cast<std::size_t>(e)]) - known.row.dot(fit.cycles[there].theta);
+    S.row(e) = known.row * cross[there];
+    for (Eigen::Index f = 0; f < count; ++f)
+      S(e, f) += known.covariance(entries[static_cast<std::size_t>(e)], entries[static_cast<std::size_t>(f)]);
+  }
+  const Eigen::LLT<Eigen::MatrixXd> root(0.5 * (S + S.transpose()));
+  SPINDRIFT_ASSERT(root.info() == Eigen::Success, "touches have noise, so the sum of both covariances is definite");
+  const Eigen::VectorXd weighed = root.solve(innovation);
+
+  std::vector<Eigen::VectorXd> change(fit.cycles.size(), Eigen::VectorXd::Zero(n));
+  const bool first = fit.known.empty();
+  if (first) fit.known.assign(fit.cycles.size(), Eigen::MatrixXd::Zero(n, 0));
+  for (std::size_t k = 0; k < fit.cycles.size(); ++k) {
+    change[k] = cross[k] * weighed;
+    fit.cycles[k].theta += change[k];
+    const Eigen::MatrixXd less = root.matrixL().solve(cross[k].transpose()).transpose();
+    fit.cycles[k].covariance -= less * less.transpose();
+    Eigen::MatrixXd both(n, fit.known[k].cols() + count);
+    both << fit.known[k], less;
+    fit.known[k] = std::move(both);
+  }
+  const Eigen::VectorXd of_b = of_constant * weighed;
+  fit.constant_mm += of_b;
+  for (std::size_t r = 0; r < problem.rows.size(); ++r) {
+    const CycleRow& row = problem.rows[r];
+    fit.residual_mm[r] -=
+        of_b(row.key) +
+        problem.jacobian.row(static_cast<Eigen::Index>(r)).dot(change[static_cast<std::size_t>(row.cycle)].transpose());
   }
 }
 

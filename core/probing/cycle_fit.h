@@ -65,7 +65,7 @@ struct CycleSolution {
   std::string message;
   Eigen::VectorXd theta;           ///< mm, rad, strain
   Eigen::MatrixXd covariance;      ///< of the difference to the reference cycle, with its noise
-  Eigen::MatrixXd own_covariance;  ///< the part that is not common with other cycles
+  Eigen::MatrixXd own_covariance;  ///< of the touches alone: the part that is not common with other cycles
   std::vector<bool> determined;    ///< per parameter
   double condition_number = 0.0;   ///< of the whitened, column-scaled matrix
   Eigen::VectorXd weakest;         ///< unit combination of the scaled parameters that is determined worst
@@ -87,16 +87,34 @@ struct CycleFitResult {
   Eigen::MatrixXd constant_covariance;         ///< cov(b)
   std::vector<Eigen::MatrixXd> from_constant;  ///< per cycle: d theta / d b, for covariances between cycles
   /// Per cycle, parameters x causes: what one standard uncertainty of a cause that the touches do not show (growth of
-  /// the artefact) does to theta; empty: none. Part of `covariance` of the cycle.
+  /// the artefact, its certificate) does to theta; empty: none. Part of `covariance` of the cycle.
   std::vector<Eigen::MatrixXd> causes;
+  /// Per cycle, parameters x values: what values known from elsewhere take off, cov(theta_k, theta_l) falls by known_k
+  /// known_l^T; empty: none. Part of `covariance` of the cycle.
+  std::vector<Eigen::MatrixXd> known;
 
-  /// Covariance between the parameters of two different cycles: the common first cycle, and common causes.
+  /// Covariance between the parameters of two different cycles: the common first cycle, common causes, and what is
+  /// known from elsewhere.
   [[nodiscard]] Eigen::MatrixXd covarianceBetween(int cycle_a, int cycle_b) const;
 };
 
 /// Adds causes that move rows of all cycles: `shift_mm(row, cause)` is what one standard uncertainty of a cause does to
 /// the value of a row. Covariances of the cycles grow by them.
 void addCauses(const CycleProblem& problem, const Eigen::MatrixXd& shift_mm, CycleFitResult& fit);
+
+/// A combination of parameters that is known from elsewhere too: row . theta_k = value_k with errors that the cycles
+/// have in common (an expansion coefficient, the temperature of the first cycle).
+struct KnownCombination {
+  Eigen::RowVectorXd row;      ///< parameters
+  std::vector<int> cycles;     ///< where it is known; not the reference cycle
+  Eigen::VectorXd value;       ///< per entry of `cycles`, internal units
+  Eigen::MatrixXd covariance;  ///< of the values
+};
+
+/// Best linear unbiased combination of the fit with it: theta of all cycles, constants, residuals and covariances are
+/// those of one least squares over touches and known values together. Cycles that leave a parameter of the combination
+/// open are passed by. The noise of the touches stays as it was estimated.
+void combineWith(const CycleProblem& problem, const KnownCombination& known, CycleFitResult& fit);
 
 [[nodiscard]] CycleFitResult fitCycles(const CycleProblem& problem, const CycleFitOptions& options = {});
 

@@ -10,7 +10,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/math/statistics.h"
-#include "core/probing/star_stylus.h"
+#include "core/probing/closed_forms.h"
 
 namespace spindrift {
 namespace {
@@ -97,51 +97,20 @@ nlohmann::json certificateJson(const HoleCycleResult& holes) {
   return list;
 }
 
-/// P4 (7)-(10) as printed, through the centres that each stylus measured, beside the joint evaluation: they take every
-/// translation for a rotation.
-nlohmann::json closedFormsJson(const BallCycleResult& balls, const MachineDescription& machine) {
+nlohmann::json closedFormsJson(const std::vector<HeadComparison>& comparisons) {
   nlohmann::json list = nlohmann::json::array();
-  if (machine.styli.size() < 3 || balls.cycles.empty()) return list;
-  const auto centreOf = [&](const std::string& cycle, const std::string& ball,
-                            const std::string& stylus) -> const Eigen::Vector3d* {
-    for (const ProbedFeature& f : balls.features) {
-      if (f.cycle == cycle && f.feature == ball && f.stylus == stylus && f.status == FitStatus::Converged) {
-        return &f.centre_mm;
-      }
-    }
-    return nullptr;
+  const auto vector = [](const Eigen::Vector3d& v) -> nlohmann::json {
+    return {jsonNumber(v.x()), jsonNumber(v.y()), jsonNumber(v.z())};
   };
-  StylusCentres before;
-  for (std::size_t i = 0; i < 3; ++i) before[i] = machine.styli[i].offset_mm;
-  const auto reference = static_cast<std::size_t>(balls.problem.reference_cycle);
-  for (std::size_t k = 0; k < balls.cycles.size(); ++k) {
-    if (k == reference) continue;
-    for (const ArtefactBall& ball : machine.findArtefact(balls.artefact)->balls) {
-      StylusCentres after = before;
-      bool all = true;
-      for (std::size_t i = 0; i < 3 && all; ++i) {
-        const Eigen::Vector3d* cold = centreOf(balls.cycles[reference], ball.id, machine.styli[i].id);
-        const Eigen::Vector3d* warm = centreOf(balls.cycles[k], ball.id, machine.styli[i].id);
-        all = cold != nullptr && warm != nullptr;
-        // The tip has moved by minus what the machine reads of the ball.
-        if (all) after[i] -= *warm - *cold;
-      }
-      if (!all) continue;
-      const HeadRotation head = closedFormRotation(before, after);
-      nlohmann::json joint = nlohmann::json::array();
-      for (std::size_t p = 0; p < 3; ++p) joint.push_back(jsonNumber(balls.parameters[k][p].value));
-      nlohmann::json entry{{"cycle", balls.cycles[k]},
-                           {"ball", ball.id},
-                           {"head_rotation_urad", nullptr},
-                           {"joint_head_rotation_urad", joint},
-                           {"spindle_drift_um", spindleDrift(before[0], after[0]) * um_per_mm},
-                           {"message", head.message}};
-      if (head.status == FitStatus::Converged) {
-        const Eigen::Vector3d r = head.rotation_rad * urad_per_rad;
-        entry["head_rotation_urad"] = {jsonNumber(r.x()), jsonNumber(r.y()), jsonNumber(r.z())};
-      }
-      list.push_back(std::move(entry));
-    }
+  for (const HeadComparison& c : comparisons) {
+    list.push_back({{"cycle", c.cycle},
+                    {"ball", c.ball},
+                    {"head_rotation_urad", c.closed_form_urad ? vector(*c.closed_form_urad) : nlohmann::json()},
+                    {"joint_head_rotation_urad", vector(c.joint_urad)},
+                    {"joint_standard_uncertainty_urad", vector(c.joint_sigma_urad)},
+                    {"spindle_drift_um", c.spindle_drift_um},
+                    {"joint_spindle_drift_um", jsonNumber(c.joint_drift_um)},
+                    {"message", c.message}});
   }
   return list;
 }
@@ -283,6 +252,9 @@ InstrumentEvaluation describeTouches(const TouchEvaluation& evaluation, const Ma
     details["deviation_from_line"] = linearity;
     details["against_certificate"] = certificateJson(holes);
     details["growth_expected"] = growthJson(holes);
+    details["growth_combined"] = holes.growth_combined;
+    if (holes.growth_combined)
+      out.summary += "  EME: touches, and expansion coefficient with temperature, by their uncertainties\n";
     if (!holes.against_certificate.empty()) {
       const CertifiedLengths& last = holes.against_certificate.back();
       out.summary += fmt::format(
@@ -310,7 +282,7 @@ InstrumentEvaluation describeTouches(const TouchEvaluation& evaluation, const Ma
                            {"standard_uncertainty_um", jsonNumber(d.standard_uncertainty_um)}});
     }
     details["ball_distances"] = distances;
-    details["closed_forms"] = closedFormsJson(balls, machine);
+    details["closed_forms"] = closedFormsJson(closedFormsBeside(balls, machine));
   }
   return out;
 }

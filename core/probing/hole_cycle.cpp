@@ -239,12 +239,11 @@ std::vector<CertifiedLengths> compareWithCertificate(const HoleCycleResult& resu
   return out;
 }
 
-/// The growth that coefficient and temperature expect; a warning where the measured one is another.
-void compareGrowth(const Artefact& artefact, const ArtefactCertificate& certificate, const OperatingLog* log,
-                   HoleCycleResult& result) {
-  const ArtefactGrowth growth = artefactGrowth(certificate, artefact, log, result.cycle_time_s);
-  if (growth.strain.empty()) return;
-  constexpr Eigen::Index eme = 8;
+constexpr Eigen::Index eme = 8;  ///< growth of the bar among the parameters
+
+/// The growth that coefficient and temperature expect, beside that of the touches; a warning where they contradict.
+[[nodiscard]] bool compareGrowth(const Artefact& artefact, const ArtefactGrowth& growth, HoleCycleResult& result) {
+  if (growth.strain.empty()) return false;
   double worst = 0.0;
   const ExpectedGrowth* worst_cycle = nullptr;
   result.growth.reserve(result.cycles.size());
@@ -266,7 +265,7 @@ void compareGrowth(const Artefact& artefact, const ArtefactCertificate& certific
     worst_cycle = &result.growth.back();
   }
   constexpr double many_sigma = 4.0;
-  if (worst <= many_sigma) return;
+  if (worst <= many_sigma) return true;
   result.warnings.push_back(fmt::format(
       "{} seems to have grown by {} in {}, but its expansion coefficient and temperature say {}: the axis that "
       "measures "
@@ -274,6 +273,62 @@ void compareGrowth(const Artefact& artefact, const ArtefactCertificate& certific
       artefact.id, withUncertainty(worst_cycle->measured_um_per_m, worst_cycle->measured_sigma_um_per_m, "um/m"),
       worst_cycle->cycle,
       withUncertainty(worst_cycle->expected_um_per_m, worst_cycle->expected_sigma_um_per_m, "um/m")));
+  return false;
+}
+
+void takeParameters(HoleCycleResult& result) {
+  for (std::size_t k = 0; k < result.parameters.size(); ++k) {
+    for (std::size_t p = 0; p < result.names.size(); ++p) {
+      const auto e = static_cast<Eigen::Index>(p);
+      CycleParameter& parameter = result.parameters[k][p];
+      parameter.value = result.fit.cycles[k].theta(e) * result.unit[p];
+      parameter.standard_uncertainty = std::sqrt(std::max(0.0, result.fit.cycles[k].covariance(e, e))) * result.unit[p];
+    }
+  }
+}
+
+/// Growth counts per metre of the certified distances: a hole that lies elsewhere by one standard uncertainty shifts
+/// its touches by EME times that, which the fit shares out between the growth of the bar and the slope of the axis.
+void addCertificate(const TouchList& list, const Artefact& artefact, const ArtefactCertificate& certificate,
+                    HoleCycleResult& result) {
+  if (!(certificate.place_sigma_mm > 0.0)) return;
+  const HoleBarSetup& setup = result.setup;
+  const auto reference = static_cast<Eigen::Index>(HoleBarSetup::holeIndex(artefact.reference_hole));
+  Eigen::MatrixXd shift = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(result.problem.rows.size()),
+                                                static_cast<Eigen::Index>(setup.along_mm.size()));
+  for (std::size_t r = 0; r < result.problem.rows.size(); ++r) {
+    const Touch& t = list.touches[result.row_touch[r]];
+    const auto hole = static_cast<Eigen::Index>(HoleBarSetup::holeIndex(t.feature));
+    if (hole == reference) continue;
+    const double growth = result.fit.cycles[static_cast<std::size_t>(result.problem.rows[r].cycle)].theta(eme);
+    const double along = result.row_normal[r].dot(setup.tableRotation(t.c_deg) * setup.direction_at_c0);
+    const double moved_mm = along * growth * certificate.place_sigma_mm;
+    shift(static_cast<Eigen::Index>(r), hole) += moved_mm;
+    shift(static_cast<Eigen::Index>(r), reference) -= moved_mm;
+  }
+  addCauses(result.problem, shift, result.fit);
+  takeParameters(result);
+}
+
+/// EME from the touches and from coefficient and temperature, each with its uncertainty, as one value; what EXX and the
+/// others have in common with EME follows.
+void combineGrowth(const ArtefactGrowth& growth, HoleCycleResult& result) {
+  KnownCombination known;
+  known.row = Eigen::RowVectorXd::Unit(static_cast<Eigen::Index>(result.names.size()), eme);
+  for (std::size_t k = 0; k < result.cycles.size(); ++k)
+    if (static_cast<int>(k) != result.problem.reference_cycle) known.cycles.push_back(static_cast<int>(k));
+  if (known.cycles.empty()) return;
+  known.value.resize(std::ssize(known.cycles));
+  Eigen::MatrixXd factors(std::ssize(known.cycles), growth.factors.cols());
+  for (Eigen::Index i = 0; i < factors.rows(); ++i) {
+    const int k = known.cycles[static_cast<std::size_t>(i)];
+    known.value(i) = growth.strain[static_cast<std::size_t>(k)];
+    factors.row(i) = growth.factors.row(k);
+  }
+  known.covariance = factors * factors.transpose();
+  combineWith(result.problem, known, result.fit);
+  takeParameters(result);
+  result.growth_combined = true;
 }
 
 }  // namespace
@@ -332,7 +387,14 @@ HoleCycleResult evaluateHoleCycles(const TouchList& list, const MachineDescripti
   evaluateCycles(list, machine, artefact, assembly, result);
   const ArtefactCertificate certificate = ArtefactCertificate::of(machine, artefact);
   result.against_certificate = compareWithCertificate(result, artefact, certificate, log);
-  compareGrowth(artefact, certificate, log, result);
+  addCertificate(list, artefact, certificate, result);
+  const ArtefactGrowth growth = artefactGrowth(certificate, artefact, log, result.cycle_time_s);
+  // A growth whose uncertainty nobody states is no measurement; one that contradicts the touches is told, not mixed in;
+  // one that is given beforehand has been used.
+  if (compareGrowth(artefact, growth, result) && !options.stable_length && growth.measured &&
+      certificate.expansion_sigma_per_K > 0.0 && certificate.temperature_sigma_K > 0.0) {
+    combineGrowth(growth, result);
+  }
 
   // What a straight line leaves over along the bar at c = 0.
   for (const std::string& feature : assembly.features) {

@@ -13,6 +13,11 @@
 // It rests on: no thermal slope of the other axes. A second axis that expands puts the blame on EXX, ER0T and EME; with
 // a bar of known growth (`stable_length`) a tenth parameter takes it (the paper's future work). `secondAxisBias` shows
 // the bias.
+// What the certificate says enters: its distances are what EME counts per metre of (their uncertainty times the growth
+// is a cause common to all cycles); coefficient and measured temperature say EME a second time, with errors common to
+// the cycles (coefficient, first temperature), and both are combined by their covariances, which tightens EXX too;
+// against the certificate at 20 degC the linear axis has an absolute slope beside EXX, which counts from the first
+// cycle (`CertifiedLengths`).
 // Source: P1 (1)-(5) as PAPERS.md corrects them.
 #pragma once
 
@@ -106,7 +111,7 @@ struct CertifiedLengths {
   std::optional<double> temperature_degC;  ///< of the bar; nothing: taken as that of the certificate
 };
 
-/// Growth of the bar since the first cycle as its coefficient and temperature say, beside the EME that was measured.
+/// Growth of the bar since the first cycle as its coefficient and temperature say, beside the EME of the touches alone.
 struct ExpectedGrowth {
   std::string cycle;
   double expected_um_per_m = 0.0;
@@ -119,6 +124,9 @@ struct HoleCycleResult : CycleEvaluation {
   HoleBarSetup setup;
   std::vector<CertifiedLengths> against_certificate;  ///< empty without "certificate_uncertainty_um"
   std::vector<ExpectedGrowth> growth;                 ///< empty without coefficient or temperature
+  /// Both of them state EME: `parameters` are the best combination. Only where coefficient and temperature come with
+  /// their uncertainties and do not contradict the touches.
+  bool growth_combined = false;
   std::vector<LinearityDeviation> linearity;
   double largest_nonlinearity_um = 0.0;
 };

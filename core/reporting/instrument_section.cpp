@@ -175,6 +175,103 @@ void addMicroscope(Report& document, const nlohmann::json& details) {
   if (!facts.empty()) document.facts(facts);
 }
 
+/// The circles of P0 (6)-(9) through the measured tracks beside the joint evaluation of all marks and images.
+void addAlgebraicCircles(Report& document, const nlohmann::json& details) {
+  std::vector<ReportRow> rows;
+  const double pixel_um = details.value("camera", nlohmann::json::object()).value("pixel_length_um", std::nan(""));
+  for (const nlohmann::json& fiducial : details.value("fiducials", nlohmann::json::array())) {
+    for (const nlohmann::json& state : fiducial.value("states", nlohmann::json::array())) {
+      const nlohmann::json centre = state.value("centre_of_rotation", nlohmann::json());
+      if (!centre.is_object() || !centre.value("algebraic_px", nlohmann::json()).is_array()) continue;
+      ReportRow row{fiducial.value("fiducial", ""), state.value("state", "")};
+      for (const auto& [key, place] : {std::pair{"x_px", 0U}, std::pair{"y_px", 1U}}) {
+        const double joint = figureOf(centre, key, "value");
+        row.push_back(fmt::format("{:.2f} ± {:.2f}", joint, figureOf(centre, key, "standard_uncertainty")));
+        row.push_back(fmt::format("{:+.1f}", (centre["algebraic_px"][place].get<double>() - joint) * pixel_um));
+      }
+      row.push_back(fmt::format("{}", centre.value("algebraic_tracks", 0)));
+      rows.push_back(std::move(row));
+    }
+  }
+  if (rows.empty() || !std::isfinite(pixel_um)) return;
+  document.table({"Fiducial", "State", "Joint x / px", "Circles − joint x / µm", "Joint y / px",
+                  "Circles − joint y / µm", "Tracks"},
+                 rows,
+                 "Centre of rotation: algebraic circles through the track of each mark (P0 (6)-(9)) against the joint "
+                 "evaluation; short arcs pull the circles, they are shown for comparison and not used");
+}
+
+std::string three(const nlohmann::json& values, const nlohmann::json& sigmas) {
+  std::string text;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i > 0) text += ", ";
+    if (!values.is_array() || values.size() != 3 || !values[i].is_number()) {
+      text += "–";
+    } else if (sigmas.is_array() && sigmas.size() == 3 && sigmas[i].is_number()) {
+      text += withUncertainty(values[i].get<double>(), sigmas[i].get<double>(), "");
+    } else {
+      std::string number = fmt::format("{:.1f}", values[i].get<double>());
+      if (number.front() == '-') number.replace(0, 1, "−");
+      text += number;
+    }
+  }
+  return text;
+}
+
+/// P4 (7)-(10) as printed beside the joint evaluation, last cycle that has them.
+void addClosedForms(Report& document, const nlohmann::json& artefact) {
+  const nlohmann::json forms = artefact.value("closed_forms", nlohmann::json::array());
+  if (forms.empty()) return;
+  const std::string last = forms.back().value("cycle", "");
+  std::vector<ReportRow> rows;
+  for (const nlohmann::json& f : forms) {
+    if (f.value("cycle", "") != last) continue;
+    rows.push_back({f.value("ball", ""), three(f.value("head_rotation_urad", nlohmann::json()), nullptr),
+                    three(f.value("joint_head_rotation_urad", nlohmann::json()),
+                          f.value("joint_standard_uncertainty_urad", nlohmann::json())),
+                    fmt::format("{:.2f}", f.value("spindle_drift_um", std::nan("")))});
+  }
+  document.table(
+      {"Ball", "Closed forms X, Y, Z / µrad", "Joint evaluation X, Y, Z / µrad", "Movement of stylus 0 / µm"}, rows,
+      fmt::format(
+          "Head rotation in {}: P4 (7)-(10) as printed against the joint evaluation; the closed forms take every "
+          "translation for a rotation and are shown for comparison only",
+          last));
+}
+
+/// Lengths that are known: slope of the axis against the certificate, and the growth that coefficient and temperature
+/// say.
+void addCertificate(Report& document, const nlohmann::json& artefact) {
+  const auto quantity = [](const nlohmann::json& from, const char* key) {
+    const nlohmann::json q = from.value(key, nlohmann::json::object());
+    if (!q.value("value", nlohmann::json()).is_number()) return std::string("not determined");
+    return withUncertainty(q["value"].get<double>(), q.value("standard_uncertainty", 0.0), "");
+  };
+  std::vector<ReportRow> rows;
+  for (const nlohmann::json& c : artefact.value("against_certificate", nlohmann::json::array())) {
+    const nlohmann::json temperature = c.value("temperature_degC", nlohmann::json());
+    rows.push_back({c.value("cycle", ""),
+                    temperature.is_number() ? fmt::format("{:.2f}", temperature.get<double>()) : "not known",
+                    quantity(c, "slope_um_per_m"),
+                    fmt::format("{:.1f} of {}", c.value("chi2", std::nan("")), c.value("degrees_of_freedom", 0))});
+  }
+  if (rows.size() > most_rows) rows.erase(rows.begin() + most_rows, rows.end());
+  if (!rows.empty())
+    document.table({"Cycle", "Artefact / °C", "Slope of the axis / (µm/m)", "Chi-squared of"}, rows,
+                   "Axis against the certified distances at the temperature of the artefact; uncertainty of touches, "
+                   "certificate, coefficient and temperature");
+  rows.clear();
+  for (const nlohmann::json& g : artefact.value("growth_expected", nlohmann::json::array())) {
+    rows.push_back({g.value("cycle", ""), quantity(g, "expected_um_per_m"), quantity(g, "measured_um_per_m")});
+    if (rows.size() == most_rows) break;
+  }
+  if (!rows.empty())
+    document.table({"Cycle", "Coefficient and temperature / (µm/m)", "Touches alone / (µm/m)"}, rows,
+                   artefact.value("growth_combined", false)
+                       ? "Growth of the artefact; EME combines both by their uncertainties"
+                       : "Growth of the artefact; EME rests on the touches alone");
+}
+
 }  // namespace
 
 void addInstrument(Report& document, const InstrumentEvaluation& instrument) {
@@ -188,7 +285,14 @@ void addInstrument(Report& document, const InstrumentEvaluation& instrument) {
       addTables(document, cycles);
     }
   }
-  addMicroscope(document, instrument.details);
+  if (instrument.details.is_object()) {
+    for (const nlohmann::json& artefact : instrument.details.value("artefacts", nlohmann::json::array())) {
+      addCertificate(document, artefact);
+      addClosedForms(document, artefact);
+    }
+    addMicroscope(document, instrument.details);
+    addAlgebraicCircles(document, instrument.details);
+  }
   if (instrument.rejected.empty()) {
     document.paragraph("No capture was rejected.");
     return;

@@ -354,7 +354,7 @@ Scenario Scenario::parse(const JsonNode& root, const std::filesystem::path& file
   if (const auto node = root.find("instrument")) s.instrument = parseInstrument(*node);
   if (const auto node = root.find("touches")) s.touches = parseTouches(*node, s.machine, s.duration_s);
   if (const auto node = root.find("microscope")) {
-    s.microscope = parseMicroscope(*node, s.machine, parseTimes(*node, "states", s.duration_s));
+    s.microscope = parseMicroscope(*node, s.machine, parseTimes(*node, "states", s.duration_s), file.parent_path());
   }
   if (const auto node = root.find("profiler")) {
     s.profiler = parseProfiler(*node, s.machine, parseTimes(*node, "cycles", s.duration_s));

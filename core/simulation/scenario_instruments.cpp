@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/units.h"
+#include "core/imaging/artwork.h"
 
 namespace spindrift {
 namespace {
@@ -40,10 +41,26 @@ double gluedTurn_rad(std::size_t number) {
   return 4.0 * rad_per_deg * (unit - std::floor(unit) - 0.5);
 }
 
+std::shared_ptr<const FiducialPattern> patternOf(const JsonNode& node, const std::filesystem::path& folder) {
+  if (node.value().is_string()) return std::make_shared<FiducialPattern>(readPattern(folder / node.string()));
+  ArtworkOptions artwork;
+  constexpr int most = 90;  // numbers 10 ... 99
+  readCount(node, "rows", artwork.rows, 1, most);
+  readCount(node, "columns", artwork.columns, 1, most);
+  readCount(node, "first_row", artwork.first_row, 10, 99);
+  readCount(node, "first_column", artwork.first_column, 10, 99);
+  readPositive(node, "pitch_um", artwork.pitch_um);
+  try {
+    return std::make_shared<FiducialPattern>(makePattern(artwork));
+  } catch (const InputError& e) {
+    throw InputError(node.place(), e.what());
+  }
+}
+
 }  // namespace
 
-MicroscopeOptions parseMicroscope(const JsonNode& node, const MachineDescription& machine,
-                                  std::vector<double> times_s) {
+MicroscopeOptions parseMicroscope(const JsonNode& node, const MachineDescription& machine, std::vector<double> times_s,
+                                  const std::filesystem::path& folder) {
   MicroscopeOptions options;
   options.times_s = std::move(times_s);
   VirtualFiducialOptions& o = options.images;
@@ -89,6 +106,12 @@ MicroscopeOptions parseMicroscope(const JsonNode& node, const MachineDescription
     o.fiducials.push_back(fiducial);
   }
   if (o.fiducials.empty()) node.reject("a machine with fiducials");
+  if (const auto pattern = node.find("pattern")) {
+    options.pattern = patternOf(*pattern, folder);
+    const FiducialPattern& p = *options.pattern;
+    const Eigen::Vector2d last = p.ellipseCentre(p.last_row, p.last_column);
+    for (VirtualFiducial& fiducial : o.fiducials) fiducial.centre_um = 0.5 * last;
+  }
   return options;
 }
 

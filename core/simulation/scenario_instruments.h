@@ -4,7 +4,9 @@
 //    "microscope":{"every_s","states" or "times_s","fiducials":["F1"],"width_px","height_px","pixel_length_um",
 //                  "centre_px":[x,y],"camera_turn_deg","blur_sigma_px","defocus_px_per_um","noise_level","gradient_x",
 //                  "gradient_y","flicker","spindle_repeatability_um","axis_repeatability_um","dust","jpeg_quality",
-//                  "rotations_deg":[],"steps_mm":[],"heights_mm":[],"image_interval_s"},
+//                  "rotations_deg":[],"steps_mm":[],"heights_mm":[],"image_interval_s",
+//                  "pattern":"pattern.json" (relative to the scenario) or {"rows","columns","first_row","first_column",
+//                  "pitch_um"}; without it the standard pattern},
 //    "profiler":{"every_s","cycles" or "times_s","seconds_per_artefact","alpha_rad","beta_rad","gamma_rad",
 //                "offset_mm":[dx,dy,dz],"profile_spacing_mm","white_noise_um","speckle_noise_um",
 //                "artefacts":[{"point","y_mm","turn_rad","bumps":[{"x_mm","y_mm","radius_mm","height_mm"}]}]}
@@ -12,10 +14,13 @@
 // The profiler's lever, lift, scan model, points a profile and calibration circle are those of machine.json.
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/base/json_reader.h"
+#include "core/imaging/pattern.h"
 #include "core/machine/machine_description.h"
 #include "core/simulation/virtual_fiducials.h"
 #include "core/simulation/virtual_profiler.h"
@@ -26,6 +31,8 @@ namespace spindrift {
 struct MicroscopeOptions {
   std::vector<double> times_s;  ///< start of each thermal state
   VirtualFiducialOptions images;
+  /// Artwork of the user's own fiducials, written as pattern.json into the campaign; null: the standard pattern.
+  std::shared_ptr<const FiducialPattern> pattern;
 };
 
 /// Scans of artefacts that stand along the axis.
@@ -40,8 +47,9 @@ struct ProfilerOptions {
 };
 
 /// Throw InputError with file and JSON path for anything that is not as described above.
+/// `folder`: of the scenario, where the file of a pattern is looked for.
 [[nodiscard]] MicroscopeOptions parseMicroscope(const JsonNode& node, const MachineDescription& machine,
-                                                std::vector<double> times_s);
+                                                std::vector<double> times_s, const std::filesystem::path& folder);
 [[nodiscard]] ProfilerOptions parseProfiler(const JsonNode& node, const MachineDescription& machine,
                                             std::vector<double> times_s);
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/atomic_file.h"
 #include "core/base/units.h"
 #include "core/imaging/pattern.h"
 #include "core/machine/component.h"
@@ -79,7 +80,9 @@ void VirtualCaptures::writeImages(const std::filesystem::path& folder, JobContex
     const Eigen::Vector3d at(fiducial.position_mm.x(), fiducial.position_mm.y(), 0.0);
     return deviation(time_s, at, fiducial.id).translation_mm * um_per_mm;
   };
-  writeVirtualFiducialCaptures(folder, standardPattern(), options, image_seed_, job);
+  const FiducialPattern& pattern = microscope_->pattern ? *microscope_->pattern : standardPattern();
+  if (microscope_->pattern) writeFileAtomically(folder / "pattern.json", patternJson(pattern));
+  writeVirtualFiducialCaptures(folder, pattern, options, image_seed_, job);
 }
 
 void VirtualCaptures::writeScans(const std::filesystem::path& folder, nlohmann::json& machine, JobContext& job) const {

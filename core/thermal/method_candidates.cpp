@@ -47,6 +47,7 @@ void PlainCandidates::searchFor(std::ptrdiff_t of, const JobContext& job) {
     }
     return;
   }
+  if (options_.whole_sets) takeWhole(of);
   Set chosen;
   double score = std::numeric_limits<double>::infinity();
   for (int step = 0; step < options_.maximum_inputs && chosen.size() < count; ++step) {
@@ -70,6 +71,48 @@ void PlainCandidates::searchFor(std::ptrdiff_t of, const JobContext& job) {
   }
 }
 
+void PlainCandidates::takeWhole(std::ptrdiff_t of) {
+  const auto place = static_cast<std::size_t>(of + 1);
+  if (whole_.empty()) {
+    Set every;
+    Set still_ones;  // no speed or feed
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      every.push_back(i);
+      const bool driven = std::any_of(d_.inputs.begin(), d_.inputs.end(), [&](const ThermalInput& in) {
+        return in.name == names_[i] && isDriven(in.kind);
+      });
+      if (!driven) still_ones.push_back(i);
+    }
+    if (!still_ones.empty()) addWhole(still_ones, powers_.front());
+    if (every != still_ones)
+      for (const double power : powers_) addWhole(every, power);
+  }
+  for (const std::size_t k : whole_) all[k].found[place] = 1;
+}
+
+void PlainCandidates::addWhole(const Set& set, double power) {
+  Columns still;
+  Columns dense;
+  for (const std::size_t i : set) {
+    for (const Index k : columnsOf(i, power, options_.taus_s)) {
+      dense.push_back(k);
+      if (d_.features[static_cast<std::size_t>(k)].tau_s == 0.0) still.push_back(k);
+    }
+  }
+  const auto take = [&](Method method, const Columns& columns, double shrinkage) {
+    if (columns.empty()) return;
+    Candidate c = make(method, columns, set, shrinkage);
+    c.picked = 1;
+    whole_.push_back(all.size());
+    keep(std::move(c));
+  };
+  take(Method::Line, still, 1e-6);
+  for (const double shrinkage : options_.shrinkages) {
+    take(Method::Line, still, shrinkage);
+    take(Method::Ridge, dense, shrinkage);
+  }
+}
+
 double PlainCandidates::visit(const Set& set, std::ptrdiff_t of) {
   const std::vector<char> judges = of < 0 ? std::vector<char>() : evidence_.runs()[static_cast<std::size_t>(of)].judges;
   const auto place = static_cast<std::size_t>(of + 1);
@@ -90,8 +133,8 @@ double PlainCandidates::visit(const Set& set, std::ptrdiff_t of) {
     Columns still;
     Columns dense;
     for (const std::size_t i : set) {
-      per_input.push_back(columnsOf(i, power));
-      for (const Index k : per_input.back()) {
+      per_input.push_back(columnsOf(i, power, options_.few_lag_taus_s));
+      for (const Index k : columnsOf(i, power, options_.taus_s)) {
         dense.push_back(k);
         if (d_.features[static_cast<std::size_t>(k)].tau_s == 0.0) still.push_back(k);
       }
@@ -121,13 +164,14 @@ double PlainCandidates::visit(const Set& set, std::ptrdiff_t of) {
   return best;
 }
 
-PlainCandidates::Columns PlainCandidates::columnsOf(std::size_t input, double power) const {
+PlainCandidates::Columns PlainCandidates::columnsOf(std::size_t input, double power,
+                                                    const std::vector<double>& taus_s) const {
   Columns columns;
   for (std::size_t k = 0; k < d_.features.size(); ++k) {
     const Feature& f = d_.features[k];
     const ThermalInput& in = d_.inputs[static_cast<std::size_t>(f.input)];
     if (in.name != names_[input] || (isDriven(in.kind) && in.power != power)) continue;
-    if (std::find(options_.taus_s.begin(), options_.taus_s.end(), f.tau_s) == options_.taus_s.end()) continue;
+    if (std::find(taus_s.begin(), taus_s.end(), f.tau_s) == taus_s.end()) continue;
     columns.push_back(static_cast<Index>(k));
   }
   return columns;
@@ -141,6 +185,7 @@ Candidate PlainCandidates::make(Method method, Columns columns, const Set& set, 
     c.precision[static_cast<Index>(k)] = shrinkage * evidence_.sumOfSquares(columns[k]);
   c.columns = std::move(columns);
   c.inputs = set;
+  c.picked = set.size();
   evidence_.judge(c);
   return c;
 }
@@ -159,7 +204,8 @@ const Candidate& PlainCandidates::lagsOf(const Columns& columns, const Set& set)
 PlainCandidates::Columns PlainCandidates::fewLags(const std::vector<Columns>& per_input, const Set& set,
                                                   const std::vector<char>& judges) {
   Columns best;
-  for (const Columns& columns : per_input) best.push_back(columns[std::min<std::size_t>(2, columns.size() - 1)]);
+  for (const Columns& columns : per_input)
+    best.push_back(columns[std::min<std::size_t>(3, columns.size() - 1)]);  // some minutes
   double score = scoreOf(lagsOf(best, set), judges);
   for (int round = 0; round < 4; ++round) {
     bool changed = false;

@@ -30,7 +30,10 @@ class PlainCandidates {
   void searchFor(std::ptrdiff_t of, const JobContext& job);
   /// Tries every method on this set; the best score of them in the eyes of the judges.
   double visit(const Set& set, std::ptrdiff_t of);
-  [[nodiscard]] Columns columnsOf(std::size_t input, double power) const;
+  /// Line and ridge on all temperatures and on all inputs: nothing was picked, so every run may take them.
+  void takeWhole(std::ptrdiff_t of);
+  void addWhole(const Set& set, double power);
+  [[nodiscard]] Columns columnsOf(std::size_t input, double power, const std::vector<double>& taus_s) const;
   [[nodiscard]] Candidate make(Method method, Columns columns, const Set& set, double shrinkage) const;
   void keep(Candidate c);
   const Candidate& lagsOf(const Columns& columns, const Set& set);
@@ -43,6 +46,7 @@ class PlainCandidates {
   const MethodChoiceOptions& options_;
   std::vector<double> powers_;
   std::map<Set, std::vector<std::size_t>> visited_;  ///< places in `all`
+  std::vector<std::size_t> whole_;                   ///< the sets of all, places in `all`
   std::map<Columns, Candidate> tried_;               ///< combinations of time constants
 };
 

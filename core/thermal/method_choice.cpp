@@ -73,7 +73,7 @@ int inputCount(const ThermalModel& model) {
 
 void MethodChoiceOptions::validate() const {
   response.validate();
-  if (taus_s.empty() || shrinkages.empty() || maximum_inputs < 1)
+  if (taus_s.empty() || few_lag_taus_s.empty() || shrinkages.empty() || maximum_inputs < 1)
     throw InputError("an option of the choice between methods is empty; allowed: at least one value each.");
   if (!(sharpness > 0.0) || !(sharpest >= 1.0) || !(input_penalty >= 0.0) || !(response_odds > 0.0))
     throw InputError("sharpness and odds of the choice between methods must be positive.");
@@ -127,7 +127,8 @@ MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& out
     result.notes.push_back(
         fmt::format("{} isolated values of {} were left out of the choice between methods.", slips, output));
   ResponseFitOptions lags = options.response;
-  lags.taus_s.insert(lags.taus_s.end(), options.taus_s.begin(), options.taus_s.end());
+  for (const std::vector<double>* taus : {&options.taus_s, &options.few_lag_taus_s})
+    lags.taus_s.insert(lags.taus_s.end(), taus->begin(), taus->end());
   std::sort(lags.taus_s.begin(), lags.taus_s.end());
   lags.taus_s.erase(std::unique(lags.taus_s.begin(), lags.taus_s.end()), lags.taus_s.end());
   const double span = std::min(to_s, series.time_s.back()) - std::max(from_s, series.time_s.front());

@@ -5,11 +5,14 @@
 // Candidates (all linear in lags of the inputs, core/thermal/thermal_model.h, so that any average of them is one model
 // that is stored, judged and run by the compensator as it is):
 //   line        offset and a gain for each of a few inputs, no memory;
-//   few lags    one time constant per input, chosen from a grid (the output-error structure with one pole per input);
+//   few lags    one time constant per input, chosen from a fine grid (the output-error structure with one pole per
+//               input);
 //   ridge       a dense grid of time constants per input, gains shrunk by a ridge of several strengths;
 //   response    core/thermal/response_fit.h: drifting zero, physical prior of the gains; of many inputs the few that
 //               tell what all of them tell (core/thermal/input_projection.h).
-// The first three are tried on every set of inputs (up to four inputs) or along a forward selection. What is chosen is
+// The first three are tried on every set of inputs (up to four inputs) or along a forward selection; of more than four,
+// line and ridge on all temperatures and on all inputs too, which no search picked (they count as one input): what many
+// noisy sensors have in common is told best by all of them. What is chosen is
 // projected in the same way if it uses more inputs than ProjectionOptions::maximum_inputs.
 //
 // Evidence: every candidate is fitted to a part of the training range and runs free over the rest, for several rolling
@@ -23,13 +26,12 @@
 // that chose among them; so the whole search, inputs, time constants and weights, is made again for every run with the
 // runs that share no row with it, and only the result of that search is judged there (nested cross-validation). Odds
 // come from the mean difference over the runs, less where the runs disagree; where commanded speeds cut the training
-// into at least three blocks of operation the physical prior of `response` has odds of 20 to 1 beforehand, that is, the
-// others must be better at a level of about 5 %.
-// Uncertainty: posterior of every candidate plus their scatter, which grows where the inputs leave what was seen;
-// scaled so that errors and intervals agree in the runs that judged, for `response` as for the others. Source: Bates
-// and Granger 1969; Yao et al. 2018 (stacking and pseudo-BMA); Tashman 2000 (rolling origins); Varma and Simon 2006
-// (nested cross-validation). Failure: InputError as
-// fitResponse; FitStatus Degenerate if nothing could be determined.
+// into at least three blocks of operation the physical prior of `response` has odds of 2.5 to 1 beforehand, that is,
+// the others must be better by some evidence and not by much. Uncertainty: posterior of every candidate plus their
+// scatter, which grows where the inputs leave what was seen; scaled so that errors and intervals agree in the runs that
+// judged, for `response` as for the others. Source: Bates and Granger 1969; Yao et al. 2018 (stacking and pseudo-BMA);
+// Tashman 2000 (rolling origins); Varma and Simon 2006 (nested cross-validation). Failure: InputError as fitResponse;
+// FitStatus Degenerate if nothing could be determined.
 #pragma once
 
 #include <string>
@@ -43,13 +45,17 @@ namespace spindrift {
 
 struct MethodChoiceOptions {
   std::vector<double> taus_s = {0.0, 150.0, 300.0, 600.0, 1200.0, 2400.0, 4800.0, 9600.0};
+  /// Of few lags: steps of sqrt(2), so that a time constant is met within a fifth.
+  std::vector<double> few_lag_taus_s = {0.0,    150.0,  212.0,  300.0,  424.0,  600.0,  849.0,
+                                        1200.0, 1697.0, 2400.0, 3394.0, 4800.0, 6788.0, 9600.0};
   std::vector<double> shrinkages = {1e-4, 1e-3, 1e-2, 1e-1};  ///< ridge relative to the variance of a lag
   std::vector<double> origins = {0.4, 0.55, 0.7, 0.85};       ///< parts of the training range
   double sharpness = 1.0;                                     ///< exponent at a scatter of 1 in ln(mean squared error)
   double sharpest = 4.0;                                      ///< largest exponent; the least is 1
   double input_penalty = 0.5;                                 ///< ln of the prior odds against each further input
-  double response_odds = 20.0;  ///< prior odds for `response` where speeds make blocks of operation
-  int maximum_inputs = 6;       ///< of the forward selection
+  double response_odds = 2.5;  ///< prior odds for `response` where speeds make blocks of operation
+  int maximum_inputs = 6;      ///< of the forward selection
+  bool whole_sets = true;      ///< of more than four inputs: line and ridge on all of them too
   ResponseFitOptions response;
   ProjectionOptions projection;  ///< of `response` on few inputs
   bool all_inputs = false;       ///< no choice among the inputs: `response` uses all of them

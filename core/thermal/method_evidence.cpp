@@ -211,7 +211,7 @@ std::vector<Weighted> weightsOf(const Evidence& evidence, const std::vector<Cand
   for (Weighted& w : out) {
     const double penalty = w.candidate->method == Method::Response
                                ? 0.0
-                               : options.input_penalty * static_cast<double>(w.candidate->inputs.size());
+                               : options.input_penalty * static_cast<double>(w.candidate->picked);
     w.weight = -sharpness * w.weight - penalty;
     largest = std::max(largest, w.weight);
   }

@@ -35,7 +35,9 @@ struct Candidate {
   std::vector<Eigen::Index> columns;  ///< of the dictionary
   Eigen::VectorXd precision;
   std::vector<std::size_t> inputs;  ///< numbers of the usable inputs
-  std::vector<double> log_error;    ///< ln of the mean squared error of every run
+  /// Inputs that a search picked among others, which makes the candidate less probable; all of them are no pick.
+  std::size_t picked = 0;
+  std::vector<double> log_error;  ///< ln of the mean squared error of every run
   /// Whether the search found it: place 0 with all runs as judges, place r + 1 with the judges of run r.
   std::vector<char> found;
 };

@@ -7,6 +7,7 @@
 
 #include "core/base/job_context.h"
 #include "core/imaging/pattern.h"
+#include "core/machine/observation.h"
 #include "core/simulation/virtual_fiducials.h"
 #include "tests/app/cli/child_process.h"
 #include "tests/support/temp_folder.h"
@@ -114,6 +115,59 @@ TEST_F(Images, ObservationsOfAnotherMachineAreSaid) {
   const std::string answer = fit(out);
   EXPECT_NE(answer.find("far outside the travel of this machine (x of point F1 is 2000 mm"), std::string::npos)
       << answer;
+}
+
+/// From the scenario to the deviations: the campaign carries its own artwork, and nothing else decodes its images.
+TEST(OwnPattern, IsSimulatedDecodedCheckedAndEvaluated) {
+  const TempFolder folder;
+  nlohmann::json scenario = nlohmann::json::parse(textOf(SPINDRIFT_SOURCE_DIR "/resources/scenarios/own_pattern.json"));
+  scenario["microscope"]["fiducials"] = {"F1", "F3"};
+  scenario["microscope"]["steps_mm"] = {-0.1016, 0.0, 0.1016};
+  const std::string file = folder.write("scenario.json", scenario.dump()).string();
+  const std::filesystem::path campaign = folder / "campaign";
+  const std::string truth = (folder / "truth.json").string();
+  ASSERT_EQ(runCli({"simulate", file, "--out", campaign.string(), "--truth", truth}).status, 0);
+  const FiducialPattern pattern = readPattern(campaign / "pattern.json");
+  EXPECT_EQ(pattern.pitch_um, 455.0);
+  EXPECT_EQ(pattern.first_row, 31);
+  EXPECT_EQ(pattern.rowCount(), 7);
+
+  const std::string line = linesOf(campaign / "captures/fiducials.csv")[1];
+  const std::string image = (campaign / line.substr(line.rfind(',') + 1)).string();
+  const nlohmann::json decoded = jsonOf({"decode", image, "--pattern", (campaign / "pattern.json").string()});
+  ASSERT_FALSE(decoded["subpatterns"].empty());
+  EXPECT_GE(decoded["subpatterns"][0]["row"].get<int>(), 31);
+  EXPECT_NEAR(decoded["pixel_length_um"].get<double>(), 2.2, 0.02);
+  EXPECT_EQ(jsonOf({"check", campaign.string()})["to_take_again"], 0);
+
+  const std::string out = (folder / "observations.csv").string();
+  const nlohmann::json evaluated = jsonOf({"evaluate", campaign.string(), "--out", out});
+  EXPECT_TRUE(evaluated["rejected"].empty()) << evaluated["rejected"].dump();
+  std::map<std::string, double> expected;
+  const nlohmann::json captures = nlohmann::json::parse(textOf(truth)).at("captures");
+  for (const auto& c : captures) {
+    expected[c["state"].get<std::string>() + c["point"].get<std::string>() + c["component"].get<std::string>()] =
+        c["value"];
+  }
+  int compared = 0;
+  for (const Observation& o : ObservationSet::read(out).rows) {
+    if (o.state == "M0") continue;
+    ++compared;
+    EXPECT_LT(std::abs(o.value - expected.at(o.state + o.point + std::string(toString(o.component)))),
+              5.0 * o.sigma + 0.3)
+        << o.point << toString(o.component);
+    EXPECT_LT(o.sigma, 3.0);
+  }
+  EXPECT_EQ(compared, 6);
+
+  std::filesystem::remove(campaign / "pattern.json");
+  const Outcome standard = runCli({"evaluate", campaign.string(), "--out", out});
+  EXPECT_NE(standard.output.find("this is another pattern"), std::string::npos) << standard.output;
+
+  scenario["microscope"]["pattern"]["first_row"] = 98;
+  const std::string wrong = folder.write("wrong.json", scenario.dump()).string();
+  expectBadInput({"simulate", wrong, "--out", (folder / "nothing").string()},
+                 {"wrong.json", "$.microscope.pattern", "99"});
 }
 
 TEST_F(Images, WrongListsAreRefusedInOneSentence) {

@@ -471,6 +471,159 @@ TEST(HoleCycle, LengthsAgainstTheCertificateKnowWhatTheyRestOn) {
   EXPECT_LT(inside_touches, 0.6 * seeds);
 }
 
+TEST(CycleFit, WhatIsKnownFromElsewhereIsOneLeastSquaresWithTheTouches) {
+  constexpr int cycles = 4, keys = 7, n = 2;
+  constexpr double sigma = 2e-3;
+  Random random(17);
+  CycleProblem problem;
+  problem.cycles = cycles;
+  problem.keys = keys;
+  problem.parameters = {"a", "b"};
+  problem.jacobian.resize(cycles * keys, n);
+  for (int k = 0; k < cycles; ++k) {
+    for (int key = 0; key < keys; ++key) {
+      for (int p = 0; p < n; ++p) problem.jacobian(k * keys + key, p) = random.normal(0.0, 1.0);
+      problem.rows.push_back({k, key, 0, random.normal(0.0, 0.01)});
+    }
+  }
+  KnownCombination known;
+  known.row = Eigen::RowVector2d(0.4, 1.3);
+  known.cycles = {1, 2, 3};
+  known.value = Eigen::Vector3d(0.004, -0.003, 0.006);
+  Eigen::MatrixXd factors(3, 3);  // two common causes and one of the first entry alone
+  factors << 2e-3, 1e-3, 3e-3, 2e-3, -2e-3, 0.0, 2e-3, 4e-3, 0.0;
+  known.covariance = factors * factors.transpose();
+  CycleFitOptions options;
+  options.sigma_mm = sigma;
+  options.outlier_threshold = 0.0;
+  CycleFitResult fit = fitCycles(problem, options);
+  const CycleFitResult touches = fit;
+  combineWith(problem, known, fit);
+
+  // Everything at once: theta of cycles 1 ... 3, then the constants.
+  constexpr int unknowns = 3 * n + keys;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(cycles * keys + 3, unknowns);
+  Eigen::VectorXd y(A.rows());
+  Eigen::MatrixXd V = Eigen::MatrixXd::Zero(A.rows(), A.rows());
+  for (int r = 0; r < cycles * keys; ++r) {
+    const CycleRow& row = problem.rows[static_cast<std::size_t>(r)];
+    if (row.cycle > 0) A.block<1, n>(r, (row.cycle - 1) * n) = problem.jacobian.row(r);
+    A(r, 3 * n + row.key) = 1.0;
+    y(r) = row.value_mm;
+    V(r, r) = sigma * sigma;
+  }
+  for (int i = 0; i < 3; ++i) A.block<1, n>(cycles * keys + i, i * n) = known.row;
+  y.tail<3>() = known.value;
+  V.bottomRightCorner<3, 3>() = known.covariance;
+  const Eigen::MatrixXd W = V.inverse();
+  const Eigen::MatrixXd covariance = (A.transpose() * W * A).inverse();
+  const Eigen::VectorXd x = covariance * (A.transpose() * W * y);
+  const Eigen::VectorXd left = y - A * x;
+  for (int k = 1; k < cycles; ++k) {
+    const CycleSolution& solution = fit.cycles[static_cast<std::size_t>(k)];
+    EXPECT_LT((solution.theta - x.segment<n>((k - 1) * n)).norm(), 1e-9);
+    EXPECT_GT((solution.theta - touches.cycles[static_cast<std::size_t>(k)].theta).norm(), 1e-4);
+    for (int l = 1; l < cycles; ++l) {
+      const Eigen::MatrixXd block = k == l ? solution.covariance : fit.covarianceBetween(k, l);
+      EXPECT_LT((block - covariance.block<n, n>((k - 1) * n, (l - 1) * n)).norm(), 1e-12) << k << l;
+    }
+  }
+  EXPECT_LT((fit.constant_mm - x.tail<keys>()).norm(), 1e-9);
+  for (std::size_t r = 0; r < problem.rows.size(); ++r)
+    EXPECT_NEAR(fit.residual_mm[r], left(static_cast<Eigen::Index>(r)), 1e-9);
+}
+
+TEST(HoleCycle, CertificateCoefficientAndTemperatureEnterTheGrowthAndTheSlopeOfTheAxis) {
+  const MachineDescription m = machineFrom(replaced(holeMachineText(), "\"hole_diameter_mm\":12",
+                                                    "\"hole_diameter_mm\":12,\"certificate_uncertainty_um\":0.5,"
+                                                    "\"expansion_um_per_m_K\":11.5,"
+                                                    "\"expansion_uncertainty_um_per_m_K\":0.1,"
+                                                    "\"temperature_uncertainty_K\":0.02"));
+  const MachineDescription unstated = machineFrom(
+      replaced(holeMachineText(), "\"hole_diameter_mm\":12", "\"hole_diameter_mm\":12,\"expansion_um_per_m_K\":11.5"));
+  VirtualProbeOptions options;
+  options.noise_um = options.surface_noise_um = 0.4;
+  const std::array<double, 4> warm{0.0, 2.0, 3.0, 4.0};
+  constexpr int seeds = 150;
+  constexpr std::array<std::size_t, 2> both{0, 8};  // EXX, EME
+  std::array<int, 2> inside{}, inside_difference{};
+  std::array<double, 2> squares{}, squares_touches{};
+  for (int seed = 0; seed < seeds; ++seed) {
+    Random random(900 + static_cast<std::uint64_t>(seed));
+    const double alpha = random.normal(11.5, 0.1);
+    std::array<double, 4> read{};
+    for (std::size_t k = 0; k < warm.size(); ++k) read[k] = 20.0 + warm[k] + random.normal(0.0, 0.02);
+    const VirtualRun run = runCycles(m, 4, options, 4000 + static_cast<std::uint64_t>(seed), [&](int k, Random& r) {
+      std::vector<double> p = k == 0 ? std::vector<double>(9, 0.0) : randomParameters(true, r);
+      p[8] = alpha * warm[static_cast<std::size_t>(k)];
+      return p;
+    });
+    OperatingLog log({0.0, 599.0, 600.0, 1199.0, 1200.0, 1799.0, 1800.0, 5000.0});
+    log.setSignal("T_bar_degC", {read[0], read[0], read[1], read[1], read[2], read[2], read[3], read[3]});
+    const HoleCycleResult result = evaluateHoleCycles(run.list, m, m.artefacts.front(), {}, &log);
+    const HoleCycleResult touches = evaluateHoleCycles(run.list, unstated, unstated.artefacts.front(), {}, &log);
+    ASSERT_TRUE(result.growth_combined);
+    ASSERT_FALSE(touches.growth_combined) << "a growth without uncertainty is no measurement";
+    for (std::size_t i = 0; i < both.size(); ++i) {
+      const std::size_t p = both[i];
+      const auto e = static_cast<Eigen::Index>(p);
+      for (std::size_t k = 1; k < 4; ++k) {
+        const double error = result.parameters[k][p].value - run.truth[k][p];
+        inside[i] += std::abs(error) < 1.96 * result.parameters[k][p].standard_uncertainty ? 1 : 0;
+        squares[i] += error * error;
+        squares_touches[i] += std::pow(touches.parameters[k][p].value - run.truth[k][p], 2);
+        EXPECT_LT(result.parameters[k][p].standard_uncertainty, touches.parameters[k][p].standard_uncertainty);
+      }
+      const double variance = result.covariance(1, static_cast<int>(p), static_cast<int>(p)) +
+                              result.covariance(3, static_cast<int>(p), static_cast<int>(p)) -
+                              2.0 * result.fit.covarianceBetween(1, 3)(e, e) * result.unit[p] * result.unit[p];
+      const double error =
+          (result.parameters[3][p].value - run.truth[3][p]) - (result.parameters[1][p].value - run.truth[1][p]);
+      inside_difference[i] += std::abs(error) < 1.96 * std::sqrt(variance) ? 1 : 0;
+    }
+  }
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    EXPECT_GT(inside[i], 0.92 * 3 * seeds) << i;
+    EXPECT_LT(inside[i], 0.98 * 3 * seeds) << i;
+    EXPECT_GT(inside_difference[i], 0.90 * seeds) << i;
+    EXPECT_LT(inside_difference[i], 0.99 * seeds) << i;
+    EXPECT_LT(squares[i], 0.8 * squares_touches[i]) << i;
+    std::printf("%s: rms %.3f um/m with the certificate, %.3f of the touches alone, inside %.3f\n",
+                i == 0 ? "EXX" : "EME", std::sqrt(squares[i] / (3 * seeds)),
+                std::sqrt(squares_touches[i] / (3 * seeds)), inside[i] / (3.0 * seeds));
+  }
+}
+
+/// EME counts per metre of distances that the certificate states: a hole that lies elsewhere changes it in proportion
+/// to the growth, and EXX with it.
+TEST(HoleCycle, ACertificateThatIsOffMovesGrowthAndSlopeAsTheirUncertaintySays) {
+  constexpr double place_um = 40.0;  // as coarse as to be seen beside the touches
+  constexpr double growth = 400.0;   // um/m
+  const MachineDescription m = machineFrom(replaced(holeMachineText(), "\"hole_diameter_mm\":12",
+                                                    "\"hole_diameter_mm\":12,\"certificate_uncertainty_um\":40"));
+  VirtualProbeOptions options;
+  options.noise_um = options.surface_noise_um = 0.0;
+  std::array<double, 2> squares{}, stated{};
+  constexpr int seeds = 200;
+  for (int seed = 0; seed < seeds; ++seed) {
+    Random random(100 + static_cast<std::uint64_t>(seed));
+    MachineDescription real = m;
+    for (double& s : real.artefacts.front().nominal_positions_mm) s += random.normal(0.0, 1e-3 * place_um);
+    const VirtualRun run = runCycles(real, 2, options, 1, [&](int k, Random&) {
+      return std::vector<double>{0, 0, 0, 0, 0, 0, 0, 0, k == 0 ? 0.0 : growth};
+    });
+    const HoleCycleResult result = evaluateHoleCycles(run.list, m, m.artefacts.front());
+    const Eigen::MatrixXd& causes = result.fit.causes.at(1);
+    for (const auto& [i, p] : {std::pair{0U, 0U}, std::pair{1U, 8U}}) {
+      squares[i] += std::pow(result.parameters[1][p].value - (p == 8 ? growth : 0.0), 2) / seeds;
+      stated[i] += std::pow(causes.row(p).norm() * result.unit[p], 2) / seeds;
+    }
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(std::sqrt(squares[i]), std::sqrt(stated[i]), 0.15 * std::sqrt(stated[i])) << i;
+  EXPECT_GT(std::sqrt(stated[1]), 0.01);
+}
+
 TEST(HoleCycle, AGrowthThatCoefficientAndTemperatureDoNotExplainIsSaid) {
   const MachineDescription m = machineFrom(replaced(holeMachineText(), "\"hole_diameter_mm\":12",
                                                     "\"hole_diameter_mm\":12,\"expansion_um_per_m_K\":11.5,"
@@ -489,7 +642,10 @@ TEST(HoleCycle, AGrowthThatCoefficientAndTemperatureDoNotExplainIsSaid) {
   EXPECT_NEAR(as_expected.growth[1].expected_um_per_m, 34.5, 1e-6);
   EXPECT_NEAR(as_expected.growth[1].expected_sigma_um_per_m, std::hypot(1.5, 11.5 * 0.1 * std::sqrt(2.0)), 1e-6);
   EXPECT_TRUE(as_expected.warnings.empty()) << as_expected.warnings.front();
+  EXPECT_TRUE(as_expected.growth_combined);
   const HoleCycleResult other = evaluated(70.0);
+  EXPECT_FALSE(other.growth_combined) << "what contradicts is not mixed in";
+  EXPECT_NEAR(other.parameters[2][8].value, 70.0, 3.0);
   ASSERT_FALSE(other.warnings.empty());
   EXPECT_NE(other.warnings.back().find("expansion coefficient and temperature say"), std::string::npos);
 }
@@ -517,6 +673,8 @@ TEST(BallCycle, ClosedFormsStandBesideTheJointEvaluationAndTakeTranslationsForRo
   EXPECT_NEAR(drift[1]["joint_head_rotation_urad"][0].get<double>(), 20.0, 0.05);
   EXPECT_GT(std::abs(drift[1]["head_rotation_urad"][0].get<double>() - 20.0), 50.0) << "8 um over 50 mm";
   EXPECT_GT(drift[1]["spindle_drift_um"].get<double>(), 10.0);
+  EXPECT_NEAR(drift[1]["joint_spindle_drift_um"].get<double>(), std::hypot(5.0, 8.0, 10.0), 0.05);
+  EXPECT_GE(drift[1]["joint_standard_uncertainty_urad"][0].get<double>(), 0.0);
 }
 
 TEST(CycleObservations, AreMinusTheChangeOfTheMeasuredPosition) {

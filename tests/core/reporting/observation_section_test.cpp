@@ -126,6 +126,65 @@ TEST(InstrumentSection, LongSeriesAreThinnedInTheTableAndItSaysSo) {
   EXPECT_EQ(count(htmlOf(document), "<tr>"), 1U + 40U + 1U + 1U) << "cycles, meanings and their headers";
 }
 
+TEST(InstrumentSection, ClosedFormsAndCertificateStandBesideTheJointEvaluation) {
+  InstrumentEvaluation probe;
+  probe.instrument = "touch_probe";
+  const auto quantity = [](double value, double sigma) {
+    return nlohmann::json{{"value", value}, {"standard_uncertainty", sigma}};
+  };
+  probe.details["artefacts"].push_back({{"closed_forms",
+                                         {{{"cycle", "M1"}, {"ball", "B1"}, {"head_rotation_urad", {1.0, 2.0, 3.0}}},
+                                          {{"cycle", "M2"},
+                                           {"ball", "B2"},
+                                           {"head_rotation_urad", {81.4, -15.0, 30.0}},
+                                           {"joint_head_rotation_urad", {20.0, -15.0, 30.0}},
+                                           {"joint_standard_uncertainty_urad", {0.5, 0.5, 0.5}},
+                                           {"spindle_drift_um", 13.75}}}}});
+  probe.details["artefacts"].push_back(
+      {{"against_certificate",
+        {{{"cycle", "M1"},
+          {"temperature_degC", 23.5},
+          {"slope_um_per_m", quantity(15.2, 3.8)},
+          {"chi2", 4.2},
+          {"degrees_of_freedom", 5}}}},
+       {"growth_expected",
+        {{{"cycle", "M1"}, {"expected_um_per_m", quantity(34.5, 1.6)}, {"measured_um_per_m", quantity(33.1, 0.8)}}}},
+       {"growth_combined", true}});
+  Report document("t", "s");
+  addInstrument(document, probe);
+  const std::string text = htmlOf(document);
+  EXPECT_THAT(text, HasSubstr("Head rotation in M2"));
+  EXPECT_THAT(text, HasSubstr("81.4, −15.0, 30.0"));
+  EXPECT_THAT(text, HasSubstr("20.0 ± 0.5"));
+  EXPECT_THAT(text, HasSubstr("13.75"));
+  EXPECT_THAT(text, HasSubstr("15 ± 4"));
+  EXPECT_THAT(text, HasSubstr("34.5 ± 1.6"));
+  EXPECT_THAT(text, HasSubstr("EME combines both"));
+  EXPECT_EQ(count(text, "81.4"), 1U) << "the last cycle only";
+}
+
+TEST(InstrumentSection, AlgebraicCirclesStandBesideTheJointCentre) {
+  InstrumentEvaluation microscope;
+  microscope.instrument = "microscope";
+  microscope.details["camera"] = {{"pixel_length_um", 2.0}};
+  microscope.details["fiducials"].push_back({{"fiducial", "F1"},
+                                             {"states",
+                                              {{{"state", "M0"},
+                                                {"centre_of_rotation",
+                                                 {{"x_px", {{"value", 400.0}, {"standard_uncertainty", 0.5}}},
+                                                  {"y_px", {{"value", 300.0}, {"standard_uncertainty", 0.5}}},
+                                                  {"algebraic_px", {396.5, 301.25}},
+                                                  {"algebraic_tracks", 9}}}},
+                                               {{"state", "M1"}, {"centre_of_rotation", nullptr}}}}});
+  Report document("t", "s");
+  addInstrument(document, microscope);
+  const std::string text = htmlOf(document);
+  EXPECT_THAT(text, HasSubstr("algebraic circles"));
+  EXPECT_THAT(text, HasSubstr("400.00 ± 0.50"));
+  EXPECT_THAT(text, HasSubstr("-7.0"));
+  EXPECT_THAT(text, HasSubstr("+2.5"));
+}
+
 TEST(OperatingConditions, EverySignalHasALaneAndDisplacementsTheColourOfTheirAxis) {
   OperatingLog log(std::vector<double>{0.0, 3600.0, 7200.0});
   log.setSignal("spindle_rpm", {0.0, 6000.0, 6000.0});
