@@ -269,13 +269,26 @@ struct Solution {
   std::vector<ModelEffect> averaged;  ///< the same, over all dynamics that the data allow: what predicts
 };
 
-/// rms of the held-out displacements under a fit, um; NaN where there are too few to judge by.
+/// A fit as it predicts: over all dynamics that the data allow.
+std::vector<ModelEffect> predictingEffects(const EffectSearch& search, const ResidualProblem& problem,
+                                           const DriverTable& drivers, const JointFit& fit) {
+  std::vector<std::vector<ModelEffect>> versions;
+  std::vector<double> weights;
+  for (const WeightedDynamics& w : alternativeDynamics(search, problem, drivers, fit)) {
+    versions.push_back(
+        modelEffects(search, problem, w.distributed.fit, "fit of the residual", 1.0, w.distributed.prior_sigma));
+    weights.push_back(w.weight);
+  }
+  return averagedEffects(versions, weights);
+}
+
+/// rms of the held-out displacements as a fit predicts them, um; NaN where there are too few to judge by.
 double heldOutRms(const DiscrepancyInput& input, const ComparableRows& rows, const ResidualProblem& problem,
                   const Analysis& analysis, const JointFit& fit) {
   constexpr std::size_t enough = 20;
   if (rows.held_out.size() < enough) return std::nan("");
   std::vector<double> part(input.predicted.size(), 0.0);
-  for (const ModelEffect& effect : modelEffects(*analysis.search, problem, fit, {}, 1.0)) {
+  for (const ModelEffect& effect : predictingEffects(*analysis.search, problem, *analysis.drivers, fit)) {
     const std::vector<double> one = EffectModel::contribution(*analysis.drivers, effect, input.observations.rows);
     for (std::size_t r = 0; r < part.size(); ++r) part[r] += one[r];
   }
@@ -287,17 +300,8 @@ double heldOutRms(const DiscrepancyInput& input, const ComparableRows& rows, con
 void fitModel(Solution& solution) {
   const EffectSearch& search = *solution.analysis.search;
   const JointFit& named = solution.judged.named;
-  const auto withCovariance = [&](const JointFit& fit, const std::vector<Eigen::VectorXd>& prior_sigma) {
-    return modelEffects(search, solution.problem, fit, "fit of the residual", 1.0, prior_sigma);
-  };
-  solution.effects = withCovariance(named, {});
-  std::vector<std::vector<ModelEffect>> versions;
-  std::vector<double> weights;
-  for (const WeightedDynamics& w : alternativeDynamics(search, solution.problem, *solution.analysis.drivers, named)) {
-    versions.push_back(withCovariance(w.distributed.fit, w.distributed.prior_sigma));
-    weights.push_back(w.weight);
-  }
-  solution.averaged = averagedEffects(versions, weights);
+  solution.effects = modelEffects(search, solution.problem, named, "fit of the residual", 1.0);
+  solution.averaged = predictingEffects(search, solution.problem, *solution.analysis.drivers, named);
 }
 
 /// What the first `count` effects make of every row, with their own gains as they were when the last of them entered.
