@@ -312,7 +312,7 @@ int run(int argc, char** argv) {
   const bool unattended_run = parser.isSet(tour) || parser.isSet(self_test);
   applyLanguage(parser.isSet(language) ? parser.value(language)
                 : unattended_run       ? QStringLiteral("en")
-                                       : preferredLanguage());
+                                       : preferences().language);
   const QString kind = parser.value(theme_option);
   (void)SystemLook::instance();  // sees the colours of the platform before they are ours
   ThemeKind look = kind == QLatin1String("dark") ? ThemeKind::Dark : ThemeKind::Light;

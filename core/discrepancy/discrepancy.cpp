@@ -140,9 +140,10 @@ double simulationError(const ResidualProblem& problem, const ResidualProblem::Nu
   return std::clamp(std::sqrt(sum / static_cast<double>(sizes.size())), 0.5 * stated, largest);
 }
 
-/// Noise and effects in turn, under the nuisances that the problem has, until neither changes.
+/// Noise and effects in turn, under the nuisances that the problem has, until neither changes. `off`: a part of the
+/// simulation that is taken to be of the wrong size; or null.
 void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
-           const DiscrepancyPriors& priors, bool exact, JobContext& job) {
+           const DiscrepancyPriors& priors, bool exact, const ModelTerm* off, JobContext& job) {
   const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);
   problem.setNoise(estimateNoise(problem, problem.y - first.values, false));
   a.simulation_error = exact ? 0.0 : std::max(input.simulation_gain_uncertainty, usual_simulation_error);
@@ -154,8 +155,8 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
     job.report(0.1 + 0.25 * round, "weighing effects");
     a.search = std::make_unique<EffectSearch>(problem, *a.drivers, a.catalogue);
     const CandidateLibrary library(*a.search, problem, job);
-    const PosteriorSearch posterior(*a.search, problem, library, options, priors, a.simulation_error);
-    a.posterior = posterior.run(job);
+    PosteriorSearch posterior(*a.search, problem, library, options, priors, a.simulation_error);
+    a.posterior = posterior.run(job, off);
     a.remainder = remainderOf(problem, posterior.given(a.posterior.fit));
     const auto finish = [&] { posterior.weighAgainstUnknown(a.posterior); };
     if (round + 1 == most_rounds) {
@@ -193,6 +194,15 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
   }
 }
 
+/// The part that is off by most; null where no part is.
+const SimulationPart* largestError(const std::vector<SimulationPart>& parts, const std::vector<PartError>& errors) {
+  if (errors.empty()) return nullptr;
+  const PartError& largest = *std::max_element(
+      errors.begin(), errors.end(),
+      [](const PartError& a, const PartError& b) { return std::abs(a.relative) < std::abs(b.relative); });
+  return &*std::find_if(parts.begin(), parts.end(), [&](const SimulationPart& p) { return p.id == largest.id; });
+}
+
 Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
                  const DiscrepancyPriors& priors, std::shared_ptr<DriverTable> drivers, std::vector<Effect> catalogue,
                  JobContext& job) {
@@ -214,7 +224,7 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
   problem.setNoise(estimateNoise(problem, problem.y - problem.nuisancePart(problem.y).values, false));
   parts = partsOfSimulation(problem, *a.drivers, a.catalogue, priors, job);
   problem.setNuisances(nuisancesOf(priors.simulation_error));
-  weigh(a, input, problem, options, priors, exact, job);
+  weigh(a, input, problem, options, priors, exact, nullptr, job);
   if (exact || input.tangents || !(priors.rough_simulation_error > input.simulation_gain_uncertainty)) return a;
   // An effect may be what a rough simulation leaves: a part that is somewhat too large or too small, not one missing.
   const auto sizes = [&] {
@@ -230,21 +240,43 @@ Analysis analyse(const DiscrepancyInput& input, ResidualProblem& problem, const 
   problem.setNuisances(nuisances);
   constexpr double followed = 0.6;
   bool rough = narrow.size() == 0 || (sizes().array() < followed * narrow.array()).any();
+  const SimulationPart* far = nullptr;
+  const double fair = 1.0 - priors.rough_simulation - priors.far_part;
   if (rough) {
-    const CandidateLibrary library(*a.search, problem, job);
-    const PosteriorSearch search(*a.search, problem, library, options, priors, a.simulation_error);
-    const double odds = 2.0 * std::log(priors.rough_simulation / (1.0 - priors.rough_simulation));
-    const EffectPosterior other = search.run(job);
-    rough = other.evidence - problem.nuisanceLogDeterminant() + odds > evidence;
+    const auto weighed = [&](double odds) {
+      const CandidateLibrary library(*a.search, problem, job);
+      EffectPosterior found =
+          PosteriorSearch(*a.search, problem, library, options, priors, a.simulation_error).run(job);
+      const double of_hypothesis = found.evidence - problem.nuisanceLogDeterminant() + 2.0 * std::log(odds);
+      return std::pair(std::move(found), of_hypothesis);
+    };
+    const auto [other, of_rough] = weighed(priors.rough_simulation / fair);
+    rough = of_rough > evidence;
     const double limit = priors.rough_simulation_limit * priors.rough_simulation_error;
-    for (const PartError& error : partErrors(problem, parts, first_part, problem.without(other.fit.contribution)))
-      rough = rough && std::abs(error.relative) <= limit;
+    const std::vector<PartError> errors =
+        partErrors(problem, parts, first_part, problem.without(other.fit.contribution));
+    for (const PartError& error : errors) rough = rough && std::abs(error.relative) <= limit;
+    // Or one part alone is far off and nothing else: that is told, not taken for roughness.
+    const SimulationPart* largest = largestError(parts, errors);
+    if (rough && largest != nullptr && other.fit.terms.empty()) {
+      std::vector<NuisanceColumn> alone = nuisancesOf(priors.simulation_error);
+      alone.push_back({largest->values, priors.far_part_error, true});
+      problem.setNuisances(alone);
+      const double count = static_cast<double>(parts.size());
+      if (weighed(priors.far_part / (count * fair)).second > of_rough) far = largest;
+      problem.setNuisances(nuisances);
+    }
+  }
+  if (far != nullptr) {
+    problem.setNuisances(nuisancesOf(priors.simulation_error));
+    weigh(a, input, problem, options, priors, exact, &far->term, job);
+    return a;
   }
   if (!rough) {
     problem.setNuisances(nuisancesOf(priors.simulation_error));
     return a;
   }
-  weigh(a, input, problem, options, priors, exact, job);
+  weigh(a, input, problem, options, priors, exact, nullptr, job);
   for (const PartError& error : partErrors(problem, parts, first_part, problem.without(a.posterior.fit.contribution))) {
     if (std::abs(error.relative) < 2.0 * error.uncertainty) continue;
     a.notes.push_back(
@@ -269,13 +301,26 @@ struct Solution {
   std::vector<ModelEffect> averaged;  ///< the same, over all dynamics that the data allow: what predicts
 };
 
-/// rms of the held-out displacements under a fit, um; NaN where there are too few to judge by.
+/// A fit as it predicts: over all dynamics that the data allow.
+std::vector<ModelEffect> predictingEffects(const EffectSearch& search, const ResidualProblem& problem,
+                                           const DriverTable& drivers, const JointFit& fit) {
+  std::vector<std::vector<ModelEffect>> versions;
+  std::vector<double> weights;
+  for (const WeightedDynamics& w : alternativeDynamics(search, problem, drivers, fit)) {
+    versions.push_back(
+        modelEffects(search, problem, w.distributed.fit, "fit of the residual", 1.0, w.distributed.prior_sigma));
+    weights.push_back(w.weight);
+  }
+  return averagedEffects(versions, weights);
+}
+
+/// rms of the held-out displacements as a fit predicts them, um; NaN where there are too few to judge by.
 double heldOutRms(const DiscrepancyInput& input, const ComparableRows& rows, const ResidualProblem& problem,
                   const Analysis& analysis, const JointFit& fit) {
   constexpr std::size_t enough = 20;
   if (rows.held_out.size() < enough) return std::nan("");
   std::vector<double> part(input.predicted.size(), 0.0);
-  for (const ModelEffect& effect : modelEffects(*analysis.search, problem, fit, {}, 1.0)) {
+  for (const ModelEffect& effect : predictingEffects(*analysis.search, problem, *analysis.drivers, fit)) {
     const std::vector<double> one = EffectModel::contribution(*analysis.drivers, effect, input.observations.rows);
     for (std::size_t r = 0; r < part.size(); ++r) part[r] += one[r];
   }
@@ -287,17 +332,8 @@ double heldOutRms(const DiscrepancyInput& input, const ComparableRows& rows, con
 void fitModel(Solution& solution) {
   const EffectSearch& search = *solution.analysis.search;
   const JointFit& named = solution.judged.named;
-  const auto withCovariance = [&](const JointFit& fit, const std::vector<Eigen::VectorXd>& prior_sigma) {
-    return modelEffects(search, solution.problem, fit, "fit of the residual", 1.0, prior_sigma);
-  };
-  solution.effects = withCovariance(named, {});
-  std::vector<std::vector<ModelEffect>> versions;
-  std::vector<double> weights;
-  for (const WeightedDynamics& w : alternativeDynamics(search, solution.problem, *solution.analysis.drivers, named)) {
-    versions.push_back(withCovariance(w.distributed.fit, w.distributed.prior_sigma));
-    weights.push_back(w.weight);
-  }
-  solution.averaged = averagedEffects(versions, weights);
+  solution.effects = modelEffects(search, solution.problem, named, "fit of the residual", 1.0);
+  solution.averaged = predictingEffects(search, solution.problem, *solution.analysis.drivers, named);
 }
 
 /// What the first `count` effects make of every row, with their own gains as they were when the last of them entered.

@@ -113,6 +113,7 @@ double PosteriorSearch::imitationPrice(const JointFit& fit) const {
       const double share = std::min(1.0, own[c] / std::max(1e-9, others[c]));
       price += share * part * part * others[c];
       // What the nuisances of the simulation can follow has paid for its error already.
+      if (fit.terms[t].effect->id == off_) continue;
       const double beyond = std::min(1.0, own[c] / std::max(1e-9, before[c]));
       price += beyond * std::min(most_simulation_price, simulation_power_[c]);
     }
@@ -161,6 +162,7 @@ double PosteriorSearch::priceOf(const JointFit& fit) const {
   const double effects = std::max<double>(2.0, static_cast<double>(search_->catalogue().size()));
   double price = 0.0;
   for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    if (fit.terms[t].effect->id == off_) continue;
     if (wide(*fit.terms[t].effect)) price += 2.0 * std::log(1.0 / priors_.wider);
     if (warmStart(fit.terms[t].variant)) price += warm_price;
     if (fit.terms[t].effect->driver_missing) price += 2.0 * std::log(1.0 / priors_.without_driver);
@@ -447,11 +449,16 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior) const {
   }
 }
 
-EffectPosterior PosteriorSearch::run(const JobContext& job) const {
+EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off) {
   EffectPosterior out;
   std::vector<State> visited;
   State start = stateOf({}, 0);
   out.evidence_of_nothing = start.evidence;
+  off_ = off == nullptr ? std::string() : off->effect->id;
+  if (off != nullptr) {
+    visited.push_back(start);
+    start = stateOf({*off}, 1);
+  }
   // What the user puts in, each at its best.
   for (const std::string& id : options_->accept) {
     std::vector<std::string> skip;
@@ -500,17 +507,32 @@ EffectPosterior PosteriorSearch::run(const JobContext& job) const {
     return again.evidence > state.evidence ? again : state;
   };
   best = refined(std::move(best));
-  // In the order of what each brings, the user's first. One that brings nothing any more leaves.
+  // In the order of what each brings, the user's first. One that brings nothing any more leaves, and one in whose place
+  // another turns out to be better, both with all lags refitted, makes room for it.
+  constexpr int most_replaced = 4;
+  int replaced = 0;
   std::vector<SlotEvidence> slots;
   for (;;) {
     slots.clear();
     std::size_t idle = best.fit.terms.size();
+    const Alternative* better = nullptr;
+    slots.reserve(best.fit.terms.size());
     for (std::size_t t = 0; t < best.fit.terms.size(); ++t) {
       slots.push_back(slotOf(best, t, job, visited));
       const auto& ids = options_->accept;
       const bool forced = std::find(ids.begin(), ids.end(), best.fit.terms[t].effect->id) != ids.end();
-      if (forced || slots[t].delta_evidence > 0.0) continue;
+      if (forced) continue;
+      for (const Alternative& a : slots[t].others) {
+        if (a.rejected || a.evidence < (better == nullptr ? best.evidence + 1e-3 : better->evidence)) continue;
+        better = &a;
+      }
+      if (slots[t].delta_evidence > 0.0) continue;
       if (idle == best.fit.terms.size() || slots[t].delta_evidence < slots[idle].delta_evidence) idle = t;
+    }
+    if (better != nullptr && replaced < most_replaced) {
+      ++replaced;
+      best = State{better->joint, better->evidence};
+      continue;
     }
     if (idle == best.fit.terms.size()) break;
     std::vector<ModelTerm> fewer = best.fit.terms;

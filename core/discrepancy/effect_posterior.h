@@ -40,8 +40,11 @@ struct DiscrepancyPriors {
   /// off at most that is no more than rough: what is further off is missing, and told.
   double simulation_error = 0.028;
   double rough_simulation_error = 0.08;
-  double rough_simulation = 0.8;
+  double rough_simulation = 0.57;
   double rough_simulation_limit = 2.75;
+  /// Standard deviation of the relative error of one part alone that is far off, and how probable that is.
+  double far_part_error = 0.3;
+  double far_part = 0.29;
   /// Odds of an effect that holds a simpler one as a special case, beside that one; and the part of its amplitude by
   /// which the simpler one may be off in just the way that the wider one can follow.
   double wider = 0.1;
@@ -102,7 +105,9 @@ class PosteriorSearch {
   PosteriorSearch(const EffectSearch& search, const ResidualProblem& problem, const CandidateLibrary& library,
                   const DiscrepancyOptions& options, const DiscrepancyPriors& priors, double simulation_error);
 
-  [[nodiscard]] EffectPosterior run(const JobContext& job) const;
+  /// `off`: a part of the simulation whose size is taken to be wrong, as the simulation has it; it is in the set from
+  /// the start, and pays neither for the choice of its dynamics nor for errors that the simulation may have.
+  [[nodiscard]] EffectPosterior run(const JobContext& job, const ModelTerm* off = nullptr);
   /// Fills over_unknown of every effect.
   void weighAgainstUnknown(EffectPosterior& posterior) const;
   /// As above.
@@ -130,6 +135,7 @@ class PosteriorSearch {
   const CandidateLibrary* library_;
   const DiscrepancyOptions* options_;
   DiscrepancyPriors priors_;
+  std::string off_;                           ///< effect of the part of the simulation that is off; empty: none
   std::array<double, 6> simulation_power_{};  ///< of its error as estimated, whitened, per component
 };
 

@@ -34,6 +34,8 @@ constexpr double worse_held_out = 1.05;
 /// together make the gap on what is held out so much larger.
 constexpr double beyond_held_out = 200.0;
 constexpr double much_worse_held_out = 1.15;
+/// Of a course or a pattern another may leave this part of its power and is still the same to the eye of the data.
+constexpr double alike = 0.03;
 /// Rivals beside the effect; more is no answer.
 constexpr std::size_t most_rivals = 2;
 
@@ -170,7 +172,6 @@ bool seenElsewhere(const Effect& effect) {
 /// polynomial of a few terms follows it.
 bool couldBeAnySlowCourse(const ResidualProblem& problem, const JointFit& fit, std::size_t t) {
   constexpr int terms = 5;
-  constexpr double alike = 0.03;
   const Eigen::VectorXd& moved = fit.contribution[t];
   double most = 0.0;
   double left = 0.0;
@@ -218,7 +219,6 @@ bool hasPatternOf(const ResidualProblem& problem, const EffectSearch& search, co
     left += (f - x * x.completeOrthogonalDecomposition().solve(f)).squaredNorm();
     whole += f.squaredNorm();
   }
-  constexpr double alike = 0.03;
   return left < alike * whole;
 }
 
@@ -377,6 +377,7 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       name.rivals.push_back(a.id);
     }
     const bool slow_course = couldBeAnySlowCourse(problem, fit, t);
+    double unseen = 0.0;  // rivals that the log cannot show: each is as probable as this effect
     for (const Effect& other : search.catalogue()) {
       if (other.id == effect.id) continue;
       if (!other.variants.empty() && !(slow_course && seenElsewhere(other))) continue;
@@ -391,17 +392,12 @@ Judgement judge(const ResidualProblem& problem, const EffectSearch& search, cons
       if (seen) continue;
       if (!hasPatternOf(problem, search, other, fit, t)) continue;
       name.rivals.push_back(other.id);
+      unseen += 1.0;
       out.warnings.push_back(
           fmt::format("{} cannot be told from {}, because the log lacks what drives the latter: log it next time.",
                       effect.id, other.id));
     }
-    const double undriven =
-        1.0 /
-        (1.0 +
-         static_cast<double>(std::count_if(search.catalogue().begin(), search.catalogue().end(), [&](const Effect& e) {
-           return e.variants.empty() && std::find(name.rivals.begin(), name.rivals.end(), e.id) != name.rivals.end();
-         })));
-    name.confidence = std::clamp(slot.probability * claim[t] * undriven, 0.01, 1.0 - priors.unforeseen);
+    name.confidence = std::clamp(slot.probability * claim[t] / (1.0 + unseen), 0.01, 1.0 - priors.unforeseen);
     if (name.forced && !(slot.delta_evidence > 0.0)) {
       // What is not there has no rivals either.
       name.rivals.clear();

@@ -18,7 +18,8 @@ std::vector<SimulationPart> partsOfSimulation(const ResidualProblem& problem, co
   const DiscrepancyOptions nothing_by_hand;
   const JointFit fit = PosteriorSearch(search, simulation, library, nothing_by_hand, priors, 0.0).run(job).fit;
   std::vector<SimulationPart> out;
-  for (std::size_t t = 0; t < fit.terms.size(); ++t) out.push_back({fit.terms[t].effect->id, fit.contribution[t], {}});
+  for (std::size_t t = 0; t < fit.terms.size(); ++t)
+    out.push_back({fit.terms[t].effect->id, fit.terms[t], fit.contribution[t], {}});
   if (drivers.empty()) return out;
   // Of the order of an offset, so that parts that follow their drivers within minutes are moved as they would be.
   constexpr double apart_s = 120.0;

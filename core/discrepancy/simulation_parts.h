@@ -16,6 +16,7 @@ namespace spindrift {
 /// An effect of the catalogue that the simulation contains.
 struct SimulationPart {
   std::string id;
+  ModelTerm term;          ///< as the simulation has it
   Eigen::VectorXd values;  ///< what it contributes to the simulation over the units, um or urad
   Eigen::VectorXd rate;    ///< what it gains per second that the clock of the log is ahead; empty: nothing logged
 };

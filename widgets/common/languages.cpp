@@ -5,7 +5,6 @@
 #include <QDoubleSpinBox>
 #include <QKeyEvent>
 #include <QLibraryInfo>
-#include <QSettings>
 #include <QTranslator>
 #include <algorithm>
 #include <array>
@@ -38,8 +37,6 @@ class DecimalKeys : public QObject {
     return true;
   }
 };
-
-constexpr auto key = "preferences/language";
 
 struct Installed {
   QString code = QStringLiteral("en");
@@ -77,14 +74,6 @@ QString systemLanguage() {
     if (isAvailableLanguage(code)) return code;
   }
   return availableLanguages().front().code;
-}
-
-QString preferredLanguage() {
-  return QSettings().value(QLatin1String(key)).toString();
-}
-
-void setPreferredLanguage(const QString& code) {
-  QSettings().setValue(QLatin1String(key), code);
 }
 
 QLocale numbersOf(const QString& code) {

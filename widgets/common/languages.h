@@ -23,10 +23,6 @@ struct Language {
 /// The first language of the system that is available; "en" if none is.
 [[nodiscard]] QString systemLanguage();
 
-/// What the user has chosen (settings key "preferences/language"): a code, or "" for the language of the system.
-[[nodiscard]] QString preferredLanguage();
-void setPreferredLanguage(const QString& code);
-
 /// Installs the catalogues of the program and of Qt and the way to write numbers; "" is the language of the system,
 /// what is not available is English. To be called before the first window is made: texts that are shown already stay.
 void applyLanguage(const QString& code);

@@ -60,6 +60,24 @@ TEST(RoughSimulation, OnePartThatIsFarOffIsToldAllTheSame) {
   EXPECT_GE(tally.right, 6);
 }
 
+TEST(RoughSimulation, OnePartThatIsFarOffIsNoRoughnessOfAllParts) {
+  // Each was taken for a simulation all of whose parts are rough, which follows a fifth of a part as well.
+  int right = 0;
+  for (const std::uint64_t k : {5, 48, 88, 98, 105, 143}) {
+    StudyOptions study;
+    study.strength = 6.0;
+    study.conditions.one_base_error = 0.3;
+    study.turn = 41'502 * 7 + 99 + k;
+    const StudyCase made = studyCase(study, 41'502'090'000ULL + k);
+    JobContext job;
+    DiscrepancyOptions options;
+    options.suggest = false;
+    const DiscrepancyResult result = findDiscrepancy(study::inputOf(simulateStudy(made, job).campaign), options, job);
+    right += result.effects.size() == 1 && result.effects.front().id == made.hidden.front() ? 1 : 0;
+  }
+  EXPECT_GE(right, 5);
+}
+
 TEST(RoughSimulation, APartThatIsSomewhatOffIsAnErrorOfItsSizeAndNotMissing) {
   constexpr int campaigns = 8;
   int nothing_named = 0;

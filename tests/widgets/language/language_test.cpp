@@ -22,6 +22,7 @@
 #include "widgets/common/core_formats.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/languages.h"
+#include "widgets/common/preferences.h"
 #include "widgets/export/exportable.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
@@ -159,10 +160,11 @@ TEST_F(LanguageTest, IsThatOfTheCallThePreferenceOrTheSystemAndElseEnglish) {
   ASSERT_GE(availableLanguages().size(), 2U);
   EXPECT_EQ(availableLanguages().front().code, QStringLiteral("en"));
   EXPECT_EQ(systemLanguage(), QStringLiteral("en")) << "tests run in the C locale";
-  EXPECT_EQ(preferredLanguage(), QString());
-  setPreferredLanguage(QStringLiteral("de"));
-  EXPECT_EQ(preferredLanguage(), QStringLiteral("de"));
-  applyLanguage(preferredLanguage());
+  Preferences wanted = preferences();
+  EXPECT_EQ(wanted.language, QString());
+  wanted.language = QStringLiteral("de");
+  setPreferences(wanted);
+  applyLanguage(preferences().language);
   EXPECT_EQ(currentLanguage(), QStringLiteral("de"));
   EXPECT_EQ(QCoreApplication::translate("spindrift::gui::MainWindow", "&Help"), QStringLiteral("&Hilfe"));
   EXPECT_EQ(QCoreApplication::translate("spindrift::gui::JobBar", "%n waiting", nullptr, 1),
