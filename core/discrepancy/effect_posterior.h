@@ -40,11 +40,11 @@ struct DiscrepancyPriors {
   /// off at most that is no more than rough: what is further off is missing, and told.
   double simulation_error = 0.028;
   double rough_simulation_error = 0.08;
-  double rough_simulation = 0.57;
+  double rough_simulation = 0.60;
   double rough_simulation_limit = 2.75;
   /// Standard deviation of the relative error of one part alone that is far off, and how probable that is.
   double far_part_error = 0.3;
-  double far_part = 0.29;
+  double far_part = 0.25;
   /// Odds of an effect that holds a simpler one as a special case, beside that one; and the part of its amplitude by
   /// which the simpler one may be off in just the way that the wider one can follow.
   double wider = 0.1;

@@ -65,8 +65,9 @@ std::string parameterMeaning(std::string_view name) {
                                                        : std::string();
     };
     if (name.size() < 2 || name.size() > 3 || name[0] != 'E' || direction(name[1]).empty()) return {};
-    const std::string how = rotates ? "rotation about " : "displacement along ";
-    if (name.size() == 2) return how + direction(name[1]) + " at the origin of the table";
+    if (name.size() == 2 && rotates)
+      return fmt::format("rotation about {} at the origin of the table", direction(name[1]));
+    if (name.size() == 2) return fmt::format("displacement along {} at the origin of the table", direction(name[1]));
     if (!isAxis(name[2])) return {};
     const bool along_itself = direction(name[1])[0] == name[2];
     if (rotates && along_itself) return fmt::format("roll error of the {} axis", name[2]);

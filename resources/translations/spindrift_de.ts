@@ -9236,6 +9236,114 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{} of {} has {}{}, {:.2f} {} rms</source>
         <translation>{} von {} hat {}{}, {:.2f} {} rms</translation>
     </message>
+    <message>
+        <source>angular error of the {} axis about {}</source>
+        <translation>Winkelabweichung der {}-Achse um {}</translation>
+    </message>
+    <message>
+        <source>column tilt about {}</source>
+        <translation>Neigung der Säule um {}</translation>
+    </message>
+    <message>
+        <source>crash</source>
+        <translation>Kollision</translation>
+    </message>
+    <message>
+        <source>displacement of the table along X</source>
+        <translation>Verschiebung des Tisches entlang X</translation>
+    </message>
+    <message>
+        <source>displacement of the table along Y</source>
+        <translation>Verschiebung des Tisches entlang Y</translation>
+    </message>
+    <message>
+        <source>displacement of the table along Z</source>
+        <translation>Verschiebung des Tisches entlang Z</translation>
+    </message>
+    <message>
+        <source>head tilt about {}</source>
+        <translation>Neigung des Spindelkopfs um {}</translation>
+    </message>
+    <message>
+        <source>moved</source>
+        <translation>umgestellt</translation>
+    </message>
+    <message>
+        <source>note</source>
+        <translation>Notiz</translation>
+    </message>
+    <message>
+        <source>positioning error of the X axis per metre, from the centre of the rotary axis</source>
+        <translation>Positionierabweichung der X-Achse je Meter, ab der Mitte der Drehachse</translation>
+    </message>
+    <message>
+        <source>positioning error of the {} axis</source>
+        <translation>Positionierabweichung der {}-Achse</translation>
+    </message>
+    <message>
+        <source>radial expansion of the table at the reference hole</source>
+        <translation>radiale Ausdehnung des Tisches an der Referenzbohrung</translation>
+    </message>
+    <message>
+        <source>re-levelled</source>
+        <translation>neu ausgerichtet</translation>
+    </message>
+    <message>
+        <source>repair</source>
+        <translation>Reparatur</translation>
+    </message>
+    <message>
+        <source>roll error of the {} axis</source>
+        <translation>Rollabweichung der {}-Achse</translation>
+    </message>
+    <message>
+        <source>rotation</source>
+        <translation>Drehung</translation>
+    </message>
+    <message>
+        <source>rotation of the table about X</source>
+        <translation>Drehung des Tisches um X</translation>
+    </message>
+    <message>
+        <source>rotation of the table about Y</source>
+        <translation>Drehung des Tisches um Y</translation>
+    </message>
+    <message>
+        <source>rotation of the table about Z</source>
+        <translation>Drehung des Tisches um Z</translation>
+    </message>
+    <message>
+        <source>squareness of Y to X</source>
+        <translation>Rechtwinkligkeitsabweichung von Y zu X</translation>
+    </message>
+    <message>
+        <source>squareness of Z to X</source>
+        <translation>Rechtwinkligkeitsabweichung von Z zu X</translation>
+    </message>
+    <message>
+        <source>squareness of Z to Y</source>
+        <translation>Rechtwinkligkeitsabweichung von Z zu Y</translation>
+    </message>
+    <message>
+        <source>straightness error of the {} axis in the direction of {}</source>
+        <translation>Geradheitsabweichung der {}-Achse in Richtung {}</translation>
+    </message>
+    <message>
+        <source>thermal displacement of the spindle along {}</source>
+        <translation>thermische Verlagerung der Spindel entlang {}</translation>
+    </message>
+    <message>
+        <source>thermal expansion of the artefact per metre, from its reference hole</source>
+        <translation>thermische Ausdehnung des Prüfkörpers je Meter, ab seiner Referenzbohrung</translation>
+    </message>
+    <message>
+        <source>thermal expansion of the {} ball screw from its fixed bearing</source>
+        <translation>thermische Ausdehnung des {}-Kugelgewindetriebs ab seinem Festlager</translation>
+    </message>
+    <message>
+        <source>tilt</source>
+        <translation>Neigung</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

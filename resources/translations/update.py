@@ -21,7 +21,7 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 FORMATS = TOP / "widgets/common/core_formats.cpp"
 CATALOGUES = TOP / "resources/translations"
 # Reports, decks for solvers and the reference of the command line are documents of their own: English.
-LEFT_OUT = re.compile(r"core/(reporting|finite_elements)/|report|core/workflows/manual|core/base/program_reference|"
+LEFT_OUT = re.compile(r"core/(reporting/(?!parameter_meanings)|finite_elements/)|report(?!ing/parameter_meanings)|core/workflows/manual|core/base/program_reference|"
                       r"core/plant/plant_schema|core/discrepancy/catalogue\.h")
 # Arguments of these are for machines or for programmers.
 NOT_SHOWN = {"SPINDRIFT_ASSERT", "guarded", "writing", "prepare", "log", "demand", "send", "set_pattern", "set_name",
@@ -34,7 +34,7 @@ COMPOSED = ("displacement along {} at the origin of the table", "rotation about 
             "thermal expansion along {} over the table", "squareness of {} to {}",
             "{} of {} captures cannot be used. Take them again, or exclude them.")
 # Words that stand alone.
-ALONE = ("converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
+ALONE = ("re-levelled", "crash", "repair", "moved", "note", "tilt", "rotation", "converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
          "table", "rotary drive")
 # A report is English, but the window lists its sections.
 HEADING = re.compile(r'(?:\bsection\((?:fmt::format\()?|\bsections\.(?:push_back|emplace_back)\(\{?)\s*"([^"]+)"')

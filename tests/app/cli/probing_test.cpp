@@ -100,7 +100,7 @@ TEST_F(Touches, WrongListsAreRefusedInOneSentence) {
   auto lines = linesOf(list);
   const std::string time = lines[3].substr(0, lines[3].find(','));
   setField(list, 5, "time_s", time);
-  expectRefused({"touches.csv", "line 5", time, "twice"});
+  expectRefused({"touches.csv", "line 5", time, "duplicate"});
   writeText(list, good);
   setField(list, 5, "y_mm", "1,5");
   expectRefused({"touches.csv", "line 5", "decimal comma"});

@@ -305,7 +305,7 @@ TEST(DiscrepancyInput, ReadsASimulationTableOnlyWhole) {
   EXPECT_THAT(read("time_s,point,component,predicted\n0,F1,EQ,1\n"), HasSubstr("EQ"));
   EXPECT_THAT(read("time_s,point,component,predicted\n0,F1,EX,nan\n"), HasSubstr("nan"));
   EXPECT_THAT(read("time_s,point,component,predicted\n9,F1,EX,1\n0,F1,EX,2\n"), HasSubstr("backwards"));
-  EXPECT_THAT(read("time_s,point,component,predicted\n0,F1,EX,1\n0,F1,EX,2\n"), HasSubstr("twice"));
+  EXPECT_THAT(read("time_s,point,component,predicted\n0,F1,EX,1\n0,F1,EX,2\n"), HasSubstr("duplicate"));
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ TEST(ArtefactCheck, EveryWrongCellOfABarIsNamed) {
 
 TEST(ArtefactCheck, EveryWrongCellOfBallsAndStyliIsNamed) {
   expectPlace(findingAfter(false, [](json& a, json&) { a["balls"][1]["diameter_mm"] = 0; }), "balls", 1, 1, "is 0");
-  expectPlace(findingAfter(false, [](json& a, json&) { a["balls"][2]["id"] = "B1"; }), "balls", 2, 0, "twice");
+  expectPlace(findingAfter(false, [](json& a, json&) { a["balls"][2]["id"] = "B1"; }), "balls", 2, 0, "duplicate");
   expectPlace(findingAfter(false, [](json& a, json&) { a["balls"][3]["certified_mm"][2] = "x"; }), "balls", 3, 4,
               "\"x\"");
   expectPlace(findingAfter(false, [](json& a, json&) { a["balls"][0]["certified_mm"][0] = 5; }), "balls", 0, 2,
@@ -89,7 +89,7 @@ TEST(ArtefactCheck, EveryWrongCellOfBallsAndStyliIsNamed) {
               "balls", 2, 2, "run into each other");
   expectPlace(findingAfter(false, [](json& a, json&) { a["balls"] = json::array(); }), "balls", -1, -1, "no balls");
   expectPlace(findingAfter(false, [](json&, json& s) { s[1]["radius_mm"] = nullptr; }), "styli", 1, 1, "nothing");
-  expectPlace(findingAfter(false, [](json&, json& s) { s[2]["id"] = "p0"; }), "styli", 2, 0, "twice");
+  expectPlace(findingAfter(false, [](json&, json& s) { s[2]["id"] = "p0"; }), "styli", 2, 0, "duplicate");
   expectPlace(findingAfter(false, [](json&, json& s) { s[0]["offset_mm"][2] = "1,5"; }), "styli", 0, 4, "\"1,5\"");
 }
 

@@ -53,9 +53,9 @@ TEST_F(TouchFile, BadRowsGiveOneClearSentence) {
   EXPECT_NE(complaint("0,M0,bar,H1,p0,0,0,1,2,3,1,1,0\n").find("unit vector"), std::string::npos);
   EXPECT_NE(complaint("5,M0,bar,H1,p0,0,0,1,2,3,1,0,0\n4,M0,bar,H1,p0,0,1,1,2,3,-1,0,0\n").find("backwards"),
             std::string::npos);
-  EXPECT_NE(complaint("5,M0,bar,H1,p0,0,0,1,2,3,1,0,0\n5,M0,bar,H1,p0,0,1,1,2,3,-1,0,0\n").find("twice"),
+  EXPECT_NE(complaint("5,M0,bar,H1,p0,0,0,1,2,3,1,0,0\n5,M0,bar,H1,p0,0,1,1,2,3,-1,0,0\n").find("duplicate"),
             std::string::npos);
-  EXPECT_NE(complaint("5,M0,bar,H1,p0,0,0,1,2,3,1,0,0\n6,M0,bar,H1,p0,0,0,1,2,3,-1,0,0\n").find("twice"),
+  EXPECT_NE(complaint("5,M0,bar,H1,p0,0,0,1,2,3,1,0,0\n6,M0,bar,H1,p0,0,0,1,2,3,-1,0,0\n").find("duplicate"),
             std::string::npos);
   EXPECT_NE(complaint("0,M0,bar,H1,p0,0,0,nan,2,3,1,0,0\n").find("x_mm"), std::string::npos);
   EXPECT_NE(complaint("0,M0,bar,H1,p0,0,1.5,1,2,3,1,0,0\n").find("1.5"), std::string::npos);

@@ -91,9 +91,10 @@ QStringList wordsOf(const QString& text) {
   static const QRegularExpression word(QStringLiteral("\\b[A-Za-z]{3,}\\b"),
                                        QRegularExpression::UseUnicodePropertiesOption);
   static const std::set<QString> same_everywhere = {
-      QStringLiteral("Spindrift"), QStringLiteral("rms"),  QStringLiteral("urad"),    QStringLiteral("min"),
-      QStringLiteral("mrad"),      QStringLiteral("degC"), QStringLiteral("µrad"),    QStringLiteral("English"),
-      QStringLiteral("Deutsch"),   QStringLiteral("ARX"),  QStringLiteral("CalculiX")};
+      QStringLiteral("Spindrift"), QStringLiteral("rms"),     QStringLiteral("urad"),     QStringLiteral("min"),
+      QStringLiteral("mrad"),      QStringLiteral("degC"),    QStringLiteral("µrad"),     QStringLiteral("English"),
+      QStringLiteral("Deutsch"),   QStringLiteral("ARX"),     QStringLiteral("CalculiX"), QStringLiteral("dir"),
+      QStringLiteral("Strg"),      QStringLiteral("Umschalt")};
   QString plain = text;
   plain.replace(name, QStringLiteral(" "));
   QStringList words;

@@ -51,8 +51,38 @@ QString effectTitle(const std::string& id) {
   if (const auto own = ownTitles().find(id); own != ownTitles().end()) return own->second;
   const auto title = effectTitleOf(id);
   if (!title) return QString::fromStdString(id);
+  const QString english = QString::fromStdString(std::string(title->pattern));
+  const QString subject = QString::fromStdString(title->subject);
   const QString text = translated(std::string(title->pattern).c_str());
-  return title->subject.empty() ? text : text.arg(QString::fromStdString(title->subject));
+  // A title that the catalogue puts together is found by its parts.
+  if (text == english) return coreSentence(subject.isEmpty() ? english : english.arg(subject));
+  return subject.isEmpty() ? text : text.arg(subject);
+}
+
+QString familyTitle(const std::string& family) {
+  static const std::map<std::string, const char*> titles{
+      {"ambient", QT_TRANSLATE_NOOP("Effect", "Room temperature")},
+      {"artefact", QT_TRANSLATE_NOOP("Effect", "Artefact")},
+      {"backlash", QT_TRANSLATE_NOOP("Effect", "Backlash")},
+      {"ball_screw", QT_TRANSLATE_NOOP("Effect", "Ball screws")},
+      {"column", QT_TRANSLATE_NOOP("Effect", "Column")},
+      {"coolant", QT_TRANSLATE_NOOP("Effect", "Coolant")},
+      {"crossbeam", QT_TRANSLATE_NOOP("Effect", "Crossbeam")},
+      {"external_heat", QT_TRANSLATE_NOOP("Effect", "Heat from outside")},
+      {"fixture", QT_TRANSLATE_NOOP("Effect", "Fixture")},
+      {"frame", QT_TRANSLATE_NOOP("Effect", "Frame")},
+      {"head", QT_TRANSLATE_NOOP("Effect", "Head")},
+      {"heat_source", QT_TRANSLATE_NOOP("Effect", "Moving heat source")},
+      {"instrument", QT_TRANSLATE_NOOP("Effect", "Instrument")},
+      {"periodic", QT_TRANSLATE_NOOP("Effect", "Periodic errors")},
+      {"rotary", QT_TRANSLATE_NOOP("Effect", "Rotary table")},
+      {"scale", QT_TRANSLATE_NOOP("Effect", "Linear scales")},
+      {"spindle", QT_TRANSLATE_NOOP("Effect", "Spindle")},
+      {"squareness", QT_TRANSLATE_NOOP("Effect", "Squareness")},
+      {"table", QT_TRANSLATE_NOOP("Effect", "Table")}};
+  const auto found = titles.find(family);
+  if (found != titles.end()) return QCoreApplication::translate("Effect", found->second);
+  return sentenceStart(QString::fromStdString(family).replace(QLatin1Char('_'), QLatin1Char(' ')));
 }
 
 QString effectTitles(const std::vector<std::string>& ids, const QString& last_word) {

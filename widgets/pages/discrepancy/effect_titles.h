@@ -21,6 +21,8 @@ namespace spindrift::gui {
 /// From now on effects of the user's go by the titles that they have in `document` (effects.json); null: there are
 /// none. GUI thread.
 void knowOwnTitles(const nlohmann::json& document);
+/// "ball_screw" -> "Ball screws": what an id begins with.
+[[nodiscard]] QString familyTitle(const std::string& family);
 /// "head.tilt.a or frame.rotation.a" by their titles.
 [[nodiscard]] QString effectTitles(const std::vector<std::string>& ids, const QString& last_word);
 /// A sentence of the search with every id of the catalogue by its title.

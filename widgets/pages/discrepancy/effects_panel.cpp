@@ -85,32 +85,6 @@ EffectListing listingOf(const Campaign& campaign, const StoredEvaluation* evalua
   return out;
 }
 
-QString familyTitle(const std::string& family) {
-  static const std::map<std::string, const char*> titles{
-      {"ambient", QT_TRANSLATE_NOOP("Effect", "Room temperature")},
-      {"artefact", QT_TRANSLATE_NOOP("Effect", "Artefact")},
-      {"backlash", QT_TRANSLATE_NOOP("Effect", "Backlash")},
-      {"ball_screw", QT_TRANSLATE_NOOP("Effect", "Ball screws")},
-      {"column", QT_TRANSLATE_NOOP("Effect", "Column")},
-      {"coolant", QT_TRANSLATE_NOOP("Effect", "Coolant")},
-      {"crossbeam", QT_TRANSLATE_NOOP("Effect", "Crossbeam")},
-      {"external_heat", QT_TRANSLATE_NOOP("Effect", "Heat from outside")},
-      {"fixture", QT_TRANSLATE_NOOP("Effect", "Fixture")},
-      {"frame", QT_TRANSLATE_NOOP("Effect", "Frame")},
-      {"head", QT_TRANSLATE_NOOP("Effect", "Head")},
-      {"heat_source", QT_TRANSLATE_NOOP("Effect", "Moving heat source")},
-      {"instrument", QT_TRANSLATE_NOOP("Effect", "Instrument")},
-      {"periodic", QT_TRANSLATE_NOOP("Effect", "Periodic errors")},
-      {"rotary", QT_TRANSLATE_NOOP("Effect", "Rotary table")},
-      {"scale", QT_TRANSLATE_NOOP("Effect", "Linear scales")},
-      {"spindle", QT_TRANSLATE_NOOP("Effect", "Spindle")},
-      {"squareness", QT_TRANSLATE_NOOP("Effect", "Squareness")},
-      {"table", QT_TRANSLATE_NOOP("Effect", "Table")}};
-  const auto found = titles.find(family);
-  if (found != titles.end()) return QCoreApplication::translate("Effect", found->second);
-  return sentenceStart(QString::fromStdString(family).replace(QLatin1Char('_'), QLatin1Char(' ')));
-}
-
 QString titleOfEffect(const Effect& effect) {
   return sentenceStart(effect.own ? QString::fromStdString(titleOf(effect)) : effectTitle(effect.id));
 }

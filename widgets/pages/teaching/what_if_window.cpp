@@ -19,6 +19,7 @@
 
 #include "core/reporting/report_wording.h"
 #include "core/reporting/test_part_drawing.h"
+#include "widgets/common/core_sentence.h"
 #include "widgets/common/drawing_painter.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
@@ -50,12 +51,12 @@ QString groupTitle(const WhatIfParameter& p) {
   if (p.group == "squareness") return WhatIfWindow::tr("Squareness");
   if (p.geometric && p.group == "C") return WhatIfWindow::tr("Location of the rotary table C");
   if (p.geometric) return WhatIfWindow::tr("Axis %1").arg(fromCore(p.group));
-  return sentenceStart(fromCore(words(p.group)));
+  return familyTitle(p.group);
 }
 
 QString parameterName(const WhatIfParameter& p) {
   if (!p.geometric) return sentenceStart(effectTitle(p.id));
-  return QStringLiteral("%1  %2").arg(fromCore(p.id.substr(0, p.id.find('_'))), fromCore(p.title));
+  return QStringLiteral("%1  %2").arg(fromCore(p.id.substr(0, p.id.find('_'))), coreSentence(p.title));
 }
 
 /// 1, 2, 5 times a power of ten, at most `most`.
@@ -265,12 +266,12 @@ void WhatIfWindow::addControl(std::size_t parameter, QLabel* heading, QVBoxLayou
   QString tip = name;
   if (!p.geometric) {
     const QString driver = tr("%1, %2 %3 per %4")
-                               .arg(sentenceStart(fromCore(p.driver)), QString::number(p.sensitivity, 'g', 3),
+                               .arg(sentenceStart(coreSentence(p.driver)), QString::number(p.sensitivity, 'g', 3),
                                     gainUnitText(p.gain_unit), valueUnit(p));
     auto* note = makeLabel(driver, "secondaryText");
     note->setWordWrap(true);
     box->addWidget(note);
-    tip = QStringLiteral("%1\n%2").arg(fromCore(p.physics), fromCore(p.formula));
+    tip = QStringLiteral("%1\n%2").arg(coreSentence(p.physics), fromCore(p.formula));
     control.text = driver;
   }
   control.text += QLatin1Char(' ') + name + QLatin1Char(' ') + fromCore(p.id);
