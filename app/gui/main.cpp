@@ -241,7 +241,8 @@ int run(int argc, char** argv) {
   const QCommandLineOption demo(QStringLiteral("demo"),
                                 QCoreApplication::translate("main",
                                                             "Open a demo session of the virtual machine; its name may "
-                                                            "follow: fiducials, holes, balls, scans, discrepancy."));
+                                                            "follow: fiducials, holes, balls, scans, discrepancy, "
+                                                            "own_pattern."));
   const QCommandLineOption tour(
       QStringLiteral("tour"),
       QCoreApplication::translate("main", "Walk through every step on demo data and save pictures in DIR."),

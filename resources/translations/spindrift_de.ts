@@ -303,6 +303,14 @@
         <source>What the simulation lacks</source>
         <translation>Was in der Simulation fehlt</translation>
     </message>
+    <message>
+        <source>A campaign with its own pattern.json: 7 × 7 ellipses on a pitch of 455 µm.</source>
+        <translation>Eine Kampagne mit eigener pattern.json: 7 × 7 Ellipsen im Raster von 455 µm.</translation>
+    </message>
+    <message>
+        <source>Fiducials of your own artwork</source>
+        <translation>Marken nach eigener Vorlage</translation>
+    </message>
 </context>
 <context>
     <name>Dropped</name>
@@ -9903,10 +9911,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Spindrift: thermische Abweichungen von Werkzeugmaschinen messen, verstehen und kompensieren.</translation>
     </message>
     <message>
-        <source>Open a demo session of the virtual machine; its name may follow: fiducials, holes, balls, scans, discrepancy.</source>
-        <translation>Demositzung der virtuellen Maschine öffnen; ihr Name kann folgen: fiducials, holes, balls, scans, discrepancy.</translation>
-    </message>
-    <message>
         <source>Walk through every step on demo data and save pictures in DIR.</source>
         <translation>Alle Schritte mit Demodaten durchlaufen und Bilder in DIR speichern.</translation>
     </message>
@@ -9941,6 +9945,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>With --tour: size of the window; every page with each of its tabs is shown.</source>
         <translation>Mit --tour: Größe des Fensters; jede Seite wird mit allen Reitern gezeigt.</translation>
+    </message>
+    <message>
+        <source>Open a demo session of the virtual machine; its name may follow: fiducials, holes, balls, scans, discrepancy, own_pattern.</source>
+        <translation>Eine Demositzung der virtuellen Maschine öffnen; ihr Name kann folgen: fiducials, holes, balls, scans, discrepancy, own_pattern.</translation>
     </message>
 </context>
 <context>
@@ -13983,10 +13991,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>± %1 px, %2; Wiederholpräzision der Spindel %3 µm</translation>
     </message>
     <message>
-        <source>Algebraic circles through the measured tracks (P0 (6)–(9)), for comparison: %1, %2 µm from this centre, scatter %3, %4 µm. Short arcs pull them; they are not used.</source>
-        <translation>Algebraische Kreise durch die gemessenen Spuren (P0 (6)–(9)), zum Vergleich: %1, %2 µm von diesem Zentrum, Streuung %3, %4 µm. Kurze Bögen verfälschen sie; sie werden nicht verwendet.</translation>
-    </message>
-    <message>
         <source>needs three spindle orientations</source>
         <translation>setzt drei Spindelstellungen voraus</translation>
     </message>
@@ -14005,6 +14009,46 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Contrast curves</source>
         <translation>Kontrastkurven</translation>
+    </message>
+    <message>
+        <source>Joint x / px</source>
+        <translation>Gemeinsam x / px</translation>
+    </message>
+    <message>
+        <source>Joint y / px</source>
+        <translation>Gemeinsam y / px</translation>
+    </message>
+    <message>
+        <source>Circles x / px</source>
+        <translation>Kreise x / px</translation>
+    </message>
+    <message>
+        <source>Circles y / px</source>
+        <translation>Kreise y / px</translation>
+    </message>
+    <message>
+        <source>Off in x / µm</source>
+        <translation>Abstand in x / µm</translation>
+    </message>
+    <message>
+        <source>Off in y / µm</source>
+        <translation>Abstand in y / µm</translation>
+    </message>
+    <message>
+        <source>Tracks</source>
+        <translation>Bahnen</translation>
+    </message>
+    <message>
+        <source>Circles</source>
+        <translation>Kreise</translation>
+    </message>
+    <message>
+        <source>Circles through the tracks of the marks appear after an evaluation with at least three spindle orientations.</source>
+        <translation>Kreise durch die Bahnen der Marken erscheinen nach einer Auswertung mit mindestens drei Spindelstellungen.</translation>
+    </message>
+    <message>
+        <source>Algebraic circles through the tracks of the marks (P0 (6)–(9)) lie %1, %2 µm from the joint evaluation in the mean, scatter %3, %4 µm: short arcs pull them. They are shown for comparison and not used.</source>
+        <translation>Algebraische Kreise durch die Bahnen der Marken (P0 (6)–(9)) liegen im Mittel %1, %2 µm neben der gemeinsamen Auswertung, Streuung %3, %4 µm: kurze Bögen ziehen sie weg. Sie stehen zum Vergleich da und werden nicht verwendet.</translation>
     </message>
 </context>
 <context>
@@ -20180,6 +20224,70 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Touches left out</source>
         <translation>Ausgelassene Antastungen</translation>
+    </message>
+    <message>
+        <source>Comparison</source>
+        <translation>Vergleich</translation>
+    </message>
+    <message>
+        <source>Nothing to compare with: balls need three styli, a bar of holes its certificate or its expansion coefficient with a thermometer.</source>
+        <translation>Nichts zu vergleichen: Kugeln brauchen drei Taststifte, ein Bohrungsstab seinen Kalibrierschein oder seinen Ausdehnungskoeffizienten mit Thermometer.</translation>
+    </message>
+    <message>
+        <source>Certificate</source>
+        <translation>Kalibrierschein</translation>
+    </message>
+    <message>
+        <source>Bar / °C</source>
+        <translation>Stab / °C</translation>
+    </message>
+    <message>
+        <source>%1 against certificate / (µm/m)</source>
+        <translation>%1 gegen Kalibrierschein / (µm/m)</translation>
+    </message>
+    <message>
+        <source>Growth, coefficient × temperature / (µm/m)</source>
+        <translation>Ausdehnung, Koeffizient × Temperatur / (µm/m)</translation>
+    </message>
+    <message>
+        <source>Growth, touches / (µm/m)</source>
+        <translation>Ausdehnung, Antastungen / (µm/m)</translation>
+    </message>
+    <message>
+        <source>EME combines touches with expansion coefficient and temperature by their uncertainties; the certificate counts in EME and EXX.</source>
+        <translation>EME verbindet Antastungen mit Ausdehnungskoeffizient und Temperatur nach ihren Unsicherheiten; der Kalibrierschein zählt in EME und EXX.</translation>
+    </message>
+    <message>
+        <source>EME rests on the touches: coefficient and temperature are combined with them only where both state their uncertainty and do not contradict them.</source>
+        <translation>EME beruht auf den Antastungen: Koeffizient und Temperatur werden nur dann mit ihnen verbunden, wenn beide ihre Unsicherheit angeben und ihnen nicht widersprechen.</translation>
+    </message>
+    <message>
+        <source>Closed forms</source>
+        <translation>Geschlossene Formeln</translation>
+    </message>
+    <message>
+        <source>Ball</source>
+        <translation>Kugel</translation>
+    </message>
+    <message>
+        <source>Closed forms X, Y, Z / µrad</source>
+        <translation>Geschlossene Formeln X, Y, Z / µrad</translation>
+    </message>
+    <message>
+        <source>Joint evaluation X, Y, Z / µrad</source>
+        <translation>Gemeinsame Auswertung X, Y, Z / µrad</translation>
+    </message>
+    <message>
+        <source>Stylus 0 moved / µm</source>
+        <translation>Weg von Taststift 0 / µm</translation>
+    </message>
+    <message>
+        <source>Joint drift / µm</source>
+        <translation>Drift, gemeinsam / µm</translation>
+    </message>
+    <message>
+        <source>P4 (7)–(10) as printed take every translation for a rotation of the head: here they are off by up to %1 µrad. They are shown for comparison and not used.</source>
+        <translation>P4 (7)–(10) halten, wie gedruckt, jede Verschiebung für eine Drehung des Kopfes: hier liegen sie µm bis zu %1 µrad daneben. Sie stehen zum Vergleich da und werden nicht verwendet.</translation>
     </message>
 </context>
 <context>

@@ -161,6 +161,8 @@ const std::vector<Demo>& demos() {
       {"discrepancy", "discrepancy_vertical", translated("What the simulation lacks"),
        translated("Find where simulation and measurement disagree, name the missing effect, see the gap shrink."),
        "discrepancy"},
+      {"own_pattern", "own_pattern", translated("Fiducials of your own artwork"),
+       translated("A campaign with its own pattern.json: 7 × 7 ellipses on a pitch of 455 µm."), "microscope", false},
   };
   return list;
 }

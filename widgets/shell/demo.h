@@ -18,6 +18,7 @@ struct Demo {
   QString title;
   QString sentence;
   const char* icon;
+  bool on_first_screen = true;  ///< else in the menu only
 };
 
 [[nodiscard]] const std::vector<Demo>& demos();

@@ -40,6 +40,7 @@ const std::vector<TourStop>& tourStops() {
       {"balls", {StepId::Capture, StepId::Model}},
       {"scans", {StepId::Capture, StepId::Calibrate, StepId::Model, StepId::Review}},
       {"discrepancy", {StepId::Model, StepId::Discrepancy, StepId::Compensate, StepId::Report}},
+      {"own_pattern", {StepId::Capture, StepId::Calibrate, StepId::Model}},
   };
   return stops;
 }

@@ -66,6 +66,11 @@ void firstTab(MainWindow& window) {
   if (auto* tabs = window.currentPage()->findChild<QTabWidget*>()) tabs->setCurrentIndex(0);
 }
 
+QWidget* showTab(MainWindow& window, int index) {
+  if (auto* tabs = window.currentPage()->findChild<QTabWidget*>()) tabs->setCurrentIndex(index);
+  return nullptr;
+}
+
 /// A record of an instrument beside the probe: the probe's own values, read at the cycles.
 QWidget* showReference(MainWindow& window, const QString& scratch) {
   auto* panel = panelOf<ReferencePanel>(window);
@@ -327,8 +332,11 @@ std::vector<std::pair<const char*, std::function<QWidget*(MainWindow&)>>> tourWi
 
 std::vector<TourDetail> tourDetails(const QString& demo, const QString& scratch) {
   const auto close_help = [](MainWindow& window) { window.helpAction()->trigger(); };
+  if (demo == QLatin1String("balls"))
+    return {{StepId::Calibrate, "closed-forms", [](MainWindow& window) { return showTab(window, 3); }, firstTab}};
   if (demo == QLatin1String("fiducials")) {
-    return {{StepId::Model, "help",
+    return {{StepId::Calibrate, "circles", [](MainWindow& window) { return showTab(window, 4); }, firstTab},
+            {StepId::Model, "help",
              [](MainWindow& window) -> QWidget* {
                if (!window.helpAction()->isChecked()) window.helpAction()->trigger();
                return nullptr;
@@ -343,6 +351,7 @@ std::vector<TourDetail> tourDetails(const QString& demo, const QString& scratch)
                return nullptr;
              },
              firstTab},
+            {StepId::Calibrate, "certificate", [](MainWindow& window) { return showTab(window, 3); }, firstTab},
             {StepId::Calibrate, "reference", [scratch](MainWindow& window) { return showReference(window, scratch); },
              firstTab},
             {StepId::Model, "notes", showNotes, [](MainWindow& window) {

@@ -220,6 +220,7 @@ WelcomePage::WelcomePage(QWidget* parent) : QWidget(parent) {
   grid->setSpacing(16);
   int index = 0;
   for (const Demo& demo : demos()) {
+    if (!demo.on_first_screen) continue;
     auto* card = new DemoCard(demo);
     cards_.push_back(card);
     grid->addWidget(card, 0, index++);

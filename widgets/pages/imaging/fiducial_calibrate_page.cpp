@@ -8,6 +8,7 @@
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -88,6 +89,19 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
                                      tr("Say what the states are to compare them with the resolution of the axes.")),
                            1);
   tabs_->addTab(checks, tr("Resolution"));
+  auto* comparison = new QWidget;
+  auto* comparison_column = new QVBoxLayout(comparison);
+  comparison_column->setContentsMargins(0, 8, 0, 0);
+  circles_verdict_ = new Callout;
+  comparison_column->addWidget(circles_verdict_);
+  circles_ = new RowsModel({tr("Fiducial"), tr("State"), tr("Joint x / px"), tr("Joint y / px"), tr("Circles x / px"),
+                            tr("Circles y / px"), tr("Off in x / µm"), tr("Off in y / µm"), tr("Tracks")},
+                           this);
+  comparison_column->addWidget(makeTable(circles_, tr("Circles"),
+                                         tr("Circles through the tracks of the marks appear after an evaluation with "
+                                            "at least three spindle orientations.")),
+                               1);
+  tabs_->addTab(comparison, tr("Circles"));
   connect(check_kind_, &QComboBox::activated, this, &FiducialCalibratePage::showResolutionCheck);
   left->body()->addWidget(tabs_, 1);
   auto* right = new Card(tr("Contrast over height"));
@@ -126,6 +140,8 @@ void FiducialCalibratePage::refresh() {
     displacements_->setRows({});
     sets_->setRows({});
     rejected_->setRows({});
+    circles_->setRows({});
+    circles_verdict_->set(Tone::Neutral, {});
     contrast_->setContent({});
     fiducial_->clear();
     for (NumberTile* tile : {pixel_, centre_, axes_, rejected_count_}) tile->set(QStringLiteral("–"));
@@ -189,6 +205,7 @@ void FiducialCalibratePage::showDetails(const StoredEvaluation& evaluation) {
                        rows.empty() ? Tone::Neutral : Tone::Attention);
   rejected_->setRows(std::move(rows));
   showSets(evaluation);
+  showCircles(evaluation);
   showContrast();
   showResolutionCheck();
 }
@@ -282,16 +299,6 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
                      .arg(decimalText(s, 'f', 2))
                      .arg(pooling)
                      .arg(decimalText(pooled.value("spindle_repeatability_um", 0.0), 'f', 2)));
-    const nlohmann::json circles = pooled.value("algebraic_minus_joint_um", nlohmann::json());
-    centre_->setToolTip(
-        circles.is_object()
-            ? tr("Algebraic circles through the measured tracks (P0 (6)–(9)), for comparison: %1, %2 µm "
-                 "from this centre, scatter %3, %4 µm. Short arcs pull them; they are not used.")
-                  .arg(decimalText(circles["mean"][0].get<double>(), 'f', 1))
-                  .arg(decimalText(circles["mean"][1].get<double>(), 'f', 1))
-                  .arg(decimalText(circles["standard_deviation"][0].get<double>(), 'f', 1))
-                  .arg(decimalText(circles["standard_deviation"][1].get<double>(), 'f', 1))
-            : QString());
   } else {
     centre_->set(QStringLiteral("–"), tr("needs three spindle orientations"));
   }
@@ -302,6 +309,52 @@ void FiducialCalibratePage::showSets(const StoredEvaluation& evaluation) {
   } else {
     axes_->set(QStringLiteral("–"), tr("needs positions along both axes"));
   }
+}
+
+void FiducialCalibratePage::showCircles(const StoredEvaluation& evaluation) {
+  const nlohmann::json& d = evaluation.details;
+  const nlohmann::json length = d.value("camera", nlohmann::json::object()).value("pixel_length_um", nlohmann::json());
+  std::vector<Row> rows;
+  for (const auto& fiducial : d.value("fiducials", nlohmann::json::array())) {
+    for (const auto& state : fiducial.value("states", nlohmann::json::array())) {
+      const nlohmann::json c = state.value("centre_of_rotation", nlohmann::json());
+      if (!c.is_object() || !c.value("algebraic_px", nlohmann::json()).is_array() || !length.is_number()) continue;
+      Row row;
+      const QString name = QString::fromStdString(fiducial.value("fiducial", std::string()));
+      const QString at = QString::fromStdString(state.value("state", std::string()));
+      row.id = name + QLatin1Char('/') + at;
+      Cell first{name};
+      first.bold = true;
+      row.cells = {first, {at}, cellOf(c.value("x_px", nlohmann::json())), cellOf(c.value("y_px", nlohmann::json()))};
+      const std::array<double, 2> circles{c["algebraic_px"][0].get<double>(), c["algebraic_px"][1].get<double>()};
+      const auto number = [&](double value, int decimals) {
+        Cell cell{decimalText(value, 'f', decimals)};
+        cell.right = true;
+        row.cells.push_back(cell);
+      };
+      for (const double value : circles) number(value, 2);
+      number((circles[0] - c["x_px"].value("value", 0.0)) * length.get<double>(), 1);
+      number((circles[1] - c["y_px"].value("value", 0.0)) * length.get<double>(), 1);
+      number(c.value("algebraic_tracks", 0), 0);
+      rows.push_back(std::move(row));
+    }
+  }
+  circles_->setRows(std::move(rows));
+  const nlohmann::json pooled =
+      d.value("centre_of_rotation", nlohmann::json::object()).value("algebraic_minus_joint_um", nlohmann::json());
+  if (!pooled.is_object()) {
+    circles_verdict_->set(Tone::Neutral, {});
+    return;
+  }
+  circles_verdict_->show(
+      Tone::Neutral,
+      tr("Algebraic circles through the tracks of the marks (P0 (6)–(9)) lie %1, %2 µm from the joint "
+         "evaluation in the mean, scatter %3, %4 µm: short arcs pull them. They are shown for comparison "
+         "and not used.")
+          .arg(decimalText(pooled["mean"][0].get<double>(), 'f', 1))
+          .arg(decimalText(pooled["mean"][1].get<double>(), 'f', 1))
+          .arg(decimalText(pooled["standard_deviation"][0].get<double>(), 'f', 1))
+          .arg(decimalText(pooled["standard_deviation"][1].get<double>(), 'f', 1)));
 }
 
 void FiducialCalibratePage::showContrast() {
@@ -357,8 +410,8 @@ void FiducialCalibratePage::showContrast() {
 }
 
 std::vector<Exportable> FiducialCalibratePage::exportables() {
-  std::vector<Exportable> items{exportableOf(tr("Deviations"), displacements_),
-                                exportableOf(tr("Left out"), rejected_)};
+  std::vector<Exportable> items{exportableOf(tr("Deviations"), displacements_), exportableOf(tr("Left out"), rejected_),
+                                exportableOf(tr("Circles"), circles_)};
   if (!contrast_->empty()) items.push_back(exportableOf(tr("Contrast curves"), contrast_));
   return items;
 }

@@ -22,10 +22,14 @@ class FiducialCalibratePage : public Page {
   [[nodiscard]] QPushButton* primaryButton() const override { return evaluate_; }
   void runAll() override { evaluate(); }
 
+  /// Algebraic circles beside the joint evaluation.
+  [[nodiscard]] RowsModel* circles() const { return circles_; }
+
  private:
   void evaluate();
   void showDetails(const StoredEvaluation& evaluation);
   void showSets(const StoredEvaluation& evaluation);
+  void showCircles(const StoredEvaluation& evaluation);
   void showContrast();
   void showResolutionCheck();
 
@@ -37,6 +41,8 @@ class FiducialCalibratePage : public Page {
   RowsModel* displacements_;
   RowsModel* sets_;
   RowsModel* rejected_;
+  RowsModel* circles_;
+  Callout* circles_verdict_;
   Plot* contrast_;
   QTabWidget* tabs_;
   QComboBox* fiducial_;

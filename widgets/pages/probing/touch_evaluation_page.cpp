@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/probing/closed_forms.h"
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
@@ -73,6 +75,13 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   lengths_ = new RowsModel({}, this);
   tabs_->addTab(makeTable(lengths_, tr("Lengths"), tr("Distances and straightness appear after the evaluation.")),
                 tr("Lengths"));
+  comparison_verdict_ = new Callout;
+  comparison_ = new RowsModel({}, this);
+  tabs_->addTab(withVerdict(comparison_verdict_,
+                            makeTable(comparison_, tr("Comparison"),
+                                      tr("Nothing to compare with: balls need three styli, a bar of holes its "
+                                         "certificate or its expansion coefficient with a thermometer."))),
+                tr("Comparison"));
   repeatability_verdict_ = new Callout;
   repeatability_ =
       new RowsModel({tr("Parameter"), tr("Repeatability, k = 2"), tr("From touch noise"), tr("Unit")}, this);
@@ -160,10 +169,11 @@ void TouchEvaluationPage::restore() {
 }
 
 void TouchEvaluationPage::clear() {
-  for (RowsModel* rows : {features_, left_out_, lengths_, repeatability_, health_}) rows->setRows({});
+  for (RowsModel* rows : {features_, left_out_, lengths_, comparison_, repeatability_, health_}) rows->setRows({});
   plot_->setContent({});
   cycle_->clear();
   point_->clear();
+  comparison_verdict_->set(Tone::Neutral, {});
   repeatability_verdict_->set(Tone::Neutral, {});
   health_verdict_->set(Tone::Neutral, {});
   reference_->setCycles(nullptr);
@@ -219,6 +229,7 @@ void TouchEvaluationPage::refresh() {
   showFeatures();
   showLeftOut(*details_.evaluation, *cycles);
   showLengths();
+  showComparison();
   showRepeatability();
   showHealth();
   showDeviations();
@@ -344,6 +355,81 @@ void TouchEvaluationPage::showLengths() {
   lengths_->setRows(std::move(rows));
 }
 
+void TouchEvaluationPage::showComparison() {
+  std::vector<Row> rows;
+  const MachineDescription& machine = session().campaign()->machine;
+  if (!details_.evaluation->hole_cycles.empty()) {
+    const HoleCycleResult& holes = details_.evaluation->hole_cycles.front();
+    tabs_->setTabText(3, tr("Certificate"));
+    comparison_->setHeaders({tr("Cycle"), tr("Bar / °C"),
+                             tr("%1 against certificate / (µm/m)").arg(fromCore(holes.setup.linear)),
+                             tr("Growth, coefficient × temperature / (µm/m)"), tr("Growth, touches / (µm/m)")});
+    for (const std::string& cycle : holes.cycles) {
+      const auto lengths = std::find_if(holes.against_certificate.begin(), holes.against_certificate.end(),
+                                        [&](const CertifiedLengths& c) { return c.cycle == cycle; });
+      const auto growth = std::find_if(holes.growth.begin(), holes.growth.end(),
+                                       [&](const ExpectedGrowth& g) { return g.cycle == cycle; });
+      const bool certified = lengths != holes.against_certificate.end();
+      const bool grown = growth != holes.growth.end();
+      if (!certified && !grown) continue;
+      Row row;
+      row.id = fromCore(cycle);
+      row.cells = {
+          nameCell(row.id),
+          certified && lengths->temperature_degC ? numberCell(*lengths->temperature_degC, 2) : dashCell(),
+          certified ? quantityCell(lengths->slope_um_per_m, lengths->standard_uncertainty_um_per_m) : dashCell(),
+          grown ? quantityCell(growth->expected_um_per_m, growth->expected_sigma_um_per_m) : dashCell(),
+          grown ? quantityCell(growth->measured_um_per_m, growth->measured_sigma_um_per_m) : dashCell()};
+      rows.push_back(std::move(row));
+    }
+    if (rows.empty()) {
+      comparison_verdict_->set(Tone::Neutral, {});
+    } else {
+      comparison_verdict_->show(
+          Tone::Neutral,
+          holes.growth_combined
+              ? tr("EME combines touches with expansion coefficient and temperature by their uncertainties; the "
+                   "certificate counts in EME and EXX.")
+              : tr("EME rests on the touches: coefficient and temperature are combined with them only where both state "
+                   "their uncertainty and do not contradict them."));
+    }
+  } else {
+    tabs_->setTabText(3, tr("Closed forms"));
+    comparison_->setHeaders({tr("Cycle"), tr("Ball"), tr("Closed forms X, Y, Z / µrad"),
+                             tr("Joint evaluation X, Y, Z / µrad"), tr("Stylus 0 moved / µm"), tr("Joint drift / µm")});
+    double off_urad = 0.0;
+    for (const HeadComparison& c : closedFormsBeside(details_.evaluation->ball_cycles.front(), machine)) {
+      Row row;
+      row.id = fromCore(c.cycle + "/" + c.ball);
+      QStringList closed;
+      QStringList joint;
+      for (int k = 0; k < 3; ++k) {
+        closed << (c.closed_form_urad ? decimalText((*c.closed_form_urad)(k), 'f', 1) : QStringLiteral("–"));
+        joint << shownNumbers(QString::fromStdString(withUncertainty(c.joint_urad(k), c.joint_sigma_urad(k), "")))
+                     .trimmed();
+      }
+      if (c.closed_form_urad) off_urad = std::max(off_urad, (*c.closed_form_urad - c.joint_urad).cwiseAbs().maxCoeff());
+      row.cells = {nameCell(fromCore(c.cycle)),
+                   Cell{fromCore(c.ball)},
+                   Cell{closed.join(QStringLiteral("; "))},
+                   Cell{joint.join(QStringLiteral("; "))},
+                   numberCell(c.spindle_drift_um, 2),
+                   numberCell(c.joint_drift_um, 2)};
+      row.cells[2].tip = coreSentence(c.message);
+      rows.push_back(std::move(row));
+    }
+    if (rows.empty()) {
+      comparison_verdict_->set(Tone::Neutral, {});
+    } else {
+      comparison_verdict_->show(Tone::Neutral,
+                                tr("P4 (7)–(10) as printed take every translation for a rotation of the head: here "
+                                   "they are off by up to %1 µrad. They are shown for comparison and not used.")
+                                    .arg(decimalText(off_urad, 'f', 1)));
+    }
+  }
+  comparison_->setRows(std::move(rows));
+}
+
 void TouchEvaluationPage::showRepeatability() {
   const RepeatabilityStudy& study = details_.repeatability;
   std::vector<Row> rows;
@@ -435,7 +521,9 @@ void TouchEvaluationPage::showDeviations() {
 
 std::vector<Exportable> TouchEvaluationPage::exportables() {
   std::vector<Exportable> items{exportableOf(tr("Features"), features_),
-                                exportableOf(tr("Touches left out"), left_out_), exportableOf(tr("Lengths"), lengths_),
+                                exportableOf(tr("Touches left out"), left_out_),
+                                exportableOf(tr("Lengths"), lengths_),
+                                exportableOf(tr("Comparison"), comparison_),
                                 exportableOf(tr("Repeatability"), repeatability_),
                                 exportableOf(tr("Health of the probe"), health_)};
   if (!plot_->empty()) items.push_back(exportableOf(tr("Deviation over time"), plot_));

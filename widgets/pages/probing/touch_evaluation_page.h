@@ -29,6 +29,8 @@ class TouchEvaluationPage : public Page {
   void runAll() override { evaluate(); }
   [[nodiscard]] RowsModel* features() const { return features_; }
   [[nodiscard]] RowsModel* leftOut() const { return left_out_; }
+  /// Closed forms of the papers, or the lengths of the certificate, beside the joint evaluation.
+  [[nodiscard]] RowsModel* comparison() const { return comparison_; }
   [[nodiscard]] Plot* deviations() const { return plot_; }
   [[nodiscard]] ReferencePanel* reference() const { return reference_; }
   [[nodiscard]] QTabWidget* tabs() const { return tabs_; }
@@ -48,6 +50,7 @@ class TouchEvaluationPage : public Page {
   void showFeatures();
   void showLeftOut(const TouchEvaluation& evaluation, const CycleEvaluation& cycles);
   void showLengths();
+  void showComparison();
   void showRepeatability();
   void showHealth();
   void showDeviations();
@@ -65,8 +68,10 @@ class TouchEvaluationPage : public Page {
   RowsModel* features_;
   RowsModel* left_out_;
   RowsModel* lengths_;
+  RowsModel* comparison_;
   RowsModel* repeatability_;
   RowsModel* health_;
+  Callout* comparison_verdict_;
   Callout* repeatability_verdict_;
   Callout* health_verdict_;
   ReferencePanel* reference_;

@@ -24,8 +24,10 @@ using namespace probing_test;
 class ProbingPages : public PageTest {
  protected:
   /// Four cycles; in M2 one touch is bad by 40 um, in M3 one is missing.
-  void openCycles(bool holes) {
-    const std::string machine_text = holes ? holeMachineText() : ballMachineText();
+  void openCycles(bool holes, const std::string& bar = "\"hole_diameter_mm\":12") {
+    std::string machine_text = holes ? holeMachineText() : ballMachineText();
+    const std::string plain_bar = "\"hole_diameter_mm\":12";
+    if (holes) machine_text.replace(machine_text.find(plain_bar), plain_bar.size(), bar);
     const MachineDescription machine = machineFrom(machine_text);
     VirtualRun run = runCycles(machine, 4, {}, 11);
     truth_ = run.truth;
@@ -148,6 +150,51 @@ TEST_F(ProbingPages, EvaluationListsFeaturesAndWhatWasLeftOut) {
   page = go<TouchEvaluationPage>(StepId::Calibrate);
   EXPECT_EQ(page->features()->rowCount(), 12);
   EXPECT_EQ(page->leftOut()->rowCount(), 1);
+}
+
+TEST_F(ProbingPages, ClosedFormsStandBesideTheJointEvaluation) {
+  openCycles(false);
+  auto* page = go<TouchEvaluationPage>(StepId::Calibrate);
+  press();
+  EXPECT_EQ(page->tabs()->tabText(3), QStringLiteral("Closed forms"));
+  ASSERT_EQ(page->comparison()->rowCount(), 12) << "four balls in three cycles after the first";
+  const auto numbers = [&](std::size_t column) {
+    QStringList parts = cell(*page->comparison(), QStringLiteral("M1/B1"), column).split(QStringLiteral("; "));
+    EXPECT_EQ(parts.size(), 3);
+    std::vector<double> out;
+    for (QString& part : parts)
+      out.push_back(part.section(QLatin1Char(' '), 0, 0).replace(QChar(0x2212), QLatin1Char('-')).toDouble());
+    return out;
+  };
+  const std::vector<double> closed = numbers(2);
+  const std::vector<double> joint = numbers(3);
+  double off = 0.0;
+  for (std::size_t p = 0; p < 3; ++p) {
+    EXPECT_NEAR(joint[p], truth_[1][p], 60.0 * 0.2) << "the joint evaluation knows the rotation";
+    off = std::max(off, std::abs(closed[p] - truth_[1][p]));
+  }
+  EXPECT_GT(off, 40.0) << "drift and screws count as rotation in the closed forms";
+  exportAll();
+}
+
+TEST_F(ProbingPages, TheCertificateStandsBesideTheTouches) {
+  openCycles(true, "\"hole_diameter_mm\":12,\"certificate_uncertainty_um\":0.5");
+  auto* page = go<TouchEvaluationPage>(StepId::Calibrate);
+  press();
+  EXPECT_EQ(page->tabs()->tabText(3), QStringLiteral("Certificate"));
+  ASSERT_EQ(page->comparison()->rowCount(), 4);
+  // EXX of the truth, which begins at zero, is the slope against the certificate (the bar grows by EME as well).
+  const auto slope = [&](int k) {
+    return cell(*page->comparison(), QStringLiteral("M%1").arg(k), 2)
+        .section(QLatin1Char(' '), 0, 0)
+        .replace(QChar(0x2212), QLatin1Char('-'))
+        .toDouble();
+  };
+  const auto grown = [&](int k) {
+    return truth_[static_cast<std::size_t>(k)][0] - truth_[static_cast<std::size_t>(k)][8];
+  };
+  EXPECT_NEAR(slope(1) - slope(0), grown(1) - grown(0), 8.0);
+  exportAll();
 }
 
 TEST_F(ProbingPages, ModelShowsTheTruthWithinItsUncertainty) {
