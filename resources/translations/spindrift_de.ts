@@ -9352,6 +9352,14 @@ endgültig fehlgeschlagen: {}</translation>
         <source>tilt</source>
         <translation>Neigung</translation>
     </message>
+    <message>
+        <source>Signatures</source>
+        <translation>Unterschriften</translation>
+    </message>
+    <message>
+        <source>Where simulation and measurement disagree</source>
+        <translation>Wo Simulation und Messung voneinander abweichen</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

@@ -34,7 +34,7 @@ COMPOSED = ("displacement along {} at the origin of the table", "rotation about 
             "thermal expansion along {} over the table", "squareness of {} to {}",
             "{} of {} captures cannot be used. Take them again, or exclude them.")
 # Words that stand alone.
-ALONE = ("re-levelled", "crash", "repair", "moved", "note", "tilt", "rotation", "converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
+ALONE = ("re-levelled", "crash", "repair", "moved", "note", "tilt", "rotation", "Signatures", "Where simulation and measurement disagree", "converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",
          "table", "rotary drive")
 # A report is English, but the window lists its sections.
 HEADING = re.compile(r'(?:\bsection\((?:fmt::format\()?|\bsections\.(?:push_back|emplace_back)\(\{?)\s*"([^"]+)"')

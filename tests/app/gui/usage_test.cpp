@@ -47,7 +47,7 @@ TEST(GuiUsage, WhatIsNotAllowedIsRefusedInOneSentence) {
   expectRefused("--scale=0.1", "0.1", "from 0.5 to 4");
   expectRefused("--scale big", "big", "from 0.5 to 4");
   expectRefused("--scale nan", "nan", "from 0.5 to 4");
-  expectRefused("--demo nonsense", "nonsense", "fiducials, holes, balls, scans or discrepancy");
+  expectRefused("--demo nonsense", "nonsense", "fiducials, holes, balls, scans, discrepancy or own_pattern");
   expectRefused("--theme pink", "pink", "light or dark");
   expectRefused("--language fr", "fr", "en or de");
   expectRefused("--json x.json", "--json", "--self-test");

@@ -35,10 +35,6 @@ constexpr int longest_history = 50;
 constexpr int largest_seed = 99'999;
 constexpr int hint_marks = 10;
 
-QString familyTitle(const std::string& family) {
-  return sentenceStart(fromCore(words(family)));
-}
-
 QString levelTitle(const QString& level) {
   if (level == QLatin1String("medium")) return ExerciseDialog::tr("Medium");
   if (level == QLatin1String("hard")) return ExerciseDialog::tr("Hard");
