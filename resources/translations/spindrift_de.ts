@@ -14051,12 +14051,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Kreise</translation>
     </message>
     <message>
-        <source>Circles through the tracks of the marks appear after an evaluation with at least three spindle orientations.</source>
-        <translation>Kreise durch die Bahnen der Marken erscheinen nach einer Auswertung mit mindestens drei Spindelstellungen.</translation>
-    </message>
-    <message>
         <source>Algebraic circles through the tracks of the marks (P0 (6)–(9)) lie %1, %2 µm from the joint evaluation in the mean, scatter %3, %4 µm: short arcs pull them. They are shown for comparison and not used.</source>
         <translation>Algebraische Kreise durch die Bahnen der Marken (P0 (6)–(9)) liegen im Mittel %1, %2 µm neben der gemeinsamen Auswertung, Streuung %3, %4 µm: kurze Bögen ziehen sie weg. Sie stehen zum Vergleich da und werden nicht verwendet.</translation>
+    </message>
+    <message>
+        <source>No mark was seen in enough spindle orientations for a circle through its track.</source>
+        <translation>Keine Messmarke wurde in genügend Spindelorientierungen gesehen, um einen Kreis durch ihre Bahn zu legen.</translation>
     </message>
 </context>
 <context>

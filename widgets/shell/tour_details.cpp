@@ -335,8 +335,7 @@ std::vector<TourDetail> tourDetails(const QString& demo, const QString& scratch)
   if (demo == QLatin1String("balls"))
     return {{StepId::Calibrate, "closed-forms", [](MainWindow& window) { return showTab(window, 3); }, firstTab}};
   if (demo == QLatin1String("fiducials")) {
-    return {{StepId::Calibrate, "circles", [](MainWindow& window) { return showTab(window, 4); }, firstTab},
-            {StepId::Model, "help",
+    return {{StepId::Model, "help",
              [](MainWindow& window) -> QWidget* {
                if (!window.helpAction()->isChecked()) window.helpAction()->trigger();
                return nullptr;

@@ -97,10 +97,10 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   circles_ = new RowsModel({tr("Fiducial"), tr("State"), tr("Joint x / px"), tr("Joint y / px"), tr("Circles x / px"),
                             tr("Circles y / px"), tr("Off in x / µm"), tr("Off in y / µm"), tr("Tracks")},
                            this);
-  comparison_column->addWidget(makeTable(circles_, tr("Circles"),
-                                         tr("Circles through the tracks of the marks appear after an evaluation with "
-                                            "at least three spindle orientations.")),
-                               1);
+  comparison_column->addWidget(
+      makeTable(circles_, tr("Circles"),
+                tr("No mark was seen in enough spindle orientations for a circle through its track.")),
+      1);
   tabs_->addTab(comparison, tr("Circles"));
   connect(check_kind_, &QComboBox::activated, this, &FiducialCalibratePage::showResolutionCheck);
   left->body()->addWidget(tabs_, 1);

@@ -356,6 +356,10 @@ void TouchEvaluationPage::showLengths() {
 }
 
 void TouchEvaluationPage::showComparison() {
+  // What states no uncertainty has no figure that would tell its digits.
+  const auto grownCell = [](double value, double standard_uncertainty) {
+    return standard_uncertainty > 0.0 ? quantityCell(value, standard_uncertainty) : numberCell(value, 1);
+  };
   std::vector<Row> rows;
   const MachineDescription& machine = session().campaign()->machine;
   if (!details_.evaluation->hole_cycles.empty()) {
@@ -378,7 +382,7 @@ void TouchEvaluationPage::showComparison() {
           nameCell(row.id),
           certified && lengths->temperature_degC ? numberCell(*lengths->temperature_degC, 2) : dashCell(),
           certified ? quantityCell(lengths->slope_um_per_m, lengths->standard_uncertainty_um_per_m) : dashCell(),
-          grown ? quantityCell(growth->expected_um_per_m, growth->expected_sigma_um_per_m) : dashCell(),
+          grown ? grownCell(growth->expected_um_per_m, growth->expected_sigma_um_per_m) : dashCell(),
           grown ? quantityCell(growth->measured_um_per_m, growth->measured_sigma_um_per_m) : dashCell()};
       rows.push_back(std::move(row));
     }
