@@ -10799,8 +10799,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>z / mm</translation>
     </message>
     <message>
-        <source>Distance from the first / mm</source>
-        <translation>Abstand zur ersten / mm</translation>
+        <source>From first / mm</source>
+        <translation>Zur ersten / mm</translation>
     </message>
 </context>
 <context>
@@ -13843,14 +13843,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Streuung / µm</translation>
     </message>
     <message>
-        <source>Angle X to Y − 90° / µrad</source>
-        <translation>Winkel X nach Y − 90° / µrad</translation>
-    </message>
-    <message>
-        <source>Peak height / µm</source>
-        <translation>Höhe des Maximums / µm</translation>
-    </message>
-    <message>
         <source>Sets</source>
         <translation>Sätze</translation>
     </message>
@@ -14057,6 +14049,14 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>No mark was seen in enough spindle orientations for a circle through its track.</source>
         <translation>Keine Messmarke wurde in genügend Spindelorientierungen gesehen, um einen Kreis durch ihre Bahn zu legen.</translation>
+    </message>
+    <message>
+        <source>X to Y − 90° / µrad</source>
+        <translation>X zu Y − 90° / µrad</translation>
+    </message>
+    <message>
+        <source>Peak / µm</source>
+        <translation>Maximum / µm</translation>
     </message>
 </context>
 <context>

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "widgets/common/table_habits.h"
+#include "widgets/common/table_titles.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
 
@@ -362,6 +363,7 @@ class QuietTable : public QTableView {
 QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name, const QString& empty_text) {
   auto* table = new QuietTable;
   table->setProperty("emptyText", empty_text);
+  table->setHorizontalHeader(new TableTitles(table));
   table->setModel(model);
   table->setAccessibleName(accessible_name);
   table->setShowGrid(false);
@@ -373,10 +375,6 @@ QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
   table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   table->verticalHeader()->hide();
   table->verticalHeader()->setDefaultSectionSize(36);
-  table->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table->horizontalHeader()->setStretchLastSection(true);
-  table->horizontalHeader()->setHighlightSections(false);
   table->setMinimumHeight(120);
   giveTableHabits(table);
   return table;

@@ -207,8 +207,12 @@ nlohmann::json runOne(const Assignment& which, const Wanted& wanted, JobContext&
                            {"leftover", result.leftover}};
   if (!result.effects.empty()) record["drivers"] = result.effects.front().drivers;
   if (wanted.oracle && signal && cell.strength >= 4.0) {
-    const OracleFit oracle = fitKnowingNames(campaign, made.hidden);
-    record["oracle"] = {oracle.explained, oracle.noise_free, oracle.noise_cost, oracle.stated_cost, oracle.strength};
+    try {
+      const OracleFit oracle = fitKnowingNames(campaign, made.hidden);
+      record["oracle"] = {oracle.explained, oracle.noise_free, oracle.noise_cost, oracle.stated_cost, oracle.strength};
+    } catch (const InputError& unfit) {
+      record["no_oracle"] = unfit.what();  // nothing in the log drives it, say: no fit to compare with
+    }
   }
   if (wanted.plain) {
     const Answer stepwise = forwardStepwiseBic(input);

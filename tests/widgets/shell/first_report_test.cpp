@@ -80,6 +80,18 @@ TEST_P(FirstReportTest, OneButtonLeadsFromTheDemoToTheReport) {
   EXPECT_LE(clicks_, 2 * static_cast<int>(all_steps.size()) - 4);
 }
 
+TEST_P(FirstReportTest, ControlReturnAloneLeadsFromTheDemoToTheReport) {
+  startDemo();
+  constexpr int most_keys = 20;
+  while (keys_ < most_keys && window_->workflow().status(StepId::Report).state != StepState::Current) {
+    const StepId before = window_->workflow().current();
+    press(Qt::Key_Return, Qt::ControlModifier);
+    std::printf("%s -> %s\n", stepTitle(before).toUtf8().constData(),
+                stepTitle(window_->workflow().current()).toUtf8().constData());
+  }
+  expectReport();
+}
+
 TEST_P(FirstReportTest, OneCommandRunsAllSteps) {
   startDemo();
   press(Qt::Key_Return, Qt::ControlModifier | Qt::ShiftModifier);

@@ -56,8 +56,7 @@ QStringList cutTexts(const QWidget& root) {
     if (const auto* header = qobject_cast<QHeaderView*>(w);
         header != nullptr && header->orientation() == Qt::Horizontal) {
       for (int i = 0; i < header->count(); ++i) {
-        // The last one takes what the others leave.
-        if (header->isSectionHidden(i) || (header->stretchLastSection() && i == header->count() - 1)) continue;
+        if (header->isSectionHidden(i)) continue;
         if (header->sectionSizeHint(i) > header->sectionSize(i) + 1)
           cut << QStringLiteral("column: ") + header->model()->headerData(i, Qt::Horizontal).toString();
       }

@@ -6,21 +6,19 @@
 
 #include "core/base/text.h"
 #include "widgets/common/table_habits.h"
+#include "widgets/common/table_titles.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 
 QTableWidget* makeEditor(const QStringList& headers, const QString& accessible_name) {
   auto* table = new QTableWidget(0, static_cast<int>(headers.size()));
+  table->setHorizontalHeader(new TableTitles(table));
   table->setHorizontalHeaderLabels(headers);
   table->setAccessibleName(accessible_name);
   table->setShowGrid(false);
   table->verticalHeader()->hide();
   table->verticalHeader()->setDefaultSectionSize(40);
-  table->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table->horizontalHeader()->setStretchLastSection(true);
-  table->horizontalHeader()->setHighlightSections(false);
   table->setSelectionMode(QAbstractItemView::SingleSelection);
   table->setTabKeyNavigation(false);
   table->setMinimumHeight(150);

@@ -66,7 +66,7 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
       makeTable(displacements_, tr("Deviations"), tr("Deviations of each fiducial appear after the evaluation.")),
       tr("Deviations"));
   sets_ = new RowsModel({tr("Fiducial"), tr("State"), tr("Centre x / px"), tr("Centre y / px"), tr("Scatter / µm"),
-                         tr("Angle X to Y − 90° / µrad"), tr("Peak height / µm")},
+                         tr("X to Y − 90° / µrad"), tr("Peak / µm")},
                         this);
   tabs_->addTab(makeTable(sets_, tr("Sets"), tr("Centres, directions and heights appear after the evaluation.")),
                 tr("Sets"));

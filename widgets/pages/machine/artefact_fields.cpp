@@ -154,8 +154,8 @@ void ArtefactFields::show(const nlohmann::json& artefact) {
     }
   } else {
     features_->setColumnCount(6);
-    features_->setHorizontalHeaderLabels({tr("Ball"), tr("Diameter / mm"), tr("x / mm"), tr("y / mm"), tr("z / mm"),
-                                          tr("Distance from the first / mm")});
+    features_->setHorizontalHeaderLabels(
+        {tr("Ball"), tr("Diameter / mm"), tr("x / mm"), tr("y / mm"), tr("z / mm"), tr("From first / mm")});
     const nlohmann::json list = artefact.value("balls", nlohmann::json::array());
     features_->setRowCount(static_cast<int>(list.size()));
     for (int row = 0; row < features_->rowCount(); ++row) {

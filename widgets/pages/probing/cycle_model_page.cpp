@@ -22,6 +22,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/probing/touch_results.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
@@ -95,9 +96,11 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
                tr("Parameters"));
   combinations_ =
       new RowsModel({tr("Cycle"), tr("Condition number"), tr("Determined worst"), tr("Not determined")}, this);
-  tabs->addTab(makeTable(combinations_, tr("Weak combinations"),
-                         tr("Which combinations of parameters the touches hardly tell apart appears after the fit.")),
-               tr("Weak combinations"));
+  auto* combinations =
+      makeTable(combinations_, tr("Weak combinations"),
+                tr("Which combinations of parameters the touches hardly tell apart appears after the fit."));
+  stretchColumn(combinations, 2);
+  tabs->addTab(combinations, tr("Weak combinations"));
   left->body()->addWidget(tabs, 5);
 
   right_ = new QStackedWidget;

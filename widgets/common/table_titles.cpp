@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "widgets/common/table_titles.h"
+
+#include <QPainter>
+
+#include "widgets/theme/fonts.h"
+#include "widgets/theme/icons.h"
+#include "widgets/theme/theme.h"
+
+namespace spindrift::gui {
+namespace {
+
+constexpr int padding = 6;
+constexpr int mark = 12;
+constexpr int before_mark = 4;
+
+QFont titleFont() {
+  return textFont(sizes::font_secondary, QFont::DemiBold);
+}
+
+}  // namespace
+
+TableTitles::TableTitles(QWidget* parent) : QHeaderView(Qt::Horizontal, parent) {
+  setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+  setSectionResizeMode(QHeaderView::ResizeToContents);
+  setStretchLastSection(true);
+  setHighlightSections(false);
+}
+
+QString TableTitles::title(int section) const {
+  return model() == nullptr ? QString() : model()->headerData(section, Qt::Horizontal).toString();
+}
+
+bool TableTitles::ordered(int section) const {
+  return isSortIndicatorShown() && sortIndicatorSection() == section;
+}
+
+QSize TableTitles::sectionSizeFromContents(int section) const {
+  const QSize text = QFontMetrics(titleFont()).size(0, title(section));
+  return {text.width() + 2 * padding + (ordered(section) ? before_mark + mark : 0), text.height() + 2 * padding + 1};
+}
+
+void TableTitles::paintSection(QPainter* painter, const QRect& place, int section) const {
+  painter->save();
+  painter->fillRect(place, theme().surface);
+  painter->fillRect(QRect(place.left(), place.bottom(), place.width(), 1), theme().border);
+  QRect room = place.adjusted(padding, 0, -padding, -1);
+  if (ordered(section)) {
+    const QRect at(room.right() + 1 - mark, room.center().y() - mark / 2 + 1, mark, mark);
+    icon(sortIndicatorOrder() == Qt::AscendingOrder ? "chevron-up" : "chevron-down").paint(painter, at);
+    room.setRight(at.left() - before_mark - 1);
+  }
+  const QVariant own =
+      model() == nullptr ? QVariant() : model()->headerData(section, Qt::Horizontal, Qt::TextAlignmentRole);
+  const Qt::Alignment alignment = own.isValid() ? Qt::Alignment(own.toInt()) : defaultAlignment();
+  painter->setFont(titleFont());
+  painter->setPen(theme().text_secondary);
+  painter->drawText(room, static_cast<int>(alignment | Qt::TextSingleLine),
+                    QFontMetrics(titleFont()).elidedText(title(section), Qt::ElideRight, room.width()));
+  painter->restore();
+}
+
+}  // namespace spindrift::gui
