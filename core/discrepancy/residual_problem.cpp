@@ -320,28 +320,46 @@ ResidualProblem::ResidualProblem(const DiscrepancyInput& input, const std::vecto
   }
   for (std::size_t e = 0; e < counts.size(); ++e) epoch_time_s[e] /= std::max(1, counts[e]);
 
-  // Stated covariances of the readings, carried over to the means that the units are.
-  std::map<std::pair<Index, Index>, double> between;
-  for (const CovarianceEntry& entry : input.observations.covariance) {
-    const Index a = unit_of_row[entry.row];
-    const Index b = unit_of_row[entry.column];
-    if (a < 0 || b < 0) continue;
-    const double part = entry.covariance / static_cast<double>(unit_rows[static_cast<std::size_t>(a)].size() *
-                                                               unit_rows[static_cast<std::size_t>(b)].size());
-    if (a != b) {
-      between[{std::min(a, b), std::max(a, b)}] += part;
-    } else if (entry.row != entry.column) {
-      sigma[a] = std::sqrt(std::max(1e-12, sigma[a] * sigma[a] + 2.0 * part));
-    } else if (entry.covariance > 0.0) {
-      const double stated = all[entry.row].sigma * all[entry.row].sigma;
-      const double count = static_cast<double>(unit_rows[static_cast<std::size_t>(a)].size());
-      sigma[a] = std::sqrt(std::max(1e-12, sigma[a] * sigma[a] + part - stated / (count * count)));
-    }
-  }
-  for (const auto& [pair, value] : between) extra_covariance_.push_back({pair.first, pair.second, value});
+  takeShared(input.observations.shared, unit_of_row);
   makeNeighbourhoods();
   makeDomains();
+  makeCoupled();
   setNoise({});
+}
+
+void ResidualProblem::takeShared(const SharedNoise& shared, const std::vector<Index>& unit_of_row) {
+  if (shared.empty()) return;
+  // A load below this part of the unit's sigma is own noise: it couples nothing that anybody could see.
+  constexpr double negligible = 1e-4;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(size());
+  Eigen::VectorXd variance = Eigen::VectorXd::Zero(size());
+  for (const SharedNoise::Factor& factor : shared.factors()) {
+    std::set<Index> touched;
+    for (const SharedNoise::Load& l : factor) {
+      const Index u = l.row < unit_of_row.size() ? unit_of_row[l.row] : -1;
+      if (u < 0) continue;
+      sum[u] += l.load / static_cast<double>(unit_rows[static_cast<std::size_t>(u)].size());
+      touched.insert(u);
+    }
+    UnitFactor loads;
+    for (const Index u : touched) {
+      variance[u] += sum[u] * sum[u];
+      loads.push_back({u, sum[u]});
+      sum[u] = 0.0;
+    }
+    if (!loads.empty()) shared_.push_back(std::move(loads));
+  }
+  for (Index u = 0; u < size(); ++u) {
+    const std::vector<std::size_t>& rows = unit_rows[static_cast<std::size_t>(u)];
+    if (std::none_of(rows.begin(), rows.end(), [&](std::size_t row) { return shared.variance(row) > 0.0; })) continue;
+    double own = 0.0;
+    for (const std::size_t row : rows) own += shared.ownVariance(row, (*observations_)[row].sigma);
+    const double count = static_cast<double>(rows.size());
+    sigma[u] = std::sqrt(std::max(1e-12, own / (count * count) + variance[u]));
+  }
+  for (UnitFactor& factor : shared_)
+    std::erase_if(factor, [&](const UnitLoad& l) { return !(std::abs(l.load) > negligible * sigma[l.unit]); });
+  std::erase_if(shared_, [](const UnitFactor& factor) { return factor.size() < 2; });
 }
 
 void ResidualProblem::makeNeighbourhoods() {
@@ -413,12 +431,13 @@ Eigen::MatrixXd ResidualProblem::shapeAtUnits(const Effect& effect) const {
 }
 
 void ResidualProblem::makeDomains() {
-  // One domain for each component; stated covariances between components join all that lies between them.
+  // One domain for each component; noise that components share joins all that lies between them.
   std::set<int> joined;
-  for (const UnitCovariance& c : extra_covariance_) {
-    const int a = static_cast<int>(component[static_cast<std::size_t>(c.a)]);
-    const int b = static_cast<int>(component[static_cast<std::size_t>(c.b)]);
-    for (int k = std::min(a, b); k < std::max(a, b); ++k) joined.insert(k);
+  for (const UnitFactor& factor : shared_) {
+    // Units are ordered by component.
+    const int first = static_cast<int>(component[static_cast<std::size_t>(factor.front().unit)]);
+    const int last = static_cast<int>(component[static_cast<std::size_t>(factor.back().unit)]);
+    for (int k = first; k < last; ++k) joined.insert(k);
   }
   domains_.clear();
   for (Index u = 0; u < size(); ++u) {
@@ -436,81 +455,145 @@ void ResidualProblem::makeDomains() {
   }
 }
 
-void ResidualProblem::makeBlocks() {
-  blocks_.assign(domains_.size(), {});
-  const bool correlated = std::any_of(noise.component.begin(), noise.component.end(), [](const ComponentNoise& c) {
-    return c.correlated_part > 0.0 && c.correlation_time_s > 0.0;
-  });
-  diagonal_whitener_.resize(size());
-  const auto weightOf = [&](Index u) { return noise.weight.size() == 0 ? 1.0 : noise.weight[u]; };
-  for (Index u = 0; u < size(); ++u) diagonal_whitener_[u] = std::sqrt(weightOf(u)) / ownSigma(u);
-  if (!correlated && extra_covariance_.empty()) return;
-  // Series that stated covariances couple share one block.
+void ResidualProblem::makeCoupled() {
+  coupled_.clear();
+  wide_.resize(size(), 0);
+  wide_variance_ = Eigen::VectorXd::Zero(size());
+  // Factors that many series share are few, and taken as such, if enough own noise stands behind them.
+  constexpr std::size_t many_series = 12;
+  constexpr std::size_t most_wide = 48;
+  constexpr double least_own = 1e-4;
+  Eigen::VectorXd own = sigma.cwiseAbs2();
+  for (const UnitFactor& factor : shared_)
+    for (const UnitLoad& l : factor) own[l.unit] -= l.load * l.load;
+  const auto seriesOf = [&](const UnitLoad& l) { return series[static_cast<std::size_t>(l.unit)]; };
+  std::vector<const UnitFactor*> wide;
+  std::vector<const UnitFactor*> narrow;
+  for (const UnitFactor& factor : shared_) {
+    std::set<int> touched;
+    for (const UnitLoad& l : factor) touched.insert(seriesOf(l));
+    const bool behind = std::all_of(factor.begin(), factor.end(), [&](const UnitLoad& l) {
+      return own[l.unit] > least_own * sigma[l.unit] * sigma[l.unit];
+    });
+    (touched.size() > many_series && behind ? wide : narrow).push_back(&factor);
+  }
+  if (wide.size() > most_wide) {
+    narrow.insert(narrow.end(), wide.begin(), wide.end());
+    wide.clear();
+  }
+  wide_ = Eigen::MatrixXd::Zero(size(), static_cast<Index>(wide.size()));
+  for (std::size_t k = 0; k < wide.size(); ++k)
+    for (const UnitLoad& l : *wide[k]) wide_(l.unit, static_cast<Index>(k)) = l.load;
+  wide_variance_ = wide_.rowwise().squaredNorm();
+  // Series that the others couple.
   std::vector<int> root(static_cast<std::size_t>(seriesCount()));
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int s) {
     while (root[static_cast<std::size_t>(s)] != s) s = root[static_cast<std::size_t>(s)];
     return s;
   };
-  std::set<int> stated;
-  for (const UnitCovariance& c : extra_covariance_) {
-    const int a = find(series[static_cast<std::size_t>(c.a)]);
-    const int b = find(series[static_cast<std::size_t>(c.b)]);
-    root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-  for (const UnitCovariance& c : extra_covariance_) stated.insert(find(series[static_cast<std::size_t>(c.a)]));
-  std::map<int, std::vector<Index>> members;
-  for (int s = 0; s < seriesCount(); ++s) {
-    const int r = find(s);
-    const ComponentNoise& n = noise.of(component[static_cast<std::size_t>(series_begin[static_cast<std::size_t>(s)])]);
-    const bool own = n.correlated_part > 0.0 && n.correlation_time_s > 0.0;
-    if (!own && !stated.contains(r)) continue;
-    for (Index u = series_begin[static_cast<std::size_t>(s)]; u < series_begin[static_cast<std::size_t>(s) + 1]; ++u) {
-      members[r].push_back(u);
+  for (const UnitFactor* factor : narrow) {
+    for (const UnitLoad& l : *factor) {
+      const int a = find(seriesOf(factor->front()));
+      const int b = find(seriesOf(l));
+      root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
     }
   }
-  std::vector<Index> at(static_cast<std::size_t>(size()), -1);
-  std::map<int, std::vector<const UnitCovariance*>> entries;
-  for (const UnitCovariance& c : extra_covariance_) {
-    entries[find(series[static_cast<std::size_t>(c.a)])].push_back(&c);
+  std::map<int, std::vector<const UnitFactor*>> factors;
+  for (const UnitFactor* factor : narrow) factors[find(seriesOf(factor->front()))].push_back(factor);
+  std::map<int, std::vector<Index>> units;
+  for (Index u = 0; u < size(); ++u) {
+    const int r = find(series[static_cast<std::size_t>(u)]);
+    if (factors.contains(r)) units[r].push_back(u);
   }
-  for (const auto& [r, units] : members) {
+  std::vector<Index> at(static_cast<std::size_t>(size()), -1);
+  for (auto& [r, members] : units) {
+    const auto m = static_cast<Index>(members.size());
+    for (Index i = 0; i < m; ++i) at[static_cast<std::size_t>(members[static_cast<std::size_t>(i)])] = i;
+    // In slices: there may be as many factors as units.
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(m, m);
+    constexpr std::size_t slice = 64;
+    const std::vector<const UnitFactor*>& all = factors[r];
+    for (std::size_t from = 0; from < all.size(); from += slice) {
+      const std::size_t to = std::min(all.size(), from + slice);
+      Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(m, static_cast<Index>(to - from));
+      for (std::size_t k = from; k < to; ++k)
+        for (const UnitLoad& l : *all[k])
+          loads(at[static_cast<std::size_t>(l.unit)], static_cast<Index>(k - from)) = l.load;
+      covariance.selfadjointView<Eigen::Lower>().rankUpdate(loads);
+    }
+    covariance.triangularView<Eigen::StrictlyUpper>() = covariance.transpose();
+    coupled_.push_back({std::move(members), std::move(covariance)});
+  }
+}
+
+double ResidualProblem::slowPart(Index unit) const {
+  const ComponentNoise& n = noise.of(component[static_cast<std::size_t>(unit)]);
+  return n.correlation_time_s > 0.0 ? n.correlated_part : 0.0;
+}
+
+void ResidualProblem::makeBlocks() {
+  blocks_.assign(domains_.size(), {});
+  diagonal_whitener_.resize(size());
+  const auto weightOf = [&](Index u) { return noise.weight.size() == 0 ? 1.0 : noise.weight[u]; };
+  // Without the factors of many series, which stand beside the blocks.
+  const auto varianceOf = [&](Index u) {
+    const double a = slowPart(u);
+    const double scale = noise.of(component[static_cast<std::size_t>(u)]).scale;
+    return ownSigma(u) * ownSigma(u) * (a + (1.0 - a) / weightOf(u)) - scale * scale * (1.0 - a) * wide_variance_[u];
+  };
+  for (Index u = 0; u < size(); ++u) {
+    diagonal_whitener_[u] =
+        wide_variance_[u] > 0.0 ? 1.0 / std::sqrt(varianceOf(u)) : std::sqrt(weightOf(u)) / ownSigma(u);
+  }
+  // Blocks: series that are coupled, and those whose noise follows itself.
+  std::vector<std::pair<std::vector<Index>, const Eigen::MatrixXd*>> members;
+  std::vector<bool> taken(static_cast<std::size_t>(seriesCount()), false);
+  for (const Coupled& c : coupled_) {
+    members.emplace_back(c.units, &c.covariance);
+    for (const Index u : c.units) taken[static_cast<std::size_t>(series[static_cast<std::size_t>(u)])] = true;
+  }
+  for (std::size_t s = 0; s < taken.size(); ++s) {
+    if (taken[s] || !(slowPart(series_begin[s]) > 0.0)) continue;
+    members.emplace_back(std::vector<Index>(), nullptr);
+    for (Index u = series_begin[s]; u < series_begin[s + 1]; ++u) members.back().first.push_back(u);
+  }
+  for (auto& [units, shared] : members) {
     const auto m = static_cast<Index>(units.size());
-    for (Index i = 0; i < m; ++i) at[static_cast<std::size_t>(units[static_cast<std::size_t>(i)])] = i;
+    Eigen::VectorXd load_scale(m);
+    for (Index i = 0; i < m; ++i) {
+      const Index u = units[static_cast<std::size_t>(i)];
+      load_scale[i] = noise.of(component[static_cast<std::size_t>(u)]).scale * std::sqrt(1.0 - slowPart(u));
+    }
     Eigen::MatrixXd c = Eigen::MatrixXd::Zero(m, m);
+    if (shared != nullptr) c = load_scale.asDiagonal() * *shared * load_scale.asDiagonal();
     for (Index i = 0; i < m; ++i) {
       const Index u = units[static_cast<std::size_t>(i)];
       const ComponentNoise& n = noise.of(component[static_cast<std::size_t>(u)]);
-      const double a = n.correlation_time_s > 0.0 ? n.correlated_part : 0.0;
-      const double si = ownSigma(u);
-      c(i, i) = si * si * (a + (1.0 - a) / weightOf(u));
+      c(i, i) = varianceOf(u);
+      const double a = slowPart(u);
       if (!(a > 0.0)) continue;
+      const double si = ownSigma(u);
       for (Index j = i - 1; j >= 0; --j) {
         const Index v = units[static_cast<std::size_t>(j)];
         if (series[static_cast<std::size_t>(v)] != series[static_cast<std::size_t>(u)]) break;
         const double dt = std::abs(time_s[static_cast<std::size_t>(u)] - time_s[static_cast<std::size_t>(v)]);
-        c(i, j) = c(j, i) = si * ownSigma(v) * a * std::exp(-dt / n.correlation_time_s);
+        c(i, j) += si * ownSigma(v) * a * std::exp(-dt / n.correlation_time_s);
+        c(j, i) = c(i, j);
       }
     }
-    for (const UnitCovariance* e : entries[r]) {
-      const Index i = at[static_cast<std::size_t>(e->a)];
-      const Index j = at[static_cast<std::size_t>(e->b)];
-      const double scale = noise.of(component[static_cast<std::size_t>(e->a)]).scale *
-                           noise.of(component[static_cast<std::size_t>(e->b)]).scale;
-      c(i, j) += e->value * scale;
-      c(j, i) = c(i, j);
-    }
+    // Positive semidefinite as it is made; without any own noise it may be singular.
     Eigen::LLT<Eigen::MatrixXd> llt(c);
-    double jitter = 1e-9;
-    while (llt.info() != Eigen::Success && jitter < 10.0) {
-      Eigen::MatrixXd raised = c;
-      raised.diagonal() *= 1.0 + jitter;
-      llt.compute(raised);
-      jitter *= 10.0;
+    double raised = 1e-9;
+    while (llt.info() != Eigen::Success && raised < 10.0) {
+      Eigen::MatrixXd with = c;
+      with.diagonal() *= 1.0 + raised;
+      llt.compute(with);
+      raised *= 10.0;
     }
-    Block block{units, llt.matrixL().solve(Eigen::MatrixXd::Identity(m, m))};
+    Block block{std::move(units), llt.matrixL().solve(Eigen::MatrixXd::Identity(m, m))};
     for (std::size_t d = 0; d < domains_.size(); ++d) {
-      if (units.front() >= domains_[d].from && units.front() < domains_[d].from + domains_[d].count) {
+      if (block.units.front() >= domains_[d].from && block.units.front() < domains_[d].from + domains_[d].count) {
         blocks_[d].push_back(std::move(block));
         break;
       }
@@ -526,19 +609,26 @@ void ResidualProblem::setNoise(const NoiseModel& model) {
   for (std::size_t d = 0; d < domains_.size(); ++d) {
     const Domain& domain = domains_[d];
     DomainNoise& n = domain_noise_[d];
-    // Whitened shifts of the states, orthonormal.
+    // Whitened shifts of the states and factors of many series, orthonormal.
     std::map<std::pair<int, int>, Index> shifts;
     for (Index u = domain.from; u < domain.from + domain.count; ++u) {
       const Component c = component[static_cast<std::size_t>(u)];
       if (!(noise.of(c).common > 0.0)) continue;
       shifts.try_emplace({static_cast<int>(c), epoch[static_cast<std::size_t>(u)]}, static_cast<Index>(shifts.size()));
     }
-    if (!shifts.empty()) {
-      Eigen::MatrixXd z = Eigen::MatrixXd::Zero(domain.count, static_cast<Index>(shifts.size()));
+    std::vector<Index> factors;
+    for (Index k = 0; k < wide_.cols(); ++k)
+      if (!wide_.col(k).segment(domain.from, domain.count).isZero(0.0)) factors.push_back(k);
+    if (!shifts.empty() || !factors.empty()) {
+      const auto shift_count = static_cast<Index>(shifts.size());
+      Eigen::MatrixXd z = Eigen::MatrixXd::Zero(domain.count, shift_count + static_cast<Index>(factors.size()));
       for (Index u = domain.from; u < domain.from + domain.count; ++u) {
         const Component c = component[static_cast<std::size_t>(u)];
         const auto at = shifts.find({static_cast<int>(c), epoch[static_cast<std::size_t>(u)]});
         if (at != shifts.end()) z(u - domain.from, at->second) = noise.of(c).common;
+        const double load_scale = noise.of(c).scale * std::sqrt(1.0 - slowPart(u));
+        for (std::size_t k = 0; k < factors.size(); ++k)
+          z(u - domain.from, shift_count + static_cast<Index>(k)) = load_scale * wide_(u, factors[k]);
       }
       whitenDomain(d, z);
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(z.transpose() * z);

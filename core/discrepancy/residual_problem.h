@@ -2,10 +2,13 @@
 // The residual observation - simulation as a whitened least-squares problem with its nuisances.
 //
 //   r = constant(series) + nuisances + X beta + shift(component, state) + e
-//   cov(e) within a series = s^2 sigma_i sigma_j [(1 - a) delta_ij / w_i + a exp(-|dt| / T)] (+ covariances stated)
+//   cov(e) = s_i s_j sigma_i sigma_j [(1 - a) (rho_ij + delta_ij (1 / w_i - 1)) + a exp(-|dt| / T) within a series]
 //   shift(component, state) ~ N(0, common^2), the same for all points of a state: re-referencing, refocus, re-zeroing
 //
-// s, a, T and common are one set for each component; w_i <= 1 is the weight of a reading in a noise with heavy tails.
+// s, a, T and common are one set for each component ((1 - a) between two: the root of both); w_i <= 1 is the weight of
+// a reading in a noise with heavy tails: what it adds is own noise. rho: correlations of what observations share
+// (SharedNoise), carried over to the units, 1 for i = j; so cov(e) is positive semidefinite whatever the parameters.
+// Factors that many series share stand beside the blocks of series as a part of low rank, like the shifts.
 //
 // A unit is one observation, or, where there are very many, the mean of neighbours: of points close to each other in
 // one state where places do not change, else of readings of one series that follow each other. Drivers are averaged
@@ -77,7 +80,7 @@ class ResidualProblem {
   std::vector<double> epoch_time_s;
   Eigen::VectorXd y;                                ///< residual, um or urad
   Eigen::VectorXd simulated;                        ///< um or urad
-  Eigen::VectorXd sigma;                            ///< stated
+  Eigen::VectorXd sigma;                            ///< stated, with what is shared
   std::vector<double> node_time_s;                  ///< distinct times at which drivers are needed, increasing
   std::vector<std::vector<std::size_t>> unit_rows;  ///< the observations that each unit is the mean of
   /// Mean of values at the nodes over the times of every unit.
@@ -121,7 +124,7 @@ class ResidualProblem {
     return sigma[unit] * noise.of(component[static_cast<std::size_t>(unit)]).scale;
   }
 
-  /// Rows that are coupled by noise: contiguous, one component each unless a stated covariance joins several.
+  /// Rows that are coupled by noise: contiguous, one component each unless shared noise joins several.
   struct Domain {
     Eigen::Index from = 0;
     Eigen::Index count = 0;
@@ -131,13 +134,6 @@ class ResidualProblem {
   [[nodiscard]] Eigen::MatrixXd withoutConstants(std::size_t domain, const Eigen::MatrixXd& columns) const;
   /// Orthonormal basis of the nuisances besides the constants (all rows, then the priors).
   [[nodiscard]] const Eigen::MatrixXd& nuisanceBasis() const noexcept { return q_; }
-  /// Stated covariances between units, um^2 (or urad^2, um urad).
-  struct UnitCovariance {
-    Eigen::Index a = 0;
-    Eigen::Index b = 0;
-    double value = 0.0;
-  };
-  [[nodiscard]] const std::vector<UnitCovariance>& statedCovariance() const noexcept { return extra_covariance_; }
   /// What is not one of the free constants: observations stand for deviations from themselves (false: absolute).
   bool free_constants = true;
 
@@ -157,15 +153,33 @@ class ResidualProblem {
     Eigen::VectorXd shift_part;   ///< 1 - 1 / sqrt(1 + lambda)
     Eigen::MatrixXd constants;    ///< orthonormal basis of the whitened constants
   };
+  /// Loads of one cause in order of units, um or urad.
+  struct UnitLoad {
+    Eigen::Index unit = 0;
+    double load = 0.0;
+  };
+  using UnitFactor = std::vector<UnitLoad>;
+  /// Series that factors couple: their units, and what these share (the diagonal is not used), um^2.
+  struct Coupled {
+    std::vector<Eigen::Index> units;
+    Eigen::MatrixXd covariance;
+  };
   void makeNeighbourhoods();
+  void takeShared(const SharedNoise& shared, const std::vector<Eigen::Index>& unit_of_row);
   void makeDomains();
+  void makeCoupled();
   void makeBlocks();
+  /// Part of the stated noise that follows itself in time (a), 0 ... 1.
+  [[nodiscard]] double slowPart(Eigen::Index unit) const;
   void whitenDomain(std::size_t domain, Eigen::Ref<Eigen::MatrixXd> rows) const;
   const std::vector<Observation>* observations_ = nullptr;  ///< of the input, which outlives the problem
   std::vector<std::size_t> node_begin_;
   std::vector<int> node_index_;
   std::vector<std::vector<DeviationQuery>> members_;  ///< of each series, where points were merged; else empty
-  std::vector<UnitCovariance> extra_covariance_;
+  std::vector<UnitFactor> shared_;
+  std::vector<Coupled> coupled_;
+  Eigen::MatrixXd wide_;           ///< units x factors that many series share, um or urad
+  Eigen::VectorXd wide_variance_;  ///< of each unit
   std::vector<Domain> domains_;
   std::vector<DomainNoise> domain_noise_;
   std::vector<std::vector<Block>> blocks_;  ///< per domain

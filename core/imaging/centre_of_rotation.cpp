@@ -166,6 +166,7 @@ CentreResult fitCentreOfRotation(const std::vector<RotationSet>& sets, const Cen
     centre.centre_sigma_px = (variance * fit->covariance.block<2, 2>(q, q).diagonal()).cwiseSqrt();
     centre.place_um = fit->x.segment<2>(2 * k);
     centre.place_sigma_um = std::sqrt(0.5 * result.covariance.block<2, 2>(2 * k, 2 * k).trace());
+    centre.own_place_sigma_um = std::sqrt(variance / static_cast<double>(set.images.size()));
     if (fit_set.usable()) {
       const Eigen::Index own = 2 * n + 2 * k;
       centre.own_centre_px = first.distorted(fit_set.x.segment<2>(own));

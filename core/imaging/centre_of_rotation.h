@@ -61,7 +61,10 @@ struct SetCentre {
   int algebraic_tracks = 0;
   Eigen::Vector2d place_um = Eigen::Vector2d::Zero();  ///< s: where the axis meets the fiducial
   double place_sigma_um = 0.0;                         ///< per coordinate, with that of the centre
-  double rms_um = 0.0;                                 ///< of the images about s, per coordinate
+  /// Part of it that is this set's own: repeatability / root of the images. The rest of `CentreResult::covariance`
+  /// comes through the centres and has at most two columns for each of them.
+  double own_place_sigma_um = 0.0;
+  double rms_um = 0.0;  ///< of the images about s, per coordinate
 };
 
 struct CentreResult {

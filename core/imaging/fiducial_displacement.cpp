@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -296,7 +297,8 @@ struct Row {
   std::size_t reference = 0;  ///< index in states
 };
 
-void writeObservations(FiducialDisplacement& out) {
+/// Rows of the result in order of time; sigma is still open.
+std::vector<Row> rowsOf(const FiducialDisplacement& out) {
   std::vector<Row> rows;
   for (std::size_t i = 0; i < out.states.size(); ++i) {
     const FiducialState& s = out.states[i];
@@ -318,103 +320,144 @@ void writeObservations(FiducialDisplacement& out) {
   }
   std::stable_sort(rows.begin(), rows.end(),
                    [](const Row& a, const Row& b) { return a.observation.time_s < b.observation.time_s; });
-  // d = T s for XY, d = U p for Z.
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n, out.centres.covariance.cols());
-  Eigen::MatrixXd U = Eigen::MatrixXd::Zero(n, out.focus.covariance.cols());
-  Eigen::VectorXd per_psi = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index r = 0; r < n; ++r) {
-    const Row& row = rows[static_cast<std::size_t>(r)];
+  return rows;
+}
+
+/// Of one centre coordinate or focus peak: what it does not share with others, um.
+double ownSigma(const FiducialDisplacement& out, const FiducialState& s, Component component) {
+  return component == Component::EZ ? out.focus.peaks[*s.focus_set].own_sigma_um
+                                    : out.centres.sets[*s.centre].own_place_sigma_um;
+}
+
+/// A matrix of causes without what is own: at most a few columns are left.
+Eigen::MatrixXd commonRoot(const Eigen::MatrixXd& covariance, const Eigen::VectorXd& own_sigma) {
+  if (covariance.size() == 0) return Eigen::MatrixXd::Zero(covariance.rows(), 0);
+  constexpr double rounding = 1e-10;
+  const Eigen::MatrixXd common = covariance - Eigen::MatrixXd(own_sigma.cwiseAbs2().asDiagonal());
+  return covarianceRoot(common, rounding * covariance.diagonal().maxCoeff());
+}
+
+using Factors = std::vector<SharedNoise::Factor>;
+
+/// What the places or heights share through the centres and the shape of the curves: d = T s for XY, d = U p for Z.
+void addCommonCauses(const FiducialDisplacement& out, const std::vector<Row>& rows, SharedNoise& shared) {
+  Eigen::VectorXd own_place(out.centres.covariance.rows());
+  for (Eigen::Index k = 0; k < own_place.size(); ++k)
+    own_place(k) = out.centres.sets[static_cast<std::size_t>(k / 2)].own_place_sigma_um;
+  Eigen::VectorXd own_peak(out.focus.covariance.rows());
+  for (Eigen::Index k = 0; k < own_peak.size(); ++k) {
+    const FocusPeak& peak = out.focus.peaks[static_cast<std::size_t>(k)];
+    own_peak(k) = peak.status == FitStatus::Converged ? peak.own_sigma_um : 0.0;
+  }
+  const Eigen::MatrixXd places = commonRoot(out.centres.covariance, own_place);
+  const Eigen::MatrixXd peaks = commonRoot(out.focus.covariance, own_peak);
+  Factors of_places(static_cast<std::size_t>(places.cols()));
+  Factors of_peaks(static_cast<std::size_t>(peaks.cols()));
+  const auto add = [](Factors& factors, std::size_t row, const Eigen::RowVectorXd& loads) {
+    for (Eigen::Index q = 0; q < loads.size(); ++q) factors[static_cast<std::size_t>(q)].push_back({row, loads(q)});
+  };
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Row& row = rows[r];
     if (row.reference == row.state) continue;
     const FiducialState& s = out.states[row.state];
     const FiducialState& reference = out.states[row.reference];
     if (row.observation.component == Component::EZ) {
-      U(r, static_cast<Eigen::Index>(*s.focus_set)) -= 1.0;
-      U(r, static_cast<Eigen::Index>(*reference.focus_set)) += 1.0;
+      add(of_peaks, r,
+          peaks.row(static_cast<Eigen::Index>(*reference.focus_set)) -
+              peaks.row(static_cast<Eigen::Index>(*s.focus_set)));
+    } else {
+      const Eigen::RowVector2d turn =
+          turned(directionOf(out, s.fiducial)->psi_rad).row(row.observation.component == Component::EX ? 0 : 1);
+      add(of_places, r,
+          turn * (places.middleRows(2 * static_cast<Eigen::Index>(*s.centre), 2) -
+                  places.middleRows(2 * static_cast<Eigen::Index>(*reference.centre), 2)));
+    }
+  }
+  for (Factors* factors : {&of_places, &of_peaks})
+    for (SharedNoise::Factor& factor : *factors) shared.addFactor(std::move(factor));
+}
+
+/// Directions: of each fiducial, and that of the camera, which those that go through it share.
+void addDirections(const FiducialDisplacement& out, const std::vector<Row>& rows, SharedNoise& shared) {
+  SharedNoise::Factor camera;
+  std::map<std::string, SharedNoise::Factor> own;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Row& row = rows[r];
+    if (row.reference == row.state || row.observation.component == Component::EZ) continue;
+    const FiducialState& s = out.states[row.state];
+    const FiducialState& reference = out.states[row.reference];
+    const Eigen::Vector2d moved = *s.xy_um + (s.commanded_mm - reference.commanded_mm) * um_per_mm;
+    const double per_psi = row.observation.component == Component::EX ? -moved.y() : moved.x();
+    const FiducialDirection& direction = *directionOf(out, s.fiducial);
+    double variance = direction.sigma_rad * direction.sigma_rad;
+    if (direction.pooled) {
+      camera.push_back({r, per_psi * out.axes.phi_sigma_rad});
+      variance -= out.axes.phi_sigma_rad * out.axes.phi_sigma_rad;
+    }
+    own[s.fiducial].push_back({r, per_psi * std::sqrt(std::max(0.0, variance))});
+  }
+  shared.addFactor(std::move(camera));
+  for (auto& [fiducial, factor] : own) shared.addFactor(std::move(factor));
+}
+
+/// Own noise of the reference of every series, and what stands in the rows of the reference itself: see the header.
+/// Returns the rows of a reference that nothing was compared with.
+std::vector<std::size_t> addReferences(const FiducialDisplacement& out, const std::vector<Row>& rows,
+                                       SharedNoise& shared) {
+  std::map<std::pair<std::string, Component>, std::vector<std::size_t>> series;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    series[{rows[r].observation.point, rows[r].observation.component}].push_back(r);
+  std::vector<std::size_t> alone;
+  for (const auto& [key, members] : series) {
+    const Row& first = rows[members.front()];
+    const double own = ownSigma(out, out.states[first.reference], key.second);
+    if (members.size() == 1 && first.reference == first.state) {
+      alone.push_back(members.front());
       continue;
     }
-    const double psi = directionOf(out, s.fiducial)->psi_rad;
-    const int axis = row.observation.component == Component::EX ? 0 : 1;
-    const Eigen::Matrix2d R = turned(psi);
-    T.block<1, 2>(r, 2 * static_cast<Eigen::Index>(*s.centre)) += R.row(axis);
-    T.block<1, 2>(r, 2 * static_cast<Eigen::Index>(*reference.centre)) -= R.row(axis);
-    const Eigen::Vector2d moved = *s.xy_um + (s.commanded_mm - reference.commanded_mm) * um_per_mm;
-    per_psi(r) = axis == 0 ? -moved.y() : moved.x();
-  }
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
-  if (T.cols() > 0) covariance += T * out.centres.covariance * T.transpose();
-  if (U.cols() > 0) covariance += U * out.focus.covariance * U.transpose();
-  for (Eigen::Index r = 0; r < n; ++r) {
-    for (Eigen::Index c = 0; c < n; ++c) {
-      if (per_psi(r) == 0.0 || per_psi(c) == 0.0) continue;
-      const FiducialDirection& a = *directionOf(out, rows[static_cast<std::size_t>(r)].observation.point);
-      const FiducialDirection& b = *directionOf(out, rows[static_cast<std::size_t>(c)].observation.point);
-      // What the directions share is that of the camera.
-      double shared = 0.0;
-      if (a.fiducial == b.fiducial) {
-        shared = a.sigma_rad * b.sigma_rad;
-      } else if (a.pooled && b.pooled) {
-        shared = out.axes.phi_sigma_rad * out.axes.phi_sigma_rad;
-      }
-      covariance(r, c) += per_psi(r) * per_psi(c) * shared;
+    SharedNoise::Factor reference;
+    SharedNoise::Factor level;
+    for (const std::size_t r : members) {
+      const bool is_reference = rows[r].reference == rows[r].state;
+      reference.push_back({r, is_reference ? 0.5 * own : -0.5 * own});
+      level.push_back({r, std::sqrt(0.75) * own});
     }
+    shared.addFactor(std::move(reference));
+    shared.addFactor(std::move(level));
   }
-  // Rows of the reference: see the header. Any variance V with covariance V/2 towards the rows that use the reference
-  // leaves all differences as they are; V is the share of the reference, smaller where the matrix would lose its rank.
-  Eigen::VectorXd share = Eigen::VectorXd::Zero(n);
-  const auto sameSeries = [&](Eigen::Index a, Eigen::Index b) {
-    const Observation& x = rows[static_cast<std::size_t>(a)].observation;
-    const Observation& y = rows[static_cast<std::size_t>(b)].observation;
-    return x.point == y.point && x.component == y.component;
-  };
-  for (Eigen::Index r = 0; r < n; ++r) {
-    const Row& row = rows[static_cast<std::size_t>(r)];
-    if (row.reference != row.state) continue;
-    double least = -1.0;
-    for (Eigen::Index c = 0; c < n; ++c) {
-      if (c != r && sameSeries(r, c) && (least < 0.0 || covariance(c, c) < least)) least = covariance(c, c);
+  std::sort(alone.begin(), alone.end());
+  return alone;
+}
+
+}  // namespace
+
+void makeFiducialObservations(FiducialDisplacement& out) {
+  std::vector<Row> rows = rowsOf(out);
+  SharedNoise& shared = out.observations.shared;
+  shared.clear();
+  out.observations.rows.clear();
+  addCommonCauses(out, rows, shared);
+  addDirections(out, rows, shared);
+  const std::vector<std::size_t> alone = addReferences(out, rows, shared);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    Observation& o = rows[r].observation;
+    FiducialState& s = out.states[rows[r].state];
+    double own = 0.0;
+    if (std::binary_search(alone.begin(), alone.end(), r)) {
+      own = o.component == Component::EZ ? out.focus.peaks[*s.focus_set].sigma_um
+                                         : out.centres.sets[*s.centre].place_sigma_um;
+    } else if (rows[r].reference != rows[r].state) {
+      own = ownSigma(out, s, o.component);
     }
-    if (least < 0.0) {
-      // Measured once: its own noise.
-      const FiducialState& s = out.states[row.state];
-      const double own = row.observation.component == Component::EZ ? out.focus.peaks[*s.focus_set].sigma_um
-                                                                    : out.centres.sets[*s.centre].place_sigma_um;
-      least = 2.0 * own * own;
-    }
-    share(r) = 0.5 * least;
-  }
-  Eigen::MatrixXd full;
-  for (int attempt = 0; attempt < 20; ++attempt) {
-    full = covariance;
-    for (Eigen::Index r = 0; r < n; ++r) {
-      if (share(r) == 0.0) continue;
-      full(r, r) = share(r);
-      for (Eigen::Index c = 0; c < n; ++c) {
-        if (c != r && sameSeries(r, c)) full(r, c) = full(c, r) = 0.5 * share(r);
-      }
-    }
-    if (n == 0 || Eigen::LLT<Eigen::MatrixXd>(full).info() == Eigen::Success) break;
-    share *= 0.5;
-  }
-  for (Eigen::Index r = 0; r < n; ++r) {
-    Observation& o = rows[static_cast<std::size_t>(r)].observation;
-    o.sigma = std::sqrt(full(r, r));
-    FiducialState& s = out.states[rows[static_cast<std::size_t>(r)].state];
+    o.sigma = std::sqrt(own * own + shared.variance(r));
     if (o.component == Component::EZ) {
       s.z_sigma_um = o.sigma;
     } else {
       s.xy_sigma_um(o.component == Component::EX ? 0 : 1) = o.sigma;
     }
     out.observations.rows.push_back(o);
-    for (Eigen::Index c = r + 1; c < n; ++c) {
-      if (std::abs(full(r, c)) > 1e-9 * std::sqrt(full(r, r) * full(c, c))) {
-        out.observations.covariance.push_back({static_cast<std::size_t>(r), static_cast<std::size_t>(c), full(r, c)});
-      }
-    }
   }
 }
-
-}  // namespace
 
 FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list, const FiducialImages& images,
                                               const MachineDescription& machine) {
@@ -521,7 +564,7 @@ FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list, c
   }
   findDisplacements(list.states(), out);
   warnOfMissing(list, groups, images, out);
-  writeObservations(out);
+  makeFiducialObservations(out);
   return out;
 }
 

@@ -9,10 +9,15 @@
 // a focus peak). A fiducial without it there has no displacement in any other state: relative to another reference it
 // would stand beside the rest as if it were relative to the same (a warning says so).
 //
-// Observations: rows of the reference state are 0 by definition. Their sigma is the share of the reference in the
-// noise, and covariances are given such that the difference of any row and the reference row of its point has exactly
-// the sigma of the row; rows that use the same reference, the same pooled centre or direction are correlated
-// accordingly. Source: PAPERS.md P0; FORMATS.md (deviation, observations.cov.csv).
+// Observations carry what they share as causes: the pooled centres and the shape of the focus curves, the direction of
+// the camera, that of every fiducial, and the reference of every series (a fiducial, one component). Rows of the
+// reference state are 0 by definition, so any cause may be added to all rows of a series. With
+// r the own noise of the reference (standard uncertainty u_r, in every other row as -r) and z a cause of its own, of
+// the same size,
+//   r/2 + sqrt(3)/2 z    is added:    other rows  d + r/2 + sqrt(3)/2 z,    the reference  r/2 + sqrt(3)/2 z.
+// The sigma of the reference row is u_r, its share in the noise; every other row keeps the sigma of its displacement,
+// which is exactly that of its difference to the reference row. Source: PAPERS.md P0; FORMATS.md (deviation,
+// observations.cov.csv).
 #pragma once
 
 #include <optional>
@@ -64,6 +69,10 @@ struct FiducialDisplacement {
   std::vector<RejectedCapture> rejected;  ///< sets that could not be used
   std::vector<std::string> warnings;
 };
+
+/// Makes the observations of the displacements in `states` and their sigmas (there as well) from directions, centres
+/// and focus, um. The last step of findFiducialDisplacement.
+void makeFiducialObservations(FiducialDisplacement& displacement);
 
 [[nodiscard]] FiducialDisplacement findFiducialDisplacement(const FiducialCaptureList& list,
                                                             const FiducialImages& images,

@@ -239,6 +239,10 @@ FocusResult fitFocus(const std::vector<FocusSet>& sets, const FocusOptions& opti
           covariance(k, l) * um_per_unit * um_per_unit;
     }
     peak.sigma_um = std::sqrt(covariance(k, k)) * um_per_unit;
+    // Of the two columns of the set alone, with its gain free.
+    const double by_gain = J.col(k).dot(J.col(n + k)) / J.col(n + k).squaredNorm();
+    peak.own_sigma_um =
+        std::min(peak.sigma_um, std::sqrt(variance) / (J.col(k) - by_gain * J.col(n + k)).norm() * um_per_unit);
     const auto [low, high] = std::minmax_element(sets[i].height_mm.begin(), sets[i].height_mm.end());
     if (!(p(2 * n) > 0.0) || peak.peak_um < *low * 1e3 || peak.peak_um > *high * 1e3) {
       peak.status = FitStatus::Rejected;

@@ -52,6 +52,9 @@ struct FocusPeak {
   std::string message;
   double peak_um = 0.0;  ///< commanded height of the sharpest image; meaningful as a difference between sets
   double sigma_um = 0.0;
+  /// Part of it that is this set's own: what would be left if the shape were known. The rest of
+  /// `FocusResult::covariance` comes through the shape and has at most as many columns as it has terms.
+  double own_sigma_um = 0.0;
   double gain = 0.0;
 };
 

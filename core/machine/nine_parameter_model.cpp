@@ -107,17 +107,14 @@ StateChange changeOf(const ObservationSet& set, const NineParameterOptions& opti
   }
   const auto size = static_cast<Eigen::Index>(column.size());
   Eigen::VectorXd y(size);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
+  std::vector<std::size_t> involved(column.size());
+  for (const auto& [row, c] : column) involved[static_cast<std::size_t>(c)] = row;
+  // Variances are the stated ones also where a file states covariances that are none: the fit then says so.
+  const Eigen::SparseMatrix<double> loads = set.shared.loads(involved);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd(loads * loads.transpose());
   for (const auto& [row, c] : column) {
     y(c) = set.rows[row].value;
     covariance(c, c) = set.rows[row].sigma * set.rows[row].sigma;
-  }
-  for (const CovarianceEntry& entry : set.covariance) {
-    const auto a = column.find(entry.row);
-    const auto b = column.find(entry.column);
-    if (a == column.end() || b == column.end()) continue;
-    covariance(a->second, b->second) = entry.covariance;
-    covariance(b->second, a->second) = entry.covariance;
   }
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(change.rows.size()), size);
   for (std::size_t k = 0; k < change.rows.size(); ++k) {

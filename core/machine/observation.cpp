@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -22,6 +21,12 @@ constexpr double largest_deviation = 1e5;
 
 std::filesystem::path covarianceFile(const std::filesystem::path& file) {
   return file.parent_path() / (file.stem().string() + ".cov.csv");
+}
+
+std::vector<double> sigmasOf(const std::vector<Observation>& rows) {
+  std::vector<double> sigmas;
+  for (const Observation& row : rows) sigmas.push_back(row.sigma);
+  return sigmas;
 }
 
 std::vector<std::string> distinct(const std::vector<Observation>& rows, std::string Observation::*member) {
@@ -154,7 +159,7 @@ ObservationSet ObservationSet::read(const std::filesystem::path& file) {
     const CsvTable entries = CsvTable::read(covariance_file);
     const std::array<std::size_t, 2> index{entries.column("row"), entries.column("column")};
     const std::size_t number = entries.column("covariance");
-    std::set<std::pair<std::size_t, std::size_t>> seen;
+    std::vector<CovarianceEntry> stated;
     for (std::size_t i = 0; i < entries.rowCount(); ++i) {
       std::array<std::size_t, 2> rc{};
       for (int k = 0; k < 2; ++k) {
@@ -167,11 +172,15 @@ ObservationSet ObservationSet::read(const std::filesystem::path& file) {
         }
         rc[k] = static_cast<std::size_t>(n) - 1;
       }
-      if (rc[0] > rc[1]) std::swap(rc[0], rc[1]);
       const double covariance = entries.number(i, number);
-      if (!seen.emplace(rc[0], rc[1]).second) continue;  // the mirrored entry of one already read
-      set.covariance.push_back({rc[0], rc[1], covariance});
+      if (rc[0] == rc[1] && !(covariance > 0.0)) {
+        throw InputError(entries.place(i, number),
+                         fmt::format("variance {} of row {} is not allowed; allowed: greater than zero.",
+                                     entries.text(i, number), entries.text(i, index[0])));
+      }
+      stated.push_back({rc[0], rc[1], covariance});
     }
+    set.setCovariances(stated);
   }
   return set;
 }
@@ -201,9 +210,10 @@ std::string ObservationSet::csv() const {
 }
 
 void ObservationSet::write(const std::filesystem::path& target) const {
-  if (!covariance.empty()) {
+  const std::vector<CovarianceEntry> covariances = shared.covariances(sigmasOf(rows));
+  if (!covariances.empty()) {
     std::string text = "row,column,covariance\n";
-    for (const CovarianceEntry& entry : covariance) {
+    for (const CovarianceEntry& entry : covariances) {
       text += fmt::format("{},{},{}\n", entry.row + 1, entry.column + 1, entry.covariance);
     }
     writeFileAtomically(covarianceFile(target), text);
@@ -212,6 +222,18 @@ void ObservationSet::write(const std::filesystem::path& target) const {
     std::filesystem::remove(covarianceFile(target));
   }
   writeFileAtomically(target, csv());
+}
+
+void ObservationSet::setCovariances(const std::vector<CovarianceEntry>& entries) {
+  CovarianceSplit split = splitCovariance(sigmasOf(rows), entries);
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].sigma = split.sigma[i];
+  shared.clear();
+  for (NoiseFactor& factor : split.factors) shared.addFactor(std::move(factor));
+}
+
+void ObservationSet::append(const ObservationSet& other) {
+  shared.append(other.shared, rows.size());
+  rows.insert(rows.end(), other.rows.begin(), other.rows.end());
 }
 
 std::vector<std::string> ObservationSet::states() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/machine/component.h"
+#include "core/machine/shared_noise.h"
 
 namespace spindrift {
 
@@ -28,38 +29,41 @@ struct Observation {
   double c_deg = 0.0;                                     ///< rotation of the table about +Z
   Component component = Component::EX;
   double value = 0.0;
-  double sigma = 0.0;  ///< one standard uncertainty, > 0
+  double sigma = 0.0;  ///< one standard uncertainty with all that is shared, > 0
   std::string instrument;
   ObservationUse use = ObservationUse::Fit;
   Eigen::Vector3d approach = Eigen::Vector3d::Zero();        ///< direction of approach, -1, 0 or +1 per axis
   Eigen::Vector3d tool_offset_mm = Eigen::Vector3d::Zero();  ///< tool point minus spindle reference
 };
 
-/// Extra covariance between two observations (observations.cov.csv). Rows count from 0 here, from 1 in the file.
-struct CovarianceEntry {
-  std::size_t row = 0;
-  std::size_t column = 0;
-  double covariance = 0.0;
-};
-
 struct ObservationSet {
   std::vector<Observation> rows;
-  /// Sparse, beyond the diagonal sigma^2; symmetric entries are given once. A diagonal entry replaces sigma^2.
-  std::vector<CovarianceEntry> covariance;
+  /// What rows have in common of their noise; part of their sigma. The exchange format observations.cov.csv states the
+  /// covariances of pairs of rows instead (row, column from 1; um^2, um urad or urad^2); it is split when it is read.
+  SharedNoise shared;
   std::filesystem::path file;
   /// Values are deviations as they stand (the campaign says "reference": "absolute"); false: up to a constant for each
   /// point and component, and the first state is the reference.
   bool absolute = false;
 
   /// Reads observations.csv and, if it stands beside it, <stem>.cov.csv. Throws InputError: missing column, unknown
-  /// component or use, sigma that is not positive, time that runs backwards for a point, a duplicate row.
+  /// component or use, sigma that is not positive, time that runs backwards for a point, a duplicate row, a variance in
+  /// the covariances that is not positive.
   [[nodiscard]] static ObservationSet read(const std::filesystem::path& file);
   /// The same from text in memory, without covariances; `name` stands for the file in errors.
   [[nodiscard]] static ObservationSet parse(std::string text, const std::filesystem::path& name);
-  /// Writes observations.csv, and <stem>.cov.csv if there is a covariance. Exact numbers, atomic.
+  /// Writes observations.csv, and <stem>.cov.csv with the covariances of all pairs if any is shared. Exact numbers,
+  /// atomic.
   void write(const std::filesystem::path& file) const;
   /// The text `write` puts into observations.csv.
   [[nodiscard]] std::string csv() const;
+
+  /// Takes covariances of pairs of rows for the shared noise, in place of what there was (see split_covariance.h): a
+  /// diagonal entry (> 0) replaces sigma^2, of mirrored entries the first counts. Covariances that are not positive
+  /// semidefinite together stay as they are stated: whoever needs them to be has to look.
+  void setCovariances(const std::vector<CovarianceEntry>& entries);
+  /// Appends rows with what they share among themselves.
+  void append(const ObservationSet& other);
 
   /// States in order of first appearance.
   [[nodiscard]] std::vector<std::string> states() const;

@@ -82,7 +82,12 @@ LinearFitResult solveLinearCorrelated(const Eigen::MatrixXd& A, const Eigen::Vec
   SPINDRIFT_ASSERT(A.rows() == y.size() && y.size() == covariance.rows() && covariance.rows() == covariance.cols(),
                    "sizes of a linear fit differ");
   const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance);
-  if (cholesky.info() != Eigen::Success) {
+  // A pivot at rounding of its variance is none: a covariance that is singular stays so if its numbers are rounded.
+  const double rounding = 16.0 * static_cast<double>(y.size()) * std::numeric_limits<double>::epsilon();
+  const bool definite =
+      cholesky.info() == Eigen::Success &&
+      (cholesky.matrixLLT().diagonal().array().square() > rounding * covariance.diagonal().array()).all();
+  if (!definite) {
     LinearFitResult fit;
     fit.status = FitStatus::Rejected;
     fit.message = "the covariance of the observations is not positive definite";

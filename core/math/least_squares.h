@@ -43,7 +43,7 @@ struct LinearFitResult {
 [[nodiscard]] LinearFitResult solveLinear(const Eigen::MatrixXd& A, const Eigen::VectorXd& y,
                                           const Eigen::VectorXd& sigma, const LinearFitOptions& options = {});
 
-/// The same with a full covariance of y (m x m, positive definite).
+/// The same with a full covariance of y (m x m, positive definite; Rejected where it is not, or singular to rounding).
 [[nodiscard]] LinearFitResult solveLinearCorrelated(const Eigen::MatrixXd& A, const Eigen::VectorXd& y,
                                                     const Eigen::MatrixXd& covariance,
                                                     const LinearFitOptions& options = {});

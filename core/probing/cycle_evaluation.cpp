@@ -503,29 +503,37 @@ void addGrowthUncertainty(const TouchList& list, Eigen::MatrixXd factors, std::m
 
 namespace {
 
-/// The growth that was taken off moved all values of a feature alike: sigmas and covariances of the rows. `cause(i,
-/// q)`: what cause q does to row i, um.
-void addGrowth(ObservationSet& set, const Eigen::MatrixXd& cause) {
-  std::map<std::pair<std::size_t, std::size_t>, double> covariance;
-  for (const CovarianceEntry& entry : set.covariance) covariance[{entry.row, entry.column}] = entry.covariance;
-  const Eigen::VectorXd own = cause.rowwise().squaredNorm();
-  for (std::size_t i = 0; i < set.rows.size(); ++i) {
-    set.rows[i].sigma = std::sqrt(set.rows[i].sigma * set.rows[i].sigma + own(static_cast<Eigen::Index>(i)));
-  }
-  constexpr double negligible = 1e-3;  // of the product of the sigmas
-  for (Eigen::Index j = 0; j < cause.rows(); ++j) {
-    if (own(j) == 0.0) continue;
-    for (Eigen::Index i = 0; i < j; ++i) {
-      if (own(i) == 0.0) continue;
-      const double common = cause.row(i).dot(cause.row(j));
-      const auto a = static_cast<std::size_t>(i);
-      const auto b = static_cast<std::size_t>(j);
-      if (std::abs(common) > negligible * set.rows[a].sigma * set.rows[b].sigma) covariance[{a, b}] += common;
+/// The first cycle's noise in the rows of one point: causes are its touches, of unit variance. They are turned into as
+/// few as the rows tell apart, in order of the rows.
+class FirstCycleNoise {
+ public:
+  /// `row` of the set is moved by `loads(key)` (um) of each touch.
+  void add(std::size_t row, const std::vector<int>& keys, const Eigen::VectorXd& loads) {
+    Eigen::VectorXd rest = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(place_.size() + keys.size()));
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      const auto at = place_.try_emplace(keys[i], static_cast<Eigen::Index>(place_.size())).first->second;
+      rest(at) += loads(static_cast<Eigen::Index>(i));
     }
+    const double size = rest.norm();
+    for (std::size_t f = 0; f < directions_.size(); ++f) {
+      const Eigen::VectorXd& direction = directions_[f];
+      const double load = direction.dot(rest.head(direction.size()));
+      rest.head(direction.size()) -= load * direction;
+      if (std::abs(load) > rounding * size) factors_[f].push_back({row, load});
+    }
+    const double left = rest.norm();
+    if (!(left > rounding * size)) return;
+    directions_.emplace_back(rest.head(static_cast<Eigen::Index>(place_.size())) / left);
+    factors_.push_back({{row, left}});
   }
-  set.covariance.clear();
-  for (const auto& [place, value] : covariance) set.covariance.push_back({place.first, place.second, value});
-}
+  [[nodiscard]] std::vector<SharedNoise::Factor>& factors() { return factors_; }
+
+ private:
+  static constexpr double rounding = 1e-9;
+  std::map<int, Eigen::Index> place_;        ///< of a touch among the causes
+  std::vector<Eigen::VectorXd> directions_;  ///< orthonormal; shorter ones end in zeros
+  std::vector<SharedNoise::Factor> factors_;
+};
 
 }  // namespace
 
@@ -554,22 +562,19 @@ ObservationSet cycleObservations(const CycleEvaluation& evaluation, const TouchL
     if (fresh) groups.emplace_back();
     groups[group->second].push_back({r, static_cast<std::size_t>(ref)});
   }
-  // First rows of a point and component, to attach the noise of the first cycle; with the weights behind them.
-  struct Placed {
-    std::size_t row;
-    double common;
-  };
-  std::map<std::pair<std::string, int>, std::vector<Placed>> placed;
-  std::vector<Eigen::RowVectorXd> growth;  // per row, um
+  std::map<std::string, FirstCycleNoise> first_cycle;  // by point
+  std::vector<SharedNoise::Factor> growth(static_cast<std::size_t>(evaluation.growth_factors.cols()));
   for (const std::vector<Member>& members : groups) {
     const Touch& first = list.touches[evaluation.row_touch[members.front().row]];
     const auto n = static_cast<Eigen::Index>(members.size());
     Eigen::MatrixXd U(n, 3);
     Eigen::VectorXd change(n);
     Eigen::VectorXd variance(n);
+    std::vector<int> keys;
     double time = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
       const Member& m = members[static_cast<std::size_t>(i)];
+      keys.push_back(rows[m.row].key);
       const double sigma = evaluation.fit.group_sigma_mm[static_cast<std::size_t>(rows[m.row].group)];
       U.row(i) = evaluation.row_normal[m.row].transpose();
       change(i) = rows[m.row].value_mm - rows[m.reference_row].value_mm;
@@ -614,29 +619,36 @@ ObservationSet cycleObservations(const CycleEvaluation& evaluation, const TouchL
       o.instrument = "touch_probe";
       if (stylus != nullptr) o.tool_offset_mm = stylus->offset_mm;
       const std::size_t row = set.rows.size();
-      for (const Placed& other : placed[{point, axis}]) {
-        set.covariance.push_back({other.row, row, std::min(own, other.common)});
-      }
-      placed[{point, axis}].push_back({row, own});
-      for (std::size_t j = 0; j < own_rows.size(); ++j) {
-        const double cross = 2.0 * inverse(own_axis[j], axis) * um_per_mm * um_per_mm;
-        if (std::abs(cross) > 1e-6 * own) set.covariance.push_back({own_rows[j], row, cross});
-      }
+      first_cycle[point].add(row, keys, um_per_mm * W.row(axis).transpose().cwiseProduct(variance.cwiseSqrt()));
       own_rows.push_back(row);
       own_axis.push_back(axis);
       set.rows.push_back(std::move(o));
       const auto arm = evaluation.growth_arm_mm.find(first.feature);
-      if (arm != evaluation.growth_arm_mm.end()) {
-        const int cycle = rows[members.front().row].cycle;
-        growth.emplace_back(-um_per_mm * arm->second(axis) * evaluation.growth_factors.row(cycle));
-      }
+      if (arm == evaluation.growth_arm_mm.end()) continue;
+      const int cycle = rows[members.front().row].cycle;
+      for (std::size_t q = 0; q < growth.size(); ++q)
+        growth[q].push_back(
+            {row, -um_per_mm * arm->second(axis) * evaluation.growth_factors(cycle, static_cast<Eigen::Index>(q))});
+    }
+    // The touches of this cycle: what its axes share.
+    Eigen::MatrixXd own(static_cast<Eigen::Index>(own_axis.size()), static_cast<Eigen::Index>(own_axis.size()));
+    for (Eigen::Index i = 0; i < own.rows(); ++i)
+      for (Eigen::Index j = 0; j < own.cols(); ++j)
+        own(i, j) = um_per_mm * um_per_mm *
+                    inverse(own_axis[static_cast<std::size_t>(i)], own_axis[static_cast<std::size_t>(j)]);
+    const Eigen::MatrixXd loads = sharedLoads(own);
+    for (Eigen::Index f = 0; f < loads.cols(); ++f) {
+      SharedNoise::Factor factor;
+      for (Eigen::Index i = 0; i < loads.rows(); ++i)
+        factor.push_back({own_rows[static_cast<std::size_t>(i)], loads(i, f)});
+      set.shared.addFactor(std::move(factor));
     }
   }
-  if (!growth.empty()) {
-    SPINDRIFT_ASSERT(growth.size() == set.rows.size(), "every feature of an artefact that grows has an arm");
-    Eigen::MatrixXd cause(static_cast<Eigen::Index>(growth.size()), evaluation.growth_factors.cols());
-    for (std::size_t i = 0; i < growth.size(); ++i) cause.row(static_cast<Eigen::Index>(i)) = growth[i];
-    addGrowth(set, cause);
+  for (auto& [point, noise] : first_cycle)
+    for (SharedNoise::Factor& factor : noise.factors()) set.shared.addFactor(std::move(factor));
+  for (SharedNoise::Factor& factor : growth) {
+    for (const SharedNoise::Load& l : factor) set.rows[l.row].sigma = std::hypot(set.rows[l.row].sigma, l.load);
+    set.shared.addFactor(std::move(factor));
   }
   return set;
 }

@@ -91,8 +91,13 @@ void addGrowthUncertainty(const TouchList& list, Eigen::MatrixXd factors, std::m
 
 /// Deviations as observations: per feature, stylus and table angle, EX, EY, EZ in every cycle = minus the change of the
 /// measured position since the first cycle. `point` = feature ("H2"), "H1@90" at a turned table, "B1/p0" for styli. The
-/// first cycle stands with value 0; its noise is common to all rows of a point and component and stands in
-/// `covariance`. Rotations of the table angle are in c_deg, the stylus offset in tool_offset_mm.
+/// first cycle stands with value 0. Rotations of the table angle are in c_deg, the stylus offset in tool_offset_mm.
+///
+/// Noise, um: displacement of cycle k = W_k (y_k - y_0) with the touches y of the cycle and of the first, all of
+/// independent noise. Shared are the touches of the first cycle (as many causes per point as its rows tell apart; the
+/// row of the first cycle itself has them once more beside its own, so that its difference to any other row has the
+/// sigma of that row), what the axes of one reading share of its own touches (W_k cov(y_k) W_k^T), and the growth that
+/// was taken off the artefact.
 [[nodiscard]] ObservationSet cycleObservations(const CycleEvaluation& evaluation, const TouchList& list,
                                                const MachineDescription& machine, const Artefact& artefact);
 

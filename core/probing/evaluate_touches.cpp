@@ -23,14 +23,7 @@ std::string unitOfName(const std::string& name) {
 void addCommon(const CycleEvaluation& evaluation, const TouchEvaluation& all, const MachineDescription& machine,
                InstrumentEvaluation& out) {
   const Artefact& artefact = *machine.findArtefact(evaluation.artefact);
-  const std::size_t offset = out.observations.rows.size();
-  ObservationSet set = cycleObservations(evaluation, all.touches, machine, artefact);
-  for (Observation& o : set.rows) out.observations.rows.push_back(std::move(o));
-  for (CovarianceEntry entry : set.covariance) {
-    entry.row += offset;
-    entry.column += offset;
-    out.observations.covariance.push_back(entry);
-  }
+  out.observations.append(cycleObservations(evaluation, all.touches, machine, artefact));
   for (const RejectedTouch& r : evaluation.rejected) {
     out.rejected.push_back({all.touches.touches[r.touch].label(), r.reason});
   }

@@ -36,8 +36,6 @@ struct Change {
 /// In order of time within each point and component; the first of each is zero by definition and not among them.
 std::vector<Change> changesOf(const ObservationSet& observations) {
   const auto& rows = observations.rows;
-  std::map<std::pair<std::size_t, std::size_t>, double> covariance;
-  for (const CovarianceEntry& c : observations.covariance) covariance[std::minmax(c.row, c.column)] = c.covariance;
   std::map<Key, std::vector<std::size_t>> series;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (rows[i].use != ObservationUse::Exclude) series[{rows[i].point, rows[i].component}].push_back(i);
@@ -48,9 +46,8 @@ std::vector<Change> changesOf(const ObservationSet& observations) {
     const std::size_t f = indices.front();
     for (std::size_t k = 1; k < indices.size(); ++k) {
       const std::size_t i = indices[k];
-      const auto common = covariance.find(std::minmax(f, i));
-      const double shared = common == covariance.end() ? 0.0 : common->second;
-      const double variance = rows[i].sigma * rows[i].sigma + rows[f].sigma * rows[f].sigma - 2.0 * shared;
+      const double variance =
+          rows[i].sigma * rows[i].sigma + rows[f].sigma * rows[f].sigma - 2.0 * observations.shared.covariance(f, i);
       changes.push_back({&rows[i], &rows[f], rows[i].value - rows[f].value, std::sqrt(std::max(0.0, variance))});
     }
   }

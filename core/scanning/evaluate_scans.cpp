@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "core/base/json_reader.h"
@@ -12,6 +12,7 @@
 #include "core/base/units.h"
 #include "core/scanning/calibration_report.h"
 #include "core/scanning/scan_evaluation.h"
+#include "core/scanning/scan_noise.h"
 
 namespace spindrift {
 namespace {
@@ -19,13 +20,6 @@ namespace {
 double unitFactor(Component k) {
   return isRotation(k) ? urad_per_rad : um_per_mm;
 }
-
-/// Covariance of (u, w) of a scan with the noise that it shares with the others of its artefact: the reference scan's
-/// own noise (half of the covariance of the registration of two alike scans) and the calibration.
-struct ScanCovariance {
-  Eigen::Matrix<double, 6, 6> own;
-  Eigen::Matrix<double, 6, 6> spread;  ///< calibrationSpread
-};
 
 nlohmann::json scanJson(const ScanResult& s, const std::string& axis, const Eigen::Matrix<double, 6, 6>& calibration) {
   nlohmann::json parameters = nlohmann::json::object();
@@ -75,34 +69,12 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
   out.rejected = evaluation.rejected;
   out.warnings = evaluation.warnings;
 
-  // Noise of the reference scan of every artefact: half of the smallest covariance of its registrations.
-  std::map<std::string, Eigen::Matrix<double, 6, 6>> reference;
-  for (const ScanResult& s : evaluation.scans) {
-    Eigen::Matrix<double, 6, 6> half = 0.5 * s.registration.covariance;
-    for (int i = 0; i < 6; ++i)
-      if (!std::isfinite(half(i, i))) half(i, i) = 0.0;
-    auto [at, fresh] = reference.try_emplace(s.capture.artefact, half);
-    if (!fresh && half.trace() > 0.0 &&
-        (half.topLeftCorner<3, 3>().trace() < at->second.topLeftCorner<3, 3>().trace() || at->second.trace() == 0.0))
-      at->second = half;
-  }
-  struct Row {
-    std::size_t scan;
-    int component;
-  };
-  std::vector<Row> rows;
-  std::vector<ScanCovariance> covariances;
+  std::vector<ScanRow> rows;
   std::set<std::string> placed_by_scan;
   nlohmann::json cycles = nlohmann::json::array();
-  double worst = 0.0;
   for (std::size_t n = 0; n < evaluation.scans.size(); ++n) {
     const ScanResult& s = evaluation.scans[n];
-    const Eigen::Matrix<double, 6, 6>& common = reference.at(s.capture.artefact);
-    ScanCovariance c;
-    c.own = s.registration.covariance;
-    if (s.reference) c.own = 2.0 * common;
-    c.spread = s.calibration_spread;
-    const Eigen::Matrix<double, 6, 6> calibration = c.spread * c.spread.transpose();
+    const Eigen::Matrix<double, 6, 6> calibration = s.calibration_spread * s.calibration_spread.transpose();
     for (const Component k : all_components) {
       const int i = static_cast<int>(k);
       if (!std::isfinite(s.registration.covariance(i, i))) continue;
@@ -119,34 +91,18 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
         placed_by_scan.insert(s.capture.artefact);
       }
       o.value = valueOf(SmallError{s.registration.translation_mm, s.registration.rotation_rad}, k);
-      o.sigma = unitFactor(k) * std::sqrt(c.own(i, i) + calibration(i, i));
-      if (!(o.sigma > 0.0)) o.sigma = isRotation(k) ? 0.01 : 1e-4;
-      if (!s.reference) worst = std::max(worst, isRotation(k) ? 0.0 : o.sigma);
       o.instrument = "profiler";
       out.observations.rows.push_back(o);
       rows.push_back({n, i});
     }
-    covariances.push_back(c);
     cycles.push_back(scanJson(s, evaluation.axis, calibration));
   }
-  // Beyond the diagonal: within a scan its registration, between scans of an artefact the reference and the
-  // calibration.
-  for (std::size_t a = 0; a < rows.size(); ++a) {
-    const ScanResult& sa = evaluation.scans[rows[a].scan];
-    const int i = rows[a].component;
-    const double fa = unitFactor(static_cast<Component>(i));
-    for (std::size_t b = a + 1; b < rows.size(); ++b) {
-      const ScanResult& sb = evaluation.scans[rows[b].scan];
-      const int j = rows[b].component;
-      double covariance = covariances[rows[a].scan].spread.row(i).dot(covariances[rows[b].scan].spread.row(j));
-      if (rows[a].scan == rows[b].scan)
-        covariance += covariances[rows[a].scan].own(i, j);
-      else if (sa.capture.artefact == sb.capture.artefact)
-        covariance += reference.at(sa.capture.artefact)(i, j);
-      covariance *= fa * unitFactor(static_cast<Component>(j));
-      const double limit = out.observations.rows[a].sigma * out.observations.rows[b].sigma;
-      if (std::abs(covariance) > 1e-3 * limit) out.observations.covariance.push_back({a, b, covariance});
-    }
+  ScanNoise noise = noiseOfScans(evaluation.scans, rows);
+  out.observations.shared = std::move(noise.shared);
+  double worst = 0.0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    out.observations.rows[r].sigma = noise.sigma[r];
+    if (rows[r].component < 3 && !evaluation.scans[rows[r].scan].reference) worst = std::max(worst, noise.sigma[r]);
   }
   if (!placed_by_scan.empty())
     out.warnings.push_back(fmt::format(
@@ -157,9 +113,13 @@ InstrumentEvaluation evaluateScans(const Campaign& campaign, const std::string& 
   out.details["scan_model"] = toString(evaluation.scan_model);
   out.details["calibration"] = calibrationJson(evaluation.mounting.calibration);
   std::size_t compared = 0;
-  for (const ScanResult& s : evaluation.scans) compared += s.reference ? 0U : 1U;
+  std::set<std::string> artefacts;
+  for (const ScanResult& s : evaluation.scans) {
+    compared += s.reference ? 0U : 1U;
+    artefacts.insert(s.capture.artefact);
+  }
   out.summary = fmt::format("Profiler ({}): {} scans of {} artefacts compared with their first, {} rejected\n",
-                            toString(evaluation.scan_model), compared, reference.size(), out.rejected.size());
+                            toString(evaluation.scan_model), compared, artefacts.size(), out.rejected.size());
   constexpr std::size_t most_lines = 24;
   std::size_t lines = 0;
   for (const ScanResult& s : evaluation.scans) {

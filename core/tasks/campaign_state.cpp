@@ -8,15 +8,43 @@
 
 namespace spindrift {
 
+namespace {
+
+/// Factors as lists of [row, load].
+nlohmann::json sharedJson(const SharedNoise& shared) {
+  nlohmann::json out = nlohmann::json::array();
+  for (const SharedNoise::Factor& factor : shared.factors()) {
+    nlohmann::json loads = nlohmann::json::array();
+    for (const SharedNoise::Load& l : factor) loads.push_back({l.row, l.load});
+    out.push_back(std::move(loads));
+  }
+  return out;
+}
+
+void readShared(const nlohmann::json& payload, ObservationSet& set) {
+  if (const auto shared = payload.find("shared_noise"); shared != payload.end()) {
+    for (const auto& loads : *shared) {
+      SharedNoise::Factor factor;
+      for (const auto& l : loads) factor.push_back({l.at(0).get<std::size_t>(), l.at(1).get<double>()});
+      set.shared.addFactor(std::move(factor));
+    }
+    return;
+  }
+  // Sessions of versions that stored covariances of pairs of rows.
+  std::vector<CovarianceEntry> covariances;
+  for (const auto& e : payload.at("covariance"))
+    covariances.push_back({e.at(0).get<std::size_t>(), e.at(1).get<std::size_t>(), e.at(2).get<double>()});
+  set.setCovariances(covariances);
+}
+
+}  // namespace
+
 nlohmann::json payloadOf(const CampaignEvaluation& evaluation) {
-  nlohmann::json covariance = nlohmann::json::array();
-  for (const CovarianceEntry& e : evaluation.observations.covariance)
-    covariance.push_back({e.row, e.column, e.covariance});
   return {{"json", evaluation.json()},
           {"summary", evaluation.summary()},
           {"good_enough", evaluation.good_enough},
           {"observations", evaluation.observations.csv()},
-          {"covariance", covariance}};
+          {"shared_noise", sharedJson(evaluation.observations.shared)}};
 }
 
 StoredEvaluation evaluationFrom(const StoredResult& result) {
@@ -27,10 +55,7 @@ StoredEvaluation evaluationFrom(const StoredResult& result) {
   evaluation.summary = p.at("summary").get<std::string>();
   evaluation.good_enough = p.at("good_enough").get<bool>();
   evaluation.observations = ObservationSet::parse(p.at("observations").get<std::string>(), "stored observations");
-  for (const auto& e : p.at("covariance")) {
-    evaluation.observations.covariance.push_back(
-        {e.at(0).get<std::size_t>(), e.at(1).get<std::size_t>(), e.at(2).get<double>()});
-  }
+  readShared(p, evaluation.observations);
   for (const auto& r : evaluation.details.value("rejected", nlohmann::json::array())) {
     evaluation.rejected.push_back({r.at("capture").get<std::string>(), r.at("reason").get<std::string>()});
   }

@@ -78,13 +78,7 @@ CampaignEvaluation evaluateCampaign(const Campaign& campaign, const EvaluateOpti
   if (touches) evaluation.instruments.push_back(evaluateTouches(campaign, job));
   if (scans) evaluation.instruments.push_back(evaluateScans(campaign, options.scan_model, job));
   for (const InstrumentEvaluation& instrument : evaluation.instruments) {
-    const std::size_t offset = evaluation.observations.rows.size();
-    for (const Observation& row : instrument.observations.rows) evaluation.observations.rows.push_back(row);
-    for (CovarianceEntry entry : instrument.observations.covariance) {
-      entry.row += offset;
-      entry.column += offset;
-      evaluation.observations.covariance.push_back(entry);
-    }
+    evaluation.observations.append(instrument.observations);
     evaluation.good_enough = evaluation.good_enough && instrument.good_enough;
   }
   return evaluation;

@@ -51,15 +51,26 @@ std::vector<ReviewPoint> measuredPoints(const ObservationSet& observations, cons
         fmt::format("State '{}' is not among the observations; allowed: one of {}.", state, states.size()));
   const PlacedValues now = meansOf(observations, state, nullptr);
   const PlacedValues cold = state == states.front() ? PlacedValues() : meansOf(observations, states.front(), nullptr);
-  // What both states have in common (the reference of an evaluation) is in their covariance.
-  std::map<std::pair<std::string, Component>, double> common;
-  for (const CovarianceEntry& entry : observations.covariance) {
-    const Observation* a = &observations.rows[entry.row];
-    const Observation* b = &observations.rows[entry.column];
-    if (a->state != state) std::swap(a, b);
-    if (a->state == state && b->state == states.front() && a->point == b->point && a->component == b->component)
-      common[{a->point, a->component}] = entry.covariance;
+  // What the readings have in common (the reference of an evaluation) counts once.
+  std::map<std::pair<std::string, Component>, std::vector<std::size_t>> rows_now, rows_cold;
+  for (std::size_t r = 0; r < observations.rows.size(); ++r) {
+    const Observation& o = observations.rows[r];
+    if (!std::isfinite(o.value)) continue;
+    if (o.state == state) rows_now[{o.point, o.component}].push_back(r);
+    if (o.state == states.front() && state != states.front()) rows_cold[{o.point, o.component}].push_back(r);
   }
+  const auto sigmaOf = [&](const std::pair<std::string, Component>& place) {
+    std::vector<SharedNoise::Load> combination;
+    const std::vector<std::size_t>& after = rows_now.at(place);
+    for (const std::size_t r : after) combination.push_back({r, 1.0 / static_cast<double>(after.size())});
+    if (const auto before = rows_cold.find(place); before != rows_cold.end())
+      for (const std::size_t r : before->second)
+        combination.push_back({r, -1.0 / static_cast<double>(before->second.size())});
+    double variance = observations.shared.varianceOf(combination);
+    for (const SharedNoise::Load& part : combination)
+      variance += part.load * part.load * observations.shared.ownVariance(part.row, observations.rows[part.row].sigma);
+    return std::sqrt(variance);
+  };
   std::vector<ReviewPoint> points;
   std::map<std::string, std::size_t> index;
   for (const Observation& o : observations.rows) {
@@ -69,12 +80,10 @@ std::vector<ReviewPoint> measuredPoints(const ObservationSet& observations, cons
     ReviewPoint& p = points[at->second];
     p.used = p.used && o.use == ObservationUse::Fit;
     const auto here = now.find({o.point, o.component});
-    if (here == now.end()) continue;
+    if (here == now.end() || p.components.contains(o.component)) continue;
     ReviewValue v = here->second;
-    if (const auto before = cold.find(here->first); before != cold.end())
-      v = {v.value - before->second.value,
-           std::sqrt(std::max(0.0, v.sigma * v.sigma + before->second.sigma * before->second.sigma -
-                                       2.0 * (common.contains(here->first) ? common.at(here->first) : 0.0)))};
+    if (const auto before = cold.find(here->first); before != cold.end()) v.value -= before->second.value;
+    v.sigma = sigmaOf(here->first);
     p.components[o.component] = v;
   }
   return points;

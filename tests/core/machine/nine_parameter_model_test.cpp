@@ -102,14 +102,14 @@ TEST(NineParameterModel, TruthLiesWithin95PercentIntervalsIn94To96PercentOf2000C
     addState(set, "M1", points, truth, constants, 0.25, 0.6, random);
     // An error common to EX of all points of the warm state, as the pooled centre of rotation makes it.
     const double common = random.normal(0, 0.3);
+    SharedNoise::Factor centre;
     for (std::size_t i = 24; i < 48; ++i) {
       if (set.rows[i].component != Component::EX) continue;
       set.rows[i].value += common;
       set.rows[i].sigma = std::hypot(set.rows[i].sigma, 0.3);
-      for (std::size_t j = i + 1; j < 48; ++j) {
-        if (set.rows[j].component == Component::EX) set.covariance.push_back({i, j, 0.09});
-      }
+      centre.push_back({i, 0.3});
     }
+    set.shared.addFactor(centre);
     const NineParameterFit fit = fitNineParameters(set, {.state = "M1", .points = {"F1", "F2", "F3", "F4", "F6"}});
     ASSERT_EQ(fit.status, FitStatus::Converged);
     chi2 += fit.chi2 / fit.degrees_of_freedom / campaigns;
@@ -127,6 +127,30 @@ TEST(NineParameterModel, TruthLiesWithin95PercentIntervalsIn94To96PercentOf2000C
     EXPECT_LT(n, 0.965 * campaigns);
   }
   EXPECT_NEAR(chi2, 1.0, 0.05);
+}
+
+TEST(NineParameterModel, CovariancesThatAreNoneAreRefusedWithTheReason) {
+  Random random(11);
+  const std::vector<double> constants(24, 0.0);
+  const auto fitWith = [&](double correlation) {
+    ObservationSet set;
+    addState(set, "M0", eightFiducials(), NineVector::Zero(), constants, 0.3, 0.8, random);
+    addState(set, "M1", eightFiducials(), someTruth(random), constants, 0.3, 0.8, random);
+    std::vector<CovarianceEntry> entries;
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 24; i < 48; ++i)
+      if (set.rows[i].component == Component::EX) rows.push_back(i);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t j = i + 1; j < rows.size(); ++j)
+        entries.push_back({rows[i], rows[j], correlation * set.rows[rows[i]].sigma * set.rows[rows[j]].sigma});
+    set.setCovariances(entries);
+    return fitNineParameters(set, {.state = "M1", .relative_to_reference = false});
+  };
+  EXPECT_EQ(fitWith(0.5).status, FitStatus::Converged);
+  const NineParameterFit impossible = fitWith(-0.5);  // of eight rows: not below -1/7
+  EXPECT_EQ(impossible.status, FitStatus::Rejected);
+  EXPECT_EQ(impossible.message, "the covariance of the observations is not positive definite of state M1");
+  EXPECT_EQ(fitWith(1.0).status, FitStatus::Rejected) << "singular, however it is rounded";
 }
 
 TEST(NineParameterModel, ValidationPointsAreNotFitted) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/machine/observation.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <cmath>
+#include <sstream>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -32,7 +36,8 @@ TEST(Observation, ReadsBackExactlyWhatItWrites) {
     o.tool_offset_mm = {0.0, 50.0, -20.0};
     set.rows.push_back(o);
   }
-  set.covariance = {{0, 2, 0.25}, {1, 3, -0.125}};
+  const double variance = set.rows[0].sigma * set.rows[0].sigma;
+  set.setCovariances({{0, 2, 0.25 * variance}, {1, 3, -0.125 * variance}});
   set.write(folder / "o.csv");
   const ObservationSet back = ObservationSet::read(folder / "o.csv");
   ASSERT_EQ(back.rows.size(), 4U);
@@ -45,8 +50,10 @@ TEST(Observation, ReadsBackExactlyWhatItWrites) {
     EXPECT_EQ(back.rows[i].approach, set.rows[i].approach);
     EXPECT_EQ(back.rows[i].tool_offset_mm, set.rows[i].tool_offset_mm);
   }
-  ASSERT_EQ(back.covariance.size(), 2U);
-  EXPECT_EQ(back.covariance[1].covariance, -0.125);
+  EXPECT_EQ(back.rows[0].sigma, set.rows[0].sigma);
+  EXPECT_NEAR(back.shared.covariance(0, 2), 0.25 * variance, 1e-14 * variance);
+  EXPECT_NEAR(back.shared.covariance(3, 1), -0.125 * variance, 1e-14 * variance);
+  EXPECT_EQ(back.shared.covariance(0, 1), 0.0);
   EXPECT_THAT(back.states(), ElementsAre("M0", "M1"));
   EXPECT_THAT(back.points(), ElementsAre("F1", "F,2"));
 }
@@ -57,13 +64,77 @@ TEST(Observation, ForgetsACovarianceThatIsNoLongerTrue) {
   Observation o;
   o.point = "F1";
   o.sigma = 1.0;
-  set.rows = {o};
-  set.covariance = {{0, 0, 2.0}};
+  set.rows = {o, o};
+  set.rows[1].time_s = 60.0;
+  set.setCovariances({{0, 1, 0.5}});
   set.write(folder / "o.csv");
   EXPECT_TRUE(std::filesystem::exists(folder / "o.cov.csv"));
-  set.covariance.clear();
+  set.shared.clear();
   set.write(folder / "o.csv");
   EXPECT_FALSE(std::filesystem::exists(folder / "o.cov.csv"));
+}
+
+/// Four rows of one point with these covariances in the file, read.
+ObservationSet readWith(const testing::TempFolder& folder, const std::string& covariances) {
+  std::string rows = header;
+  for (int k = 0; k < 4; ++k)
+    rows += std::to_string(60 * k) + ",M" + std::to_string(k) + ",F1,1,2,3,0,EX,1,0.5,m,fit\n";
+  folder.write("c.cov.csv", "row,column,covariance\n" + covariances);
+  return ObservationSet::read(folder.write("c.csv", rows));
+}
+
+std::vector<CovarianceEntry> writtenAgain(const testing::TempFolder& folder, const ObservationSet& set) {
+  set.write(folder / "again.csv");
+  std::vector<CovarianceEntry> entries;
+  std::istringstream lines(readFile(folder / "again.cov.csv"));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    CovarianceEntry e;
+    char comma = 0;
+    fields >> e.row >> comma >> e.column >> comma >> e.covariance;
+    entries.push_back(e);
+  }
+  return entries;
+}
+
+TEST(Observation, CovariancesOfAFileComeBackAsTheyWere) {
+  const testing::TempFolder folder;
+  // Also such that are none together (-0.2 of 0.25 in a triangle): what was stated is kept.
+  for (const double c : {0.1, 1.0 / 7.0, -0.03, -0.2}) {
+    const ObservationSet set = readWith(folder, fmt::format("1,2,{}\n2,1,{}\n3,2,{}\n1,3,{}\n", c, c, c, c));
+    const std::vector<CovarianceEntry> entries = writtenAgain(folder, set);
+    ASSERT_EQ(entries.size(), 3U) << c;
+    for (const CovarianceEntry& e : entries) EXPECT_NEAR(e.covariance, c, 1e-12 * std::abs(c));
+    EXPECT_EQ(entries[0].row, 1U);
+    EXPECT_EQ(entries[2].column, 3U);
+    for (const Observation& o : set.rows) EXPECT_EQ(o.sigma, 0.5);
+  }
+}
+
+TEST(Observation, AVarianceOfTheFileReplacesSigma) {
+  const testing::TempFolder folder;
+  const ObservationSet set = readWith(folder, "2,2,4\n2,3,0.5\n");
+  EXPECT_EQ(set.rows[1].sigma, 2.0);
+  EXPECT_EQ(set.rows[2].sigma, 0.5);
+  EXPECT_NEAR(set.shared.covariance(1, 2), 0.5, 1e-15);
+  try {
+    (void)readWith(folder, "2,2,0\n");
+    FAIL() << "no variance is zero";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("variance 0 of row 2 is not allowed"));
+  }
+}
+
+TEST(Observation, SetsAreAppendedWithWhatTheyShare) {
+  const testing::TempFolder folder;
+  const ObservationSet one = readWith(folder, "1,2,0.1\n");
+  ObservationSet both = one;
+  both.append(one);
+  ASSERT_EQ(both.rows.size(), 8U);
+  EXPECT_NEAR(both.shared.covariance(4, 5), 0.1, 1e-15);
+  EXPECT_EQ(both.shared.covariance(0, 4), 0.0);
 }
 
 TEST(Observation, BadRowsAreNamed) {

@@ -135,5 +135,17 @@ TEST(BasicSolution, OfFullRankIsTheLeastSquaresSolution) {
             0.0);
 }
 
+TEST(LeastSquares, ASingularCovarianceIsRefusedHoweverItIsRounded) {
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Ones(3, 1);
+  for (const double rounding : {0.0, 1e-16, 4e-16, -4e-16}) {
+    Eigen::Matrix3d C = Eigen::Matrix3d::Identity();
+    C(0, 1) = C(1, 0) = 1.0 - rounding;
+    EXPECT_EQ(solveLinearCorrelated(A, Eigen::Vector3d(1.0, 2.0, 3.0), C).status, FitStatus::Rejected) << rounding;
+  }
+  Eigen::Matrix3d C = Eigen::Matrix3d::Identity();
+  C(0, 1) = C(1, 0) = 1.0 - 1e-9;
+  EXPECT_EQ(solveLinearCorrelated(A, Eigen::Vector3d(1.0, 2.0, 3.0), C).status, FitStatus::Converged);
+}
+
 }  // namespace
 }  // namespace spindrift

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include "core/math/least_squares.h"
 #include "tests/core/probing/probing_machines.h"
@@ -402,6 +404,18 @@ TEST(BallCycle, UncertaintyOfCoefficientAndTemperatureIsInEveryValue) {
       ++differences;
     }
     const ObservationSet set = cycleObservations(result, run.list, m, m.artefacts.front());
+    const auto causes = static_cast<std::size_t>(result.growth_factors.cols());
+    ASSERT_GE(set.shared.factors().size(), causes);
+    for (std::size_t q = 0; q < causes; ++q) {
+      for (const SharedNoise::Load& l : set.shared.factors()[set.shared.factors().size() - causes + q]) {
+        const Observation& o = set.rows[l.row];
+        const auto cycle = static_cast<Eigen::Index>(o.state.back() - '0');
+        EXPECT_NEAR(l.load,
+                    -1e3 * result.growth_arm_mm.at(o.point.substr(0, o.point.find('/')))(axisIndex(o.component)) *
+                        result.growth_factors(cycle, static_cast<Eigen::Index>(q)),
+                    1e-12);
+      }
+    }
     for (const Observation& o : set.rows) {
       if (o.state != "M2" || !o.point.starts_with("B4/")) continue;
       const TipDeviation deviation = ballDeviation(m, run.truth[2]);
@@ -675,6 +689,64 @@ TEST(BallCycle, ClosedFormsStandBesideTheJointEvaluationAndTakeTranslationsForRo
   EXPECT_GT(drift[1]["spindle_drift_um"].get<double>(), 10.0);
   EXPECT_NEAR(drift[1]["joint_spindle_drift_um"].get<double>(), std::hypot(5.0, 8.0, 10.0), 0.05);
   EXPECT_GE(drift[1]["joint_standard_uncertainty_urad"][0].get<double>(), 0.0);
+}
+
+/// Own variances and loads of a set as one matrix.
+Eigen::MatrixXd covarianceOf(const ObservationSet& set, const std::vector<std::size_t>& rows) {
+  const Eigen::SparseMatrix<double> loads = set.shared.loads(rows);
+  Eigen::MatrixXd out = Eigen::MatrixXd(loads * loads.transpose());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    out.diagonal()(static_cast<Eigen::Index>(i)) += set.shared.ownVariance(rows[i], set.rows[rows[i]].sigma);
+  return out;
+}
+
+/// With touches missing in some cycles: the noise of the first cycle then differs from row to row.
+TEST_P(CycleKind, WhatObservationsShareIsTheNoiseOfTheTouches) {
+  const MachineDescription m = machine();
+  VirtualProbeOptions options;
+  options.noise_um = 0.5;
+  options.surface_noise_um = 0.3;
+  double chi2 = 0.0, count = 0.0, chi2_difference = 0.0, differences = 0.0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    VirtualRun run = runCycles(m, 4, options, 7000 + seed,
+                               [&](int, Random&) { return std::vector<double>(GetParam() ? 9 : 12, 0.0); });
+    removeTouches(run.list, [](const Touch& t) { return t.cycle == "M2" && t.touch == 1; });
+    const CycleEvaluation evaluation = evaluate(m, run.list);
+    const ObservationSet set = cycleObservations(evaluation, run.list, m, m.artefacts.front());
+    std::map<std::string, std::vector<std::size_t>> of_point;
+    std::map<std::pair<std::string, Component>, std::size_t> first;
+    for (std::size_t r = 0; r < set.rows.size(); ++r) {
+      const Observation& o = set.rows[r];
+      EXPECT_GE(o.sigma * o.sigma * (1.0 + 1e-12), set.shared.variance(r));
+      if (o.state == "M0") first[{o.point, o.component}] = r;
+      if (o.state != "M0") of_point[o.point].push_back(r);
+    }
+    for (const auto& [point, rows] : of_point) {
+      // The machine stands still: the rows are their noise.
+      Eigen::VectorXd y(static_cast<Eigen::Index>(rows.size()));
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Observation& o = set.rows[rows[i]];
+        y(static_cast<Eigen::Index>(i)) = o.value;
+        const auto reference = first.find({o.point, o.component});
+        ASSERT_NE(reference, first.end());
+        const Eigen::MatrixXd both = covarianceOf(set, {reference->second, rows[i]});
+        EXPECT_NEAR(both(0, 0) + both(1, 1) - 2.0 * both(0, 1), o.sigma * o.sigma, 1e-4 * o.sigma * o.sigma);
+      }
+      const Eigen::MatrixXd c = covarianceOf(set, rows);
+      chi2 += y.dot(c.llt().solve(y));
+      count += static_cast<double>(rows.size());
+      // Change between two later cycles: the first cancels where the touches are the same.
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        for (std::size_t j = i + 1; j < rows.size(); ++j) {
+          if (set.rows[rows[i]].component != set.rows[rows[j]].component) continue;
+          const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+          chi2_difference += std::pow(y(a) - y(b), 2) / (c(a, a) + c(b, b) - 2.0 * c(a, b));
+          differences += 1.0;
+        }
+    }
+  }
+  EXPECT_NEAR(chi2 / count, 1.0, 0.06);
+  EXPECT_NEAR(chi2_difference / differences, 1.0, 0.06);
 }
 
 TEST(CycleObservations, AreMinusTheChangeOfTheMeasuredPosition) {

@@ -75,7 +75,7 @@ TEST(ObservationSection, ManyStatesAreOnePlotAPointInTheColoursOfTheAxes) {
 TEST(ObservationSection, CommonCovarianceLeavesTheDifference) {
   ObservationSet set = observations(2);
   // Rows 0 and 12: EX of F1 in M0 and M1.
-  set.covariance = {{0, 12, 0.05}};
+  set.setCovariances({{0, 12, 0.05}});
   const auto largest = largestChanges(set);
   ASSERT_EQ(largest.size(), 3U);
   EXPECT_EQ(largest[0].component, Component::EX);

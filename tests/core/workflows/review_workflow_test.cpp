@@ -75,7 +75,7 @@ TEST(Review, DifferenceIsTheSecondMinusTheFirst) {
 TEST(Review, WhatTwoStatesHaveInCommonDoesNotCountTwice) {
   ObservationSet all = states(1);  // M0, M1, M2 of one point: EX, EY, EZ each
   // The reading of M2 holds the reference's noise: covariance 0.04 beside 0.09 + 0.09.
-  all.covariance.push_back({0, 6, 0.04});
+  all.shared.addFactor({{0, 0.2}, {6, 0.2}});
   const ReviewPicture m2 = reviewOf(all, table(), {"M2", ReviewQuantity::Measured, Component::EX});
   EXPECT_NEAR(m2.points[0].components.at(Component::EX).sigma, std::sqrt(0.18 - 0.08), 1e-12);
   EXPECT_NEAR(m2.points[0].components.at(Component::EY).sigma, std::sqrt(0.18), 1e-12);
@@ -89,6 +89,18 @@ TEST(Review, RepeatedReadingsOfAStateAreAveraged) {
       reviewOf(ObservationSet::parse(csv, "o.csv"), table(), {"M1", ReviewQuantity::Measured, Component::EX});
   EXPECT_NEAR(m1.points[0].components.at(Component::EX).value, 10.0, 1e-12);
   EXPECT_NEAR(m1.points[0].components.at(Component::EX).sigma, 0.2, 1e-12);
+}
+
+TEST(Review, WhatRepeatedReadingsShareDoesNotAverageOut) {
+  std::string csv = "time_s,state,point,x_mm,y_mm,z_mm,c_deg,component,value,sigma,instrument,use\n";
+  for (int i = 0; i < 4; ++i) csv += fmt::format("{},M{},P,0,0,0,0,EX,{},0.5,probe,fit\n", 60 * i, i / 2, i);
+  ObservationSet set = ObservationSet::parse(csv, "o.csv");
+  set.shared.addFactor({{0, 0.1}, {1, 0.1}, {2, 0.1}, {3, 0.1}});  // of all: none is left
+  set.shared.addFactor({{2, 0.4}, {3, 0.4}});                      // of the state
+  const ReviewPicture m1 = reviewOf(set, table(), {"M1", ReviewQuantity::Measured, Component::EX});
+  const double own_cold = 0.24, own_warm = 0.08;
+  EXPECT_NEAR(m1.points[0].components.at(Component::EX).sigma, std::sqrt(0.16 + own_cold / 2.0 + own_warm / 2.0),
+              1e-12);
 }
 
 TEST(Review, HeatMapsBetweenPointsFollowTheTruthWithinTheirUncertainty) {

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/tasks/campaign_state.h"
+
+#include <gtest/gtest.h>
+
+namespace spindrift {
+namespace {
+
+CampaignEvaluation evaluation() {
+  CampaignEvaluation out;
+  for (int k = 0; k < 4; ++k) {
+    Observation o;
+    o.time_s = 60.0 * k;
+    o.state = "M" + std::to_string(k);
+    o.point = "F1";
+    o.sigma = 0.5;
+    out.observations.rows.push_back(o);
+  }
+  out.observations.shared.addFactor({{0, 0.1}, {2, -0.2}, {3, 1.0 / 3.0}});
+  out.observations.shared.addFactor({{1, 0.25}, {2, 0.125}});
+  return out;
+}
+
+TEST(CampaignState, EvaluationsAreStoredWithTheFactorsOfTheirNoise) {
+  const CampaignEvaluation before = evaluation();
+  StoredResult stored;
+  stored.payload = nlohmann::json::parse(payloadOf(before).dump());
+  const ObservationSet after = evaluationFrom(stored).observations;
+  ASSERT_EQ(after.shared.factors().size(), 2U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(after.rows[i].sigma, 0.5);
+    for (std::size_t j = 0; j < 4; ++j)
+      EXPECT_EQ(after.shared.covariance(i, j), before.observations.shared.covariance(i, j));
+  }
+}
+
+TEST(CampaignState, EvaluationsOfEarlierVersionsHoldCovariancesOfPairs) {
+  StoredResult stored;
+  stored.payload = payloadOf(evaluation());
+  stored.payload.erase("shared_noise");
+  stored.payload["covariance"] = {{0, 2, 0.1}, {1, 3, -0.05}};
+  const ObservationSet set = evaluationFrom(stored).observations;
+  EXPECT_NEAR(set.shared.covariance(0, 2), 0.1, 1e-15);
+  EXPECT_NEAR(set.shared.covariance(1, 3), -0.05, 1e-15);
+  EXPECT_EQ(set.shared.covariance(0, 1), 0.0);
+  EXPECT_EQ(set.rows[0].sigma, 0.5);
+}
+
+}  // namespace
+}  // namespace spindrift
