@@ -9360,6 +9360,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>Where simulation and measurement disagree</source>
         <translation>Wo Simulation und Messung voneinander abweichen</translation>
     </message>
+    <message>
+        <source>variance {} of row {} is not allowed; allowed: greater than zero.</source>
+        <translation>Die Varianz {} der Zeile {} ist nicht erlaubt; erlaubt: größer als null.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

@@ -1828,6 +1828,7 @@ const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", "unstable poles were drawn to |z| = {}; judge it in free run before use."),
     QT_TRANSLATE_NOOP("core", "upside down (mirrored in z)"),
     QT_TRANSLATE_NOOP("core", "use \"{}\" is not known; allowed: fit, holdout or exclude."),
+    QT_TRANSLATE_NOOP("core", "variance {} of row {} is not allowed; allowed: greater than zero."),
     QT_TRANSLATE_NOOP("core", "version {} is not known; allowed: 1."),
     QT_TRANSLATE_NOOP("core", "vertical machining centre"),
     QT_TRANSLATE_NOOP("core", "virtual crossbeam"),
