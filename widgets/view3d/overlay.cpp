@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/unit_text.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/theme/theme.h"
@@ -66,8 +67,8 @@ struct BarLayout {
   double panel_width = 0.0;
 
   explicit BarLayout(const ColourScale& scale)
-      : title(scale.title.isEmpty() ? scale.unit : scale.title + QStringLiteral(" / ") + scale.unit),
-        ticks(scale.ticks()) {
+      : title(scale.title.isEmpty() ? QString() : scale.title + QStringLiteral(" / ")), ticks(scale.ticks()) {
+    title += QString::fromStdString(printedUnit(scale.unit.toStdString()));
     const QFontMetricsF metrics(textFont(sizes::font_secondary));
     if (ticks.size() > 1) step = ticks[1] - ticks[0];
     for (const double v : ticks) text_width = std::max(text_width, metrics.horizontalAdvance(tickText(v, step)));

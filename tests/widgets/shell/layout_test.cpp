@@ -50,6 +50,10 @@ QStringList cutTexts(const QWidget& root) {
       const QString plain = QTextDocumentFragment::fromHtml(label->text()).toPlainText();
       if (label->minimumSizeHint().width() > label->width() + 1) cut << QStringLiteral("label: ") + plain;
     }
+    if (const auto* label = qobject_cast<QLabel*>(w); label != nullptr && label->wordWrap() &&
+                                                      !label->text().isEmpty() &&
+                                                      label->heightForWidth(label->width()) > label->height() + 1)
+      cut << QStringLiteral("lines of: ") + QTextDocumentFragment::fromHtml(label->text()).toPlainText();
     if (const auto* button = qobject_cast<QPushButton*>(w); button != nullptr && !button->text().isEmpty()) {
       if (button->minimumSizeHint().width() > button->width() + 1) cut << QStringLiteral("button: ") + button->text();
     }

@@ -26,6 +26,7 @@
 #include "core/tasks/task_options.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/scrolling.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/jobs/task_job.h"
@@ -127,11 +128,12 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   files_column->addWidget(convention_);
   preview_ = new QPlainTextEdit;
   preview_->setReadOnly(true);
+  preview_->setMinimumHeight(80);
   preview_->setLineWrapMode(QPlainTextEdit::NoWrap);
   preview_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   preview_->setAccessibleName(tr("Beginning of the file"));
   files_column->addWidget(preview_, 4);
-  tabs_->addTab(files, tr("Files and their signs"));
+  tabs_->addTab(makeScrolling(files), tr("Files and their signs"));
   left->body()->addWidget(tabs_, 1);
 
   auto* right = new Card;

@@ -14,6 +14,7 @@
 #include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/scrolling.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/common/editor_table.h"
@@ -66,7 +67,7 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
   head->addWidget(remove_);
   left->body()->addLayout(head);
   fields_ = new ArtefactFields;
-  left->body()->addWidget(fields_, 1);
+  left->body()->addWidget(makeScrolling(fields_), 1);
   auto* right = new Card(tr("How it looks"));
   view_ = new View3D;
   view_->setEmptyText(tr("The artefact will appear here"), tr("Add a hole bar or balls, and type their certificate."));
