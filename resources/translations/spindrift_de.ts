@@ -10787,10 +10787,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Kugel</translation>
     </message>
     <message>
-        <source>Diameter / mm</source>
-        <translation>Durchmesser / mm</translation>
-    </message>
-    <message>
         <source>x / mm</source>
         <translation>x / mm</translation>
     </message>
@@ -10803,8 +10799,16 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>z / mm</translation>
     </message>
     <message>
-        <source>From first / mm</source>
-        <translation>Zur ersten / mm</translation>
+        <source>Ø / mm</source>
+        <translation>Ø / mm</translation>
+    </message>
+    <message>
+        <source>Apart / mm</source>
+        <translation>Abstand / mm</translation>
+    </message>
+    <message>
+        <source>Distance from the first ball</source>
+        <translation>Abstand von der ersten Kugel</translation>
     </message>
 </context>
 <context>

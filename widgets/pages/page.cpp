@@ -53,10 +53,10 @@ void Page::addModelSwitch(bool over_time) {
     button->setVisible(session().campaign() != nullptr && session().campaign()->log.has_value() &&
                        !session().isLogOnly());
   };
+  addAction(button);  // first: shown without a parent it would be a window of its own, and take the focus away
   connect(&session(), &SessionModel::campaignChanged, button, update);
   update();
   connect(button, &QPushButton::clicked, this, [this, over_time] { session().setModelOverTime(over_time); });
-  addAction(button);
 }
 
 bool Page::noticeCampaign() {

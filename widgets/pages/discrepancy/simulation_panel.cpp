@@ -57,6 +57,19 @@ auto withSentences(const Work& work) {
   }
 }
 
+/// Gives a label the height that its lines need at the width it has: between the tabs of a page nothing else does.
+class KeepsItsLines : public QObject {
+ public:
+  explicit KeepsItsLines(QLabel* label) : QObject(label) {}
+  static void fit(QLabel& label) { label.setMinimumHeight(label.heightForWidth(label.width())); }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::Resize) fit(*static_cast<QLabel*>(watched));
+    return false;
+  }
+};
+
 }  // namespace
 
 /// Copies for a job.
@@ -84,6 +97,7 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   head_ = new Card(tr("Simulator"));
   runs_ = makeLabel({}, "secondaryText");
   runs_->setWordWrap(true);
+  runs_->installEventFilter(new KeepsItsLines(runs_));
   head_->body()->addWidget(runs_);
   choose_ = makeButton(tr("Choose simulator.json…"), "folder-open");
   choose_->setToolTip(tr("Take another description of a simulation that can be run"));
@@ -423,6 +437,7 @@ void SimulationPanel::showHead() {
                      : tr("%1%2 %3")
                            .arg(file, opened_.kind.isEmpty() ? QString() : tr(", %1.").arg(opened_.kind), opened_.runs)
                            .trimmed());
+  KeepsItsLines::fit(*runs_);
 }
 
 void SimulationPanel::showParameters() {

@@ -155,7 +155,8 @@ void ArtefactFields::show(const nlohmann::json& artefact) {
   } else {
     features_->setColumnCount(6);
     features_->setHorizontalHeaderLabels(
-        {tr("Ball"), tr("Diameter / mm"), tr("x / mm"), tr("y / mm"), tr("z / mm"), tr("From first / mm")});
+        {tr("Ball"), tr("Ø / mm"), tr("x / mm"), tr("y / mm"), tr("z / mm"), tr("Apart / mm")});
+    features_->horizontalHeaderItem(5)->setToolTip(tr("Distance from the first ball"));
     const nlohmann::json list = artefact.value("balls", nlohmann::json::array());
     features_->setRowCount(static_cast<int>(list.size()));
     for (int row = 0; row < features_->rowCount(); ++row) {
