@@ -66,11 +66,11 @@ std::string CsvTable::requiredText(std::size_t row, std::size_t column) const {
 
 SourcePlace CsvTable::place(std::size_t row) const {
   SPINDRIFT_ASSERT(row < lines_.size(), "CSV row out of range");
-  return {file_, fmt::format("line {}", lines_[row])};
+  return SourcePlace::atLine(file_, lines_[row]);
 }
 
 SourcePlace CsvTable::place(std::size_t row, std::size_t column) const {
-  return {file_, fmt::format("line {}, column {}", lines_.at(row), names_.at(column))};
+  return SourcePlace::atLine(file_, lines_.at(row), fmt::format("column {}", names_.at(column)));
 }
 
 std::string csvField(std::string_view plain) {

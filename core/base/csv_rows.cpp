@@ -139,7 +139,7 @@ void CsvRows::checkBytes() {
     if (const std::size_t bad = bad_byte ? std::string_view::npos : firstInvalidUtf8(part);
         bad != std::string_view::npos) {
       const auto before = std::count(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(bad), '\n');
-      bad_byte.emplace(SourcePlace{file_, fmt::format("line {}", lines + static_cast<std::size_t>(before) + 1)},
+      bad_byte.emplace(SourcePlace::atLine(file_, lines + static_cast<std::size_t>(before) + 1),
                        fmt::format("the byte 0x{:02X} is no UTF-8 (Latin-1, perhaps); allowed: CSV in UTF-8.",
                                    static_cast<unsigned>(static_cast<unsigned char>(part[bad]))));
     }
@@ -150,11 +150,11 @@ void CsvRows::checkBytes() {
 }
 
 SourcePlace CsvRows::place() const {
-  return {file_, fmt::format("line {}", line_)};
+  return SourcePlace::atLine(file_, line_);
 }
 
 SourcePlace CsvRows::place(std::size_t column) const {
-  return {file_, fmt::format("line {}, column {}", line_, names_.at(column))};
+  return SourcePlace::atLine(file_, line_, fmt::format("column {}", names_.at(column)));
 }
 
 bool CsvRows::nextFields() {

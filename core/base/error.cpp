@@ -3,19 +3,33 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/base/untrusted_text.h"
 
 namespace spindrift {
 
+SourcePlace SourcePlace::atLine(std::filesystem::path file, std::size_t line, std::string place) {
+  return {std::move(file), std::move(place), line};
+}
+
+std::string SourcePlace::words() const {
+  if (line == 0) return place;
+  return place.empty() ? fmt::format("line {}", line) : fmt::format("line {}, {}", line, place);
+}
+
 std::string SourcePlace::prefix() const {
-  if (file.empty() && place.empty()) return {};
-  if (file.empty()) return place + ": ";
-  if (place.empty()) return file.string() + ": ";
-  return file.string() + ", " + place + ": ";
+  const std::string within = words();
+  if (file.empty() && within.empty()) return {};
+  if (file.empty()) return within + ": ";
+  if (within.empty()) return file.string() + ": ";
+  return file.string() + ", " + within + ": ";
 }
 
 InputError::InputError(const SourcePlace& where, std::string_view sentence)
-    : std::runtime_error(printable(where.prefix() + std::string(sentence))), where_(where) {}
+    : std::runtime_error(printable(where.prefix() + std::string(sentence))),
+      where_(where),
+      sentence_(printable(sentence)) {}
 
 std::string_view toString(FitStatus status) noexcept {
   switch (status) {

@@ -18,8 +18,12 @@ namespace spindrift {
 /// Where in the user's data something is wrong: a file and a line (CSV, from 1) or a JSON path ("$.axes[0].name").
 struct SourcePlace {
   std::filesystem::path file;  ///< empty: the data did not come from a file
-  std::string place;           ///< "line 12, column time_s", "$.axes[0]", "" if the whole file is meant
+  std::string place;           ///< "column time_s", "$.axes[0]", "" if the whole line or file is meant
+  std::size_t line = 0;        ///< of the file, from 1; 0: no line of it
 
+  [[nodiscard]] static SourcePlace atLine(std::filesystem::path file, std::size_t line, std::string place = {});
+  /// "line 12, column time_s", "" if the whole file is meant.
+  [[nodiscard]] std::string words() const;
   /// "observations.csv, line 12: " or an empty text.
   [[nodiscard]] std::string prefix() const;
 };
@@ -27,13 +31,16 @@ struct SourcePlace {
 /// The user's data or options cannot be used. `what()` is one whole sentence for the user.
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& sentence) : std::runtime_error(sentence) {}
+  explicit InputError(const std::string& sentence) : std::runtime_error(sentence), sentence_(sentence) {}
   InputError(const SourcePlace& where, std::string_view sentence);
 
   [[nodiscard]] const SourcePlace& where() const noexcept { return where_; }
+  /// What is wrong, without the place.
+  [[nodiscard]] const std::string& sentence() const noexcept { return sentence_; }
 
  private:
   SourcePlace where_;
+  std::string sentence_;
 };
 
 /// A mistake of the program. Carries the condition and the place in the source.

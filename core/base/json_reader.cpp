@@ -24,7 +24,7 @@ SourcePlace placeOfByte(std::string_view text, std::size_t byte, const std::file
       column = 1;
     }
   }
-  return {name, fmt::format("line {}, column {}", line, column)};
+  return SourcePlace::atLine(name, line, fmt::format("column {}", column));
 }
 
 std::string shortDump(const nlohmann::json& value) {

@@ -95,7 +95,7 @@ void LogRecorder::open(double now_utc_s) {
       if (!file_->append(header())) throw InputError(file_->failure());
     } else if (line != expected) {
       throw InputError(
-          {log_, fmt::format("line {}", number)},
+          SourcePlace::atLine(log_, number),
           fmt::format("has the columns \"{}\"; allowed for going on with it: \"{}\", or a new file.", line, expected));
     }
     const std::string tail = file_->tail(1 << 16);

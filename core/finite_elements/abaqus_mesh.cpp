@@ -20,7 +20,7 @@ class MeshReader {
     std::string text;
     std::size_t line = 0;
     const auto reject = [&](std::string_view what) {
-      throw InputError({file, fmt::format("line {}", line)}, fmt::format("\"{}\" {}.", trimmed(text), what));
+      throw InputError(SourcePlace::atLine(file, line), fmt::format("\"{}\" {}.", trimmed(text), what));
     };
     while (std::getline(stream, text)) {
       ++line;

@@ -61,7 +61,7 @@ class DatReader : public FeResultReader {
     bool wanted = false;
     Table table;
     const auto reject = [&](std::string_view what) {
-      throw InputError({file_, fmt::format("line {}", line)},
+      throw InputError(SourcePlace::atLine(file_, line),
                        fmt::format("\"{}\" {}; allowed: a .dat of CalculiX.", trimmed(text), what));
     };
     while (std::getline(stream, text)) {

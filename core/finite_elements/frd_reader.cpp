@@ -90,7 +90,7 @@ class FrdReader : public FeResultReader {
   };
 
   [[noreturn]] void reject(const Lines& lines, std::string_view what) const {
-    throw InputError({file_, fmt::format("line {}", lines.line)},
+    throw InputError(SourcePlace::atLine(file_, lines.line),
                      fmt::format("\"{}\" {}; allowed: an ASCII .frd of CalculiX.", trimmed(lines.text), what));
   }
 
@@ -110,7 +110,7 @@ class FrdReader : public FeResultReader {
         return 10;
       case '2':
       case '3':
-        throw InputError({file_, fmt::format("line {}", lines.line)},
+        throw InputError(SourcePlace::atLine(file_, lines.line),
                          "the block is binary; allowed: ASCII (without *NODE OUTPUT to binary files).");
       default:
         reject(lines, "names no format");
@@ -126,7 +126,7 @@ class FrdReader : public FeResultReader {
       if (lines.text.starts_with(" -5") || lines.text.starts_with(" -2")) continue;
       reject(lines, "stands in " + block);
     }
-    throw InputError({file_, fmt::format("line {}", lines.line)},
+    throw InputError(SourcePlace::atLine(file_, lines.line),
                      fmt::format("the file ends in {}; allowed: a whole file (is the program still running?).", block));
   }
 

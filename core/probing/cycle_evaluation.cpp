@@ -209,7 +209,7 @@ class Assembler {
         std::string reason;
         if (habit != usual.end() && (t.position_mm - habit->second).norm() > tolerance) {
           if ((t.position_mm * inch - habit->second).norm() < 0.02 * habit->second.norm() + tolerance) {
-            throw InputError({list_.file, t.line > 0 ? fmt::format("line {}", t.line) : std::string()},
+            throw InputError(SourcePlace::atLine(list_.file, t.line),
                              fmt::format("{} lies where the other cycles have it divided by 25.4: inches; allowed: "
                                          "millimetres.",
                                          t.label()));

@@ -76,9 +76,7 @@ PrintedText readPrintedText(std::string_view text, const std::filesystem::path& 
     begin = end + 1;
     ++line_number;
     if (line.empty()) continue;
-    const auto place = [&](const std::string& what) {
-      return SourcePlace{name, fmt::format("line {}, {}", line_number, what)};
-    };
+    const auto place = [&](const std::string& what) { return SourcePlace::atLine(name, line_number, what); };
     if (cycle_line) {
       if (const auto values = cycle_line->match(line)) {
         std::string label = values->contains("cycle") ? values->at("cycle") : std::to_string(cycles);

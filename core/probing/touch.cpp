@@ -126,9 +126,7 @@ TouchList TouchList::parse(std::string text, const std::filesystem::path& file) 
               "duplicate touch {} of {} with stylus {} at {} deg in cycle {}; allowed: every touch of a cycle once.",
               t.touch, t.feature, t.stylus, t.c_deg, t.cycle));
     }
-    const std::string& place = table.place(row).place;  // "line 12"
-    const std::size_t digits = place.find_first_of("0123456789");
-    if (digits != std::string::npos) t.line = std::stoul(place.substr(digits));
+    t.line = table.place(row).line;
     list.touches.push_back(std::move(t));
   }
   return list;
@@ -136,7 +134,7 @@ TouchList TouchList::parse(std::string text, const std::filesystem::path& file) 
 
 void TouchList::checkAgainst(const MachineDescription& machine) const {
   const auto place = [&](const Touch& t, const char* column) {
-    return SourcePlace{file, t.line > 0 ? fmt::format("line {}, column {}", t.line, column) : std::string()};
+    return SourcePlace::atLine(file, t.line, t.line > 0 ? fmt::format("column {}", column) : std::string());
   };
   double largest = 0.0;
   double smallest_travel = 0.0;

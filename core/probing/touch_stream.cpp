@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -12,15 +11,6 @@
 
 namespace spindrift {
 namespace {
-
-/// N of an error at "line N, ...", 0 if it names no line.
-std::size_t lineOf(const InputError& error) {
-  constexpr std::string_view word = "line ";
-  const std::string_view place = error.where().place;
-  std::size_t line = 0;
-  if (place.starts_with(word)) std::from_chars(place.data() + word.size(), place.data() + place.size(), line);
-  return line;
-}
 
 /// Overwrites a line (from 1) with blanks; false if there is none.
 bool blankLine(std::string& text, std::size_t line) {
@@ -77,12 +67,9 @@ std::vector<Touch> TouchStream::readCsv(std::string_view complete) {
       touch.line = lines_;
       fresh.push_back(std::move(touch));
     } catch (const InputError& e) {
-      std::string sentence = e.what();
-      // The row was read by itself, as the second line of a text.
-      if (const std::size_t at = sentence.find("line 2", name_.string().size()); at != std::string::npos) {
-        sentence.replace(at, 6, fmt::format("line {}", lines_));
-      }
-      problems_.push_back({lines_, sentence});
+      SourcePlace where = e.where();
+      if (where.line == 2) where.line = lines_;  // the row was read by itself, as the second line of a text
+      problems_.push_back({lines_, InputError(where, e.sentence()).what()});
     }
   }
   return fresh;
@@ -102,7 +89,7 @@ std::vector<Touch> TouchStream::readPrinted(std::string_view complete) {
       problems_ = problems;
       return fresh;
     } catch (const InputError& e) {
-      const std::size_t line = lineOf(e);
+      const std::size_t line = e.where().line;
       if (line == 0) {
         if (std::string(e.what()).find("no line matches") != std::string::npos) {
           problems_ = problems;

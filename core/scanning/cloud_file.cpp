@@ -42,7 +42,7 @@ PointCloud readCsv(const std::filesystem::path& file, const std::string& text) {
       if (comma == std::string_view::npos) break;
       from = comma + 1;
     }
-    const std::string place = fmt::format("line {}", lines.number());
+    const std::size_t place = lines.number();
     if (!header) {
       header = true;
       columns = parts.size();

@@ -16,6 +16,9 @@ namespace spindrift::cloud_reading {
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& place, const std::string& sentence) {
   throw InputError({file, place}, sentence);
 }
+[[noreturn]] void fail(const std::filesystem::path& file, std::size_t line, const std::string& sentence) {
+  throw InputError(SourcePlace::atLine(file, line), sentence);
+}
 double valueAt(const char* data, char type, std::size_t size, bool swap) {
   unsigned char bytes[8] = {};
   std::memcpy(bytes, data, size);
@@ -66,8 +69,7 @@ std::size_t count(const std::filesystem::path& file, std::size_t line, std::stri
   std::size_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size() || value < least || value > most)
-    fail(file, fmt::format("line {}", line),
-         fmt::format("found '{}'; allowed: a whole number from {} to {}.", word, least, most));
+    fail(file, line, fmt::format("found '{}'; allowed: a whole number from {} to {}.", word, least, most));
   return value;
 }
 
@@ -76,7 +78,7 @@ double coordinate(const std::filesystem::path& file, std::size_t line, std::stri
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size())
-    fail(file, fmt::format("line {}", line), fmt::format("found '{}'; allowed: a number or nan.", word));
+    fail(file, line, fmt::format("found '{}'; allowed: a number or nan.", word));
   return value;
 }
 

@@ -16,6 +16,7 @@ namespace spindrift::cloud_reading {
 inline constexpr std::size_t most_points = 400'000'000;
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& place, const std::string& sentence);
+[[noreturn]] void fail(const std::filesystem::path& file, std::size_t line, const std::string& sentence);
 
 /// One number per point in a binary record.
 struct Field {

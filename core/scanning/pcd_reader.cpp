@@ -28,7 +28,7 @@ PcdHeader readPcdHeader(const std::filesystem::path& file, const std::string& te
   while (header.data.empty() && lines.next(line)) {
     const auto w = words(line);
     if (w.empty() || w[0].front() == '#') continue;
-    const std::string place = fmt::format("line {}", lines.number());
+    const std::size_t place = lines.number();
     const auto needFields = [&] {
       if (header.fields.empty() || w.size() - 1 != header.fields.size())
         fail(file, place, fmt::format("{} gives {} entries for {} FIELDS.", w[0], w.size() - 1, header.fields.size()));
@@ -160,11 +160,9 @@ PointCloud readPcd(const std::filesystem::path& file, const std::string& text) {
       if (w.empty()) continue;
       const std::size_t number = header.lines + lines.number();
       if (w.size() != columns)
-        fail(file, fmt::format("line {}", number),
-             fmt::format("has {} values; the header states {} per point.", w.size(), columns));
+        fail(file, number, fmt::format("has {} values; the header states {} per point.", w.size(), columns));
       if (out.seen == header.points)
-        fail(file, fmt::format("line {}", number),
-             fmt::format("is one point too many: the header states {}.", header.points));
+        fail(file, number, fmt::format("is one point too many: the header states {}.", header.points));
       out.add(coordinate(file, number, w[column[0]]), coordinate(file, number, w[column[1]]),
               coordinate(file, number, w[column[2]]));
     }

@@ -40,7 +40,7 @@ PointCloud readPly(const std::filesystem::path& file, const std::string& text) {
   bool in_vertex = false, vertex_seen = false, ended = false;
   while (lines.next(line)) {
     const auto w = words(line);
-    const std::string place = fmt::format("line {}", lines.number());
+    const std::size_t place = lines.number();
     if (w.empty() || w[0] == "comment" || w[0] == "obj_info") continue;
     if (w[0] == "end_header") {
       ended = true;
@@ -83,7 +83,7 @@ PointCloud readPly(const std::filesystem::path& file, const std::string& text) {
       const auto w = words(line);
       if (w.empty()) continue;
       if (w.size() != fields.size())
-        fail(file, fmt::format("line {}", lines.number()),
+        fail(file, lines.number(),
              fmt::format("has {} values; the header states {} per point.", w.size(), fields.size()));
       const auto at = [&](std::size_t a) {
         return coordinate(file, lines.number(), w[static_cast<std::size_t>(xyz[a] - fields.data())]);

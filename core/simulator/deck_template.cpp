@@ -81,7 +81,7 @@ DeckTemplate::DeckTemplate(const std::string& text, const std::filesystem::path&
     pieces_.emplace_back(literal);
     line += static_cast<std::size_t>(std::count(literal.begin(), literal.end(), '\n'));
     if (open == std::string::npos) return;
-    const SourcePlace place{file, fmt::format("line {}", line)};
+    const SourcePlace place = SourcePlace::atLine(file, line);
     const std::size_t close = text.find("}}", open);
     const std::string_view between =
         close == std::string::npos ? std::string_view() : std::string_view(text).substr(open + 2, close - open - 2);

@@ -85,10 +85,9 @@ std::string errorOf(const std::string& printed) {
 
 /// An InputError about a file of a run, without the folder that is gone when the user reads it.
 std::string withoutFolder(const InputError& error, const std::string& name) {
-  std::string text = error.what();
-  if (const std::string prefix = error.where().prefix(); text.starts_with(prefix)) text.erase(0, prefix.size());
+  std::string text = error.sentence();
   while (!text.empty() && text.back() == '.') text.pop_back();
-  const std::string& place = error.where().place;
+  const std::string place = error.where().words();
   return place.empty() ? fmt::format("{} {}", name, text) : fmt::format("{}, {}: {}", name, place, text);
 }
 
