@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/tasks/campaign_state.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/workflows/compensated_data.h"
 
@@ -21,19 +26,58 @@ nlohmann::json sharedJson(const SharedNoise& shared) {
   return out;
 }
 
+/// The entries of a list of lists in a stored result. Throws InputError: a session can be damaged or written by
+/// another.
+class StoredEntries {
+ public:
+  StoredEntries(std::string key, std::size_t rows) : key_(std::move(key)), rows_(rows) {}
+
+  const nlohmann::json& list(const nlohmann::json& value, std::size_t least_length) const {
+    if (!value.is_array() || value.size() < least_length)
+      reject(value, least_length == 0 ? "a list" : fmt::format("a list of at least {} entries", least_length));
+    return value;
+  }
+  std::size_t row(const nlohmann::json& value) const {
+    if (!value.is_number_unsigned() || value.get<std::size_t>() >= rows_)
+      reject(value, fmt::format("a row from 0 to {}", static_cast<std::int64_t>(rows_) - 1));
+    return value.get<std::size_t>();
+  }
+  double number(const nlohmann::json& value) const {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) reject(value, "a finite number");
+    return value.get<double>();
+  }
+
+ private:
+  [[noreturn]] void reject(const nlohmann::json& value, const std::string& allowed) const {
+    const std::string found = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    throw InputError({"stored observations", "$." + key_},
+                     fmt::format("{} is not allowed; allowed: {}.", found.substr(0, 40), allowed));
+  }
+
+  std::string key_;
+  std::size_t rows_;
+};
+
 void readShared(const nlohmann::json& payload, ObservationSet& set) {
   if (const auto shared = payload.find("shared_noise"); shared != payload.end()) {
-    for (const auto& loads : *shared) {
+    const StoredEntries entries("shared_noise", set.rows.size());
+    for (const auto& loads : entries.list(*shared, 0)) {
       SharedNoise::Factor factor;
-      for (const auto& l : loads) factor.push_back({l.at(0).get<std::size_t>(), l.at(1).get<double>()});
+      for (const auto& l : entries.list(loads, 0)) {
+        entries.list(l, 2);
+        factor.push_back({entries.row(l[0]), entries.number(l[1])});
+      }
       set.shared.addFactor(std::move(factor));
     }
     return;
   }
   // Sessions of versions that stored covariances of pairs of rows.
+  const StoredEntries entries("covariance", set.rows.size());
   std::vector<CovarianceEntry> covariances;
-  for (const auto& e : payload.at("covariance"))
-    covariances.push_back({e.at(0).get<std::size_t>(), e.at(1).get<std::size_t>(), e.at(2).get<double>()});
+  for (const auto& e : entries.list(payload.at("covariance"), 0)) {
+    entries.list(e, 3);
+    covariances.push_back({entries.row(e[0]), entries.row(e[1]), entries.number(e[2])});
+  }
   set.setCovariances(covariances);
 }
 

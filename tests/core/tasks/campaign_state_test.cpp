@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/error.h"
+
 namespace spindrift {
 namespace {
 
@@ -44,6 +46,37 @@ TEST(CampaignState, EvaluationsOfEarlierVersionsHoldCovariancesOfPairs) {
   EXPECT_NEAR(set.shared.covariance(1, 3), -0.05, 1e-15);
   EXPECT_EQ(set.shared.covariance(0, 1), 0.0);
   EXPECT_EQ(set.rows[0].sigma, 0.5);
+}
+
+TEST(CampaignState, NoiseOfRowsThatAreNotThereIsRefused) {
+  const auto sentence = [](const char* key, const nlohmann::json& value) -> std::string {
+    StoredResult stored;
+    stored.payload = payloadOf(evaluation());
+    stored.payload.erase("shared_noise");
+    stored.payload[key] = value;
+    try {
+      (void)evaluationFrom(stored);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "taken";
+  };
+  using nlohmann::json;
+  EXPECT_EQ(sentence("shared_noise", json::parse("[[[3, 0.1]]]")), "taken");
+  EXPECT_EQ(sentence("shared_noise", json::parse("[[[4, 0.1]]]")),
+            "stored observations, $.shared_noise: 4 is not allowed; allowed: a row from 0 to 3.");
+  EXPECT_EQ(sentence("shared_noise", json::parse("[[[1000000000000, 0.1]]]")),
+            "stored observations, $.shared_noise: 1000000000000 is not allowed; allowed: a row from 0 to 3.");
+  EXPECT_EQ(sentence("shared_noise", json::parse("[[[-1, 0.1]]]")),
+            "stored observations, $.shared_noise: -1 is not allowed; allowed: a row from 0 to 3.");
+  EXPECT_EQ(sentence("shared_noise", json::parse("[[[0]]]")),
+            "stored observations, $.shared_noise: [0] is not allowed; allowed: a list of at least 2 entries.");
+  EXPECT_EQ(sentence("shared_noise", json::parse("[[[0, null]]]")),
+            "stored observations, $.shared_noise: null is not allowed; allowed: a finite number.");
+  EXPECT_EQ(sentence("shared_noise", "all"),
+            "stored observations, $.shared_noise: \"all\" is not allowed; allowed: a list.");
+  EXPECT_EQ(sentence("covariance", json::parse("[[0, 4, 0.1]]")),
+            "stored observations, $.covariance: 4 is not allowed; allowed: a row from 0 to 3.");
 }
 
 }  // namespace
