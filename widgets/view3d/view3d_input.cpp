@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/scene.h"
 #include "widgets/view3d/view3d.h"
@@ -148,11 +149,11 @@ QString View3D::textAt(const QPointF& position) const {
   const auto point = std::find_if(points_.begin(), points_.end(), [&](const ViewPoint& p) { return p.id == id; });
   if (!id.isEmpty() && point != points_.end() && !point->value_text.isEmpty())
     return tr("%1: %2").arg(point->label.isEmpty() ? id : point->label, point->value_text);
-  const std::string unit = scale_ ? scale_->unit.toStdString() : std::string();
+  const std::string unit = scale_ ? printedUnit(scale_->unit.toStdString()) : std::string();
   const auto valueText = [&](double value, const double* sigma) {
     return sigma != nullptr && std::isfinite(*sigma)
                ? shownNumbers(QString::fromStdString(withUncertainty(value, *sigma, unit)))
-               : tr("%1 %2").arg(decimalText(value, 'g', 4)).arg(scale_ ? scale_->unit : QString());
+               : tr("%1 %2").arg(decimalText(value, 'g', 4)).arg(QString::fromStdString(unit));
   };
   if (const auto i = surfaceNodeAt(position)) {
     const ViewSurface& s = *surface_;
