@@ -12,6 +12,7 @@
 #include "core/base/csv_rows.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/machine/log_table.h"
 #include "core/math/statistics.h"
 
 namespace spindrift {
@@ -19,19 +20,9 @@ namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
-struct TimeColumn {
-  std::string_view name;
-  double seconds;
-};
 constexpr TimeColumn time_columns[] = {{"time_s", 1.0},   {"time_min", 60.0}, {"time_h", 3600.0},
                                        {"time_ms", 1e-3}, {"t_s", 1.0},       {"t_min", 60.0},
                                        {"t_h", 3600.0},   {"time", 1.0},      {"timestamp", 1.0}};
-
-bool looksMissing(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  return lower == "nan" || lower == "na" || lower == "n/a" || lower == "-nan";
-}
 
 std::vector<double> present(std::span<const double> values) {
   std::vector<double> out;
@@ -178,127 +169,40 @@ double TimeSeries::valueAt(const Signal& signal, double when) const {
 
 namespace {
 
-/// A column of signals as far as it is read.
-struct SignalColumn {
-  std::vector<double> values;  ///< NaN where missing
-  std::size_t numbers = 0;
-  std::size_t empty = 0;
-  std::optional<SourcePlace> bad;  ///< of the first field that is neither
-  std::string bad_text;
-
-  void take(const CsvRows& rows, std::size_t column, const TimeSeriesOptions& options) {
-    const std::string_view field = rows.fields()[column];
-    double value = missing;
-    if (field.empty() || (options.accept_nan_text && looksMissing(field))) {
-      ++empty;
-    } else if (parseNumber(field, value)) {
-      ++numbers;
-    } else {
-      value = missing;
-      if (!bad) {
-        bad = rows.place(column);
-        bad_text = field;
-      }
-    }
-    values.push_back(value);
-  }
-};
-
-/// The column of time, s; its error is told after those of rows.
-struct Clock {
-  std::size_t column = 0;
-  double seconds = 1.0;  ///< of one unit
-  std::vector<double> time_s;
-  std::size_t repeated = 0;
-  std::string before;  ///< text of the row before
-  std::optional<InputError> error;
-
-  explicit Clock(const CsvRows& rows) {
-    const std::vector<std::string>& names = rows.columnNames();
-    for (const TimeColumn& candidate : time_columns) {
-      const auto found = std::find(names.begin(), names.end(), candidate.name);
-      if (found == names.end()) continue;
-      column = static_cast<std::size_t>(found - names.begin());
-      seconds = candidate.seconds;
-      return;
-    }
-    throw InputError(
-        {rows.file(), "header"},
-        fmt::format("there is no time column; allowed: time_s, time_min or time_h; found: {}.", joinedList(names)));
-  }
-
-  void take(const CsvRows& rows) {
-    if (error) return;
-    const std::string_view field = rows.fields()[column];
-    double value = 0.0;
-    if (!parseNumber(field, value)) {
-      error = notANumber(rows.place(column), field);
-      return;
-    }
-    value *= seconds;
-    if (!time_s.empty() && value < time_s.back()) {
-      error.emplace(rows.place(column),
-                    fmt::format("the clock jumps back from {} to {}; allowed: a time that never decreases (cut the "
-                                "file at the jump, or correct the clock from here on).",
-                                before, field));
-      return;
-    }
-    if (!time_s.empty() && value == time_s.back()) ++repeated;
-    time_s.push_back(value);
-    before = field;
-  }
-};
-
-/// Row by row: of a file no more than a block of lines is in memory beside the numbers.
 TimeSeries seriesOf(CsvRows& rows, const TimeSeriesOptions& options) {
   if (!options.temperature_unit.empty() && options.temperature_unit != "degC" && options.temperature_unit != "K" &&
       options.temperature_unit != "degF") {
     throw InputError(
         fmt::format("temperature unit \"{}\" is not known; allowed: degC, K, degF.", options.temperature_unit));
   }
-  const std::vector<std::string>& names = rows.columnNames();
-  Clock clock(rows);
-  clock.time_s.reserve(rows.mostRows());
-  std::vector<SignalColumn> columns(names.size());
-  for (std::size_t c = 0; c < columns.size(); ++c)
-    if (c != clock.column) columns[c].values.reserve(rows.mostRows());
-  std::size_t count = 0;
-  while (rows.next()) {
-    ++count;
-    clock.take(rows);
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      if (c != clock.column) columns[c].take(rows, c, options);
-  }
-  if (count == 0) throw InputError({rows.file(), ""}, "has no rows; allowed: at least two rows of data.");
-  if (clock.error) throw InputError(*clock.error);
+  LogTable table = LogTable::read(rows, time_columns, options.accept_nan_text);
   TimeSeries series;
-  series.file = rows.file();
-  series.time_s = std::move(clock.time_s);
-  if (clock.repeated > 0)
-    series.notes.push_back(fmt::format("{} rows repeat the time of the row before.", clock.repeated));
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (c == clock.column) continue;
-    SignalColumn& column = columns[c];
+  series.file = table.file;
+  series.time_s = std::move(table.time_s);
+  if (table.repeated > 0)
+    series.notes.push_back(fmt::format("{} rows repeat the time of the row before.", table.repeated));
+  for (LogColumn& column : table.columns) {
     Signal signal;
-    signal.name = names[c];
+    signal.name = column.name;
     // Words among the numbers of a column that means nothing to us (alarms, programme names) leave it out as well.
-    if (column.bad && (column.numbers == 0 || signalKind(signal.name, {}) == SignalKind::Other) &&
-        !looksMissing(column.bad_text)) {
+    if (column.words_at && (column.numbers == 0 || signalKind(signal.name, {}) == SignalKind::Other) &&
+        !saysMissing(column.words)) {
       series.notes.push_back(fmt::format("column {} holds text and was left out.", signal.name));
       continue;
     }
-    if (column.bad) {
+    if (column.words_at) {
       throw InputError(
-          *column.bad,
-          fmt::format("\"{}\" is not a number; allowed: a finite number with a decimal point{}.", column.bad_text,
-                      looksMissing(column.bad_text) ? ", or an empty field where the value is missing" : ""));
+          *column.words_at,
+          fmt::format("\"{}\" is not a number; allowed: a finite number with a decimal point{}.", column.words,
+                      saysMissing(column.words) ? ", or an empty field where the value is missing" : ""));
     }
     if (column.numbers == 0) {
       series.notes.push_back(fmt::format("column {} is empty and was left out.", signal.name));
       continue;
     }
-    if (column.empty > 0)
-      series.notes.push_back(fmt::format("{} of {} values of {} are missing.", column.empty, count, signal.name));
+    if (column.missing > 0)
+      series.notes.push_back(
+          fmt::format("{} of {} values of {} are missing.", column.missing, series.time_s.size(), signal.name));
     signal.values = std::move(column.values);
     signal.kind = signalKind(signal.name, signal.values);
     series.signals.push_back(std::move(signal));
@@ -317,26 +221,6 @@ TimeSeries readTimeSeries(const std::filesystem::path& file, const TimeSeriesOpt
 TimeSeries parseTimeSeries(std::string_view text, const std::filesystem::path& name, const TimeSeriesOptions& options) {
   CsvRows rows(text, name);
   return seriesOf(rows, options);
-}
-
-std::vector<double> bridged(std::span<const double> time_s, std::span<const double> values, bool hold) {
-  std::vector<double> out(values.begin(), values.end());
-  std::ptrdiff_t last = -1;
-  const auto count = static_cast<std::ptrdiff_t>(out.size());
-  for (std::ptrdiff_t i = 0; i <= count; ++i) {
-    if (i < count && !std::isfinite(out[i])) continue;
-    for (std::ptrdiff_t k = last + 1; k < i; ++k) {
-      if (last < 0) {
-        if (i < count) out[k] = out[i];
-      } else if (i >= count || hold || time_s[i] <= time_s[last]) {
-        out[k] = out[last];
-      } else {
-        out[k] = out[last] + (time_s[k] - time_s[last]) / (time_s[i] - time_s[last]) * (out[i] - out[last]);
-      }
-    }
-    last = i;
-  }
-  return out;
 }
 
 SignalQuality signalQuality(const TimeSeries& series, const Signal& signal) {

@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/machine/log_table.h"
+
 namespace spindrift {
 
 enum class SignalKind { Temperature, Speed, Feed, Switch, Position, Displacement, Other };
@@ -79,9 +81,6 @@ struct TimeSeriesOptions {
                                          const TimeSeriesOptions& options = {});
 
 [[nodiscard]] SignalQuality signalQuality(const TimeSeries& series, const Signal& signal);
-
-/// Missing values replaced by the rule of the kind (hold or linear). All missing stays missing.
-[[nodiscard]] std::vector<double> bridged(std::span<const double> time_s, std::span<const double> values, bool hold);
 
 /// A signal on bins of equal length: the mean over each bin (a box filter whose first zero lies at the new sampling
 /// frequency, which is the anti-alias filter here; models that average their own prediction in the same way see no

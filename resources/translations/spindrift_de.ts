@@ -4267,10 +4267,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>hat keine Zeilen.</translation>
     </message>
     <message>
-        <source>has no rows; allowed: at least two rows of data.</source>
-        <translation>hat keine Zeilen; zulässig: mindestens zwei Datenzeilen.</translation>
-    </message>
-    <message>
         <source>has no scans left: all are excluded.</source>
         <translation>hat keine Scans mehr: alle sind ausgeschlossen.</translation>
     </message>
@@ -4977,10 +4973,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>line {}</source>
         <translation>Zeile {}</translation>
-    </message>
-    <message>
-        <source>line {}, column {}</source>
-        <translation>Zeile {}, Spalte {}</translation>
     </message>
     <message>
         <source>line {}, {}</source>
@@ -9363,6 +9355,14 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>variance {} of row {} is not allowed; allowed: greater than zero.</source>
         <translation>Die Varianz {} der Zeile {} ist nicht erlaubt; erlaubt: größer als null.</translation>
+    </message>
+    <message>
+        <source>a list of at least {} entries</source>
+        <translation>eine Liste mit mindestens {} Einträgen</translation>
+    </message>
+    <message>
+        <source>a row from 0 to {}</source>
+        <translation>eine Zeile von 0 bis {}</translation>
     </message>
 </context>
 <context>
