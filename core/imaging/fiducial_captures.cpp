@@ -101,7 +101,7 @@ FiducialCaptureList readFiducialCaptures(const std::filesystem::path& file) {
     if (!unique) {
       throw InputError(table.place(row),
                        fmt::format("duplicate {} {} of fiducial {} in state {}, first in {}; allowed: one row each.",
-                                   toString(c.role), c.index, c.fiducial, c.state, table.place(same->second).place));
+                                   toString(c.role), c.index, c.fiducial, c.state, table.place(same->second).words()));
     }
     list.captures.push_back(std::move(c));
   }

@@ -38,7 +38,7 @@ class StoredEntries {
     return value;
   }
   std::size_t row(const nlohmann::json& value) const {
-    if (!value.is_number_unsigned() || value.get<std::size_t>() >= rows_)
+    if (!value.is_number_integer() || value.get<std::int64_t>() < 0 || value.get<std::size_t>() >= rows_)
       reject(value, fmt::format("a row from 0 to {}", static_cast<std::int64_t>(rows_) - 1));
     return value.get<std::size_t>();
   }

@@ -31,7 +31,7 @@ TEST(Csv, ReadsCommentsCrlfByteOrderMarkQuotesAndBlanks) {
   EXPECT_EQ(table.text(0, 2), "x, \"y\"");
   EXPECT_EQ(table.text(1, 1), "b");
   EXPECT_TRUE(table.empty(1, 2));
-  EXPECT_EQ(table.place(1).place, "line 6");
+  EXPECT_EQ(table.place(1).line, 6U);
 }
 
 TEST(Csv, NamesFileLineColumnAndValueOfABadNumber) {

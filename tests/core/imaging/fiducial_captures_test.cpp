@@ -48,7 +48,7 @@ TEST(FiducialCaptures, RefusesWithPlaceAndValue) {
   EXPECT_THAT(errorOf(std::string(header) + "5,M0,F1,rotation,0,1,2,3,0,a.jpg\n4,M0,F1,rotation,1,1,2,3,0,b.jpg\n"),
               HasSubstr("runs backwards from 5 s to 4 s"));
   EXPECT_THAT(errorOf(std::string(header) + "5,M0,F1,rotation,0,1,2,3,0,a.jpg\n5,M0,F1,rotation,0,1,2,3,0,b.jpg\n"),
-              HasSubstr("duplicate "));
+              HasSubstr("line 3: duplicate rotation 0 of fiducial F1 in state M0, first in line 2; allowed"));
   EXPECT_THAT(errorOf(std::string(header)), HasSubstr("lists no image"));
 }
 
