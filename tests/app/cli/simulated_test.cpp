@@ -230,7 +230,7 @@ TEST_F(Simulated, DiscrepancyRefusesWhatItCannotUse) {
   refused({"simulation.csv"});
   c = copy();
   setField(c / "log.csv", 40, "time_s", "3");
-  refused({"log.csv", "line 40", "backwards"});
+  refused({"log.csv", "line 40", "jumps back"});
   c = copy();
   edit(c / "log.csv", "time_s", "seconds");
   refused({"log.csv", "time_s", "missing"});
