@@ -29,7 +29,7 @@ struct LogColumn {
   std::string name;
   std::vector<double> values;  ///< as many as rows, NaN where the field is empty; none if words stand in the column
   std::size_t numbers = 0;     ///< fields that are finite numbers, also beside words
-  std::size_t missing = 0;     ///< empty fields
+  std::size_t missing = 0;     ///< fields that are empty, or say so where that is taken for missing
   std::optional<SourcePlace> words_at;  ///< the first field that is neither
   std::string words;                    ///< what stands there
 };
