@@ -15,7 +15,7 @@
 namespace spindrift {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+[[noreturn]] void failWriting(const std::filesystem::path& file, int error) {
   throw InputError({file, ""}, fmt::format("cannot be written: {}.", std::strerror(error)));
 }
 
@@ -40,11 +40,11 @@ void writeFileAtomically(const std::filesystem::path& file, std::string_view con
       special ? file
               : folder / fmt::format(".{}.{}.{}.part", file.filename().string(), ::getpid(), counter.fetch_add(1));
   const int handle = ::open(target.c_str(), O_WRONLY | O_CREAT | (special ? 0 : O_EXCL) | O_CLOEXEC, 0644);
-  if (handle < 0) fail(file, errno);
+  if (handle < 0) failWriting(file, errno);
   const auto give_up = [&](int error) {
     ::close(handle);
     if (!special) ::unlink(target.c_str());
-    fail(file, error);
+    failWriting(file, error);
   };
   std::size_t done = 0;
   while (done < content.size()) {
@@ -61,12 +61,12 @@ void writeFileAtomically(const std::filesystem::path& file, std::string_view con
   if (::close(handle) != 0) {
     const int error = errno;
     ::unlink(target.c_str());
-    fail(file, error);
+    failWriting(file, error);
   }
   if (::rename(target.c_str(), file.c_str()) != 0) {
     const int error = errno;
     ::unlink(target.c_str());
-    fail(file, error);
+    failWriting(file, error);
   }
   if (const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); directory >= 0) {
     ::fsync(directory);

@@ -13,7 +13,7 @@
 namespace spindrift {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+[[noreturn]] void failReading(const std::filesystem::path& file, int error) {
   throw InputError({file, ""}, fmt::format("cannot be read: {}.", std::strerror(error)));
 }
 
@@ -21,7 +21,7 @@ namespace {
 
 FileReader::FileReader(const std::filesystem::path& file)
     : file_(file), handle_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (handle_ < 0) fail(file_, errno);
+  if (handle_ < 0) failReading(file_, errno);
 }
 
 FileReader::~FileReader() {
@@ -32,12 +32,12 @@ std::size_t FileReader::read(std::span<char> into) {
   for (;;) {
     const ssize_t count = ::read(handle_, into.data(), into.size());
     if (count >= 0) return static_cast<std::size_t>(count);
-    if (errno != EINTR) fail(file_, errno);
+    if (errno != EINTR) failReading(file_, errno);
   }
 }
 
 void FileReader::rewind() {
-  if (::lseek(handle_, 0, SEEK_SET) < 0) fail(file_, errno);
+  if (::lseek(handle_, 0, SEEK_SET) < 0) failReading(file_, errno);
 }
 
 }  // namespace spindrift

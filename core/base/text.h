@@ -29,6 +29,9 @@ namespace spindrift {
 /// Splits at `separator`, trims blanks, drops empty parts: "F1, F2" -> {"F1", "F2"}.
 [[nodiscard]] std::vector<std::string> splitList(std::string_view text, char separator = ',');
 
+/// Letters A to Z in lower case, everything else as it is.
+[[nodiscard]] std::string lowerCase(std::string text);
+
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
 /// A finite number that fills the whole text (C locale), or nothing.

@@ -15,5 +15,7 @@ inline constexpr double rad_per_deg = std::numbers::pi / 180.0;
 inline constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 /// A dimensionless strain times this is um/m.
 inline constexpr double um_per_m_per_unit = 1e6;
+inline constexpr double seconds_per_hour = 3600.0;
+inline constexpr double mm_per_inch = 25.4;
 
 }  // namespace spindrift

@@ -8,6 +8,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/base/steady_seconds.h"
+
 namespace spindrift {
 namespace {
 
@@ -17,10 +19,6 @@ struct Item {
 };
 constexpr std::array items{Item{"exposure_us", ""}, Item{"gain", ""},   Item{"width", ""},
                            Item{"height", ""},      Item{"frames", ""}, Item{"incomplete", ""}};
-
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 class GenicamSource final : public Source {
  public:
@@ -33,8 +31,8 @@ class GenicamSource final : public Source {
   }
 
   std::vector<DataItem> list(double listen_s, const std::stop_token& stop) override {
-    const double until = steadyNow() + std::min(listen_s, 1.0);
-    while (steadyNow() < until && !stop.stop_requested()) {
+    const double until = steadySeconds() + std::min(listen_s, 1.0);
+    while (steadySeconds() < until && !stop.stop_requested()) {
       if (settings_.trigger == "Software") camera_->trigger();
       (void)camera_->read(0.1);
     }
@@ -60,8 +58,8 @@ class GenicamSource final : public Source {
 
   void poll(double wait_s, RecordSink& sink) override {
     (void)camera_->read(wait_s);
-    if (steadyNow() < next_s_) return;
-    next_s_ = steadyNow() + 1.0;
+    if (steadySeconds() < next_s_) return;
+    next_s_ = steadySeconds() + 1.0;
     for (std::uint32_t i = 0; i < wanted_.size(); ++i) {
       Record record;
       record.item = i;

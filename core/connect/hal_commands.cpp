@@ -18,16 +18,13 @@
 #include <cstring>
 #include <sstream>
 
+#include "core/base/steady_seconds.h"
 #include "core/base/text.h"
 #include "core/base/untrusted_text.h"
 #include "core/connect/source.h"
 
 namespace spindrift {
 namespace {
-
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// "<stdin>:12: signal 'x' not found".
 bool isRefusal(const std::string& line) {
@@ -113,7 +110,7 @@ std::string HalCommands::line(double until_s) {
       pending_.erase(0, end + 1);
       return out;
     }
-    const double left_s = until_s - steadyNow();
+    const double left_s = until_s - steadySeconds();
     if (left_s <= 0.0) fail(fmt::format("does not answer within {:g} s", answer_s_));
     pollfd wait{pipe_, POLLIN, 0};
     if (::poll(&wait, 1, static_cast<int>(left_s * 1e3) + 1) <= 0) continue;
@@ -134,7 +131,7 @@ std::vector<std::string> HalCommands::run(const std::vector<std::string>& comman
   const std::string mark = fmt::format("spindrift-end-{}", ++mark_);
   write(bytes + "getp " + mark + "\n");
   std::vector<std::string> out;
-  const double until = steadyNow() + answer_s_;
+  const double until = steadySeconds() + answer_s_;
   for (std::string said = line(until); said.find(mark) == std::string::npos; said = line(until))
     out.push_back(std::move(said));
   return out;

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "core/base/steady_seconds.h"
 #include "core/base/text.h"
 #include "core/base/untrusted_text.h"
 #include "core/connect/source.h"
@@ -32,10 +33,6 @@ std::string upper(std::string_view text) {
 
 std::string firstWord(std::string_view text) {
   return std::string(text.substr(0, text.find_first_of(" \t")));
-}
-
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 /// Requests without a number for which linuxcncrsh reads through a null pointer.
@@ -135,7 +132,7 @@ void LinuxcncShell::send(const std::string& line) {
 }
 
 std::string LinuxcncShell::line(double patience_s) {
-  const double until = steadyNow() + patience_s;
+  const double until = steadySeconds() + patience_s;
   while (true) {
     const std::size_t begin = pending_.find_first_not_of("\r\n");
     const std::size_t end = begin == std::string::npos ? begin : pending_.find_first_of("\r\n", begin);
@@ -147,7 +144,7 @@ std::string LinuxcncShell::line(double patience_s) {
     }
     if (pending_.size() > longest_answer) fail("sends a line without an end");
     pollfd wait{handle_, POLLIN, 0};
-    const double left_s = until - steadyNow();
+    const double left_s = until - steadySeconds();
     if (left_s <= 0.0) fail(fmt::format("does not answer within {:g} s", patience_s));
     if (::poll(&wait, 1, static_cast<int>(left_s * 1e3) + 1) <= 0) continue;
     char bytes[4096];

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/base/steady_seconds.h"
 #include "core/base/text.h"
 #include "core/connect/hal_commands.h"
 #include "core/connect/linuxcnc_shell.h"
@@ -31,7 +32,7 @@ struct Question {
   int index = 0;
 };
 
-Question parseAddress(const std::string& address) {
+Question questionOf(const std::string& address) {
   if (address.starts_with("hal:")) {
     Question out;
     out.pin = address.substr(4);
@@ -53,10 +54,6 @@ Question parseAddress(const std::string& address) {
   throw std::invalid_argument(
       "position.x, command.x (y, z, a, b, c), joint.0, flood, mist, spindle, machine, estop, mode, program_status, "
       "feed_override, probe, or hal:NAME");
-}
-
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 bool isThisComputer(const std::string& host) {
@@ -95,7 +92,7 @@ class LinuxcncSource final : public Source {
     learnUnit();
     std::vector<DataItem> items;
     const auto add = [&](const std::string& address, const char* type, const std::string& unit) {
-      const Question question = parseAddress(address);
+      const Question question = questionOf(address);
       const std::optional<std::string> said = shell_.get(question.request);
       if (!said) return;
       DataItem item{address, "", "control", unit.empty() ? "event" : "sample", type, unit, part(*said, question.index)};
@@ -126,7 +123,7 @@ class LinuxcncSource final : public Source {
     requests_.clear();
     for (std::uint32_t i = 0; i < items.size(); ++i) {
       try {
-        Wanted wanted{i, parseAddress(items[i])};
+        Wanted wanted{i, questionOf(items[i])};
         if (!wanted.question.pin.empty() && !isThisComputer(peer_.host)) {
           sink.note(fmt::format("{} is not read: HAL can be read on the control's computer only.", items[i]));
           continue;
@@ -150,7 +147,7 @@ class LinuxcncSource final : public Source {
   }
 
   void poll(double wait_s, RecordSink& sink) override {
-    const double now = steadyNow();
+    const double now = steadySeconds();
     if (now < next_s_) {
       std::this_thread::sleep_for(std::chrono::duration<double>(std::min(wait_s, next_s_ - now)));
       return;
@@ -231,7 +228,7 @@ class LinuxcncSource final : public Source {
 }  // namespace
 
 void checkLinuxcncAddress(const std::string& address) {
-  (void)parseAddress(address);
+  (void)questionOf(address);
 }
 
 std::unique_ptr<Source> makeLinuxcncSource(const LinuxcncOptions& options) {

@@ -13,6 +13,7 @@
 #include <map>
 #include <thread>
 
+#include "core/base/steady_seconds.h"
 #include "core/base/text.h"
 
 namespace spindrift {
@@ -29,7 +30,7 @@ struct Register {
   [[nodiscard]] int words() const { return type.ends_with("32") ? 2 : 1; }
 };
 
-Register parseAddress(const std::string& address) {
+Register registerOf(const std::string& address) {
   static const std::map<std::string, Table> tables{
       {"coil", Table::Coil}, {"discrete", Table::Discrete}, {"holding", Table::Holding}, {"input", Table::Input}};
   const std::vector<std::string> parts = splitList(address, ':');
@@ -75,10 +76,6 @@ double valueOf(const Register& reg, const std::uint16_t* words) {
   return std::bit_cast<float>(bits);
 }
 
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 class ModbusSource final : public Source {
  public:
   explicit ModbusSource(ModbusOptions options) : options_(std::move(options)) {}
@@ -116,7 +113,7 @@ class ModbusSource final : public Source {
     wanted_.clear();
     for (std::uint32_t i = 0; i < items.size(); ++i) {
       try {
-        wanted_.push_back({i, parseAddress(items[i])});
+        wanted_.push_back({i, registerOf(items[i])});
       } catch (const std::invalid_argument& allowed) {
         sink.note(fmt::format("\"{}\" is no register; allowed: {}.", items[i], allowed.what()));
       }
@@ -128,7 +125,7 @@ class ModbusSource final : public Source {
   }
 
   void poll(double wait_s, RecordSink& sink) override {
-    const double now = steadyNow();
+    const double now = steadySeconds();
     if (now < next_s_) {
       std::this_thread::sleep_for(std::chrono::duration<double>(std::min(wait_s, next_s_ - now)));
       return;
@@ -226,7 +223,7 @@ class ModbusSource final : public Source {
 }  // namespace
 
 void checkModbusAddress(const std::string& address) {
-  (void)parseAddress(address);
+  (void)registerOf(address);
 }
 
 std::unique_ptr<Source> makeModbusSource(const ModbusOptions& options) {

@@ -19,6 +19,7 @@
 #include <set>
 #include <vector>
 
+#include "core/base/steady_seconds.h"
 #include "core/base/text.h"
 #include "core/connect/sparkplug.pb.h"
 #include "core/connect/tcp_connection.h"
@@ -28,10 +29,6 @@ namespace {
 
 constexpr std::string_view sparkplug_prefix = "spBv1.0/";
 constexpr std::size_t most_listed = 5000;
-
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 struct Message {
   std::string topic;
@@ -198,12 +195,12 @@ class MqttSource final : public Source {
             "cannot have this will");
     answer_ = -1;
     check(mosquitto_connect(client_, broker.host.c_str(), broker.port, options_.keepalive_s), "cannot be connected");
-    const double until = steadyNow() + options_.answer_s;
+    const double until = steadySeconds() + options_.answer_s;
     while (answer_ < 0 && !stop.stop_requested()) {
       const int code = mosquitto_loop(client_, 20, 1);
       if (answer_ > 0) break;  // it says why, and ends the connection
       check(code, "ended the connection");
-      if (steadyNow() > until) {
+      if (steadySeconds() > until) {
         close();
         throw ConnectionError(fmt::format("{} does not answer as a broker.", options_.url));
       }
@@ -221,8 +218,8 @@ class MqttSource final : public Source {
     const auto add = [&](DataItem item) {
       if (found.size() < most_listed) found[item.address] = std::move(item);
     };
-    const double until = steadyNow() + listen_s;
-    while (steadyNow() < until && !stop.stop_requested()) {
+    const double until = steadySeconds() + listen_s;
+    while (steadySeconds() < until && !stop.stop_requested()) {
       check(mosquitto_loop(client_, 20, 1), "ended the connection");
       for (; !came_.empty(); came_.pop_front()) {
         const Message& message = came_.front();
@@ -276,9 +273,9 @@ class MqttSource final : public Source {
   }
 
   void poll(double wait_s, RecordSink& sink) override {
-    const double until = steadyNow() + wait_s;
+    const double until = steadySeconds() + wait_s;
     while (true) {
-      const double left = until - steadyNow();
+      const double left = until - steadySeconds();
       const int code = mosquitto_loop(client_, std::clamp(static_cast<int>(left * 1e3), 0, 100), 1);
       for (; !came_.empty(); came_.pop_front()) deliver(came_.front(), sink);
       check(code, "ended the connection");
@@ -344,8 +341,8 @@ class MqttSource final : public Source {
   }
 
   void askForBirth(const std::string& name, Node& node) {
-    if (!options_.ask_rebirth || steadyNow() - node.asked_s < 5.0) return;
-    node.asked_s = steadyNow();
+    if (!options_.ask_rebirth || steadySeconds() - node.asked_s < 5.0) return;
+    node.asked_s = steadySeconds();
     sparkplug::Payload payload;
     payload.set_timestamp(static_cast<std::uint64_t>(localUtc() * 1e3));
     sparkplug::Metric& metric = *payload.add_metrics();

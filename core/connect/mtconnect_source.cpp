@@ -17,6 +17,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/base/steady_seconds.h"
 #include "core/base/text.h"
 #include "core/connect/utc_time.h"
 
@@ -25,10 +26,6 @@ namespace {
 
 /// No document of an agent is that long; what is, is none.
 constexpr std::size_t longest_document = std::size_t{64} << 20;
-
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Name without its prefix: agents write <Header> or <m:Header>.
 std::string_view localName(const pugi::xml_node& node) {
@@ -64,13 +61,13 @@ class Download {
     curl_easy_setopt(
         easy_, CURLOPT_WRITEFUNCTION, +[](char* data, std::size_t size, std::size_t count, void* self) {
           auto& download = *static_cast<Download*>(self);
-          download.received_s_ = steadyNow();
+          download.received_s_ = steadySeconds();
           if (download.buffer.size() + size * count > 2 * longest_document) return std::size_t{0};
           download.buffer.append(data, size * count);
           return size * count;
         });
     curl_multi_add_handle(multi_, easy_);
-    received_s_ = steadyNow();
+    received_s_ = steadySeconds();
   }
   Download(const Download&) = delete;
   Download& operator=(const Download&) = delete;
@@ -91,7 +88,7 @@ class Download {
   [[nodiscard]] bool ended() const { return ended_; }
   /// Why the transfer ended early; empty if it is complete.
   [[nodiscard]] const std::string& failure() const { return failure_; }
-  [[nodiscard]] double silence_s() const { return steadyNow() - received_s_; }
+  [[nodiscard]] double silence_s() const { return steadySeconds() - received_s_; }
   [[nodiscard]] long status() const {
     long code = 0;
     curl_easy_getinfo(easy_, CURLINFO_RESPONSE_CODE, &code);
@@ -235,7 +232,7 @@ class MtconnectSource final : public Source {
       }
       // Whole documents and an orderly end: an agent without streams, or one that was stopped. Ask again, not at once.
       const double pause = std::min(options_.interval_s, 1.0);
-      reopen_s_ = steadyNow() + pause;
+      reopen_s_ = steadySeconds() + pause;
       return;
     }
     const double patience = 3.0 * options_.heartbeat_s;
@@ -296,10 +293,10 @@ class MtconnectSource final : public Source {
 
   [[nodiscard]] pugi::xml_document get(const std::string& request, const std::stop_token& stop) const {
     Download download(options_.url + request);
-    const double until = steadyNow() + options_.answer_s;
+    const double until = steadySeconds() + options_.answer_s;
     while (!download.ended() && !stop.stop_requested()) {
       download.step(0.05);
-      if (steadyNow() > until)
+      if (steadySeconds() > until)
         throw ConnectionError(
             fmt::format("{}{} has not answered within {:.0f} s.", options_.url, request, options_.answer_s));
     }
@@ -341,9 +338,9 @@ class MtconnectSource final : public Source {
   }
 
   void openStream() {
-    if (steadyNow() < reopen_s_) {
+    if (steadySeconds() < reopen_s_) {
       // poll() is called with short waits.
-      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(0.05, reopen_s_ - steadyNow())));
+      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(0.05, reopen_s_ - steadySeconds())));
       return;
     }
     documents_ = 0;

@@ -72,4 +72,8 @@ std::string utcText(double utc_s) {
                      rest / 60000 % 60, rest / 1000 % 60, rest % 1000);
 }
 
+std::string utcDay(double utc_s) {
+  return utcText(utc_s).substr(0, 10);
+}
+
 }  // namespace spindrift

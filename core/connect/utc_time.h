@@ -13,5 +13,7 @@ namespace spindrift {
 [[nodiscard]] std::optional<double> parseUtc(std::string_view text);
 /// "2026-01-31T08:00:00.123Z".
 [[nodiscard]] std::string utcText(double utc_s);
+/// Its date alone, "2026-03-01".
+[[nodiscard]] std::string utcDay(double utc_s);
 
 }  // namespace spindrift

@@ -11,7 +11,7 @@
 namespace spindrift {
 namespace {
 
-constexpr std::array<char, 3> letters{'x', 'y', 'z'};
+constexpr std::array<char, 3> axis_letters{'x', 'y', 'z'};
 
 std::string halFile(const ControlConfiguration& c) {
   std::string out =
@@ -26,12 +26,12 @@ std::string halFile(const ControlConfiguration& c) {
       "addf comp-enable servo-thread\n";
   for (const char* function :
        {"limit-{}", "offset-{}.update-output", "offset-{}.update-feedback", "tip-{}", "touch-{}"}) {
-    for (const char axis : letters)
+    for (const char axis : axis_letters)
       out += fmt::format("addf {} servo-thread\n", fmt::format(fmt::runtime(function), axis));
   }
   out += "addf probe-xy servo-thread\naddf probe-any servo-thread\n";
-  for (std::size_t i = 0; i < letters.size(); ++i) {
-    const char a = letters[i];
+  for (std::size_t i = 0; i < axis_letters.size(); ++i) {
+    const char a = axis_letters[i];
     out += fmt::format(
         "\nnewsig comp-{0} float\nnewsig error-{0} float\nnewsig surface-{0} float\n"
         "net comp-{0} => limit-{0}.in\nnet applied-{0} limit-{0}.out => offset-{0}.offset\n"
@@ -77,7 +77,7 @@ std::string iniFile(const MachineDescription& machine, const ControlConfiguratio
       "[TRAJ]\nCOORDINATES = X Y Z\nLINEAR_UNITS = mm\nANGULAR_UNITS = degree\nDEFAULT_LINEAR_VELOCITY = 50\n"
       "MAX_LINEAR_VELOCITY = {}\n\n",
       c.port, c.servo_period_s * 1e9, c.max_velocity_mm_s);
-  for (std::size_t i = 0; i < letters.size(); ++i) {
+  for (std::size_t i = 0; i < axis_letters.size(); ++i) {
     const std::string name(1, "XYZ"[i]);
     const LinearAxis& axis = *machine.findAxis(name);
     const auto limits = [&](double faster) {
@@ -134,7 +134,7 @@ std::string temperatureSignal(const std::string& column) {
 void writeControlConfiguration(const MachineDescription& machine, const ControlConfiguration& configuration,
                                const std::filesystem::path& folder) {
   configuration.validate();
-  for (std::size_t i = 0; i < letters.size(); ++i) {
+  for (std::size_t i = 0; i < axis_letters.size(); ++i) {
     const std::string name(1, "XYZ"[i]);
     const LinearAxis* axis = machine.findAxis(name);
     if (axis == nullptr)

@@ -12,6 +12,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/steady_seconds.h"
 #include "core/base/text.h"
 
 namespace spindrift {
@@ -21,10 +22,6 @@ constexpr std::string_view letters = "xyz";
 
 void nap(int ms) {
   std::this_thread::sleep_for(std::chrono::milliseconds(ms));
-}
-
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 std::optional<double> numberOf(const std::optional<std::string>& text) {
@@ -76,9 +73,9 @@ void LinuxcncControl::demand(const std::string& command, double patience_s) {
 }
 
 void LinuxcncControl::waitFor(const std::string& request, const std::string& answer, double patience_s) {
-  const double until = steadyNow() + patience_s;
+  const double until = steadySeconds() + patience_s;
   while (ask(request).find(answer) == std::string::npos) {
-    if (steadyNow() > until) {
+    if (steadySeconds() > until) {
       const std::vector<std::string> why = shell_.errors();
       throw InputError(fmt::format("{} does not become \"{} {}\" within {:g} s{}", name(), request, answer, patience_s,
                                    why.empty() ? "." : ": " + why.front()));
@@ -212,8 +209,8 @@ void LinuxcncControl::start(const ApprovedProgram& program) {
   demand("open " + file.string());
   demand("run");
   // Accepted is not running; a short programme may be over before it is seen to run.
-  const double until = steadyNow() + 1.0;
-  while (ask("program_status") == "IDLE" && steadyNow() < until) {
+  const double until = steadySeconds() + 1.0;
+  while (ask("program_status") == "IDLE" && steadySeconds() < until) {
     if (const std::vector<std::string> why = shell_.errors(); !why.empty())
       throw InputError(fmt::format("{} does not run the programme: {}", name(), why.front()));
     nap(5);
@@ -267,9 +264,9 @@ void LinuxcncControl::openChannel(bool hold_when_silent) {
   hal_.setPin("watchdog.enable-in", "0");
   nap(20);
   hal_.setPin("watchdog.enable-in", "1");
-  const double until = steadyNow() + 1.0;
+  const double until = steadySeconds() + 1.0;
   while (!compensate(now.applied_um).watched) {
-    if (steadyNow() > until) throw ConnectionError(fmt::format("The watchdog of {} does not hear us.", name()));
+    if (steadySeconds() > until) throw ConnectionError(fmt::format("The watchdog of {} does not hear us.", name()));
     nap(20);
   }
 }

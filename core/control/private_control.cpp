@@ -23,16 +23,13 @@
 #include <fstream>
 
 #include "core/base/error.h"
+#include "core/base/steady_seconds.h"
 
 namespace spindrift {
 namespace {
 
 constexpr int namespaces = CLONE_NEWNET | CLONE_NEWIPC | CLONE_NEWNS | CLONE_NEWPID;
 constexpr const char* nobody = "65534";
-
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 void need(bool good, const char* what) {
   if (!good) throw InputError(fmt::format("A private control cannot be made: {}: {}.", what, std::strerror(errno)));
@@ -135,9 +132,9 @@ std::string isolated(const std::function<std::string()>& body, const std::vector
   ::close(ends[1]);
   std::string answer;
   bool in_time = true;
-  for (const double until = steadyNow() + limit_s;;) {
+  for (const double until = steadySeconds() + limit_s;;) {
     pollfd wait{ends[0], POLLIN, 0};
-    const double left_s = until - steadyNow();
+    const double left_s = until - steadySeconds();
     if (left_s <= 0.0) {
       in_time = false;
       break;

@@ -32,8 +32,6 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t unit_limit = 3000;
-
 /// Every id of the user's lists is one that this machine can have. What is left out may also be an effect that these
 /// data cannot show anyway (backlash where every point is approached from one side, a shape that is zero at all
 /// points).
@@ -605,7 +603,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   warnAboutLog(input, *drivers, result.warnings);
   warnAboutData(input, rows.fit, result.warnings);
   result.sensors = drivers->sensors();
-  ResidualProblem problem(input, rows.fit, unit_limit);
+  ResidualProblem problem(input, rows.fit, most_units);
   std::vector<Effect> catalogue = catalogueOf(input, *drivers, problem, result.warnings);
   warnAboutUndecidable(input, catalogue, result.warnings);
   checkIds(options, catalogue, input.own.get());

@@ -19,7 +19,7 @@ constexpr double usual_width = 0.05;
 constexpr double room_width = 0.02;
 /// The same for what happens in one span of time alone.
 constexpr double scatter_width = 0.02;
-constexpr int most_spans = 48;
+constexpr int most_lag_spans = 48;
 /// Of the prior's variance, for the inputs of the simplest dynamics: as much as each of the lags beside them.
 constexpr double bound_share = 0.2;
 
@@ -178,7 +178,7 @@ Widths likeliestWidths(const Eigen::MatrixXd& gram, const Eigen::VectorXd& b, co
 /// all that has no dynamics, moves every reading of the effect together.
 void addScatter(const ResidualProblem& problem, const Eigen::VectorXd& spread, double scale,
                 std::vector<Eigen::VectorXd>& values) {
-  const int bins = std::min(most_spans, problem.epoch_count);
+  const int bins = std::min(most_lag_spans, problem.epoch_count);
   std::vector<Eigen::VectorXd> columns(static_cast<std::size_t>(bins), Eigen::VectorXd::Zero(problem.size()));
   for (Index u = 0; u < problem.size(); ++u) {
     const int bin = problem.epoch[static_cast<std::size_t>(u)] * bins / std::max(1, problem.epoch_count);

@@ -15,7 +15,7 @@ using Eigen::Index;
 constexpr double most_behind = 40.0;
 /// Weights below do not count.
 constexpr double least_weight = 0.02;
-constexpr std::size_t most_alternatives = 6;
+constexpr std::size_t most_lag_alternatives = 6;
 
 bool lagsOnly(const EffectVariant& variant) {
   return !variant.inputs.empty() && std::all_of(variant.inputs.begin(), variant.inputs.end(), [](const EffectInput& i) {
@@ -52,8 +52,8 @@ std::optional<JointFit> drivenOtherwise(const EffectSearch& search, const Driver
 }
 
 /// Place of an input with its parameters among those of `effect`; the end if it is not there.
-std::pair<std::size_t, std::size_t> placeOf(const ModelEffect& effect, const EffectInput& input,
-                                            const std::vector<double>& parameters) {
+std::pair<std::size_t, std::size_t> lagPlaceOf(const ModelEffect& effect, const EffectInput& input,
+                                               const std::vector<double>& parameters) {
   std::size_t next = 0;
   for (std::size_t i = 0; i < effect.variant.inputs.size(); ++i) {
     const EffectInput& there = effect.variant.inputs[i];
@@ -100,7 +100,7 @@ ModelEffect averagedEffect(const std::vector<ModelEffect>& versions, const std::
       const auto count = static_cast<std::size_t>(parameterCount({{input}, false}));
       const auto from = versions[v].parameters.begin() + static_cast<std::ptrdiff_t>(next);
       const std::vector<double> parameters(from, from + static_cast<std::ptrdiff_t>(count));
-      places[v].push_back(placeOf(out, input, parameters));
+      places[v].push_back(lagPlaceOf(out, input, parameters));
       if (places[v].back().first == out.variant.inputs.size()) {
         out.variant.inputs.push_back(input);
         out.parameters.insert(out.parameters.end(), parameters.begin(), parameters.end());
@@ -160,7 +160,7 @@ std::vector<WeightedDynamics> alternativeDynamics(const EffectSearch& search, co
     }
   }
   std::sort(fits.begin(), fits.end(), [](const JointFit& a, const JointFit& b) { return a.score > b.score; });
-  if (fits.size() > most_alternatives) fits.resize(most_alternatives);
+  if (fits.size() > most_lag_alternatives) fits.resize(most_lag_alternatives);
   std::vector<WeightedDynamics> out;
   out.push_back({distributedDynamics(search, problem, drivers, fit), 1.0});
   for (const JointFit& other : fits) out.push_back({distributedDynamics(search, problem, drivers, other), 1.0});

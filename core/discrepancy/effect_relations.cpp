@@ -15,7 +15,7 @@ using Eigen::Index;
 /// Rows of a sketch: what is a combination stays one in any mixture of the rows.
 constexpr Index sketch_rows = 48;
 /// Part of a column's power that may be outside for rounding.
-constexpr double alike = 1e-9;
+constexpr double same_shape = 1e-9;
 
 bool includes(Dynamics wide, Dynamics narrow) {
   if (wide == narrow) return true;
@@ -68,7 +68,7 @@ Eigen::MatrixXd basisOf(const Eigen::MatrixXd& columns) {
 bool inside(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& columns) {
   for (Index c = 0; c < columns.cols(); ++c) {
     const Eigen::VectorXd v = columns.col(c);
-    if ((v - basis * (basis.transpose() * v)).squaredNorm() > alike * v.squaredNorm()) return false;
+    if ((v - basis * (basis.transpose() * v)).squaredNorm() > same_shape * v.squaredNorm()) return false;
   }
   return true;
 }

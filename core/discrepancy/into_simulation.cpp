@@ -131,7 +131,7 @@ double peakToPeak(const DiscrepancyInput& input, const std::vector<std::size_t>&
   return high - low;
 }
 
-std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
+std::vector<double> changeOf(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> out(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] - b[i];
   return out;
@@ -142,7 +142,7 @@ void tellFigures(const DiscrepancyInput& input, const DiscrepancyResult& result,
                  SimulationUpdate& out) {
   const std::vector<double> nothing(out.before.size(), 0.0);
   const RowResult before = evaluateRows(input, rows.fit, rows.held_out, nothing);
-  const RowResult after = evaluateRows(input, rows.fit, rows.held_out, difference(out.after, out.before));
+  const RowResult after = evaluateRows(input, rows.fit, rows.held_out, changeOf(out.after, out.before));
   const RowResult term = evaluateRows(input, rows.fit, rows.held_out, result.effect_part);
   out.rms_before_um = before.fit_rms;
   out.rms_after_um = after.fit_rms;
@@ -245,7 +245,7 @@ void tellUnsupported(const std::vector<std::string>& asked, const Simulator& sim
   }
 }
 
-std::string sentenceOf(const SimulationUpdate& update) {
+std::string updateSentence(const SimulationUpdate& update) {
   std::vector<std::string> put;
   for (const FittedSimulatorParameter& p : update.parameters) {
     if (!p.put_in || p.no_influence) continue;
@@ -348,7 +348,7 @@ SimulationUpdate putIntoSimulation(const DiscrepancyInput& input, const Discrepa
   const Eigen::VectorXd left = closure.residual() - closure.projectedChange(solved.run);
   out.where = findPlaces(closure.problem(), drivers, left.head(closure.problem().size()));
   out.status = out.improves ? FitStatus::Converged : FitStatus::Rejected;
-  out.message = sentenceOf(out);
+  out.message = updateSentence(out);
   out.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return out;
 }

@@ -33,7 +33,7 @@ constexpr double worse_held_out = 1.05;
 /// In evidence: what is there without doubt is told, even where its course cannot be foretold; but not where all names
 /// together make the gap on what is held out so much larger.
 constexpr double beyond_held_out = 200.0;
-constexpr double much_worse_held_out = 1.15;
+constexpr double much_worse_held_out = 1.1;
 /// Of a course or a pattern another may leave this part of its power and is still the same to the eye of the data.
 constexpr double alike = 0.03;
 /// Rivals beside the effect; more is no answer.

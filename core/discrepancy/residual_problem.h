@@ -53,6 +53,9 @@ struct NuisanceColumn {
   bool relative = false;  ///< its coefficient is a relative error of the simulation
 };
 
+/// Units of a problem: what the search can hold at once, however many readings there are.
+inline constexpr std::size_t most_units = 3000;
+
 class ResidualProblem {
  public:
   /// `rows` are the observations that may be used (matched, fit). At most about `unit_limit` units. `input` has to

@@ -10,14 +10,12 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t unit_limit = 3000;
-
 }  // namespace
 
 SimulationClosure::SimulationClosure(const DiscrepancyInput& input, const DiscrepancyResult& result,
                                      const Simulator& simulator, const std::vector<std::size_t>& rows,
                                      const JobContext& job)
-    : input_(&input), simulator_(&simulator), job_(&job), problem_(input, rows, unit_limit) {
+    : input_(&input), simulator_(&simulator), job_(&job), problem_(input, rows, most_units) {
   problem_.setNuisances(problem_.simulationNuisances(input.simulation_gain_uncertainty));
   if (result.noise_model) problem_.setNoise(*result.noise_model);
 }

@@ -22,12 +22,12 @@ using Eigen::Index;
 
 /// Of the effect named; what is less probable is left out of the plan, but stays a candidate of the next search.
 constexpr double least_probability = 0.02;
-constexpr std::size_t most_alternatives = 5;
+constexpr std::size_t most_suggested_alternatives = 5;
 /// Drivers and dynamics of one effect: how many are kept, and how probable beside the best.
 constexpr std::size_t most_ways = 3;
 constexpr double least_way = 0.05;
 /// A name stands alone when all rivals are below this part of its probability.
-constexpr double least_rival = 0.1;
+constexpr double least_suggested_rival = 0.1;
 constexpr std::size_t most_measured_places = 16;
 /// Times at which programmes are compared.
 constexpr std::size_t coarse_times = 12;
@@ -156,13 +156,13 @@ Question questionOf(const EffectSearch& search, const ResidualProblem& problem, 
     std::vector<std::string> rivals;
     std::size_t taken = 0;
     for (const Alternative& a : slot.others) {
-      if (a.rejected || a.container || a.joint.terms.empty() || taken == most_alternatives) continue;
+      if (a.rejected || a.container || a.joint.terms.empty() || taken == most_suggested_alternatives) continue;
       const double weight = a.probability / std::max(1e-12, slot.probability);
       if (weight < least_probability) continue;
       sources.push_back({static_cast<int>(q.groups.size()), weight, &a.joint, a.joint.terms.size() - 1});
       q.groups.push_back(a.id);
       ++taken;
-      if (weight >= least_rival) rivals.push_back(a.id);
+      if (weight >= least_suggested_rival) rivals.push_back(a.id);
     }
     if (!rivals.empty()) q.separates.push_back(fmt::format("{} from {}", id, joinedList(rivals, "or")));
   }
@@ -604,7 +604,7 @@ std::optional<MeasurementSuggestion> suggestMeasurement(const DiscrepancyInput& 
   for (const auto& [group, p] : groups) out.probability_alone_now = std::max(out.probability_alone_now, p);
   out.expected_information_nats = std::max(0.0, before - after);
   out.present_entropy_nats = before;
-  out.probability_alone_expected = design.probabilityAlone(gram, least_rival, draws, 1);
+  out.probability_alone_expected = design.probabilityAlone(gram, least_suggested_rival, draws, 1);
   // A fit that the data at hand do not determine elsewhere promises anything.
   constexpr double most_believable = 1e5;
   out.expected_delta_bic = std::min(most_believable, design.expectedEvidence(gram, 0, rival));

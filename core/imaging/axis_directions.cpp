@@ -48,7 +48,7 @@ Line fitLine(const std::vector<AxisImage>& images, int axis) {
   return line;
 }
 
-AxisDirection directionOf(const Line& line, double variance_um2, const std::vector<AxisImage>& images) {
+AxisDirection axisDirectionOf(const Line& line, double variance_um2, const std::vector<AxisImage>& images) {
   AxisDirection direction;
   direction.measured = line.measured;
   if (!line.measured) return direction;
@@ -106,8 +106,8 @@ AxisResult fitAxisDirections(const std::vector<AxisSet>& sets, const AxisOptions
     SetDirections directions;
     directions.fiducial = sets[i].fiducial;
     directions.state = sets[i].state;
-    directions.x = directionOf(lines[i].first, variance, sets[i].x);
-    directions.y = directionOf(lines[i].second, variance, sets[i].y);
+    directions.x = axisDirectionOf(lines[i].first, variance, sets[i].x);
+    directions.y = axisDirectionOf(lines[i].second, variance, sets[i].y);
     if (!directions.x.measured && !directions.y.measured) continue;
     // R(-psi) turns MCF X into FCF: the axis X lies at -psi in FCF, Y at pi/2 - psi.
     const double from_x = -directions.x.angle_rad;

@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/math/distributions.h"
 #include "core/math/least_squares.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double s_per_h = 3600.0;
 
 struct Series {
   Eigen::VectorXd time_s;
@@ -28,7 +27,7 @@ LinearFitResult lineThroughEnd(const Series& s, const Eigen::VectorXd& values, E
   const Eigen::Index from = s.time_s.size() - count;
   Eigen::MatrixXd A(count, 2);
   A.col(0).setOnes();
-  A.col(1) = (s.time_s.tail(count).array() - s.time_s(from)) / s_per_h;
+  A.col(1) = (s.time_s.tail(count).array() - s.time_s(from)) / seconds_per_hour;
   return solveLinear(A, values.tail(count), s.sigma_um.tail(count));
 }
 
@@ -78,7 +77,7 @@ void driftAtEnd(const Series& s, const std::vector<Approach>& tried, const Appro
   double weights = 0.0, mean = 0.0, square = 0.0;
   for (const Approach& a : tried) {
     const double weight = std::exp(-0.5 * (a.chi2 - best.chi2) / excess);
-    const double factor = -std::exp(-end / a.tau_s) / a.tau_s * s_per_h;
+    const double factor = -std::exp(-end / a.tau_s) / a.tau_s * seconds_per_hour;
     const double drift = factor * a.amplitude_um;
     weights += weight;
     mean += weight * drift;
@@ -109,7 +108,7 @@ void fitExponential(const Series& s, double limit_um_per_h, Eigen::Index end_cou
   if (fisherTail((chi2_constant - best->chi2) / 2.0 / misfit, 2.0, dof) > 0.01) return;
   axis.tau_s = best->tau_s;
   axis.amplitude_um = best->amplitude_um;
-  const double first_drift = std::abs(best->amplitude_um) / best->tau_s * s_per_h;
+  const double first_drift = std::abs(best->amplitude_um) / best->tau_s * seconds_per_hour;
   axis.settled_after_s = first_drift > limit_um_per_h ? best->tau_s * std::log(first_drift / limit_um_per_h) : 0.0;
   // Where the exponential does not describe the series, what it says of the end is no knowledge.
   if (misfit < 2.0) driftAtEnd(s, tried, *best, std::max(1.0, misfit), end_count, axis);

@@ -10,7 +10,7 @@
 namespace spindrift {
 namespace {
 
-constexpr const char* letters = "XYZABC";
+constexpr const char* axis_names = "XYZABC";
 
 int axisNumber(const MachineDescription& machine, const std::string& axis) {
   const std::size_t number = std::string("XYZ").find(axis);
@@ -36,7 +36,7 @@ double positionAt(const LinearAxis& axis, int i, int count) {
 CompensationGridOptions CompensationGridOptions::travelOf(const MachineDescription& machine) {
   CompensationGridOptions options;
   for (int i = 0; i < 3; ++i) {
-    if (const LinearAxis* axis = machine.findAxis(std::string(1, letters[i]))) {
+    if (const LinearAxis* axis = machine.findAxis(std::string(1, axis_names[i]))) {
       options.from_mm[i] = axis->travel_mm[0];
       options.to_mm[i] = axis->travel_mm[1];
     } else {
@@ -49,7 +49,7 @@ CompensationGridOptions CompensationGridOptions::travelOf(const MachineDescripti
 void CompensationGridOptions::validate() const {
   for (std::size_t i = 0; i < 3; ++i) {
     if (nodes[i] < 1 || nodes[i] > 1000) {
-      throw InputError(fmt::format("{} nodes along {} are not allowed; allowed: 1 to 1000.", nodes[i], letters[i]));
+      throw InputError(fmt::format("{} nodes along {} are not allowed; allowed: 1 to 1000.", nodes[i], axis_names[i]));
     }
   }
 }
@@ -134,7 +134,7 @@ std::string axisComponentsCsv(const AxisComponentTable& table, const std::option
   std::string header = "position_mm";
   std::string sigma_header;
   for (int i = 0; i < 6; ++i) {
-    const std::string name = fmt::format("E{}{}_{}", letters[i], table.axis, i < 3 ? "um" : "urad");
+    const std::string name = fmt::format("E{}{}_{}", axis_names[i], table.axis, i < 3 ? "um" : "urad");
     header += "," + name;
     sigma_header += ",sigma_" + name;
   }

@@ -203,7 +203,8 @@ Frame frameOf(const NineParameterFit& fit) {
   return frame;
 }
 
-std::optional<double> rmsOf(const NineParameterFit& fit, const LeftOut& left_out, const std::set<std::size_t>& among) {
+std::optional<double> polynomialRms(const NineParameterFit& fit, const LeftOut& left_out,
+                                    const std::set<std::size_t>& among) {
   double sum = 0.0;
   double count = 0.0;
   for (std::size_t i = 0; i < left_out.rows.size(); ++i) {
@@ -363,8 +364,8 @@ TableOrderChoice chooseTableOrder(const NineParameterFit& fit) {
     for (const std::size_t row : by_likeliest.rows)
       if (both.contains(row)) common.insert(row);
     both = common;
-    const auto richer_um = rmsOf(fit, by_likeliest, both);
-    const auto nine_um = rmsOf(fit, by_nine, both);
+    const auto richer_um = polynomialRms(fit, by_likeliest, both);
+    const auto nine_um = polynomialRms(fit, by_nine, both);
     const bool enough = 2 * both.size() >= rows.index.size();
     if (enough && richer_um && nine_um && *richer_um < *nine_um) {
       choice.orders = likeliest;
@@ -392,7 +393,7 @@ TableOrderChoice chooseTableOrder(const NineParameterFit& fit) {
                                       choice.probability_of_nine, choice.candidates.size());
   }
   if (!choice.richer()) {
-    choice.left_out_nine_um = rmsOf(fit, by_nine, both);
+    choice.left_out_nine_um = polynomialRms(fit, by_nine, both);
     choice.left_out_chosen_um = choice.left_out_nine_um;
   }
   TableBasis basis(choice.orders, frame.centre_mm, frame.length_mm);

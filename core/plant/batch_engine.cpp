@@ -24,6 +24,7 @@
 #include "core/base/count_text.h"
 #include "core/base/error.h"
 #include "core/base/sha256.h"
+#include "core/base/steady_seconds.h"
 #include "core/base/text.h"
 #include "core/plant/batch_work.h"
 #include "core/plant/batch_worker.h"
@@ -107,10 +108,6 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-double since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 std::string sbatch(const std::vector<std::string>& arguments) {
   std::vector<std::string> command{"timeout", "60", "sbatch", "--parsable"};
   command.insert(command.end(), arguments.begin(), arguments.end());
@@ -179,7 +176,7 @@ class GhostWatch {
       const auto before = idle_.find(task);
       const auto begin = before != idle_.end() ? before->second : now;
       if (something_free && !works) idle.emplace(task, begin);
-      if (something_free && !works && since(begin) > grace_s_)
+      if (something_free && !works && secondsSince(begin) > grace_s_)
         there.stuck.push_back(task);
       else
         alive.push_back(task);
@@ -253,7 +250,7 @@ EngineReport runLocally(const PlantAddress& address, std::int64_t batch, const E
       at = children.erase(at);
     }
     const std::int64_t answered_before = report.state.answered;
-    const bool look = !asked_store || ended || since(*asked_store) >= options.poll_s;
+    const bool look = !asked_store || ended || secondsSince(*asked_store) >= options.poll_s;
     if (look) {
       report.state = patiently(address, options.patience_s, [&](BatchQueue& queue) { return queue.state(batch); });
       asked_store = std::chrono::steady_clock::now();
@@ -365,7 +362,7 @@ EngineReport runThroughSlurm(const PlantAddress& address, std::int64_t batch, co
     }
     std::optional<SlurmTasks> there = tasksInSlurm(address, batch);
     if (!there) {
-      if (since(heard) > options.patience_s)
+      if (secondsSince(heard) > options.patience_s)
         throw InputError(
             fmt::format("Slurm has not answered for {:.0f} min (squeue). Nothing is lost: batch resume {} "
                         "--engine slurm goes on.",
@@ -378,7 +375,7 @@ EngineReport runThroughSlurm(const PlantAddress& address, std::int64_t batch, co
       const int missing = missingTasks(options, state, *there);
       // Each round without an answer waits twice as long as the one before.
       const double pause_s = rounds == 0 ? 0.0 : std::min(60.0, std::ldexp(1.0, rounds - 1));
-      if (missing > 0 && state.free > 0 && since(given) >= pause_s) {
+      if (missing > 0 && state.free > 0 && secondsSince(given) >= pause_s) {
         if (rounds >= options.rounds) {
           report.refused = refusal.empty() ? fmt::format("{} rounds of tasks brought no answer; the last log says: {}",
                                                          rounds, lastWords(options.logs))

@@ -18,6 +18,7 @@
 
 #include "core/base/error.h"
 #include "core/base/log.h"
+#include "core/base/steady_seconds.h"
 #include "core/plant/batch_work.h"
 #include "core/plant/plant_connection.h"
 
@@ -25,10 +26,6 @@ namespace spindrift {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
 
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
@@ -55,7 +52,7 @@ class PatientStore {
         return body(queue);
       } catch (const PlantUnreachable& away) {
         store_.reset();
-        if (since(begin) > options_.patience_s) throw;
+        if (secondsSince(begin) > options_.patience_s) throw;
         log(LogLevel::Info, std::string("waiting for the plant store: ") + away.what());
       }
       std::this_thread::sleep_for(std::chrono::duration<double>(pause_s));
@@ -110,12 +107,12 @@ class Heartbeat {
     const double tick_s = std::clamp(std::min(plan_.lease_s / 3.0, plan_.item_time_limit_s / 4.0), 0.02, 0.5);
     while (!wake_.wait_for(lock, std::chrono::duration<double>(tick_s), [this] { return over_; })) {
       if (item_ >= 0 && (lost_ || asked(options_))) stop_.request_stop();
-      if (item_ >= 0 && since(began_) > plan_.item_time_limit_s) {
+      if (item_ >= 0 && secondsSince(began_) > plan_.item_time_limit_s) {
         timed_out_ = true;
         stop_.request_stop();
-        if (since(began_) > 2.0 * plan_.item_time_limit_s + 1.0) leaveBehind();
+        if (secondsSince(began_) > 2.0 * plan_.item_time_limit_s + 1.0) leaveBehind();
       }
-      if (since(last) < plan_.lease_s / 3.0) continue;
+      if (secondsSince(last) < plan_.lease_s / 3.0) continue;
       last = Clock::now();
       lock.unlock();
       try {
@@ -135,7 +132,7 @@ class Heartbeat {
       (void)BatchQueue(store).finish(claim_, ChunkOutcome::Failed, {},
                                      fmt::format("{}: took longer than {} s and did not stop when asked to",
                                                  plan_.itemName(item_), plan_.item_time_limit_s),
-                                     since(began_));
+                                     secondsSince(began_));
     } catch (const std::exception& away) {
       log(LogLevel::Warning, away.what());
     }
@@ -189,7 +186,7 @@ ChunkWork workOnChunk(const PlantAddress& address, const BatchPlan& plan, const 
       error = e.what();
     }
     heartbeat.end();
-    answer.work_s = since(begin);
+    answer.work_s = secondsSince(begin);
     if (!error.empty()) {
       error = plan.itemName(item) + ": " + error;
       // What the data refuse they refuse again; anything else is tried again, and told in the end in place of an
@@ -222,13 +219,15 @@ WorkerReport workOnBatch(const PlantAddress& address, std::int64_t batch, const 
   store.run([&](BatchQueue& queue) { queue.releaseDead(batch, worker); });
   WorkerReport report;
   const auto begin = Clock::now();
-  const auto mayGoOn = [&] { return !asked(options) && (options.budget_s <= 0.0 || since(begin) < options.budget_s); };
+  const auto mayGoOn = [&] {
+    return !asked(options) && (options.budget_s <= 0.0 || secondsSince(begin) < options.budget_s);
+  };
   std::optional<BatchClaim> claim;
   if (mayGoOn()) claim = store.run([&](BatchQueue& queue) { return queue.claim(batch, worker, options.engine); });
   while (claim) {
     const auto chunk_begin = Clock::now();
     const ChunkWork done = workOnChunk(address, plan, *claim, options);
-    const double spent_s = since(chunk_begin);
+    const double spent_s = secondsSince(chunk_begin);
     const BatchQueue::Finished finished = store.run([&](BatchQueue& queue) -> BatchQueue::Finished {
       if (mayGoOn())
         return queue.finishAndClaim(*claim, done.outcome, done.answers, done.error, spent_s, worker, options.engine);

@@ -89,10 +89,6 @@ double permutationPValue(const Stretch& s, double statistic, double alpha, Rando
   return static_cast<double>(as_large) / static_cast<double>(permutations + 1);
 }
 
-std::string day(double time_s) {
-  return utcText(time_s).substr(0, 10);
-}
-
 /// The event that lies nearest, from one campaign before to one after.
 std::string eventBetween(const std::vector<MachineEvent>& events, double from_s, double to_s) {
   for (const MachineEvent& e : events) {
@@ -244,11 +240,11 @@ std::string NamedChange::sentence(std::string_view unit) const {
   const std::string entered = event.empty() ? "" : ", where " + event + " was entered";
   switch (kind) {
     case ChangeKind::Step:
-      return fmt::format("step of {} between {} and {} ({}){}", amount, day(from_s), day(to_s), chance, entered);
+      return fmt::format("step of {} between {} and {} ({}){}", amount, utcDay(from_s), utcDay(to_s), chance, entered);
     case ChangeKind::Drift:
-      return fmt::format("drift of {} from {} to {} ({})", amount, day(from_s), day(to_s), chance);
+      return fmt::format("drift of {} from {} to {} ({})", amount, utcDay(from_s), utcDay(to_s), chance);
     case ChangeKind::SingleValue:
-      return fmt::format("single value off by {} on {} ({}){}", amount, day(from_s), chance, entered);
+      return fmt::format("single value off by {} on {} ({}){}", amount, utcDay(from_s), chance, entered);
   }
   return {};
 }
@@ -320,7 +316,7 @@ ControlChart controlChart(const std::vector<TrendPoint>& points, const std::vect
     if (end - from < 5) {
       if (b + 2 == begins.size() && to > from)
         chart.notes.push_back(fmt::format("{} values since {}: control limits begin with the fifth.", to - from,
-                                          day(points[from].time_s)));
+                                          utcDay(points[from].time_s)));
       continue;
     }
     chart.limits = chart.limits || b + 2 == begins.size();

@@ -23,10 +23,6 @@ namespace {
 
 constexpr double day_s = 86'400.0;
 
-std::string day(double time_s) {
-  return utcText(time_s).substr(0, 10);
-}
-
 std::string number(double value) {
   return exactNumber(value);
 }
@@ -52,7 +48,7 @@ std::string MachineState::dueSentence() const {
   if (machine.campaigns == 0) return "never measured, " + every;
   if (overdue_days > 0.0)
     return fmt::format("due for {}, {}", countOf(static_cast<long>(std::ceil(overdue_days)), "day"), every);
-  return fmt::format("due on {}, {}", day(due_s), every);
+  return fmt::format("due on {}, {}", utcDay(due_s), every);
 }
 
 std::vector<MachineState> plantOverview(PlantStore& store, double now_s) {
@@ -140,7 +136,7 @@ std::string MachineTrend::summary() const {
     const ChartPoint& last = chart.points.back();
     text +=
         fmt::format("last: {} on {}\n", withUncertainty(last.point.value, last.point.standard_uncertainty, chart.unit),
-                    day(last.point.time_s));
+                    utcDay(last.point.time_s));
     if (chart.limits)
       text += fmt::format("limits {:.4g} to {:.4g} {}: {}\n", last.lower, last.upper, printedUnit(chart.unit),
                           chart.inControl() ? "inside"
@@ -175,7 +171,7 @@ ModelState modelState(PlantStore& store, const std::string& machine, const Chart
   for (const MachineEvent& e : events) {
     if (e.time_s > since_s && changesMachine(e.kind))
       state.reasons.push_back(fmt::format("{} was entered for {}, after the model's campaign {}", eventWords(e.kind),
-                                          day(e.time_s), state.model->campaign_name));
+                                          utcDay(e.time_s), state.model->campaign_name));
   }
   for (const TrendName& n : store.trendNames(machine)) {
     if (n.kind == state.model->kind && n.kind != "evaluate") continue;  // what the model itself was made from
@@ -188,7 +184,8 @@ ModelState modelState(PlantStore& store, const std::string& machine, const Chart
   for (const PlantListing& c : store.campaigns(machine)) {
     if (c.start_s <= since_s) continue;
     if (c.verdict == "named" || c.verdict == "unknown" || c.verdict == "ambiguous" || c.verdict == "not_met")
-      state.reasons.push_back(fmt::format("campaign {} of {} came out as \"{}\"", c.name, day(c.start_s), c.verdict));
+      state.reasons.push_back(
+          fmt::format("campaign {} of {} came out as \"{}\"", c.name, utcDay(c.start_s), c.verdict));
   }
   return state;
 }
@@ -248,7 +245,7 @@ std::string CampaignComparison::summary() const {
   std::string text;
   for (std::size_t c = 0; c < campaigns.size(); ++c)
     text +=
-        fmt::format("{}: {} of {}, {}\n", c + 1, campaigns[c].name, campaigns[c].machine, day(campaigns[c].start_s));
+        fmt::format("{}: {} of {}, {}\n", c + 1, campaigns[c].name, campaigns[c].machine, utcDay(campaigns[c].start_s));
   for (const ComparedRow& row : rows) {
     text += fmt::format("{:<28} {:<8}", row.kind + "/" + row.name, row.state);
     for (const auto& e : row.entries)
@@ -260,30 +257,30 @@ std::string CampaignComparison::summary() const {
 }
 
 std::string machineReport(PlantStore& store, const std::string& machine, double now_s) {
-  Report document(machine, "Machine of the plant, as of " + day(now_s));
+  Report document(machine, "Machine of the plant, as of " + utcDay(now_s));
   for (const MachineState& s : plantOverview(store, now_s)) {
     if (s.machine.name != machine) continue;
     document.section("State");
     document.facts({{"Campaigns", std::to_string(s.machine.campaigns)},
-                    {"Last measured", s.machine.last_s > 0.0 ? day(s.machine.last_s) : "never"},
+                    {"Last measured", s.machine.last_s > 0.0 ? utcDay(s.machine.last_s) : "never"},
                     {"Last verdict", s.machine.last_verdict.empty() ? "none" : s.machine.last_verdict},
                     {"Next", s.dueSentence()}});
   }
   (void)store.machine(machine);
   const ModelState model = modelState(store, machine, {});
   if (model.model) {
-    document.callout(
-        model.reasons.empty() ? CalloutKind::Good : CalloutKind::Attention,
-        model.reasons.empty()
-            ? fmt::format("The model of campaign {} ({}) holds.", model.model->campaign_name, day(model.model->time_s))
-            : fmt::format("The model of campaign {} ({}) no longer holds: {}.", model.model->campaign_name,
-                          day(model.model->time_s), model.reasons.front()));
+    document.callout(model.reasons.empty() ? CalloutKind::Good : CalloutKind::Attention,
+                     model.reasons.empty()
+                         ? fmt::format("The model of campaign {} ({}) holds.", model.model->campaign_name,
+                                       utcDay(model.model->time_s))
+                         : fmt::format("The model of campaign {} ({}) no longer holds: {}.", model.model->campaign_name,
+                                       utcDay(model.model->time_s), model.reasons.front()));
   }
   const std::vector<MachineEvent> events = store.events(machine);
   if (!events.empty()) {
     document.section("Events");
     std::vector<ReportRow> rows;
-    for (const MachineEvent& e : events) rows.push_back({day(e.time_s), e.kind, e.note, e.author});
+    for (const MachineEvent& e : events) rows.push_back({utcDay(e.time_s), e.kind, e.note, e.author});
     document.table({"Date", "What", "Note", "Entered by"}, rows);
   }
   document.section("Trends");
@@ -308,7 +305,7 @@ std::string machineReport(PlantStore& store, const std::string& machine, double 
     }
     PlotOptions options;
     options.title = n.name + " (" + n.kind + ")";
-    options.x_label = "time since " + day(first_s) + " / d";
+    options.x_label = "time since " + utcDay(first_s) + " / d";
     options.y_label = n.name + " / " + (trend.chart.unit.empty() ? "1" : printedUnit(trend.chart.unit));
     std::string caption;
     for (const NamedChange& c : trend.chart.changes)

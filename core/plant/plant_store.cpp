@@ -28,7 +28,7 @@ constexpr double clock_tolerance_s = 60.0;
 /// How far ahead of the store's clock a campaign may start, s.
 constexpr double future_tolerance_s = 300.0;
 
-nlohmann::json parsed(const std::string& text, const std::string& address) {
+nlohmann::json parsedText(const std::string& text, const std::string& address) {
   nlohmann::json out = deepestJson(text) <= most_levels_of_json ? nlohmann::json::parse(text, nullptr, false)
                                                                 : nlohmann::json(nlohmann::json::value_t::discarded);
   if (out.is_discarded()) throw InputError({address, ""}, "the plant store holds a value that is no JSON.");
@@ -495,7 +495,7 @@ std::optional<PlantModel> PlantStore::newestModel(const std::string& machine) {
                           "1",
         soci::use(id), soci::into(m.campaign_name), soci::into(m.time_s), soci::into(m.kind), soci::into(text);
     if (!connection_->sql().got_data()) return std::nullopt;
-    m.model = parsed(text, address());
+    m.model = parsedText(text, address());
     return m;
   });
 }
@@ -514,7 +514,7 @@ PlantCampaign PlantStore::campaign(std::int64_t wanted) {
     if (!sql.got_data())
       throw InputError({address(), ""},
                        fmt::format("holds no campaign {}; allowed: a number that plant list shows.", id));
-    c.description = parsed(description, address());
+    c.description = parsedText(description, address());
     PlantCapture capture;
     soci::statement captures =
         (sql.prepare << "select address, sha256 from capture where campaign_id = :i order by address, sha256",
@@ -538,9 +538,9 @@ PlantCampaign PlantStore::campaign(std::int64_t wanted) {
       results.execute();
       while (results.fetch()) {
         keys.push_back(key);
-        r.options = parsed(options, address());
-        r.covariance = parsed(covariance, address());
-        r.model = parsed(model, address());
+        r.options = parsedText(options, address());
+        r.covariance = parsedText(covariance, address());
+        r.model = parsedText(model, address());
         c.results.push_back(r);
       }
     }

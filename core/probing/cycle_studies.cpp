@@ -71,8 +71,8 @@ RepeatabilityStudy studyRepeatability(const CycleEvaluation& evaluation, const R
 namespace {
 
 /// Straight line with errors in both coordinates (York), then what it says of probe and reference.
-void judge(ReferenceComparison& comparison, const std::vector<double>& probe_sigma,
-           const std::vector<double>& reference_sigma) {
+void judgeReference(ReferenceComparison& comparison, const std::vector<double>& probe_sigma,
+                    const std::vector<double>& reference_sigma) {
   const auto& points = comparison.points;
   const std::size_t n = points.size();
   constexpr double gain_tolerance = 0.05;
@@ -231,7 +231,7 @@ ReferenceComparison compareWithReference(const CycleEvaluation& evaluation, cons
   comparison.correlation = spread > 0.0 ? cross / spread : 0.0;
   comparison.status = FitStatus::Converged;
   comparison.message = "done";
-  judge(comparison, probe_sigma, reference_sigmas);
+  judgeReference(comparison, probe_sigma, reference_sigmas);
   return comparison;
 }
 

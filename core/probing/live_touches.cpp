@@ -17,16 +17,8 @@
 namespace spindrift {
 namespace {
 
-constexpr double mm_per_inch = 25.4;
 /// Taken again within this distance, a touch shows what is there.
 constexpr double confirmed_mm = 0.01;
-
-template <typename List>
-std::string idsOf(const List& list) {
-  std::vector<std::string> ids;
-  for (const auto& item : list) ids.push_back(item.id);
-  return ids.empty() ? std::string("none is described") : joinedList(ids, "or");
-}
 
 /// Largest residual per touch after a displacement of the feature (mm), and which touches are about as large.
 struct Disagreement {
@@ -116,13 +108,13 @@ void LiveTouches::judgePlace(LiveTouch& live) {
   };
   const Artefact* artefact = machine_.findArtefact(t.artefact);
   if (artefact == nullptr) {
-    return reject(
-        fmt::format("artefact \"{}\" is not in the machine file; allowed: {}", t.artefact, idsOf(machine_.artefacts)));
+    return reject(fmt::format("artefact \"{}\" is not in the machine file; allowed: {}", t.artefact,
+                              allowedIds(machine_.artefacts)));
   }
   const Stylus* stylus = machine_.findStylus(t.stylus);
   if (stylus == nullptr) {
     return reject(fmt::format("stylus \"{}\" is not in the machine file, so its radius is unknown; allowed: {}",
-                              t.stylus, idsOf(machine_.styli)));
+                              t.stylus, allowedIds(machine_.styli)));
   }
   const std::vector<std::string> names = featureNames(*artefact);
   if (std::find(names.begin(), names.end(), t.feature) == names.end()) {

@@ -159,8 +159,8 @@ std::string alongText(const Eigen::Vector3d& d) {
   return fmt::format("along ({:.2f}, {:.2f}, {:.2f})", d.x(), d.y(), d.z());
 }
 
-void judge(StylusHealth& health, const Track& track, const std::vector<const Track*>& others,
-           const ProbeHealthOptions& options) {
+void judgeStylus(StylusHealth& health, const Track& track, const std::vector<const Track*>& others,
+                 const ProbeHealthOptions& options) {
   const std::string other_findings = health.message;
   const double limit = options.loose_factor * options.healthy_sigma_um;
   const double noise = health.repeatability_dof > 0 ? health.repeatability_um : options.healthy_sigma_um;
@@ -249,7 +249,7 @@ std::vector<StylusHealth> checkProbeHealth(const TouchList& list, const MachineD
       const bool same_sphere = j != i && order[j].second == order[i].second;
       if (same_sphere && result[j].status == FitStatus::Converged && !tracks[j].scatters) others.push_back(&tracks[j]);
     }
-    judge(result[i], tracks[i], others, options);
+    judgeStylus(result[i], tracks[i], others, options);
   }
   return result;
 }

@@ -16,13 +16,6 @@
 namespace spindrift {
 namespace {
 
-/// A touch in any cycle: feature, stylus, table angle, number.
-using TouchKey = std::tuple<std::string, std::string, double, int>;
-
-TouchKey keyOf(const Touch& t) {
-  return {t.feature, t.stylus, t.c_deg, t.touch};
-}
-
 struct Judged {
   std::size_t touch;
   SurfaceVerdict verdict;
@@ -58,13 +51,13 @@ std::vector<RejectedTouch> contradictedSurfaces(const TouchList& list, const std
   std::set<std::size_t> gone;
   for (const RejectedTouch& r : rejected) gone.insert(r.touch);
   const std::vector<Judged> judged = judgedSurfaces(list, artefact, centre_mm, axis, gone);
-  std::map<TouchKey, std::vector<double>> usual;
-  for (const Judged& j : judged) usual[keyOf(list.touches[j.touch])].push_back(j.verdict.off_um);
+  std::map<Touch::Key, std::vector<double>> usual;
+  for (const Judged& j : judged) usual[list.touches[j.touch].key()].push_back(j.verdict.off_um);
   std::vector<RejectedTouch> out;
   for (const Judged& j : judged) {
     if (!j.verdict.suspect) continue;
     const Touch& t = list.touches[j.touch];
-    std::vector<double> others = usual[keyOf(t)];
+    std::vector<double> others = usual[t.key()];
     others.erase(std::find(others.begin(), others.end(), j.verdict.off_um));
     if (!others.empty() && std::abs(j.verdict.off_um - median(others)) < 0.5 * SurfaceOptions().floor_um) continue;
     out.push_back({j.touch,

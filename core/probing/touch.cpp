@@ -11,11 +11,10 @@
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double mm_per_inch = 25.4;
 
 std::vector<std::string> distinct(const std::vector<Touch>& touches, std::string Touch::*member) {
   std::vector<std::string> names;
@@ -24,13 +23,6 @@ std::vector<std::string> distinct(const std::vector<Touch>& touches, std::string
     if (seen.insert(t.*member).second) names.push_back(t.*member);
   }
   return names;
-}
-
-template <typename List>
-std::string idsOf(const List& list) {
-  std::vector<std::string> ids;
-  for (const auto& item : list) ids.push_back(item.id);
-  return ids.empty() ? std::string("none is described") : joinedList(ids, "or");
 }
 
 }  // namespace
@@ -145,12 +137,12 @@ void TouchList::checkAgainst(const MachineDescription& machine) const {
     const Artefact* artefact = machine.findArtefact(t.artefact);
     if (artefact == nullptr) {
       throw InputError(place(t, "artefact"), fmt::format("artefact \"{}\" is not in the machine file; allowed: {}.",
-                                                         t.artefact, idsOf(machine.artefacts)));
+                                                         t.artefact, allowedIds(machine.artefacts)));
     }
     if (machine.findStylus(t.stylus) == nullptr) {
       throw InputError(place(t, "stylus"),
                        fmt::format("stylus \"{}\" is not in the machine file, so its radius is unknown; allowed: {}.",
-                                   t.stylus, idsOf(machine.styli)));
+                                   t.stylus, allowedIds(machine.styli)));
     }
     const std::vector<std::string> names = featureNames(*artefact);
     if (std::find(names.begin(), names.end(), t.feature) == names.end()) {

@@ -8,8 +8,10 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "core/base/text.h"
 #include "core/machine/machine_description.h"
 
 namespace spindrift {
@@ -28,6 +30,9 @@ struct Touch {
 
   /// "M3 H2 at 90 deg, touch 4 (line 118)".
   [[nodiscard]] std::string label() const;
+  /// The same touch in any cycle: feature, stylus, table angle, number.
+  using Key = std::tuple<std::string, std::string, double, int>;
+  [[nodiscard]] Key key() const { return {feature, stylus, c_deg, touch}; }
   /// What exclusions call it: "touch/M3/bar/H2/p0/90/4".
   [[nodiscard]] std::string id() const;
 };
@@ -52,6 +57,14 @@ struct TouchList {
   /// Artefacts in order of first appearance.
   [[nodiscard]] std::vector<std::string> artefacts() const;
 };
+
+/// "bar or tower": the ids of described artefacts or styli, for sentences about one that is not among them.
+template <typename List>
+[[nodiscard]] std::string allowedIds(const List& list) {
+  std::vector<std::string> ids;
+  for (const auto& item : list) ids.push_back(item.id);
+  return ids.empty() ? std::string("none is described") : joinedList(ids, "or");
+}
 
 /// Features of an artefact in order: "H1", "H2", ... or the ids of its balls.
 [[nodiscard]] std::vector<std::string> featureNames(const Artefact& artefact);

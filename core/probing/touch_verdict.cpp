@@ -7,16 +7,6 @@
 #include <tuple>
 
 namespace spindrift {
-namespace {
-
-using TouchKey = std::tuple<std::string, std::string, double, int>;  // feature, stylus, c_deg, touch
-
-TouchKey keyOf(const Touch& t) {
-  return {t.feature, t.stylus, t.c_deg, t.touch};
-}
-
-}  // namespace
-
 std::vector<TouchVerdict> touchVerdicts(const TouchEvaluation& evaluation, const CycleEvaluation& cycles) {
   const std::vector<Touch>& touches = evaluation.touches.touches;
   std::map<std::size_t, const RejectedTouch*> left_out;
@@ -26,12 +16,12 @@ std::vector<TouchVerdict> touchVerdicts(const TouchEvaluation& evaluation, const
 
   std::map<std::string, std::vector<TouchVerdict>> by_cycle;
   std::vector<std::string> order = cycles.cycles;
-  std::map<TouchKey, std::pair<Touch, int>> expected;  // first of its kind, number of cycles
-  std::map<std::string, std::set<TouchKey>> present;
+  std::map<Touch::Key, std::pair<Touch, int>> expected;  // first of its kind, number of cycles
+  std::map<std::string, std::set<Touch::Key>> present;
   const auto note = [&](const Touch& t) {
     if (std::find(order.begin(), order.end(), t.cycle) == order.end()) order.push_back(t.cycle);
-    ++expected.try_emplace(keyOf(t), t, 0).first->second.second;
-    present[t.cycle].insert(keyOf(t));
+    ++expected.try_emplace(t.key(), t, 0).first->second.second;
+    present[t.cycle].insert(t.key());
   };
   for (std::size_t i = 0; i < touches.size(); ++i) {
     const Touch& t = touches[i];
@@ -75,7 +65,7 @@ std::vector<TouchVerdict> touchVerdicts(const TouchEvaluation& evaluation, const
     features.insert({feature, stylus, c_deg});
     ++features_with[touch];
   }
-  const auto belongs = [&](const TouchKey& key, int cycles_with) {
+  const auto belongs = [&](const Touch::Key& key, int cycles_with) {
     if (2 * cycles_with > static_cast<int>(order.size())) return true;
     return present[fullest].contains(key) && 2 * features_with[std::get<3>(key)] > features.size();
   };

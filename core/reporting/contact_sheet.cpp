@@ -14,7 +14,7 @@ namespace {
 
 constexpr double sheet_width_px = 860.0;
 constexpr double gap_px = 10.0;
-constexpr double text_px = 34.0;
+constexpr double label_px = 34.0;
 /// Height of a thumbnail over its width; pictures of other shapes are centred in it.
 constexpr double shape = 0.75;
 constexpr int jpeg_quality = 82;
@@ -112,10 +112,10 @@ Drawing contactSheet(const std::vector<Thumbnail>& thumbnails, int columns) {
   const double height = shape * width;
   const auto wide = static_cast<std::size_t>(columns);
   const auto rows = static_cast<double>((thumbnails.size() + wide - 1) / wide);
-  Drawing sheet(sheet_width_px, rows * (height + text_px + gap_px));
+  Drawing sheet(sheet_width_px, rows * (height + label_px + gap_px));
   for (std::size_t i = 0; i < thumbnails.size(); ++i) {
     const double x = static_cast<double>(i % wide) * (width + gap_px);
-    const double y = static_cast<double>(i / wide) * (height + text_px + gap_px);
+    const double y = static_cast<double>(i / wide) * (height + label_px + gap_px);
     const Thumbnail& t = thumbnails[i];
     sheet.rectangle(x, y, width, height,
                     Paint{.fill = PictureColour{244, 246, 248}, .stroke = PictureColour{217, 222, 228}});

@@ -7,17 +7,14 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/units.h"
 #include "core/machine/interpolated_field.h"
 #include "core/reporting/heatmap_picture.h"
 #include "core/reporting/plot_picture.h"
 #include "core/reporting/report_wording.h"
 
 namespace spindrift {
-namespace {
-
-constexpr double seconds_per_hour = 3600.0;
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<std::array<Field, 2>> discrepancyMaps(const std::vector<DiscrepancyReportRow>& data, FieldGrid table,
                                                     double& time_s) {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/discrepancy/effect_titles.h"
 #include "core/machine/interpolated_field.h"
 #include "core/reporting/discrepancy_figures.h"
@@ -19,7 +20,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double seconds_per_hour = 3600.0;
 constexpr std::size_t most_states_in_table = 48;
 constexpr std::size_t most_outliers_in_table = 50;
 

@@ -31,7 +31,7 @@ std::string attributes(const Paint& paint) {
   return out;
 }
 
-struct Writer {
+struct SvgWriter {
   std::string out;
 
   void operator()(const Drawing::Rectangle& r) {
@@ -79,7 +79,7 @@ struct Writer {
 }  // namespace
 
 std::string svgOf(const Drawing& drawing) {
-  Writer writer;
+  SvgWriter writer;
   writer.out = fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" )"
                            R"(viewBox="0 0 {0} {1}" width="{0}" height="{1}" )"
                            R"(font-family="Inter, 'DejaVu Sans', sans-serif" fill="{2}">)",

@@ -18,15 +18,15 @@ namespace {
 
 constexpr int lines = 8;   ///< spaces between lines of the grid
 constexpr int steps = 32;  ///< along a line
-constexpr double view_px = 190.0, gap_px = 26.0, head_px = 22.0, foot_px = 40.0;
+constexpr double view_px = 190.0, view_gap_px = 26.0, head_px = 22.0, foot_px = 40.0;
 constexpr double exaggerated = 0.10;  ///< of the longest axis: the largest displacement as drawn
-constexpr PictureColour grey{205, 211, 218}, accent{11, 114, 133}, soft{82, 96, 109};
+constexpr PictureColour body_grey{205, 211, 218}, accent{11, 114, 133}, soft{82, 96, 109};
 
-struct View {
+struct EffectView {
   const char* name;
   int across, up;
 };
-constexpr std::array<View, 3> views{{{"Top", 0, 1}, {"Front", 0, 2}, {"Side", 1, 2}}};
+constexpr std::array<EffectView, 3> views{{{"Top", 0, 1}, {"Front", 0, 2}, {"Side", 1, 2}}};
 constexpr const char* letters[3] = {"X", "Y", "Z"};
 
 /// "um_per_m2" -> "µm/m2".
@@ -49,7 +49,7 @@ std::optional<Drawing> effectDrawing(const Effect& effect, const EffectDrawingOp
     middle_mm[i] = 0.5 * (range[0] + range[1]);
     longest_mm = std::max(longest_mm, range[1] - range[0]);
   }
-  const auto at = [&](const View& view, double a, double b) {
+  const auto at = [&](const EffectView& view, double a, double b) {
     Eigen::Vector3d p = middle_mm;
     const auto& h = travel[static_cast<std::size_t>(view.across)];
     const auto& v = travel[static_cast<std::size_t>(view.up)];
@@ -68,7 +68,7 @@ std::optional<Drawing> effectDrawing(const Effect& effect, const EffectDrawingOp
   };
   const auto largestOf = [&](bool rotations) {
     double largest = 0.0;
-    for (const View& view : views)
+    for (const EffectView& view : views)
       for (int i = 0; i <= lines; ++i)
         for (int j = 0; j <= lines; ++j)
           if (const Eigen::Vector3d d = deviation(at(view, double(i) / lines, double(j) / lines), rotations);
@@ -81,19 +81,19 @@ std::optional<Drawing> effectDrawing(const Effect& effect, const EffectDrawingOp
   if (rotations) largest = largestOf(true);
   if (!(largest > 0.0)) return std::nullopt;
 
-  const double scale = (view_px - 2.0 * gap_px) / longest_mm;
+  const double scale = (view_px - 2.0 * view_gap_px) / longest_mm;
   const double magnified = exaggerated * longest_mm / largest;
   double tallest = 0.0;
-  for (const View& view : views) {
+  for (const EffectView& view : views) {
     const auto& v = travel[static_cast<std::size_t>(view.up)];
     tallest = std::max(tallest, scale * (v[1] - v[0]));
   }
-  const double height = head_px + tallest + 2.0 * gap_px + foot_px;
+  const double height = head_px + tallest + 2.0 * view_gap_px + foot_px;
   Drawing drawing(3.0 * view_px, height);
   for (std::size_t n = 0; n < views.size(); ++n) {
-    const View& view = views[n];
-    const double left = view_px * static_cast<double>(n) + gap_px;
-    const double bottom = head_px + gap_px + tallest;
+    const EffectView& view = views[n];
+    const double left = view_px * static_cast<double>(n) + view_gap_px;
+    const double bottom = head_px + view_gap_px + tallest;
     const auto pixel = [&](const Eigen::Vector3d& p) {
       return Drawing::Point{left + scale * (p[view.across] - travel[static_cast<std::size_t>(view.across)][0]),
                             bottom - scale * (p[view.up] - travel[static_cast<std::size_t>(view.up)][0])};
@@ -121,7 +121,7 @@ std::optional<Drawing> effectDrawing(const Effect& effect, const EffectDrawingOp
         if (after.size() > 1) moved.push_back(std::move(after));
       }
     }
-    drawing.path(std::move(plain), {.stroke = grey, .width = 0.8});
+    drawing.path(std::move(plain), {.stroke = body_grey, .width = 0.8});
     if (rotations) {
       for (int i = 1; i < lines; i += 2) {
         for (int j = 1; j < lines; j += 2) {
@@ -137,7 +137,7 @@ std::optional<Drawing> effectDrawing(const Effect& effect, const EffectDrawingOp
       drawing.path(std::move(moved), {.stroke = accent, .width = 1.2});
     }
     drawing.endWindow();
-    const double below = bottom + gap_px - 6.0;
+    const double below = bottom + view_gap_px - 6.0;
     drawing.text(left, below, fmt::format("{} →", letters[view.across]), 10.0, TextAnchor::Start);
     drawing.text(left - 10.0, bottom, fmt::format("{} →", letters[view.up]), 10.0, TextAnchor::Start, false, true);
   }
@@ -147,7 +147,7 @@ std::optional<Drawing> effectDrawing(const Effect& effect, const EffectDrawingOp
   std::string legend = fmt::format("largest {} for a gain of 1 {}: {:.3g} {}", rotations ? "rotation" : "displacement",
                                    gainUnitOf(column), largest, rotations ? "µrad" : "µm");
   if (!rotations) legend += fmt::format("; drawn {:.1e} times its size", 1e3 * magnified);
-  drawing.text(gap_px, height - 10.0, legend, small);
+  drawing.text(view_gap_px, height - 10.0, legend, small);
   return drawing;
 }
 

@@ -24,7 +24,7 @@ constexpr PictureColour white{255, 255, 255};
 constexpr PictureColour missing{236, 236, 236};
 
 /// Where everything stands. px.
-struct Layout {
+struct HeatmapLayout {
   double left = 78.0, top = 72.0, width = 0.0, height = 0.0;
   double bar_left = 0.0, bar_width = 18.0;
   int picture_width = 0, picture_height = 0;
@@ -38,8 +38,8 @@ struct Layout {
   }
 };
 
-Layout layoutOf(const FieldGrid& grid, const HeatmapPictureOptions& options) {
-  Layout l;
+HeatmapLayout layoutOf(const FieldGrid& grid, const HeatmapPictureOptions& options) {
+  HeatmapLayout l;
   l.grid = &grid;
   // A small picture has narrow margins.
   const bool small = options.width_px < 600;
@@ -81,7 +81,7 @@ PictureColour colourOf(double value, double sigma, double limit) {
   return std::abs(value) < significance * sigma ? mixed(full, white, faded_part) : full;
 }
 
-void drawCells(Drawing& canvas, const Layout& l, const Field& field, double limit) {
+void drawCells(Drawing& canvas, const HeatmapLayout& l, const Field& field, double limit) {
   const FieldGrid& g = field.grid;
   const double half_x = 0.5 * l.width / (g.nx - 1);
   const double half_y = 0.5 * l.height / (g.ny - 1);
@@ -104,7 +104,7 @@ void drawCells(Drawing& canvas, const Layout& l, const Field& field, double limi
 }
 
 /// Diagonal lines over the cells outside the measured region.
-void drawHatching(Drawing& canvas, const Layout& l, const Field& field) {
+void drawHatching(Drawing& canvas, const HeatmapLayout& l, const Field& field) {
   constexpr double spacing = 9.0;
   constexpr double step = 1.5;
   const FieldGrid& g = field.grid;
@@ -135,7 +135,7 @@ void drawHatching(Drawing& canvas, const Layout& l, const Field& field) {
 }
 
 /// Contour |value| = 2 sigma by marching squares.
-void drawSignificance(Drawing& canvas, const Layout& l, const Field& field) {
+void drawSignificance(Drawing& canvas, const HeatmapLayout& l, const Field& field) {
   const FieldGrid& g = field.grid;
   const auto level = [&](int ix, int iy) {
     const std::size_t i = g.index(ix, iy);
@@ -162,7 +162,7 @@ void drawSignificance(Drawing& canvas, const Layout& l, const Field& field) {
   }
 }
 
-void drawAxes(Drawing& canvas, const Layout& l, const Field& field) {
+void drawAxes(Drawing& canvas, const HeatmapLayout& l, const Field& field) {
   const FieldGrid& g = field.grid;
   const double right = l.left + l.width;
   const double bottom = l.top + l.height;
@@ -187,7 +187,7 @@ void drawAxes(Drawing& canvas, const Layout& l, const Field& field) {
   canvas.text(l.left - 48.0, l.top + 0.5 * l.height, "y / mm", 13.0, TextAnchor::Middle, false, true);
 }
 
-void drawColourBar(Drawing& canvas, const Layout& l, const Field& field, double limit) {
+void drawColourBar(Drawing& canvas, const HeatmapLayout& l, const Field& field, double limit) {
   constexpr int steps = 64;
   for (int i = 0; i < steps; ++i) {
     const double part = 1.0 - 2.0 * (i + 0.5) / steps;
@@ -227,8 +227,8 @@ struct LabelPlace {
 
 /// Where a label of a point covers least of what is there already: below, above (beyond an arrow that points up by
 /// `up`), to the right or left, and once more further away; inside the frame.
-LabelPlace freePlace(const Layout& l, const std::vector<Box>& taken, double x, double y, double half, double size,
-                     double up) {
+LabelPlace freePlace(const HeatmapLayout& l, const std::vector<Box>& taken, double x, double y, double half,
+                     double size, double up) {
   const double below = y + 20.0 + std::max(0.0, -up), above = y - 10.0 - std::max(0.0, up);
   const std::array<LabelPlace, 8> candidates{{{x, up < 0.0 ? above : below},
                                               {x, up < 0.0 ? below : above},
@@ -254,7 +254,7 @@ LabelPlace freePlace(const Layout& l, const std::vector<Box>& taken, double x, d
   return best;
 }
 
-void drawMarkers(Drawing& canvas, const Layout& l, const Field& field, double limit) {
+void drawMarkers(Drawing& canvas, const HeatmapLayout& l, const Field& field, double limit) {
   constexpr double longest = 38.0;
   constexpr double size = 12.0;
   const bool across = field.component == Component::EX || field.component == Component::EB;
@@ -290,7 +290,7 @@ void drawMarkers(Drawing& canvas, const Layout& l, const Field& field, double li
   }
 }
 
-void draw(Drawing& canvas, const Layout& l, const Field& field, const HeatmapPictureOptions& options) {
+void draw(Drawing& canvas, const HeatmapLayout& l, const Field& field, const HeatmapPictureOptions& options) {
   const double limit = options.limit.value_or(roundLimit(field.largestMagnitude()));
   drawCells(canvas, l, field, limit);
   drawHatching(canvas, l, field);
@@ -370,7 +370,7 @@ double roundLimit(double magnitude) {
 
 Drawing heatmapPicture(const Field& field, const HeatmapPictureOptions& options) {
   check(field, options);
-  const Layout layout = layoutOf(field.grid, options);
+  const HeatmapLayout layout = layoutOf(field.grid, options);
   Drawing drawing(layout.picture_width, layout.picture_height);
   draw(drawing, layout, field, options);
   return drawing;

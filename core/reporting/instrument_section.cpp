@@ -15,7 +15,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double seconds_per_hour = 3600.0;
 constexpr std::size_t most_columns = 5;  ///< of parameters: fit on A4
 constexpr std::size_t most_rows = 48;    ///< of a table of cycles
 

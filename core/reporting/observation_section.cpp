@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/reporting/plot_picture.h"
 #include "core/reporting/point_map.h"
 #include "core/reporting/report_parts.h"
@@ -17,7 +18,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double seconds_per_hour = 3600.0;
 /// Readings of a point from which on a curve says more than a map.
 constexpr std::size_t least_for_curves = 4;
 constexpr std::size_t most_panels = 18;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/units.h"
 #include "core/reporting/plot_picture.h"
 #include "core/reporting/report_parts.h"
 #include "core/reporting/report_wording.h"
@@ -12,7 +13,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double seconds_per_hour = 3600.0;
 constexpr std::size_t most_curves = 7;  ///< that can be told apart by colour
 constexpr int plot_width_px = 860;
 

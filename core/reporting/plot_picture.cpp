@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<const char*, 7> palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#56b4e9", "#e69f00", "#333333"};
 
-struct Limits {
+struct PlotLimits {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
@@ -38,17 +38,17 @@ struct Limits {
 
 struct Frame {
   double left, top, width, height;
-  Limits x, y;
+  PlotLimits x, y;
 
   [[nodiscard]] double px(double v) const { return left + (v - x.low) / (x.high - x.low) * width; }
   [[nodiscard]] double py(double v) const { return top + (y.high - v) / (y.high - y.low) * height; }
 };
 
-constexpr PictureColour grid_colour{227, 231, 235};
+constexpr PictureColour plot_grid{227, 231, 235};
 constexpr PictureColour frame_colour{154, 165, 177};
 constexpr PictureColour soft_colour{123, 135, 148};
 
-void drawAxes(Drawing& out, const Frame& f, const PlotOptions& options) {
+void drawPlotAxes(Drawing& out, const Frame& f, const PlotOptions& options) {
   const std::vector<double> x_ticks =
       roundTicks(f.x.low, f.x.high, std::max(3, static_cast<int>(f.width / (options.compact ? 50 : 90))));
   std::vector<double> y_ticks = roundTicks(f.y.low, f.y.high, std::max(4, static_cast<int>(f.height / 32)));
@@ -58,12 +58,12 @@ void drawAxes(Drawing& out, const Frame& f, const PlotOptions& options) {
   const double y_step = y_ticks.size() > 1 ? y_ticks[1] - y_ticks[0] : 1.0;
   const double right = f.left + f.width, bottom = f.top + f.height;
   for (const double t : x_ticks) {
-    out.line(f.px(t), f.top, f.px(t), bottom, grid_colour, 1.0);
+    out.line(f.px(t), f.top, f.px(t), bottom, plot_grid, 1.0);
     out.text(f.px(t), bottom + 16.0, tickText(t, x_step), {.anchor = TextAnchor::Middle});
   }
   for (const double t : y_ticks) {
     const bool zero = std::abs(t) < 1e-12 * std::abs(y_step);
-    out.line(f.left, f.py(t), right, f.py(t), zero ? frame_colour : grid_colour, 1.0);
+    out.line(f.left, f.py(t), right, f.py(t), zero ? frame_colour : plot_grid, 1.0);
     out.text(f.left - 6.0, f.py(t) + 4.0, tickText(t, y_step), {.anchor = TextAnchor::End});
   }
   out.rectangle(f.left, f.top, f.width, f.height, Paint{.stroke = frame_colour});
@@ -188,7 +188,7 @@ void drawSeries(Drawing& out, const PlotSeries& s, const Frame& f, PictureColour
   if (s.style == SeriesStyle::Both) drawPoints(out, s, f, colour, rows, false);
 }
 
-PictureColour colourOf(const std::vector<PlotSeries>& series, std::size_t index) {
+PictureColour seriesColour(const std::vector<PlotSeries>& series, std::size_t index) {
   const std::string& own = series[index].colour;
   return colourOfHex(own.empty() ? palette[index % palette.size()] : std::string_view(own));
 }
@@ -222,7 +222,7 @@ void drawLegend(Drawing& out, const std::vector<PlotSeries>& series, const std::
   for (std::size_t i = 0; i < series.size(); ++i) {
     const double x = left + places[i].first;
     const double y = top + 18.0 * places[i].second;
-    const PictureColour colour = colourOf(series, i);
+    const PictureColour colour = seriesColour(series, i);
     const SeriesStyle style = series[i].style;
     if (style != SeriesStyle::Points) out.line(x, y - 4.0, x + 16.0, y - 4.0, colour, 2.0);
     if (style == SeriesStyle::Points || style == SeriesStyle::Both)
@@ -235,7 +235,7 @@ void drawLegend(Drawing& out, const std::vector<PlotSeries>& series, const std::
 void equalise(Frame& f) {
   const double per_px_x = (f.x.high - f.x.low) / f.width;
   const double per_px_y = (f.y.high - f.y.low) / f.height;
-  Limits& narrow = per_px_x < per_px_y ? f.x : f.y;
+  PlotLimits& narrow = per_px_x < per_px_y ? f.x : f.y;
   const double wanted = per_px_x < per_px_y ? per_px_y * f.width : per_px_x * f.height;
   const double add = 0.5 * (wanted - (narrow.high - narrow.low));
   narrow.low -= add;
@@ -313,9 +313,9 @@ Drawing plotPicture(const std::vector<PlotSeries>& series, const PlotOptions& op
                   Paint{.fill = PictureColour{124, 111, 168}, .opacity = 0.10});
     out.text(f.px(from) + 4.0, f.top + 13.0, range.label, {.size = 11.0, .colour = {91, 79, 135}});
   }
-  drawAxes(out, f, options);
+  drawPlotAxes(out, f, options);
   out.beginWindow(f.left, f.top, f.width, f.height);
-  for (std::size_t i = 0; i < series.size(); ++i) drawSeries(out, series[i], f, colourOf(series, i));
+  for (std::size_t i = 0; i < series.size(); ++i) drawSeries(out, series[i], f, seriesColour(series, i));
   out.endWindow();
   if (legend) drawLegend(out, series, places, f.left + beside, f.top - 8.0 - 18.0 * (legend_rows - 1));
   if (empty)

@@ -8,27 +8,27 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/reporting/heatmap_picture.h"
 #include "core/reporting/plot_picture.h"
 
 namespace spindrift {
 namespace {
 
-constexpr PictureColour ink = picture_ink;
-constexpr PictureColour grid_colour{227, 231, 235};
-constexpr PictureColour grey{120, 130, 140};
-constexpr double um_per_mm = 1000.0;
+constexpr PictureColour map_ink = picture_ink;
+constexpr PictureColour map_grid{227, 231, 235};
+constexpr PictureColour map_grey{120, 130, 140};
 constexpr double coverage = 2.0;  ///< of the bars at the tips, in standard uncertainties
 
 /// mm to px with one scale in both directions.
-struct View {
+struct MapView {
   double left = 72.0, top = 64.0, width = 0.0, height = 0.0;
   double x_from = 0.0, y_from = 0.0, px_per_mm = 1.0;
   [[nodiscard]] double px(double x_mm) const { return left + (x_mm - x_from) * px_per_mm; }
   [[nodiscard]] double py(double y_mm) const { return top + height - (y_mm - y_from) * px_per_mm; }
 };
 
-View viewOf(const std::vector<PointDisplacement>& points, int width_px) {
+MapView viewOf(const std::vector<PointDisplacement>& points, int width_px) {
   constexpr double right = 110.0;
   Eigen::Array2d low = points.front().position_mm.head<2>(), high = low;
   for (const PointDisplacement& p : points) {
@@ -39,7 +39,7 @@ View viewOf(const std::vector<PointDisplacement>& points, int width_px) {
   const double margin = 0.16 * (high - low).maxCoeff();
   low -= margin;
   high += margin;
-  View view;
+  MapView view;
   view.width = width_px - view.left - right;
   const Eigen::Array2d span = high - low;
   view.px_per_mm = view.width / span.x();
@@ -63,30 +63,30 @@ double roundDown(double value) {
   return power;
 }
 
-void drawAxes(Drawing& canvas, const View& v) {
+void drawMapAxes(Drawing& canvas, const MapView& v) {
   const double bottom = v.top + v.height, right = v.left + v.width;
   const std::vector<double> xs =
       roundTicks(v.x_from, v.x_from + v.width / v.px_per_mm, std::max(3, static_cast<int>(v.width / 90)));
   const std::vector<double> ys =
       roundTicks(v.y_from, v.y_from + v.height / v.px_per_mm, std::max(3, static_cast<int>(v.height / 60)));
   for (const double x : xs) {
-    canvas.line(v.px(x), v.top, v.px(x), bottom, grid_colour, 1.0);
+    canvas.line(v.px(x), v.top, v.px(x), bottom, map_grid, 1.0);
     canvas.text(v.px(x), bottom + 19.0, tickText(x, xs.size() > 1 ? xs[1] - xs[0] : 1.0), 12.0, TextAnchor::Middle);
   }
   for (const double y : ys) {
-    canvas.line(v.left, v.py(y), right, v.py(y), grid_colour, 1.0);
+    canvas.line(v.left, v.py(y), right, v.py(y), map_grid, 1.0);
     canvas.text(v.left - 8.0, v.py(y) + 4.0, tickText(y, ys.size() > 1 ? ys[1] - ys[0] : 1.0), 12.0, TextAnchor::End);
   }
   for (const auto& [x1, y1, x2, y2] :
        {std::array{v.left, v.top, right, v.top}, std::array{v.left, bottom, right, bottom},
         std::array{v.left, v.top, v.left, bottom}, std::array{right, v.top, right, bottom}}) {
-    canvas.line(x1, y1, x2, y2, grey, 1.0);
+    canvas.line(x1, y1, x2, y2, map_grey, 1.0);
   }
   canvas.text(v.left + 0.5 * v.width, bottom + 38.0, "X / mm", 13.0, TextAnchor::Middle);
   canvas.text(20.0, v.top + 0.5 * v.height, "Y / mm", 13.0, TextAnchor::Middle, false, true);
 }
 
-void drawColourBar(Drawing& canvas, const View& v, double limit) {
+void drawMapColourBar(Drawing& canvas, const MapView& v, double limit) {
   constexpr int steps = 48;
   const double left = v.left + v.width + 22.0, height = std::min(v.height, 220.0);
   const double top = v.top + 0.5 * (v.height - height);
@@ -97,7 +97,7 @@ void drawColourBar(Drawing& canvas, const View& v, double limit) {
   const std::vector<double> ticks = roundTicks(-limit, limit, 4);
   for (const double t : ticks) {
     const double y = top + 0.5 * height * (1.0 - t / limit);
-    canvas.line(left + 16.0, y, left + 21.0, y, ink, 1.0);
+    canvas.line(left + 16.0, y, left + 21.0, y, map_ink, 1.0);
     canvas.text(left + 25.0, y + 4.0, tickText(t, ticks.size() > 1 ? ticks[1] - ticks[0] : limit), 12.0,
                 TextAnchor::Start);
   }
@@ -107,14 +107,14 @@ void drawColourBar(Drawing& canvas, const View& v, double limit) {
 void drawArrow(Drawing& canvas, double x, double y, double tip_x, double tip_y) {
   const double length = std::hypot(tip_x - x, tip_y - y);
   if (length < 2.0) return;
-  canvas.line(x, y, tip_x, tip_y, ink, 2.0);
+  canvas.line(x, y, tip_x, tip_y, map_ink, 2.0);
   const double ux = (tip_x - x) / length, uy = (tip_y - y) / length;
   const double back = std::min(8.0, length), side = 0.5 * back;
-  canvas.line(tip_x, tip_y, tip_x - back * ux - side * uy, tip_y - back * uy + side * ux, ink, 2.0);
-  canvas.line(tip_x, tip_y, tip_x - back * ux + side * uy, tip_y - back * uy - side * ux, ink, 2.0);
+  canvas.line(tip_x, tip_y, tip_x - back * ux - side * uy, tip_y - back * uy + side * ux, map_ink, 2.0);
+  canvas.line(tip_x, tip_y, tip_x - back * ux + side * uy, tip_y - back * uy - side * ux, map_ink, 2.0);
 }
 
-void drawPoint(Drawing& canvas, const View& v, const PointDisplacement& p, double factor, double limit) {
+void drawPoint(Drawing& canvas, const MapView& v, const PointDisplacement& p, double factor, double limit) {
   const double px_per_um = factor / um_per_mm * v.px_per_mm;
   const double x = v.px(p.position_mm.x()), y = v.py(p.position_mm.y());
   const bool flat = std::isfinite(p.change_um.x()) && std::isfinite(p.change_um.y());
@@ -124,8 +124,8 @@ void drawPoint(Drawing& canvas, const View& v, const PointDisplacement& p, doubl
     const double tip_x = x + p.change_um.x() * px_per_um;
     tip_y = y - p.change_um.y() * px_per_um;
     const double bar_x = coverage * p.sigma_um.x() * px_per_um, bar_y = coverage * p.sigma_um.y() * px_per_um;
-    canvas.line(tip_x - bar_x, tip_y, tip_x + bar_x, tip_y, grey, 1.0);
-    canvas.line(tip_x, tip_y - bar_y, tip_x, tip_y + bar_y, grey, 1.0);
+    canvas.line(tip_x - bar_x, tip_y, tip_x + bar_x, tip_y, map_grey, 1.0);
+    canvas.line(tip_x, tip_y - bar_y, tip_x, tip_y + bar_y, map_grey, 1.0);
     drawArrow(canvas, x, y, tip_x, tip_y);
   }
   PictureColour fill{255, 255, 255};
@@ -133,7 +133,7 @@ void drawPoint(Drawing& canvas, const View& v, const PointDisplacement& p, doubl
     const auto [r, g, b] = coolWarm(p.change_um.z() / limit);
     fill = {r, g, b};
   }
-  canvas.disc(x, y, 7.0, fill, ink);
+  canvas.disc(x, y, 7.0, fill, map_ink);
   std::string label = p.point;
   if (high) label += ": " + withUncertainty(p.change_um.z(), p.sigma_um.z(), "");
   // On the side away from the arrow.
@@ -152,20 +152,20 @@ std::optional<Drawing> pointMap(const std::vector<PointDisplacement>& points, co
     if (std::isfinite(p.change_um.z())) highest = std::max(highest, std::abs(p.change_um.z()));
   }
   if (!(spread > 0.0)) return std::nullopt;
-  const View view = viewOf(points, options.width_px);
+  const MapView view = viewOf(points, options.width_px);
   const double limit = roundLimit(highest);
   const double factor = longest > 0.0 ? roundDown(view.width / 6.0 / view.px_per_mm * um_per_mm / longest) : 1.0;
   Drawing canvas(options.width_px, std::round(view.top + view.height + 78.0));
   canvas.text(16.0, 26.0, options.title, 16.0, TextAnchor::Start, true);
   canvas.text(16.0, 46.0, options.subtitle, 12.0, TextAnchor::Start);
-  drawAxes(canvas, view);
-  drawColourBar(canvas, view, limit);
+  drawMapAxes(canvas, view);
+  drawMapColourBar(canvas, view, limit);
   for (const PointDisplacement& p : points) drawPoint(canvas, view, p, factor, limit);
   // A stroke as long as a round displacement.
   const double scale_um = roundDown(std::max(longest, 1e-3));
   const double y = view.top + view.height + 62.0;
   const double length = scale_um * factor / um_per_mm * view.px_per_mm;
-  canvas.line(view.left, y - 4.0, view.left + length, y - 4.0, ink, 2.0);
+  canvas.line(view.left, y - 4.0, view.left + length, y - 4.0, map_ink, 2.0);
   canvas.text(view.left + length + 10.0, y,
               fmt::format("{:g} µm in X and Y, drawn {:g} times as long; bars: 2 standard uncertainties; number: EZ",
                           scale_um, factor),

@@ -33,7 +33,7 @@ figure,table,tr,.verdict{break-inside:avoid}table.long{break-inside:auto}}
 /// Tables with more rows may be broken between two of them.
 constexpr std::size_t longest_unbroken_table = 24;
 /// Letters of a cell in the first column that is never broken.
-constexpr std::size_t longest_name = 24;
+constexpr std::size_t longest_html_name = 24;
 
 std::string printed(const ReportText& text) {
   std::string out;
@@ -63,7 +63,7 @@ std::string_view nameOf(CalloutKind kind) {
   return "note";
 }
 
-struct Writer {
+struct HtmlWriter {
   std::string out;
 
   void operator()(const HeadingBlock& b) { out += fmt::format("<h{0}>{1}</h{0}>\n", b.level + 1, printed(b.text)); }
@@ -95,7 +95,7 @@ struct Writer {
     out += "<tr>";
     for (std::size_t i = 0; i < cells.size(); ++i) {
       // A short name stays on one line, and so does a quantity with its unit.
-      const bool words = !table.isFacts() && (i > 0 ? table.of_words[i] : cells[i].plain().size() > longest_name);
+      const bool words = !table.isFacts() && (i > 0 ? table.of_words[i] : cells[i].plain().size() > longest_html_name);
       out += fmt::format("<{0}{1}>{2}</{0}>", tag, words ? " class=\"text\"" : "", unbroken(printed(cells[i])));
     }
     out += "</tr>";
@@ -105,7 +105,7 @@ struct Writer {
 }  // namespace
 
 std::string htmlOf(const Report& report) {
-  Writer body;
+  HtmlWriter body;
   for (const ReportBlock& block : report.blocks()) std::visit(body, block);
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "

@@ -26,17 +26,17 @@ constexpr double text_height = page_height - top_margin - bottom_margin;
 constexpr double text_px = 12.0, small_px = 10.0, least_px = 7.0;
 constexpr double cell_gap = 14.0, cell_padding = 4.0;
 
-constexpr PictureColour ink = picture_ink;
+constexpr PictureColour text_ink = picture_ink;
 constexpr PictureColour soft{82, 96, 109};
 constexpr PictureColour line_colour{217, 222, 228};
 constexpr PictureColour accent{11, 114, 133};
 constexpr PictureColour pale{244, 246, 248};
 
-constexpr std::size_t longest_unbroken_table = 24;
+constexpr std::size_t longest_unbroken_pdf_table = 24;
 /// Letters of a cell in the first column that is never broken.
-constexpr std::size_t longest_name = 24;
+constexpr std::size_t longest_pdf_name = 24;
 
-PictureColour colourOf(CalloutKind kind) {
+PictureColour calloutColour(CalloutKind kind) {
   switch (kind) {
     case CalloutKind::Good:
       return {43, 122, 61};
@@ -81,7 +81,7 @@ class Setter {
   std::vector<ReportPdf::Section> sections;
 
   void head(const Report& report) {
-    text(report.title(), 20.0, true, ink, 0.0, true);
+    text(report.title(), 20.0, true, text_ink, 0.0, true);
     text(report.subtitle(), text_px, false, soft, 4.0, true);
     add(2.0, 8.0, false, [](cairo_t* c) {
       setColour(c, accent);
@@ -94,26 +94,26 @@ class Setter {
   void operator()(const HeadingBlock& b) {
     const bool section = b.level == 1;
     const std::size_t at = pieces.size();
-    text(b.text, section ? 15.0 : text_px, true, ink, section ? 22.0 : 14.0, true);
+    text(b.text, section ? 15.0 : text_px, true, text_ink, section ? 22.0 : 14.0, true);
     if (!section) return;
     pieces[at].section = sections.size();
     sections.push_back({b.text.plain(), 0});
   }
 
-  void operator()(const TextBlock& b) { text(b.text, text_px, false, ink, 6.0, false); }
+  void operator()(const TextBlock& b) { text(b.text, text_px, false, text_ink, 6.0, false); }
 
   void operator()(const CalloutBlock& b) {
     constexpr double bar = 4.0, inside = 12.0, padding = 8.0;
     const Layout words = layout(b.text, text_px, true, text_width - bar - 2.0 * inside);
     const double height = heightOf(words.get()) + 2.0 * padding;
-    add(height, 10.0, false, [=, colour = colourOf(b.kind)](cairo_t* c) {
+    add(height, 10.0, false, [=, colour = calloutColour(b.kind)](cairo_t* c) {
       setColour(c, pale);
       cairo_rectangle(c, 0.0, 0.0, text_width, height);
       cairo_fill(c);
       setColour(c, colour);
       cairo_rectangle(c, 0.0, 0.0, bar, height);
       cairo_fill(c);
-      show(c, words, bar + inside, padding, ink);
+      show(c, words, bar + inside, padding, text_ink);
     });
     above_ = 10.0;
   }
@@ -134,7 +134,7 @@ class Setter {
         setColour(c, pale);
         cairo_rectangle(c, 0.0, 0.0, text_width, height + 0.5);
         cairo_fill(c);
-        show(c, words, inside, 1.0, ink);
+        show(c, words, inside, 1.0, text_ink);
       });
     }
     above_ = 10.0;
@@ -159,7 +159,7 @@ class Setter {
     if (b.rows.empty() && b.header.empty()) return;
     if (!b.caption.empty()) text(b.caption, small_px, false, soft, 10.0, true);
     const auto [px, widths] = columnsOf(b);
-    const bool whole = b.rows.size() <= longest_unbroken_table;
+    const bool whole = b.rows.size() <= longest_unbroken_pdf_table;
     std::optional<std::size_t> header;
     if (!b.header.empty()) {
       header = pieces.size();
@@ -273,7 +273,7 @@ class Setter {
           const Layout set = layout(cells[i], px, head, 0.0);
           const double width = std::ceil(widthOf(set.get())) + 1.0;
           wanted[i] = std::max(wanted[i], width);
-          const bool breakable = head || (i > 0 ? b.of_words[i] : cells[i].plain().size() > longest_name);
+          const bool breakable = head || (i > 0 ? b.of_words[i] : cells[i].plain().size() > longest_pdf_name);
           least[i] = std::max(least[i], breakable ? longestWord(cells[i], px, head) : width);
         }
       };
@@ -312,7 +312,7 @@ class Setter {
     add(height, 0.0, false, [=, facts = b.isFacts()](cairo_t* c) {
       double x = 0.0;
       for (std::size_t i = 0; i < set.size(); ++i) {
-        show(c, set[i], x, cell_padding, facts && i == 0 ? soft : ink);
+        show(c, set[i], x, cell_padding, facts && i == 0 ? soft : text_ink);
         x += widths[i] + cell_gap;
       }
       rule(c, height, head ? soft : line_colour, head ? 1.0 : 0.6);

@@ -12,15 +12,15 @@
 namespace spindrift {
 namespace {
 
-struct Extent {
+struct RobustBox {
   Eigen::Vector3d low = Eigen::Vector3d::Zero();
   Eigen::Vector3d high = Eigen::Vector3d::Zero();
 };
 
 /// The box of the middle 98 % of about 20,000 points per coordinate: gross outliers do not count.
-Extent robustExtent(const PointCloud& cloud) {
+RobustBox robustExtent(const PointCloud& cloud) {
   const std::size_t step = std::max<std::size_t>(1, cloud.size() / 20000);
-  Extent extent;
+  RobustBox extent;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (std::size_t i = 0; i < cloud.size(); i += step) values.push_back(cloud.points_mm[i][axis]);
@@ -107,7 +107,7 @@ CloudSpacing cloudSpacing(const PointCloud& cloud) {
     spacing.between_profiles_mm = count > 0.0 ? sum / count : typical;
   }
   if (!(spacing.along_profile_mm > 0.0) || !(spacing.between_profiles_mm > 0.0)) {
-    const Extent e = robustExtent(cloud);
+    const RobustBox e = robustExtent(cloud);
     const Eigen::Vector3d size = e.high - e.low;
     const double area = std::max(size.x() * size.y(), 1e-12);
     spacing.along_profile_mm = spacing.between_profiles_mm = std::sqrt(area / static_cast<double>(cloud.size()));
@@ -146,7 +146,7 @@ void requireUsableCloud(const PointCloud& cloud, std::size_t least_points) {
     throw InputError(fmt::format("Point {} of {} is not finite ({}, {}, {}); allowed: finite coordinates in mm.",
                                  infinite - cloud.points_mm.begin() + 1, label(cloud), infinite->x(), infinite->y(),
                                  infinite->z()));
-  const Extent e = robustExtent(cloud);
+  const RobustBox e = robustExtent(cloud);
   const Eigen::Vector3d size = e.high - e.low;
   if (!(std::max(size.x(), size.y()) > 0.0))
     throw InputError(fmt::format("{} has no extent in x and y: all points lie at one place.", label(cloud)));

@@ -12,7 +12,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double steel_per_K = 11.5e-6;
 /// Castings of one pattern differ by this part in what they take up.
 constexpr double spread = 0.05;
 

@@ -15,14 +15,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double steel_per_K = 11.5e-6;
-
-SmallError translation(int axis, double value_mm) {
-  SmallError e;
-  e.translation_mm[axis] = value_mm;
-  return e;
-}
-
 double travelPart(const MachineDescription& machine, int axis, double place_mm) {
   const LinearAxis* a = machine.findAxis(std::string(1, "XYZ"[axis]));
   if (a == nullptr) return 0.0;

@@ -14,14 +14,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double steel_per_K = 11.5e-6;
-
-SmallError translation(int axis, double value_mm) {
-  SmallError e;
-  e.translation_mm[axis] = value_mm;
-  return e;
-}
-
 /// What every function below looks at; copied into closures.
 struct View {
   const VirtualMachine* plant;

@@ -21,6 +21,13 @@ namespace spindrift {
 [[nodiscard]] SmallError throughChain(const MachineDescription& machine, int axis, const SmallError& moved_part,
                                       const PlantQuery& query);
 
+/// A shift along X, Y or Z alone.
+[[nodiscard]] inline SmallError translation(int axis, double value_mm) {
+  SmallError e;
+  e.translation_mm[axis] = value_mm;
+  return e;
+}
+
 /// 0, 1, 2 for an id that ends in x, y, z or a, b, c.
 [[nodiscard]] int lastAxis(const std::string& id);
 

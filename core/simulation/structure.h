@@ -9,6 +9,9 @@
 
 namespace spindrift {
 
+/// Expansion coefficient of the steel of screws, spindles and racks.
+inline constexpr double steel_per_K = 11.5e-6;
+
 /// Rise of each cell of a row at a time.
 [[nodiscard]] std::vector<double> rises(const TemperatureHistory& history, const RodIndex& rod, double time_s);
 

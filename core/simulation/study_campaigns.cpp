@@ -153,9 +153,9 @@ struct Draw {
 };
 
 /// Streams of random numbers of one campaign.
-enum class Stream : std::uint64_t { Machine = 1, Room, Plan, Base, Hidden };
+enum class DrawStream : std::uint64_t { Machine = 1, Room, Plan, Base, Hidden };
 
-Random streamOf(std::uint64_t seed, Stream stream) {
+Random streamOf(std::uint64_t seed, DrawStream stream) {
   Random random(seed * 0x9e3779b97f4a7c15ULL + 0x5100u + static_cast<std::uint64_t>(stream));
   return random.split();
 }
@@ -163,7 +163,7 @@ Random streamOf(std::uint64_t seed, Stream stream) {
 Draw drawCampaign(std::uint64_t seed) {
   Draw draw;
   Scenario& s = draw.scenario;
-  Random random = streamOf(seed, Stream::Machine);
+  Random random = streamOf(seed, DrawStream::Machine);
   draw.family = static_cast<Family>(random.index(4));
   const bool scale_on_z = random.uniform() < 0.5 && draw.family == Family::Horizontal;
   const double overhang_mm = -roundedTo(random.uniform(250.0, 450.0), 10.0);
@@ -173,7 +173,7 @@ Draw drawCampaign(std::uint64_t seed) {
   s.name = s.machine.name;
   s.seed = seed;
 
-  random = streamOf(seed, Stream::Room);
+  random = streamOf(seed, DrawStream::Room);
   s.instrument.sigma_um = random.uniform(0.35, 0.8);
   s.instrument.sigma_urad = random.uniform(1.0, 2.5);
   EnvironmentOptions& room = s.environment;
@@ -197,7 +197,7 @@ Draw drawCampaign(std::uint64_t seed) {
     s.random_programme.stroke_part = 0.35;
   }
 
-  random = streamOf(seed, Stream::Plan);
+  random = streamOf(seed, DrawStream::Plan);
   MeasurementOptions plan;
   for (int i = 0; i < 36; ++i) plan.times_s.push_back(1200.0 * i);
   for (int i = 26; i < 36; ++i) plan.holdout.insert(fmt::format("M{}", i));
@@ -384,8 +384,8 @@ StudyCase studyCase(const StudyOptions& options, std::uint64_t seed) {
   result.ar1 = options.ar1;
   result.scenario = draw.scenario;
   Scenario& s = result.scenario;
-  Random hidden_random = streamOf(seed, Stream::Hidden);
-  Random base_random = streamOf(seed, Stream::Base);
+  Random hidden_random = streamOf(seed, DrawStream::Hidden);
+  Random base_random = streamOf(seed, DrawStream::Base);
   const bool one_base_off = options.conditions.one_base_error != 0.0;
   if (!one_base_off) result.hidden = chooseHidden(draw, options, hidden_random);
   for (std::string& id : result.hidden) {

@@ -14,9 +14,20 @@
 namespace spindrift {
 namespace {
 
-enum class Stream : std::uint64_t { Noise = 101, Tails, Outliers, Sigma, Common, Warm, Clock, Sensors, Gaps, Uneven };
+enum class ConditionStream : std::uint64_t {
+  Noise = 101,
+  Tails,
+  Outliers,
+  Sigma,
+  Common,
+  Warm,
+  Clock,
+  Sensors,
+  Gaps,
+  Uneven
+};
 
-Random streamOf(std::uint64_t seed, Stream stream) {
+Random streamOf(std::uint64_t seed, ConditionStream stream) {
   Random random(seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(stream));
   return random.split();
 }
@@ -30,8 +41,8 @@ double studentT4(Random& random) {
 
 /// Noise of unit variance per row, correlated from one state of a series to the next.
 std::vector<double> unitNoise(const std::vector<Observation>& rows, bool tails, double ar1, std::uint64_t seed) {
-  Random normal = streamOf(seed, Stream::Noise);
-  Random heavy = streamOf(seed, Stream::Tails);
+  Random normal = streamOf(seed, ConditionStream::Noise);
+  Random heavy = streamOf(seed, ConditionStream::Tails);
   std::map<std::pair<std::string, Component>, double> memory;
   std::vector<double> noise(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -45,7 +56,7 @@ std::vector<double> unitNoise(const std::vector<Observation>& rows, bool tails, 
 
 /// A smooth factor over the machine: 1 + 0.15 x a sum of long waves of unit rms over the points.
 std::map<std::string, double> unevenFactors(const std::vector<Observation>& rows, std::uint64_t seed) {
-  Random random = streamOf(seed, Stream::Uneven);
+  Random random = streamOf(seed, ConditionStream::Uneven);
   std::map<std::string, Eigen::Vector3d> places;
   for (const Observation& row : rows) places.emplace(row.point, row.position_mm);
   std::map<std::string, double> wave;
@@ -137,7 +148,7 @@ void cutBeginning(VirtualCampaign& campaign, double warm_s) {
 
 /// Rows that stay.
 std::vector<bool> keptRows(const std::vector<Observation>& rows, std::uint64_t seed) {
-  Random random = streamOf(seed, Stream::Gaps);
+  Random random = streamOf(seed, ConditionStream::Gaps);
   std::vector<std::string> states;
   for (const Observation& row : rows) {
     if (states.empty() || states.back() != row.state) states.push_back(row.state);
@@ -177,7 +188,7 @@ nlohmann::json StudyConditions::json() const {
 
 double warmUp_s(const StudyConditions& conditions, std::uint64_t seed) {
   if (!conditions.warm_start) return 0.0;
-  return 30.0 * std::round(streamOf(seed, Stream::Warm).uniform(7200.0, 10800.0) / 30.0);
+  return 30.0 * std::round(streamOf(seed, ConditionStream::Warm).uniform(7200.0, 10800.0) / 30.0);
 }
 
 void prepare(Scenario& s, const StudyConditions& c, std::uint64_t seed) {
@@ -197,10 +208,10 @@ void prepare(Scenario& s, const StudyConditions& c, std::uint64_t seed) {
     s.random_programme.instrument_on_s = warm_s;
   }
   if (c.clock) {
-    s.measurement->clock_offset_s = std::round(streamOf(seed, Stream::Clock).uniform(-240.0, 240.0));
+    s.measurement->clock_offset_s = std::round(streamOf(seed, ConditionStream::Clock).uniform(-240.0, 240.0));
     for (double& time : s.measurement->times_s) time += 300.0;
   }
-  Random random = streamOf(seed, Stream::Sensors);
+  Random random = streamOf(seed, ConditionStream::Sensors);
   for (SensorOptions& sensor : s.sensors) {
     const double lag_s = random.uniform(300.0, 900.0);
     if (c.coarse_sensors) sensor.resolution_K = 0.5;
@@ -245,8 +256,8 @@ AppliedConditions applyConditions(VirtualCampaign& campaign, const StudyConditio
   }
 
   const std::vector<double> noise = unitNoise(rows, c.tails, ar1, seed);
-  Random outlier_random = streamOf(seed, Stream::Outliers);
-  Random common_random = streamOf(seed, Stream::Common);
+  Random outlier_random = streamOf(seed, ConditionStream::Outliers);
+  Random common_random = streamOf(seed, ConditionStream::Common);
   std::vector<bool> outlier(rows.size(), false);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Observation& row = rows[i];
@@ -264,7 +275,7 @@ AppliedConditions applyConditions(VirtualCampaign& campaign, const StudyConditio
     }
     row.value = std::round(value * 1e4) / 1e4;
   }
-  Random sigma_random = streamOf(seed, Stream::Sigma);
+  Random sigma_random = streamOf(seed, ConditionStream::Sigma);
   for (const Component component : all_components) {
     const double factor = std::exp(sigma_random.uniform(std::log(0.6), std::log(1.6)));
     applied.stated_over_real_sigma[component] = c.sigma ? factor : 1.0;
@@ -292,7 +303,7 @@ AppliedConditions applyConditions(VirtualCampaign& campaign, const StudyConditio
   }
   applied.warm_start_s = warmUp_s(c, seed);
   if (c.warm_start) cutBeginning(campaign, applied.warm_start_s);
-  if (c.clock) applied.clock_offset_s = std::round(streamOf(seed, Stream::Clock).uniform(-240.0, 240.0));
+  if (c.clock) applied.clock_offset_s = std::round(streamOf(seed, ConditionStream::Clock).uniform(-240.0, 240.0));
   return applied;
 }
 

@@ -12,7 +12,7 @@ namespace spindrift {
 namespace {
 
 /// A surface that a touch can meet.
-struct Target {
+struct TouchTarget {
   enum class Kind { Hole, Ball, Plane } kind = Kind::Ball;
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
   double radius_mm = 0.0;
@@ -29,7 +29,7 @@ class Prober {
   void start(double time_s) { clock_s_ = std::max(clock_s_, time_s); }
   std::vector<TouchRow>& rows() { return rows_; }
 
-  void touch(TouchRow row, const Stylus& stylus, const Target& target, const Eigen::Vector3d& start_mm,
+  void touch(TouchRow row, const Stylus& stylus, const TouchTarget& target, const Eigen::Vector3d& start_mm,
              const Eigen::Vector3d& approach) {
     row.time_s = clock_s_;
     clock_s_ += options_.touch_s;
@@ -45,9 +45,9 @@ class Prober {
       const Eigen::Vector3d side = start_mm + deviation - target.centre_mm;
       const Eigen::Vector3d across = side - approach * approach.dot(side);
       double depth = 0.0;  // of the tip's centre along the approach, from the centre of the target
-      if (target.kind == Target::Kind::Plane) {
+      if (target.kind == TouchTarget::Kind::Plane) {
         depth = -stylus.radius_mm;
-      } else if (target.kind == Target::Kind::Ball) {
+      } else if (target.kind == TouchTarget::Kind::Ball) {
         const double reach = target.radius_mm + stylus.radius_mm;
         depth = -std::sqrt(std::max(0.0, reach * reach - across.squaredNorm()));
       } else {
@@ -95,7 +95,7 @@ void probeHoleBar(Prober& prober, const MachineDescription& machine, const Artef
     row.cycle = cycle;
     row.feature = "H" + std::to_string(hole + 1);
     row.c_deg = c_deg;
-    const Target in_hole{Target::Kind::Hole, surface, radius};
+    const TouchTarget in_hole{TouchTarget::Kind::Hole, surface, radius};
     const Eigen::Vector3d start = surface - Eigen::Vector3d(0, 0, 3.0);
     for (const Eigen::Vector3d& n :
          {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(0, -1, 0)}) {
@@ -103,7 +103,7 @@ void probeHoleBar(Prober& prober, const MachineDescription& machine, const Artef
       ++row.touch;
     }
     const Eigen::Vector3d beside = surface + (radius + 2.0 * stylus.radius_mm) * direction;
-    prober.touch(row, stylus, {Target::Kind::Plane, surface, 0.0}, beside, Eigen::Vector3d(0, 0, -1));
+    prober.touch(row, stylus, {TouchTarget::Kind::Plane, surface, 0.0}, beside, Eigen::Vector3d(0, 0, -1));
   };
   for (std::size_t hole = 0; hole < count; ++hole) probe(hole, 0.0);
   probe(reference, 90.0);
@@ -127,7 +127,7 @@ void probeBalls(Prober& prober, const MachineDescription& machine, const Artefac
       TouchRow row;
       row.cycle = cycle;
       row.feature = ball.id;
-      const Target target{Target::Kind::Ball, centre, 0.5 * ball.diameter_mm};
+      const TouchTarget target{TouchTarget::Kind::Ball, centre, 0.5 * ball.diameter_mm};
       for (int axis = 0; axis < 3; ++axis) {
         for (const double sign : {1.0, -1.0}) {
           const Eigen::Vector3d n = sign * Eigen::Vector3d::Unit(axis);

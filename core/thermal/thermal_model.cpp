@@ -82,7 +82,7 @@ class LagRun {
   double s_ = 0.0;
 };
 
-constexpr Eigen::Index rows_at_once = 2048;
+constexpr Eigen::Index rows_at_a_time = 2048;
 
 /// The rows of ThermalModel::features, some at a time from the first to the last, so that a day at ten rows a second
 /// needs no matrix of all of them.
@@ -290,9 +290,9 @@ ThermalPrediction ThermalModel::predict(const TimeSeries& series, std::size_t wh
   const bool uncertain = output.covariance.rows() == rows.width();
   if (uncertain) prediction.sigma.resize(count);
   const auto all = static_cast<Eigen::Index>(count);
-  Eigen::MatrixXd x(std::min(rows_at_once, all), rows.width());
-  for (Eigen::Index first = 0; first < all; first += rows_at_once) {
-    const Eigen::Index now = std::min(rows_at_once, all - first);
+  Eigen::MatrixXd x(std::min(rows_at_a_time, all), rows.width());
+  for (Eigen::Index first = 0; first < all; first += rows_at_a_time) {
+    const Eigen::Index now = std::min(rows_at_a_time, all - first);
     rows.next(first, x.topRows(now));
     const auto part = x.topRows(now);
     Eigen::Map<Eigen::VectorXd>(prediction.value.data() + first, now) =

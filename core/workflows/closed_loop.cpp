@@ -12,6 +12,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/no_number.h"
 #include "core/base/text.h"
 #include "core/connect/append_file.h"
 #include "core/workflows/loop_models.h"
@@ -20,8 +21,6 @@
 
 namespace spindrift {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double secondsOf(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
@@ -131,7 +130,7 @@ class ClosedLoop {
     say("the control was lost: " + why);
     control_.close();
     measuring_ = false;
-    running_ = nan;
+    running_ = no_number;
     save();
     const double until = steadyNow() + plan_.patience_s;
     while (!stopWanted()) {
@@ -166,7 +165,7 @@ class ClosedLoop {
       if (!there) {
         say(state.sentence);
         measuring_ = false;
-        running_ = nan;
+        running_ = no_number;
       }
     }
     if (there) notice(state);
@@ -262,7 +261,7 @@ class ClosedLoop {
     if (!state.ready()) {
       if (ours_) {
         control_.abort();
-        running_ = nan;
+        running_ = no_number;
       } else if (!std::exchange(waiting_, true)) {
         say("a programme that is not the loop's is running: the loop waits for its end");
       }
@@ -274,7 +273,7 @@ class ClosedLoop {
       (void)control_.printed();
       start(cycle_text_, state);
       measuring_ = true;
-      running_ = nan;
+      running_ = no_number;
       return;
     }
     running_ = rpm;
@@ -548,9 +547,9 @@ class ClosedLoop {
   double began_unix_s_ = 0.0;
   ControlState::Condition condition_ = ControlState::Condition::Ready;
   bool hold_ = plan_.hold_when_silent;
-  double running_ = nan;  ///< speed that was commanded last
-  bool ours_ = false;     ///< what runs is the loop's
-  bool waiting_ = false;  ///< for the end of a programme that is not
+  double running_ = no_number;  ///< speed that was commanded last
+  bool ours_ = false;           ///< what runs is the loop's
+  bool waiting_ = false;        ///< for the end of a programme that is not
   bool measuring_ = false;
   bool stopping_ = false;
   double cycle_began_s_ = 0.0;

@@ -63,7 +63,7 @@ class LackingModel final : public ErrorModel {
   Eigen::Vector3d lack_um_;
 };
 
-struct Prepared {
+struct PreparedModel {
   std::shared_ptr<const ErrorModel> everywhere;  ///< what the grid and the tables are made of
   DeviationQuery conditions;
 };
@@ -117,8 +117,8 @@ void finishPoint(CompensationPoint& p) {
   }
 }
 
-Prepared prepareNineParameters(const ObservationSet& observations, const CompensationRequest& request,
-                               CompensationPlan& plan) {
+PreparedModel prepareNineParameters(const ObservationSet& observations, const CompensationRequest& request,
+                                    CompensationPlan& plan) {
   NineParameterOptions options = request.fit;
   options.state = plan.state;
   const NineParameterFit fit = fitNineParameters(observations, options);
@@ -145,7 +145,7 @@ Prepared prepareNineParameters(const ObservationSet& observations, const Compens
   noteLack(plan);
   if (!plan.richer_model.empty()) plan.warnings.push_back("a richer model fits better: " + plan.richer_model);
   addUnseen(fit, *model, orders, plan);
-  Prepared out{model, {}};
+  PreparedModel out{model, {}};
   out.conditions.state = fit.state;
   std::map<std::string, std::size_t> index;
   for (const NineParameterResidual& r : fit.residuals) {
@@ -251,8 +251,8 @@ Eigen::Vector3d lackAtPoints(const std::vector<CompensationPoint>& points) {
   return lack;
 }
 
-Prepared prepareCompleted(const Campaign& campaign, const ObservationSet& observations,
-                          const CompensationRequest& request, CompensationPlan& plan, JobContext& job) {
+PreparedModel prepareCompleted(const Campaign& campaign, const ObservationSet& observations,
+                               const CompensationRequest& request, CompensationPlan& plan, JobContext& job) {
   DiscrepancyOptions options;
   options.accept = request.added;
   options.reject = request.reject;
@@ -265,7 +265,7 @@ Prepared prepareCompleted(const Campaign& campaign, const ObservationSet& observ
   plan.reference = "the start of the log";
   plan.warnings = run.result.warnings;
   plan.model = fmt::format("Simulation completed by {}", joinedList(names));
-  Prepared out;
+  PreparedModel out;
   out.conditions.state = plan.state;
   addMeasuredRows(run, plan, out.conditions);
   plan.lack_of_fit_um = lackAtPoints(plan.points);
@@ -287,7 +287,7 @@ Prepared prepareCompleted(const Campaign& campaign, const ObservationSet& observ
   return out;
 }
 
-void makeFiles(const MachineDescription& machine, const Prepared& prepared, const CompensationRequest& request,
+void makeFiles(const MachineDescription& machine, const PreparedModel& prepared, const CompensationRequest& request,
                CompensationPlan& plan) {
   const ErrorModel& model = *prepared.everywhere;
   const std::string relative = fmt::format("relative to {}, for state {}", plan.reference, plan.state);
@@ -476,9 +476,9 @@ CompensationPlan planCompensation(const Campaign& campaign, const ObservationSet
   }
   if (request.reference_mm) plan.reference_mm = *request.reference_mm;
   JobContext fitting = job.part(0.0, 0.7);
-  const Prepared prepared = request.source == CompensationSource::CompletedModel
-                                ? prepareCompleted(campaign, observations, request, plan, fitting)
-                                : prepareNineParameters(observations, request, plan);
+  const PreparedModel prepared = request.source == CompensationSource::CompletedModel
+                                     ? prepareCompleted(campaign, observations, request, plan, fitting)
+                                     : prepareNineParameters(observations, request, plan);
   addNumbers(plan);
   if (request.source == CompensationSource::CompletedModel) addHeldOut(plan);
   job.throwIfCancelled();

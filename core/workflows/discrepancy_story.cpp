@@ -8,16 +8,16 @@
 #include <limits>
 #include <map>
 
+#include "core/base/no_number.h"
 #include "core/discrepancy/effect_model.h"
 #include "core/math/distributions.h"
+#include "core/workflows/stored_effect.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 double excess(double rms, double noise) {
-  return std::isfinite(rms) ? std::sqrt(std::max(0.0, rms * rms - noise * noise)) : nan;
+  return std::isfinite(rms) ? std::sqrt(std::max(0.0, rms * rms - noise * noise)) : no_number;
 }
 
 /// Constants and rms of one series from its rows with use `fit`.
@@ -53,7 +53,7 @@ void finishSeries(DiscrepancySeries& s, const std::vector<double>& sigma, double
   const double moved = std::max(0.0, simulated_square / count - simulated * simulated / (count * count));
   s.noise = std::hypot(std::sqrt(variance / count), gain_uncertainty * std::sqrt(moved));
   s.rms_before = std::sqrt(before / count);
-  s.rms_after = s.completed.empty() ? nan : std::sqrt(after / count);
+  s.rms_after = s.completed.empty() ? no_number : std::sqrt(after / count);
   s.excess_before = excess(s.rms_before, s.noise);
   s.excess_after = excess(s.rms_after, s.noise);
 }
@@ -110,7 +110,7 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
     s.held_out.push_back(o.use == ObservationUse::Holdout);
     if (!search.effects.empty()) s.explained.push_back(search.effect_part[i] + search.constant[i]);
     sigmas[at->second].push_back(search.readingSigma(o.component, o.sigma));
-    s.remaining.push_back(o.use == ObservationUse::Fit ? search.remaining[i] : nan);
+    s.remaining.push_back(o.use == ObservationUse::Fit ? search.remaining[i] : no_number);
     if (model != nullptr) {
       s.completed.push_back(model->completed[i]);
       s.completed_sigma.push_back(std::hypot(sigma[i], input.simulation_gain_uncertainty * search.simulated[i]));
@@ -126,83 +126,10 @@ std::vector<DiscrepancySeries> seriesOf(const DiscrepancyInput& input, const Dis
   return out;
 }
 
-nlohmann::json gapJson(const DiscrepancyGap& g) {
-  return {{"rms_before_um", jsonNumber(g.rms_before_um)},
-          {"rms_after_um", jsonNumber(g.rms_after_um)},
-          {"noise_um", jsonNumber(g.noise_um)},
-          {"rotations", g.rotations},
-          {"heldout_rms_before_um", jsonNumber(g.heldout_rms_before_um)},
-          {"heldout_rms_after_um", jsonNumber(g.heldout_rms_after_um)}};
-}
-
-double numberOf(const nlohmann::json& json, const char* key) {
-  const auto& v = json.at(key);
-  return v.is_number() ? v.get<double>() : nan;
-}
-
-std::vector<double> numbersOf(const nlohmann::json& json) {
-  std::vector<double> out;
-  for (const auto& v : json) out.push_back(v.is_number() ? v.get<double>() : nan);
-  return out;
-}
-
-DiscrepancyGap gapOf(const nlohmann::json& json) {
-  return {
-      numberOf(json, "rms_before_um"),         numberOf(json, "rms_after_um"),         numberOf(json, "noise_um"),
-      numberOf(json, "heldout_rms_before_um"), numberOf(json, "heldout_rms_after_um"), json.value("rotations", false)};
-}
-
 Component componentOf(const nlohmann::json& json) {
   const auto component = componentFromString(json.get<std::string>());
   if (!component) throw InputError("the stored discrepancy names a component that does not exist; search again.");
   return *component;
-}
-
-nlohmann::json effectJson(const FoundEffect& e) {
-  nlohmann::json parameters = nlohmann::json::array();
-  for (const FittedParameter& p : e.parameters) {
-    parameters.push_back({p.name, jsonNumber(p.value), jsonNumber(p.standard_uncertainty)});
-  }
-  return {{"id", e.id},
-          {"title", e.title},
-          {"physics", e.physics},
-          {"drivers", e.drivers},
-          {"rivals", e.rivals},
-          {"containers", e.containers},
-          {"confidence", jsonNumber(e.confidence)},
-          {"parameters", parameters},
-          {"delta_bic", jsonNumber(e.delta_bic)},
-          {"delta_chi2", jsonNumber(e.delta_chi2)},
-          {"rms_um", jsonNumber(e.rms_um)},
-          {"crossvalidated", {jsonNumber(e.crossvalidated_rms_before_um), jsonNumber(e.crossvalidated_rms_after_um)}},
-          {"heldout", {jsonNumber(e.heldout_rms_before_um), jsonNumber(e.heldout_rms_after_um)}},
-          {"forced", e.forced}};
-}
-
-FoundEffect effectOf(const nlohmann::json& json) {
-  FoundEffect e;
-  e.id = json.at("id").get<std::string>();
-  e.title = json.value("title", "");
-  e.physics = json.at("physics").get<std::string>();
-  e.drivers = json.at("drivers").get<std::string>();
-  e.rivals = json.at("rivals").get<std::vector<std::string>>();
-  e.containers = json.at("containers").get<std::vector<std::string>>();
-  e.confidence = numberOf(json, "confidence");
-  for (const auto& p : json.at("parameters")) {
-    const std::vector<double> numbers = numbersOf({p.at(1), p.at(2)});
-    e.parameters.push_back({p.at(0).get<std::string>(), numbers[0], numbers[1]});
-  }
-  e.delta_bic = numberOf(json, "delta_bic");
-  e.delta_chi2 = numberOf(json, "delta_chi2");
-  e.rms_um = numberOf(json, "rms_um");
-  const std::vector<double> cv = numbersOf(json.at("crossvalidated"));
-  e.crossvalidated_rms_before_um = cv.at(0);
-  e.crossvalidated_rms_after_um = cv.at(1);
-  const std::vector<double> held = numbersOf(json.at("heldout"));
-  e.heldout_rms_before_um = held.at(0);
-  e.heldout_rms_after_um = held.at(1);
-  e.forced = json.at("forced").get<bool>();
-  return e;
 }
 
 nlohmann::json outlierJson(const OutlyingObservation& o) {
@@ -216,13 +143,9 @@ nlohmann::json outlierJson(const OutlyingObservation& o) {
 }
 
 OutlyingObservation outlierOf(const nlohmann::json& json) {
-  return {json.at("row").get<std::size_t>() - 1,
-          numberOf(json, "time_s"),
-          json.at("state").get<std::string>(),
-          json.at("point").get<std::string>(),
-          componentOf(json.at("component")),
-          numberOf(json, "value"),
-          numberOf(json, "deviation")};
+  return {json.at("row").get<std::size_t>() - 1, storedNumber(json, "time_s"),      json.at("state").get<std::string>(),
+          json.at("point").get<std::string>(),   componentOf(json.at("component")), storedNumber(json, "value"),
+          storedNumber(json, "deviation")};
 }
 
 nlohmann::json seriesJson(const DiscrepancySeries& s) {
@@ -252,24 +175,24 @@ DiscrepancySeries seriesOf(const nlohmann::json& json) {
   DiscrepancySeries s;
   s.point = json.at("point").get<std::string>();
   s.component = componentOf(json.at("component"));
-  const std::vector<double> position = numbersOf(json.at("position_mm"));
+  const std::vector<double> position = storedNumbers(json.at("position_mm"));
   s.position_mm = {position.at(0), position.at(1), position.at(2)};
-  s.time_s = numbersOf(json.at("time_s"));
-  s.value = numbersOf(json.at("value"));
-  s.simulated = numbersOf(json.at("simulated"));
-  s.completed = numbersOf(json.at("completed"));
+  s.time_s = storedNumbers(json.at("time_s"));
+  s.value = storedNumbers(json.at("value"));
+  s.simulated = storedNumbers(json.at("simulated"));
+  s.completed = storedNumbers(json.at("completed"));
   // Stories of earlier versions do not hold it.
-  s.completed_sigma = json.contains("completed_sigma") ? numbersOf(json.at("completed_sigma"))
-                                                       : std::vector<double>(s.completed.size(), nan);
-  s.explained = numbersOf(json.at("explained"));
-  if (json.contains("remaining")) s.remaining = numbersOf(json.at("remaining"));
+  s.completed_sigma = json.contains("completed_sigma") ? storedNumbers(json.at("completed_sigma"))
+                                                       : std::vector<double>(s.completed.size(), no_number);
+  s.explained = storedNumbers(json.at("explained"));
+  if (json.contains("remaining")) s.remaining = storedNumbers(json.at("remaining"));
   s.held_out = json.at("held_out").get<std::vector<bool>>();
-  const std::vector<double> constants = numbersOf(json.at("constants"));
+  const std::vector<double> constants = storedNumbers(json.at("constants"));
   s.constant_before = constants.at(0);
   s.constant_after = constants.at(1);
-  s.noise = numberOf(json, "noise");
+  s.noise = storedNumber(json, "noise");
   s.significant = json.at("significant").get<bool>();
-  const std::vector<double> rms = numbersOf(json.at("rms"));
+  const std::vector<double> rms = storedNumbers(json.at("rms"));
   s.rms_before = rms.at(0);
   s.rms_after = rms.at(1);
   s.excess_before = excess(s.rms_before, s.noise);
@@ -290,10 +213,10 @@ void parsePlaces(const nlohmann::json& result, DiscrepancyStory& story) {
     DisagreementPlace place;
     place.component = componentOf(p.at("component"));
     place.points = p.at("points").get<std::vector<std::string>>();
-    place.from_s = numberOf(p, "from_s");
-    place.to_s = numberOf(p, "to_s");
-    place.excess_um = numberOf(p, "excess_um");
-    place.p_value = numberOf(p, "p_value");
+    place.from_s = storedNumber(p, "from_s");
+    place.to_s = storedNumber(p, "to_s");
+    place.excess_um = storedNumber(p, "excess_um");
+    place.p_value = storedNumber(p, "p_value");
     if (p.at("condition").is_string()) place.condition = p.at("condition").get<std::string>();
     story.where.push_back(std::move(place));
   }
@@ -302,21 +225,21 @@ void parsePlaces(const nlohmann::json& result, DiscrepancyStory& story) {
 MeasurementSuggestion parseSuggestion(const nlohmann::json& json) {
   MeasurementSuggestion s;
   s.points = json.at("points").get<std::vector<std::string>>();
-  s.times_s = numbersOf(json.at("times_s"));
+  s.times_s = storedNumbers(json.at("times_s"));
   s.conditions = json.at("conditions").get<std::string>();
   s.separates = json.at("separates").get<std::string>();
-  s.expected_delta_bic = numberOf(json, "expected_delta_bic");
+  s.expected_delta_bic = storedNumber(json, "expected_delta_bic");
   // Stories of older versions have no programme.
   if (!json.contains("programme")) return s;
-  s.c_deg = numbersOf(json.at("c_deg"));
+  s.c_deg = storedNumbers(json.at("c_deg"));
   for (const auto& p : json.at("programme")) {
     ProgrammeStep step;
-    step.from_s = numberOf(p, "from_s");
-    step.to_s = numberOf(p, "to_s");
+    step.from_s = storedNumber(p, "from_s");
+    step.to_s = storedNumber(p, "to_s");
     step.action = p.at("action").get<std::string>();
     step.as_logged = p.at("as_logged").get<bool>();
-    step.spindle_rpm = numberOf(p, "spindle_rpm");
-    step.c_rpm = numberOf(p, "speed_c_rpm");
+    step.spindle_rpm = storedNumber(p, "spindle_rpm");
+    step.c_rpm = storedNumber(p, "speed_c_rpm");
     step.coolant = p.at("coolant").get<bool>();
     for (std::size_t a = 0; a < 3; ++a) {
       step.feed_mm_min[a] = p.at("feed_mm_min").at(a).get<double>();
@@ -325,10 +248,10 @@ MeasurementSuggestion parseSuggestion(const nlohmann::json& json) {
     s.programme.push_back(std::move(step));
   }
   s.restart_instrument = json.at("restart_instrument").get<bool>();
-  s.expected_information_nats = numberOf(json, "expected_information_nats");
-  s.present_entropy_nats = numberOf(json, "present_entropy_nats");
-  s.probability_alone_now = numberOf(json, "probability_alone_now");
-  s.probability_alone_expected = numberOf(json, "probability_alone_expected");
+  s.expected_information_nats = storedNumber(json, "expected_information_nats");
+  s.present_entropy_nats = storedNumber(json, "present_entropy_nats");
+  s.probability_alone_now = storedNumber(json, "probability_alone_now");
+  s.probability_alone_expected = storedNumber(json, "probability_alone_expected");
   return s;
 }
 
@@ -342,33 +265,34 @@ void parseRest(const nlohmann::json& result, DiscrepancyStory& story) {
   }
   if (result.at("leftover").is_string()) story.leftover = result.at("leftover").get<std::string>();
   for (const auto& s : result.at("steps")) {
-    story.steps.push_back({s.at("id").get<std::string>(), s.at("accepted").get<bool>(), numberOf(s, "delta_bic"),
-                           numberOf(s, "delta_chi2"), s.at("reason").get<std::string>()});
+    story.steps.push_back({s.at("id").get<std::string>(), s.at("accepted").get<bool>(), storedNumber(s, "delta_bic"),
+                           storedNumber(s, "delta_chi2"), s.at("reason").get<std::string>()});
   }
   story.warnings = result.at("warnings").get<std::vector<std::string>>();
   for (const auto& [name, n] : result.at("noise").items()) {
-    story.noise.push_back({componentOf(name), numberOf(n, "scale"), numberOf(n, "scale_uncertainty"),
-                           numberOf(n, "common_um"), numberOf(n, "correlated_part"),
-                           numberOf(n, "correlation_time_s")});
+    story.noise.push_back({componentOf(name), storedNumber(n, "scale"), storedNumber(n, "scale_uncertainty"),
+                           storedNumber(n, "common_um"), storedNumber(n, "correlated_part"),
+                           storedNumber(n, "correlation_time_s")});
   }
   for (const auto& s : result.at("state_shifts")) {
-    story.shifts.push_back({s.at("state").get<std::string>(), componentOf(s.at("component")), numberOf(s, "time_s"),
-                            numberOf(s, "shift_um"), numberOf(s, "standard_uncertainty")});
+    story.shifts.push_back({s.at("state").get<std::string>(), componentOf(s.at("component")), storedNumber(s, "time_s"),
+                            storedNumber(s, "shift_um"), storedNumber(s, "standard_uncertainty")});
   }
   for (const auto& c : result.at("candidates")) {
-    story.candidates.push_back({c.at("id").get<std::string>(), numberOf(c, "probability"), c.value("rejected", false)});
+    story.candidates.push_back(
+        {c.at("id").get<std::string>(), storedNumber(c, "probability"), c.value("rejected", false)});
   }
   for (const auto& [name, r] : result.at("remainder").items()) {
-    story.remainder.push_back({componentOf(name), numberOf(r, "rms_um"), numberOf(r, "evidence")});
+    story.remainder.push_back({componentOf(name), storedNumber(r, "rms_um"), storedNumber(r, "evidence")});
   }
   // The keys of an object are in the order of the alphabet.
   const auto by_component = [](const auto& a, const auto& b) { return a.component < b.component; };
   std::sort(story.noise.begin(), story.noise.end(), by_component);
   std::sort(story.remainder.begin(), story.remainder.end(), by_component);
-  if (result.at("tail_dof").is_number()) story.tail_dof = numberOf(result, "tail_dof");
-  story.clock_offset_s = numberOf(result, "clock_offset_s");
+  if (result.at("tail_dof").is_number()) story.tail_dof = storedNumber(result, "tail_dof");
+  story.clock_offset_s = storedNumber(result, "clock_offset_s");
   if (result.at("clock_offset_uncertainty_s").is_number()) {
-    story.clock_offset_uncertainty_s = numberOf(result, "clock_offset_uncertainty_s");
+    story.clock_offset_uncertainty_s = storedNumber(result, "clock_offset_uncertainty_s");
   }
 }
 
@@ -433,7 +357,7 @@ DiscrepancyReportData DiscrepancyStory::reportData() const {
 
 nlohmann::json DiscrepancyStory::json() const {
   nlohmann::json found = nlohmann::json::array();
-  for (const FoundEffect& e : effects) found.push_back(effectJson(e));
+  for (const FoundEffect& e : effects) found.push_back(storedEffect(e));
   nlohmann::json lines = nlohmann::json::array();
   for (const DiscrepancySeries& s : series) lines.push_back(seriesJson(s));
   nlohmann::json outlying = nlohmann::json::array();
@@ -442,8 +366,8 @@ nlohmann::json DiscrepancyStory::json() const {
           {"version", 1},
           {"added", added},
           {"effects", found},
-          {"gap", gapJson(gap)},
-          {"proposed", proposed ? gapJson(*proposed) : nlohmann::json()},
+          {"gap", storedGap(gap)},
+          {"proposed", proposed ? storedGap(*proposed) : nlohmann::json()},
           {"has_holdout", has_holdout},
           {"outliers", outlying},
           {"series", lines},
@@ -463,9 +387,9 @@ DiscrepancyStory DiscrepancyStory::parse(const nlohmann::json& json) {
     }
     parseRest(story.result, story);
     story.added = json.at("added").get<std::vector<std::string>>();
-    for (const auto& e : json.at("effects")) story.effects.push_back(effectOf(e));
-    story.gap = gapOf(json.at("gap"));
-    if (json.at("proposed").is_object()) story.proposed = gapOf(json.at("proposed"));
+    for (const auto& e : json.at("effects")) story.effects.push_back(effectOfStored(e));
+    story.gap = gapOfStored(json.at("gap"));
+    if (json.at("proposed").is_object()) story.proposed = gapOfStored(json.at("proposed"));
     story.has_holdout = json.at("has_holdout").get<bool>();
     // Stories of earlier versions do not hold them.
     if (json.contains("outliers")) {
@@ -521,8 +445,8 @@ DiscrepancyStory tellDiscrepancy(const Campaign& campaign, ObservationSet observ
   }
   story.gap = model != nullptr ? model->gap : found.gap;
   if (model == nullptr) {
-    story.gap.rms_after_um = nan;
-    story.gap.heldout_rms_after_um = nan;
+    story.gap.rms_after_um = no_number;
+    story.gap.heldout_rms_after_um = no_number;
   }
   if (proposes) story.proposed = found.gap;
   story.series = seriesOf(run.input, found, model);

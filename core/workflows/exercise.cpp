@@ -44,7 +44,7 @@ std::vector<std::string> driverTexts(const Effect& effect) {
 }
 
 /// Rows of a signal of one cause, grouped by series: a constant of each is free.
-struct Signal {
+struct ExerciseSignal {
   std::vector<const Observation*> rows;
   std::vector<std::size_t> series;
   std::size_t series_count = 0;
@@ -66,8 +66,8 @@ struct Signal {
 };
 
 /// Rows in which the truth is a number, of displacements and turns scaled by their sigma.
-Signal signalOf(const std::vector<Observation>& rows, const std::vector<double>& values) {
-  Signal out;
+ExerciseSignal signalOf(const std::vector<Observation>& rows, const std::vector<double>& values) {
+  ExerciseSignal out;
   std::map<std::pair<std::string, Component>, std::size_t> series;
   std::vector<double> kept;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -84,7 +84,8 @@ Signal signalOf(const std::vector<Observation>& rows, const std::vector<double>&
 }
 
 /// Largest part of the signal that one way of driving the effect explains, over time constants.
-double explained(const Signal& signal, const Effect& effect, const EffectVariant& variant, const DriverTable& drivers) {
+double explained(const ExerciseSignal& signal, const Effect& effect, const EffectVariant& variant,
+                 const DriverTable& drivers) {
   std::vector<double> times;
   for (const Observation* row : signal.rows) times.push_back(row->time_s);
   std::sort(times.begin(), times.end());
@@ -120,7 +121,8 @@ double explained(const Signal& signal, const Effect& effect, const EffectVariant
   return best;
 }
 
-std::vector<std::string> acceptedDrivers(const Signal& signal, const Effect& effect, const DriverTable& drivers) {
+std::vector<std::string> acceptedDrivers(const ExerciseSignal& signal, const Effect& effect,
+                                         const DriverTable& drivers) {
   std::map<std::string, double> quality;
   double best = 0.0;
   for (const EffectVariant& variant : effect.variants) {

@@ -9,7 +9,7 @@
 namespace spindrift {
 namespace {
 
-CheckResult resultOf(const ResolutionCheck& check) {
+CheckResult checkResultOf(const ResolutionCheck& check) {
   CheckResult result;
   result.passed = check.passed;
   nlohmann::json axes = nlohmann::json::array();
@@ -73,11 +73,11 @@ CheckResult checkWarmUp(const ObservationSet& observations, const std::string& p
 }
 
 CheckResult checkJogs(const ObservationSet& observations, const MachineDescription& machine) {
-  return resultOf(checkAgainstResolution(observations, machine, 1.0));
+  return checkResultOf(checkAgainstResolution(observations, machine, 1.0));
 }
 
 CheckResult checkRepeatability(const ObservationSet& observations, const MachineDescription& machine) {
-  return resultOf(checkAgainstResolution(observations, machine, 0.5));
+  return checkResultOf(checkAgainstResolution(observations, machine, 0.5));
 }
 
 }  // namespace spindrift

@@ -10,12 +10,12 @@
 
 #include "core/base/csv.h"
 #include "core/base/error.h"
+#include "core/base/no_number.h"
 #include "core/thermal/response_fit.h"
 
 namespace spindrift {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double memory = 0.7;  // of squares of what a prediction was off: about the last three cycles
 
 std::string nameOf(const LoopTouch& touch) {
@@ -177,7 +177,7 @@ void LoopModels::add(const std::filesystem::path& model_file) {
 
 void LoopModels::identify(int axis, const JobContext& job) {
   TimeSeries known = series();
-  std::vector<double> measured(times_.size(), nan);
+  std::vector<double> measured(times_.size(), no_number);
   for (const Observation& o : observations_.rows) {
     if (axisIndex(o.component) != axis ||
         first_touch_[static_cast<std::size_t>(axis)] != o.point + " " + std::string(toString(o.component)))
@@ -243,7 +243,7 @@ Eigen::Vector3d LoopModels::predicted(LoopStage stage) const {
 }
 
 Eigen::Vector3d LoopModels::sigma(LoopStage stage) const {
-  Eigen::Vector3d out = Eigen::Vector3d::Constant(nan);
+  Eigen::Vector3d out = Eigen::Vector3d::Constant(no_number);
   if (!begun() || stage == LoopStage::None) return out;
   for (int axis = 0; axis < 3; ++axis) {
     const Trust& trust = trusted_[static_cast<std::size_t>(axis)];

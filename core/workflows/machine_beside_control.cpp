@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/random.h"
+#include "core/base/steady_seconds.h"
 #include "core/base/text.h"
 #include "core/connect/append_file.h"
 #include "core/connect/hal_commands.h"
@@ -21,10 +22,6 @@ namespace spindrift {
 namespace {
 
 constexpr double row_s = 30.0;
-
-double steadyNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 struct Sensor {
   SensorOptions options;
@@ -61,16 +58,16 @@ class MachineBesideControl {
   }
 
   void run(const std::function<bool()>& ended) {
-    const double began = steadyNow();
+    const double began = steadySeconds();
     double next_try = 0.0;
     while (!ended()) {
-      const double now_s = (steadyNow() - began) * options_.factor;
+      const double now_s = (steadySeconds() - began) * options_.factor;
       if (now_s > options_.duration_s) return;
-      if (!hal_.started() && steadyNow() >= next_try) {
+      if (!hal_.started() && steadySeconds() >= next_try) {
         try {
           hal_.start();
         } catch (const ConnectionError&) {
-          next_try = steadyNow() + 0.2;
+          next_try = steadySeconds() + 0.2;
         }
       }
       Driven driven = last_;
@@ -130,9 +127,9 @@ class MachineBesideControl {
     // beside the control that was started in its place. How long a cycle takes is never the same for long.
     if (values.back() != cycle_time_) {
       cycle_time_ = values.back();
-      changed_s_ = steadyNow();
-    } else if (steadyNow() > changed_s_ + 1.5) {
-      changed_s_ = steadyNow();
+      changed_s_ = steadySeconds();
+    } else if (steadySeconds() > changed_s_ + 1.5) {
+      changed_s_ = steadySeconds();
       hal_.close();
       throw ConnectionError("The servo cycle stands still.");
     }

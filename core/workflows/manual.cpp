@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 42> parameters{
     "EME_um_per_m", "hX_urad",  "hY_urad",  "hZ_urad",     "aX_urad",          "aY_urad",          "aZ_urad",
     "dX_um",        "dY_um",    "dZ_um",    "gX_um_per_m", "gY_um_per_m",      "gZ_um_per_m",      "EXY_um"};
 
-void addParameters(Report& report) {
+void addParameterMeanings(Report& report) {
   report.section("Error parameters");
   report.paragraph(
       "As they stand in files; on screen and in reports units are written µm, µrad and µm/m. Symbols of the form E, "
@@ -68,7 +68,7 @@ Report manual(std::string_view commands) {
   Report report("Spindrift: the manual", "Version " SPINDRIFT_VERSION);
   report.withoutSignatures();
   for (const std::string& chapter : manualChapters()) addMarkdown(report, chapter);
-  addParameters(report);
+  addParameterMeanings(report);
   addEffects(report);
   addMarkdown(report, commands);
   return report;

@@ -19,12 +19,6 @@
 namespace spindrift {
 namespace {
 
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 std::string clock(double seconds) {
   const auto total = static_cast<long>(std::llround(std::abs(seconds)));
   if (total >= 3600) return fmt::format("{}:{:02} h", total / 3600, total / 60 % 60);
@@ -78,8 +72,8 @@ int touchesOf(const MachineDescription& machine, const Artefact& artefact) {
   }
 }
 
-void addImages(MeasurementPlan& plan, const PlannedState& state, const MachinePoint& point,
-               const PlanOptions& options) {
+void addPlannedImages(MeasurementPlan& plan, const PlannedState& state, const MachinePoint& point,
+                      const PlanOptions& options) {
   const auto add = [&](const char* role, int index, const Eigen::Vector3d& offset, double spindle) {
     PlannedItem item;
     item.id = fmt::format("{}_{}_{}_{}", state.name, point.id, role, index);
@@ -169,10 +163,10 @@ const PlannedItem* MeasurementPlan::find(const std::string& id) const {
 }
 
 const PlannedItem* MeasurementPlan::ofName(const std::string& file_name) const {
-  const std::string name = lowered(file_name);
+  const std::string name = lowerCase(file_name);
   const PlannedItem* best = nullptr;
   for (const PlannedItem& item : items) {
-    const std::string id = lowered(item.id);
+    const std::string id = lowerCase(item.id);
     const std::size_t at = name.find(id);
     if (at == std::string::npos) continue;
     // "M1_F1_focus_1" must not be found in "M1_F1_focus_12".
@@ -214,7 +208,7 @@ MeasurementPlan makePlan(const MachineDescription& machine, const PlanOptions& o
       for (const Artefact& artefact : machine.artefacts) addOf(artefact.id, 0.0, touchesOf(machine, artefact));
     }
     for (const MachinePoint& point : machine.points) {
-      if (options.kind == PlannedKind::Image && point.kind == "fiducial") addImages(plan, state, point, options);
+      if (options.kind == PlannedKind::Image && point.kind == "fiducial") addPlannedImages(plan, state, point, options);
       if (options.kind == PlannedKind::Scan && point.kind == "surface") addOf(point.id, point.position_mm.y(), 0);
     }
     plan.states.push_back(std::move(state));

@@ -13,6 +13,7 @@
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
+#include "core/base/units.h"
 #include "core/imaging/fiducial_captures.h"
 #include "core/probing/touch.h"
 #include "core/reporting/contact_sheet.h"
@@ -26,7 +27,6 @@ namespace spindrift {
 namespace {
 
 constexpr std::size_t most_thumbnails = 24;
-constexpr double seconds_per_hour = 3600.0;
 
 double numberOf(const nlohmann::json& json, const char* key) {
   const auto at = json.find(key);

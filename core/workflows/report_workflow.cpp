@@ -28,7 +28,7 @@ bool spreadsOverTheTable(const ObservationSet& observations) {
 }
 
 /// The table of the nine parameters: value, uncertainty, meaning.
-void addParameters(Report& document, const NineParameterFit& fit, const std::string& state) {
+void addFittedParameters(Report& document, const NineParameterFit& fit, const std::string& state) {
   std::vector<ReportRow> rows;
   const nlohmann::json json = toJson(fit);
   for (const auto& [name, parameter] : json.at("parameters").items()) {
@@ -51,7 +51,7 @@ void addState(Report& document, const Campaign& campaign, const ObservationSet& 
   options.fit.state = state;
   document.subsection(fmt::format("State {}", state));
   try {
-    addParameters(document, fitNineParameters(observations, options.fit), state);
+    addFittedParameters(document, fitNineParameters(observations, options.fit), state);
     std::vector<Drawing> maps;
     std::string subtitle;
     for (const Component component : {Component::EX, Component::EY, Component::EZ}) {

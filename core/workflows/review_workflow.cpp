@@ -10,13 +10,12 @@
 #include <tuple>
 
 #include "core/base/error.h"
+#include "core/base/no_number.h"
 #include "core/machine/interpolated_field.h"
 #include "core/workflows/fit_campaign.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 using PlacedValues = std::map<std::pair<std::string, Component>, ReviewValue>;
 
@@ -112,7 +111,7 @@ void applyModel(ReviewPicture& picture, const NineParameterFit& fit, bool residu
     for (auto& [component, v] : p.components) {
       const PredictedComponent predicted = model.predict(here, component);
       if (!std::isfinite(predicted.sigma)) {
-        v = {nan, nan};
+        v = {no_number, no_number};
       } else if (residual) {
         v.value -= predicted.value;  // sigma stays that of the measurement
       } else {
@@ -169,7 +168,7 @@ void showPrediction(ReviewPicture& picture, const ObservationSet& observations, 
   for (ReviewPoint& p : picture.points) {
     for (auto& [component, v] : p.components) {
       const auto here = now.find({p.id, component});
-      ReviewValue model = here == now.end() ? ReviewValue{nan, nan} : here->second;
+      ReviewValue model = here == now.end() ? ReviewValue{no_number, no_number} : here->second;
       if (const auto before = cold.find({p.id, component}); before != cold.end()) {
         // What a gain of the model is uncertain by moves both alike: the change is as uncertain as the larger part.
         model = {model.value - before->second.value, std::max(model.sigma, before->second.sigma)};
@@ -246,8 +245,8 @@ ReviewPrediction reviewCompleted(const DiscrepancyStory& story, const Observatio
       known[{s.point, s.component, s.time_s[i]}] = {s.completed[i], s.completed_sigma[i]};
   for (const Observation& o : observations.rows) {
     const auto at = known.find({o.point, o.component, o.time_s});
-    out.value.push_back(at == known.end() ? nan : at->second.value);
-    out.sigma.push_back(at == known.end() ? nan : at->second.sigma);
+    out.value.push_back(at == known.end() ? no_number : at->second.value);
+    out.sigma.push_back(at == known.end() ? no_number : at->second.sigma);
   }
   return out;
 }

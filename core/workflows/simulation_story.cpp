@@ -10,56 +10,13 @@
 #include "core/base/json_reader.h"
 #include "core/reporting/simulation_update_report.h"
 #include "core/workflows/fit_campaign.h"
+#include "core/workflows/stored_effect.h"
 
 namespace spindrift {
 namespace {
 
-double numberOf(const nlohmann::json& json) {
+double numberAt(const nlohmann::json& json) {
   return json.is_number() ? json.get<double>() : std::nan("");
-}
-
-nlohmann::json effectJson(const FoundEffect& e) {
-  nlohmann::json parameters = nlohmann::json::array();
-  for (const FittedParameter& p : e.parameters)
-    parameters.push_back({p.name, jsonNumber(p.value), jsonNumber(p.standard_uncertainty)});
-  return {{"id", e.id},
-          {"title", e.title},
-          {"physics", e.physics},
-          {"drivers", e.drivers},
-          {"rivals", e.rivals},
-          {"confidence", jsonNumber(e.confidence)},
-          {"parameters", parameters}};
-}
-
-FoundEffect effectOf(const nlohmann::json& json) {
-  FoundEffect e;
-  e.id = json.at("id").get<std::string>();
-  e.title = json.at("title").get<std::string>();
-  e.physics = json.at("physics").get<std::string>();
-  e.drivers = json.at("drivers").get<std::string>();
-  e.rivals = json.at("rivals").get<std::vector<std::string>>();
-  e.confidence = numberOf(json.at("confidence"));
-  for (const nlohmann::json& p : json.at("parameters"))
-    e.parameters.push_back({p.at(0).get<std::string>(), numberOf(p.at(1)), numberOf(p.at(2))});
-  return e;
-}
-
-nlohmann::json gapJson(const DiscrepancyGap& gap) {
-  return {{"rms_before_um", jsonNumber(gap.rms_before_um)},
-          {"rms_after_um", jsonNumber(gap.rms_after_um)},
-          {"noise_um", jsonNumber(gap.noise_um)},
-          {"heldout_rms_before_um", jsonNumber(gap.heldout_rms_before_um)},
-          {"heldout_rms_after_um", jsonNumber(gap.heldout_rms_after_um)},
-          {"rotations", gap.rotations}};
-}
-
-DiscrepancyGap gapOf(const nlohmann::json& json) {
-  return {numberOf(json.at("rms_before_um")),
-          numberOf(json.at("rms_after_um")),
-          numberOf(json.at("noise_um")),
-          numberOf(json.at("heldout_rms_before_um")),
-          numberOf(json.at("heldout_rms_after_um")),
-          json.at("rotations").get<bool>()};
 }
 
 /// Row after row of one point and component.
@@ -82,21 +39,21 @@ std::vector<DiscrepancyReportRow> rowsOf(const nlohmann::json& json) {
     const auto component = componentFromString(s.at("component").get<std::string>());
     if (!component) throw InputError("the stored update of the simulation names a component that does not exist.");
     for (const nlohmann::json& r : s.at("rows")) {
-      out.push_back({numberOf(r.at(0)),
+      out.push_back({numberAt(r.at(0)),
                      s.at("point").get<std::string>(),
                      *component,
-                     {numberOf(r.at(1)), numberOf(r.at(2)), numberOf(r.at(3))},
-                     numberOf(r.at(4)),
-                     numberOf(r.at(6)),
-                     numberOf(r.at(7)),
+                     {numberAt(r.at(1)), numberAt(r.at(2)), numberAt(r.at(3))},
+                     numberAt(r.at(4)),
+                     numberAt(r.at(6)),
+                     numberAt(r.at(7)),
                      r.at(8).get<bool>(),
-                     numberOf(r.at(5))});
+                     numberAt(r.at(5))});
     }
   }
   return out;
 }
 
-DiscrepancyVerdict verdictOf(const nlohmann::json& json) {
+DiscrepancyVerdict storedVerdict(const nlohmann::json& json) {
   for (const DiscrepancyVerdict v : {DiscrepancyVerdict::Named, DiscrepancyVerdict::Ambiguous,
                                      DiscrepancyVerdict::Unknown, DiscrepancyVerdict::None}) {
     if (toString(v) == json.get<std::string>()) return v;
@@ -125,13 +82,13 @@ SimulationStory SimulationStory::of(const DiscrepancyRun& run) {
 
 nlohmann::json SimulationStory::json() const {
   nlohmann::json found = nlohmann::json::array();
-  for (const FoundEffect& e : effects) found.push_back(effectJson(e));
+  for (const FoundEffect& e : effects) found.push_back(storedEffect(e));
   return {{"format", "spindrift-simulation-story"},
           {"version", 1},
           {"verdict", toString(verdict)},
           {"message", message},
           {"effects", found},
-          {"gap", gapJson(gap)},
+          {"gap", storedGap(gap)},
           {"warnings", warnings},
           {"mechanisms", mechanisms},
           {"twins", twins},
@@ -146,10 +103,10 @@ SimulationStory SimulationStory::parse(const nlohmann::json& json) {
       throw InputError("the stored search with the simulator is of another version; search again.");
     }
     SimulationStory story;
-    story.verdict = verdictOf(json.at("verdict"));
+    story.verdict = storedVerdict(json.at("verdict"));
     story.message = json.at("message").get<std::string>();
-    for (const nlohmann::json& e : json.at("effects")) story.effects.push_back(effectOf(e));
-    story.gap = gapOf(json.at("gap"));
+    for (const nlohmann::json& e : json.at("effects")) story.effects.push_back(effectOfStored(e));
+    story.gap = gapOfStored(json.at("gap"));
     story.warnings = json.at("warnings").get<std::vector<std::string>>();
     // Searches stored by earlier versions tell neither.
     story.mechanisms = json.value("mechanisms", story.mechanisms);

@@ -84,7 +84,7 @@ Iso230Result evaluateIso230Test(const Iso230Request& request, const JobContext& 
 
 namespace {
 
-TimeSeries rowsWithin(const TimeSeries& series, const TimeRange& range) {
+TimeSeries seriesWithin(const TimeSeries& series, const TimeRange& range) {
   TimeSeries part;
   part.file = series.file;
   part.notes = series.notes;
@@ -111,7 +111,7 @@ TimeSeries rowsWithin(const TimeSeries& series, const TimeRange& range) {
 }  // namespace
 
 Iso230Result evaluateIso230Test(const TimeSeries& whole, const Iso230Request& request) {
-  const TimeSeries series = request.range ? rowsWithin(whole, *request.range) : whole;
+  const TimeSeries series = request.range ? seriesWithin(whole, *request.range) : whole;
   Iso230Result result;
   result.test = request.test;
   result.notes = series.notes;

@@ -2,19 +2,10 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/base/text.h"
 #include "core/workflows/incoming.h"
 
 namespace spindrift {
-namespace {
-
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-}  // namespace
-
 TouchFeed::TouchFeed(const MachineDescription& machine, const TouchList* there, std::optional<JsonNode> pattern)
     : machine_(machine), pattern_(std::move(pattern)), live_(machine) {
   if (there != nullptr) live_.seed(*there);
@@ -25,7 +16,7 @@ const char* TouchFeed::header() {
 }
 
 std::size_t TouchFeed::update(const std::string& name, std::string_view text, double first_s) {
-  const bool csv = lowered(std::filesystem::path(name).extension().string()) == ".csv";
+  const bool csv = lowerCase(std::filesystem::path(name).extension().string()) == ".csv";
   auto at = sources_.find(name);
   if (at == sources_.end()) {
     at = sources_.emplace(name, Source{TouchStream(name, machine_, csv ? std::nullopt : pattern_), csv ? 0.0 : first_s})

@@ -5,6 +5,6 @@
 
 int main(int argc, char** argv) {
   std::setlocale(LC_ALL, "C");
-  testing::InitGoogleTest(&argc, argv);
+  ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

@@ -11,7 +11,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string complaint(const std::string& text, const std::function<void(const JsonNode&)>& use = {}) {
+std::string jsonComplaint(const std::string& text, const std::function<void(const JsonNode&)>& use = {}) {
   try {
     const JsonNode node = JsonNode::parse(text, "machine.json");
     if (use) use(node);
@@ -22,40 +22,42 @@ std::string complaint(const std::string& text, const std::function<void(const Js
 }
 
 TEST(JsonReader, NamesThePathAndTheValue) {
-  EXPECT_THAT(complaint(R"({"axes":[{"name":"X"},{"name":5}]})",
-                        [](const JsonNode& n) { (void)n.at("axes").items()[1].at("name").string(); }),
+  EXPECT_THAT(jsonComplaint(R"({"axes":[{"name":"X"},{"name":5}]})",
+                            [](const JsonNode& n) { (void)n.at("axes").items()[1].at("name").string(); }),
               AllOf(HasSubstr("machine.json, $.axes[1].name"), HasSubstr("5"), HasSubstr("allowed: a text")));
-  EXPECT_THAT(complaint("{}", [](const JsonNode& n) { (void)n.at("chain"); }), HasSubstr("key \"chain\" is missing"));
-  EXPECT_THAT(complaint(R"({"v":[1,2]})", [](const JsonNode& n) { (void)n.at("v").vector3(); }),
+  EXPECT_THAT(jsonComplaint("{}", [](const JsonNode& n) { (void)n.at("chain"); }),
+              HasSubstr("key \"chain\" is missing"));
+  EXPECT_THAT(jsonComplaint(R"({"v":[1,2]})", [](const JsonNode& n) { (void)n.at("v").vector3(); }),
               HasSubstr("three numbers"));
-  EXPECT_THAT(complaint(R"({"n":1.5})", [](const JsonNode& n) { (void)n.at("n").integer(); }),
+  EXPECT_THAT(jsonComplaint(R"({"n":1.5})", [](const JsonNode& n) { (void)n.at("n").integer(); }),
               HasSubstr("whole number"));
-  EXPECT_THAT(complaint(R"({"n":-1})", [](const JsonNode& n) { (void)n.at("n").positiveNumber(); }), HasSubstr("-1"));
+  EXPECT_THAT(jsonComplaint(R"({"n":-1})", [](const JsonNode& n) { (void)n.at("n").positiveNumber(); }),
+              HasSubstr("-1"));
 }
 
 TEST(JsonReader, PointsAtTheLineOfASyntaxError) {
-  EXPECT_THAT(complaint("{\n \"a\": 1,\n \"b\": NaN\n}"), HasSubstr("line 3"));
-  EXPECT_THAT(complaint("{\"a\": 1"), HasSubstr("not valid JSON"));
+  EXPECT_THAT(jsonComplaint("{\n \"a\": 1,\n \"b\": NaN\n}"), HasSubstr("line 3"));
+  EXPECT_THAT(jsonComplaint("{\"a\": 1"), HasSubstr("not valid JSON"));
 }
 
 TEST(JsonReader, RefusesBytesThatAreNoUtf8AndSaysWhere) {
   for (const std::string bad : {"\xe4", "\xc3", "\xed\xa0\x80", "\xff"})
     for (const std::string& text : {"{\n\"a\": \"" + bad + "\"}", "{\n\"" + bad + "\": 1}", "{\n" + bad + "}"})
-      EXPECT_THAT(complaint(text), AllOf(HasSubstr("line 2"), HasSubstr("not valid JSON")));
+      EXPECT_THAT(jsonComplaint(text), AllOf(HasSubstr("line 2"), HasSubstr("not valid JSON")));
 }
 
 TEST(JsonReader, RefusesADuplicateKeyAtAnyDepth) {
-  EXPECT_THAT(complaint(R"({"a":1,"a":2})"), HasSubstr("\"a\" appears twice"));
-  EXPECT_THAT(complaint(R"({"x":{"b":1},"y":{"b":1,"b":3}})"), HasSubstr("\"b\" appears twice"));
-  EXPECT_EQ(complaint(R"({"x":{"b":1},"y":{"b":1}})"), "no complaint");
+  EXPECT_THAT(jsonComplaint(R"({"a":1,"a":2})"), HasSubstr("\"a\" appears twice"));
+  EXPECT_THAT(jsonComplaint(R"({"x":{"b":1},"y":{"b":1,"b":3}})"), HasSubstr("\"b\" appears twice"));
+  EXPECT_EQ(jsonComplaint(R"({"x":{"b":1},"y":{"b":1}})"), "no complaint");
 }
 
 TEST(JsonReader, ChecksFormatAndVersion) {
   const auto check = [](const JsonNode& n) { n.requireFormat("spindrift-machine", 1); };
-  EXPECT_EQ(complaint(R"({"format":"spindrift-machine","version":1,"more":true})", check), "no complaint");
-  EXPECT_THAT(complaint(R"({"format":"other","version":1})", check), HasSubstr("\"other\" is not allowed"));
-  EXPECT_THAT(complaint(R"({"format":"spindrift-machine","version":2})", check), HasSubstr("newer program"));
-  EXPECT_THAT(complaint(R"({"format":"spindrift-machine"})", check), HasSubstr("\"version\" is missing"));
+  EXPECT_EQ(jsonComplaint(R"({"format":"spindrift-machine","version":1,"more":true})", check), "no complaint");
+  EXPECT_THAT(jsonComplaint(R"({"format":"other","version":1})", check), HasSubstr("\"other\" is not allowed"));
+  EXPECT_THAT(jsonComplaint(R"({"format":"spindrift-machine","version":2})", check), HasSubstr("newer program"));
+  EXPECT_THAT(jsonComplaint(R"({"format":"spindrift-machine"})", check), HasSubstr("\"version\" is missing"));
 }
 
 TEST(JsonReader, NumberThatDoesNotExistIsNull) {

@@ -38,7 +38,7 @@ Connections connectionsOf(const nlohmann::json& sources, const nlohmann::json& c
   return Connections::parse(JsonNode::parse(json.dump(), "connections.json"));
 }
 
-RunnerOptions quick() {
+RunnerOptions quickWithFaults() {
   RunnerOptions options;
   options.first_pause_s = 0.02;
   options.longest_pause_s = 0.1;
@@ -56,7 +56,7 @@ TEST(Faults, AnAgentAndABrokerThatAreKilledAgainAndAgainAreRecordedToTheirLastVa
                     {{{"column", "count"}, {"source", "mill"}, {"item", "S1"}},
                      {{"column", "T_room_degC"}, {"source", "hall"}, {"item", "room"}, {"reduce", "last"}}});
   agent.observe("S1", "0", localUtc());
-  LiveRecording live(connections, folder / "log.csv", localUtc(), quick());
+  LiveRecording live(connections, folder / "log.csv", localUtc(), quickWithFaults());
   const auto isLive = [&](std::size_t source) {
     return live.snapshot().sources[source].status.state == SourceStatus::State::Live;
   };
@@ -144,7 +144,7 @@ TEST(Faults, TenThousandValuesASecondAreAllCounted) {
        {{"column", "b"}, {"source", "logger"}, {"item", "b"}, {"reduce", "max"}},
        {{"column", "c"}, {"source", "logger"}, {"item", "c"}, {"reduce", "min"}},
        {{"column", "d"}, {"source", "logger"}, {"item", "d"}, {"reduce", "mean_absolute"}}});
-  LiveRecording live(connections, folder / "log.csv", localUtc(), quick());
+  LiveRecording live(connections, folder / "log.csv", localUtc(), quickWithFaults());
   logger.accept();
   // 2000 lines of five values a second, for three seconds.
   constexpr int lines = 6000;
@@ -191,7 +191,7 @@ TEST(Faults, ValuesOfTheWrongTypeAreRefusedAndTheNextGoodOneIsTaken) {
                      {{"column", "T_3_degC"}, {"source", "logger"}, {"item", "t"}, {"reduce", "last"}},
                      {{"column", "speed_rpm"}, {"source", "mill"}, {"item", "T1"}}});
   agent.observe("T1", "20", localUtc());
-  LiveRecording live(connections, folder / "log.csv", localUtc(), quick());
+  LiveRecording live(connections, folder / "log.csv", localUtc(), quickWithFaults());
   logger.accept();
   const auto isLive = [&](std::size_t s) {
     return live.snapshot().sources[s].status.state == SourceStatus::State::Live;

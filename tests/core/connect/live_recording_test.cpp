@@ -29,7 +29,7 @@ Connections connectionsTo(const std::string& url) {
   return Connections::parse(JsonNode::parse(json.dump(), "connections.json"));
 }
 
-RunnerOptions quick() {
+RunnerOptions quickRecording() {
   RunnerOptions options;
   options.first_pause_s = 0.05;
   options.longest_pause_s = 0.1;
@@ -42,7 +42,7 @@ TEST(LiveRecording, IsLookedAtWhileItWritesItsLog) {
   agent.observe("T1", "31.5", localUtc());
   agent.observe("S1", "600", localUtc());
   const double start_s = localUtc();
-  LiveRecording live(connectionsTo(agent.url()), folder / "log.csv", start_s, quick());
+  LiveRecording live(connectionsTo(agent.url()), folder / "log.csv", start_s, quickRecording());
   EXPECT_TRUE(live.snapshot().recording);
   ASSERT_TRUE(waitUntil([&] {
     const LiveSnapshot now = live.snapshot();
@@ -94,7 +94,7 @@ TEST(LiveRecording, IsLookedAtWhileItWritesItsLog) {
 TEST(LiveRecording, WithoutALogItOnlyLooks) {
   SmallAgent agent;
   agent.observe("T1", "20.25", localUtc());
-  LiveRecording live(connectionsTo(agent.url()), {}, localUtc(), quick());
+  LiveRecording live(connectionsTo(agent.url()), {}, localUtc(), quickRecording());
   EXPECT_FALSE(live.snapshot().recording);
   ASSERT_TRUE(waitUntil([&] { return live.snapshot().columns[0].known; }));
   EXPECT_EQ(live.snapshot().columns[0].newest.value, 20.25);

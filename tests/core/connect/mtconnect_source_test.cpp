@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr double t0 = 1769846400.0;  // 2026-01-31T08:00:00Z
+constexpr double agent_t0 = 1769846400.0;  // 2026-01-31T08:00:00Z
 
 MtconnectOptions quick(const SmallAgent& agent) {
   MtconnectOptions options;
@@ -36,14 +36,14 @@ std::unique_ptr<Source> connected(const SmallAgent& agent, const std::vector<std
 }
 
 TEST(UtcTime, ReadsWhatAdaptersWrite) {
-  EXPECT_EQ(parseUtc("2026-01-31T08:00:00Z"), t0);
-  EXPECT_NEAR(*parseUtc("2026-01-31T08:00:00.123456Z"), t0 + 0.123456, 1e-6);
-  EXPECT_EQ(parseUtc("2026-01-31T09:00:00+01:00"), t0);
-  EXPECT_EQ(parseUtc("2026-01-31T08:00:00"), t0);
-  EXPECT_EQ(parseUtc("2026-01-31T08:00:00Z@10.5"), t0);
+  EXPECT_EQ(parseUtc("2026-01-31T08:00:00Z"), agent_t0);
+  EXPECT_NEAR(*parseUtc("2026-01-31T08:00:00.123456Z"), agent_t0 + 0.123456, 1e-6);
+  EXPECT_EQ(parseUtc("2026-01-31T09:00:00+01:00"), agent_t0);
+  EXPECT_EQ(parseUtc("2026-01-31T08:00:00"), agent_t0);
+  EXPECT_EQ(parseUtc("2026-01-31T08:00:00Z@10.5"), agent_t0);
   for (const char* wrong : {"", "yesterday", "2026-02-30T08:00:00Z", "2026-01-31T25:00:00Z", "2026-01-31T08:00:00Zoo"})
     EXPECT_FALSE(parseUtc(wrong)) << wrong;
-  EXPECT_EQ(utcText(t0 + 0.25), "2026-01-31T08:00:00.250Z");
+  EXPECT_EQ(utcText(agent_t0 + 0.25), "2026-01-31T08:00:00.250Z");
 }
 
 struct Version {
@@ -56,8 +56,8 @@ class MtconnectVersions : public ::testing::TestWithParam<Version> {};
 TEST_P(MtconnectVersions, ListStateAndStreamAreRead) {
   SmallAgent agent;
   agent.set(GetParam().manners);
-  agent.observe("T1", "31.5", t0);
-  agent.observe("EXEC", "READY", t0);
+  agent.observe("T1", "31.5", agent_t0);
+  agent.observe("EXEC", "READY", agent_t0);
   Collected sink;
   auto source = makeMtconnectSource(quick(agent));
   source->connect({});
@@ -79,8 +79,8 @@ TEST_P(MtconnectVersions, ListStateAndStreamAreRead) {
   EXPECT_EQ(sink.records[0].value, 31.5);
   EXPECT_EQ(sink.records[1].text, "READY");
   for (int i = 0; i < 40; ++i) {
-    agent.observe("T1", std::to_string(32 + i), t0 + i);
-    agent.observe("P1", "1 2 " + std::to_string(i), t0 + i);
+    agent.observe("T1", std::to_string(32 + i), agent_t0 + i);
+    agent.observe("P1", "1 2 " + std::to_string(i), agent_t0 + i);
   }
   EXPECT_TRUE(pollUntil(*source, sink, [&] { return sink.records.size() >= 82; }));
   const std::vector<double> values = sink.values(0);
@@ -88,7 +88,7 @@ TEST_P(MtconnectVersions, ListStateAndStreamAreRead) {
   for (int i = 0; i < 40; ++i) EXPECT_EQ(values[static_cast<std::size_t>(i) + 1], 32 + i);
   EXPECT_EQ(sink.values(2).back(), 39);
   EXPECT_FALSE(sink.records.back().snapshot);
-  EXPECT_NEAR(sink.records.back().source_s, t0 + 39, 1e-6);
+  EXPECT_NEAR(sink.records.back().source_s, agent_t0 + 39, 1e-6);
   EXPECT_THAT(sink.missings, IsEmpty());
 }
 
@@ -103,22 +103,22 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Mtconnect, WordsSeriesAndConditionsKeepTheirMeaning) {
   SmallAgent agent;
-  agent.observe("T1", "UNAVAILABLE", t0);
-  agent.observe("C1", "Normal", t0);
+  agent.observe("T1", "UNAVAILABLE", agent_t0);
+  agent.observe("C1", "Normal", agent_t0);
   Collected sink;
   const auto source = connected(agent, {"T1", "C1", "V1"}, sink);
   EXPECT_EQ(sink.records[0].quality, Quality::Unavailable);
-  agent.observe("T1", "warm", t0 + 1);
-  agent.observe("C1", "Warning", t0 + 1, " nativeCode=\"7\"");
-  agent.observe("C1", "Fault", t0 + 2, " nativeCode=\"8\"");
-  agent.observe("C1", "Normal", t0 + 3, " nativeCode=\"8\"");
-  agent.observe("C1", "Normal", t0 + 4);
-  agent.observe("V1", "0.1 0.2 0.3", t0 + 10, " sampleCount=\"3\" sampleRate=\"2\"");
+  agent.observe("T1", "warm", agent_t0 + 1);
+  agent.observe("C1", "Warning", agent_t0 + 1, " nativeCode=\"7\"");
+  agent.observe("C1", "Fault", agent_t0 + 2, " nativeCode=\"8\"");
+  agent.observe("C1", "Normal", agent_t0 + 3, " nativeCode=\"8\"");
+  agent.observe("C1", "Normal", agent_t0 + 4);
+  agent.observe("V1", "0.1 0.2 0.3", agent_t0 + 10, " sampleCount=\"3\" sampleRate=\"2\"");
   ASSERT_TRUE(pollUntil(*source, sink, [&] { return sink.values(2).size() == 3; }));
   EXPECT_EQ(sink.records[2].quality, Quality::Text);
   EXPECT_THAT(sink.values(1), ElementsAre(0, 1, 2, 1, 0));
   EXPECT_THAT(sink.values(2), ElementsAre(0.1, 0.2, 0.3));
-  EXPECT_NEAR(sink.records[sink.records.size() - 3].source_s, t0 + 9, 1e-6);
+  EXPECT_NEAR(sink.records[sink.records.size() - 3].source_s, agent_t0 + 9, 1e-6);
 }
 
 TEST(Mtconnect, AfterABrokenConnectionItGoesOnWhereItWas) {
@@ -130,7 +130,7 @@ TEST(Mtconnect, AfterABrokenConnectionItGoesOnWhereItWas) {
   auto source = connected(agent, {"S1"}, sink);
   int broken = 0;
   for (int i = 1; i <= 30; ++i) {
-    agent.observe("S1", std::to_string(i), t0 + i);
+    agent.observe("S1", std::to_string(i), agent_t0 + i);
     try {
       source->poll(0.02, sink);
     } catch (const ConnectionError&) {
@@ -160,14 +160,15 @@ TEST(Mtconnect, AfterABrokenConnectionItGoesOnWhereItWas) {
 
 TEST(Mtconnect, AnAgentThatWasStartedAnewIsReadFromItsState) {
   SmallAgent agent;
-  agent.observe("S1", "1", t0);
+  agent.observe("S1", "1", agent_t0);
   Collected sink;
   const auto source = connected(agent, {"S1"}, sink);
-  agent.observe("S1", "2", t0 + 1);
+  agent.observe("S1", "2", agent_t0 + 1);
   ASSERT_TRUE(pollUntil(*source, sink, [&] { return sink.records.size() == 2; }));
   agent.stop();
   agent.forget();
-  for (int i = 0; i < 5; ++i) agent.observe("S1", std::to_string(100 + i), t0 + 10 + i);  // numbers go beyond the old
+  for (int i = 0; i < 5; ++i)
+    agent.observe("S1", std::to_string(100 + i), agent_t0 + 10 + i);  // numbers go beyond the old
   agent.start();
   EXPECT_THROW((void)pollUntil(
                    *source, sink, [] { return false; }, 2.0),
@@ -180,7 +181,7 @@ TEST(Mtconnect, AnAgentThatWasStartedAnewIsReadFromItsState) {
   EXPECT_TRUE(sink.records[2].snapshot);
   ASSERT_THAT(sink.missings, SizeIs(1));
   EXPECT_THAT(sink.missings[0], HasSubstr("started anew"));
-  agent.observe("S1", "105", t0 + 20);
+  agent.observe("S1", "105", agent_t0 + 20);
   ASSERT_TRUE(pollUntil(*source, sink, [&] { return sink.records.size() >= 4; }));
   EXPECT_EQ(sink.values()[3], 105);
 }
@@ -190,11 +191,11 @@ TEST(Mtconnect, ABufferThatHasRunOverIsToldAndLeftBehind) {
   SmallAgent::Manners manners;
   manners.buffer = 8;
   agent.set(manners);
-  agent.observe("S1", "0", t0);
+  agent.observe("S1", "0", agent_t0);
   Collected sink;
   const auto source = connected(agent, {"S1"}, sink);
   source->close();
-  for (int i = 1; i <= 50; ++i) agent.observe("S1", std::to_string(i), t0 + i);
+  for (int i = 1; i <= 50; ++i) agent.observe("S1", std::to_string(i), agent_t0 + i);
   source->connect({});
   source->subscribe({"S1"}, sink, {});
   ASSERT_TRUE(pollUntil(*source, sink, [&] { return sink.records.size() >= 2; }));
@@ -205,7 +206,7 @@ TEST(Mtconnect, ABufferThatHasRunOverIsToldAndLeftBehind) {
 
 TEST(Mtconnect, ASilentAgentAndNonsenseAreConnectionsLost) {
   SmallAgent agent;
-  agent.observe("S1", "1", t0);
+  agent.observe("S1", "1", agent_t0);
   Collected sink;
   const auto source = connected(agent, {"S1"}, sink);
   agent.freeze(true);
@@ -227,7 +228,7 @@ TEST(Mtconnect, ASilentAgentAndNonsenseAreConnectionsLost) {
                ConnectionError);
   source->connect({});
   source->subscribe({"S1"}, sink, {});
-  agent.observe("S1", "2", t0 + 1);
+  agent.observe("S1", "2", agent_t0 + 1);
   EXPECT_TRUE(pollUntil(*source, sink, [&] { return sink.values().back() == 2; }));
   agent.stop();
   try {

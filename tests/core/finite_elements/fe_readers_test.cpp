@@ -17,7 +17,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::refusal;
 
-const std::filesystem::path data = std::filesystem::path(SPINDRIFT_TEST_DATA) / "finite_elements";
+const std::filesystem::path reader_data = std::filesystem::path(SPINDRIFT_TEST_DATA) / "finite_elements";
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
@@ -26,7 +26,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 TEST(Frd, ReadsNodesTimesAndDisplacements) {
-  const auto reader = openFeResult(data / "frame.frd");
+  const auto reader = openFeResult(reader_data / "frame.frd");
   const FeMesh mesh = reader->mesh();
   EXPECT_EQ(mesh.nodes.size(), 99u);
   const std::vector<FeState> states = reader->states({7, 13});
@@ -41,14 +41,14 @@ TEST(Frd, ReadsNodesTimesAndDisplacements) {
 }
 
 TEST(Frd, AndDatTellTheSame) {
-  const auto dat = openFeResult(data / "frame.dat");
+  const auto dat = openFeResult(reader_data / "frame.dat");
   const FeMesh printed = dat->mesh();
   ASSERT_TRUE(printed.sets.contains("OBSERVED"));
   EXPECT_TRUE(printed.nodes.empty());
   const std::set<NodeId> wanted(printed.sets.at("OBSERVED").begin(), printed.sets.at("OBSERVED").end());
   EXPECT_EQ(wanted.size(), 12u);
   const auto a = dat->states(wanted);
-  const auto b = openFeResult(data / "frame.frd")->states(wanted);
+  const auto b = openFeResult(reader_data / "frame.frd")->states(wanted);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t k = 0; k < a.size(); ++k) {
     EXPECT_DOUBLE_EQ(a[k].time, b[k].time);
@@ -60,7 +60,7 @@ TEST(Frd, AndDatTellTheSame) {
 
 TEST(Frd, RefusesWhatIsCutOffDamagedOrBinary) {
   const testing::TempFolder folder;
-  const std::string whole = readFile(data / "frame.frd");
+  const std::string whole = readFile(reader_data / "frame.frd");
   const auto said = [&](const std::string& text) {
     return refusal([&] {
       const auto reader = openFrd(folder.write("r.frd", text));
@@ -131,7 +131,7 @@ TEST(Dat, TakesTablesOfOneTimeTogetherAndPassesOthersOver) {
 }
 
 TEST(AbaqusMesh, ReadsNodesSetsRangesAndIncludes) {
-  const FeMesh mesh = readAbaqusMesh(data / "mesh.inp");
+  const FeMesh mesh = readAbaqusMesh(reader_data / "mesh.inp");
   EXPECT_EQ(mesh.nodes.size(), 99u);
   EXPECT_EQ(mesh.sets.at("ALL").size(), 99u);
   EXPECT_EQ(mesh.sets.at("TOOL").size(), 6u);

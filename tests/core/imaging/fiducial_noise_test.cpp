@@ -13,8 +13,8 @@
 namespace spindrift {
 namespace {
 
-constexpr int fiducials = 4;
-constexpr int states = 3;
+constexpr int fiducial_count = 4;
+constexpr int state_count = 3;
 
 FocusSet focusSet(Random& random, double peak_mm) {
   FocusSet set{"a set", {}, {}};
@@ -32,8 +32,8 @@ FiducialDisplacement displacement(std::uint64_t seed, const Eigen::Vector2d& cam
   FiducialDisplacement out;
   out.axes.phi_sigma_rad = 2e-3;
   std::vector<RotationSet> rotations;
-  for (int k = 0; k < states; ++k) {
-    for (int f = 0; f < fiducials; ++f) {
+  for (int k = 0; k < state_count; ++k) {
+    for (int f = 0; f < fiducial_count; ++f) {
       FiducialState s;
       s.fiducial = "F" + std::to_string(f + 1);
       s.state = "M" + std::to_string(k);
@@ -55,14 +55,14 @@ FiducialDisplacement displacement(std::uint64_t seed, const Eigen::Vector2d& cam
         s.centre = rotations.size();
         rotations.push_back(set);
       }
-      if (!(f == 2 && k == states - 1)) {
+      if (!(f == 2 && k == state_count - 1)) {
         s.focus_set = out.focus_sets.size();
         out.focus_sets.push_back(focusSet(random, random.normal(0.0, 0.01)));
       }
       out.states.push_back(s);
     }
   }
-  for (int f = 0; f < fiducials; ++f)
+  for (int f = 0; f < fiducial_count; ++f)
     out.directions.push_back({"F" + std::to_string(f + 1), 0.3 * f - 0.4, f == 3 ? 1e-3 : 3e-3, f != 3});
   out.centres = fitCentreOfRotation(rotations);
   out.focus = fitFocus(out.focus_sets);

@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* machine =
+constexpr const char* machine_text =
     R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-b-X-t]","axes":[{"name":"X","travel_mm":[0,1]}]})";
 
 TEST(Campaign, ReadsWhatIsThereAndNoMore) {
@@ -18,7 +18,7 @@ TEST(Campaign, ReadsWhatIsThereAndNoMore) {
   folder.write("campaign.json",
                R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z",
                                     "simulation":"simulation.csv","simulation_gain_uncertainty":0.02})");
-  folder.write("machine.json", machine);
+  folder.write("machine.json", machine_text);
   Campaign campaign = Campaign::read(folder.path());
   EXPECT_EQ(campaign.simulation_gain_uncertainty, 0.02);
   EXPECT_FALSE(campaign.log);
@@ -35,7 +35,7 @@ TEST(Campaign, ALogWhoseRecordingHasJustBegunIsNoneYet) {
   const testing::TempFolder folder;
   folder.write("campaign.json",
                R"({"format":"spindrift-campaign","version":1,"name":"c","start_utc":"2026-01-31T08:00:00Z"})");
-  folder.write("machine.json", machine);
+  folder.write("machine.json", machine_text);
   const std::string begun = "# time_s counts from 2026-01-31T08:00:00.000Z\n# spindle_rpm: mill S1\n";
   folder.write("log.csv", begun);
   EXPECT_FALSE(Campaign::read(folder.path()).log);

@@ -8,8 +8,8 @@
 namespace spindrift {
 namespace {
 
-using testing::Contains;
-using testing::Not;
+using ::testing::Contains;
+using ::testing::Not;
 
 MachineDescription machineOf(const std::string& chain, bool rotary = false) {
   nlohmann::json json{{"format", "spindrift-machine"},

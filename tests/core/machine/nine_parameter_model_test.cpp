@@ -14,7 +14,7 @@
 namespace spindrift {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr std::array<Component, 3> translations{Component::EX, Component::EY, Component::EZ};
 

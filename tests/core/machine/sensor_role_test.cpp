@@ -13,7 +13,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string read(const std::string& text) {
+std::string roleRead(const std::string& text) {
   const auto role = readSensorRole(text);
   return role ? std::string(toString(*role)) : "nothing";
 }
@@ -51,7 +51,7 @@ TEST(SensorRole, ReadsEnglishNamesByWholeWords) {
                                                        {"T_table_coolant_degC", "coolant"},
                                                        {"T_artefact_1_degC", "artefact"},
                                                        {"T_camera_degC", "instrument"}};
-  for (const auto& [name, role] : names) EXPECT_EQ(read(name), role) << name;
+  for (const auto& [name, role] : names) EXPECT_EQ(roleRead(name), role) << name;
 }
 
 TEST(SensorRole, ReadsGermanNamesByWholeWords) {
@@ -83,9 +83,9 @@ TEST(SensorRole, ReadsGermanNamesByWholeWords) {
                                                        {"T_Kugelgewindetrieb_Z_degC", "screw_z"},
                                                        {"T_KGT_x1_degC", "screw_x"},
                                                        {"T_Prüfkörper_degC", "artefact"}};
-  for (const auto& [name, role] : names) EXPECT_EQ(read(name), role) << name;
+  for (const auto& [name, role] : names) EXPECT_EQ(roleRead(name), role) << name;
   // An umlaut as letter and diaeresis, as some systems write it.
-  EXPECT_EQ(read("T_Sta\u0308nder_vorne_degC"), "column_front");
+  EXPECT_EQ(roleRead("T_Sta\u0308nder_vorne_degC"), "column_front");
 }
 
 TEST(SensorRole, NeverGuessesFromPartOfAWord) {
@@ -113,22 +113,22 @@ TEST(SensorRole, NeverGuessesFromPartOfAWord) {
                            "T__degC",
                            "",
                            "T_ж_degC"}) {
-    EXPECT_EQ(read(name), "nothing") << name;
+    EXPECT_EQ(roleRead(name), "nothing") << name;
   }
 }
 
 TEST(SensorRole, WordsOfManyPartsCountOnlyAlone) {
-  EXPECT_EQ(read("T_motor_housing_degC"), "nothing");
-  EXPECT_EQ(read("T_compressed_air_degC"), "nothing");
-  EXPECT_EQ(read("T_bearing_x_degC"), "nothing");
-  EXPECT_EQ(read("T_gearbox_bearing_degC"), "nothing");
-  EXPECT_EQ(read("T_table_bearing_degC"), "table");
+  EXPECT_EQ(roleRead("T_motor_housing_degC"), "nothing");
+  EXPECT_EQ(roleRead("T_compressed_air_degC"), "nothing");
+  EXPECT_EQ(roleRead("T_bearing_x_degC"), "nothing");
+  EXPECT_EQ(roleRead("T_gearbox_bearing_degC"), "nothing");
+  EXPECT_EQ(roleRead("T_table_bearing_degC"), "table");
 }
 
 TEST(SensorRole, ContradictingWordsTellNothing) {
-  EXPECT_EQ(read("T_column_table_degC"), "nothing");
-  EXPECT_EQ(read("T_room_bed_degC"), "nothing");
-  EXPECT_EQ(read("T_column_front_rear_degC"), "column");
+  EXPECT_EQ(roleRead("T_column_table_degC"), "nothing");
+  EXPECT_EQ(roleRead("T_room_bed_degC"), "nothing");
+  EXPECT_EQ(roleRead("T_column_front_rear_degC"), "column");
 }
 
 TEST(SensorRole, SplitsNames) {

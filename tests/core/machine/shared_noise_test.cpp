@@ -12,7 +12,7 @@
 namespace spindrift {
 namespace {
 
-SharedNoise example() {
+SharedNoise exampleNoise() {
   SharedNoise shared;
   shared.addFactor({{3, 0.2}, {0, 0.5}, {1, -0.3}});
   shared.addFactor({{1, 0.4}, {2, 0.1}});
@@ -20,7 +20,7 @@ SharedNoise example() {
 }
 
 TEST(SharedNoise, CovariancesAreProductsOfLoads) {
-  const SharedNoise shared = example();
+  const SharedNoise shared = exampleNoise();
   EXPECT_DOUBLE_EQ(shared.covariance(0, 1), -0.15);
   EXPECT_DOUBLE_EQ(shared.covariance(1, 0), -0.15);
   EXPECT_DOUBLE_EQ(shared.covariance(1, 2), 0.04);
@@ -49,8 +49,8 @@ TEST(SharedNoise, LoadsOfARowAddUpAndNothingIsNoCause) {
 }
 
 TEST(SharedNoise, IsAppendedAndRestrictedByRows) {
-  SharedNoise both = example();
-  both.append(example(), 4);
+  SharedNoise both = exampleNoise();
+  both.append(exampleNoise(), 4);
   EXPECT_EQ(both.factors().size(), 4U);
   EXPECT_DOUBLE_EQ(both.covariance(4, 5), -0.15);
   EXPECT_EQ(both.covariance(0, 4), 0.0);
@@ -69,12 +69,12 @@ TEST(SharedNoise, VarianceOfACombinationKnowsWhatCancels) {
   EXPECT_NEAR(shared.varianceOf(difference), 0.0, 1e-15);
   const std::array<SharedNoise::Load, 2> against{{{0, 1.0}, {2, -1.0}}};
   EXPECT_NEAR(shared.varianceOf(against), 1.44, 1e-15);
-  const Eigen::MatrixXd loads(example().loads({1, 3}));
+  const Eigen::MatrixXd loads(exampleNoise().loads({1, 3}));
   EXPECT_EQ(loads, (Eigen::Matrix2d() << -0.3, 0.4, 0.2, 0.0).finished());
 }
 
 TEST(SharedNoise, CovariancesOfPairsAreListedOnceInOrder) {
-  SharedNoise shared = example();
+  SharedNoise shared = exampleNoise();
   shared.addFactor({{0, 1e-9}, {2, 1e-9}});  // far below what counts
   const std::vector<CovarianceEntry> entries = shared.covariances({1.0, 1.0, 1.0, 1.0});
   ASSERT_EQ(entries.size(), 4U);

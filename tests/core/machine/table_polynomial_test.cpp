@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using Field3 = std::function<double(const Eigen::Vector3d&, Component)>;  ///< um
 
-constexpr std::array<Component, 3> translations{Component::EX, Component::EY, Component::EZ};
+constexpr std::array<Component, 3> table_components{Component::EX, Component::EY, Component::EZ};
 constexpr double noise_um = 0.3;
 
 NineVector truth() {
@@ -44,7 +44,7 @@ ObservationSet measured(const Field3& field, Random& random, int nx = 4, int ny 
   for (int state = 0; state < 2; ++state) {
     for (int i = 0; i < nx * ny; ++i) {
       const Eigen::Vector3d at(20.0 + 260.0 * (i % nx) / (nx - 1), 15.0 + 100.0 * (i / nx) / (ny - 1), 0.0);
-      for (const Component c : translations) {
+      for (const Component c : table_components) {
         Observation o;
         o.time_s = 1000.0 * state;
         o.state = state == 0 ? "M0" : "M1";

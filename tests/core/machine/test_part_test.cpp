@@ -15,7 +15,7 @@
 namespace spindrift {
 namespace {
 
-MachineDescription machine() {
+MachineDescription partMachine() {
   const char* text = R"({"format":"spindrift-machine","version":1,"name":"m","chain":"V [w-X'-Y'-b-Z-t]",
     "axes":[{"name":"X","travel_mm":[0,500]},{"name":"Y","travel_mm":[0,400]},{"name":"Z","travel_mm":[0,300]}]})";
   return MachineDescription::parse(JsonNode::parse(text, "machine.json"), "machine.json");
@@ -34,10 +34,10 @@ std::map<std::string, double> milled(const TestPart& part, const FieldOf& field)
 }
 
 std::map<std::string, double> milledWith(const std::string& name, double value) {
-  const GeometricErrors errors(machine());
+  const GeometricErrors errors(partMachine());
   const auto found = std::find(errors.names().begin(), errors.names().end(), name);
   const auto index = static_cast<std::size_t>(found - errors.names().begin());
-  return milled(TestPart(TestPartOptions::on(machine())), [&](const DeviationQuery& q) -> Eigen::Vector3d {
+  return milled(TestPart(TestPartOptions::on(partMachine())), [&](const DeviationQuery& q) -> Eigen::Vector3d {
     return 1e3 * value * errors.unit(index, q).translation_mm;
   });
 }
@@ -121,7 +121,7 @@ TEST(TestPart, AnOvalCircleMinimumZoneAndLeastSquares) {
 }
 
 TEST(TestPart, TakesTheLargestThatFitsAndSaysWhereThereIsNoRoom) {
-  const TestPartOptions options = TestPartOptions::on(machine());
+  const TestPartOptions options = TestPartOptions::on(partMachine());
   EXPECT_EQ(options.side_mm, 320.0);
   EXPECT_EQ(options.centre_mm.head<2>(), Eigen::Vector2d(250, 200));
   const TestPart part(options);
@@ -129,7 +129,7 @@ TEST(TestPart, TakesTheLargestThatFitsAndSaysWhereThereIsNoRoom) {
     EXPECT_GE(q.position_mm.z(), 0.0);
     EXPECT_LE(q.position_mm.x(), 500.0);
   }
-  MachineDescription small = machine();
+  MachineDescription small = partMachine();
   small.axes[1].travel_mm = {0, 30};
   EXPECT_THROW((void)TestPartOptions::on(small), InputError);
   small.axes.pop_back();

@@ -13,7 +13,7 @@
 namespace spindrift {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::vector<std::string> names{"x", "y"};
 

@@ -57,7 +57,7 @@ DriftingRun probeDrifting(const MachineDescription& machine, int cycles, int fro
   return run;
 }
 
-CycleEvaluation evaluate(const MachineDescription& machine, const TouchList& list) {
+CycleEvaluation evaluateDrifting(const MachineDescription& machine, const TouchList& list) {
   const Artefact& artefact = machine.artefacts.front();
   if (artefact.kind == "hole_bar") return evaluateHoleCycles(list, machine, artefact);
   return evaluateBallCycles(list, machine, artefact, nullptr);
@@ -110,7 +110,7 @@ TEST_P(DriftInsideTheCycle, LeavesNoGoodTouchOutAndTheUncertaintyHolds) {
   Score all;
   for (int seed = 0; seed < seeds; ++seed) {
     const DriftingRun r = run(seed);
-    const CycleEvaluation evaluation = evaluate(machine(), r.list);
+    const CycleEvaluation evaluation = evaluateDrifting(machine(), r.list);
     ASSERT_EQ(evaluation.status, FitStatus::Converged) << evaluation.message;
     EXPECT_TRUE(evaluation.rejected.empty()) << "seed " << seed << ": " << evaluation.rejected.front().reason;
     ASSERT_EQ(evaluation.fit.cycles.size(), static_cast<std::size_t>(cycles));
@@ -137,7 +137,7 @@ TEST_P(DriftInsideTheCycle, DoesNotHideABadTouch) {
       const auto back = static_cast<std::size_t>(5 * seed + 2 * (seed % 2)) % per_cycle;
       const std::size_t bad = (drifting + 1) * per_cycle - 1 - back;
       r.list.touches[bad].position_mm += error_mm * r.list.touches[bad].approach;
-      const CycleEvaluation evaluation = evaluate(machine(), r.list);
+      const CycleEvaluation evaluation = evaluateDrifting(machine(), r.list);
       std::string named;
       for (const RejectedTouch& t : evaluation.rejected)
         named += r.list.touches[t.touch].label() + ": " + t.reason + "\n";
@@ -161,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(Probing, DriftInsideTheCycle,
 TEST(DriftInsideTheCycles, AMachineThatJumpsBetweenCyclesIsEvaluatedAsBefore) {
   // The parameters change by much from cycle to cycle, but not inside: the uncertainty stays that of the touch noise.
   const MachineDescription m = machineFrom(holeMachineText());
-  const CycleEvaluation evaluation = evaluate(m, runCycles(m, 5, {}, 3).list);
+  const CycleEvaluation evaluation = evaluateDrifting(m, runCycles(m, 5, {}, 3).list);
   const CycleFitResult still = fitCycles(evaluation.problem);
   for (std::size_t k = 1; k < still.cycles.size(); ++k) {
     EXPECT_TRUE(evaluation.fit.cycles[k].theta.isApprox(still.cycles[k].theta, 1e-12));

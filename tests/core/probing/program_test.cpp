@@ -29,7 +29,7 @@ struct Written {
   std::string text;
 };
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string withReplaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   if (at != std::string::npos) text.replace(at, from.size(), to);
@@ -39,9 +39,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 Written write(bool holes, ProgramDialect dialect) {
   Written w;
   // The spindle reference stands 60 resp. 50 mm above the tip: the ball machine needs more travel in Z.
-  w.machine =
-      machineFrom(holes ? holeMachineText()
-                        : replaced(ballMachineText(), "\"Z\",\"travel_mm\":[0,500]", "\"Z\",\"travel_mm\":[0,700]"));
+  w.machine = machineFrom(
+      holes ? holeMachineText()
+            : withReplaced(ballMachineText(), "\"Z\",\"travel_mm\":[0,500]", "\"Z\",\"travel_mm\":[0,700]"));
   w.plan_options.first_ball_mm = Eigen::Vector3d(110, 100, 60);
   w.check_options.first_ball_mm = w.plan_options.first_ball_mm;
   const Artefact& artefact = w.machine.artefacts.front();
@@ -115,7 +115,7 @@ TEST(CycleProgram, TheDialectsSayTheSame) {
         EXPECT_EQ(a.stylus, b.stylus);
       }
       const auto bad = [&](const std::string& from, const std::string& to) {
-        return !checkProgram(replaced(other.text, from, to), other.machine, artefact, other.check_options).good();
+        return !checkProgram(withReplaced(other.text, from, to), other.machine, artefact, other.check_options).good();
       };
       if (dialect == ProgramDialect::Siemens) {
         EXPECT_TRUE(bad("IF $AC_MEA[1]==0 GOTOF _SPD_MISSED\n", "")) << "nobody asks for the contact";
@@ -174,7 +174,7 @@ TEST(CycleProgram, TheMasksOfHeidenhainPrintWhatIsRead) {
 
 TEST(CycleProgram, TravelIsChecked) {
   const MachineDescription small =
-      machineFrom(replaced(holeMachineText(), "\"travel_mm\":[0,520]", "\"travel_mm\":[0,380]"));
+      machineFrom(withReplaced(holeMachineText(), "\"travel_mm\":[0,520]", "\"travel_mm\":[0,380]"));
   EXPECT_THROW((void)planCycle(small, small.artefacts.front()), InputError);
 }
 

@@ -98,7 +98,7 @@ TEST(ArtefactDesign, LeavesOutWhatIsTooSteep) {
 
 TEST(ArtefactDesign, StlIsClosedAndHoldsTheVolume) {
   const ArtefactSurface surface;
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "artefact_design_test.stl";
+  const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "artefact_design_test.stl";
   writeArtefactStl(file, surface, 5.0, 0.25);
   std::ifstream in(file, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

@@ -26,7 +26,7 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-constexpr const char* machine_json =
+constexpr const char* small_machine_json =
     R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-t]",
         "axes":[{"name":"X","travel_mm":[0,300]}]})";
 constexpr const char* header = "time_s,image";
@@ -52,7 +52,7 @@ class StorageFailure : public ::testing::Test {
   /// A session with one campaign and one capture.
   [[nodiscard]] Session begun(const std::filesystem::path& place) const {
     Session session = Session::create(place);
-    const auto id = session.newCampaign("c", "2026-01-31T08:00:00Z", machine_json);
+    const auto id = session.newCampaign("c", "2026-01-31T08:00:00Z", small_machine_json);
     session.addCapture(id, "fiducials.csv", header, "0,first.jpg", small_, "first.jpg");
     session.addResult(id, "fit", {}, 1);
     return session;
@@ -180,7 +180,7 @@ TEST_F(StorageFailure, VanishedFolderIsSaidAndNothingIsMadeInItsPlace) {
        {outcomeOf([&] { capture(session, "b.jpg", small_); }), outcomeOf([&] { session.addResult(id, "fit", {}, 2); }),
         outcomeOf([&] { session.addNote(id, "Capture", "x"); }), outcomeOf([&] { session.exclude(id, "a", "b"); }),
         outcomeOf([&] { session.setSetting("a", 1); }),
-        outcomeOf([&] { session.newCampaign("d", "2026-01-31T08:00:00Z", machine_json); })}) {
+        outcomeOf([&] { session.newCampaign("d", "2026-01-31T08:00:00Z", small_machine_json); })}) {
     EXPECT_THAT(sentence, AllOf(StartsWith(place.string()), HasSubstr("is not there any more")));
   }
   EXPECT_FALSE(std::filesystem::exists(place));
@@ -201,7 +201,7 @@ TEST_F(StorageFailure, SourceOfAnImportThatVanishesLeavesNoTrace) {
   };
   folder_.write("source/campaign.json",
                 R"({"format":"spindrift-campaign","version":1,"name":"n","start_utc":"2026-01-31T08:00:00Z"})");
-  folder_.write("source/machine.json", machine_json);
+  folder_.write("source/machine.json", small_machine_json);
   Session session = Session::create(folder_ / "s");
   Remover remover(folder_ / "source");
   JobContext job({}, &remover);

@@ -13,7 +13,7 @@
 namespace spindrift {
 namespace {
 
-constexpr double duration_s = 28800.0;
+constexpr double shift_s = 28800.0;
 
 /// A machine that works with everything it has for a long time, in a room that warms up.
 VirtualMachine working(const std::string& scenario, std::uint64_t seed) {
@@ -23,7 +23,7 @@ VirtualMachine working(const std::string& scenario, std::uint64_t seed) {
   busy.spindle_rpm = 6000.0;
   busy.feed_mm_min = {9000.0, 9000.0, 9000.0};
   busy.c_rpm = 60.0;
-  return {machine, Programme({busy}), Environment({}, duration_s, seed), PlantParameters{}, duration_s, seed};
+  return {machine, Programme({busy}), Environment({}, shift_s, seed), PlantParameters{}, shift_s, seed};
 }
 
 /// What of the displacement over the volume the named shape leaves over, rms over rms, when its gain and its origin are
@@ -36,7 +36,7 @@ double leftOver(const VirtualMachine& plant, const std::string& id,
   for (int i = 0; i < 64; ++i) {
     const Eigen::Vector3d place(40.0 + 140.0 * (i % 4), 40.0 + 110.0 * (i / 4 % 4), 100.0 * (i / 16));
     PlantQuery q;
-    q.time_s = duration_s;
+    q.time_s = shift_s;
     q.position_mm = place;
     blocks.push_back(shape(place));
     values.push_back(effect(q).translation_mm);
@@ -104,7 +104,7 @@ TEST(CarryingBodies, AColumnThatLeansBackLiftsTheHeadThatOverhangsIt) {
   PlantEffectSetting overhanging;
   overhanging.parameters["overhang_y_mm"] = -400.0;
   PlantQuery q;
-  q.time_s = duration_s;
+  q.time_s = shift_s;
   q.position_mm = {200.0, 200.0, 300.0};
   const SmallError straight = plant.effect("column.bending.a", {})(q);
   const SmallError lifted = plant.effect("column.bending.a", overhanging)(q);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double duration_s = 28800.0;
 
-MachineDescription shipped(const std::string& scenario) {
+MachineDescription shippedMachine(const std::string& scenario) {
   return Scenario::read(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "resources/scenarios" / scenario).machine;
 }
 
@@ -49,7 +49,7 @@ Eigen::Vector3d moved_um(const VirtualMachine& plant, const std::string& id, con
 
 TEST(VirtualMachine, NothingMovesAMachineThatStandsStillInAQuietRoom) {
   for (const char* file : {"discrepancy_vertical.json", "discrepancy_gantry.json", "discrepancy_five_axis.json"}) {
-    const MachineDescription machine = shipped(file);
+    const MachineDescription machine = shippedMachine(file);
     const VirtualMachine plant = running(machine, [](ProgrammeSegment& s) { s.instrument_on = false; });
     for (const std::string& id : catalogueOf(machine)) {
       if (id.starts_with("backlash") || id.starts_with("external") || id.starts_with("fixture") ||
@@ -64,7 +64,7 @@ TEST(VirtualMachine, NothingMovesAMachineThatStandsStillInAQuietRoom) {
 TEST(VirtualMachine, EveryEffectOfTheCatalogueCanBeProduced) {
   for (const char* file : {"discrepancy_vertical.json", "discrepancy_gantry.json", "discrepancy_five_axis.json",
                            "discrepancy_horizontal.json", "hole_bar.json", "ball_artefact.json"}) {
-    const MachineDescription machine = shipped(file);
+    const MachineDescription machine = shippedMachine(file);
     const VirtualMachine plant = running(
         machine,
         [](ProgrammeSegment& s) {
@@ -90,7 +90,7 @@ TEST(VirtualMachine, EveryEffectOfTheCatalogueCanBeProduced) {
 }
 
 TEST(VirtualMachine, AWarmTableGrowsOutward) {
-  const VirtualMachine plant = running(shipped("discrepancy_vertical.json"), [](ProgrammeSegment& s) {
+  const VirtualMachine plant = running(shippedMachine("discrepancy_vertical.json"), [](ProgrammeSegment& s) {
     s.feed_mm_min = {15000.0, 15000.0, 0.0};
   });
   const Eigen::Vector3d right = moved_um(plant, "table.expansion.xy", {450.0, 225.0, 0.0});
@@ -104,7 +104,7 @@ TEST(VirtualMachine, AWarmTableGrowsOutward) {
 }
 
 TEST(VirtualMachine, AScrewGrowsAwayFromItsFixedBearing) {
-  MachineDescription machine = shipped("discrepancy_vertical.json");
+  MachineDescription machine = shippedMachine("discrepancy_vertical.json");
   for (const double bearing : {0.0, 500.0}) {
     machine.axes[0].fixed_bearing_mm = bearing;
     const VirtualMachine plant = running(machine, [](ProgrammeSegment& s) { s.feed_mm_min = {15000.0, 0.0, 0.0}; });
@@ -118,7 +118,7 @@ TEST(VirtualMachine, AScrewGrowsAwayFromItsFixedBearing) {
 
 TEST(VirtualMachine, ASpindleGrowsTowardsTheTableAndSettles) {
   const VirtualMachine plant =
-      running(shipped("discrepancy_vertical.json"), [](ProgrammeSegment& s) { s.spindle_rpm = 6000.0; });
+      running(shippedMachine("discrepancy_vertical.json"), [](ProgrammeSegment& s) { s.spindle_rpm = 6000.0; });
   const double early = moved_um(plant, "spindle.growth.z", {0, 0, 0}, 2700.0).z();
   const double later = moved_um(plant, "spindle.growth.z", {0, 0, 0}, 9000.0).z();
   const double last = moved_um(plant, "spindle.growth.z", {0, 0, 0}).z();
@@ -130,7 +130,7 @@ TEST(VirtualMachine, ASpindleGrowsTowardsTheTableAndSettles) {
 }
 
 TEST(VirtualMachine, AWarmColumnFrontLeansTheColumnBack) {
-  const MachineDescription machine = shipped("discrepancy_vertical.json");
+  const MachineDescription machine = shippedMachine("discrepancy_vertical.json");
   const VirtualMachine plant = running(machine, [](ProgrammeSegment& s) { s.spindle_rpm = 6000.0; });
   PlantQuery q;
   q.time_s = duration_s;
@@ -152,7 +152,7 @@ TEST(VirtualMachine, AWarmColumnFrontLeansTheColumnBack) {
 }
 
 TEST(VirtualMachine, AWarmBeamBowsUpBetweenItsEnds) {
-  const MachineDescription machine = shipped("discrepancy_gantry.json");
+  const MachineDescription machine = shippedMachine("discrepancy_gantry.json");
   const VirtualMachine plant = running(machine, [](ProgrammeSegment& s) { s.feed_mm_min = {0.0, 15000.0, 0.0}; });
   const double middle = moved_um(plant, "crossbeam.sag.z", {400.0, 300.0, 100.0}).z();
   EXPECT_GT(middle, 0.1);
@@ -161,7 +161,7 @@ TEST(VirtualMachine, AWarmBeamBowsUpBetweenItsEnds) {
 }
 
 TEST(VirtualMachine, ATurningTableCarriesItsMovement) {
-  const MachineDescription machine = shipped("discrepancy_five_axis.json");
+  const MachineDescription machine = shippedMachine("discrepancy_five_axis.json");
   const VirtualMachine plant = running(machine, [](ProgrammeSegment& s) { s.c_rpm = 60.0; });
   EXPECT_LT(moved_um(plant, "rotary.drift.x0c", {100.0, 100.0, 0.0}).x(), -1.0) << "minus the table's movement";
   const Eigen::Vector3d out = moved_um(plant, "rotary.expansion.r0t", {450.0, 200.0, 0.0});
@@ -170,7 +170,7 @@ TEST(VirtualMachine, ATurningTableCarriesItsMovement) {
 }
 
 TEST(VirtualMachine, SwitchesAndSizesAct) {
-  const MachineDescription machine = shipped("discrepancy_vertical.json");
+  const MachineDescription machine = shippedMachine("discrepancy_vertical.json");
   const VirtualMachine plant = running(machine, [](ProgrammeSegment& s) { s.spindle_rpm = 3000.0; });
   std::vector<PlantQuery> queries(1);
   queries[0].time_s = 20000.0;
@@ -188,7 +188,7 @@ TEST(VirtualMachine, SwitchesAndSizesAct) {
 }
 
 TEST(VirtualMachine, AnEffectThatTheMachineCannotHaveIsRefusedWithItsReason) {
-  const MachineDescription machine = shipped("discrepancy_gantry.json");
+  const MachineDescription machine = shippedMachine("discrepancy_gantry.json");
   EXPECT_THAT(whyNotPossible("column.bending.a", machine), ::testing::Ne(""));
   EXPECT_NE(whyNotPossible("ball_screw.expansion.x", machine), "") << "it has a linear scale";
   EXPECT_EQ(whyNotPossible("scale.expansion.x", machine), "");
@@ -200,7 +200,7 @@ TEST(VirtualMachine, AnEffectThatTheMachineCannotHaveIsRefusedWithItsReason) {
 }
 
 TEST(VirtualMachine, ConvectionGrowsWithMotionOnlyIfItIsSwitchedOn) {
-  const MachineDescription machine = shipped("discrepancy_vertical.json");
+  const MachineDescription machine = shippedMachine("discrepancy_vertical.json");
   ProgrammeSegment busy;
   busy.spindle_rpm = 6000.0;
   const Programme programme({busy});
@@ -217,7 +217,7 @@ TEST(VirtualMachine, RoomAndDoorsReachTheBodies) {
   EnvironmentOptions door = quietRoom();
   door.doors = {{7200.0, 4.0, 3600.0}};
   const VirtualMachine plant = running(
-      shipped("discrepancy_vertical.json"), [](ProgrammeSegment&) {}, door);
+      shippedMachine("discrepancy_vertical.json"), [](ProgrammeSegment&) {}, door);
   const auto room = volumesAt(plant.thermal().bodies, "room", {});
   const auto column = volumesAt(plant.thermal().bodies, "column front", {});
   EXPECT_NEAR(plant.temperature_degC(room, 7100.0), 20.0, 0.01);

@@ -11,7 +11,7 @@ namespace spindrift {
 namespace {
 
 /// Speed steps of 40 min, a temperature that follows with 30 min, another that only drifts with the room.
-TimeSeries record(int rows, double period_s) {
+TimeSeries plainRecord(int rows, double period_s) {
   Random random(11);
   TimeSeries s;
   std::vector<double> rpm;
@@ -47,7 +47,7 @@ double rms(const TimeSeries& s, const PlainModel& model, double from_s) {
 }
 
 TEST(Baselines, FirstOrderArxRecoversASystemOfItsOwnForm) {
-  TimeSeries s = record(1500, 60.0);
+  TimeSeries s = plainRecord(1500, 60.0);
   std::vector<double> y{3.0};
   for (std::size_t k = 1; k < s.time_s.size(); ++k)
     y.push_back(0.97 * y[k - 1] + 0.05 * s.at("T_1_degC").values[k] + 1e-5 * s.at("spindle_rpm").values[k] - 0.8);
@@ -58,7 +58,7 @@ TEST(Baselines, FirstOrderArxRecoversASystemOfItsOwnForm) {
 }
 
 TEST(Baselines, LaggedRidgeFollowsALagThatStaticRegressionCannot) {
-  TimeSeries s = record(3000, 30.0);
+  TimeSeries s = plainRecord(3000, 30.0);
   const std::vector<double>& bearing = s.at("T_1_degC").values;
   Random random(3);
   std::vector<double> y;
@@ -75,7 +75,7 @@ TEST(Baselines, LaggedRidgeFollowsALagThatStaticRegressionCannot) {
 }
 
 TEST(Baselines, UseNothingMeasuredAfterTraining) {
-  TimeSeries s = record(2000, 60.0);
+  TimeSeries s = plainRecord(2000, 60.0);
   std::vector<double> y;
   for (const double t : s.at("T_1_degC").values) y.push_back(1.5 * t);
   s.signals.push_back({"ez_um", SignalKind::Displacement, y});
@@ -91,7 +91,7 @@ TEST(Baselines, UseNothingMeasuredAfterTraining) {
 }
 
 TEST(Baselines, FallBackToTheMeanWithTooFewSamples) {
-  TimeSeries s = record(2000, 60.0);
+  TimeSeries s = plainRecord(2000, 60.0);
   s.signals.push_back({"ez_um", SignalKind::Displacement, std::vector<double>(2000, 4.0)});
   for (const auto model : {firstOrderArx, laggedRidge}) {
     const PlainModel m = model(s, "ez_um", 0.0, 600.0);

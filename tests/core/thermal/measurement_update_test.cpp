@@ -19,7 +19,7 @@ struct Record {
 };
 
 /// A model of the right shape whose gain is wrong and which lacks a slow drift.
-Record record(std::uint64_t seed, double true_gain) {
+Record updateRecord(std::uint64_t seed, double true_gain) {
   Random random(seed);
   Record r;
   std::vector<double> u;
@@ -46,7 +46,7 @@ TEST(MeasurementUpdate, KalmanBeatsTheGainRatioAndNoUpdate) {
   double gain = 0.0;
   double kalman = 0.0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const Record r = record(seed, 0.6);
+    const Record r = updateRecord(seed, 0.6);
     UpdateOptions options;
     options.offset_sigma = 1.5;
     options.kind = UpdateKind::Kalman;
@@ -137,7 +137,7 @@ TEST(MeasurementUpdate, AGainThatDependsOnAKnownSignalIsLearnedOnce) {
 }
 
 TEST(MeasurementUpdate, NothingIsPredictedWithItsOwnMeasurement) {
-  Record r = record(3, 0.7);
+  Record r = updateRecord(3, 0.7);
   for (const UpdateKind kind : {UpdateKind::Gain, UpdateKind::Arx, UpdateKind::Kalman}) {
     UpdateOptions options;
     options.kind = kind;

@@ -19,7 +19,7 @@ struct Plant {
 };
 
 /// Gains -20 and 5 with time constants 3600 s and 600 s; noise white (rho = 0) or first-order coloured.
-Plant plant(std::uint64_t seed, double rho, double sigma) {
+Plant outputErrorPlant(std::uint64_t seed, double rho, double sigma) {
   Random random(seed);
   Plant p;
   double level = 0.0;
@@ -44,7 +44,7 @@ void expectCoverage(double rho) {
   int step_inside = 0;
   int step_total = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    const Plant p = plant(1000 + seed, rho, 0.2);
+    const Plant p = outputErrorPlant(1000 + seed, rho, 0.2);
     OutputErrorOptions options;
     options.starts = 2;
     const OutputErrorResult r = fitOutputError(p.time, p.y, {{p.u, 2, true}}, options);
@@ -92,7 +92,7 @@ TEST(OutputError, IntervalsHoldForColouredNoise) {
 }
 
 TEST(OutputError, TheModelKeepsTheUncertaintyOfItsTimeConstants) {
-  const Plant p = plant(77, 0.0, 0.2);
+  const Plant p = outputErrorPlant(77, 0.0, 0.2);
   const OutputErrorResult r = fitOutputError(p.time, p.y, {{p.u, 2, true}});
   ThermalModel model;
   model.inputs = {{"u_rpm", SignalKind::Speed, 1.0, 1.0, 0.0, 0.0, 2.0}};
@@ -123,13 +123,13 @@ TEST(OutputError, TheModelKeepsTheUncertaintyOfItsTimeConstants) {
 }
 
 TEST(OutputError, SaysWhenTimeConstantsMayBeOne) {
-  Plant p = plant(9, 0.0, 0.2);
+  Plant p = outputErrorPlant(9, 0.0, 0.2);
   Random random(10);
   const auto one = lagFiltered(p.time, p.u, 1800.0, true);
   for (std::size_t k = 0; k < one.size(); ++k) p.y[k] = -10.0 * one[k] + random.normal(0.0, 0.5);
   const OutputErrorResult r = fitOutputError(p.time, p.y, {{p.u, 2, true}});
   EXPECT_NE(r.message, "") << r.taus_s[0][0] << " " << r.taus_s[0][1];
-  EXPECT_EQ(fitOutputError(p.time, plant(9, 0.0, 0.2).y, {{p.u, 2, true}}).message, "");
+  EXPECT_EQ(fitOutputError(p.time, outputErrorPlant(9, 0.0, 0.2).y, {{p.u, 2, true}}).message, "");
 }
 
 TEST(OutputError, FindsTwoTimeConstantsThatOnlyWorkAsAPair) {
@@ -169,12 +169,12 @@ TEST(OutputError, SlowPolesSurviveFastSampling) {
 }
 
 TEST(OutputError, ChoosesTheNumberOfLagsOnUnseenData) {
-  const Plant p = plant(5, 0.0, 0.1);
+  const Plant p = outputErrorPlant(5, 0.0, 0.1);
   EXPECT_EQ(chooseOutputErrorOrder(p.time, p.y, {{p.u, 1, true}}).best.na, 2);
 }
 
 TEST(OutputError, RefusesConstantAndTooShortData) {
-  const Plant p = plant(6, 0.0, 0.1);
+  const Plant p = outputErrorPlant(6, 0.0, 0.1);
   const std::vector<double> constant(p.u.size(), 1.0);
   EXPECT_THROW(static_cast<void>(fitOutputError(p.time, p.y, {{constant, 1, true}})), InputError);
   const auto first = [](const std::vector<double>& v) { return std::span<const double>(v).first(12); };

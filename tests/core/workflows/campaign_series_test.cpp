@@ -14,8 +14,8 @@
 namespace spindrift {
 namespace {
 
-constexpr double tau_s = 3000.0;
-constexpr double gain = 12.0;  // um at 3000 rpm
+constexpr double series_tau_s = 3000.0;
+constexpr double series_gain = 12.0;  // um at 3000 rpm
 
 /// 40 h: a fast log of the speed every 30 s, EZ of point F1 every 30 min with 0.2 um. The control compensates in the
 /// last 5 h and leaves nothing.
@@ -39,11 +39,11 @@ Campaign sparse() {
       o.state = "M" + std::to_string(i / 60);
       o.point = "F1";
       o.component = Component::EZ;
-      o.value = (on.back() > 0.5 ? 0.0 : gain * state) + random.normal(0.0, 0.2);
+      o.value = (on.back() > 0.5 ? 0.0 : series_gain * state) + random.normal(0.0, 0.2);
       o.sigma = 0.2;
       c.observations->rows.push_back(o);
     }
-    state += (1.0 - std::exp(-30.0 / tau_s)) * (rpm / 3000.0 - state);
+    state += (1.0 - std::exp(-30.0 / series_tau_s)) * (rpm / 3000.0 - state);
   }
   c.log = OperatingLog(time);
   c.log->setSignal("spindle_rpm", speed);
@@ -79,7 +79,7 @@ TEST(CampaignSeries, SparseObservationsJoinTheFastLogAndGiveTheModel) {
   EXPECT_LT(model.test.rmse, 0.6);
   EXPECT_LT(model.test.rmse, 0.2 * model.plain.front().test.rmse);
   ASSERT_EQ(model.step_responses.size(), 1U);
-  EXPECT_NEAR(model.step_responses[0].final_value, gain * model.step_responses[0].step / 3000.0, 1.0);
+  EXPECT_NEAR(model.step_responses[0].final_value, series_gain * model.step_responses[0].step / 3000.0, 1.0);
   // What needs a value at every row says so.
   request.method = "oe";
   EXPECT_THROW(static_cast<void>(identifyThermalModel(found.series, request, job)), InputError);
