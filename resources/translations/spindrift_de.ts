@@ -10183,42 +10183,6 @@ endgültig fehlgeschlagen: {}</translation>
         <source>linear expansion of axis %1</source>
         <translation>Längenausdehnung der Achse %1</translation>
     </message>
-    <message>
-        <source>Cold</source>
-        <translation>Kalt</translation>
-    </message>
-    <message>
-        <source>This scan</source>
-        <translation>Dieser Scan</translation>
-    </message>
-    <message>
-        <source>Left out</source>
-        <translation>Ausgelassen</translation>
-    </message>
-    <message>
-        <source>surface</source>
-        <translation>Fläche</translation>
-    </message>
-    <message>
-        <source>%1 to %2</source>
-        <translation>%1 bis %2</translation>
-    </message>
-    <message>
-        <source>%1: %2 mm</source>
-        <translation>%1: %2 mm</translation>
-    </message>
-    <message>
-        <source>%1: %2, %3 %4 than nominal</source>
-        <translation>%1: %2, %3 %4 als das Nennmaß</translation>
-    </message>
-    <message>
-        <source>less</source>
-        <translation>weniger</translation>
-    </message>
-    <message>
-        <source>more</source>
-        <translation>mehr</translation>
-    </message>
 </context>
 <context>
     <name>spindrift::gui::ActivityDialog</name>
@@ -13603,10 +13567,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Size</source>
         <translation>Größe</translation>
-    </message>
-    <message>
-        <source>Marks</source>
-        <translation>Punkte</translation>
     </message>
     <message>
         <source>When</source>

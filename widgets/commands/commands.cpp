@@ -6,7 +6,7 @@
 namespace spindrift::gui {
 namespace {
 
-QString translated(const char* text) {
+QString commandText(const char* text) {
   return QCoreApplication::translate("Commands", text);
 }
 
@@ -18,8 +18,8 @@ ExcludeCommand::ExcludeCommand(SessionModel& session, const QStringList& items, 
     const auto found = session.excluded().find(item);
     before_.emplace_back(item, found == session.excluded().end() ? QString() : found->second);
   }
-  const QString what = items.size() == 1 ? items.front() : translated("%1 items").arg(items.size());
-  setText((reason.isEmpty() ? translated("restore %1") : translated("exclude %1")).arg(what));
+  const QString what = items.size() == 1 ? items.front() : commandText("%1 items").arg(items.size());
+  setText((reason.isEmpty() ? commandText("restore %1") : commandText("exclude %1")).arg(what));
 }
 
 void ExcludeCommand::redo() {
@@ -73,7 +73,7 @@ MachineCommand::MachineCommand(SessionModel& session, nlohmann::json after)
     : session_(session),
       before_(session.machineEdited() ? session.campaign()->machine.source : nlohmann::json::object()),
       after_(std::move(after)) {
-  setText(translated("edit machine"));
+  setText(commandText("edit machine"));
 }
 
 void MachineCommand::redo() {

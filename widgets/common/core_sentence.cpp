@@ -19,7 +19,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr int deepest = 8;           ///< sentences in sentences
+constexpr int deepest_sentence = 8;  ///< sentences in sentences
 constexpr qsizetype longest = 6000;  ///< characters; what is longer is a document
 constexpr qsizetype most_known = 4000;
 constexpr qsizetype shortest_key = 3;
@@ -145,7 +145,7 @@ class Catalogue {
   };
 
   Rendered rendered(const QString& english, int depth) {
-    if (english.isEmpty() || depth > deepest) return {shownNumbers(english), 0};
+    if (english.isEmpty() || depth > deepest_sentence) return {shownNumbers(english), 0};
     // The parts of a long sentence come up again and again.
     if (const auto seen = tried_.find(english); seen != tried_.end()) return seen->second;
     Rendered best = whole(english, depth);

@@ -7,6 +7,7 @@
 #include <QHeaderView>
 #include <QHelpEvent>
 #include <QPainter>
+#include <QResizeEvent>
 #include <QScrollBar>
 #include <QSplitter>
 #include <QTabBar>
@@ -57,13 +58,44 @@ void IconLabel::paintEvent(QPaintEvent*) {
   painter.drawPixmap(0, 0, iconPixmap(name_, theme().tone(tone_), size_, devicePixelRatioF()));
 }
 
+WrappedLabel::WrappedLabel(QWidget* parent) : QLabel(parent) {
+  setWordWrap(true);
+}
+
+void WrappedLabel::setText(const QString& text) {
+  QLabel::setText(text);
+  keepLines();
+}
+
+bool WrappedLabel::event(QEvent* event) {
+  const bool handled = QLabel::event(event);
+  switch (event->type()) {
+    case QEvent::Resize:
+      if (static_cast<QResizeEvent*>(event)->oldSize().width() != width()) keepLines();
+      break;
+    case QEvent::Show:
+    case QEvent::FontChange:
+    case QEvent::StyleChange:
+      keepLines();
+      break;
+    default:
+      break;
+  }
+  return handled;
+}
+
+void WrappedLabel::keepLines() {
+  if (!isVisible()) return;                      // its width is not yet known
+  if (minimumHeight() > 0) setMinimumHeight(0);  // QLabel counts it in: a shorter text would stay as high
+  setMinimumHeight(heightForWidth(width()));
+}
+
 Callout::Callout(QWidget* parent) : QFrame(parent) {
   auto* line = new QHBoxLayout(this);
   line->setContentsMargins(12, 10, 12, 10);
   line->setSpacing(10);
   icon_ = new IconLabel;
-  text_ = new QLabel;
-  text_->setWordWrap(true);
+  text_ = new WrappedLabel;
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   button_ = new QPushButton;
   button_->hide();
@@ -91,27 +123,7 @@ void Callout::show(Tone tone, const QString& sentence) {
   icon_->set(QString::fromLatin1(toneIcon(tone)), tone);
   setAccessibleName(sentence);
   setVisible(true);
-  fitHeight();
   update();
-}
-
-void Callout::resizeEvent(QResizeEvent* event) {
-  QFrame::resizeEvent(event);
-  fitHeight();
-}
-
-bool Callout::event(QEvent* event) {
-  const bool handled = QFrame::event(event);
-  if (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Show) fitHeight();
-  return handled;
-}
-
-/// A layout asks a hidden widget, and one whose text has just changed, for the height of the sentence before: a second
-/// line would be cut. So the height for the width it really has is its least height.
-void Callout::fitHeight() {
-  if (!isVisible()) return;
-  const int needed = layout()->heightForWidth(width());
-  if (needed != minimumHeight()) setMinimumHeight(needed);
 }
 
 void Callout::set(Tone tone, const QString& sentence) {

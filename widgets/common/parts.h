@@ -40,6 +40,22 @@ class IconLabel : public QWidget {
   int size_;
 };
 
+/// Sentences that are as high as their lines need at the width they have. A layout asks a label that is hidden, or
+/// whose text has just changed, for the height of the text before, and the tabs of a page ask for none: a second line
+/// is cut.
+class WrappedLabel : public QLabel {
+  Q_OBJECT
+ public:
+  explicit WrappedLabel(QWidget* parent = nullptr);
+  void setText(const QString& text);
+
+ protected:
+  bool event(QEvent* event) override;
+
+ private:
+  void keepLines();
+};
+
 /// One sentence with a meaning: what is wrong (or good), what it means, what to do. Optionally one button.
 class Callout : public QFrame {
   Q_OBJECT
@@ -54,15 +70,11 @@ class Callout : public QFrame {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
-  bool event(QEvent* event) override;
 
  private:
-  void fitHeight();
-
   Tone tone_ = Tone::Neutral;
   IconLabel* icon_;
-  QLabel* text_;
+  WrappedLabel* text_;
   QPushButton* button_;
   std::function<void()> action_;
 };

@@ -109,7 +109,6 @@ bool Plot::eventFilter(QObject* watched, QEvent* event) {
       const QPointF p = static_cast<QMouseEvent*>(event)->position();
       const auto number = [](double v) {
         QString text = decimalText(v, 'g', 4);
-        text.replace(QLatin1Char('-'), QChar(0x2212));
         return text;
       };
       Q_EMIT hovered(x_title_ + QStringLiteral(" = ") + number(plot_->xAxis->pixelToCoord(p.x())) +

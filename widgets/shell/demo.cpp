@@ -12,14 +12,14 @@
 #include "core/simulation/scenario.h"
 #include "core/simulation/virtual_campaign.h"
 
-static void loadScenarios() {
+static void loadDemoScenarios() {
   Q_INIT_RESOURCE(scenarios);
 }
 
 namespace spindrift::gui {
 namespace {
 
-QString translated(const char* text) {
+QString demoText(const char* text) {
   return QCoreApplication::translate("Demo", text);
 }
 
@@ -60,7 +60,7 @@ std::string resourceOf(const std::string& name) {
 }
 
 std::string demoText(const std::string& name) {
-  loadScenarios();
+  loadDemoScenarios();
   QFile file(QString::fromStdString(resourceOf(name)));
   if (!file.open(QIODevice::ReadOnly)) throw InternalError("the scenario of the demo " + name + " is missing");
   return file.readAll().toStdString();
@@ -150,19 +150,19 @@ Scenario scenarioOf(const std::string& name, bool small) {
 
 const std::vector<Demo>& demos() {
   static const std::vector<Demo> list{
-      {"fiducials", "fiducials", translated("Fiducials under the microscope"),
-       translated("Images of two thermal states become a heat map of the table."), "microscope"},
-      {"holes", "hole_bar", translated("Hole artefact and touch probe"),
-       translated("A hole bar on a turning table separates the errors of axis, table and artefact."), "probe"},
-      {"balls", "ball_artefact", translated("Ball artefact and star stylus"),
-       translated("Rotations and growth of a horizontal machine from four balls."), "target"},
-      {"scans", "scans", translated("Laser profiler on a gantry"),
-       translated("Cold and warm scans of free-form artefacts give six errors of an axis."), "scan"},
-      {"discrepancy", "discrepancy_vertical", translated("What the simulation lacks"),
-       translated("Find where simulation and measurement disagree, name the missing effect, see the gap shrink."),
+      {"fiducials", "fiducials", demoText("Fiducials under the microscope"),
+       demoText("Images of two thermal states become a heat map of the table."), "microscope"},
+      {"holes", "hole_bar", demoText("Hole artefact and touch probe"),
+       demoText("A hole bar on a turning table separates the errors of axis, table and artefact."), "probe"},
+      {"balls", "ball_artefact", demoText("Ball artefact and star stylus"),
+       demoText("Rotations and growth of a horizontal machine from four balls."), "target"},
+      {"scans", "scans", demoText("Laser profiler on a gantry"),
+       demoText("Cold and warm scans of free-form artefacts give six errors of an axis."), "scan"},
+      {"discrepancy", "discrepancy_vertical", demoText("What the simulation lacks"),
+       demoText("Find where simulation and measurement disagree, name the missing effect, see the gap shrink."),
        "discrepancy"},
-      {"own_pattern", "own_pattern", translated("Fiducials of your own artwork"),
-       translated("A campaign with its own pattern.json: 7 × 7 ellipses on a pitch of 455 µm."), "microscope", false},
+      {"own_pattern", "own_pattern", demoText("Fiducials of your own artwork"),
+       demoText("A campaign with its own pattern.json: 7 × 7 ellipses on a pitch of 455 µm."), "microscope", false},
   };
   return list;
 }

@@ -12,7 +12,7 @@
 namespace spindrift::gui {
 namespace {
 
-QString translated(const char* text) {
+QString droppedText(const char* text) {
   return QCoreApplication::translate("Dropped", text);
 }
 
@@ -37,14 +37,14 @@ bool isOpenable(const QFileInfo& file) {
 }
 
 QString whyNot(const QFileInfo& file) {
-  if (!file.exists()) return translated("%1 is not there any more.").arg(file.fileName());
+  if (!file.exists()) return droppedText("%1 is not there any more.").arg(file.fileName());
   if (file.isDir()) {
-    return translated(
+    return droppedText(
                "The folder %1 is neither a session nor a campaign: it has no campaign.json. Captures in it are "
                "taken when it is chosen on the page Capture.")
         .arg(file.fileName());
   }
-  return translated(
+  return droppedText(
              "%1 cannot be opened; allowed: the folder of a session or a campaign, a log (.csv), point clouds "
              "(.pcd, .ply) and images (.jpg, .png, .tif, .bmp, .pgm).")
       .arg(file.fileName());
@@ -69,7 +69,7 @@ Dropped droppedFiles(const QStringList& files, bool campaign_open) {
     if (campaign_open) {
       dropped.kind = Dropped::Kind::Captures;
     } else {
-      dropped.why_not = translated(
+      dropped.why_not = droppedText(
           "Images and point clouds are captures of a campaign; open a session or begin a new "
           "measurement first.");
     }
@@ -77,7 +77,7 @@ Dropped droppedFiles(const QStringList& files, bool campaign_open) {
     dropped.kind = Dropped::Kind::Open;
   } else {
     dropped.why_not =
-        translated("Sessions, campaigns and logs are opened one at a time; drop one of them, or captures alone.");
+        droppedText("Sessions, campaigns and logs are opened one at a time; drop one of them, or captures alone.");
   }
   return dropped;
 }

@@ -21,7 +21,7 @@ constexpr int seconds_per_step = 180;
 constexpr double most_memory_MB = 1024.0;
 constexpr double part_within_three_sigma = 0.95;
 
-QString translated(const char* text) {
+QString selfTestText(const char* text) {
   return QCoreApplication::translate("SelfTest", text);
 }
 
@@ -56,7 +56,7 @@ SelfTestPart judgeDeviations(const QString& name, const ObservationSet& measured
   const double rms = count > 0 ? std::sqrt(squares / count) : 0.0;
   part.passed = count > 0 && share >= part_within_three_sigma;
   part.figures = {{"deviations", count}, {"within_three_sigma", share}, {"rms_error_um", rms}};
-  part.sentence = translated("%1 deviations, %2 % within three standard uncertainties of the truth, rms error %3 µm")
+  part.sentence = selfTestText("%1 deviations, %2 % within three standard uncertainties of the truth, rms error %3 µm")
                       .arg(count)
                       .arg(100.0 * share, 0, 'f', 1)
                       .arg(rms, 0, 'f', 2);
@@ -83,9 +83,9 @@ SelfTestPart judgeDiscrepancy(const QString& name, const nlohmann::json& found, 
   for (const std::string& id : hidden) hidden_names += (hidden_names.empty() ? "" : ", ") + id;
   part.passed = right == hidden.size() && !hidden.empty();
   part.figures = {{"hidden", hidden}, {"verdict", found.value("verdict", std::string())}, {"named", named}};
-  part.sentence = translated("hidden: %1; named: %2")
+  part.sentence = selfTestText("hidden: %1; named: %2")
                       .arg(QString::fromStdString(hidden_names),
-                           named.empty() ? translated("nothing") : QString::fromStdString(named));
+                           named.empty() ? selfTestText("nothing") : QString::fromStdString(named));
   return part;
 }
 
@@ -100,25 +100,25 @@ SelfTestPart runDemo(MainWindow& window, const Demo& demo) {
   const QString name = QString::fromStdString(demo.name);
   window.startDemo(name, true);
   if (!waitForJobs(window, seconds_per_step) || window.session().campaign() == nullptr) {
-    return failed(name, translated("the demo could not be made: %1").arg(window.jobBar()->message()));
+    return failed(name, selfTestText("the demo could not be made: %1").arg(window.jobBar()->message()));
   }
   for (const StepId step : all_steps) {
     window.workflow().goTo(step);
-    if (window.currentPage() == nullptr) return failed(name, translated("%1 has no page").arg(stepTitle(step)));
+    if (window.currentPage() == nullptr) return failed(name, selfTestText("%1 has no page").arg(stepTitle(step)));
     window.currentPage()->runAll();
     if (!waitForJobs(window, seconds_per_step)) {
-      return failed(name, translated("%1 did not finish").arg(stepTitle(step)));
+      return failed(name, selfTestText("%1 did not finish").arg(stepTitle(step)));
     }
   }
   JobContext job;
   const nlohmann::json truth = demoTruth(demo.name, true, job);
   if (truth.contains("captures")) {
     const auto evaluation = window.session().evaluation();
-    if (evaluation == nullptr) return failed(name, translated("the captures were not evaluated"));
+    if (evaluation == nullptr) return failed(name, selfTestText("the captures were not evaluated"));
     return judgeDeviations(name, evaluation->observations, truth);
   }
   const auto story = window.session().result("discrepancy");
-  if (!story) return failed(name, translated("the discrepancy was not searched"));
+  if (!story) return failed(name, selfTestText("the discrepancy was not searched"));
   return judgeDiscrepancy(name, story->payload, truth);
 }
 
@@ -156,7 +156,7 @@ SelfTestResult runSelfTest(MainWindow& window) {
   memory.name = QStringLiteral("memory");
   memory.passed = result.memory_MB <= most_memory_MB;
   memory.figures = {{"resident_MB", result.memory_MB}, {"peak_MB", result.peak_memory_MB}};
-  memory.sentence = translated("%1 MB in use after all demos, at most %2 MB")
+  memory.sentence = selfTestText("%1 MB in use after all demos, at most %2 MB")
                         .arg(result.memory_MB, 0, 'f', 0)
                         .arg(result.peak_memory_MB, 0, 'f', 0);
   result.parts.push_back(std::move(memory));

@@ -164,9 +164,7 @@ QString tickText(double value, double step) {
     scaled *= 10;
     ++decimals;
   }
-  QString text = decimalText(value, 'f', decimals);
-  if (text.startsWith(QLatin1Char('-'))) text.replace(0, 1, QChar(0x2212));
-  return text;
+  return decimalText(value, 'f', decimals);
 }
 
 }  // namespace spindrift::gui

@@ -9,6 +9,8 @@
 namespace spindrift::gui {
 namespace {
 
+const QChar true_minus(0x2212);
+
 QString decimalPoint() {
   return QLocale().decimalPoint();
 }
@@ -17,12 +19,18 @@ QString decimalPoint() {
 
 QString decimalText(double value, char format, int digits) {
   QString text = QString::number(value, format, digits);
+  static const QRegularExpression zero(QStringLiteral("\\A-0(\\.0*)?\\z"));
+  if (text.contains(zero)) text.remove(0, 1);  // a rounded zero has no sign
+  text.replace(QLatin1Char('-'), true_minus);
   const QString point = decimalPoint();
   if (point != QLatin1String(".")) text.replace(QLatin1Char('.'), point);
   return text;
 }
 
 QString shownNumbers(QString text) {
+  // A sign stands before a number and behind nothing that it could join or take away from.
+  static const QRegularExpression sign(QStringLiteral(R"((?<![\w./\\"')\]}-])-(?=\d))"));
+  if (text.contains(QLatin1Char('-'))) text.replace(sign, QString(true_minus));
   const QString point = decimalPoint();
   if (point == QLatin1String(".") || !text.contains(QLatin1Char('.'))) return text;
   // Neither part of a word, a path or a quoted text nor of a version such as 0.1.0.
@@ -34,7 +42,7 @@ QString shownNumbers(QString text) {
 
 std::optional<double> typedNumber(const QString& text) {
   QString plain = text.trimmed();
-  plain.replace(QChar(0x2212), QLatin1Char('-'));
+  plain.replace(true_minus, QLatin1Char('-'));
   if (plain.count(QLatin1Char(',')) == 1 && !plain.contains(QLatin1Char('.'))) {
     plain.replace(QLatin1Char(','), QLatin1Char('.'));
   }

@@ -8,10 +8,11 @@
 
 namespace spindrift::gui {
 
-/// A number in the format of printf ('f', 'g', 'e'), in the locale of the window.
+/// A number in the format of printf ('f', 'g', 'e'), in the locale of the window and with a true minus sign.
 [[nodiscard]] QString decimalText(double value, char format = 'f', int digits = 1);
 
-/// A text of core with numbers in it ("12.4 ± 0.3 µm"): its decimal points as the window writes them. Names, versions
+/// A text of core with numbers in it ("12.4 ± 0.3 µm"): its decimal points as the window writes them, its minus
+/// signs true ones. Names, versions
 /// and paths stay as they are.
 [[nodiscard]] QString shownNumbers(QString text);
 

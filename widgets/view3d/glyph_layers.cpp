@@ -20,7 +20,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr double head_px = 11.0;
+constexpr double arrow_head_px = 11.0;
 constexpr double node_mm = 1.3;
 
 vtkSmartPointer<vtkAlgorithm> cone() {
@@ -127,8 +127,8 @@ void ArrowLayer::build() {
 
 void ArrowLayer::place(double mm_per_pixel, double line_width) {
   shafts_.actor->GetProperty()->SetLineWidth(static_cast<float>(line_width));
-  if (std::abs(head_px * mm_per_pixel - head_mm_) < 1e-3 * head_mm_) return;
-  head_mm_ = head_px * mm_per_pixel;
+  if (std::abs(arrow_head_px * mm_per_pixel - head_mm_) < 1e-3 * head_mm_) return;
+  head_mm_ = arrow_head_px * mm_per_pixel;
   if (!arrows_.empty()) build();
 }
 

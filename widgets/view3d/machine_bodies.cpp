@@ -26,7 +26,7 @@ struct Layout {
   }
 };
 
-QString translated(const char* text) {
+QString bodyText(const char* text) {
   return QCoreApplication::translate("MachineBodies", text);
 }
 
@@ -37,7 +37,7 @@ struct Extent {
   [[nodiscard]] double length() const { return high - low; }
 };
 
-Extent around(double middle, double half) {
+Extent extentAround(double middle, double half) {
   return {middle - half, middle + half};
 }
 
@@ -127,7 +127,7 @@ void Builder::findExtents() {
 
 double Builder::addWorkpieceSide() {
   double under = table_height_;
-  add(translated("Table"), BodyKind::Table, across_, deep_, {under - slab_, under});
+  add(bodyText("Table"), BodyKind::Table, across_, deep_, {under - slab_, under});
   under -= slab_;
   bool table_is_slide = true;  // the first linear axis moves the table itself
   for (const ChainAxis& axis : machine_.chain.axes()) {
@@ -142,9 +142,9 @@ double Builder::addWorkpieceSide() {
     if (std::exchange(table_is_slide, false)) continue;
     const bool moves_across = direction.x() > 0.5;
     const Extent a = moves_across ? Extent{across_.low + 0.1 * across_.length(), across_.high - 0.1 * across_.length()}
-                                  : around(across_.middle(), 0.3 * across_.length());
-    const Extent d = moves_across ? around(deep_.middle(), 0.3 * deep_.length()) : deep_;
-    add(translated("%1 slide").arg(name), BodyKind::WorkpieceSide, a, d, {under - slab_, under});
+                                  : extentAround(across_.middle(), 0.3 * across_.length());
+    const Extent d = moves_across ? extentAround(deep_.middle(), 0.3 * deep_.length()) : deep_;
+    add(bodyText("%1 slide").arg(name), BodyKind::WorkpieceSide, a, d, {under - slab_, under});
     under -= slab_;
   }
   return under;
@@ -153,8 +153,8 @@ double Builder::addWorkpieceSide() {
 void Builder::addTurningTable(const QString& name, double& under) {
   const double radius = 0.4 * std::min(across_.length(), deep_.length());
   const double height = 1.4 * slab_;
-  addRound(translated("%1 turning table").arg(name), BodyKind::WorkpieceSide, 2, around(across_.middle(), radius),
-           around(deep_.middle(), radius), {under - height, under});
+  addRound(bodyText("%1 turning table").arg(name), BodyKind::WorkpieceSide, 2, extentAround(across_.middle(), radius),
+           extentAround(deep_.middle(), radius), {under - height, under});
   under -= height;
 }
 
@@ -163,14 +163,14 @@ void Builder::addSwivellingTable(const QString& name, bool across_shaft, double&
   const double radius = 0.09 * size_;
   const Extent height{under - 2 * radius, under};
   const Extent& along = across_shaft ? across_ : deep_;
-  addRound(translated("%1 swivel").arg(name), BodyKind::WorkpieceSide, across_shaft ? 0 : 1,
-           across_shaft ? along : around(across_.middle(), radius),
-           across_shaft ? around(deep_.middle(), radius) : along, height);
+  addRound(bodyText("%1 swivel").arg(name), BodyKind::WorkpieceSide, across_shaft ? 0 : 1,
+           across_shaft ? along : extentAround(across_.middle(), radius),
+           across_shaft ? extentAround(deep_.middle(), radius) : along, height);
   for (const double end : {along.low, along.high}) {
-    const Extent bearing = around(end, 0.04 * size_);
-    add(translated("%1 bearing").arg(name), BodyKind::WorkpieceSide,
-        across_shaft ? bearing : around(across_.middle(), 1.3 * radius),
-        across_shaft ? around(deep_.middle(), 1.3 * radius) : bearing, {height.low, under - 0.2 * slab_});
+    const Extent bearing = extentAround(end, 0.04 * size_);
+    add(bodyText("%1 bearing").arg(name), BodyKind::WorkpieceSide,
+        across_shaft ? bearing : extentAround(across_.middle(), 1.3 * radius),
+        across_shaft ? extentAround(deep_.middle(), 1.3 * radius) : bearing, {height.low, under - 0.2 * slab_});
   }
   under = height.low;
 }
@@ -178,7 +178,7 @@ void Builder::addSwivellingTable(const QString& name, bool across_shaft, double&
 void Builder::addToolSide(double under) {
   const double bed_bottom = under - 0.12 * size_;
   const double column_back = deep_.high + 0.27 * size_;
-  add(translated("Bed"), BodyKind::Bed, {across_.low - 0.02 * size_, across_.high + 0.02 * size_},
+  add(bodyText("Bed"), BodyKind::Bed, {across_.low - 0.02 * size_, across_.high + 0.02 * size_},
       {deep_.low - 0.02 * size_, column_back}, {bed_bottom, under});
   vertical_ ? addVerticalTool(under, bed_bottom) : addHorizontalTool(under);
 }
@@ -199,21 +199,21 @@ void Builder::addVerticalTool(double under, double bed_bottom) {
     const double post = 0.07 * size_;
     const Extent posts{across_.low - 0.02 * size_ - post, across_.high + 0.02 * size_ + post};
     for (const Extent& side : {Extent{posts.low, posts.low + post}, Extent{posts.high - post, posts.high}}) {
-      add(translated("Column"), BodyKind::Column, side, around(column_front, 0.12 * size_),
+      add(bodyText("Column"), BodyKind::Column, side, extentAround(column_front, 0.12 * size_),
           {bed_bottom, head_height.high});
     }
-    add(translated("Crossbeam"), BodyKind::Column, posts, {d0 + head_half, column_front + 0.1 * size_},
+    add(bodyText("Crossbeam"), BodyKind::Column, posts, {d0 + head_half, column_front + 0.1 * size_},
         {head_height.low + 0.05 * size_, head_height.high});
   } else {
-    add(translated("Column"), BodyKind::Column, around(a0, 0.2 * size_), {column_front, column_front + 0.24 * size_},
-        {under, top});
+    add(bodyText("Column"), BodyKind::Column, extentAround(a0, 0.2 * size_),
+        {column_front, column_front + 0.24 * size_}, {under, top});
   }
-  add(translated("Head"), BodyKind::ToolSide, around(a0, head_half),
+  add(bodyText("Head"), BodyKind::ToolSide, extentAround(a0, head_half),
       {d0 - head_half, gantry ? d0 + head_half : column_front}, head_height);
   addSwivelHeads(a0, d0, tip);
-  addRound(translated("Spindle"), BodyKind::Spindle, 2, around(a0, 0.055 * size_), around(d0, 0.055 * size_),
+  addRound(bodyText("Spindle"), BodyKind::Spindle, 2, extentAround(a0, 0.055 * size_), extentAround(d0, 0.055 * size_),
            {tip + 0.05 * size_, tip + 0.16 * size_});
-  addRound(translated("Tool"), BodyKind::Spindle, 2, around(a0, 0.012 * size_), around(d0, 0.012 * size_),
+  addRound(bodyText("Tool"), BodyKind::Spindle, 2, extentAround(a0, 0.012 * size_), extentAround(d0, 0.012 * size_),
            {tip, tip + 0.05 * size_});
 }
 
@@ -224,9 +224,9 @@ void Builder::addSwivelHeads(double across_middle, double deep_middle, double ti
     const int about = direction.x() > 0.5 ? 0 : direction.y() > 0.5 ? 1 : 2;
     const double radius = 0.085 * size_;
     const double long_half = about == 2 ? radius : 0.13 * size_;
-    addRound(translated("%1 swivel").arg(QString::fromStdString(axis.name)), BodyKind::ToolSide, about,
-             around(across_middle, about == 0 ? long_half : radius),
-             around(deep_middle, about == 1 ? long_half : radius), {tip + 0.13 * size_, tip + 0.30 * size_});
+    addRound(bodyText("%1 swivel").arg(QString::fromStdString(axis.name)), BodyKind::ToolSide, about,
+             extentAround(across_middle, about == 0 ? long_half : radius),
+             extentAround(deep_middle, about == 1 ? long_half : radius), {tip + 0.13 * size_, tip + 0.30 * size_});
   }
 }
 
@@ -235,14 +235,14 @@ void Builder::addHorizontalTool(double under) {
   const double top = table_height_ + travel_[2].length() + 0.5 * size_;
   const double a0 = travel_[0].middle();
   const double u0 = table_height_ + 0.45 * travel_[2].length();
-  add(translated("Column"), BodyKind::Column, around(a0, 0.26 * size_), {column_front, column_front + 0.24 * size_},
+  add(bodyText("Column"), BodyKind::Column, extentAround(a0, 0.26 * size_), {column_front, column_front + 0.24 * size_},
       {under, top});
-  add(translated("Head"), BodyKind::ToolSide, around(a0, 0.1 * size_), {column_front - 0.1 * size_, column_front},
-      around(u0, 0.1 * size_));
-  addRound(translated("Spindle"), BodyKind::Spindle, 1, around(a0, 0.055 * size_),
-           {column_front - 0.24 * size_, column_front - 0.1 * size_}, around(u0, 0.055 * size_));
-  addRound(translated("Tool"), BodyKind::Spindle, 1, around(a0, 0.012 * size_),
-           {column_front - 0.3 * size_, column_front - 0.24 * size_}, around(u0, 0.012 * size_));
+  add(bodyText("Head"), BodyKind::ToolSide, extentAround(a0, 0.1 * size_), {column_front - 0.1 * size_, column_front},
+      extentAround(u0, 0.1 * size_));
+  addRound(bodyText("Spindle"), BodyKind::Spindle, 1, extentAround(a0, 0.055 * size_),
+           {column_front - 0.24 * size_, column_front - 0.1 * size_}, extentAround(u0, 0.055 * size_));
+  addRound(bodyText("Tool"), BodyKind::Spindle, 1, extentAround(a0, 0.012 * size_),
+           {column_front - 0.3 * size_, column_front - 0.24 * size_}, extentAround(u0, 0.012 * size_));
 }
 
 void Builder::addMotions() {

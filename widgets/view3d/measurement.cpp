@@ -10,7 +10,7 @@
 namespace spindrift::gui {
 namespace {
 
-QString tr(const char* text) {
+QString measurementText(const char* text) {
   return QCoreApplication::translate("measurement", text);
 }
 
@@ -38,14 +38,16 @@ Distance distanceBetween(const MeasuredPlace& a, const MeasuredPlace& b) {
 
 QString distanceText(const MeasuredPlace& a, const MeasuredPlace& b) {
   const Distance d = distanceBetween(a, b);
-  const auto name = [](const MeasuredPlace& place) { return place.name.isEmpty() ? tr("surface") : place.name; };
-  const QString ends = tr("%1 to %2").arg(name(a), name(b));
-  if (!d.change_um) return tr("%1: %2 mm").arg(ends).arg(d.nominal_mm, 0, 'f', 3);
+  const auto name = [](const MeasuredPlace& place) {
+    return place.name.isEmpty() ? measurementText("surface") : place.name;
+  };
+  const QString ends = measurementText("%1 to %2").arg(name(a), name(b));
+  if (!d.change_um) return measurementText("%1: %2 mm").arg(ends).arg(d.nominal_mm, 0, 'f', 3);
   const double actual_mm = d.nominal_mm + *d.change_um / um_per_mm;
-  return tr("%1: %2, %3 %4 than nominal")
+  return measurementText("%1: %2, %3 %4 than nominal")
       .arg(ends, QString::fromStdString(withUncertainty(actual_mm, d.sigma_um / um_per_mm, "mm")),
            QString::fromStdString(withUncertainty(std::abs(*d.change_um), d.sigma_um, "um")),
-           *d.change_um < 0 ? tr("less") : tr("more"));
+           *d.change_um < 0 ? measurementText("less") : measurementText("more"));
 }
 
 }  // namespace spindrift::gui

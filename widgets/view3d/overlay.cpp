@@ -56,7 +56,7 @@ constexpr double bar_width = 14;
 constexpr int table_scale_px = 11;
 /// Between numbers along an axis in space.
 constexpr double tick_px = 28;
-constexpr double triad_px = 92;
+constexpr double triad_side_px = 92;
 
 /// What stands on the colour bar, and how wide it makes it.
 struct BarLayout {
@@ -100,7 +100,7 @@ QRectF paintColourBar(QPainter& painter, const QRectF& area, const ColourScale& 
   painter.setFont(textFont(sizes::font_secondary));
   const QFontMetricsF metrics(painter.font());
   constexpr double longest = 300;
-  const double length = std::min((lying ? area.width() - triad_px : area.height()) - 2 * sizes::step, longest);
+  const double length = std::min((lying ? area.width() - triad_side_px : area.height()) - 2 * sizes::step, longest);
   const QSizeF panel_size = lying ? QSizeF(length, colourBarHeight() - sizes::step) : QSizeF(panel_width, length);
   const QRectF panel(QPointF(area.right() - panel_size.width() - sizes::step,
                              lying ? area.bottom() - panel_size.height() - sizes::step : area.top() + sizes::step),

@@ -245,6 +245,13 @@ TEST_F(LanguageTest, NumbersOnScreenHaveTheCommaAndThoseTypedMayHaveEither) {
   EXPECT_EQ(numberCell(-1.25, 2).text, QStringLiteral("−1,25"));
   EXPECT_EQ(quantityText(12.4, 0.3, QStringLiteral("µm")), QStringLiteral("12,4 ± 0,3 µm"));
   EXPECT_EQ(shownNumbers(QStringLiteral("12.4 ± 0.3 µm")), QStringLiteral("12,4 ± 0,3 µm"));
+  EXPECT_EQ(decimalText(-12.34, 'f', 1), QStringLiteral("−12,3"));
+  EXPECT_EQ(decimalText(-0.04, 'f', 1), QStringLiteral("0,0")) << "a rounded zero has no sign";
+  EXPECT_EQ(shownNumbers(QStringLiteral("-12.4 ± 0.3 µm, -7 and (-1.5; 2)")),
+            QStringLiteral("−12,4 ± 0,3 µm, −7 and (−1,5; 2)"));
+  for (const char* as_it_is : {"2026-11-25", "M1-3 of run-2", "\"-1.x\"", "5-7 h", "ISO 230-3", "--at -x"})
+    EXPECT_EQ(shownNumbers(QString::fromUtf8(as_it_is)), QString::fromUtf8(as_it_is));
+  EXPECT_EQ(typedNumber(decimalText(-12.5, 'f', 1)), -12.5);
   EXPECT_EQ(shownNumbers(QStringLiteral("version 0.1.0 of run1.5/a2.5.csv")),
             QStringLiteral("version 0.1.0 of run1.5/a2.5.csv"));
   EXPECT_EQ(typedNumber(QStringLiteral(" 12,3 ")), 12.3);

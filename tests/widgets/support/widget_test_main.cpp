@@ -18,6 +18,6 @@ int main(int argc, char** argv) {
   qputenv("SPINDRIFT_SESSIONS", sessions.path().toUtf8());
   std::setlocale(LC_ALL, "C");
   spindrift::gui::applyTheme(application, spindrift::gui::ThemeKind::Light);
-  testing::InitGoogleTest(&argc, argv);
+  ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

@@ -31,7 +31,7 @@ std::shared_ptr<std::vector<float>> sheet(std::size_t count) {
   return xyz;
 }
 
-Camera fromAbove(const QSizeF& size) {
+Camera cameraAbove(const QSizeF& size) {
   Camera camera;
   camera.look(StandardView::Top);
   camera.fit({0, 0, 0}, {300, 130, 3}, size);
@@ -64,7 +64,7 @@ TEST(CloudOctree, ASmallBudgetCoversThePictureEvenly) {
   const auto xyz = sheet(400'000);
   const auto tree = CloudOctree::build(xyz, never);
   const QSizeF size(640, 320);
-  const auto seen = tree->visible(fromAbove(size), size, 40'000);
+  const auto seen = tree->visible(cameraAbove(size), size, 40'000);
   std::size_t points = 0;
   std::array<int, 24> cells{};
   for (const int i : seen) {
@@ -85,7 +85,7 @@ TEST(CloudOctree, SeesOnlyWhatIsInThePictureAndAllOfThat) {
   const auto xyz = sheet(400'000);
   const auto tree = CloudOctree::build(xyz, never);
   const QSizeF size(640, 320);
-  Camera camera = fromAbove(size);
+  Camera camera = cameraAbove(size);
   const auto count = [&](const std::vector<int>& nodes) {
     return std::accumulate(nodes.begin(), nodes.end(), std::size_t{0}, [&](std::size_t sum, int i) {
       return sum + tree->nodes()[static_cast<std::size_t>(i)].count;
@@ -93,7 +93,7 @@ TEST(CloudOctree, SeesOnlyWhatIsInThePictureAndAllOfThat) {
   };
   EXPECT_EQ(count(tree->visible(camera, size, everything)), 400'000U);
   for (const bool orthographic : {true, false}) {
-    camera = fromAbove(size);
+    camera = cameraAbove(size);
     camera.orthographic = orthographic;
     camera.zoom(8.0, QPointF(200, 100), size);
     const auto nodes = tree->visible(camera, size, everything);
@@ -117,7 +117,7 @@ TEST(CloudOctree, FindsThePointThatASearchOfAllFinds) {
   const auto xyz = sheet(60'000);
   const auto tree = CloudOctree::build(xyz, never);
   const QSizeF size(640, 320);
-  const Camera camera = fromAbove(size);
+  const Camera camera = cameraAbove(size);
   const auto all = [](const Eigen::Vector3d&) { return true; };
   Random random(8);
   for (int k = 0; k < 40; ++k) {

@@ -24,8 +24,7 @@ QString vectorText(const Eigen::Vector3d& n) {
   return QStringLiteral("%1, %2, %3")
       .arg(decimalText(n.x(), 'f', 2))
       .arg(decimalText(n.y(), 'f', 2))
-      .arg(decimalText(n.z(), 'f', 2))
-      .replace(QLatin1Char('-'), QChar(0x2212));
+      .arg(decimalText(n.z(), 'f', 2));
 }
 
 }  // namespace

@@ -26,9 +26,6 @@ Cell numberCell(double value, int decimals) {
   Cell cell = dashCell();
   if (!std::isfinite(value)) return cell;
   cell.text = decimalText(value, 'f', decimals);
-  // A rounded zero has no sign.
-  if (typedNumber(cell.text) == 0.0) cell.text.remove(QLatin1Char('-'));
-  cell.text.replace(QLatin1Char('-'), QChar(0x2212));
   return cell;
 }
 
@@ -36,6 +33,12 @@ Cell quantityCell(double value, double sigma) {
   Cell cell = dashCell();
   if (std::isfinite(value))
     cell.text = shownNumbers(QString::fromStdString(withUncertainty(value, sigma, ""))).trimmed();
+  return cell;
+}
+
+Cell rightCell(const QString& text) {
+  Cell cell{text.trimmed()};
+  cell.right = true;
   return cell;
 }
 

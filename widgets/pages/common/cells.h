@@ -15,6 +15,8 @@ namespace spindrift::gui {
 [[nodiscard]] Cell numberCell(double value, int decimals);
 /// "12.4 ± 0.3" without unit; a dash if the value is not finite.
 [[nodiscard]] Cell quantityCell(double value, double standard_uncertainty);
+/// A number as text, at the right.
+[[nodiscard]] Cell rightCell(const QString& text);
 [[nodiscard]] Cell toneCell(const QString& text, Tone tone);
 
 /// Text of the core library.

@@ -14,6 +14,7 @@
 #include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/models/session_model.h"
+#include "widgets/pages/common/cells.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
@@ -21,13 +22,9 @@
 namespace spindrift::gui {
 namespace {
 
-QString text(const std::string& s) {
-  return QString::fromStdString(s);
-}
-
 QString signedNumber(double value, int digits) {
   if (std::abs(value) < 0.5 * std::pow(10.0, -digits)) value = 0.0;
-  return decimalText(value, 'f', digits).replace(QLatin1Char('-'), QChar(0x2212));
+  return decimalText(value, 'f', digits);
 }
 
 /// "+12.4 ± 0.6 µm".
@@ -215,7 +212,7 @@ void ClosedLoopPage::refresh() {
            "when."));
   } else {
     plan_->setText(tr("%1 at %2:%3 · plan %4 · campaign in %5")
-                       .arg(text(plan->machine.name), text(plan->control.shell.peer.host))
+                       .arg(fromCore(plan->machine.name), fromCore(plan->control.shell.peer.host))
                        .arg(plan->control.shell.peer.port)
                        .arg(service_.planFile(), service_.folder()));
   }
@@ -340,7 +337,7 @@ void ClosedLoopPage::showChoice() {
     for (const FoundEffect& effect : choice->effects) {
       Cell name{sentenceStart(effectTitle(effect.id))};
       name.checked = effect.rivals.empty();
-      rows.push_back({text(effect.id),
+      rows.push_back({fromCore(effect.id),
                       {name, Cell{percentOf(effect.confidence)},
                        Cell{effect.rivals.empty() ? QStringLiteral("–") : effectTitles(effect.rivals, tr("or"))}}});
     }
@@ -381,7 +378,7 @@ void ClosedLoopPage::showCycles() {
     ++count;
   }
   plot_->setAxes(tr("Machine time / h"),
-                 QStringLiteral("%1 / µm").arg(text(std::string(toString(static_cast<Component>(axis))))));
+                 QStringLiteral("%1 / µm").arg(fromCore(std::string(toString(static_cast<Component>(axis))))));
   if (with.x.empty()) {
     plot_->setContent({});
   } else {
@@ -389,7 +386,7 @@ void ClosedLoopPage::showCycles() {
   }
   errors_->setText(count == 0 ? tr("Error without and with: no cycle has been compensated yet.")
                               : tr("%1: %2 µm rms without, %3 µm rms with, over %4 since the compensation began.")
-                                    .arg(text(std::string(toString(static_cast<Component>(axis)))))
+                                    .arg(fromCore(std::string(toString(static_cast<Component>(axis)))))
                                     .arg(decimalText(std::sqrt(squares_without / count), 'f', 1))
                                     .arg(decimalText(std::sqrt(squares_with / count), 'f', 1))
                                     .arg(count == 1 ? tr("1 cycle") : tr("%1 cycles").arg(count)));

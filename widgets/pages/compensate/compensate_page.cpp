@@ -39,8 +39,8 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto result_kind = "compensation";
-constexpr std::array<const char*, 3> axis_names{"X", "Y", "Z"};
+constexpr auto compensation_result = "compensation";
+constexpr std::array<const char*, 3> axis_words{"X", "Y", "Z"};
 
 }  // namespace
 
@@ -89,8 +89,8 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
   for (std::size_t i = 0; i < 3; ++i) {
     reference_[i] = new QDoubleSpinBox;
     reference_[i]->setDecimals(1);
-    reference_[i]->setPrefix(QString::fromLatin1(axis_names[i]) + QLatin1Char(' '));
-    reference_[i]->setAccessibleName(tr("Reference position %1 of the tables in mm").arg(axis_names[i]));
+    reference_[i]->setPrefix(QString::fromLatin1(axis_words[i]) + QLatin1Char(' '));
+    reference_[i]->setAccessibleName(tr("Reference position %1 of the tables in mm").arg(axis_words[i]));
     reference_[i]->setButtonSymbols(QAbstractSpinBox::NoButtons);
     reference_[i]->setMinimumWidth(84);
     file_choices->addWidget(reference_[i]);
@@ -236,7 +236,7 @@ void CompensatePage::fillChoices() {
   positions_->setValue(r.positions);
   const MachineDescription& machine = session().campaign()->machine;
   for (std::size_t i = 0; i < 3; ++i) {
-    const LinearAxis* axis = machine.findAxis(axis_names[i]);
+    const LinearAxis* axis = machine.findAxis(axis_words[i]);
     reference_[i]->setVisible(axis != nullptr);
     if (axis == nullptr) continue;
     reference_[i]->setRange(axis->travel_mm[0], axis->travel_mm[1]);
@@ -266,14 +266,14 @@ void CompensatePage::refresh() {
   }
   stack_->setCurrentIndex(1);
   options_.fill([this] { fillChoices(); });
-  const auto stored = session().result(result_kind);
+  const auto stored = session().result(compensation_result);
   if (!stored) {
     plan_.reset();
     showPlan();
     callout()->show(Tone::Accent, tr("Choose model and state, then press Calculate the compensation."));
     return;
   }
-  if (const ResultState state = session().state(result_kind); !state.current) {
+  if (const ResultState state = session().state(compensation_result); !state.current) {
     callout()->show(Tone::Outdated, tr("Changed since the compensation was calculated: %1.").arg(state.changed));
     callout()->setAction(tr("Calculate again"), [this] { compute(); });
   } else {
@@ -306,7 +306,7 @@ void CompensatePage::runPlan(bool store) {
   if (!observations ||
       !(hasSource(CompensationSource::NineParameters) || hasSource(CompensationSource::CompletedModel)))
     return;
-  const PendingResult pending = session().begin(result_kind);
+  const PendingResult pending = session().begin(compensation_result);
   Job job;
   job.title = tr("Calculating the compensation");
   job.work = [this, store, set = *observations, asked = request(), pending, choice = DiscrepancyChoice::of(session()),
@@ -317,7 +317,7 @@ void CompensatePage::runPlan(bool store) {
       if (store) session().finish(pending, plan.json());
       if (!session().atHand(pending)) return;
       plan_ = plan;
-      if (const StoredResult* stored = session().latest(result_kind); store && stored != nullptr)
+      if (const StoredResult* stored = session().latest(compensation_result); store && stored != nullptr)
         shown_result_ = stored->id;
       refresh();
     };
@@ -332,7 +332,7 @@ void CompensatePage::runPlan(bool store) {
     context().jobs.run(taskJob(session(), pending, std::move(job)));
   } else {
     job.queue = JobQueue::Display;
-    job.key = result_kind;
+    job.key = compensation_result;
     context().jobs.run(std::move(job));
   }
 }

@@ -8,6 +8,7 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
 #include "widgets/pages/compensate/compensate_page.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/theme/numbers.h"
@@ -16,7 +17,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr std::array<const char*, 3> axis_names{"X", "Y", "Z"};
+constexpr std::array<const char*, 3> axis_titles{"X", "Y", "Z"};
 constexpr int preview_lines = 200;
 
 double niceExaggeration(double size_mm, double largest_um) {
@@ -29,12 +30,6 @@ double niceExaggeration(double size_mm, double largest_um) {
   return power;
 }
 
-Cell number(const QString& text) {
-  Cell cell{text.trimmed()};
-  cell.right = true;
-  return cell;
-}
-
 /// Correction, measured and what remains of one axis as cells with their uncertainty.
 QString valueText(double value, double sigma) {
   // Hundredths of a micrometre are the last that mean anything to a control.
@@ -42,8 +37,6 @@ QString valueText(double value, double sigma) {
   const double shown = std::max(sigma, 0.01);
   const int decimals = shown < 0.295 ? 2 : shown < 2.95 ? 1 : 0;
   QString text = decimalText(value, 'f', decimals);
-  if (typedNumber(text) == 0.0) text.remove(QLatin1Char('-'));
-  text.replace(QLatin1Char('-'), QChar(0x2212));
   return text + QStringLiteral(" ± ") + decimalText(shown, 'f', decimals);
 }
 
@@ -112,7 +105,7 @@ void CompensatePage::showPoints() {
     name.bold = true;
     if (!p.used) name.tip = tr("Not used by the fit: it only validates");
     row.cells = {name};
-    for (int i = 0; i < 3; ++i) row.cells.push_back(number(valueText(p.correction_um[i], p.sigma_um[i])));
+    for (int i = 0; i < 3; ++i) row.cells.push_back(rightCell(valueText(p.correction_um[i], p.sigma_um[i])));
     const auto length = [](const std::array<std::optional<double>, 3>& v) {
       double sum = 0.0;
       bool any = false;
@@ -123,11 +116,11 @@ void CompensatePage::showPoints() {
       }
       return any ? std::sqrt(sum) : std::nan("");
     };
-    row.cells.push_back(number(sizeText(length(p.remains_um), {})));
+    row.cells.push_back(rightCell(sizeText(length(p.remains_um), {})));
     QStringList parts;
     for (std::size_t i = 0; i < 3; ++i) {
       if (p.remains_um[i]) {
-        parts << QString::fromLatin1(axis_names[i]) + QLatin1Char(' ') +
+        parts << QString::fromLatin1(axis_titles[i]) + QLatin1Char(' ') +
                      valueText(*p.remains_um[i],
                                std::hypot(p.measured_sigma_um[i], p.sigma_um[static_cast<Eigen::Index>(i)]));
       }

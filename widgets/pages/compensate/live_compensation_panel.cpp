@@ -125,9 +125,7 @@ void LiveCompensationPanel::showValues() {
   }
   const QString unit = fromCore(unitOfSignal(run->output()));
   const auto text = [&](double value) {
-    return std::isfinite(value)
-               ? decimalText(value, 'f', 2).replace(QLatin1Char('-'), QChar(0x2212)) + QLatin1Char(' ') + unit
-               : QStringLiteral("–");
+    return std::isfinite(value) ? decimalText(value, 'f', 2) + QLatin1Char(' ') + unit : QStringLiteral("–");
   };
   const LiveCompensation::Point& now = run->points().back();
   const double span_s = now.time_s - run->points().front().time_s;

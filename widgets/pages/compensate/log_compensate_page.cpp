@@ -21,7 +21,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto result_kind = "log-compensation";
+constexpr auto log_result = "log-compensation";
 constexpr std::size_t most_plotted = 3000;
 
 /// Mean and rms about it of what is finite in the range; NaN without values.
@@ -137,7 +137,7 @@ std::int64_t LogCompensatePage::modelId() {
 void LogCompensatePage::compensate(bool store) {
   const auto model = session().result("thermal");
   if (!model) return;
-  const PendingResult pending = session().begin(result_kind);
+  const PendingResult pending = session().begin(log_result);
   const Work work = [this, stored = *model, store, snapshot = session().snapshot(), pending,
                      observations = session().observations()](JobContext& job) -> std::function<void()> {
     const CampaignSeries all = campaignSeries(*snapshot.campaign, observations ? &*observations : nullptr, job);
@@ -164,7 +164,7 @@ void LogCompensatePage::refresh() {
   const std::int64_t model = modelId();
   run_button_->setEnabled(model != 0);
   if (result_model_ != model) result_.reset();
-  const ResultState state = session().state(result_kind);
+  const ResultState state = session().state(log_result);
   const StepStatus& status = context().workflow.status(StepId::Compensate);
   if (model == 0) {
     callout()->show(Tone::Attention, status.sentence);

@@ -34,7 +34,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto result_kind = "discrepancy";
+constexpr auto discrepancy_result = "discrepancy";
 constexpr auto option_name = "discrepancy";
 
 constexpr qsizetype longest_large_sentence = 72;
@@ -249,7 +249,7 @@ void DiscrepancyPage::refresh() {
     showNothing(tr("Nothing to compare yet"), lacks);
     return;
   }
-  const StoredResult* stored = session().latest(result_kind);
+  const StoredResult* stored = session().latest(discrepancy_result);
   if (!stored) {
     showNothing(tr("What does the simulation lack?"),
                 tr("Press Search: every effect of the catalogue is tried on what is left between measurement and "
@@ -272,7 +272,7 @@ void DiscrepancyPage::refresh() {
   if (simulation_ != nullptr) simulation_->refresh();
   arrangeTabs();
   showContent(1);
-  if (const ResultState state = session().state(result_kind); !state.current) {
+  if (const ResultState state = session().state(discrepancy_result); !state.current) {
     callout()->show(Tone::Outdated, tr("Changed since this was found: %1.").arg(state.changed));
     callout()->setAction(tr("Search again"), [this] { search(); });
   } else if (!story_->warnings.empty()) {
@@ -292,7 +292,7 @@ void DiscrepancyPage::search() {
   DiscrepancyOptions options;
   options.accept = choice.added;
   options.reject = choice.rejected;
-  const PendingResult pending = session().begin(result_kind);
+  const PendingResult pending = session().begin(discrepancy_result);
   Job job;
   job.title = tr("Searching for what the simulation lacks");
   job.work = [this, options, choice, pending, data = session().snapshot().campaign,
@@ -325,11 +325,11 @@ bool DiscrepancyPage::showStored() {
   const nlohmann::json wanted = DiscrepancyChoice::of(session()).json();
   Session* store = session().session();
   if (store == nullptr) return false;
-  const std::vector<StoredResult> all = store->resultHeads(session().campaignId(), result_kind);
+  const std::vector<StoredResult> all = store->resultHeads(session().campaignId(), discrepancy_result);
   for (auto it = all.rbegin(); it != all.rend(); ++it) {
     if (it->provenance.options.value(option_name, nlohmann::json()) != wanted) continue;
     if (!session().tasks().holds(*it)) continue;
-    session().storeResult(result_kind, {}, store->payload(it->id));
+    session().storeResult(discrepancy_result, {}, store->payload(it->id));
     refresh();
     return true;
   }

@@ -19,10 +19,10 @@ namespace {
 constexpr int cells_along = 16;
 constexpr int lines_along = 8;  ///< spaces between lines of the grid
 constexpr int samples_along = 96;
-constexpr double head_px = 20;     ///< name of a view
-constexpr double axes_px = 24;     ///< at the left and below
-constexpr double foot_px = 36;     ///< legend below the views
-constexpr double legend_px = 150;  ///< least width of a legend beside them
+constexpr double view_name_px = 20;  ///< name of a view
+constexpr double axes_px = 24;       ///< at the left and below
+constexpr double foot_px = 36;       ///< legend below the views
+constexpr double legend_px = 150;    ///< least width of a legend beside them
 constexpr double default_travel_mm = 500.0;
 constexpr double least_length = 0.3;  ///< of the longest axis, as drawn
 constexpr double pole = 50.0;         ///< times the 70th percentile: nothing that can be drawn beside the rest
@@ -44,7 +44,7 @@ QString viewName(int number) {
   }
 }
 
-QColor axisColour(int axis) {
+QColor colourOfAxis(int axis) {
   return axis == 0 ? theme().axis_x : axis == 1 ? theme().axis_y : theme().axis_z;
 }
 
@@ -239,7 +239,7 @@ EffectPicture::Layout EffectPicture::layoutFor(const QSize& size) const {
   const double room = std::clamp(0.06 * std::min(size.width(), size.height()), 12.0, 36.0);
   row.room_px = drawing.room_px = room;
   const double more_width = 2 * room + axes_px;
-  const double more_height = 2 * room + head_px + axes_px;
+  const double more_height = 2 * room + view_name_px + axes_px;
   row.px_per_mm =
       std::min((size.width() - 3 * more_width) / (2 * x + y), (size.height() - foot_px - more_height) / std::max(y, z));
   drawing.px_per_mm = std::min((size.width() - 2 * more_width) / (x + y), (size.height() - 2 * more_height) / (y + z));
@@ -253,7 +253,7 @@ EffectPicture::Layout EffectPicture::layoutFor(const QSize& size) const {
     drawing.view = {QRectF(spare_x, spare_y, more_width + x * s, more_height + y * s),
                     QRectF(spare_x, second_y, more_width + x * s, more_height + z * s),
                     QRectF(second_x, second_y, more_width + y * s, more_height + z * s)};
-    drawing.legend = QRectF(second_x + 8, spare_y + head_px, size.width() - second_x - 16, more_height + y * s);
+    drawing.legend = QRectF(second_x + 8, spare_y + view_name_px, size.width() - second_x - 16, more_height + y * s);
     drawing.beside = true;
     return drawing;
   }
@@ -388,18 +388,18 @@ void EffectPicture::paint(QPainter& painter, const QSize& size) const {
     const auto coloured = static_cast<Component>(view.out + (rotations_ ? 3 : 0));
     painter.setPen(t.text);
     painter.setFont(textFont(sizes::font_secondary));
-    painter.drawText(QRectF(place.left() + 4, place.top(), 160, head_px), Qt::AlignLeft | Qt::AlignTop,
+    painter.drawText(QRectF(place.left() + 4, place.top(), 160, view_name_px), Qt::AlignLeft | Qt::AlignTop,
                      tr("%1, colour %2").arg(viewName(static_cast<int>(i)), componentName(coloured)));
-    paintView(painter, view, place.adjusted(axes_px, head_px, 0, -axes_px), layout);
+    paintView(painter, view, place.adjusted(axes_px, view_name_px, 0, -axes_px), layout);
     // The axes at the lower left.
     painter.setRenderHint(QPainter::Antialiasing);
     const QPointF origin(place.left() + 10, place.bottom() - 10);
-    paintArrow(painter, origin, origin + QPointF(26, 0), axisColour(view.across));
-    paintArrow(painter, origin, origin + QPointF(0, -26), axisColour(view.up));
-    painter.setPen(axisColour(view.across));
+    paintArrow(painter, origin, origin + QPointF(26, 0), colourOfAxis(view.across));
+    paintArrow(painter, origin, origin + QPointF(0, -26), colourOfAxis(view.up));
+    painter.setPen(colourOfAxis(view.across));
     painter.drawText(QRectF(origin.x() + 30, origin.y() - 8, 16, 16), Qt::AlignLeft | Qt::AlignVCenter,
                      QStringLiteral("XYZ").at(view.across));
-    painter.setPen(axisColour(view.up));
+    painter.setPen(colourOfAxis(view.up));
     painter.drawText(QRectF(origin.x() - 8, origin.y() - 44, 16, 16), Qt::AlignCenter,
                      QStringLiteral("XYZ").at(view.up));
   }

@@ -24,7 +24,7 @@
 namespace spindrift::gui {
 namespace {
 
-QString translated(const char* text) {
+QString coreText(const char* text) {
   return QCoreApplication::translate("core", text);
 }
 
@@ -53,7 +53,7 @@ QString effectTitle(const std::string& id) {
   if (!title) return QString::fromStdString(id);
   const QString english = QString::fromStdString(std::string(title->pattern));
   const QString subject = QString::fromStdString(title->subject);
-  const QString text = translated(std::string(title->pattern).c_str());
+  const QString text = coreText(std::string(title->pattern).c_str());
   // A title that the catalogue puts together is found by its parts.
   if (text == english) return coreSentence(subject.isEmpty() ? english : english.arg(subject));
   return subject.isEmpty() ? text : text.arg(subject);
@@ -111,7 +111,6 @@ QString sizeText(double value, const QString& unit) {
   if (!std::isfinite(value)) return QStringLiteral("–");
   const double magnitude = std::abs(value);
   QString text = decimalText(value, 'f', magnitude < 9.95 ? 2 : magnitude < 99.5 ? 1 : 0);
-  text.replace(QLatin1Char('-'), QChar(0x2212));
   return unit.isEmpty() ? text : text + QLatin1Char(' ') + unitText(unit.toStdString());
 }
 

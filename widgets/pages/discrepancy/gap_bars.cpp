@@ -24,7 +24,7 @@ constexpr int foot_height = 24;
 constexpr int more_height = 20;
 
 QString signedText(double value, int digits) {
-  return decimalText(value, 'f', digits).replace(QLatin1Char('-'), QChar(0x2212));
+  return decimalText(value, 'f', digits);
 }
 
 /// "p2p 12.4 → 2.6 um, fit 61 → 92 %"; empty where nothing is known.

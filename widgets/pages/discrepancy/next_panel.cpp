@@ -79,7 +79,7 @@ void NextPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
       row.id = QString::number(index++);
       Cell name{sentenceStart(effectTitle(s.id))};
       name.tip = QString::fromStdString(s.id);
-      Cell gain{decimalText(s.delta_bic, 'f', 0).replace(QLatin1Char('-'), QChar(0x2212))};
+      Cell gain{decimalText(s.delta_bic, 'f', 0)};
       gain.right = true;
       const bool out_again = takenOutAgain(s, story_->effects);
       Cell reason{titledSentence(s.reason)};

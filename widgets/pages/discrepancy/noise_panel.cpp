@@ -18,6 +18,7 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
@@ -28,14 +29,8 @@ namespace {
 /// Plot above, table below; in a low window this much is kept and scrolls.
 constexpr int height_of_both = 328;
 
-Cell number(const QString& text) {
-  Cell cell{text};
-  cell.right = true;
-  return cell;
-}
-
 QString signedSize(double value, int digits) {
-  return decimalText(value, 'f', digits).replace(QLatin1Char('-'), QChar(0x2212));
+  return decimalText(value, 'f', digits);
 }
 
 QWidget* scrolled(QWidget* inside) {
@@ -158,14 +153,15 @@ void NoisePanel::fillNoise() {
     row.id = componentName(n.component);
     Cell name{row.id};
     name.bold = true;
-    Cell scale = number(withError(n.scale, n.scale_uncertainty, {}));
+    Cell scale = rightCell(withError(n.scale, n.scale_uncertainty, {}));
     scale.tip = tr("Scatter of the readings over their stated σ");
-    Cell common = number(n.common_um > 0.0 ? sizeText(n.common_um, componentUnit(n.component)) : QStringLiteral("–"));
+    Cell common =
+        rightCell(n.common_um > 0.0 ? sizeText(n.common_um, componentUnit(n.component)) : QStringLiteral("–"));
     common.tip = tr("Standard deviation of the shift common to all points of a state");
-    Cell correlated = number(n.correlated_part > 0.0 ? tr("%1 % over %2")
-                                                           .arg(decimalText(100 * n.correlated_part, 'f', 0))
-                                                           .arg(coreSentence(spanOfTime(n.correlation_time_s)))
-                                                     : QStringLiteral("–"));
+    Cell correlated = rightCell(n.correlated_part > 0.0 ? tr("%1 % over %2")
+                                                              .arg(decimalText(100 * n.correlated_part, 'f', 0))
+                                                              .arg(coreSentence(spanOfTime(n.correlation_time_s)))
+                                                        : QStringLiteral("–"));
     correlated.tip = tr("Part of the variance of the noise that is correlated in time, and its correlation time");
     row.cells = {name, scale, common, correlated};
     rows.push_back(std::move(row));
@@ -244,12 +240,12 @@ void NoisePanel::fillShifts() {
     row.id = QString::fromStdString(key.second) + QString::number(key.first);
     Cell name{QString::fromStdString(key.second)};
     name.bold = true;
-    row.cells = {name, number(decimalText(key.first / unit.seconds, 'f', 2))};
+    row.cells = {name, rightCell(decimalText(key.first / unit.seconds, 'f', 2))};
     for (const Component c : components) {
       const auto found = of_state.find(c);
-      row.cells.push_back(number(found == of_state.end()
-                                     ? QStringLiteral("–")
-                                     : withError(found->second->shift_um, found->second->standard_uncertainty, {})));
+      row.cells.push_back(rightCell(found == of_state.end()
+                                        ? QStringLiteral("–")
+                                        : withError(found->second->shift_um, found->second->standard_uncertainty, {})));
     }
     rows.push_back(std::move(row));
   }
@@ -292,12 +288,12 @@ void NoisePanel::fillReadings() {
       status = Cell{tr("excluded"), Tone::Neutral, "exclude"};
       status.tip = tr("Excluded: %1").arg(l.reason);
     }
-    row.cells = {number(QString::number(o.row + 1)),
+    row.cells = {rightCell(QString::number(o.row + 1)),
                  point,
                  {QString::fromStdString(o.state)},
                  {componentName(o.component)},
-                 number(tr("%1 %2").arg(decimalText(o.time_s / unit.seconds, 'f', 2)).arg(unit.name)),
-                 number(l.outlying ? signedSize(o.deviation, 1) : QStringLiteral("–")),
+                 rightCell(tr("%1 %2").arg(decimalText(o.time_s / unit.seconds, 'f', 2)).arg(unit.name)),
+                 rightCell(l.outlying ? signedSize(o.deviation, 1) : QStringLiteral("–")),
                  status};
     row.cells[5].tip = tr("Measured: %1").arg(sizeText(o.value, componentUnit(o.component)));
     rows.push_back(std::move(row));

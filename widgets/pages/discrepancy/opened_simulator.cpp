@@ -11,7 +11,7 @@
 namespace spindrift::gui {
 namespace {
 
-QString translated(const char* text) {
+QString openedText(const char* text) {
   return QCoreApplication::translate("SimulationPanel", text);
 }
 
@@ -32,21 +32,21 @@ QStringList programsOf(const SimulatorFile& file) {
 void tellKind(const SimulatorFile& file, OpenedSimulator& out) {
   switch (file.kind) {
     case SimulatorKind::Scenario:
-      out.kind = translated("scenario of the virtual machine");
-      out.runs = translated("It is run inside Spindrift: no other program is started.");
+      out.kind = openedText("scenario of the virtual machine");
+      out.runs = openedText("It is run inside Spindrift: no other program is started.");
       break;
     case SimulatorKind::Sensitivities:
-      out.kind = translated("table of sensitivities");
-      out.runs = translated("Nothing is run: the table says what each parameter changes.");
+      out.kind = openedText("table of sensitivities");
+      out.runs = openedText("Nothing is run: the table says what each parameter changes.");
       break;
     case SimulatorKind::Command:
     case SimulatorKind::Calculix: {
-      out.kind = file.kind == SimulatorKind::Calculix ? translated("CalculiX") : translated("a program with templates");
+      out.kind = file.kind == SimulatorKind::Calculix ? openedText("CalculiX") : openedText("a program with templates");
       const QStringList programs = programsOf(file);
-      out.runs = (programs.size() > 1 ? translated("Programs that will be run, each time in a folder of their own: %1.")
-                                      : translated("Program that will be run, each time in a folder of its own: %1."))
+      out.runs = (programs.size() > 1 ? openedText("Programs that will be run, each time in a folder of their own: %1.")
+                                      : openedText("Program that will be run, each time in a folder of its own: %1."))
                      .arg(programs.join(QStringLiteral(", "))) +
-                 QLatin1Char(' ') + translated("Nothing is started before you press one of the buttons above.");
+                 QLatin1Char(' ') + openedText("Nothing is started before you press one of the buttons above.");
       break;
     }
   }

@@ -24,12 +24,8 @@ constexpr int column_bounds = 3;
 constexpr int column_effects = 4;
 constexpr int column_put_in = 5;
 
-QString text(const std::string& words) {
-  return coreSentence(words);
-}
-
-QString number(double value) {
-  return decimalText(value, 'g', 5).replace(QLatin1Char('-'), QChar(0x2212));
+QString parameterNumber(double value) {
+  return decimalText(value, 'g', 5);
 }
 
 /// Plain numbers have no unit.
@@ -39,7 +35,7 @@ QString unitOf(const SimulatorParameter& p) {
 
 QString withUnit(double value, const SimulatorParameter& p) {
   const QString unit = unitOf(p);
-  return unit.isEmpty() ? number(value) : number(value) + QLatin1Char(' ') + unit;
+  return unit.isEmpty() ? parameterNumber(value) : parameterNumber(value) + QLatin1Char(' ') + unit;
 }
 
 Cell tipped(const QString& words) {
@@ -124,21 +120,21 @@ void ParameterCard::showChoice(const OpenedSimulator& simulator, const Simulatio
   std::vector<Row> rows;
   for (const SimulatorParameter& p : simulator.parameters) {
     Row row;
-    row.id = text(p.name);
+    row.id = coreSentence(p.name);
     const bool found = story != nullptr &&
                        std::find(story->mechanisms.begin(), story->mechanisms.end(), p.name) != story->mechanisms.end();
-    Cell name = tipped(text(p.name));
+    Cell name = tipped(coreSentence(p.name));
     name.bold = found;
     const QString causes = p.effects.empty() ? QString() : effectTitles(p.effects, tr("or"));
-    const QString bounds = tr("%1 to %2").arg(number(p.min), withUnit(p.max, p));
-    Cell what = tipped(text(p.what));
+    const QString bounds = tr("%1 to %2").arg(parameterNumber(p.min), withUnit(p.max, p));
+    Cell what = tipped(coreSentence(p.what));
     if (story != nullptr) {
       if (!causes.isEmpty()) what.text += QLatin1Char('\n') + tr("Can cause: %1").arg(causes);
       what.tip = what.text + QLatin1Char('\n') + tr("Bounds: %1").arg(bounds);
     }
     Cell put;
     put.checked = ticks_ ? ticks_->contains(p.name) : found;
-    put.tip = tr("Free %1 in the simulation when you press Put it into the simulation").arg(text(p.name));
+    put.tip = tr("Free %1 in the simulation when you press Put it into the simulation").arg(coreSentence(p.name));
     row.cells = {name, what, valueCell(p), Cell{bounds}, tipped(causes), put};
     rows.push_back(std::move(row));
   }
@@ -150,16 +146,16 @@ void ParameterCard::showUpdate(const SimulationUpdate& update) {
   std::vector<Row> rows;
   for (const FittedSimulatorParameter& p : update.parameters) {
     Row row;
-    row.id = text(p.parameter.name);
-    Cell name = tipped(text(p.parameter.name));
+    row.id = coreSentence(p.parameter.name);
+    Cell name = tipped(coreSentence(p.parameter.name));
     name.bold = p.put_in;
-    name.tip += QLatin1Char('\n') + text(p.parameter.what);
+    name.tip += QLatin1Char('\n') + coreSentence(p.parameter.what);
     // The unit stands once, below its number: some are long.
     const QString unit = unitOf(p.parameter);
     const QString below = unit.isEmpty() ? QString() : QLatin1Char('\n') + unit;
     Cell before{p.parameter.standard_uncertainty > 0.0 && !p.put_in
                     ? withError(p.parameter.value, p.parameter.standard_uncertainty, {})
-                    : number(p.parameter.value)};
+                    : parameterNumber(p.parameter.value)};
     Cell after{p.no_influence ? QStringLiteral("–") : withError(p.value, p.standard_uncertainty, {}) + below};
     after.bold = p.put_in;
     Cell mark = p.no_influence                 ? Cell{tr("no influence")}
@@ -168,7 +164,7 @@ void ParameterCard::showUpdate(const SimulationUpdate& update) {
                 : p.value == p.parameter.value ? Cell{tr("kept")}
                                                : Cell{tr("adjusted")};
     if (!p.put_in && !p.no_influence) mark.tip = tr("adjusted within its stated uncertainty");
-    row.cells = {name, tipped(text(p.parameter.what)), before, after, mark};
+    row.cells = {name, tipped(coreSentence(p.parameter.what)), before, after, mark};
     row.faded = p.no_influence;
     rows.push_back(std::move(row));
   }

@@ -15,7 +15,7 @@
 namespace spindrift::gui {
 namespace {
 
-QString translated(const char* text) {
+QString putInText(const char* text) {
   return QCoreApplication::translate("SimulationPanel", text);
 }
 
@@ -23,33 +23,33 @@ QString translated(const char* text) {
 
 QString askForVersionFolder(QWidget* parent, const QString& proposed, const QString& runs) {
   QDialog dialog(parent);
-  dialog.setWindowTitle(translated("Put it into the simulation"));
+  dialog.setWindowTitle(putInText("Put it into the simulation"));
   auto* column = new QVBoxLayout(&dialog);
   column->setContentsMargins(24, 16, 24, 16);
   column->setSpacing(12);
-  auto* words = new QLabel(translated("The simulator is run until its parameters fit what was measured. Its new "
-                                      "version is written to a new folder; the present one stays as it is.") +
+  auto* words = new QLabel(putInText("The simulator is run until its parameters fit what was measured. Its new "
+                                     "version is written to a new folder; the present one stays as it is.") +
                            QLatin1Char(' ') + runs);
   words->setWordWrap(true);
   column->addWidget(words);
   auto* line = new QHBoxLayout;
   auto* folder = new QLineEdit(proposed);
-  folder->setAccessibleName(translated("New folder"));
+  folder->setAccessibleName(putInText("New folder"));
   folder->setMinimumWidth(440);
-  auto* browse = makeButton(translated("Browse…"), "folder-open");
+  auto* browse = makeButton(putInText("Browse…"), "folder-open");
   line->addWidget(folder, 1);
   line->addWidget(browse);
   column->addLayout(line);
   auto* buttons = new QHBoxLayout;
   buttons->addStretch(1);
-  auto* cancel = makeButton(translated("Cancel"), nullptr);
-  auto* accept = makeButton(translated("Put it in"), nullptr, "primary");
+  auto* cancel = makeButton(putInText("Cancel"), nullptr);
+  auto* accept = makeButton(putInText("Put it in"), nullptr, "primary");
   accept->setDefault(true);
   buttons->addWidget(cancel);
   buttons->addWidget(accept);
   column->addLayout(buttons);
   QObject::connect(browse, &QPushButton::clicked, &dialog, [&dialog, folder] {
-    const QString chosen = QFileDialog::getExistingDirectory(&dialog, translated("An empty folder"), folder->text());
+    const QString chosen = QFileDialog::getExistingDirectory(&dialog, putInText("An empty folder"), folder->text());
     if (!chosen.isEmpty()) folder->setText(chosen);
   });
   QObject::connect(folder, &QLineEdit::textChanged, accept,

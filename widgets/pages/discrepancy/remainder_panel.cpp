@@ -12,6 +12,7 @@
 
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
@@ -21,12 +22,6 @@ namespace {
 
 constexpr int least_table_height = 108;  ///< headers and two rows
 constexpr std::size_t most_lines = 12;   ///< of all points together
-
-Cell number(const QString& text) {
-  Cell cell{text};
-  cell.right = true;
-  return cell;
-}
 
 /// rms over the fitted rows of all series of a component; empty where nothing is known.
 struct ComponentSizes {
@@ -177,7 +172,7 @@ void RemainderPanel::fillComponents() {
     row.id = componentName(c);
     Cell name{tr("%1 / %2").arg(componentName(c), componentUnit(c))};
     name.bold = true;
-    Cell size = number(found == story_->remainder.end() ? QStringLiteral("–") : sizeText(found->rms_um, {}));
+    Cell size = rightCell(found == story_->remainder.end() ? QStringLiteral("–") : sizeText(found->rms_um, {}));
     if (remains) {
       size.tone = Tone::Attention;
       size.icon = "alert";
@@ -189,8 +184,8 @@ void RemainderPanel::fillComponents() {
                  "than noise: %1 (2 ln of the odds, clear from %2 on)")
                   .arg(decimalText(found->evidence, 'f', 0))
                   .arg(decimalText(clear_evidence, 'f', 0));
-    row.cells = {name, number(sizeText(sizes.residual, {})), number(sizeText(sizes.effects, {})),
-                 number(sizeText(sizes.noise, {})), size};
+    row.cells = {name, rightCell(sizeText(sizes.residual, {})), rightCell(sizeText(sizes.effects, {})),
+                 rightCell(sizeText(sizes.noise, {})), size};
     row.cells[1].tip = tr("rms of measured − simulated");
     row.cells[2].tip = tr("rms of what the effects found explain");
     rows.push_back(std::move(row));
@@ -220,13 +215,13 @@ void RemainderPanel::fillPoints() {
     row.id = QString::fromStdString(s.point);
     Cell name{row.id};
     name.bold = true;
-    row.cells = {name, number(sizeText(size, {})), number(QStringLiteral("–")), number(QStringLiteral("–"))};
+    row.cells = {name, rightCell(sizeText(size, {})), rightCell(QStringLiteral("–")), rightCell(QStringLiteral("–"))};
     if (size > 0.0) {
       const auto size_of = [](double v) { return std::isfinite(v) ? std::abs(v) : -1.0; };
       const auto most = std::max_element(s.remaining.begin(), s.remaining.end(),
                                          [&](double a, double b) { return size_of(a) < size_of(b); });
-      row.cells[2] = number(sizeText(*most, {}));
-      row.cells[3] = number(
+      row.cells[2] = rightCell(sizeText(*most, {}));
+      row.cells[3] = rightCell(
           tr("%1 %2")
               .arg(decimalText(s.time_s[static_cast<std::size_t>(most - s.remaining.begin())] / time.seconds, 'f', 1))
               .arg(time.name));

@@ -24,6 +24,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
 #include "widgets/pages/discrepancy/discrepancy_choice.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/pages/discrepancy/parameter_card.h"
@@ -43,10 +44,6 @@ constexpr int view_history = 1;
 constexpr int view_maps = 2;
 constexpr int height_for_words = 440;
 
-QString text(const std::string& words) {
-  return QString::fromStdString(words);
-}
-
 /// A failed run is one sentence for the user, not a mistake of the program.
 template <class Work>
 auto withSentences(const Work& work) {
@@ -56,19 +53,6 @@ auto withSentences(const Work& work) {
     throw InputError(std::string(failed.what()));
   }
 }
-
-/// Gives a label the height that its lines need at the width it has: between the tabs of a page nothing else does.
-class KeepsItsLines : public QObject {
- public:
-  explicit KeepsItsLines(QLabel* label) : QObject(label) {}
-  static void fit(QLabel& label) { label.setMinimumHeight(label.heightForWidth(label.width())); }
-
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override {
-    if (event->type() == QEvent::Resize) fit(*static_cast<QLabel*>(watched));
-    return false;
-  }
-};
 
 }  // namespace
 
@@ -95,9 +79,8 @@ SimulationPanel::SimulationPanel(PageContext context, QWidget* parent) : QWidget
   column->setContentsMargins(0, 8, 0, 0);
   column->setSpacing(8);
   head_ = new Card(tr("Simulator"));
-  runs_ = makeLabel({}, "secondaryText");
-  runs_->setWordWrap(true);
-  runs_->installEventFilter(new KeepsItsLines(runs_));
+  runs_ = new WrappedLabel;
+  runs_->setProperty("role", QStringLiteral("secondaryText"));
   head_->body()->addWidget(runs_);
   choose_ = makeButton(tr("Choose simulator.json…"), "folder-open");
   choose_->setToolTip(tr("Take another description of a simulation that can be run"));
@@ -165,7 +148,7 @@ const SimulationUpdate* SimulationPanel::update() const {
 
 QString SimulationPanel::versionMade() const {
   const std::string version = stored_.id != 0 ? stored_.provenance.options.value("version", "") : std::string();
-  return version.empty() ? QString() : text(simulatorFile(context_.session, version).string());
+  return version.empty() ? QString() : fromCore(simulatorFile(context_.session, version).string());
 }
 
 nlohmann::json SimulationPanel::choice() const {
@@ -198,6 +181,10 @@ void SimulationPanel::arrange() {
   // In a low window the words beside the figures are a tip.
   found_scroll_->setVisible(figures_->rowCount() == 0 || height() >= height_for_words);
   found_card_->setToolTip(found_scroll_->isVisibleTo(this) ? QString() : found_->text());
+}
+
+QLabel* SimulationPanel::runs() const {
+  return runs_;
 }
 
 void SimulationPanel::refresh() {
@@ -336,10 +323,10 @@ void SimulationPanel::search() {
 
 QString SimulationPanel::proposedFolder() const {
   const fs::path folder = context_.session.folder() / "simulations";
-  const std::string name = fileNameOf(text(context_.session.campaign()->name)).toStdString();
+  const std::string name = fileNameOf(fromCore(context_.session.campaign()->name)).toStdString();
   for (int version = 2;; ++version) {
     const fs::path proposed = folder / (name + "-" + std::to_string(version));
-    if (!fs::exists(proposed)) return text(proposed.string());
+    if (!fs::exists(proposed)) return fromCore(proposed.string());
   }
 }
 
@@ -360,8 +347,8 @@ QString SimulationPanel::whyNotPut() const {
                : tr("Tick what is to be put in, in the column Put in.");
   }
   if (!parameters_->ticksAreTheUsers()) return {};
-  return text(whyNotTogether(ticked, opened_.parameters, opened_.windows,
-                             story_ != nullptr ? story_->twins : decltype(story_->twins)()));
+  return fromCore(whyNotTogether(ticked, opened_.parameters, opened_.windows,
+                                 story_ != nullptr ? story_->twins : decltype(story_->twins)()));
 }
 
 void SimulationPanel::putInto(const QString& folder) {
@@ -410,7 +397,8 @@ void SimulationPanel::putInto(const QString& folder) {
         refresh();
         return;
       }
-      context_.undo.push(new OptionsCommand(session, tr("put %1 into the simulation").arg(text(joinedList(mechanisms))),
+      context_.undo.push(new OptionsCommand(session,
+                                            tr("put %1 into the simulation").arg(fromCore(joinedList(mechanisms))),
                                             simulatorKey(session), version, [panel = QPointer(this)] {
                                               if (panel != nullptr) panel->simulatorChanged();
                                             }));
@@ -423,13 +411,14 @@ void SimulationPanel::putInto(const QString& folder) {
 
 QString SimulationPanel::titleOf(const FoundEffect& effect) const {
   for (const SimulatorParameter& p : opened_.parameters)
-    if (p.id() == effect.id) return p.what == p.name ? text(p.name) : tr("%1 (%2)").arg(text(p.what), text(p.name));
-  return !effect.title.empty() ? text(effect.title) : effectTitle(effect.id);
+    if (p.id() == effect.id)
+      return p.what == p.name ? fromCore(p.name) : tr("%1 (%2)").arg(fromCore(p.what), fromCore(p.name));
+  return !effect.title.empty() ? fromCore(effect.title) : effectTitle(effect.id);
 }
 
 void SimulationPanel::showHead() {
-  const QString file = text(simulator_);
-  head_->setTitle(simulator_.empty() ? tr("No simulator") : text(fs::path(simulator_).filename().string()));
+  const QString file = fromCore(simulator_);
+  head_->setTitle(simulator_.empty() ? tr("No simulator") : fromCore(fs::path(simulator_).filename().string()));
   head_->setToolTip(file);
   runs_->setText(simulator_.empty()
                      ? tr("campaign.json names no simulation that can be run (\"simulator\": \"simulator.json\"). "
@@ -437,7 +426,6 @@ void SimulationPanel::showHead() {
                      : tr("%1%2 %3")
                            .arg(file, opened_.kind.isEmpty() ? QString() : tr(", %1.").arg(opened_.kind), opened_.runs)
                            .trimmed());
-  KeepsItsLines::fit(*runs_);
 }
 
 void SimulationPanel::showParameters() {

@@ -29,6 +29,7 @@ class RowsModel;
 class Segments;
 class SimulationHistory;
 class SimulationMaps;
+class WrappedLabel;
 
 class SimulationPanel : public QWidget {
   Q_OBJECT
@@ -51,7 +52,7 @@ class SimulationPanel : public QWidget {
   [[nodiscard]] QPushButton* searchButton() const { return search_; }
   [[nodiscard]] QPushButton* putButton() const { return put_; }
   [[nodiscard]] Callout* callout() const { return callout_; }
-  [[nodiscard]] QLabel* runs() const { return runs_; }
+  [[nodiscard]] QLabel* runs() const;
   [[nodiscard]] QLabel* found() const { return found_; }
   [[nodiscard]] QTableView* parameterTable() const;
   [[nodiscard]] QTableView* figureTable() const { return figure_table_; }
@@ -105,7 +106,7 @@ class SimulationPanel : public QWidget {
 
   PageContext context_;
   Card* head_;
-  QLabel* runs_;
+  WrappedLabel* runs_;
   QPushButton* choose_;
   QPushButton* search_;
   QPushButton* put_;

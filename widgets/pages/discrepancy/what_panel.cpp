@@ -20,6 +20,7 @@
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
@@ -29,12 +30,6 @@ namespace {
 
 /// From this height on the plot has room below the text.
 constexpr int height_for_plot = 440;
-
-Cell number(const QString& text) {
-  Cell cell{text};
-  cell.right = true;
-  return cell;
-}
 
 }  // namespace
 
@@ -135,7 +130,7 @@ void WhatPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
       name.tip = row.id;
       Cell state =
           e.forced ? Cell{tr("added"), Tone::Good, "check-circle"} : Cell{tr("proposed"), Tone::Accent, "discrepancy"};
-      row.cells = {name, state, number(decimalText(e.delta_bic, 'f', 0))};
+      row.cells = {name, state, rightCell(decimalText(e.delta_bic, 'f', 0))};
       if (!e.forced && !first) first = static_cast<int>(rows.size());
       rows.push_back(std::move(row));
       for (const std::string& rival : e.rivals) {
@@ -143,7 +138,7 @@ void WhatPanel::show(const std::shared_ptr<const DiscrepancyStory>& story) {
         other.id = QString::fromStdString(rival);
         Cell rival_name{tr("or: %1").arg(effectTitle(rival))};
         rival_name.tip = other.id;
-        other.cells = {rival_name, {tr("rival"), Tone::Attention, "compare"}, number(QStringLiteral("–"))};
+        other.cells = {rival_name, {tr("rival"), Tone::Attention, "compare"}, rightCell(QStringLiteral("–"))};
         rows.push_back(std::move(other));
       }
     }
@@ -176,7 +171,7 @@ void WhatPanel::fillCandidates() {
     row.id = QString::fromStdString(c.id);
     Cell name{sentenceStart(effectTitle(c.id))};
     name.tip = row.id;
-    Cell probability = number(percentOf(c.probability));
+    Cell probability = rightCell(percentOf(c.probability));
     probability.picture = probabilityBar(c.probability, devicePixelRatioF());
     probability.tip = tr("Probability that it is among what is missing, before rivals and the remainder are weighed");
     Cell answer{QStringLiteral("–")};
@@ -276,10 +271,10 @@ void WhatPanel::showEffect() {
     for (const FittedParameter& p : e->parameters) {
       Row row;
       row.id = QString::fromStdString(p.name);
-      Cell name{QString::fromStdString(parameterTitle(p.name))};
+      Cell name{QString::fromStdString(spindrift::parameterTitle(p.name))};
       name.tip = row.id;
-      row.cells = {name,
-                   number(shownNumbers(QString::fromStdString(withUncertainty(p.value, p.standard_uncertainty, ""))))};
+      row.cells = {
+          name, rightCell(shownNumbers(QString::fromStdString(withUncertainty(p.value, p.standard_uncertainty, ""))))};
       rows.push_back(std::move(row));
     }
   }

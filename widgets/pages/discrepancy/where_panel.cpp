@@ -15,6 +15,7 @@
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/plots/plot.h"
 #include "widgets/view3d/view3d.h"
@@ -24,12 +25,6 @@ namespace {
 
 /// From this height on view and plot fit below one another.
 constexpr int height_for_both = 460;
-
-Cell number(const QString& text) {
-  Cell cell{text};
-  cell.right = true;
-  return cell;
-}
 
 }  // namespace
 
@@ -191,8 +186,8 @@ void WherePanel::fillPlaces() {
     row.cells = {what,
                  points,
                  {place.condition.empty() ? spanText(place.from_s, place.to_s, last) : coreSentence(place.condition)},
-                 number(sizeText(place.excess_um, componentUnit(place.component))),
-                 number(probabilityText(place.p_value))};
+                 rightCell(sizeText(place.excess_um, componentUnit(place.component))),
+                 rightCell(probabilityText(place.p_value))};
     row.cells[3].tip = tr("rms beyond what the noise explains");
     row.cells[4].tip = tr("Probability of this by chance, for all places looked at together");
     rows.push_back(std::move(row));
@@ -232,14 +227,14 @@ void WherePanel::fillPoints() {
     row.id = QString::fromStdString(s.point);
     Cell name{row.id};
     name.bold = true;
-    Cell beyond = number(sizeText(s.excess_before, {}));
+    Cell beyond = rightCell(sizeText(s.excess_before, {}));
     if (s.significant) {
       beyond.tone = Tone::Attention;
       beyond.icon = "alert";
       beyond.tip = tr("More than the noise allows");
     }
-    row.cells = {name, number(sizeText(s.rms_before, {})), number(sizeText(s.rms_after, {})),
-                 number(sizeText(s.noise, {})), beyond};
+    row.cells = {name, rightCell(sizeText(s.rms_before, {})), rightCell(sizeText(s.rms_after, {})),
+                 rightCell(sizeText(s.noise, {})), beyond};
     rows.push_back(std::move(row));
   }
   points_->setRows(std::move(rows));

@@ -37,8 +37,8 @@ QString roleName(const QString& role) {
   return role;
 }
 
-QString number(double value) {
-  return QString::number(value).replace(QLatin1Char('-'), QChar(0x2212));
+QString roleNumber(double value) {
+  return decimalText(value, 'g', 6);
 }
 
 /// How many captures of a role the evaluation needs at least.
@@ -372,7 +372,7 @@ void FiducialCapturePage::showImage(const QString& image) {
   image_->setCaption(tr("%1, state %2, %3 %4, spindle %5°, z %6 mm")
                          .arg(capture->fiducial, capture->state, roleName(capture->role))
                          .arg(capture->index)
-                         .arg(number(capture->spindle_deg), number(capture->z_mm)));
+                         .arg(roleNumber(capture->spindle_deg), roleNumber(capture->z_mm)));
   if (same) return;
   // Decoded in the background; only the last choice is shown.
   const int request = ++request_;

@@ -41,7 +41,7 @@ QString meaningOf(int i) {
   return coreSentence(parameterMeaning(nine_parameter_names[static_cast<std::size_t>(i)]));
 }
 
-Cell number(double value, double sigma, std::string_view unit) {
+Cell parameterCell(double value, double sigma, std::string_view unit) {
   Cell cell;
   cell.text = shownNumbers(QString::fromStdString(withUncertainty(value, sigma, unit)));
   cell.right = true;
@@ -351,7 +351,7 @@ void NineParameterPage::showFit() {
     name.bold = true;
     Cell value;
     if (f.determined(i)) {
-      value = number(f.parameters[i], f.standardUncertainty(i), nineParameterUnit(i));
+      value = parameterCell(f.parameters[i], f.standardUncertainty(i), nineParameterUnit(i));
     } else {
       value = {tr("not determined"), Tone::Attention, "alert"};
       value.right = true;
@@ -368,7 +368,7 @@ void NineParameterPage::showFit() {
       text.chop(3);  // _um
       row.id = text;
       row.cells = {{text.replace(QLatin1Char('_'), QLatin1Char(' '))},
-                   number(order_.model->parameters()(e), std::sqrt(order_.model->covariance()(e, e)), "um"),
+                   parameterCell(order_.model->parameters()(e), std::sqrt(order_.model->covariance()(e, e)), "um"),
                    {tr("of higher order: at the edge of the measured points")}};
       rows.push_back(std::move(row));
     }
@@ -388,11 +388,11 @@ void NineParameterPage::showFit() {
       in_sigma.tone = Tone::Attention;
       in_sigma.icon = "alert";
     }
-    Cell residual{decimalText(r.residual_um, 'f', 2).replace(QLatin1Char('-'), QChar(0x2212)) + QStringLiteral(" µm")};
+    Cell residual{decimalText(r.residual_um, 'f', 2) + QStringLiteral(" µm")};
     residual.right = true;
     row.cells = {name,
                  {QString::fromStdString(std::string(toString(r.component)))},
-                 number(r.value_um, r.sigma_um, "um"),
+                 parameterCell(r.value_um, r.sigma_um, "um"),
                  residual,
                  in_sigma,
                  {r.used ? (r.weight < 0.99 ? tr("weight %1").arg(decimalText(r.weight, 'f', 2)) : tr("fit"))
@@ -438,14 +438,15 @@ void NineParameterPage::showComparison() {
       Cell name{parameterName(i)};
       name.bold = true;
       const bool known = c.a.determined(i) && c.b.determined(i);
-      row.cells = {name,
-                   c.a.determined(i) ? number(c.a.parameters[i], c.a.standardUncertainty(i), nineParameterUnit(i))
-                                     : Cell{QStringLiteral("–")},
-                   c.b.determined(i) ? number(c.b.parameters[i], c.b.standardUncertainty(i), nineParameterUnit(i))
-                                     : Cell{QStringLiteral("–")},
-                   known ? number(c.difference[i], std::sqrt(std::max(0.0, c.covariance(i, i))), nineParameterUnit(i))
-                         : Cell{QStringLiteral("–")},
-                   {known ? decimalText(c.p_value[static_cast<std::size_t>(i)], 'g', 2) : QStringLiteral("–")}};
+      row.cells = {
+          name,
+          c.a.determined(i) ? parameterCell(c.a.parameters[i], c.a.standardUncertainty(i), nineParameterUnit(i))
+                            : Cell{QStringLiteral("–")},
+          c.b.determined(i) ? parameterCell(c.b.parameters[i], c.b.standardUncertainty(i), nineParameterUnit(i))
+                            : Cell{QStringLiteral("–")},
+          known ? parameterCell(c.difference[i], std::sqrt(std::max(0.0, c.covariance(i, i))), nineParameterUnit(i))
+                : Cell{QStringLiteral("–")},
+          {known ? decimalText(c.p_value[static_cast<std::size_t>(i)], 'g', 2) : QStringLiteral("–")}};
       if (std::find(c.significant.begin(), c.significant.end(), i) != c.significant.end()) {
         row.cells[3].tone = Tone::Attention;
         row.cells[3].icon = "alert";

@@ -30,7 +30,6 @@ QString columnValue(const std::string& column, double value) {
   const std::string unit = unitOfColumn(column);
   const bool temperature = OperatingLog::isTemperature(column);
   QString text = temperature ? decimalText(value, 'f', 2) : decimalText(value, 'g', 6);
-  text.replace(QLatin1Char('-'), QChar(0x2212));
   if (unit.empty()) return text;
   return text + QLatin1Char(' ') +
          (unit == "degC"      ? QStringLiteral("°C")

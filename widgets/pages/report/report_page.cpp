@@ -32,7 +32,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto result_kind = "report";
+constexpr auto report_result = "report";
 
 /// By the ending of `target`, .pdf or .html. Throws InputError.
 void saveCopy(const std::filesystem::path& html, const std::filesystem::path& pdf, const QString& target) {
@@ -124,7 +124,7 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
 }
 
 std::filesystem::path ReportPage::storedFile(const char* key) {
-  const StoredResult* stored = session().latest(result_kind);
+  const StoredResult* stored = session().latest(report_result);
   if (stored == nullptr || !stored->payload.contains(key)) return {};
   return session().folder() / stored->payload.value(key, std::string());
 }
@@ -139,7 +139,7 @@ void ReportPage::refresh() {
   const ReportTaskOptions asked = ReportTaskOptions::of(*session().session(), session().campaignId());
   if (!operator_->hasFocus()) operator_->setText(QString::fromStdString(asked.operator_name));
   discrepancy_->setChecked(asked.tells_discrepancy);
-  const auto stored = session().result(result_kind);
+  const auto stored = session().result(report_result);
   for (QPushButton* button : {browser_, save_pdf_, save_html_}) button->setEnabled(stored.has_value());
   if (!stored) {
     shown_result_ = 0;
@@ -155,7 +155,7 @@ void ReportPage::refresh() {
     shown_result_ = stored->id;
     openDocument();
   }
-  if (const ResultState state = session().state(result_kind); !state.current) {
+  if (const ResultState state = session().state(report_result); !state.current) {
     callout()->show(Tone::Outdated, tr("Changed since the report was written: %1.").arg(state.changed));
     callout()->setAction(tr("Write again"), [this] { write(); });
   } else {
@@ -186,7 +186,7 @@ void ReportPage::openDocument() {
 }
 
 void ReportPage::showFacts() {
-  const auto stored = session().result(result_kind);
+  const auto stored = session().result(report_result);
   if (document_ == nullptr || !stored) {
     facts_->clear();
     return;
@@ -235,7 +235,7 @@ bool ReportPage::keepOperator() {
 void ReportPage::write() {
   (void)keepOperator();
   if (!canReport(*session().campaign(), session().observations() != nullptr)) return;
-  const PendingResult pending = session().begin(result_kind);
+  const PendingResult pending = session().begin(report_result);
   Job job;
   job.title = tr("Writing the report");
   job.work = [this, pending, task = ReportTask::of(session().tasks(), session().excludedItems())](

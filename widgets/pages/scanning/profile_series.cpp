@@ -7,7 +7,7 @@
 namespace spindrift::gui {
 namespace {
 
-QString tr(const char* text) {
+QString profileText(const char* text) {
   return QCoreApplication::translate("profileSeries", text);
 }
 
@@ -47,12 +47,12 @@ std::vector<Series> profileSeries(const ScanPicture& picture, int index) {
   const auto k = static_cast<std::size_t>(index);
   const bool compared = picture.reference != nullptr;
   if (compared && picture.reference->profileCount() > 0)
-    series.push_back(
-        seriesOf(*picture.reference, nearestProfile(*picture.reference, carriageOf(*picture.scan, k)), tr("Cold"), 0));
-  series.push_back(seriesOf(*picture.scan, k, compared ? tr("This scan") : tr("Cold"), 1));
+    series.push_back(seriesOf(*picture.reference, nearestProfile(*picture.reference, carriageOf(*picture.scan, k)),
+                              profileText("Cold"), 0));
+  series.push_back(seriesOf(*picture.scan, k, compared ? profileText("This scan") : profileText("Cold"), 1));
   if (picture.fate == nullptr) return series;
   Series left_out;
-  left_out.name = tr("Left out");
+  left_out.name = profileText("Left out");
   left_out.colour = 3;
   left_out.style = SeriesStyle::Points;
   for (std::size_t i = picture.scan->profile_start[k]; i < picture.scan->profile_start[k + 1]; ++i) {

@@ -142,7 +142,7 @@ ExerciseDialog::ExerciseDialog(SessionModel& session, JobRunner& jobs, QWidget* 
   answer_card_->body()->addLayout(buttons);
   column->addWidget(answer_card_);
 
-  results_ = new RowsModel({tr("Hidden"), tr("Named"), tr("Driver"), tr("Size"), tr("Marks"), QString()}, this);
+  results_ = new RowsModel({tr("Hidden"), tr("Named"), tr("Driver"), tr("Size"), tr("Score"), QString()}, this);
   history_ = new RowsModel({tr("When"), tr("Level"), tr("Number"), tr("Score"), tr("Hints"), QString()}, this);
   auto* tabs = makeTabs();
   results_table_ = makeTable(results_, tr("What was hidden"), tr("What was hidden appears here after your answer."));

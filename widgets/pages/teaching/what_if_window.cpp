@@ -32,7 +32,7 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr int slider_steps = 200;
+constexpr int what_if_steps = 200;
 constexpr int box_width = 152;
 constexpr double largest_arrow = 0.4;  ///< of the longest travel
 
@@ -277,7 +277,7 @@ void WhatIfWindow::addControl(std::size_t parameter, QLabel* heading, QVBoxLayou
   control.text += QLatin1Char(' ') + name + QLatin1Char(' ') + fromCore(p.id);
   auto* line = new QHBoxLayout;
   control.slider = new QSlider(Qt::Horizontal);
-  control.slider->setRange(oneSided(p) ? 0 : -slider_steps, slider_steps);
+  control.slider->setRange(oneSided(p) ? 0 : -what_if_steps, what_if_steps);
   control.slider->setAccessibleName(name);
   control.slider->setMinimumHeight(sizes::control_height);
   control.box = new QDoubleSpinBox;
@@ -293,7 +293,7 @@ void WhatIfWindow::addControl(std::size_t parameter, QLabel* heading, QVBoxLayou
   box->addLayout(line);
   column->addWidget(control.row);
   connect(control.slider, &QSlider::valueChanged, this, [this, parameter](int step) {
-    if (!filling_) changed(parameter, what_if_.parameters()[parameter].largest * step / slider_steps);
+    if (!filling_) changed(parameter, what_if_.parameters()[parameter].largest * step / what_if_steps);
   });
   connect(control.box, &QDoubleSpinBox::valueChanged, this, [this, parameter](double value) {
     if (!filling_) changed(parameter, value);
@@ -306,7 +306,7 @@ void WhatIfWindow::changed(std::size_t parameter, double value) {
   const Control& control = controls_[parameter];
   control.box->setValue(value);
   control.slider->setValue(
-      static_cast<int>(std::lround(slider_steps * value / what_if_.parameters()[parameter].largest)));
+      static_cast<int>(std::lround(what_if_steps * value / what_if_.parameters()[parameter].largest)));
   filling_ = false;
   what_if_.set(parameter, value);
   refresh();

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/units.h"
 #include "core/tasks/task_options.h"
 #include "core/thermal/response_fit.h"
 #include "core/workflows/campaign_series.h"
@@ -30,7 +31,6 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr double seconds_per_hour = 3600.0;
 constexpr std::array<const char*, 3> methods{"response", "arx", "oe"};
 
 }  // namespace

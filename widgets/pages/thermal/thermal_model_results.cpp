@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/units.h"
 #include "core/thermal/response_fit.h"
 #include "core/workflows/campaign_series.h"
 #include "widgets/common/core_sentence.h"
@@ -16,8 +17,6 @@
 
 namespace spindrift::gui {
 namespace {
-
-constexpr double seconds_per_hour = 3600.0;
 
 std::vector<double> hours(const std::vector<double>& time_s) {
   std::vector<double> out;

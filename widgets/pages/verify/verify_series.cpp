@@ -12,7 +12,7 @@
 namespace spindrift::gui {
 namespace {
 
-QString text(const char* source) {
+QString verifyText(const char* source) {
   return QCoreApplication::translate("VerifyPage", source);
 }
 
@@ -37,7 +37,7 @@ std::vector<Series> singleValues(const std::vector<const VerifyPoint*>& values) 
   std::vector<Series> all;
   for (const int side : {0, 1}) {
     Series s;
-    s.name = side == 0 ? text("Before, ± 2 uncertainties") : text("After, ± 2 uncertainties");
+    s.name = side == 0 ? verifyText("Before, ± 2 uncertainties") : verifyText("After, ± 2 uncertainties");
     s.style = SeriesStyle::Points;
     s.colour = colours[static_cast<std::size_t>(side)];
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -58,7 +58,7 @@ std::vector<Series> ranges(const std::vector<const VerifyPoint*>& values) {
   std::vector<Series> all;
   for (const int side : {0, 1}) {
     Series s;
-    s.name = side == 0 ? text("Before, range over the points") : text("After, range over the points");
+    s.name = side == 0 ? verifyText("Before, range over the points") : verifyText("After, range over the points");
     s.style = SeriesStyle::Line;
     s.colour = colours[static_cast<std::size_t>(side)];
     s.sigma_factor = 1.0;
@@ -93,7 +93,7 @@ VerifyCurves verifyCurves(const VerifyResult& result, Component component) {
   for (const double sign : {1.0, -1.0}) {
     if (!(goal > 0.0)) continue;
     Series limit;
-    limit.name = text("Goal");
+    limit.name = verifyText("Goal");
     limit.style = SeriesStyle::Dashed;
     limit.colour = 2;
     limit.legend = sign > 0;
@@ -101,10 +101,11 @@ VerifyCurves verifyCurves(const VerifyResult& result, Component component) {
     limit.y = {sign * goal, sign * goal};
     curves.series.push_back(std::move(limit));
   }
-  curves.x_title =
-      single ? text("Measured value, points in order of the plan") : text("Thermal state, in order of the plan");
+  curves.x_title = single ? verifyText("Measured value, points in order of the plan")
+                          : verifyText("Thermal state, in order of the plan");
   curves.y_title =
-      text("Change of %1 / %2").arg(fromCore(std::string(toString(component))), rotation ? text("µrad") : text("µm"));
+      verifyText("Change of %1 / %2")
+          .arg(fromCore(std::string(toString(component))), rotation ? verifyText("µrad") : verifyText("µm"));
   return curves;
 }
 
