@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What keeps a build short: headers of other projects are read once, and what was compiled before is taken from ccache.
+# What keeps a build short: headers of other projects are read once, files of one library are compiled several at a time, and
+# what was compiled before is taken from ccache.
 # Every file still includes what it uses: cmake --preset plain builds without any of this.
 
 # ccache, where it is installed and no other launcher was asked for. A normal variable, so that it also holds in build
@@ -36,4 +37,24 @@ function(spindrift_precompiled name)
   target_link_libraries(${name} PRIVATE spindrift_options ${ARG_LINK})
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
   set_target_properties(${name} PROPERTIES AUTOMOC OFF AUTORCC OFF)
+endfunction()
+
+# spindrift_quick_to_compile(<target>)
+# For tests: what takes time in them are the libraries, so their own code is optimised as far as it costs nothing to compile.
+# The header precompiled for them has to be made with the same.
+function(spindrift_quick_to_compile target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# spindrift_unity(<target> [<files at once>])
+# Compiles the files of a target several at a time (CMake's unity build): templates of Eigen, json and fmt that each of them uses
+# are made once a batch. A file that cannot share (macros of its own, headers with options of their own) says so with
+# SKIP_UNITY_BUILD_INCLUSION. Names in anonymous namespaces are to differ within a library.
+option(SPINDRIFT_UNITY "Compile several files of a library at once" ON)
+function(spindrift_unity target)
+  set(batch 8)
+  if(ARGC GREATER 1)
+    set(batch ${ARGV1})
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${SPINDRIFT_UNITY} UNITY_BUILD_BATCH_SIZE ${batch})
 endfunction()

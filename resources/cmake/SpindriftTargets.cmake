@@ -5,7 +5,7 @@
 add_library(spindrift_options INTERFACE)
 target_include_directories(spindrift_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(
-  spindrift_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
+  spindrift_options INTERFACE -Wall -Wextra -Wpedantic $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
                               $<$<COMPILE_LANGUAGE:CXX>:-Woverloaded-virtual>
                               $<$<BOOL:${SPINDRIFT_WARNINGS_AS_ERRORS}>:-Werror>)
 # g++ 12 reports false positives of these kinds from inside Eigen and the standard library when it inlines.
@@ -13,6 +13,13 @@ target_compile_options(spindrift_options INTERFACE -Wno-maybe-uninitialized -Wno
                                                    -Wno-restrict
                                                    # designated initialisers leave the rest at its stated default on purpose
                                                    -Wno-missing-field-initializers)
+if(SPINDRIFT_UNITY)
+  # A constant of one file is no shadow on a local name of another that is compiled with it, and what one file defines is no header.
+  target_compile_options(spindrift_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wshadow=local>
+                                                     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
+else()
+  target_compile_options(spindrift_options INTERFACE -Wshadow)
+endif()
 if(SPINDRIFT_SANITIZE)
   target_compile_options(spindrift_options INTERFACE -fsanitize=${SPINDRIFT_SANITIZE} -fno-omit-frame-pointer
                                                      -fno-sanitize-recover=undefined)
@@ -37,6 +44,7 @@ function(spindrift_core_library name)
   add_library(Spindrift::${name} ALIAS spindrift_${name})
   target_link_libraries(spindrift_${name} PUBLIC spindrift_options ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
   target_precompile_headers(spindrift_${name} REUSE_FROM spindrift_core_headers)
+  spindrift_unity(spindrift_${name})
   if(ARG_SYSTEM)
     target_include_directories(spindrift_${name} SYSTEM PRIVATE ${ARG_SYSTEM})
   endif()
@@ -49,6 +57,8 @@ function(spindrift_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_test_support)
   target_precompile_headers(${name} REUSE_FROM spindrift_test_headers)
+  spindrift_unity(${name})
+  spindrift_quick_to_compile(${name})
   target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
                                              SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
@@ -69,6 +79,7 @@ function(spindrift_benchmark name)
   # Qt's flags differ.
   if(NOT Spindrift::widgets IN_LIST ARG_LINK)
     target_precompile_headers(${name} REUSE_FROM spindrift_core_headers)
+    spindrift_unity(${name})
   endif()
   target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
                                              SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")

@@ -3,6 +3,7 @@ find_package(Qt6 6.4 REQUIRED COMPONENTS Widgets Test)
 # Without Qt6::Test, which gives every folder a macro of its own.
 spindrift_precompiled(spindrift_widget_test_headers HEADERS ${SPINDRIFT_CORE_HEADERS} ${SPINDRIFT_TEST_HEADERS} ${SPINDRIFT_QT_HEADERS}
                       LINK Spindrift::theme Spindrift::base Qt6::Widgets GTest::gtest GTest::gmock)
+spindrift_quick_to_compile(spindrift_widget_test_headers)
 # A main() that makes a QApplication on the offscreen platform; stands in for that of spindrift_test_support.
 add_library(spindrift_widget_test_support STATIC ${CMAKE_SOURCE_DIR}/tests/widgets/support/widget_test_main.cpp
                                                   ${CMAKE_SOURCE_DIR}/tests/widgets/support/event_loop_watch.cpp
@@ -17,6 +18,8 @@ function(spindrift_widget_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} spindrift_widget_test_support)
   target_precompile_headers(${name} REUSE_FROM spindrift_widget_test_headers)
+  spindrift_unity(${name})
+  spindrift_quick_to_compile(${name})
   target_compile_definitions(${name} PRIVATE SPINDRIFT_TEST_DATA="${CMAKE_SOURCE_DIR}/tests/data"
                                              SPINDRIFT_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
