@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace spindrift {
@@ -61,6 +62,12 @@ bool sameShape(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return dot != 0.0 && std::abs(dot) > 0.999 * a.col(0).norm() * b.col(0).norm();
 }
 
+Eigen::MatrixXd joined(const std::vector<Eigen::VectorXd>& columns, Index rows) {
+  Eigen::MatrixXd out(rows, static_cast<Index>(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) out.col(static_cast<Index>(c)) = columns[c];
+  return out;
+}
+
 }  // namespace
 
 bool holdsEffect(const Effect& container, const std::string& simple) {
@@ -80,6 +87,18 @@ PosteriorSearch::PosteriorSearch(const EffectSearch& search, const ResidualProbl
           std::pow(simulation_error * white[i], 2);
     }
   }
+  // The same everywhere, and along X, Y and Z: mean square 1 each.
+  place_patterns_ = Eigen::MatrixXd::Ones(problem.size(), 4);
+  for (Index u = 0; u < problem.size(); ++u)
+    place_patterns_.row(u).tail<3>() = problem.place[static_cast<std::size_t>(u)].position_mm.transpose();
+  Index kept = 1;
+  for (Index k = 1; k < 4; ++k) {
+    Eigen::VectorXd along = place_patterns_.col(k);
+    along.array() -= along.mean();
+    const double rms = along.norm() / std::sqrt(static_cast<double>(along.size()));
+    if (rms > 1.0) place_patterns_.col(kept++) = along / rms;  // mm: places that do not move have no slope
+  }
+  place_patterns_.conservativeResize(Eigen::NoChange, kept);
 }
 
 double PosteriorSearch::imitationPrice(const JointFit& fit) const {
@@ -123,6 +142,40 @@ double PosteriorSearch::imitationPrice(const JointFit& fit) const {
   return price;
 }
 
+Eigen::MatrixXd PosteriorSearch::crosstalkColumns(const JointFit& fit) const {
+  std::vector<Eigen::VectorXd> columns;
+  std::array<double, 6> count{};
+  for (const Component c : problem_->component) count[static_cast<std::size_t>(c)] += 1.0;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    // What a user states, or a part of the simulation that is off, moves what it says and nothing else.
+    const Effect& effect = *fit.terms[t].effect;
+    if (effect.own || effect.id == off_) continue;
+    const Eigen::VectorXd course = search_->course(fit.terms[t], fit.gains[t]);
+    if (course.size() == 0) continue;
+    // The mean square of every component, rotations as the translations that they make at the lever, um^2.
+    std::array<double, 6> power{};
+    for (Index u = 0; u < problem_->size(); ++u) {
+      const auto c = static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)]);
+      power[c] += std::pow(fit.contribution[t][u] * (c < 3 ? 1.0 : priors_.crosstalk_lever_m), 2) / count[c];
+    }
+    const double largest = *std::max_element(power.begin(), power.end());
+    for (std::size_t c = 0; c < power.size(); ++c) {
+      // Where it acts already, another size at every point says it all.
+      if (count[c] == 0.0 || power[c] > 0.05 * largest) continue;
+      const double size = priors_.crosstalk_error * std::sqrt(largest) / (c < 3 ? 1.0 : priors_.crosstalk_lever_m);
+      for (Index pattern = 0; pattern < place_patterns_.cols(); ++pattern) {
+        Eigen::VectorXd column = Eigen::VectorXd::Zero(problem_->size());
+        for (Index u = 0; u < column.size(); ++u) {
+          if (static_cast<std::size_t>(problem_->component[static_cast<std::size_t>(u)]) == c)
+            column[u] = size * course[u] * place_patterns_(u, pattern);
+        }
+        columns.push_back(std::move(column));
+      }
+    }
+  }
+  return joined(columns, problem_->size());
+}
+
 Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
   std::vector<Eigen::VectorXd> columns;
   const double start = problem_->node_time_s.front();
@@ -153,9 +206,7 @@ Eigen::MatrixXd PosteriorSearch::modelErrorColumns(const JointFit& fit) const {
       if (!column.isZero(0.0)) columns.push_back(std::move(column));
     }
   }
-  Eigen::MatrixXd out(problem_->size(), static_cast<Index>(columns.size()));
-  for (std::size_t c = 0; c < columns.size(); ++c) out.col(static_cast<Index>(c)) = columns[c];
-  return out;
+  return joined(columns, problem_->size());
 }
 
 double PosteriorSearch::priceOf(const JointFit& fit) const {
@@ -198,15 +249,42 @@ double PosteriorSearch::evidenceOf(const JointFit& fit) const {
   const auto rank = qr.rank();
   const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(x.rows(), rank);
   const Eigen::VectorXd left = y - basis * (basis.transpose() * y);
-  Eigen::MatrixXd m = problem_->projected(modelErrorColumns(fit));
+  // How each effect may differ from its formula: always where it acts, and, with a probability for each way, elsewhere.
+  const Eigen::MatrixXd here = modelErrorColumns(fit);
+  const Eigen::MatrixXd elsewhere = crosstalkColumns(fit);
+  Eigen::MatrixXd m(problem_->size(), here.cols() + elsewhere.cols());
+  m << here, elsewhere;
+  m = problem_->projected(m);
   m -= basis * (basis.transpose() * m);
-  Eigen::MatrixXd a = m.transpose() * m;
-  a.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(a);
-  const Eigen::VectorXd z = llt.matrixL().solve(m.transpose() * left);
-  const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  return -(left.squaredNorm() - z.squaredNorm()) - log_det - static_cast<double>(rank) * search_->logN() -
-         priceOf(fit) - imitationPrice(fit);
+  const Eigen::MatrixXd gram = m.transpose() * m;
+  const Eigen::VectorXd moved = m.transpose() * left;
+  // Twice the logarithm of the factor by which these ways change the probability of the data.
+  const auto gainOf = [&](const std::vector<Index>& ways) {
+    Eigen::MatrixXd a = gram(ways, ways);
+    a.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> llt(a);
+    const Eigen::VectorXd z = llt.matrixL().solve(Eigen::VectorXd(moved(ways)));
+    return z.squaredNorm() - 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+  };
+  std::vector<Index> ways(static_cast<std::size_t>(here.cols()));
+  std::iota(ways.begin(), ways.end(), Index{0});
+  double gain = gainOf(ways);
+  double leak = 0.0;
+  const double p = priors_.crosstalk;
+  for (Index c = here.cols(); c < m.cols(); ++c) {
+    ways.push_back(c);
+    const double with = gainOf(ways);
+    const double odds = std::min(600.0, with - gain);
+    leak += 2.0 * std::log((1.0 - p) + p * std::exp(0.5 * odds));
+    if (odds > 0.0) {
+      leak -= odds;
+      gain = with;
+    } else {
+      ways.pop_back();
+    }
+  }
+  return -left.squaredNorm() + gain + leak - static_cast<double>(rank) * search_->logN() - priceOf(fit) -
+         imitationPrice(fit);
 }
 
 CandidateLibrary::Given PosteriorSearch::given(const JointFit& fit) const {

@@ -9,11 +9,12 @@
 //
 // chi-squared is what remains under the noise as found, marginal over all nuisances and over M, by which every effect
 // may differ from the machine's own behaviour: another size at every point and in every span of time, a part kappa of
-// it. Sets are found by a beam search with joint refits of all lags and onsets and by exchanging every effect for every
-// other; the probabilities of all sets that were visited are compared. For every effect of the best set the
-// alternatives in its place are its rivals, their share of the probability is the confidence. Sources: Schwarz 1978;
-// Kennedy and O'Hagan 2001 (model discrepancy); Madigan and Raftery 1994 (Occam's window); Wang, Sarkar, Carbonetto and
-// Stephens 2020 (credible sets of single effects).
+// it; with some probability also a smaller part in a component in which its formula has nothing. Sets are found by a
+// beam search with joint refits of all lags and onsets and by exchanging every effect for every other; the
+// probabilities of all sets that were visited are compared. For every effect of the best set the alternatives in its
+// place are its rivals, their share of the probability is the confidence. Sources: Schwarz 1978; Kennedy and O'Hagan
+// 2001 (model discrepancy); Madigan and Raftery 1994 (Occam's window); Wang, Sarkar, Carbonetto and Stephens 2020
+// (credible sets of single effects).
 #pragma once
 
 #include <array>
@@ -29,6 +30,12 @@ namespace spindrift {
 struct DiscrepancyPriors {
   /// kappa: how far an effect of the catalogue is from what a machine does, as a part of its amplitude.
   double model_error = 0.09;
+  /// Probability that an effect also moves a component in which its formula has nothing, in the course that it has (a
+  /// table that drifts also tilts a little), of each way: the same at all places, or along X, Y or Z; by which part of
+  /// its amplitude; and the lever by which a translation counts as a rotation, m.
+  double crosstalk = 0.05;
+  double crosstalk_error = 0.04;
+  double crosstalk_lever_m = 0.4;
   /// Probability that an effect is missing at all (readings are taken because something is suspected), and that beside
   /// those found there is one more.
   double one_missing = 0.7;
@@ -124,6 +131,8 @@ class PosteriorSearch {
   [[nodiscard]] std::vector<State> extend(const State& state, std::size_t most, const JobContext& job) const;
   [[nodiscard]] State exchanged(State best, const JobContext& job, std::vector<State>& visited) const;
   [[nodiscard]] Eigen::MatrixXd modelErrorColumns(const JointFit& fit) const;
+  /// What each term may do in components in which it does not act, a column for each way.
+  [[nodiscard]] Eigen::MatrixXd crosstalkColumns(const JointFit& fit) const;
   [[nodiscard]] double priceOf(const JointFit& fit) const;
   /// What others may be off by, in just the way that each effect follows: chi-squared that it must bring beyond.
   [[nodiscard]] double imitationPrice(const JointFit& fit) const;
@@ -136,6 +145,7 @@ class PosteriorSearch {
   const DiscrepancyOptions* options_;
   DiscrepancyPriors priors_;
   std::string off_;                           ///< effect of the part of the simulation that is off; empty: none
+  Eigen::MatrixXd place_patterns_;            ///< over the units: 1 and the coordinates in which places differ
   std::array<double, 6> simulation_power_{};  ///< of its error as estimated, whitened, per component
 };
 

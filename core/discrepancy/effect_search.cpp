@@ -100,6 +100,29 @@ Eigen::MatrixXd EffectSearch::columns(const ModelTerm& term) const {
   return out;
 }
 
+Eigen::VectorXd EffectSearch::course(const ModelTerm& term, const Eigen::VectorXd& gains) const {
+  const Eigen::MatrixXd& s = shape(*term.effect);
+  const auto k = s.cols();
+  const Eigen::MatrixXd q = inputResponses(*drivers_, term.variant, term.parameters, problem_->node_time_s);
+  Index main = 0;
+  double most = -1.0;
+  for (Index c = 0; c < k; ++c) {
+    double size = 0.0;
+    for (Index i = 0; i < q.cols(); ++i) size += std::abs(gains[i * k + c]) * q.col(i).norm();
+    size *= s.col(c).norm();
+    if (size > most) {
+      most = size;
+      main = c;
+    }
+  }
+  Eigen::VectorXd nodes = Eigen::VectorXd::Zero(q.rows());
+  for (Index i = 0; i < q.cols(); ++i) nodes += gains[i * k + main] * q.col(i);
+  Eigen::VectorXd out = problem_->toUnits(nodes);
+  const Eigen::VectorXd centred = out.array() - out.mean();
+  const double rms = centred.norm() / std::sqrt(static_cast<double>(std::max<Index>(1, out.size())));
+  return rms > 0.0 ? Eigen::VectorXd(out / rms) : Eigen::VectorXd();
+}
+
 bool drivenByLog(const ModelTerm& term) {
   return std::any_of(term.variant.inputs.begin(), term.variant.inputs.end(),
                      [](const EffectInput& input) { return !input.driver.empty(); });

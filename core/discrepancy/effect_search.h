@@ -63,6 +63,9 @@ class EffectSearch {
 
   /// Columns of a term over the units (not whitened).
   [[nodiscard]] Eigen::MatrixXd columns(const ModelTerm& term) const;
+  /// The course of a term over the units, also of those where it does not act: response of its inputs times their gains
+  /// of the shape column that is largest, scaled to mean square 1 without its mean; empty if it has no course.
+  [[nodiscard]] Eigen::VectorXd course(const ModelTerm& term, const Eigen::VectorXd& gains) const;
   /// Gains at fixed non-linear parameters.
   [[nodiscard]] JointFit solve(const std::vector<ModelTerm>& terms) const;
   /// Line searches over all non-linear parameters; `rounds` passes.

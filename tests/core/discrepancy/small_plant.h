@@ -61,7 +61,7 @@ inline MachineDescription machine() {
       "machine.json");
 }
 
-enum class Hidden { Nothing, SpindleDrift, Screw, Slip, Wave, TurnAndDrift };
+enum class Hidden { Nothing, SpindleDrift, DriftThatLifts, Screw, Slip, Wave, TurnAndDrift };
 
 /// `hidden_signal` takes what is hidden in every row, without noise, um.
 inline DiscrepancyInput campaign(Hidden hidden, std::uint64_t seed, double strength = 5.0,
@@ -106,6 +106,11 @@ inline DiscrepancyInput campaign(Hidden hidden, std::uint64_t seed, double stren
             break;
           case Hidden::SpindleDrift:
             if (c == 1) truth += strength * sigma * plant.housing[at] / 12.0;
+            break;
+          case Hidden::DriftThatLifts:
+            // The same, and beside its formula a thirtieth of it along Z.
+            if (c == 1) truth += strength * sigma * plant.housing[at] / 12.0;
+            if (c == 2) truth += strength / 30.0 * sigma * plant.housing[at] / 12.0;
             break;
           case Hidden::Screw:
             if (c == 0) truth += strength * sigma * plant.screw[at] / 2.0 * points[p].x() / 300.0;
