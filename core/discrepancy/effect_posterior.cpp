@@ -68,6 +68,38 @@ Eigen::MatrixXd joined(const std::vector<Eigen::VectorXd>& columns, Index rows) 
   return out;
 }
 
+/// Twice the logarithm of the factor by which errors of formulas change the probability of what is left: coefficients ~
+/// N(0, 1) of the columns of `m` (whitened), of the first `always` in any case, of every further one with probability
+/// p.
+double formulaErrorGain(const Eigen::MatrixXd& m, Index always, const Eigen::VectorXd& left, double p) {
+  const Eigen::MatrixXd gram = m.transpose() * m;
+  const Eigen::VectorXd moved = m.transpose() * left;
+  const auto gainOf = [&](const std::vector<Index>& ways) {
+    Eigen::MatrixXd a = gram(ways, ways);
+    a.diagonal().array() += 1.0;
+    const Eigen::LLT<Eigen::MatrixXd> llt(a);
+    const Eigen::VectorXd z = llt.matrixL().solve(Eigen::VectorXd(moved(ways)));
+    return z.squaredNorm() - 2.0 * llt.matrixLLT().diagonal().array().log().sum();
+  };
+  std::vector<Index> ways(static_cast<std::size_t>(always));
+  std::iota(ways.begin(), ways.end(), Index{0});
+  double gain = gainOf(ways);
+  double mixed = 0.0;  // of the ways that are there with probability p, over what is taken in `gain`
+  for (Index c = always; c < m.cols(); ++c) {
+    ways.push_back(c);
+    const double with = gainOf(ways);
+    const double more = with - gain;
+    if (more > 0.0) {
+      mixed += 2.0 * std::log(p + (1.0 - p) * std::exp(-0.5 * more));
+      gain = with;
+    } else {
+      mixed += 2.0 * std::log((1.0 - p) + p * std::exp(0.5 * more));
+      ways.pop_back();
+    }
+  }
+  return gain + mixed;
+}
+
 }  // namespace
 
 bool holdsEffect(const Effect& container, const std::string& simple) {
@@ -256,35 +288,8 @@ double PosteriorSearch::evidenceOf(const JointFit& fit) const {
   m << here, elsewhere;
   m = problem_->projected(m);
   m -= basis * (basis.transpose() * m);
-  const Eigen::MatrixXd gram = m.transpose() * m;
-  const Eigen::VectorXd moved = m.transpose() * left;
-  // Twice the logarithm of the factor by which these ways change the probability of the data.
-  const auto gainOf = [&](const std::vector<Index>& ways) {
-    Eigen::MatrixXd a = gram(ways, ways);
-    a.diagonal().array() += 1.0;
-    const Eigen::LLT<Eigen::MatrixXd> llt(a);
-    const Eigen::VectorXd z = llt.matrixL().solve(Eigen::VectorXd(moved(ways)));
-    return z.squaredNorm() - 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  };
-  std::vector<Index> ways(static_cast<std::size_t>(here.cols()));
-  std::iota(ways.begin(), ways.end(), Index{0});
-  double gain = gainOf(ways);
-  double leak = 0.0;
-  const double p = priors_.crosstalk;
-  for (Index c = here.cols(); c < m.cols(); ++c) {
-    ways.push_back(c);
-    const double with = gainOf(ways);
-    const double odds = std::min(600.0, with - gain);
-    leak += 2.0 * std::log((1.0 - p) + p * std::exp(0.5 * odds));
-    if (odds > 0.0) {
-      leak -= odds;
-      gain = with;
-    } else {
-      ways.pop_back();
-    }
-  }
-  return -left.squaredNorm() + gain + leak - static_cast<double>(rank) * search_->logN() - priceOf(fit) -
-         imitationPrice(fit);
+  return -left.squaredNorm() + formulaErrorGain(m, here.cols(), left, priors_.crosstalk) -
+         static_cast<double>(rank) * search_->logN() - priceOf(fit) - imitationPrice(fit);
 }
 
 CandidateLibrary::Given PosteriorSearch::given(const JointFit& fit) const {

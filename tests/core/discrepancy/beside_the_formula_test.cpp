@@ -43,8 +43,6 @@ TEST(BesideTheFormula, ARotaryTableThatDriftsAndTiltsALittleHasOneCause) {
     options.suggest = false;
     const DiscrepancyResult result = findDiscrepancy(study::inputOf(simulateStudy(made, job).campaign), options, job);
     one += namesIn(result) == made.hidden.front() ? 1 : 0;
-    if (namesIn(result) != made.hidden.front())
-      std::printf("%s: %s\n", made.hidden.front().c_str(), namesIn(result).c_str());
   }
   EXPECT_GE(one, 4);
 }
@@ -59,7 +57,6 @@ TEST(BesideTheFormula, WhatADriftMovesAlongAnotherAxisIsToldAndGetsNoName) {
     EXPECT_EQ(result.effects.front().id, "spindle.drift.y");
     alone += result.effects.size() == 1 ? 1 : 0;
     told += result.leftover.find("EZ") != std::string::npos ? 1 : 0;
-    std::printf("seed %d: %s; left: %s\n", static_cast<int>(seed), namesIn(result).c_str(), result.leftover.c_str());
   }
   EXPECT_GE(alone, 5);
   EXPECT_GE(told, alone);
