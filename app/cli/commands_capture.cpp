@@ -94,10 +94,10 @@ CommandResult watch(const WatchArguments& a, bool live, JobContext& job) {
   if (!a.plan.empty()) plan = MeasurementPlan::parse(JsonNode::read(a.plan));
   // Before a session is made that would be left behind empty.
   if (!std::filesystem::is_directory(a.folder))
-    throw InputError({a.folder, ""}, "is no folder; allowed: the folder into which the instrument writes.");
+    throw InputError({a.folder, ""}, "is not a folder; allowed: the folder into which the instrument writes.");
   if (!a.machine.empty()) (void)MachineDescription::read(a.machine);
   if (a.machine.empty() && !Session::isSession(a.session))
-    throw InputError({a.session, ""}, "is no session; allowed: a session, or --machine FILE to begin a new one.");
+    throw InputError({a.session, ""}, "is not a session; allowed: a session, or --machine FILE to begin a new one.");
   auto [session, campaign] = sessionFor(a);
   if (plan) storePlan(session, campaign, *plan);
   FolderWatchOptions options;

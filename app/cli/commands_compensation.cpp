@@ -82,10 +82,10 @@ void addVerify(CLI::App& app, CommandLine& line) {
       [a](JobContext& job) { return runVerify(*a, job); });
   command->add_option("BEFORE", a->before, "Folder of the campaign measured without compensation")->required();
   command->add_option("AFTER", a->after, "Folder of the campaign measured with it; may be the same")->required();
-  command->add_option("--goal", a->request.goal_um, "Goal in um for EX, EY and EZ")
+  command->add_option("--goal", a->request.goal_um, "Goal in µm for EX, EY and EZ")
       ->check(positiveNumber())
       ->capture_default_str();
-  command->add_option("--goal-urad", a->request.goal_urad, "Goal in urad for rotations; 0: they are not judged")
+  command->add_option("--goal-urad", a->request.goal_urad, "Goal in µrad for rotations; 0: they are not judged")
       ->check(nonNegativeNumber());
   command->add_option("--criterion", a->criterion, "What the goal bounds: largest or rms")
       ->check(CLI::IsMember({"largest", "rms"}))

@@ -102,7 +102,8 @@ CommandResult record(const RecordArguments& a, JobContext& job) {
   if (!a.start.empty()) {
     const std::optional<double> given = parseUtc(a.start);
     if (!given)
-      throw InputError(fmt::format("--start \"{}\" is no time; allowed: UTC such as 2026-01-31T08:00:00Z.", a.start));
+      throw InputError(
+          fmt::format("--start \"{}\" is not a time; allowed: UTC such as 2026-01-31T08:00:00Z.", a.start));
     start_s = *given;
   }
   std::filesystem::path log = a.out;

@@ -58,7 +58,7 @@ void addDiscrepancyCommands(CLI::App& app, CommandLine& line) {
   command->add_option("--model-out", request->model_out, "Write the effects found as model.json")->type_name("FILE");
   command
       ->add_option("--prediction", request->prediction,
-                   "Write the completed model (simulation plus effects, um or urad) for every observation (CSV)")
+                   "Write the completed model (simulation plus effects, µm or µrad) for every observation (CSV)")
       ->type_name("FILE");
   command->add_option("--html", request->html, "Write a report with plots (one HTML file)")->type_name("FILE");
 

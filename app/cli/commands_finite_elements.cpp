@@ -137,8 +137,8 @@ CommandResult import(const MapArguments& arguments, const ReaderOfMap& open, Job
                  {"largest_deviation", jsonNumber(fe.largest_deviation)},
                  {"plausible", fe.plausible}};
   result.summary = fmt::format(
-      "{}: {} rows of {} states ({} s to {} s) from {} nodes; largest displacement {:.4g} um, largest deviation of the "
-      "tool relative to the table {:.4g} um or urad",
+      "{}: {} rows of {} states ({} s to {} s) from {} nodes; largest displacement {:.4g} µm, largest deviation of the "
+      "tool relative to the table {:.4g} µm or µrad",
       arguments.out, fe.rows.size(), fe.states, fe.first_s, fe.last_s, fe.nodes, fe.largest_displacement_um,
       fe.largest_deviation);
   if (!fe.plausible) {

@@ -94,11 +94,9 @@ void addDecode(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = addCommand(
       app, line, "decode",
-      "Find the numbered ellipses and circles of a fiducial in a microscope image.\n"
-      "Gives row and column, centre (px, centre of the top-left pixel is 0, 0) with standard uncertainty and "
-      "direction\n"
-      "(rad) of every ellipse wholly in view, and the pixel length (um). Exit status 1: no pattern found, with the "
-      "reason.",
+      "Find the numbered ellipses and circles of a fiducial in a microscope image.\nGives row and column, centre (px, "
+      "centre of the top-left pixel is 0, 0) with standard uncertainty and direction\n(rad) of every ellipse wholly in "
+      "view, and the pixel length (µm). Exit status 1: no pattern found, with the reason.",
       [arguments](JobContext&) {
         const FiducialPattern own = arguments->pattern.empty() ? FiducialPattern{} : readPattern(arguments->pattern);
         const FiducialPattern& pattern = arguments->pattern.empty() ? standardPattern() : own;
@@ -151,7 +149,7 @@ void addArtwork(CLI::App& app, CommandLine& line) {
                        {"pitch_um", pattern.pitch_um},
                        {"files", written}};
         answer.summary =
-            fmt::format("{} x {} ellipses on a pitch of {} um ({:.4g} x {:.4g} mm): wrote {}", pattern.rowCount(),
+            fmt::format("{} x {} ellipses on a pitch of {} µm ({:.4g} x {:.4g} mm): wrote {}", pattern.rowCount(),
                         pattern.columnCount(), pattern.pitch_um, pattern.columnCount() * pattern.pitch_um * mm_per_um,
                         pattern.rowCount() * pattern.pitch_um * mm_per_um, joinedList(written));
         return answer;

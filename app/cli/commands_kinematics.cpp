@@ -193,17 +193,17 @@ CommandResult runCheck(const FitArguments& a, JobContext& job, const std::string
 void addKinematicsCommands(CLI::App& app, CommandLine& line) {
   {
     auto a = std::make_shared<FitArguments>();
-    CLI::App* command = addCommand(app, line, "fit", "Fit the error model of one thermal state (um, urad, um/m)",
+    CLI::App* command = addCommand(app, line, "fit", "Fit the error model of one thermal state (µm, µrad, µm/m)",
                                    [a](JobContext& job) { return runFit(*a, job); });
     addFitOptions(command, a);
   }
   {
     auto a = std::make_shared<FitArguments>();
     CLI::App* command =
-        addCommand(app, line, "heatmap", "Map one component of the fitted model over the table (um, with uncertainty)",
+        addCommand(app, line, "heatmap", "Map one component of the fitted model over the table (µm, with uncertainty)",
                    [a](JobContext& job) { return runHeatmap(*a, job); });
     addFitOptions(command, a, true);
-    command->add_option("--component", a->component, "EX, EY or EZ (um)")->check(CLI::IsMember({"EX", "EY", "EZ"}));
+    command->add_option("--component", a->component, "EX, EY or EZ (µm)")->check(CLI::IsMember({"EX", "EY", "EZ"}));
     command->add_option("--grid", a->grid, "Nodes along X and Y, such as 61,41")->type_name("NX,NY");
     command
         ->add_option("--limit", a->limit,
@@ -219,7 +219,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
                    [a](JobContext& job) { return runCompare(*a, job); });
     addFitOptions(command, a);
     command->add_option("--with", a->other_points, "The second set of points, such as F2,F4,F5,F7")->required();
-    command->add_option("--component", a->component, "Component of the picture: EX, EY or EZ (um)")
+    command->add_option("--component", a->component, "Component of the picture: EX, EY or EZ (µm)")
         ->check(CLI::IsMember({"EX", "EY", "EZ"}));
     a->pictures.addTo(*command, "the map of the difference");
   }
@@ -244,8 +244,8 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
             "candidates allow")
         ->check(nonNegativeNumber());
     command->add_option("--keep", a->fixed, "Points that are measured in any case, such as F1,F2");
-    command->add_option("--sigma-xy", a->sigma_xy_um, "Standard uncertainty of a displacement in the plane in um");
-    command->add_option("--sigma-z", a->sigma_z_um, "Standard uncertainty of a height in um");
+    command->add_option("--sigma-xy", a->sigma_xy_um, "Standard uncertainty of a displacement in the plane in µm");
+    command->add_option("--sigma-z", a->sigma_z_um, "Standard uncertainty of a height in µm");
   }
   const auto addCheck = [&](const std::string& name, const std::string& description) {
     auto a = std::make_shared<FitArguments>();
@@ -260,7 +260,7 @@ void addKinematicsCommands(CLI::App& app, CommandLine& line) {
                                        "repeated measurements of one point");
     command->add_option("--point", a->point,
                         "The point that was measured repeatedly; default: the one with the most rows");
-    command->add_option("--limit", a->drift_limit_um_per_h, "Drift in um/h below which it counts as settled")
+    command->add_option("--limit", a->drift_limit_um_per_h, "Drift in µm/h below which it counts as settled")
         ->check(positiveNumber());
   }
   addCheck("validate-jogs", "Validate measured axis steps (jogs), one per state, against the axis resolution");

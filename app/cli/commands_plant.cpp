@@ -193,7 +193,7 @@ CommandResult event(const PlantArguments& a) {
   if (!a.kind.empty()) {
     const std::optional<double> time_s = a.time.empty() ? std::optional(now()) : parseUtc(a.time);
     if (!time_s)
-      throw InputError(fmt::format("--time \"{}\" is no time; allowed: UTC such as 2026-01-31T08:00:00Z.", a.time));
+      throw InputError(fmt::format("--time \"{}\" is not a time; allowed: UTC such as 2026-01-31T08:00:00Z.", a.time));
     store.addEvent({a.machine, *time_s, a.kind, a.note, plantPublisher()});
   } else if (a.every_days < 0.0) {
     throw InputError("Nothing is entered; allowed: --kind, --every-days, or both.");

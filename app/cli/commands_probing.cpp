@@ -5,6 +5,7 @@
 
 #include "app/cli/command.h"
 #include "core/base/atomic_file.h"
+#include "core/base/count_text.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/probing/checked_program.h"
@@ -83,7 +84,7 @@ void addCycle(CLI::App& app, CommandLine& line) {
         }
         result.json["issues"] = issues;
         if (!check.good()) {
-          result.summary += "the programme was not written because its check found the above\n";
+          result.summary += "the program was not written because its check found the above\n";
           result.exit_status = NotGoodEnough;
           return result;
         }
@@ -105,8 +106,8 @@ void addCycle(CLI::App& app, CommandLine& line) {
         return result;
       });
   command->add_option("MACHINE", a->machine, "machine.json")->required();
-  command->add_option("--nc", a->nc, "Write the programme to this file")->type_name("FILE");
-  command->add_option("--template", a->template_file, "Write the template that reads what the programme prints (JSON)")
+  command->add_option("--nc", a->nc, "Write the program to this file")->type_name("FILE");
+  command->add_option("--template", a->template_file, "Write the template that reads what the program prints (JSON)")
       ->type_name("FILE");
   command
       ->add_option("--control", a->control,
@@ -131,7 +132,7 @@ void addCycle(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   command->add_option("--touch-feed", a->plan.touch_feed_mm_min, "Feed of a touch, mm/min")->capture_default_str();
   command->add_option("--feed", a->plan.guarded_feed_mm_min, "Feed of guarded moves, mm/min")->capture_default_str();
-  command->add_option("--program-number", a->program.program_number, "Number of a fanuc programme")
+  command->add_option("--program-number", a->program.program_number, "Number of a fanuc program")
       ->check(CLI::Range(1, 9999))
       ->capture_default_str();
   command
@@ -161,9 +162,9 @@ void addImport(CLI::App& app, CommandLine& line) {
                    result.json = {{"touches", printed.touches.touches.size()},
                                   {"cycles", printed.touches.cycles()},
                                   {"ignored_lines", printed.ignored_lines}};
-                   result.summary =
-                       fmt::format("{} touches in {} cycles, {} other lines ignored\n", printed.touches.touches.size(),
-                                   printed.touches.cycles().size(), printed.ignored_lines);
+                   result.summary = fmt::format(
+                       "{} in {}, {} skipped\n", countOf(printed.touches.touches.size(), "touch", "touches"),
+                       countOf(printed.touches.cycles().size(), "cycle"), countOf(printed.ignored_lines, "line"));
                    return result;
                  });
   command->add_option("PRINTED", a->printed, "Text as the control printed it")->required();
@@ -214,7 +215,7 @@ void addHealth(CLI::App& app, CommandLine& line) {
           result.summary += fmt::format("{} on {}: {}\n", h.stylus, h.feature, h.message);
           if (h.status == FitStatus::Converged) {
             result.summary +=
-                fmt::format("  effective radius {}, pre-travel range {:.2f} um, repeatability {:.2f} um\n",
+                fmt::format("  effective radius {}, pre-travel range {:.2f} µm, repeatability {:.2f} µm\n",
                             withUncertainty(h.effective_radius_mm, h.effective_radius_sigma_mm, "mm"),
                             h.pre_travel_range_um, h.repeatability_um);
           }
@@ -223,7 +224,7 @@ void addHealth(CLI::App& app, CommandLine& line) {
         return result;
       });
   command->add_option("CAMPAIGN", a->campaign, "Folder of the campaign with touches on a sphere")->required();
-  command->add_option("--healthy", a->options.healthy_sigma_um, "Repeatability of a healthy probe, um (one sigma)")
+  command->add_option("--healthy", a->options.healthy_sigma_um, "Repeatability of a healthy probe, µm (one sigma)")
       ->capture_default_str();
 }
 
@@ -331,7 +332,7 @@ void addStudies(CLI::App& app, CommandLine& line) {
         if (base.hole_cycles.empty()) throw InputError({campaign.folder, ""}, "holds no touches of a hole bar.");
         const SecondAxisBias bias = secondAxisBias(base.hole_cycles.front(), base.touches);
         nlohmann::json per = nlohmann::json::object();
-        result.summary = fmt::format("an unnoticed expansion of {} by 1 um/m changes\n", bias.second);
+        result.summary = fmt::format("an unnoticed expansion of {} by 1 µm/m changes\n", bias.second);
         for (std::size_t p = 0; p < bias.names.size(); ++p) {
           per[bias.names[p]] = bias.bias_per_um_per_m[p];
           result.summary += fmt::format("  {:14} by {:+.3f}\n", bias.names[p], bias.bias_per_um_per_m[p]);
@@ -361,9 +362,9 @@ void addStudies(CLI::App& app, CommandLine& line) {
   second->add_option("CAMPAIGN", s->campaign, "Folder of the campaign")->required();
   second
       ->add_option("--stable-growth", s->growth,
-                   "Known growth of the bar since the first cycle, um/m: one number, or one per cycle")
+                   "Known growth of the bar since the first cycle, µm/m: one number, or one per cycle")
       ->delimiter(',');
-  second->add_option("--trust", s->trust_um_per_m, "Standard uncertainty of that growth, um/m")->capture_default_str();
+  second->add_option("--trust", s->trust_um_per_m, "Standard uncertainty of that growth, µm/m")->capture_default_str();
 
   auto g = std::make_shared<CycleStudyArguments>();
   auto count = std::make_shared<int>(0);

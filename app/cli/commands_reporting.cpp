@@ -59,7 +59,7 @@ Report reportOf(const ReportArguments& arguments, JobContext& job) {
 bool isPdf(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (ending != ".pdf" && ending != ".html" && ending != ".htm")
-    throw InputError({file, ""}, "is no name of a report; allowed: a name that ends in .html or .pdf.");
+    throw InputError({file, ""}, "is not a name of a report; allowed: a name that ends in .html or .pdf.");
   return ending == ".pdf";
 }
 

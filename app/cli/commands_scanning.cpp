@@ -8,6 +8,7 @@
 
 #include "app/cli/command.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/machine/component.h"
 #include "core/scanning/artefact_design.h"
 #include "core/scanning/axis_errors.h"
@@ -44,7 +45,7 @@ void addRegister(CLI::App& app, CommandLine& line) {
   auto arguments = std::make_shared<RegisterArguments>();
   CLI::App* command = addCommand(app, line, "register",
                                  "Register a scan (SOURCE, warm) onto a reference scan (TARGET, cold) of the same "
-                                 "artefact: motion at the centroid of the target in um and urad, with covariance",
+                                 "artefact: motion at the centroid of the target in µm and µrad, with covariance",
                                  [arguments](JobContext&) { return registerCommand(*arguments); });
   command->add_option("SOURCE", arguments->source, "Cloud to move (.pcd, .ply or .csv, mm)")->required();
   command->add_option("TARGET", arguments->target, "Reference cloud (.pcd, .ply or .csv, mm)")->required();
@@ -152,12 +153,12 @@ CommandResult designCommand(DesignArguments arguments) {
   for (const Component k : all_components) {
     const double sigma = d.sigma[static_cast<std::size_t>(k)];
     out.json["sigma"][std::string(toString(k))] = numberOrNull(sigma);
-    out.summary += fmt::format("  {}  {:10.4g} {}\n", toString(k), sigma, unitOf(k));
+    out.summary += fmt::format("  {}  {:10.4g} {}\n", toString(k), sigma, printedUnit(unitOf(k)));
   }
   out.json["weak_directions"] = nlohmann::json::array();
   for (const WeakDirection& w : d.weak) {
     out.json["weak_directions"].push_back({{"direction", w.name}, {"sigma_um", numberOrNull(w.sigma_um)}});
-    out.summary += fmt::format("  weak: {} (rotations times {:.3g} mm): {:.4g} um\n", w.name, d.length_mm, w.sigma_um);
+    out.summary += fmt::format("  weak: {} (rotations times {:.3g} mm): {:.4g} µm\n", w.name, d.length_mm, w.sigma_um);
   }
   out.summary += fmt::format("  slope up to {:.2f} (x), {:.2f} (y); the profiler sees {:.1f} % of the surface\n",
                              d.largest_slope_x, d.largest_slope_y, 100.0 * d.visible_part);
@@ -170,7 +171,7 @@ void addDesign(CLI::App& app, CommandLine& line) {
   auto arguments = std::make_shared<DesignArguments>();
   CLI::App* command = addCommand(app, line, "design-artefact",
                                  "What a free-form surface z = ax sin(kx x) + ay sin(ky y) + axy sin(kx x + ky y) "
-                                 "determines: sigma of the six errors at its centroid (um, urad), weak directions, "
+                                 "determines: sigma of the six errors at its centroid (µm, µrad), weak directions, "
                                  "slopes; STL for milling or printing. Defaults: the surface of the paper",
                                  [arguments](JobContext&) { return designCommand(*arguments); });
   ArtefactSurface& s = arguments->surface;
@@ -213,8 +214,8 @@ CommandResult studyCommand(const CalibrationStudyArguments& a, JobContext& job) 
               {"scan_model", std::string(toString(scans.scan_model))},
               {"scans", nlohmann::json::array()}};
   out.summary = fmt::format(
-      "change of the six errors by calibration errors of {:g} rad and {:g} mm (standard deviation), {} trials a scan\n"
-      "  {:<12} {:<8}  {:>9} {:>9} {:>9} um  {:>9} {:>9} {:>9} urad\n",
+      "change of the six errors by calibration errors of {:g} rad and {:g} mm (standard deviation), {} trials a scan\n "
+      " {:<12} {:<8}  {:>9} {:>9} {:>9} µm  {:>9} {:>9} {:>9} µrad\n",
       a.options.angle_sigma_rad, a.options.length_sigma_mm, a.options.trials, "scan", "", "EX", "EY", "EZ", "EA", "EB",
       "EC");
   const auto row = [&out](const std::string& name, const char* what, const std::array<double, 6>& v) {

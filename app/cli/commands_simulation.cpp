@@ -7,6 +7,7 @@
 
 #include "app/cli/command.h"
 #include "core/base/atomic_file.h"
+#include "core/base/count_text.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/simulation/virtual_campaign.h"
@@ -93,12 +94,12 @@ CommandResult simulate(const SimulateArguments& arguments, JobContext& job) {
                  {"plant_ms", campaign.elapsed_ms},
                  {"writing_ms", writing_ms}};
   result.summary = fmt::format(
-      "{}: {} log rows, {} observations, {} rows of simulation, {} touches{} (machine simulated in {}, {} in {})",
-      arguments.out, campaign.campaign.log->time_s().size(), observations, campaign.simulation.size(),
-      campaign.touches.size(),
-      !campaign.captures
-          ? ""
-          : fmt::format(", {} images, {} scans", campaign.captures->images(), campaign.captures->scans()),
+      "{}: {}, {}, {} of simulation, {}{} (machine simulated in {}, {} in {})", arguments.out,
+      countOf(campaign.campaign.log->time_s().size(), "log row"), countOf(observations, "observation"),
+      countOf(campaign.simulation.size(), "row"), countOf(campaign.touches.size(), "touch", "touches"),
+      !campaign.captures ? ""
+                         : fmt::format(", {}, {}", countOf(campaign.captures->images(), "image"),
+                                       countOf(campaign.captures->scans(), "scan")),
       durationText(campaign.elapsed_ms), campaign.captures ? "captures rendered and files written" : "files written",
       durationText(writing_ms));
   return result;
@@ -123,8 +124,9 @@ void addSimulationCommands(CLI::App& app, CommandLine& line) {
       ->check(CLI::NonNegativeNumber)
       ->each([arguments](const std::string&) { arguments->has_seed = true; });
   command
-      ->add_option("--truth", arguments->truth,
-                   "Also write what is hidden (effects, sizes, noise-free signals in um and urad) to this file")
+      ->add_option(
+          "--truth", arguments->truth,
+          "Also write the hidden truth (effects, sizes, noise-free signals; keys with _um and _urad) to this file")
       ->type_name("FILE");
 }
 

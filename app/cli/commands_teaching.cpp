@@ -68,7 +68,7 @@ CommandResult continueExercise(const ExerciseArguments& arguments, JobContext& j
   const auto exercise = Exercise::of(arguments.campaign);
   if (!exercise) {
     throw InputError({std::filesystem::path(arguments.campaign) / "exercise.json", ""},
-                     "is not there: this campaign is no exercise; \"exercise --out DIR\" makes one.");
+                     "is missing: this campaign is not an exercise; \"exercise --out DIR\" makes one.");
   }
   const bool answered = !arguments.answers.empty();
   CommandResult result;
@@ -160,7 +160,7 @@ void addTeachingCommands(CLI::App& app, CommandLine& line) {
       ->capture_default_str();
   exercise
       ->add_option("--answer", arguments->answers,
-                   "A hidden effect, its driver and its size (largest change at one point, um or urad); may be "
+                   "A hidden effect, its driver and its size (largest change at one point, µm or µrad); may be "
                    "repeated. Exit status 1 if not all are named")
       ->allow_extra_args(false)
       ->type_name("EFFECT:DRIVER:SIZE");

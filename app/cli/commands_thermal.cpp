@@ -98,17 +98,18 @@ void addIdentify(CLI::App& parent, CommandLine& line) {
       ->check(nonNegativeNumber());
   command->add_option("--order", a->order, "na,nb,nk: poles, numerator coefficients per input, delay in samples");
   command
-      ->add_option(
-          "--method", a->request.method,
-          "response (lags of every input, averaged priors), arx or oe; default: arx with --order, else chosen by "
-          "free runs inside the training range among straight lines, few lags, ridge over lags and response")
+      ->add_option("--method", a->request.method,
+                   "response (time constants of every input, averaged priors), arx or oe; default: arx with --order, "
+                   "else chosen by free runs inside the training range among straight lines, few time constants, ridge "
+                   "regression and response")
       ->check(CLI::IsMember({"response", "arx", "oe"}));
   command
       ->add_option("--temperature-unit", a->request.temperature_unit,
                    "Unit of all temperature columns, in place of their names")
       ->check(CLI::IsMember({"degC", "K", "degF"}));
-  command->add_flag("--peers", a->request.peers,
-                    "Show two plain dynamic models beside: first-order ARX on two inputs, ridge over lagged inputs");
+  command->add_flag(
+      "--peers", a->request.peers,
+      "Show two plain dynamic models beside: first-order ARX on two inputs, ridge regression on delayed inputs");
   command->add_option("--prediction", a->prediction, "Write time_s,measured,predicted over all rows to this CSV file")
       ->type_name("FILE");
   command->add_option("--model-out", a->model, "Write the model (spindrift-thermal-model JSON) to this file")
@@ -207,7 +208,7 @@ void addCompensate(CLI::App& parent, CommandLine& line) {
       ->required();
   command->add_option("--cycle", a->request.cycle_s, "Cycle time of the controller in s; default: distance of the rows")
       ->check(nonNegativeNumber());
-  command->add_option("--limit", a->request.limits.limit, "Bound of every output, um or urad")
+  command->add_option("--limit", a->request.limits.limit, "Bound of every output, µm or µrad")
       ->check(positiveNumber())
       ->capture_default_str();
   command->add_option("--slew", a->request.limits.slew_per_s, "Bound of the change of every output per s")

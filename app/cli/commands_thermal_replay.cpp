@@ -56,10 +56,9 @@ void addReplay(CLI::App& parent, CommandLine& line) {
   CLI::App* command = addCommand(
       parent, line, "replay",
       "Replay a record with the self-optimising compensation: uncompensated, static and adaptive side by side, number "
-      "of on-machine measurements spent. Compensation = minus the predicted deviation; what is left = recorded minus "
+      "of on-machine measurements spent. Compensation = minus the predicted deviation; residual = recorded minus "
       "predicted, each in the sign of its column; a reduction is positive where the rms becomes smaller, negative "
-      "where "
-      "compensating makes it larger",
+      "where compensating makes it larger",
       [a](JobContext& job) {
         ReplayRequest& r = a->request;
         r.source = a->source;

@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help, version
     std::string sentence = error.what();
     if (argc > 1 && argv[1][0] != '-' && !knows(app, argv[1]))
-      sentence = "\"" + std::string(argv[1]) + "\" is no command; allowed: those that --help lists.";
+      sentence = "\"" + std::string(argv[1]) + "\" is not a command; allowed: those that --help lists.";
     std::cerr << "spindrift-cli: " << sentence << '\n';
     return spindrift::cli::BadInput;
   }

@@ -59,7 +59,7 @@ vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::filesystem::path& file)
   reader->SetParserErrorObserver(errors);
   reader->SetFileName(file.c_str());
   if (reader->CanReadFile(file.c_str()) == 0) {
-    throw InputError({file, ""}, "is no unstructured grid of VTK; allowed: a .vtu file.");
+    throw InputError({file, ""}, "is not an unstructured grid of VTK; allowed: a .vtu file.");
   }
   reader->Update();
   if (errors->seen || reader->GetOutput() == nullptr || reader->GetOutput()->GetNumberOfPoints() == 0) {
@@ -182,7 +182,8 @@ class VtkReader : public FeResultReader {
     const bool read = parser->Parse() != 0 && !errors->seen && parser->GetRootElement() != nullptr;
     vtkXMLDataElement* collection = read ? parser->GetRootElement()->FindNestedElementWithName("Collection") : nullptr;
     if (collection == nullptr) {
-      throw InputError({file_, ""}, "is no collection of VTK files; allowed: a .pvd with <Collection> and <DataSet>.");
+      throw InputError({file_, ""},
+                       "is not a collection of VTK files; allowed: a .pvd with <Collection> and <DataSet>.");
     }
     for (int i = 0; i < collection->GetNumberOfNestedElements(); ++i) {
       vtkXMLDataElement* set = collection->GetNestedElement(i);
@@ -197,7 +198,7 @@ class VtkReader : public FeResultReader {
       const std::filesystem::path path(name);
       if (path.extension() != ".vtu") {
         throw InputError({file_, fmt::format("DataSet {}", i + 1)},
-                         fmt::format("\"{}\" is no .vtu; allowed: unstructured grids in one piece.", name));
+                         fmt::format("\"{}\" is not a .vtu file; allowed: unstructured grids in one piece.", name));
       }
       files_.push_back({path.is_absolute() ? path : file_.parent_path() / path, time});
     }

@@ -140,7 +140,7 @@ void CsvRows::checkBytes() {
         bad != std::string_view::npos) {
       const auto before = std::count(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(bad), '\n');
       bad_byte.emplace(SourcePlace::atLine(file_, lines + static_cast<std::size_t>(before) + 1),
-                       fmt::format("the byte 0x{:02X} is no UTF-8 (Latin-1, perhaps); allowed: CSV in UTF-8.",
+                       fmt::format("the byte 0x{:02X} is not UTF-8 (Latin-1, perhaps); allowed: CSV in UTF-8.",
                                    static_cast<unsigned>(static_cast<unsigned char>(part[bad]))));
     }
     lines += static_cast<std::size_t>(std::count(part.begin(), part.end(), '\n'));

@@ -30,7 +30,7 @@ fs::path InsideFolder::path(std::string_view relative, const SourcePlace& place)
                      fmt::format("\"{}\" {}; allowed: a file inside the folder, given relative to it.", relative, why));
   };
   if (wanted.is_absolute()) refuse("is an absolute path");
-  if (relative.find('\0') != std::string_view::npos) refuse("is no file name");
+  if (relative.find('\0') != std::string_view::npos) refuse("is not a file name");
   const fs::path normal = wanted.lexically_normal();
   if (normal.empty() || normal == "." || *normal.begin() == "..") refuse("leaves its folder");
   if (real_.empty()) real_ = real(folder_);

@@ -27,7 +27,7 @@ AppendFile::AppendFile(std::filesystem::path file) : file_(std::move(file)) {
   }
   if (!S_ISREG(state.st_mode)) {
     ::close(handle_);
-    throw InputError({file_, ""}, "is no file; allowed: a file that can be appended to.");
+    throw InputError({file_, ""}, "is not a file; allowed: a file that can be appended to.");
   }
   if (::flock(handle_, LOCK_EX | LOCK_NB) != 0) {
     ::close(handle_);

@@ -74,7 +74,7 @@ void ColumnReader::complain(std::uint32_t source, const ColumnMapping& mapping, 
   if (state.word_told || !state.usable) return;
   state.word_told = true;
   tell_(record.quality == Quality::Text
-            ? fmt::format("{} {} says \"{}\", which is no number and not among \"values\" of column {}.",
+            ? fmt::format("{} {} says \"{}\", which is neither a number nor among \"values\" of column {}.",
                           sources_[source], mapping.address, printable(beginning(record.text, 80)), mapping.column)
             : fmt::format("{} {} gives a number that is not finite; column {} is empty there.", sources_[source],
                           mapping.address, mapping.column));

@@ -337,8 +337,8 @@ SourceDescription sourceForAddress(const std::string& url, const JsonNode& optio
     if (std::find(kind.schemes.begin(), kind.schemes.end(), scheme) == kind.schemes.end()) continue;
     return {url, std::string(kind.name), url, kind.make(options, url)};
   }
-  throw InputError(
-      fmt::format("\"{}\" is no address that can be listed; allowed: one that begins with {}.", url, allBeginnings()));
+  throw InputError(fmt::format("\"{}\" is not an address that can be listed; allowed: one that begins with {}.", url,
+                               allBeginnings()));
 }
 
 }  // namespace spindrift

@@ -131,7 +131,7 @@ class LinuxcncSource final : public Source {
         if (wanted.question.pin.empty()) requests_[wanted.question.request].clear();
         wanted_.push_back(std::move(wanted));
       } catch (const std::invalid_argument& allowed) {
-        sink.note(fmt::format("\"{}\" is no data item of LinuxCNC; allowed: {}.", items[i], allowed.what()));
+        sink.note(fmt::format("\"{}\" is not a data item of LinuxCNC; allowed: {}.", items[i], allowed.what()));
       }
     }
     const bool pins =

@@ -70,7 +70,7 @@ std::string LogRecorder::header() const {
 
 void LogRecorder::open(double now_utc_s) {
   file_ = std::make_unique<AppendFile>(log_);
-  if (file_->repaired() > 0) tell(fmt::format("The last line of {} was not whole and was taken off.", log_.string()));
+  if (file_->repaired() > 0) tell(fmt::format("The last line of {} was incomplete and was removed.", log_.string()));
   double last_s = -std::numeric_limits<double>::infinity();
   if (file_->size() == 0) {
     if (!file_->append(header())) throw InputError(file_->failure());

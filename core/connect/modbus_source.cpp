@@ -115,7 +115,7 @@ class ModbusSource final : public Source {
       try {
         wanted_.push_back({i, registerOf(items[i])});
       } catch (const std::invalid_argument& allowed) {
-        sink.note(fmt::format("\"{}\" is no register; allowed: {}.", items[i], allowed.what()));
+        sink.note(fmt::format("\"{}\" is not a register; allowed: {}.", items[i], allowed.what()));
       }
     }
     // Neighbours are read together.

@@ -253,13 +253,13 @@ class MqttSource final : public Source {
       if (topic.starts_with(sparkplug_prefix)) {
         const std::vector<std::string> parts = splitList(topic, '/');
         if (parts.size() < 3 || parts.size() > 4 || inside.empty()) {
-          sink.note(fmt::format("\"{}\" is no metric; allowed: spBv1.0/group/node[/device]#metric.", address));
+          sink.note(fmt::format("\"{}\" is not a metric; allowed: spBv1.0/group/node[/device]#metric.", address));
           continue;
         }
         metrics_[parts[1] + "/" + parts[2]][{parts.size() == 4 ? parts[3] : "", inside}].push_back(i);
         filters.insert(fmt::format("spBv1.0/{}/+/{}/#", parts[1], parts[2]));
       } else if (mosquitto_pub_topic_check(topic.c_str()) != MOSQ_ERR_SUCCESS) {
-        sink.note(fmt::format("\"{}\" is no topic; allowed: one topic without wildcards.", address));
+        sink.note(fmt::format("\"{}\" is not a topic; allowed: one topic without wildcards.", address));
       } else {
         topics_[topic].push_back({i, inside});
         filters.insert(topic);

@@ -367,9 +367,9 @@ class MtconnectSource final : public Source {
       // The same document will come again: after a few trials it is left out.
       if (++unreadable_ < 3)
         throw ConnectionError(
-            fmt::format("{} sends a document that is no XML: {}.", options_.url, parsed.description()));
+            fmt::format("{} sends a document that is not XML: {}.", options_.url, parsed.description()));
       unreadable_ = 0;
-      beginAgain(sink, fmt::format("{} sends a document that is no XML.", options_.url));
+      beginAgain(sink, fmt::format("{} sends a document that is not XML.", options_.url));
       return false;
     }
     const pugi::xml_node root = document.document_element();

@@ -40,7 +40,7 @@ Eigen::Vector3d CompensationChannel::next(const Wish& wish, const ControlState& 
   } else if (!wish.refused.empty()) {
     reason_ = wish.refused;
   } else if (!wish.offset_um.allFinite()) {
-    reason_ = "the model gives no number";
+    reason_ = "the model gives a value that is not a number";
   } else if (!(wish.age_s <= limits_.oldest_s)) {
     reason_ = fmt::format("the inputs of the model are {:.0f} s old; allowed: {:.0f} s", wish.age_s, limits_.oldest_s);
   }

@@ -45,7 +45,7 @@ void LinuxcncControl::connect(const std::stop_token& stop) {
   if (!shell_.set("enable " + options_.enable_password)) {
     close();
     throw ConnectionError(
-        fmt::format("{} does not let itself be driven: wrong password of linuxcncrsh (--enablepw).", name()));
+        fmt::format("{} refuses remote control: wrong password of linuxcncrsh (--enablepw).", name()));
   }
   (void)shell_.errors();  // of the time before us
   // Text of the time before us is not ours; after a loss it goes on where it was.
@@ -158,7 +158,7 @@ ControlState LinuxcncControl::state() noexcept {
       out.sentence = "The machine is not homed: home all axes.";
     } else if (ask("program_status") != "IDLE") {
       out.condition = Condition::Busy;
-      out.sentence = "A programme is running.";
+      out.sentence = "A program is running.";
     } else {
       out.condition = Condition::Ready;
       out.sentence = "Ready.";
@@ -188,12 +188,12 @@ void LinuxcncControl::switchOn(bool confirmed) {
 
 void LinuxcncControl::start(const ApprovedProgram& program) {
   const ControlState now = state();
-  if (!now.ready()) throw InputError("The programme is not started: " + now.sentence);
+  if (!now.ready()) throw InputError("The program is not started: " + now.sentence);
   const double away_mm =
       program.run().moves.empty() ? 0.0 : (now.position_mm - program.run().moves.front().from_mm).norm();
   if (away_mm > 0.01)
     throw InputError(fmt::format(
-        "The programme is not started: the machine stands {:.3f} mm from where it was foreseen to start.", away_mm));
+        "The program is not started: the machine stands {:.3f} mm from where it was foreseen to start.", away_mm));
   // A name of its own: a file that is open already would not be read again.
   const std::filesystem::path file = options_.folder / fmt::format("spindrift-{}.ngc", ++programs_ % 2);
   writeFileAtomically(file, program.text());
@@ -212,7 +212,7 @@ void LinuxcncControl::start(const ApprovedProgram& program) {
   const double until = steadySeconds() + 1.0;
   while (ask("program_status") == "IDLE" && steadySeconds() < until) {
     if (const std::vector<std::string> why = shell_.errors(); !why.empty())
-      throw InputError(fmt::format("{} does not run the programme: {}", name(), why.front()));
+      throw InputError(fmt::format("{} does not run the program: {}", name(), why.front()));
     nap(5);
   }
 }
@@ -276,7 +276,7 @@ void LinuxcncControl::holdWhenSilent(bool hold) {
 }
 
 CompensationStatus LinuxcncControl::compensate(const Eigen::Vector3d& offset_um) {
-  if (!offset_um.allFinite()) throw InputError("A compensation that is no number is not written.");
+  if (!offset_um.allFinite()) throw InputError("A compensation that is not a number is not written.");
   beat_ = !beat_;
   std::vector<std::pair<std::string, double>> values{{"comp-alive", beat_ ? 1.0 : 0.0}};
   for (int axis = 0; axis < 3; ++axis)

@@ -80,7 +80,7 @@ DryRun dryRun(std::string_view program, const MachineDescription& machine, const
       continue;
     }
     if (ended && !words->empty()) {
-      issue("stands after the end of the programme");
+      issue("stands after the end of the program");
       continue;
     }
     Eigen::Vector3d target = at;
@@ -154,7 +154,7 @@ DryRun dryRun(std::string_view program, const MachineDescription& machine, const
     run.highest_mm = run.highest_mm.cwiseMax(target);
     at = target;
   }
-  if (!ended) addIssue(run, number, "the programme has no end (M2 or M30)");
+  if (!ended) addIssue(run, number, "the program has no end (M2 or M30)");
   return run;
 }
 
@@ -181,9 +181,9 @@ ApprovedProgram ApprovedProgram::approve(std::string text, const MachineDescript
   }
   if (!run.good())
     throw InputError(
-        fmt::format("The programme is not run: line {}: {}.", run.issues.front().line, run.issues.front().what));
+        fmt::format("The program is not run: line {}: {}.", run.issues.front().line, run.issues.front().what));
   if (!confirm || !confirm(run))
-    throw InputError(fmt::format("The programme is not run: it was not confirmed ({}).", run.summary()));
+    throw InputError(fmt::format("The program is not run: it was not confirmed ({}).", run.summary()));
   return {std::move(text), std::move(run)};
 }
 

@@ -53,7 +53,7 @@ constexpr std::string_view every_machine = R"({"format":"spindrift-machine","ver
                 "reference_in_table_mm":[-150,0,20],"direction_at_c0":[1,0,0],"hole_diameter_mm":10}],
   "temperature_sensors":[{"name":"T_spindle_degC","place":"spindle housing"},{"name":"T_room_degC","place":"room"},
    {"name":"T_column_front_degC","place":"column front"},{"name":"T_column_rear_degC","place":"column rear"},
-   {"name":"T_table_degC","place":"table"},{"name":"T_screw_x_degC","place":"screw of X"}]})";
+   {"name":"T_table_degC","place":"table"},{"name":"T_screw_x_degC","place":"X ball screw"}]})";
 
 MachineDescription everyMachine() {
   return MachineDescription::parse(JsonNode::parse(every_machine, "every"), "every");

@@ -63,10 +63,10 @@ void relateOwnEffects(std::vector<Effect>& effects, const ResidualProblem& probl
   }
   for (const auto& [a, b] : relations.same) {
     if (!effects[a].own && !effects[b].own) continue;
-    warnings.push_back(fmt::format(
-        "{} and {} have the same shape at all points and the same drivers: no measurement of this kind can tell them "
-        "apart.",
-        effects[a].id, effects[b].id));
+    warnings.push_back(
+        fmt::format("{} and {} have the same shape at all points and the same drivers: no measurement of this kind can "
+                    "distinguish them.",
+                    effects[a].id, effects[b].id));
   }
 }
 
@@ -520,7 +520,7 @@ std::string sentenceOf(const DiscrepancyResult& result, const DiscrepancyOptions
   for (const FoundEffect& e : result.effects) names.push_back(e.id);
   const bool ambiguous = result.verdict == DiscrepancyVerdict::Ambiguous;
   return fmt::format("Missing in the simulation: {}{}.", joinedList(names),
-                     ambiguous ? "; these data cannot tell at least one of them from its rivals" : "");
+                     ambiguous ? "; these data do not distinguish at least one of them from its rivals" : "");
 }
 
 /// What too few observations leave to say.
@@ -532,8 +532,8 @@ void tellUndecided(const Solution& solution, DiscrepancyResult& result) {
   };
   const int series = solution.problem.seriesCount();
   result.message = fmt::format(
-      "{} in {} leave too little beyond the free constant of each of {} series: which effect is missing, its lag and "
-      "whether it is one at all cannot be decided; measure {}.",
+      "{} in {}: too few observations per series after removing the offset of each of {} series, so the missing "
+      "effect, its time constant and whether it is one at all cannot be decided; measure {}.",
       counted(solution.rows.fit.size(), "observation", "observations"), counted(states.size(), "state", "states"),
       series, states.size() < 4 ? "at least 4 states and several points" : "more states or more points");
   result.verdict = DiscrepancyVerdict::Unknown;
@@ -647,8 +647,7 @@ DiscrepancyResult findDiscrepancy(const DiscrepancyInput& input, const Discrepan
   result.twins = analysis.hypotheses.twins(problem);
   for (const auto& [a, b] : result.twins) {
     result.warnings.push_back(fmt::format(
-        "{} and {} of the simulation do the same to these readings: no measurement of this kind can tell them apart.",
-        a, b));
+        "{} and {} of the simulation have the same effect on the observations and cannot be distinguished.", a, b));
   }
   result.where = findPlaces(problem, *analysis.drivers, problem.projectedResidual().head(problem.size()));
   if (options.suggest && enough && result.verdict == DiscrepancyVerdict::Ambiguous) {

@@ -163,7 +163,7 @@ struct DiscrepancyGap {
 struct ProgrammeStep {
   double from_s = 0.0;  ///< since the start of the programme
   double to_s = 0.0;
-  std::string action;      ///< "rest", "X alone at 12 m/min", "the programme of the log again"
+  std::string action;      ///< "rest", "X alone at 12 m/min", "the program of the log again"
   bool as_logged = false;  ///< what the log did since its start; the rates below are not used
   double spindle_rpm = 0.0;
   std::array<double, 3> feed_mm_min{};  ///< X, Y, Z

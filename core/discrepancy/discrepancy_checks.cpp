@@ -40,18 +40,18 @@ void checkUnits(const DiscrepancyInput& input, const std::vector<std::size_t>& r
   const double ratio = std::sqrt(oo / ss);
   const std::filesystem::path file = input.observations.file;
   if (correlation > 0.6 && ratio > 300.0) {
-    throw InputError({file, ""},
-                     fmt::format("the deviations move {:.0f} times as much as the simulation predicts, in the "
-                                 "same way: one of them is not in um (the simulation in mm, or the observations in "
-                                 "nm); allowed: um and urad.",
-                                 ratio));
+    throw InputError(
+        {file, ""},
+        fmt::format("the deviations are {:.0f} times as large as the simulation predicts, with the same time history: "
+                    "one of them is not in µm (the simulation in mm, or the observations in nm); allowed: µm and µrad.",
+                    ratio));
   }
   if (correlation > 0.6 && ratio < 1.0 / 300.0) {
-    throw InputError({file, ""},
-                     fmt::format("the deviations move {:.0f} times less than the simulation predicts, in the "
-                                 "same way: one of them is not in um (the observations in mm, or the simulation in "
-                                 "nm); allowed: um and urad.",
-                                 1.0 / ratio));
+    throw InputError(
+        {file, ""},
+        fmt::format("the deviations are {:.0f} times smaller than the simulation predicts, with the same time history: "
+                    "one of them is not in µm (the observations in mm, or the simulation in nm); allowed: µm and µrad.",
+                    1.0 / ratio));
   }
 }
 
@@ -211,7 +211,7 @@ void warnAboutData(const DiscrepancyInput& input, const std::vector<std::size_t>
   for (const std::size_t row : rows) components.insert(input.observations.rows[row].component);
   if (components.size() == 1) {
     warnings.push_back(
-        fmt::format("Only {} was observed: effects that differ in other components alone cannot be told apart.",
+        fmt::format("Only {} was observed: effects that differ in other components alone cannot be distinguished.",
                     toString(*components.begin())));
   }
   warnAboutLoneStates(input, rows, warnings);

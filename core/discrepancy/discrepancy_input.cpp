@@ -119,7 +119,7 @@ DiscrepancyInput discrepancyInput(const Campaign& campaign, ObservationSet obser
   if (file.extension() != ".csv") {
     throw InputError({campaign.path("campaign.json"), "$.simulation"},
                      "\"" + name +
-                         "\" is no simulation by its ending; allowed: .csv, a model (.json), or a map of "
+                         "\" is not a simulation by its ending; allowed: .csv, a model (.json), or a map of "
                          "finite-element results (.json).");
   }
   match(SimulationTable::read(file), campaign, name, input);

@@ -181,11 +181,11 @@ std::string driversText(const ModelEffect& e) {
     const std::string name(driverAsWritten(input.driver));
     switch (input.dynamics) {
       case Dynamics::None:
-        text += input.driver.empty() ? "steady" : name + " without lag";
+        text += input.driver.empty() ? "steady" : name + " without time constant";
         break;
       case Dynamics::Lag: {
         const double tau = e.parameters[e.variant.shared_lag ? 0 : next++];
-        text += tau > 0.0 ? fmt::format("{} (lag {:.0f} s)", name, tau) : name;
+        text += tau > 0.0 ? fmt::format("{} (time constant {:.0f} s)", name, tau) : name;
         break;
       }
       case Dynamics::Start:
@@ -194,7 +194,8 @@ std::string driversText(const ModelEffect& e) {
         break;
       case Dynamics::AsymmetricLag: {
         const std::size_t first = e.variant.shared_lag ? 0 : next;
-        text += fmt::format("{} (lag {:.0f} s on, {:.0f} s off)", name, e.parameters[first], e.parameters[first + 1]);
+        text += fmt::format("{} (time constant {:.0f} s on, {:.0f} s off)", name, e.parameters[first],
+                            e.parameters[first + 1]);
         if (!e.variant.shared_lag) next += 2;
         break;
       }
@@ -202,7 +203,7 @@ std::string driversText(const ModelEffect& e) {
         text += fmt::format("step at {:.0f} s", e.parameters[next++]);
         break;
       case Dynamics::Pulse:
-        text += fmt::format("from {:.0f} s to {:.0f} s (lag {:.0f} s)", e.parameters[next],
+        text += fmt::format("from {:.0f} s to {:.0f} s (time constant {:.0f} s)", e.parameters[next],
                             e.parameters[next] + e.parameters[next + 1], e.parameters[next + 2]);
         next += 3;
         break;

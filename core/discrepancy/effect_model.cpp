@@ -272,7 +272,7 @@ std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path
           input.at("driver").reject("a driver that log.csv holds");
         }
         if (parsed.driver.empty() && (parsed.dynamics == Dynamics::Lag || parsed.dynamics == Dynamics::AsymmetricLag)) {
-          input.reject("a lag together with its driver");
+          input.reject("a time constant together with its driver");
         }
         e.variant.inputs.push_back(parsed);
       }

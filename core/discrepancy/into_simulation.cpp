@@ -204,8 +204,8 @@ void tellParameters(const std::vector<FreeParameter>& free, const SimulationFit&
       out.correlation(i, j) = r;
       if (b >= a || std::abs(r) < inseparable) continue;
       out.warnings.push_back(
-          fmt::format("{} and {} cannot be told apart with these data (correlation "
-                      "{:.3f}): only what they do together is known.",
+          fmt::format("{} and {} cannot be distinguished with these data (correlation {:.3f}): only their joint effect "
+                      "is determined.",
                       free[static_cast<std::size_t>(j)].parameter.name, free[at].parameter.name, r));
     }
   }

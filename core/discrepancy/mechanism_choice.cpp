@@ -92,8 +92,9 @@ std::string whyNotTogether(const std::vector<std::string>& names, const std::vec
   for (const auto& [a, b] : twins) {
     if (!chosen(a) || !chosen(b)) continue;
     return fmt::format(
-        "{} and {} do the same to these readings: together their sizes cannot be found; allowed: one of the two.", a,
-        b);
+        "{} and {} have the same effect on the observations: their magnitudes cannot be estimated jointly; allowed: "
+        "one of the two.",
+        a, b);
   }
   return {};
 }

@@ -172,12 +172,12 @@ std::pair<std::string, double> columnAndPower(const OwnDriver& driver, const Ope
                                       driver.text, why, joinedList(log.names(), "or"))};
   };
   const std::size_t caret = driver.text.rfind('^');
-  if (caret == std::string::npos || !log.has(driver.text.substr(0, caret))) throw refuse("is no column of log.csv");
+  if (caret == std::string::npos || !log.has(driver.text.substr(0, caret))) throw refuse("is not a column of log.csv");
   const std::string digits = driver.text.substr(caret + 1);
   double power = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), power);
   if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(power) || power == 0.0) {
-    throw refuse("has a power that is no number other than zero");
+    throw refuse("has a power that is not a number other than zero");
   }
   return {driver.text.substr(0, caret), power};
 }

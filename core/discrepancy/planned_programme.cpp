@@ -150,7 +150,7 @@ std::vector<PlannedProgramme> possibleProgrammes(const DiscrepancyInput& input, 
   const auto sequence = [&] { return Sequence(whole_s, rest); };
   out.push_back(sequence().rest(1.0).done());
   ProgrammeStep again = rest;
-  again.action = "the programme of the log again";
+  again.action = "the program of the log again";
   again.as_logged = true;
   out.push_back(sequence().add(again, 1.0).done());
   for (const Action& a : actions) {

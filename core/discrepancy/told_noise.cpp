@@ -41,8 +41,8 @@ void warnAboutOutliers(const ResidualProblem& problem, const Eigen::VectorXd& le
     const double part = static_cast<double>(outside) / static_cast<double>(sizes.size());
     if (part < too_many) continue;
     warnings.push_back(
-        fmt::format("{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the rest: too many to be "
-                    "weighted away; look at how they were taken before you rely on a name.",
+        fmt::format("{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others: too many to "
+                    "be down-weighted; check how they were taken before you rely on a named effect.",
                     100.0 * part, toString(c), far_off));
   }
 }

@@ -47,7 +47,7 @@ class MeshReader {
         for (std::size_t i = 1; i < fields.size() && i < 4; ++i) {
           whole = whole && parseNumber(fields[i], place[static_cast<Eigen::Index>(i - 1)]);
         }
-        if (!whole) reject("is no node with its place; allowed: number, x, y, z");
+        if (!whole) reject("is not a node with its place; allowed: number, x, y, z");
         mesh_.nodes[static_cast<NodeId>(id)] = place;
         if (!set_.empty()) mesh_.sets[set_].push_back(static_cast<NodeId>(id));
       } else if (keyword_ == "*NSET") {
@@ -91,7 +91,7 @@ class MeshReader {
       bool whole = fields.size() >= 2 && fields.size() <= 3;
       for (std::size_t i = 0; whole && i < fields.size(); ++i) whole = parseNumber(fields[i], range[i]);
       if (!whole || range[0] < 1.0 || range[1] < range[0] || range[2] < 1.0 || range[1] > largest_node) {
-        reject("is no range of nodes; allowed: first, last, step");
+        reject("is not a range of nodes; allowed: first, last, step");
       }
       count((range[1] - range[0]) / range[2] + 1.0, reject);
       for (auto id = static_cast<NodeId>(range[0]); id <= static_cast<NodeId>(range[1]);
@@ -103,7 +103,7 @@ class MeshReader {
     for (const std::string& field : fields) {
       double id = 0.0;
       if (parseNumber(field, id)) {
-        if (id < 1.0 || id > largest_node) reject("holds what is no number of a node");
+        if (id < 1.0 || id > largest_node) reject("holds an invalid node number");
         count(1.0, reject);
         members.push_back(static_cast<NodeId>(id));
         continue;

@@ -95,7 +95,7 @@ class DatReader : public FeResultReader {
           wanted = false;
           continue;
         }
-        reject("is no node with three displacements");
+        reject("is not a node with three displacements");
       }
       row(table, static_cast<NodeId>(id), u);
     }

@@ -347,7 +347,8 @@ class Import {
         if (!found->second.allFinite()) {
           throw InputError(
               {map_.result, ""},
-              fmt::format("the displacement of node {} in state {} is no finite number; allowed: numbers.", id, k + 1));
+              fmt::format("the displacement of node {} in state {} is not a finite number; allowed: numbers.", id,
+                          k + 1));
         }
       }
     }

@@ -73,7 +73,8 @@ FeNodes FeNodes::parse(std::string_view text) {
     for (const std::string& field : splitList(text.substr(6))) {
       double id = 0.0;
       if (!parseNumber(field, id) || id < 0.0 || id > largest_node) {
-        throw InputError(fmt::format("\"{}\" in \"{}\" is no number of a node; allowed: nodes:1,2,3.", field, text));
+        throw InputError(
+            fmt::format("\"{}\" in \"{}\" is not the number of a node; allowed: nodes:1,2,3.", field, text));
       }
       out.nodes.push_back(static_cast<NodeId>(id));
     }
@@ -86,7 +87,8 @@ FeNodes FeNodes::parse(std::string_view text) {
     if (fields.size() > 3) {
       double count = 0.0;
       if (!parseNumber(fields[3], count) || count < 1.0 || count > 1e9) {
-        throw InputError(fmt::format("\"{}\" in \"{}\" is no number of nodes; allowed: at least 1.", fields[3], text));
+        throw InputError(
+            fmt::format("\"{}\" in \"{}\" is not a number of nodes; allowed: at least 1.", fields[3], text));
       }
       out.count = static_cast<int>(count);
     }

@@ -31,7 +31,7 @@ std::unique_ptr<FeResultReader> openFeResult(const std::filesystem::path& file) 
                      "is a VTK file, which the program spindrift-fe reads (spindrift-fe simulation import, the same "
                      "options, writes simulation.csv); allowed here: .frd or .dat.");
   }
-  throw InputError({file, ""}, "is no result of finite elements by its ending; allowed: .frd, .dat, .vtu or .pvd.");
+  throw InputError({file, ""}, "is not a result of finite elements by its ending; allowed: .frd, .dat, .vtu or .pvd.");
 }
 
 }  // namespace spindrift

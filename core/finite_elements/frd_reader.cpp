@@ -42,7 +42,7 @@ class FrdReader : public FeResultReader {
       const int width = nodeWidth(lines);
       const std::optional<double> time = number(lines.text.substr(std::min<std::size_t>(12, lines.text.size()), 12));
       if (!time) reject(lines, "has no time of its state in columns 13 to 24");
-      if (!lines.next() || !lines.text.starts_with(" -4")) reject(lines, "is no name of a result (-4)");
+      if (!lines.next() || !lines.text.starts_with(" -4")) reject(lines, "is not a name of a result (-4)");
       const std::string name(trimmed(lines.text.substr(std::min<std::size_t>(5, lines.text.size()), 8)));
       if (name != "DISP") {
         others.insert(name);

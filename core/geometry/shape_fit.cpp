@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/count_text.h"
 #include "core/math/distributions.h"
 
 namespace spindrift {
@@ -273,8 +274,9 @@ Result fitRoundShape(std::span<const Eigen::Matrix<double, D, 1>> points, const 
       result.covariance.setZero();
       result.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
       if (n < unknowns) {
-        result.message = fmt::format("{} points are too few for a {}{}; allowed: at least {}", n, shape,
-                                     free_radius ? "" : " of known radius", unknowns);
+        result.message =
+            fmt::format("{} too few for a {}{}; allowed: at least {}", countOf(n, "point is", "points are"), shape,
+                        free_radius ? "" : " of known radius", unknowns);
       } else {
         const double centre_part = fit.weak.template head<D>().norm();
         const std::string along = directionText(fit.weak.data(), D);
@@ -390,7 +392,7 @@ PlaneFit fitPlane(std::span<const Eigen::Vector3d> points_mm, const ShapeFitOpti
   fit.weak = s.axes.col(1);
   if (s.used < 3) {
     fit.status = FitStatus::Degenerate;
-    fit.message = fmt::format("{} points are too few for a plane; allowed: at least 3", s.used);
+    fit.message = fmt::format("{} too few for a plane; allowed: at least 3", countOf(s.used, "point is", "points are"));
     return fit;
   }
   // Amplification of noise into the tilt, at the radius of the point cloud.
@@ -427,7 +429,7 @@ LineFit fitLine(std::span<const Eigen::Vector3d> points_mm, const ShapeFitOption
   fit.direction = oriented(s.axes.col(2));
   if (s.used < 2) {
     fit.status = FitStatus::Degenerate;
-    fit.message = fmt::format("{} points are too few for a line; allowed: at least 2", s.used);
+    fit.message = fmt::format("{} too few for a line; allowed: at least 2", countOf(s.used, "point is", "points are"));
     return fit;
   }
   fit.amplification = s.values(2) - s.values(1) > 0.0 ? std::sqrt(s.values(2) / (s.values(2) - s.values(1)))

@@ -65,7 +65,7 @@ FiducialPattern makePattern(const ArtworkOptions& options) {
                                  options.rows, options.columns));
   }
   if (!(options.pitch_um >= 20.0 && options.pitch_um <= 1e5)) {
-    throw InputError(fmt::format("a pitch of {} um is not allowed; 20 ... 100000 um are.", options.pitch_um));
+    throw InputError(fmt::format("a pitch of {} µm is not allowed; 20 ... 100000 µm are.", options.pitch_um));
   }
   FiducialPattern pattern = standardPattern();
   const double scale = options.pitch_um / pattern.pitch_um;

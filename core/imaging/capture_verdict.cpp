@@ -14,14 +14,14 @@ CaptureVerdict judgeCapture(const GrayImage& image, bool focus_series, const Cap
   verdict.decoded = decodeImage(image, pattern);
   const ExposureStatistics& light = verdict.decoded.exposure;
   if (light.saturated_fraction > options.largest_saturated) {
-    verdict.sentence =
-        fmt::format("{:.0f} % of the pixels are overexposed: take less light.", 100.0 * light.saturated_fraction);
+    verdict.sentence = fmt::format("{:.0f} % of the pixels are overexposed: reduce the illumination.",
+                                   100.0 * light.saturated_fraction);
     return verdict;
   }
   if (light.bright_level - light.dark_level < options.least_contrast_levels) {
     verdict.sentence = fmt::format(
-        "The image has hardly any contrast ({:.0f} grey levels): more light, or is something "
-        "before the lens?",
+        "The image has too little contrast ({:.0f} grey levels). Increase the illumination or check for an obstructed "
+        "lens.",
         light.bright_level - light.dark_level);
     return verdict;
   }

@@ -100,7 +100,7 @@ std::string_view toString(CentrePooling pooling) noexcept {
 void CentreOptions::validate() const {
   if (!(expected_repeatability_um > 0.0) || !(expected_weight >= 0.0)) {
     throw InputError(
-        "the expected repeatability of the spindle must be greater than 0 um and its weight not negative.");
+        "the expected repeatability of the spindle must be greater than 0 µm and its weight not negative.");
   }
   if (!(test_level > 0.0 && test_level < 1.0)) {
     throw InputError(fmt::format("test level {} is not allowed; allowed: between 0 and 1.", test_level));

@@ -140,7 +140,7 @@ nlohmann::json detailsOf(const FiducialCaptureList& list, const FiducialImages& 
 }
 
 std::string summaryOf(const FiducialDisplacement& d) {
-  std::string text = "fiducial  state     EX / um            EY / um            EZ / um\n";
+  std::string text = "fiducial  state     EX / µm            EY / µm            EZ / µm\n";
   for (const FiducialState& s : d.states) {
     const auto isOwn = [&](const std::optional<std::size_t>& of) { return of && &d.states[*of] == &s; };
     const auto cell = [](bool own, bool there, double value, double sigma) {

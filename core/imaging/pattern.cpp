@@ -27,7 +27,7 @@ PatternStroke strokeOf(const JsonNode& node) {
   PatternStroke stroke;
   for (const JsonNode& point : node.items()) {
     const std::vector<double> xy = point.numbers();
-    if (xy.size() != 2) point.reject("a list of two numbers, x and y in um");
+    if (xy.size() != 2) point.reject("a list of two numbers, x and y in µm");
     stroke.emplace_back(xy[0], xy[1]);
   }
   if (stroke.empty()) node.reject("a list of at least one point");
@@ -91,7 +91,7 @@ void FiducialPattern::validate(const std::filesystem::path& name) const {
   numbers(first_column, last_column, "$.columns");
   const auto positive = [&](double value, const char* path) {
     require(std::isfinite(value) && value > 0.0, path,
-            fmt::format("{} is not allowed; a length in um greater than zero is needed.", value));
+            fmt::format("{} is not allowed; a length in µm greater than zero is needed.", value));
   };
   positive(pitch_um, "$.pitch");
   positive(semi_axis_x_um, "$.ellipse.semi_axis_x");
@@ -103,7 +103,7 @@ void FiducialPattern::validate(const std::filesystem::path& name) const {
   positive(digit_line_width_um, "$.digits.line_width");
   const double half_line = 0.5 * ellipse_line_width_um;
   require(std::max(semi_axis_x_um, semi_axis_y_um) + half_line < 0.5 * pitch_um, "$.ellipse",
-          fmt::format("neighbouring ellipses touch: semi-axis plus half the line is {} um, half the pitch {} um.",
+          fmt::format("neighbouring ellipses touch: semi-axis plus half the line is {} µm, half the pitch {} µm.",
                       std::max(semi_axis_x_um, semi_axis_y_um) + half_line, 0.5 * pitch_um));
   require(std::min(semi_axis_x_um, semi_axis_y_um) > 2.0 * ellipse_line_width_um, "$.ellipse.line_width",
           "the line is wider than half a semi-axis; a thinner one is needed.");
@@ -114,7 +114,7 @@ void FiducialPattern::validate(const std::filesystem::path& name) const {
   const double dy = circle_offset_y_um - pitch_um * std::round(circle_offset_y_um / pitch_um);
   const double grow = half_line + circle_radius_um;
   require(std::hypot(dx / (semi_axis_x_um + grow), dy / (semi_axis_y_um + grow)) > 1.0, "$.circle",
-          fmt::format("a circle of radius {} um at ({}, {}) um from an ellipse's centre touches the ellipse.",
+          fmt::format("a circle of radius {} µm at ({}, {}) µm from an ellipse's centre touches the ellipse.",
                       circle_radius_um, dx, dy));
   require(2.0 * circle_radius_um < pitch_um, "$.circle.radius", "neighbouring circles touch.");
   for (int digit = 0; digit < 10; ++digit) {
@@ -125,11 +125,11 @@ void FiducialPattern::validate(const std::filesystem::path& name) const {
         const double x = digit_offset_x_um + std::abs(p.x()) + 0.5 * digit_line_width_um;
         const double y = digit_offset_y_um + std::abs(p.y()) + 0.5 * digit_line_width_um;
         require(std::hypot(x / (semi_axis_x_um - half_line), y / (semi_axis_y_um - half_line)) < 1.0,
-                "$.digits.strokes", fmt::format("digit {} leaves its ellipse at ({}, {}) um.", digit, p.x(), p.y()));
+                "$.digits.strokes", fmt::format("digit {} leaves its ellipse at ({}, {}) µm.", digit, p.x(), p.y()));
         require(std::abs(p.x()) + 0.5 * digit_line_width_um < digit_offset_x_um &&
                     std::abs(p.y()) + 0.5 * digit_line_width_um < digit_offset_y_um,
                 "$.digits.strokes",
-                fmt::format("digit {} touches its neighbour digit at ({}, {}) um.", digit, p.x(), p.y()));
+                fmt::format("digit {} touches its neighbour digit at ({}, {}) µm.", digit, p.x(), p.y()));
       }
     }
   }

@@ -44,10 +44,10 @@ Campaign Campaign::read(const std::filesystem::path& folder) {
     throw InputError({folder, ""}, "is not a folder; allowed: a campaign folder with campaign.json and machine.json.");
   }
   if (!std::filesystem::exists(folder / "campaign.json")) {
-    throw InputError({folder, ""},
-                     "is no campaign: it has no campaign.json; allowed: a campaign folder with "
-                     "campaign.json and machine.json. For images, touches or clouds alone begin a new "
-                     "measurement that watches their folder.");
+    throw InputError(
+        {folder, ""},
+        "is not a campaign: it has no campaign.json; allowed: a campaign folder with campaign.json and machine.json. "
+        "For images, touches or clouds alone begin a new measurement that watches their folder.");
   }
   Campaign campaign;
   campaign.folder = folder;

@@ -48,12 +48,12 @@ KinematicChain KinematicChain::parse(std::string_view text, const SourcePlace& p
       primed = true;
       part.pop_back();
     }
-    if (part.empty()) reject(fmt::format("\"{}\" is no axis", parts[i]));
+    if (part.empty()) reject(fmt::format("\"{}\" is not an axis", parts[i]));
     const char letter = part.front();
     const std::size_t index = std::string_view("XYZABC").find(letter);
     if (index == std::string_view::npos ||
         !std::all_of(part.begin() + 1, part.end(), [](unsigned char c) { return std::isdigit(c) != 0; })) {
-      reject(fmt::format("\"{}\" is no axis", parts[i]));
+      reject(fmt::format("\"{}\" is not an axis", parts[i]));
     }
     if (primed && !before_bed) reject(fmt::format("\"{}\" stands on the tool side", parts[i]));
     if (chain.find(part) != nullptr) reject(fmt::format("axis \"{}\" appears twice", part));

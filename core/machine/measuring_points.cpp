@@ -137,7 +137,7 @@ void PlacementOptions::validate(std::size_t candidates) const {
         fmt::format("a distance of {:g} mm between positions is not allowed; allowed: 0 or more.", *least_distance_mm));
   }
   if (!(sigma_xy_um > 0.0) || !(sigma_z_um > 0.0)) {
-    throw InputError("the uncertainties of a measured position must be greater than zero um.");
+    throw InputError("the uncertainties of a measured position must be greater than 0 µm.");
   }
   if (!(region_to_mm.x() > region_from_mm.x()) || !(region_to_mm.y() > region_from_mm.y())) {
     throw InputError("the region of the table is empty; allowed: to greater than from, in mm.");

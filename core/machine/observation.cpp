@@ -12,6 +12,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 
 namespace spindrift {
 namespace {
@@ -106,13 +107,13 @@ ObservationSet ObservationSet::fromTable(const CsvTable& table) {
       throw InputError(
           table.place(row, value),
           fmt::format("{} {} is not allowed; allowed: deviations up to {:g} {} in size.", table.text(row, value),
-                      unitOf(o.component), largest_deviation, unitOf(o.component)));
+                      printedUnit(unitOf(o.component)), largest_deviation, printedUnit(unitOf(o.component))));
     }
     o.sigma = table.number(row, sigma);
     if (!(o.sigma > 0.0)) {
       throw InputError(table.place(row, sigma),
                        fmt::format("sigma {} is not allowed; allowed: a standard uncertainty greater than zero, in {}.",
-                                   table.text(row, sigma), unitOf(o.component)));
+                                   table.text(row, sigma), printedUnit(unitOf(o.component))));
     }
     if (c_deg && !table.empty(row, *c_deg)) o.c_deg = table.number(row, *c_deg);
     if (instrument) o.instrument = std::string(table.text(row, *instrument));

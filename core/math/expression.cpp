@@ -85,16 +85,16 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
     (void)instance->parser.Eval(results);
     if (results != 1) {
       throw InputError(fmt::format(
-          "expression \"{}\" has {} values; allowed: one (a comma separates, it is no decimal point).", text, results));
+          "expression \"{}\" has {} values; allowed: one (a comma separates values, it is not a decimal point).", text,
+          results));
     }
     for (const auto& [name, address] : instance->parser.GetUsedVar()) compiled_->used.push_back(name);
     compiled_->giveBack(std::move(instance));
   } catch (const mu::Parser::exception_type& wrong) {
     if (wrong.GetCode() == mu::ecUNASSIGNABLE_TOKEN && !wrong.GetToken().empty()) {
-      throw InputError(
-          fmt::format("expression \"{}\" holds \"{}\" at character {}, which is no variable or function; "
-                      "allowed: {}.",
-                      text, wrong.GetToken(), wrong.GetPos() + 1, allowed()));
+      throw InputError(fmt::format(
+          "expression \"{}\" holds \"{}\" at character {}, which is not a variable or function; allowed: {}.", text,
+          wrong.GetToken(), wrong.GetPos() + 1, allowed()));
     }
     std::string reason = wrong.GetMsg();
     while (!reason.empty() && (reason.back() == '.' || reason.back() == ' ' || reason.back() == '\n'))

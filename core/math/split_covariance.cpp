@@ -89,7 +89,7 @@ BlockSplit byCholesky(const Eigen::MatrixXd& R) {
       lambda = 0.0;
     } else {
       lambda = lambda == 0.0 ? -1e-12 : 10.0 * lambda;
-      SPINDRIFT_ASSERT(-lambda < most_lacking, "numbers that are no correlations");
+      SPINDRIFT_ASSERT(-lambda < most_lacking, "numbers that are not correlations");
     }
   }
   if (lambda < -1e-10) out.lacking = -lambda;

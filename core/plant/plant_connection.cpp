@@ -119,7 +119,7 @@ void PlantConnection::translate(const soci::soci_error& error) const {
       case SQLITE_LOCKED:
         throw PlantUnreachable(place, "the plant store has been in use by others for a minute; try again.");
       case SQLITE_NOTADB:
-        throw InputError(place, "is no plant store.");
+        throw InputError(place, "is not a plant store.");
       default:
         break;
     }

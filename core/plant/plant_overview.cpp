@@ -185,7 +185,7 @@ ModelState modelState(PlantStore& store, const std::string& machine, const Chart
     if (c.start_s <= since_s) continue;
     if (c.verdict == "named" || c.verdict == "unknown" || c.verdict == "ambiguous" || c.verdict == "not_met")
       state.reasons.push_back(
-          fmt::format("campaign {} of {} came out as \"{}\"", c.name, utcDay(c.start_s), c.verdict));
+          fmt::format("campaign {} of {} has the verdict \"{}\"", c.name, utcDay(c.start_s), c.verdict));
   }
   return state;
 }

@@ -31,7 +31,7 @@ constexpr double future_tolerance_s = 300.0;
 nlohmann::json parsedText(const std::string& text, const std::string& address) {
   nlohmann::json out = deepestJson(text) <= most_levels_of_json ? nlohmann::json::parse(text, nullptr, false)
                                                                 : nlohmann::json(nlohmann::json::value_t::discarded);
-  if (out.is_discarded()) throw InputError({address, ""}, "the plant store holds a value that is no JSON.");
+  if (out.is_discarded()) throw InputError({address, ""}, "the plant store holds a value that is not JSON.");
   return out;
 }
 
@@ -320,7 +320,7 @@ void PlantStore::addEvent(const MachineEvent& event) {
   require(PlantRole::Writer, "entering an event");
   const auto& kinds = eventKinds();
   if (std::find(kinds.begin(), kinds.end(), event.kind) == kinds.end())
-    throw InputError(fmt::format("\"{}\" is no kind of event; allowed: {}.", event.kind, joinedList(kinds, "or")));
+    throw InputError(fmt::format("\"{}\" is not a kind of event; allowed: {}.", event.kind, joinedList(kinds, "or")));
   connection_->writing([&] {
     const long long machine = machineId(event.machine);
     const double now_s = systemNow();

@@ -93,8 +93,9 @@ std::optional<PlantResult> fromPayload(const std::string& kind, const nlohmann::
 double startOf(const Campaign& campaign) {
   const std::optional<double> start_s = parseUtc(campaign.start_utc);
   if (!start_s)
-    throw InputError({campaign.path("campaign.json"), "$.start_utc"},
-                     fmt::format("\"{}\" is no time; allowed: UTC such as 2026-01-31T08:00:00Z.", campaign.start_utc));
+    throw InputError(
+        {campaign.path("campaign.json"), "$.start_utc"},
+        fmt::format("\"{}\" is not a time; allowed: UTC such as 2026-01-31T08:00:00Z.", campaign.start_utc));
   return *start_s;
 }
 

@@ -199,7 +199,8 @@ std::vector<ArtefactFinding> checkArtefact(const nlohmann::json& artefact, const
       check.optional("certificate_uncertainty_um", "The uncertainty of the certificate", 0.0, unlimited, "um");
   if (certificate && *certificate > 50.0) {
     check.add("certificate_uncertainty_um", -1, -1,
-              fmt::format("A certificate with {:g} µm says hardly anything. Is it in um?", *certificate), false);
+              fmt::format("A certificate uncertainty of {:g} µm is implausibly large; check the unit.", *certificate),
+              false);
   }
   return check.findings;
 }

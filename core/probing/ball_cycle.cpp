@@ -94,7 +94,7 @@ BallCycleResult evaluateBallCycles(const TouchList& list, const MachineDescripti
                                    const OperatingLog* log, const BallCycleOptions& options) {
   if (artefact.kind != "balls") {
     throw InputError({machine.file, fmt::format("artefact {}", artefact.id)},
-                     "is no ball artefact; allowed here: kind \"balls\".");
+                     "is not a ball artefact; allowed here: kind \"balls\".");
   }
   BallCycleResult result;
   std::vector<std::string> without_bearing;

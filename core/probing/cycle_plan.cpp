@@ -91,7 +91,7 @@ void planHoles(const MachineDescription& machine, const Artefact& artefact, cons
   const auto reject = [&](const std::string& why) {
     throw InputError({machine.file, fmt::format("artefact {}", artefact.id)}, why);
   };
-  if (setup.rotary_direction.z() < 0.9) reject("programmes need a table that turns about Z.");
+  if (setup.rotary_direction.z() < 0.9) reject("programs need a table that rotates about Z.");
   if (machine.styli.empty()) reject("needs a stylus; allowed: \"styli\" in the machine file.");
   if (!artefact.hole_diameter_mm) reject("needs \"hole_diameter_mm\" to plan touches.");
   const Stylus& stylus = machine.styli.front();

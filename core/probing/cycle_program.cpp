@@ -475,7 +475,7 @@ ProgramCheck checkProgram(std::string_view text, const MachineDescription& machi
       ++check.touches;
     }
     if (after_touch && move.kind != MoveKind::Retract) issue("there is no retract after a touch");
-    if (move.kind == MoveKind::Retract && !after_touch) issue("a feed move that is no retract after a touch");
+    if (move.kind == MoveKind::Retract && !after_touch) issue("a feed move that is not a retract after a touch");
     if (position) {
       sweep(*position, target, move.kind, move.feature);
       const bool sideways = (target - *position).head<2>().norm() > 1e-6;
@@ -492,11 +492,11 @@ ProgramCheck checkProgram(std::string_view text, const MachineDescription& machi
     position = target;
     check.moves.push_back(move);
   }
-  if (!ended) issue("the programme has no end (M30 or M2)");
+  if (!ended) issue("the program has no end (M30 or M2)");
   if (after_touch) issue("there is no retract after the last touch");
-  if (check.touches == 0) issue("the programme touches nothing");
+  if (check.touches == 0) issue("the program touches nothing");
   if (position && obstacles.heightAbove(*position) < options.clearance_mm) {
-    issue("the programme ends with the probe not above the artefact");
+    issue("the program ends with the probe not above the artefact");
   }
   return check;
 }

@@ -146,7 +146,8 @@ void judgeReference(ReferenceComparison& comparison, const std::vector<double>& 
         fmt::format("the gain differs: the probe shows {:.0f} % of what the reference shows", 100.0 * slope);
   } else if (course) {
     comparison.differs = true;
-    comparison.verdict = fmt::format("the courses differ: a line leaves {:.3g} rms", comparison.line_rms);
+    comparison.verdict =
+        fmt::format("the time histories differ: {:.3g} rms about a straight line", comparison.line_rms);
   } else if (!(2.0 * comparison.slope_sigma <= 0.2)) {
     comparison.verdict = "the reference moves too little to compare the gain";
   } else {

@@ -30,7 +30,7 @@ HoleBarSetup HoleBarSetup::of(const MachineDescription& machine, const Artefact&
   const auto reject = [&](const std::string& why) {
     throw InputError({machine.file, fmt::format("artefact {}", artefact.id)}, why);
   };
-  if (artefact.kind != "hole_bar") reject("is no bar of holes; allowed here: kind \"hole_bar\".");
+  if (artefact.kind != "hole_bar") reject("is not a bar of holes; allowed here: kind \"hole_bar\".");
   HoleBarSetup setup;
   setup.artefact = artefact.id;
   setup.reference_in_table_mm = artefact.reference_in_table_mm;

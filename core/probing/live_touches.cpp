@@ -42,10 +42,10 @@ Disagreement disagreementOf(const Eigen::MatrixXd& rows, const Eigen::VectorXd& 
 
 void LiveTouchOptions::validate() const {
   if (!(misplaced_mm > 0.0)) throw InputError("the largest distance from the nominal place must be positive (mm).");
-  if (!(largest_change_um > 0.0)) throw InputError("the largest change since the first cycle must be positive (um).");
+  if (!(largest_change_um > 0.0)) throw InputError("the largest change since the first cycle must be positive (µm).");
   if (!(surface_um > 0.0))
-    throw InputError("the largest distance from the plane of the surface must be positive (um).");
-  if (!(spread_um > 0.0)) throw InputError("the largest spread within a feature must be positive (um).");
+    throw InputError("the largest distance from the plane of the surface must be positive (µm).");
+  if (!(spread_um > 0.0)) throw InputError("the largest spread within a feature must be positive (µm).");
 }
 
 LiveTouches::LiveTouches(MachineDescription machine, const LiveTouchOptions& options)
@@ -158,7 +158,8 @@ void LiveTouches::judgeChange(LiveTouch& live) {
   live.change_um = live.touch.approach.dot(live.touch.position_mm - first->second.position_mm) * um_per_mm;
   if (live.plausible && std::abs(live.change_um) > options_.largest_change_um) {
     live.plausible = false;
-    live.reason = fmt::format("it moved by {:.0f} µm since {}, more than warming does", live.change_um, first_cycle_);
+    live.reason =
+        fmt::format("it moved by {:.0f} µm since {}, more than thermal drift explains", live.change_um, first_cycle_);
   }
 }
 

@@ -106,7 +106,7 @@ PrintedText readPrintedText(std::string_view text, const std::filesystem::path& 
       double parsed = 0.0;
       if (!parseNumber(value, parsed)) {
         throw InputError(place(what),
-                         fmt::format("\"{}\" is no number; allowed: a number such as -12.345.", found->second));
+                         fmt::format("\"{}\" is not a number; allowed: a number such as -12.345.", found->second));
       }
       return parsed;
     };
@@ -170,10 +170,11 @@ PrintedText readPrintedText(std::string_view text, const std::filesystem::path& 
     result.touches.touches.push_back(std::move(t));
   }
   if (result.touches.touches.empty()) {
-    throw InputError({name, ""},
-                     fmt::format("no line matches the pattern \"{}\"; allowed: text printed by the measuring "
-                                 "programme, or another template.",
-                                 pattern.at("touch_line").string()));
+    throw InputError(
+        {name, ""},
+        fmt::format(
+            "no line matches the pattern \"{}\"; allowed: text printed by the measuring program, or another template.",
+            pattern.at("touch_line").string()));
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/count_text.h"
 #include "core/base/units.h"
 #include "core/math/statistics.h"
 
@@ -40,9 +41,9 @@ StylusHealth check(const TouchList& list, const std::vector<std::size_t>& indice
   const SphereFit first = fitSphere(points, {});
   if (!first.usable() || points.size() < 5) {
     health.status = FitStatus::Degenerate;
-    health.message = points.size() < 5
-                         ? fmt::format("{} touches are too few to qualify a stylus; allowed: at least 5", points.size())
-                         : first.message;
+    health.message = points.size() < 5 ? fmt::format("{} too few to qualify a stylus; allowed: at least 5",
+                                                     countOf(points.size(), "touch is", "touches are"))
+                                       : first.message;
     return health;
   }
   std::map<std::string, Eigen::Vector3d> centre;
@@ -186,28 +187,27 @@ void judgeStylus(StylusHealth& health, const Track& track, const std::vector<con
     health.message = fmt::format("stylus {} is loose or bent: touches scatter by {:.1f} µm {}", health.stylus, worst,
                                  alongText(health.loose_direction));
   } else if (kind == MovementKind::Jump) {
-    health.message =
-        fmt::format("stylus {} is loose or bent: it jumped by {:.1f} µm {} after {}, which no smooth warming does",
-                    health.stylus, health.movement.jump_um, alongText(health.loose_direction),
-                    track.passes[static_cast<std::size_t>(health.movement.jump_after)]);
+    health.message = fmt::format("stylus {} is loose or bent: it jumped by {:.1f} µm {} after {}, unlike thermal drift",
+                                 health.stylus, health.movement.jump_um, alongText(health.loose_direction),
+                                 track.passes[static_cast<std::size_t>(health.movement.jump_after)]);
   } else if (kind == MovementKind::Scatter) {
     health.message = fmt::format(
-        "stylus {} is loose or bent: the sphere's centre scatters by {:.1f} µm from pass to pass, not as warming does",
+        "stylus {} is loose or bent: the sphere's centre scatters by {:.1f} µm from pass to pass, unlike thermal drift",
         health.stylus, health.movement.scatter_um);
   } else if (kind == MovementKind::Undecided) {
     health.message = fmt::format(
-        "stylus {} sees the sphere move by {:.1f} µm; {} passes cannot tell a loose stylus from warming: touch the "
-        "sphere in more passes (five or more), or several times in one",
+        "stylus {} sees the sphere move by {:.1f} µm; {} passes do not distinguish a loose stylus from thermal drift: "
+        "touch the sphere in more passes (five or more), or several times in one",
         health.stylus, health.movement.largest_um, track.passes.size());
   } else if (health.repeatability_dof > 0 && health.repeatability_um > options.healthy_sigma_um) {
     health.message = fmt::format("stylus {} repeats to {:.2f} µm only; a healthy probe keeps {:.2f} µm", health.stylus,
                                  health.repeatability_um, options.healthy_sigma_um);
   } else {
-    health.message = fmt::format("stylus {} is in order", health.stylus);
+    health.message = fmt::format("stylus {} is within specification", health.stylus);
     if (kind == MovementKind::Warming) {
-      health.message += "; the sphere moves smoothly from pass to pass, as warming does";
+      health.message += "; the sphere moves smoothly from pass to pass, as thermal drift does";
     } else if (health.compared && health.largest_step_um > 2.0 * limit) {
-      health.message += "; all styli see the sphere move alike, as warming does";
+      health.message += "; all styli see the sphere move alike, as thermal drift does";
     }
   }
   health.message += other_findings;

@@ -156,7 +156,7 @@ std::vector<ProgramBlock> readSiemens(const std::vector<Line>& lines) {
     ProgramBlock block;
     block.line = lines[i].number;
     if (starts("_SPD_HIT:") || starts("_SPD_MISSED:")) {
-      block.issues.emplace_back("the programme runs into its own alarm; allowed: M30 before it");
+      block.issues.emplace_back("the program runs into its own alarm; allowed: M30 before it");
       blocks.push_back(std::move(block));
       continue;
     }

@@ -40,7 +40,7 @@ std::vector<TouchVerdict> touchVerdicts(const TouchEvaluation& evaluation, const
       v.residual_um = found->second->residual_um;
     } else if (row == row_of.end()) {
       v.state = TouchState::LeftOut;
-      v.reason = "its feature has no usable centre";
+      v.reason = "the centre of its feature cannot be determined";
     }
     by_cycle[t.cycle].push_back(std::move(v));
   }

@@ -480,11 +480,10 @@ void addDiscrepancyStory(Report& document, const DiscrepancyReportData& result, 
           {fmt::format("{:.2f} to {:.2f}", step.from_s / seconds_per_hour, step.to_s / seconds_per_hour), step.action});
     }
     if (!steps.empty()) {
-      document.table({"Time / h", "Programme"}, steps, "What the machine does, from its start after a night at rest");
+      document.table({"Time / h", "Program"}, steps, "What the machine does, from its start after a night at rest");
       document.paragraph(
-          fmt::format("Expected: {:.2f} of {:.2f} nats of what is not known; the right one stands alone afterwards "
-                      "with probability "
-                      "{:.2f}. The most probable one has {:.2f} now.",
+          fmt::format("Expected information gain {:.2f} of {:.2f} nat; probability of a unique result afterwards "
+                      "{:.2f}, probability of the leading explanation now {:.2f}.",
                       next.expected_information_nats, next.present_entropy_nats, next.probability_alone_expected,
                       next.probability_alone_now));
     }

@@ -72,9 +72,9 @@ bool isReference(const CycleRow& row) {
 void addMeanings(Report& document, const std::vector<std::string>& names) {
   std::vector<ReportRow> rows;
   for (const std::string& name : names)
-    if (const std::string meaning = parameterMeaning(name); !meaning.empty())
-      rows.push_back({titleWithUnit(name), meaning});
-  if (!rows.empty()) document.table({"Parameter", "Meaning"}, rows, "What the error parameters mean");
+    if (const ErrorParameter* p = errorParameter(name); p != nullptr)
+      rows.push_back({titleWithUnit(name), p->iso_symbol, p->meaning});
+  if (!rows.empty()) document.table({"Parameter", "ISO 230-1", "Meaning"}, rows, "What the error parameters mean");
 }
 
 void addTables(Report& document, const Cycles& cycles) {

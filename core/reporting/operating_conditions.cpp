@@ -135,15 +135,15 @@ void addOperatingConditions(Report& document, const OperatingLog& log) {
   document.section("Operating conditions");
   const LogSignals signals = signalsOf(log);
   if (!signals.programme.empty())
-    document.figure(lanes(log, signals), "Programme of the machine: what ran when, each relative to its largest value");
+    document.figure(lanes(log, signals), "Program of the machine: what ran when, each relative to its largest value");
   addCurves(document, log, signals, signals.temperatures, "temperature / °C", "Temperatures of the log");
   addCurves(document, log, signals, signals.displacements, "displacement / µm", "Displacements of the log");
   addCurves(document, log, signals, signals.tilts, "tilt / µrad", "Tilts of the log");
   if (const std::vector<double>* on = log.signal("compensation_on");
       on != nullptr && std::any_of(on->begin(), on->end(), [](double v) { return v != 0.0; })) {
     document.callout(CalloutKind::Attention,
-                     "The control was compensating during part of this campaign; observations from that time show what "
-                     "was left over, not the error of the machine.");
+                     "The control was compensating during part of this campaign; observations from that time show the "
+                     "residual, not the error of the machine.");
   }
 }
 

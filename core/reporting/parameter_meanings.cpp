@@ -3,79 +3,97 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <utility>
+#include <vector>
 
 namespace spindrift {
 namespace {
 
-using Entry = std::pair<std::string_view, std::string_view>;
+constexpr std::array<char, 3> axes{'X', 'Y', 'Z'};
+constexpr std::array<char, 3> rotations{'A', 'B', 'C'};
 
-// Hole artefact (FORMATS.md, conventions); the rotary axis is C.
-constexpr std::array<Entry, 12> hole_artefact{{
-    {"EXX", "positioning error of the X axis per metre, from the centre of the rotary axis"},
-    {"EX0C", "displacement of the table along X"},
-    {"EY0C", "displacement of the table along Y"},
-    {"EZ0T", "displacement of the table along Z"},
-    {"ER0T", "radial expansion of the table at the reference hole"},
-    {"EA0C", "rotation of the table about X"},
-    {"EB0C", "rotation of the table about Y"},
-    {"EC0C", "rotation of the table about Z"},
-    {"EC0Y", "squareness of Y to X"},
-    {"EA0Z", "squareness of Z to Y"},
-    {"EB0Z", "squareness of Z to X"},
-    {"EME", "thermal expansion of the artefact per metre, from its reference hole"},
-}};
-
-// One letter and an axis: ball artefact and nine-parameter model.
-constexpr std::array<Entry, 5> by_axis{{
-    {"h", "head tilt about {}"},
-    {"a", "column tilt about {}"},
-    {"d", "thermal displacement of the spindle along {}"},
-    {"g", "thermal expansion of the {} ball screw from its fixed bearing"},
-    {"alpha_", "thermal expansion along {} over the table"},
-}};
-
-constexpr std::string_view axes = "XYZ";
-constexpr std::string_view rotations = "ABC";
-
-bool isAxis(char c) {
-  return axes.find(c) != std::string_view::npos;
+std::vector<ErrorParameter> table() {
+  std::vector<ErrorParameter> all;
+  const auto add = [&](const std::string& symbol, const std::string& iso, const std::string& unit,
+                       const std::string& meaning) {
+    const std::string ending = unit == "um/m" ? "um_per_m" : unit;
+    all.push_back({fmt::format("{}_{}", symbol, ending), symbol, iso, unit, meaning});
+  };
+  const auto same = [&](const std::string& symbol, const std::string& unit, const std::string& meaning) {
+    add(symbol, symbol, unit, meaning);
+  };
+  // Small error of FORMATS.md, as the nine-parameter model has it.
+  for (const char axis : axes)
+    add(fmt::format("E{}", axis), "", "um", fmt::format("displacement along {} at the origin of the table", axis));
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    add(fmt::format("E{}", rotations[i]), "", "urad",
+        fmt::format("rotation about {} at the origin of the table", axes[i]));
+  // Component errors of a linear axis (ISO 230-1): E, direction of the error, axis that moves.
+  for (const char axis : axes) {
+    for (const char direction : axes) {
+      same(fmt::format("E{}{}", direction, axis), "um",
+           direction == axis
+               ? fmt::format("positioning error of the {} axis", axis)
+               : fmt::format("straightness error of the {} axis in the direction of {}", axis, direction));
+    }
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      same(fmt::format("E{}{}", rotations[i], axis), "urad",
+           axes[i] == axis ? fmt::format("roll error of the {} axis", axis)
+                           : fmt::format("angular error of the {} axis about {}", axis, axes[i]));
+    }
+  }
+  same("EC0Y", "urad", "squareness of Y to X");
+  same("EA0Z", "urad", "squareness of Z to Y");
+  same("EB0Z", "urad", "squareness of Z to X");
+  for (const char axis : {'X', 'Y'})
+    all.push_back({fmt::format("alpha_{}_um_per_m", axis), fmt::format("α{}", axis), fmt::format("E{0}{0}", axis),
+                   "um/m", fmt::format("thermal expansion along {} over the table", axis)});
+  // Hole artefact; the rotary axis is C. EXX has the unit of a slope there.
+  same("EXX", "um/m", "positioning error of the X axis per metre, from the centre of the rotary axis");
+  for (const char axis : {'Y', 'Z'})
+    same(fmt::format("E{0}{0}", axis), "um/m", fmt::format("positioning error of the {} axis per metre", axis));
+  same("EX0C", "um", "displacement of the table along X");
+  same("EY0C", "um", "displacement of the table along Y");
+  add("EZ0T", "", "um", "displacement of the table along Z");
+  add("ER0T", "", "um", "radial expansion of the table at the reference hole");
+  same("EA0C", "urad", "rotation of the table about X");
+  same("EB0C", "urad", "rotation of the table about Y");
+  same("EC0C", "urad", "rotation of the table about Z");
+  add("EME", "", "um/m", "thermal expansion of the artefact per metre, from its reference hole");
+  // Ball artefact: deviation of the tip = d + a x tip + h x offset + g (reference - fixed bearing). The spindle S is
+  // displaced by d and turned by h; a turns the column that carries the Z axis, about Z without a symbol of its own.
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    add(fmt::format("h{}", axes[i]), fmt::format("E{}0S", rotations[i]), "urad",
+        fmt::format("head tilt about {}", axes[i]));
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    add(fmt::format("a{}", axes[i]), axes[i] == 'Z' ? "" : fmt::format("E{}0Z", rotations[i]), "urad",
+        fmt::format("column tilt about {}", axes[i]));
+  for (const char axis : axes)
+    add(fmt::format("d{}", axis), fmt::format("E{}0S", axis), "um",
+        fmt::format("thermal displacement of the spindle along {}", axis));
+  for (const char axis : axes)
+    add(fmt::format("g{}", axis), fmt::format("E{0}{0}", axis), "um/m",
+        fmt::format("thermal expansion of the {} ball screw from its fixed bearing", axis));
+  return all;
 }
 
 }  // namespace
 
+std::span<const ErrorParameter> errorParameters() {
+  static const std::vector<ErrorParameter> all = table();
+  return all;
+}
+
+const ErrorParameter* errorParameter(std::string_view name) {
+  const auto all = errorParameters();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const ErrorParameter& p) { return p.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
 std::string parameterMeaning(std::string_view name) {
-  const bool rotates = name.ends_with("_urad");
-  for (const std::string_view unit : {"_um_per_m", "_urad", "_um"}) {
-    if (!name.ends_with(unit)) continue;
-    const bool per_metre = unit == "_um_per_m";
-    name.remove_suffix(unit.size());
-    for (const auto& [id, meaning] : hole_artefact)
-      if (name == id && (id != "EXX" || per_metre)) return std::string(meaning);
-    for (const auto& [stem, meaning] : by_axis) {
-      if (name.size() == stem.size() + 1 && name.starts_with(stem) && isAxis(name.back()))
-        return fmt::format(fmt::runtime(meaning), name.back());
-    }
-    // ISO 230-1: E, direction of the error, moving axis.
-    const auto direction = [&](char c) {
-      const std::size_t turn = rotations.find(c);
-      return rotates && turn != std::string_view::npos ? std::string(1, axes[turn])
-             : !rotates && isAxis(c)                   ? std::string(1, c)
-                                                       : std::string();
-    };
-    if (name.size() < 2 || name.size() > 3 || name[0] != 'E' || direction(name[1]).empty()) return {};
-    if (name.size() == 2 && rotates)
-      return fmt::format("rotation about {} at the origin of the table", direction(name[1]));
-    if (name.size() == 2) return fmt::format("displacement along {} at the origin of the table", direction(name[1]));
-    if (!isAxis(name[2])) return {};
-    const bool along_itself = direction(name[1])[0] == name[2];
-    if (rotates && along_itself) return fmt::format("roll error of the {} axis", name[2]);
-    if (rotates) return fmt::format("angular error of the {} axis about {}", name[2], direction(name[1]));
-    if (along_itself) return fmt::format("positioning error of the {} axis", name[2]);
-    return fmt::format("straightness error of the {} axis in the direction of {}", name[2], direction(name[1]));
-  }
-  return {};
+  const ErrorParameter* found = errorParameter(name);
+  return found == nullptr ? std::string() : found->meaning;
 }
 
 }  // namespace spindrift

@@ -20,7 +20,7 @@ struct TestPartDrawingOptions {
   std::optional<double> factor;
   PictureColour ground{255, 255, 255}, ink = picture_ink, nominal{190, 198, 207}, actual{11, 114, 133},
                                        soft{82, 96, 109};
-  /// Of the line below ("drawn {} times their size"): "{}" is the factor.
+  /// Of the line below ("magnified {} ×"): "{}" is the factor.
   std::string legend = "Deviations from bore C, drawn {} times their size";
   std::string no_deviation = "No deviation: the part is as it should be";
 };

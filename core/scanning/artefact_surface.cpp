@@ -41,7 +41,7 @@ void ArtefactSurface::validate() const {
        {amplitude_x_mm, amplitude_y_mm, amplitude_xy_mm, wave_number_x_per_mm, wave_number_y_per_mm}) {
     if (!std::isfinite(value))
       throw InputError(
-          "An amplitude or wave number of the surface is no number; allowed: finite numbers (mm, rad/mm).");
+          "An amplitude or wave number of the surface is not a number; allowed: finite numbers (mm, rad/mm).");
   }
   if (!(wave_number_x_per_mm >= 0.0) || !(wave_number_y_per_mm >= 0.0))
     throw InputError("The wave numbers of the surface must not be negative (rad/mm).");

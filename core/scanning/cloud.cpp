@@ -152,14 +152,14 @@ void requireUsableCloud(const PointCloud& cloud, std::size_t least_points) {
     throw InputError(fmt::format("{} has no extent in x and y: all points lie at one place.", label(cloud)));
   const double width = std::max(size.x(), size.y());
   if (width > 2000.0)
-    throw InputError(fmt::format("{} is {:.0f} wide, which is no artefact in mm: its unit seems to be um; allowed: mm.",
+    throw InputError(fmt::format("{} is {:.0f} wide, which is implausible in mm: the unit seems to be µm; allowed: mm.",
                                  label(cloud), width));
   if (width < 0.2)
-    throw InputError(fmt::format("{} is {:.2g} wide, which is no artefact in mm: its unit seems to be m; allowed: mm.",
+    throw InputError(fmt::format("{} is {:.2g} wide, which is implausible in mm: the unit seems to be m; allowed: mm.",
                                  label(cloud), width));
   if (size.z() > 100.0 * std::max(size.x(), 1e-9) && size.z() > 200.0)
     throw InputError(fmt::format(
-        "{} is {:.3g} wide and {:.3g} high: its heights seem to be in um and its x, y in mm; allowed: mm everywhere.",
+        "{} is {:.3g} wide and {:.3g} high: its heights seem to be in µm and its x, y in mm; allowed: mm everywhere.",
         label(cloud), width, size.z()));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person painted away from a scan: strokes seen from above, in the profiler's frame.
+// What a person masked in a scan: strokes seen from above, in the profiler's frame.
 //
 // A scan is a height map, so a stroke is an area of (x, y): a brush along a path, a rectangle or a lasso. Strokes are
 // applied in their order: a point is left out if the last stroke that covers it erases. Strokes are written as one line

@@ -79,7 +79,8 @@ PcdHeader readPcdHeader(const std::filesystem::path& file, const std::string& te
       fail(file, place, fmt::format("found '{}' in the header; allowed: the entries of PCD 0.7.", w[0]));
     }
   }
-  if (header.data.empty()) fail(file, "", "is no PCD file or is cut off inside its header: there is no DATA line.");
+  if (header.data.empty())
+    fail(file, "", "is not a PCD file, or is truncated inside its header: the DATA line is missing.");
   if (header.fields.empty() || !sizes || !types) fail(file, "header", "lacks FIELDS, SIZE or TYPE.");
   if (!has_width && !has_points) fail(file, "header", "lacks WIDTH and POINTS.");
   if (!has_points) header.points = header.width * header.height;

@@ -203,7 +203,7 @@ RegistrationResult registerWithPcl(const PointCloud& source, const PointCloud& t
       }
     } catch (const InputError&) {
       // A free-form cloud: no uncertainty is stated.
-      result.message = "No uncertainty is stated: the target is no height map.";
+      result.message = "No uncertainty is stated: the target is not a height map.";
     }
   }
   result.elapsed_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

@@ -62,7 +62,7 @@ PointCloud readPly(const std::filesystem::path& file, const std::string& text) {
       }
     } else if (w[0] == "property" && w.size() >= 3) {
       if (!in_vertex) continue;
-      if (w[1] == "list") fail(file, place, "a list is no property of a point; allowed: numbers.");
+      if (w[1] == "list") fail(file, place, "a list is not a property of a point; allowed: numbers.");
       const auto type = std::find_if(types.begin(), types.end(), [&](const Type& t) { return t.name == w[1]; });
       if (type == types.end())
         fail(file, place, fmt::format("found type '{}'; allowed: float, double and integers.", w[1]));
@@ -72,7 +72,7 @@ PointCloud readPly(const std::filesystem::path& file, const std::string& text) {
       fail(file, place, fmt::format("found '{}' in the header; allowed: format, element, property, comment.", w[0]));
     }
   }
-  if (!ended) fail(file, "", "is cut off inside its header: there is no end_header.");
+  if (!ended) fail(file, "", "is truncated inside its header: end_header is missing.");
   if (format.empty() || !vertex_seen) fail(file, "header", "lacks format or element vertex.");
   if (points == 0) fail(file, "header", "states zero points.");
   const auto xyz = positionFields(file, fields);

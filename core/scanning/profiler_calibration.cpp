@@ -343,7 +343,7 @@ ProfilerCalibration calibrateProfiler(const PointCloud& scan, const std::array<d
           "with a standard "
           "uncertainty of {:.3f} rad that dx, dy carry along. ",
           names[static_cast<std::size_t>(i)], toString(options.scan_model),
-          options.scan_model == ScanModel::Rigid ? "a circle looks the same after a turn about its axis"
+          options.scan_model == ScanModel::Rigid ? "a circle is invariant under rotation about its axis"
                                                  : "the height of a point does not depend on where the carriage stands",
           std::abs(q[i]) < 5e-5 ? 0.0 : q[i], result.standardUncertainty(i));
     }

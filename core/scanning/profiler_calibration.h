@@ -6,7 +6,7 @@
 // on Z = Z0. Data: the plane of the plate (its slopes and height) and the rim in every profile, found between two
 // samples. One weighted least squares for all six parameters and a common offset of the rim's radius.
 //
-// What the data cannot determine. rigid: a circle looks the same after a turn about its axis, so gamma is not seen, and
+// What the data cannot determine. rigid: a circle is invariant under rotation about its axis, so gamma is not seen, and
 // with it the part of (dx, dy) that turns with gamma. push_broom: y has no part in the height, so alpha is seen only
 // through the depth of the rim below the origin, together with dy. Such an angle is given as 0 with the standard
 // uncertainty of the mounting (`mounting_angle_rad`), the lengths carry that along, and its name stands in

@@ -54,7 +54,7 @@ std::vector<std::string> freeDirections(const Matrix6& projector, int count, dou
     const Eigen::Vector3d shift = others.eigenvectors().col(i).head<3>();
     const Eigen::Vector3d turn = others.eigenvectors().col(i).tail<3>() / length;
     const Eigen::Vector3d point = centre + turn.cross(shift) / std::max(turn.squaredNorm(), 1e-30);
-    names.push_back(fmt::format("turn about {} through ({:.1f}, {:.1f}, {:.1f}) mm", direction(turn), point.x(),
+    names.push_back(fmt::format("rotation about {} through ({:.1f}, {:.1f}, {:.1f}) mm", direction(turn), point.x(),
                                 point.y(), point.z()));
   }
   return names;

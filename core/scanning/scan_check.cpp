@@ -33,7 +33,7 @@ std::vector<ScanCheck> checkScans(const Campaign& campaign, const JobContext& jo
       check.outlier_points = scan.count(PointFate::Outlier);
       check.painted_points = scan.count(PointFate::Painted);
       check.usable = true;
-      if (check.profiles == 0) check.reason = "the points are in no order: profiles cannot be told apart";
+      if (check.profiles == 0) check.reason = "the points are not ordered: profiles cannot be distinguished";
     } catch (const InputError& error) {
       check.reason = error.what();
     } catch (const std::bad_alloc&) {

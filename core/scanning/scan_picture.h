@@ -18,7 +18,7 @@ enum class ScanColouring {
   Overlay,     ///< both scans together: reference -1, scan +1
   Measured,    ///< height of the scan over the reference surface as measured, um
   Registered,  ///< the same after registration: what the motion of the profiler does not explain, um
-  LeftOut,     ///< what becomes of every point: 0 used, 1 near an edge, 2 outlier, 3 painted away
+  LeftOut,     ///< what becomes of every point: 0 used, 1 near an edge, 2 outlier, 3 masked
 };
 
 /// Before or after trimming, outlier removal and masks.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scan of a campaign as the evaluation takes it: read, what was painted away left out, edges trimmed, outliers
+// A scan of a campaign as the evaluation takes it: read, what is masked left out, edges trimmed, outliers
 // removed (P3 section 3.3). The same for checks, pictures and evaluations.
 #pragma once
 

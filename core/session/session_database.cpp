@@ -109,7 +109,7 @@ auto guarded(const std::filesystem::path& file, Body body) -> decltype(body()) {
   } catch (const std::bad_cast&) {
     throw InputError({file, ""}, "the session's database holds a value of another kind than its column.");
   } catch (const std::invalid_argument&) {
-    throw InputError({file, ""}, "the session's database holds a key that is no number.");
+    throw InputError({file, ""}, "the session's database holds a key that is not a number.");
   } catch (const std::out_of_range&) {
     throw InputError({file, ""}, "the session's database holds a key that is too large.");
   }
@@ -123,7 +123,7 @@ nlohmann::json parsed(const std::filesystem::path& file, std::string_view text, 
   else
     out = nlohmann::json(nlohmann::json::value_t::discarded);
   if (out.is_discarded())
-    throw InputError({file, ""}, fmt::format("the session's database holds {} that is no JSON.", what));
+    throw InputError({file, ""}, fmt::format("the session's database holds {} that is not JSON.", what));
   return out;
 }
 

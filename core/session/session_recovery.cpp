@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/atomic_file.h"
+#include "core/base/count_text.h"
 #include "core/base/inside_folder.h"
 #include "core/session/campaign_files.h"
 #include "core/session/session_database.h"
@@ -70,11 +71,13 @@ fs::path freshFolder(const fs::path& parent, const std::string& name) {
 }
 
 std::string RecoveryReport::sentence() const {
-  std::string text = fmt::format(
-      "The session was not closed the last time; it is as it was left: {} captures and {} results are there.", captures,
-      results);
-  if (leftovers > 0) text += fmt::format(" {} unfinished files were removed.", leftovers);
-  if (moved > 0) text += fmt::format(" {} unfinished campaigns are in the folder removed.", moved);
+  std::string text = fmt::format("The session was not closed the last time; it is as it was left: {} and {} are there.",
+                                 countOf(captures, "capture"), countOf(results, "result"));
+  if (leftovers > 0)
+    text += fmt::format(" {} removed.", countOf(leftovers, "unfinished file was", "unfinished files were"));
+  if (moved > 0)
+    text += fmt::format(" {} now in the folder \"removed\".",
+                        countOf(moved, "unfinished campaign is", "unfinished campaigns are"));
   return text;
 }
 
@@ -93,7 +96,8 @@ RecoveryReport putInOrder(const fs::path& session_folder, SessionDatabase& datab
     known.insert(record.folder.filename());
     std::vector<std::string> lists = captureLists(record.folder);
     for (const std::string& list : lists) report.captures += rowsOf(record.folder / list);
-    if (database.setting(recordedLogKey(record.id)) && fs::exists(record.folder / "log.csv")) lists.push_back("log.csv");
+    if (database.setting(recordedLogKey(record.id)) && fs::exists(record.folder / "log.csv"))
+      lists.push_back("log.csv");
     report.results += database.countResults(record.id);
     if (database.files(record.id).empty()) {
       // A session of a version that did not write down the files.

@@ -422,10 +422,10 @@ std::vector<int> volumesAt(const BodyIndex& b, std::string_view place, const Sou
   }
   throw InputError(
       where,
-      fmt::format("place \"{}\" is no body of the virtual machine; allowed: room, coolant, front bearing, rear "
-                  "bearing, shaft, spindle housing, head top, head bottom, column front, column rear, column "
-                  "left, column right, table, screw x, nut x, screw bearing x, scale x (or y, z), crossbeam top, "
-                  "crossbeam bottom, pedestal, bed, rotary drive, artefact, each row also with @0 ... @1.",
+      fmt::format("place \"{}\" is not a body of the virtual machine; allowed: room, coolant, front bearing, rear "
+                  "bearing, shaft, spindle housing, head top, head bottom, column front, column rear, column left, "
+                  "column right, table, screw x, nut x, screw bearing x, scale x (or y, z), crossbeam top, crossbeam "
+                  "bottom, pedestal, bed, rotary drive, artefact, each row also with @0 ... @1.",
                   place));
 }
 

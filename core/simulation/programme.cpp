@@ -35,7 +35,7 @@ double another(Random& random, const std::vector<double>& values, double present
 }  // namespace
 
 Programme::Programme(std::vector<ProgrammeSegment> segments) : segments_(std::move(segments)) {
-  SPINDRIFT_ASSERT(!segments_.empty(), "a programme without segments");
+  SPINDRIFT_ASSERT(!segments_.empty(), "a program without segments");
   SPINDRIFT_ASSERT(std::is_sorted(segments_.begin(), segments_.end(),
                                   [](const auto& a, const auto& b) { return a.from_s < b.from_s; }),
                    "segments out of order");

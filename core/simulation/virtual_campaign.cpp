@@ -342,8 +342,8 @@ VirtualCampaign simulateCampaign(const Scenario& s, std::optional<std::uint64_t>
       const double per_size = sizeOf(signal, rows, true).rms;
       if (!(per_size > 0.0)) {
         throw InputError(
-            fmt::format("effect \"{}\" does nothing in this scenario, so its strength cannot be {}; give "
-                        "a size, or a programme and points that excite it.",
+            fmt::format("effect \"{}\" does nothing in this scenario, so its strength cannot be {}; give a size, or a "
+                        "program and points that excite it.",
                         id, *effect.strength));
       }
       setting.size = *effect.strength / per_size;

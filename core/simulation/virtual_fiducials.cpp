@@ -34,7 +34,7 @@ void VirtualFiducialOptions::validate() const {
                                    state.deviation_um.size(), fiducials.size()));
     }
   }
-  if (!(pixel_length_um > 0.0)) throw InputError("the pixel length must be greater than zero (um).");
+  if (!(pixel_length_um > 0.0)) throw InputError("the pixel length must be greater than zero (µm).");
 }
 
 PatternMap fiducialView(const VirtualFiducialOptions& options, const VirtualFiducial& fiducial,

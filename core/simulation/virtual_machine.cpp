@@ -49,7 +49,7 @@ std::vector<std::string> causesOutsideCatalogue() {
 
 std::string whyNotPossible(std::string_view id, const MachineDescription& machine) {
   if (!known(id)) {
-    return "is no effect of the catalogue (EFFECTS.md) and none of " + joinedList(causesOutsideCatalogue());
+    return "is not an effect of the catalogue (EFFECTS.md) and none of " + joinedList(causesOutsideCatalogue());
   }
   const auto starts = [&](std::string_view stem) { return id.starts_with(stem); };
   if (starts("fixture.slip.")) {
@@ -148,7 +148,7 @@ PlantEffectFunction VirtualMachine::effect(const std::string& id, const PlantEff
   if (!reason.empty()) throw InputError(fmt::format("effect \"{}\" {}.", id, reason));
   const bool looks_ahead = id.starts_with("instrument.") || id.starts_with("coolant.") || id.starts_with("unknown.") ||
                            id.starts_with("heat_source.") || id.starts_with("external_heat.");
-  if (driven_ && looks_ahead) throw InputError(fmt::format("effect \"{}\" needs the whole programme beforehand.", id));
+  if (driven_ && looks_ahead) throw InputError(fmt::format("effect \"{}\" needs the whole program beforehand.", id));
   return makePlantEffect(*this, id, setting);
 }
 

@@ -374,7 +374,7 @@ void MicroscopeScene::validate() const {
   };
   require(width_px >= 16 && height_px >= 16 && width_px <= 20000 && height_px <= 20000,
           "the virtual camera needs between 16 and 20000 pixels in width and height.");
-  require(map.pixel_length_um > 0.0, "the pixel length of the virtual microscope must be greater than zero (um).");
+  require(map.pixel_length_um > 0.0, "the pixel length of the virtual microscope must be greater than zero (µm).");
   require(blur_sigma_px >= 0.0 && noise_level >= 0.0, "blur and noise must not be negative.");
   require(jpeg_quality >= 0 && jpeg_quality <= 100, "the JPEG quality must lie between 0 (none) and 100.");
 }

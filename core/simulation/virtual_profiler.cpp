@@ -90,7 +90,7 @@ void VirtualOptics::validate() const {
   require(profile_interval_mm > 0.0 && profile_spacing_mm > 0.0,
           "The spacings of the virtual profiler must be positive (mm).");
   require(white_noise_um >= 0.0 && speckle_noise_um >= 0.0 && position_jitter_um >= 0.0 && position_error_um >= 0.0,
-          "The noise of the virtual profiler must not be negative (um).");
+          "The noise of the virtual profiler must not be negative (µm).");
   require(speckle_points >= 1, "The correlation length of the speckle noise must be at least 1 point.");
   require(outlier_rate >= 0.0 && outlier_rate <= 1.0 && edge_outlier_rate >= 0.0 && edge_outlier_rate <= 1.0 &&
               lost_rate >= 0.0 && lost_rate <= 1.0,

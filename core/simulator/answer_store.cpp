@@ -104,7 +104,7 @@ ProgramAnswer readAnswer(std::string text, const fs::path& name) {
     row.time_s = table.number(i, time);
     row.predicted = table.number(i, predicted);
     const auto parsed = componentFromString(table.text(i, component));
-    if (!parsed) throw InputError(table.place(i, component), "is no component; allowed: EX, EY, EZ, EA, EB or EC.");
+    if (!parsed) throw InputError(table.place(i, component), "is not a component; allowed: EX, EY, EZ, EA, EB or EC.");
     row.component = *parsed;
     if (answer.by_place) {
       row.position_mm = {table.number(i, first), table.number(i, y), table.number(i, z)};

@@ -102,7 +102,7 @@ DeckTemplate::DeckTemplate(const std::string& text, const std::filesystem::path&
     const Renamed r = renamed(inner, parameters);
     if (!r.unknown.empty()) {
       throw InputError(
-          place, fmt::format("{{{{{}}}}} names \"{}\", which is no parameter of simulator.json; allowed: {}.", inner,
+          place, fmt::format("{{{{{}}}}} names \"{}\", which is not a parameter of simulator.json; allowed: {}.", inner,
                              r.unknown, joinedList(parameters, "or")));
     }
     std::vector<std::string> variables;
@@ -110,10 +110,10 @@ DeckTemplate::DeckTemplate(const std::string& text, const std::filesystem::path&
     try {
       pieces_.emplace_back(Value{Expression(r.text, variables), r.parameters, inner, line});
     } catch (const InputError&) {
-      throw InputError(place,
-                       fmt::format("{{{{{}}}}} is no expression; allowed: one value from {} with the functions of "
-                                   "muParser.",
-                                   inner, joinedList(parameters, "or")));
+      throw InputError(
+          place,
+          fmt::format("{{{{{}}}}} is not an expression; allowed: one value from {} with the functions of muParser.",
+                      inner, joinedList(parameters, "or")));
     }
   }
 }

@@ -46,7 +46,7 @@ SensitivityTable::SensitivityTable(const SimulatorFile& file, BasePrediction bas
     if (!table_values_.contains(name)) {
       std::vector<std::string> names;
       for (const SimulatorParameter& p : parameters_) names.push_back(p.name);
-      throw InputError(table.place(i, parameter), fmt::format("\"{}\" is no parameter of {}; allowed: {}.", name,
+      throw InputError(table.place(i, parameter), fmt::format("\"{}\" is not a parameter of {}; allowed: {}.", name,
                                                               file_.filename().string(), joinedList(names, "or")));
     }
     SimulationRow row;

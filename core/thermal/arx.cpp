@@ -51,9 +51,9 @@ void checkSignals(std::span<const double> y, const std::vector<std::span<const d
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (std::equal(inputs[i].begin(), inputs[i].end(), inputs[j].begin())) {
-        throw InputError(
-            fmt::format("inputs {} and {} are identical, their effects cannot be told apart; leave one of them out.",
-                        j + 1, i + 1));
+        throw InputError(fmt::format(
+            "inputs {} and {} are identical, so their effects cannot be distinguished; leave one of them out.", j + 1,
+            i + 1));
       }
     }
   }

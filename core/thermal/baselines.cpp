@@ -130,7 +130,7 @@ PlainModel firstOrderArx(const TimeSeries& series, const std::string& output, do
 
 PlainModel laggedRidge(const TimeSeries& series, const std::string& output, double from_s, double to_s) {
   PlainModel model = noModel(series, output, from_s, to_s);
-  model.name = "ridge over lagged inputs, forward selection";
+  model.name = "ridge regression on delayed inputs, forward selection";
   const Signal& measured = series.at(output);
   const std::vector<Index> all = trainingRows(series, measured, from_s, to_s);
   std::vector<Index> rows;

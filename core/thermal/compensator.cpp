@@ -17,11 +17,11 @@ namespace {
 /// Why an output cannot be compensated with; empty if it can.
 std::string problemOf(const ThermalModel& model, const ThermalOutput& output, bool forced) {
   if (output.unit != "um" && output.unit != "urad")
-    return fmt::format("Output {} is in \"{}\"; allowed: um or urad.", output.name, output.unit);
+    return fmt::format("Output {} has the unit \"{}\"; allowed: \"um\" or \"urad\".", output.name, output.unit);
   if (output.terms.empty())
     return fmt::format(
-        "Output {} has no terms, only a constant (an ARX model with complex, negative or double poles has "
-        "no equivalent in lags); allowed: a model identified with --method response or oe.",
+        "Output {} has no terms, only a constant (an ARX model with complex, negative or double poles has no "
+        "equivalent in first-order time constants); allowed: a model identified with --method response or oe.",
         output.name);
   if (!std::isfinite(output.offset)) return fmt::format("The offset of output {} is not finite.", output.name);
   for (const LagTerm& term : output.terms) {
@@ -134,7 +134,7 @@ std::string Compensator::load(const ThermalModel& model, double cycle_s, const C
     gain_factor_[o] = 1.0;
     first_[o] = lags_;
     if (static_cast<std::size_t>(lags_) + output.terms.size() > maximum_lags)
-      return "The model has more than 1024 lags.";
+      return "The model has more than 1024 time constants.";
     std::vector<std::vector<const LagTerm*>> of(model.inputs.size());
     for (const LagTerm& term : output.terms) {
       of[term.input].push_back(&term);

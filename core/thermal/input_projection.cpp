@@ -210,7 +210,7 @@ ProjectedModel projectModel(const TimeSeries& series, const ThermalModel& model,
   const ThermalOutput& all = model.outputs.front();
   const Course course = courseOf(series, {model}, from_s, to_s);
   // The lags of the course stand in the order of the terms, each once.
-  SPINDRIFT_ASSERT(course.X.cols() == std::ssize(all.terms), "every lag once");
+  SPINDRIFT_ASSERT(course.X.cols() == std::ssize(all.terms), "every time constant once");
   Eigen::VectorXd mean = course.X.colwise().mean().transpose();
   const Eigen::MatrixXd X = course.X.rowwise() - mean.transpose();
   for (Index k = 0; k < mean.size(); ++k)

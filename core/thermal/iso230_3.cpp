@@ -27,7 +27,8 @@ double readingSigma(const ComponentSeries& c) {
 }
 
 void checkSeries(std::span<const double> time_s, const std::vector<ComponentSeries>& components, std::size_t least) {
-  if (components.empty()) throw InputError("no displacement was given; allowed: at least one column in um or urad.");
+  if (components.empty())
+    throw InputError("no displacement was given; allowed: at least one column whose name ends in _um or _urad.");
   for (const ComponentSeries& c : components) {
     SPINDRIFT_ASSERT(c.values.size() == time_s.size(), "component and time differ in length");
     const auto count = static_cast<std::size_t>(

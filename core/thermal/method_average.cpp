@@ -51,14 +51,14 @@ std::vector<InputVerdict> explained(const ProjectionResult& few, const Projected
     const std::string often = fmt::format("chosen in {:.0f} % of the resamples", 100.0 * found->frequency);
     if (v.kept) {
       v.reason = fmt::format(
-          "its part of the prediction is {:.2g} rms; without it the kept inputs leave {:.2g} % of the course of the "
-          "model with all inputs, with it {:.2g} %; {}{}",
+          "its part of the prediction is {:.2g} rms; without it the kept inputs leave {:.2g} % of the time history of "
+          "the model with all inputs unexplained, with it {:.2g} %; {}{}",
           v.contribution_rms, 100.0 * found->left, 100.0 * few.left, often,
           found->frequency < 0.5 ? " (another sensor may do as well)" : "");
     } else {
       v.reason = fmt::format(
-          "the kept inputs tell what it tells: they leave {:.2g} % of the course of the model with all inputs, with it "
-          "{:.2g} %; {}",
+          "redundant: the kept inputs carry the same information; they leave {:.2g} % of the time history of the model "
+          "with all inputs unexplained, with it {:.2g} %; {}",
           100.0 * few.left, 100.0 * found->left, often);
     }
   }

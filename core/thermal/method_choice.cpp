@@ -53,7 +53,7 @@ std::string nameOf(Method method) {
     case Method::Line:
       return "line";
     case Method::FewLags:
-      return "few lags";
+      return "few time constants";
     case Method::Ridge:
       return "ridge";
     case Method::Response:
@@ -202,8 +202,8 @@ MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& out
   result.left_out_rms = std::exp(0.5 * (plain_weight * of_plain + (1.0 - plain_weight) * of_response));
   result.notes.insert(result.notes.end(), response.notes.begin(), response.notes.end());
   result.status = FitStatus::Converged;
-  result.message =
-      fmt::format("{} inputs, {} lags", result.model.inputs.size(), result.model.outputs.front().terms.size());
+  result.message = fmt::format("{} inputs, {} time constants", result.model.inputs.size(),
+                               result.model.outputs.front().terms.size());
   return result;
 }
 

@@ -68,7 +68,7 @@ struct MethodChoiceOptions {
 
 /// What blocked evidence says of one method.
 struct MethodEvidence {
-  std::string method;         ///< "line", "few lags", "ridge", "response"
+  std::string method;         ///< "line", "few time constants", "ridge", "response"
   double left_out_rms = 0.0;  ///< geometric mean over the runs inside the training range, unit of the output
   double weight = 0.0;        ///< share of the model
 };

@@ -208,8 +208,8 @@ std::string mergedLags(const OutputErrorResult& r) {
       const double apart = std::log(r.taus_s[i][k - 1] / r.taus_s[i][k]);
       if (apart > r.coverageFactor() * std::sqrt(std::max(0.0, variance))) continue;
       return fmt::format(
-          "the time constants {:.4g} s and {:.4g} s of input {} may be one and the same: their gains say little, only "
-          "the whole response counts; use one lag fewer or a longer range.",
+          "the time constants {:.4g} s and {:.4g} s of input {} may be identical: their separate gains are not "
+          "determined, only the whole response is; use one time constant fewer or a longer range.",
           r.taus_s[i][k - 1], r.taus_s[i][k], i + 1);
     }
   }
@@ -251,7 +251,7 @@ OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const
   Index lags = 0;
   for (const OutputErrorInput& input : inputs) {
     SPINDRIFT_ASSERT(input.values.size() == y.size() && input.lags >= 1,
-                     "input and output differ in length, or an input has no lag");
+                     "input and output differ in length, or an input has no time constant");
     lags += input.lags;
     if (std::all_of(input.values.begin(), input.values.end(), [&](double v) { return v == input.values.front(); })) {
       throw InputError(
@@ -319,17 +319,18 @@ OutputErrorResult fitOutputError(std::span<const double> time_s, std::span<const
   const Eigen::VectorXd length = best.jacobian.colwise().norm();
   if (length.minCoeff() <= 0.0 || !best.theta.allFinite() || inference.covariance.size() == 0) {
     result.status = FitStatus::Degenerate;
-    result.message = "a lag has no effect on the output; use fewer lags or inputs.";
+    result.message = "a time constant has no effect on the output; use fewer time constants or inputs.";
     return result;
   }
   const Eigen::MatrixXd scaled = best.jacobian * length.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled.transpose() * scaled);
   if (eigen.eigenvalues().minCoeff() < 1e-11 * eigen.eigenvalues().maxCoeff()) {
     result.status = FitStatus::Degenerate;
-    result.message = "time constants or inputs cannot be told apart with these data; use fewer lags or inputs.";
+    result.message =
+        "time constants or inputs cannot be distinguished with these data; use fewer time constants or inputs.";
   } else {
     result.status = converged ? FitStatus::Converged : FitStatus::NoConvergence;
-    if (!converged) result.message = "the iteration did not settle; use fewer lags or a longer range.";
+    if (!converged) result.message = "the iteration did not converge; use fewer time constants or a longer range.";
   }
   Eigen::MatrixXd covariance = inference.covariance;
   if (!covariance.allFinite()) {  // degenerate: what is determined keeps its uncertainty, the rest a large one

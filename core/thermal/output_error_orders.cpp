@@ -98,9 +98,8 @@ std::vector<LagTerm> lagsOf(const ArxModel& model, std::string& message) {
   for (const auto& pole : model.poles()) {
     if (std::abs(pole.imag()) > 1e-9 || pole.real() <= 0.0 || pole.real() >= 1.0) {
       message =
-          "the model has a pole that is not real and between 0 and 1, so it has no equivalent in lags; use the "
-          "response or output-error method for "
-          "a compensator.";
+          "the model has a pole that is not real and between 0 and 1, so it has no equivalent in first-order time "
+          "constants; use the response or output-error method for a compensator.";
       return {};
     }
     poles.push_back(pole.real());
@@ -115,7 +114,7 @@ std::vector<LagTerm> lagsOf(const ArxModel& model, std::string& message) {
       for (std::size_t l = 0; l < poles.size(); ++l) {
         if (l == k) continue;
         if (std::abs(poles[l] - poles[k]) < 1e-12) {
-          message = "the model has a double pole, so it has no equivalent in separate lags.";
+          message = "the model has a double pole, so it has no equivalent in separate time constants.";
           return {};
         }
         residue /= 1.0 - poles[l] / poles[k];

@@ -329,7 +329,7 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
   model.outputs.push_back(std::move(out));
   model.learnPattern(series, 0, from_s, to_s);
   result.status = FitStatus::Converged;
-  result.message = fmt::format("{} inputs, {} lags, {} bins of {:.6g} s", model.inputs.size(), columns.size(),
+  result.message = fmt::format("{} inputs, {} time constants, {} bins of {:.6g} s", model.inputs.size(), columns.size(),
                                d.y.size(), d.period_s);
   return result;
 }

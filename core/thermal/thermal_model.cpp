@@ -481,10 +481,11 @@ nlohmann::json ThermalModel::json() const {
 void ThermalModel::write(const std::filesystem::path& file) const {
   for (const ThermalOutput& o : outputs) {
     if (o.terms.empty())
-      throw InputError(fmt::format(
-          "the model of {} is not written: it has no equivalent in lags (complex, negative or double poles), and a "
-          "constant in its place would be run; use the method response or oe, or let the method be chosen.",
-          o.name));
+      throw InputError(
+          fmt::format("the model of {} is not written: it has no equivalent in first-order time constants (complex, "
+                      "negative or double poles), and a constant in its place would be run; use the method response or "
+                      "oe, or let the method be chosen.",
+                      o.name));
   }
   writeFileAtomically(file, json().dump() + "\n");
 }

@@ -9,7 +9,7 @@ namespace {
 std::filesystem::path allowedFolder(const std::filesystem::path& folder, const std::filesystem::path& session) {
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
-    throw InputError({folder, ""}, "is no folder; allowed: the folder into which the instrument writes.");
+    throw InputError({folder, ""}, "is not a folder; allowed: the folder into which the instrument writes.");
   if (CaptureIntake::liesInside(folder, session))
     throw InputError({folder, ""},
                      "belongs to the session itself; allowed: the folder into which the instrument writes.");

@@ -153,8 +153,8 @@ class ClosedLoop {
     if (who_.wishes && who_.wishes->hold != hold_) {
       hold_ = who_.wishes->hold;
       control_.holdWhenSilent(hold_);
-      say(hold_ ? "when nobody writes any more the control holds the compensation"
-                : "when nobody writes any more the control lets the compensation fade");
+      say(hold_ ? "if updates stop, the control holds the compensation"
+                : "if updates stop, the control lets the compensation fade");
     }
     const ControlState state = control_.state();
     if (state.condition == ControlState::Condition::Unreachable) throw ConnectionError(state.sentence);
@@ -251,7 +251,7 @@ class ClosedLoop {
       return;
     }
     if (state.ready()) {
-      if (ours_ && running_ > 0.0) say("the programme was ended at the control");
+      if (ours_ && running_ > 0.0) say("the program was ended at the control");
       ours_ = false;
       waiting_ = false;
     }
@@ -263,7 +263,7 @@ class ClosedLoop {
         control_.abort();
         running_ = no_number;
       } else if (!std::exchange(waiting_, true)) {
-        say("a programme that is not the loop's is running: the loop waits for its end");
+        say("a program that is not the loop's is running: the loop waits for its end");
       }
       return;
     }
@@ -391,7 +391,7 @@ class ClosedLoop {
     if (stage_ == LoopStage::Simulation && plan_.discrepancy_s > 0.0 && time_s_ >= plan_.discrepancy_s && !measuring_ &&
         !searched_ && !search_.running()) {
       writeFileAtomically(folder_ / "simulation.csv", models_.simulationTable());
-      say(fmt::format("{} readings are held against the simulation", models_.observations().rows.size()));
+      say(fmt::format("{} readings are compared with the simulation", models_.observations().rows.size()));
       search_.begin(models_.discrepancyInput());
     }
     if (const std::optional<DiscrepancyResult> found = search_.named()) {

@@ -90,7 +90,7 @@ void LoopPlan::validate() const {
   limits.validate();
   const auto refuse = [](const std::string& what) { throw InputError("The plan of the loop: " + what); };
   if (touches.empty()) refuse("there are no touches; allowed: at least one.");
-  if (programme.empty()) refuse("there is no programme; allowed: at least one speed.");
+  if (programme.empty()) refuse("there is no program; allowed: at least one speed.");
   for (const LoopTouch& touch : touches) {
     const Eigen::Vector3d way = touch.target_mm - touch.before_mm;
     const int axis = axisIndex(touch.component);

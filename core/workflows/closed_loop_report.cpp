@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/base/count_text.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/reporting/plot_picture.h"
@@ -96,7 +97,8 @@ nlohmann::json LoopResult::json() const {
 }
 
 std::string LoopResult::summary() const {
-  std::string out = fmt::format("{} measuring cycles, {} losses of the control\n", cycles.size(), losses);
+  std::string out = fmt::format("{}, {} of the control\n", countOf(cycles.size(), "measuring cycle"),
+                                countOf(losses, "interruption"));
   if (!effects.empty()) out += fmt::format("Added to the simulation: {}\n", joinedList(effects));
   for (const auto& [from_s, stage] : stages) {
     out += fmt::format("From {:.2f} h, {}, measured:", from_s / 3600.0, toString(stage));

@@ -76,7 +76,7 @@ void noteLack(CompensationPlan& plan) {
       plan.lack_of_fit_um.x(), plan.lack_of_fit_um.y(), plan.lack_of_fit_um.z()));
 }
 
-/// What remains on values that trained nothing, of a fit of one state.
+/// What remains on data not used for fitting, of a fit of one state.
 void addUnseen(const NineParameterFit& fit, const ErrorModel& model, const TableOrders& orders,
                CompensationPlan& plan) {
   std::vector<std::string> held_out;
@@ -536,7 +536,7 @@ std::string CompensationPlan::summary() const {
       "(uncertainty of the correction {:.2f} µm), largest correction {:.2f} µm\n",
       model, reference, state, rms_before_um, rms_after_um, rms_sigma_um, largest_um);
   if (rms_after_unseen_um) {
-    text += fmt::format("  on values that trained nothing ({}): {:.2f} µm before, {:.2f} µm with the correction\n",
+    text += fmt::format("  on data not used for fitting ({}): {:.2f} µm before, {:.2f} µm with the correction\n",
                         unseen, *rms_before_unseen_um, *rms_after_unseen_um);
   } else {
     text += fmt::format("  {}\n", unseen);

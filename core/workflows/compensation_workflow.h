@@ -66,7 +66,7 @@ struct CompensationPlan {
   double rms_before_um = 0.0;  ///< of the measured deviations, all displacements
   double rms_after_um = 0.0;   ///< of what remains of them
   double rms_sigma_um = 0.0;   ///< of the expected error: of the parameters, and of what the model does not describe
-  /// The same before and after on values that trained nothing: those held out, else each point predicted by a fit
+  /// The same before and after on data not used for fitting: those held out, else each point predicted by a fit
   /// without it; empty where there are none. `unseen` says which.
   std::optional<double> rms_before_unseen_um;
   std::optional<double> rms_after_unseen_um;

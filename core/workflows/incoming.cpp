@@ -393,7 +393,7 @@ ExaminedFile examine(const std::filesystem::path& file, const std::string& name,
       break;
     case IncomingKind::Other:
       out.item.state = IncomingState::Ignored;
-      out.item.sentence = "It is no image, no cloud and no list of touches.";
+      out.item.sentence = "Not an image, point cloud or touch list.";
       break;
   }
   return out;

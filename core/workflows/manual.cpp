@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/workflows/manual.h"
 
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -15,15 +14,6 @@
 namespace spindrift {
 namespace {
 
-/// As in files, with what stands before them in the table.
-constexpr std::array<std::string_view, 42> parameters{
-    "EX_um",        "EY_um",    "EZ_um",    "EA_urad",     "EB_urad",          "EC_urad",          "EXX_um",
-    "EYX_um",       "EZX_um",   "EAX_urad", "EBX_urad",    "ECX_urad",         "EYY_um",           "EZZ_um",
-    "EAY_urad",     "EBY_urad", "ECY_urad", "EC0Y_urad",   "alpha_X_um_per_m", "alpha_Y_um_per_m", "EXX_um_per_m",
-    "EX0C_um",      "EY0C_um",  "EZ0T_um",  "ER0T_um",     "EA0C_urad",        "EB0C_urad",        "EC0C_urad",
-    "EME_um_per_m", "hX_urad",  "hY_urad",  "hZ_urad",     "aX_urad",          "aY_urad",          "aZ_urad",
-    "dX_um",        "dY_um",    "dZ_um",    "gX_um_per_m", "gY_um_per_m",      "gZ_um_per_m",      "EXY_um"};
-
 void addParameterMeanings(Report& report) {
   report.section("Error parameters");
   report.paragraph(
@@ -32,10 +22,8 @@ void addParameterMeanings(Report& report) {
       "those of ISO 230-1:2012: the error in the direction X, Y or Z (or about it: A, B, C) of the axis named last. 0 "
       "marks an error of the position or orientation of an axis.");
   std::vector<ReportRow> rows;
-  for (const std::string_view name : parameters)
-    if (const std::string meaning = parameterMeaning(name); !meaning.empty())
-      rows.push_back({std::string(name), meaning});
-  report.table({"Parameter", "Meaning"}, std::move(rows));
+  for (const ErrorParameter& p : errorParameters()) rows.push_back({p.name, p.symbol, p.iso_symbol, p.meaning});
+  report.table({"Parameter", "Symbol", "ISO 230-1", "Meaning"}, std::move(rows));
 }
 
 void addEffects(Report& report) {

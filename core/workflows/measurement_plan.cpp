@@ -316,7 +316,7 @@ PlanProgress progressOf(const MeasurementPlan& plan, const std::set<std::string>
   }
   if (!progress.next) {
     const std::size_t all = plan.items.size();
-    progress.sentence = progress.done < all ? fmt::format("The plan is through; {} of {} complete.", progress.done,
+    progress.sentence = progress.done < all ? fmt::format("Plan completed: {} of {} complete.", progress.done,
                                                           countOf(all, "capture is", "captures are"))
                         : all == 1          ? std::string("The one capture of the plan is there.")
                                             : fmt::format("All {} captures of the plan are there.", all);

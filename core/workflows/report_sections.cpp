@@ -302,7 +302,7 @@ void addThermalModel(Report& document, const nlohmann::json& thermal) {
   addStepResponses(document, thermal.value("step_response", nlohmann::json::array()));
   if (!thermal.value("good_enough", true))
     document.callout(CalloutKind::Attention,
-                     "In the test range the model is no better than a plain one: do not compensate with it.");
+                     "In the test range the model is no better than a plain one: do not use it for compensation.");
 }
 
 void addIso230(Report& document, const Campaign& campaign) {
@@ -369,7 +369,7 @@ void addCompensation(Report& document, const nlohmann::json& plan) {
       {{"State", textOf(plan, "state")},
        {"rms of the measured deviations before", numberText(numberOf(plan, "rms_before_um"), "um", 2)},
        {"rms expected with the correction", numberText(numberOf(plan, "rms_after_um"), "um", 2)},
-       {"The same on values that trained nothing", unseenText(plan)},
+       {"The same on data not used for fitting", unseenText(plan)},
        {"Standard uncertainty of the correction", numberText(numberOf(plan, "standard_uncertainty_um"), "um", 2)},
        {"Largest correction", numberText(numberOf(plan, "largest_correction_um"), "um", 2)}});
   std::vector<ReportRow> rows;

@@ -77,7 +77,7 @@ void addHeadlines(CampaignReportInput& input, const StoredResults& stored) {
   if (stored.thermal.is_object() && stored.thermal.contains("good_enough"))
     input.headlines.emplace_back("Model over time", stored.thermal.value("good_enough", true)
                                                         ? "better than plain models on rows it had not seen"
-                                                        : "no better than a plain model: not to be compensated with");
+                                                        : "no better than a plain model: do not use for compensation");
   if (stored.verification.is_object() && stored.verification.contains("reason"))
     input.headlines.emplace_back("Compensation verified", stored.verification.value("reason", ""));
 }

@@ -60,12 +60,12 @@ void tell(const ProjectionResult& shared, IdentifyResult& result) {
     }
     InputVerdict verdict = known ? *own : InputVerdict{};
     verdict.name = input.name;
-    verdict.reason = verdict.kept
-                         ? fmt::format("its part of the prediction is {:.2g} rms; {}", verdict.contribution_rms, often)
-                         : fmt::format(
-                               "the inputs that all outputs share tell what it tells: they leave {:.2g} % of "
-                               "the course of the models with all inputs, with it {:.2g} %; {}",
-                               100.0 * shared.left, 100.0 * input.left, often);
+    verdict.reason =
+        verdict.kept ? fmt::format("its part of the prediction is {:.2g} rms; {}", verdict.contribution_rms, often)
+                     : fmt::format(
+                           "redundant: the inputs kept for all outputs carry the same information; they leave {:.2g} % "
+                           "of the time history of the models with all inputs unexplained, with it {:.2g} %; {}",
+                           100.0 * shared.left, 100.0 * input.left, often);
     if (known) {
       *own = std::move(verdict);
       continue;

@@ -189,9 +189,8 @@ nlohmann::json ReplayResult::json() const {
       {"inputs", inputs},
       {"notes", notes},
       {"sign_convention",
-       "compensation = minus the predicted deviation; what is left = recorded minus predicted, each in "
-       "the sign of its column; a reduction is positive where the rms became smaller, negative where "
-       "it became larger"}};
+       "compensation = minus the predicted deviation; residual = recorded minus predicted, each in the sign of its "
+       "column; a reduction is positive where the rms became smaller, negative where it became larger"}};
   for (std::size_t e = 0; e < errors.size(); ++e) {
     const AdaptiveErrorResult& r = run.errors[e];
     out["outputs"].push_back({{"name", r.name},
@@ -229,11 +228,11 @@ std::string ReplayResult::summary() const {
     const AdaptiveErrorResult& r = run.errors[e];
     text += fmt::format("  {:<16} {:>14.2f} {:>11.2f} ({:>5.1f} %) {:>11.2f} ({:>5.1f} %) {}, limit {:.3g}\n", r.name,
                         r.rms_uncompensated, r.rms_static, r.static_reduction_percent, r.rms_adaptive,
-                        r.adaptive_reduction_percent, units[e], errors[e].action_limit);
+                        r.adaptive_reduction_percent, printedUnit(units[e]), errors[e].action_limit);
   }
   text +=
       "  a reduction is positive where the rms became smaller, negative where compensating made it larger;\n"
-      "  compensation = minus the predicted deviation, what is left = recorded minus predicted\n"
+      "  compensation = minus the predicted deviation, residual = recorded minus predicted\n"
       "reduction against measurements after the setup:\n";
   for (const ReplayPoint& p : curve) {
     text += fmt::format("  {:4} measurements", p.measurements);

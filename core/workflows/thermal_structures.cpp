@@ -70,7 +70,7 @@ Bins makeBins(const TimeSeries& series, const IdentifyRequest& request, const st
       if (std::equal(values(i).begin(), values(i).end(), values(j).begin())) {
         throw InputError(
             {series.file, fmt::format("column {}", inputs[i])},
-            fmt::format("is identical to {}, so their effects cannot be told apart; leave one of them out.",
+            fmt::format("is identical to {}, so their effects cannot be distinguished; leave one of them out.",
                         inputs[j]));
       }
     }

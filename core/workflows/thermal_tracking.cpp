@@ -78,8 +78,9 @@ TrackResult trackThermalModel(const TimeSeries& all, const ThermalModel& model, 
     throw InputError({request.model, ""},
                      fmt::format("the model has no output {}; found: {}.", result.output, model.outputs.front().name));
   if (output->terms.empty())
-    throw InputError({request.model, ""},
-                     "the model has no lags (an ARX model with complex poles); identify with --method response or oe.");
+    throw InputError(
+        {request.model, ""},
+        "the model has no time constants (an ARX model with complex poles); identify with --method response or oe.");
   result.unit = output->unit;
   const ThermalPrediction prediction = model.predict(series, static_cast<std::size_t>(output - model.outputs.data()));
   result.notes = prediction.notes;
@@ -169,9 +170,9 @@ nlohmann::json TrackResult::json() const {
 std::string TrackResult::summary() const {
   std::string text = fmt::format("{} from {:.6g} s, {} measurements\n", output, from_s, run.events.size());
   text += fmt::format("  without update: fit {:7.1f} %  p2p {:8.2f} {}  rms {:8.3f}\n", without.fit_percent,
-                      without.p2p, unit, without.rmse);
+                      without.p2p, printedUnit(unit), without.rmse);
   text += fmt::format("  with updates:   fit {:7.1f} %  p2p {:8.2f} {}  rms {:8.3f}\n", with.fit_percent, with.p2p,
-                      unit, with.rmse);
+                      printedUnit(unit), with.rmse);
   for (const IntervalPoint& p : sweep) {
     text += std::isfinite(p.interval_s) ? fmt::format("  every {:4.0f} min", p.interval_s / 60.0)
                                         : std::string("  never         ");
@@ -363,7 +364,7 @@ std::string CompensateResult::summary() const {
   for (const Output& o : outputs) {
     text += fmt::format("  {}: ", o.name);
     if (std::isfinite(o.unseen.reduction_percent)) {
-      text += fmt::format("rms {:.3f} before, {:.3f} after ({:.0f} % {}) on rows that trained nothing, ",
+      text += fmt::format("rms {:.3f} before, {:.3f} after ({:.0f} % {}) on rows not used for fitting, ",
                           o.unseen.rms_before, o.unseen.rms_after, std::abs(o.unseen.reduction_percent),
                           o.unseen.reduction_percent < 0.0 ? "more" : "less");
     }

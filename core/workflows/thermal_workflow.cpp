@@ -11,6 +11,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/math/distributions.h"
 #include "core/math/statistics.h"
 #include "core/thermal/autocorrelation.h"
@@ -152,7 +153,7 @@ IdentifyResult identifyThermalModel(TimeSeries series, const IdentifyRequest& re
     }
   }
   if (request.test.from_s < request.train.to_s && request.train.from_s < request.test.to_s) {
-    result.notes.push_back("train and test overlap: the test figures are no evidence for new data.");
+    result.notes.push_back("train and test overlap: the test figures are not evidence for new data.");
   }
   const std::vector<std::string> names =
       request.inputs.empty() ? automaticInputs(series, request.output) : request.inputs;
@@ -162,7 +163,7 @@ IdentifyResult identifyThermalModel(TimeSeries series, const IdentifyRequest& re
   if (sparse && structured) {
     throw InputError({series.file, fmt::format("column {}", request.output)},
                      "is measured at few rows only, and ARX and output error need a value at nearly every one; use the "
-                     "method response (all lags).");
+                     "method response (all time constants).");
   }
   ResponseFitOptions options;
   options.period_s = request.period_s;
@@ -257,7 +258,8 @@ IdentifyResult identifyThermalModel(TimeSeries series, const IdentifyRequest& re
   }
   if (result.model.outputs.front().terms.empty()) {
     result.good_enough = verdict.good_enough = false;
-    verdict.reason += std::string(verdict.reason.empty() ? "" : "; ") + "the model has no equivalent in lags";
+    verdict.reason +=
+        std::string(verdict.reason.empty() ? "" : "; ") + "the model has no equivalent in first-order time constants";
   }
   result.model.outputs.front().verdict = std::move(verdict);
   for (const std::string& name : result.inputs) result.step_responses.push_back(result.model.stepResponse(0, name));
@@ -327,7 +329,7 @@ nlohmann::json IdentifyResult::json() const {
 }
 
 std::string IdentifyResult::summary() const {
-  const std::string unit = model.outputs.front().unit;
+  const std::string unit = printedUnit(model.outputs.front().unit);
   std::string text = fmt::format("{}: {} model with {} inputs ({})\n", model.outputs.front().name, model.kind,
                                  inputs.size(), joinedList(inputs));
   const auto line = [&](const std::string& name, const RunQuality& a, const RunQuality& b) {

@@ -129,26 +129,23 @@ void conclude(VerifyResult& r) {
   r.verdict = worst->verdict;
   const VerifyFigures& f = worst->after;
   const std::string unit = printedUnit(unitOf(worst->component));
-  const std::string value =
-      withUncertainty(largest ? f.largest : f.rms, largest ? f.largest_sigma : f.rms_sigma, unit) +
-      (largest ? " at " + f.largest_at : std::string());
+  const std::string figure =
+      largest ? fmt::format("largest deviation {} is {} at {}", toString(worst->component),
+                            withUncertainty(f.largest, f.largest_sigma, unit), f.largest_at)
+              : fmt::format("rms of {} is {}", toString(worst->component), withUncertainty(f.rms, f.rms_sigma, unit));
   const double goal = isRotation(worst->component) ? r.request.goal_urad : r.request.goal_um;
-  const char* what = largest ? "largest" : "rms";
   switch (r.verdict) {
     case VerifyVerdict::Met:
-      r.reason =
-          fmt::format("The goal of {:g} {} is met: {} {} is {}.", goal, unit, what, toString(worst->component), value);
+      r.reason = fmt::format("The goal of {:g} {} is met: {}.", goal, unit, figure);
       break;
     case VerifyVerdict::NotMet:
-      r.reason = fmt::format("The goal of {:g} {} is not met: {} {} is {}.", goal, unit, what,
-                             toString(worst->component), value);
+      r.reason = fmt::format("The goal of {:g} {} is not met: {}.", goal, unit, figure);
       break;
     default:
       r.reason = fmt::format(
-          "It cannot be decided whether the goal of {:g} {} is met: {} {} is {}, and two uncertainties reach across "
-          "the "
-          "goal; measure more often or more precisely.",
-          goal, unit, what, toString(worst->component), value);
+          "It cannot be decided whether the goal of {:g} {} is met: {}, and its expanded uncertainty (k = 2) reaches "
+          "across the goal; measure more often or more precisely.",
+          goal, unit, figure);
   }
 }
 

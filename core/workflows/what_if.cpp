@@ -372,7 +372,7 @@ std::size_t WhatIf::find(const std::string& id) const {
   const std::string stem = id.substr(0, std::max<std::size_t>(id.find_first_of("._"), 2));
   for (const WhatIfParameter& p : parameters_)
     if (p.id.starts_with(stem)) alike.push_back(p.id);
-  throw InputError(fmt::format("\"{}\" is no parameter of machine \"{}\"; allowed: {}.", id, machine_.name,
+  throw InputError(fmt::format("\"{}\" is not a parameter of machine \"{}\"; allowed: {}.", id, machine_.name,
                                alike.empty() ? "those that what-if --list lists" : joinedList(alike, "or")));
 }
 

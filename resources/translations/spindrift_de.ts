@@ -47,221 +47,6 @@
     </message>
 </context>
 <context>
-    <name>CycleModelPage</name>
-    <message>
-        <source>%1 and %2</source>
-        <translation>%1 und %2</translation>
-    </message>
-    <message>
-        <source>%1 parameters are determined in each of %2 cycles.</source>
-        <translation>%1 Parameter sind in jedem von %2 Zyklen bestimmt.</translation>
-    </message>
-    <message>
-        <source>Changed since: %1. Fit all cycles again.</source>
-        <translation>Geändert seitdem: %1. Alle Zyklen erneut anpassen.</translation>
-    </message>
-    <message>
-        <source>Condition number</source>
-        <translation>Konditionszahl</translation>
-    </message>
-    <message>
-        <source>Condition number %1; most strongly correlated: %2</source>
-        <translation>Konditionszahl %1; am stärksten korreliert: %2</translation>
-    </message>
-    <message>
-        <source>Cycle</source>
-        <translation>Zyklus</translation>
-    </message>
-    <message>
-        <source>Cycle shown in detail</source>
-        <translation>Im Einzelnen gezeigter Zyklus</translation>
-    </message>
-    <message>
-        <source>Determined worst</source>
-        <translation>Am schlechtesten bestimmt</translation>
-    </message>
-    <message>
-        <source>Deviation from a straight line</source>
-        <translation>Abweichung von einer Geraden</translation>
-    </message>
-    <message>
-        <source>Displacement / µm</source>
-        <translation>Verschiebung / µm</translation>
-    </message>
-    <message>
-        <source>Displacements</source>
-        <translation>Verschiebungen</translation>
-    </message>
-    <message>
-        <source>Errors over time</source>
-        <translation>Abweichungen über der Zeit</translation>
-    </message>
-    <message>
-        <source>Every parameter with its uncertainty appears after the fit.</source>
-        <translation>Nach der Anpassung erscheint hier jeder Parameter mit seiner Unsicherheit.</translation>
-    </message>
-    <message>
-        <source>Fit all cycles</source>
-        <translation>Alle Zyklen anpassen</translation>
-    </message>
-    <message>
-        <source>Fit all cycles: every error parameter is drawn over time with its uncertainty.</source>
-        <translation>Alle Zyklen anpassen: jeder Parameter wird mit seiner Unsicherheit über der Zeit dargestellt.</translation>
-    </message>
-    <message>
-        <source>Fitting all cycles</source>
-        <translation>Alle Zyklen werden angepasst</translation>
-    </message>
-    <message>
-        <source>Go to Calibrate</source>
-        <translation>Zu „Kalibrieren“ wechseln</translation>
-    </message>
-    <message>
-        <source>Group of parameters</source>
-        <translation>Gruppe von Parametern</translation>
-    </message>
-    <message>
-        <source>Growth</source>
-        <translation>Ausdehnung</translation>
-    </message>
-    <message>
-        <source>Growth / µm/m</source>
-        <translation>Ausdehnung / µm/m</translation>
-    </message>
-    <message>
-        <source>Meaning</source>
-        <translation>Bedeutung</translation>
-    </message>
-    <message>
-        <source>Not determined</source>
-        <translation>Nicht bestimmt</translation>
-    </message>
-    <message>
-        <source>Parameter</source>
-        <translation>Parameter</translation>
-    </message>
-    <message>
-        <source>Parameters</source>
-        <translation>Parameter</translation>
-    </message>
-    <message>
-        <source>Parameters of the cycle</source>
-        <translation>Parameter des Zyklus</translation>
-    </message>
-    <message>
-        <source>Press Fit all cycles. One least squares over all touches separates the errors; everything is relative to the first cycle.</source>
-        <translation>„Alle Zyklen anpassen“ drücken. Ein gemeinsamer Ausgleich über alle Antastungen trennt die Abweichungen; alles ist auf den ersten Zyklus bezogen.</translation>
-    </message>
-    <message>
-        <source>Reading the cycles</source>
-        <translation>Zyklen werden gelesen</translation>
-    </message>
-    <message>
-        <source>Rotation / µrad</source>
-        <translation>Drehung / µrad</translation>
-    </message>
-    <message>
-        <source>Rotations</source>
-        <translation>Drehungen</translation>
-    </message>
-    <message>
-        <source>Separate the errors of axes, table and artefact in every cycle, and see how well each is known.</source>
-        <translation>Abweichungen von Achsen, Tisch und Prüfkörper in jedem Zyklus trennen und sehen, wie gut jede bekannt ist.</translation>
-    </message>
-    <message>
-        <source>The reference: all others are relative to it.</source>
-        <translation>Die Referenz: alle anderen sind auf sie bezogen.</translation>
-    </message>
-    <message>
-        <source>The touches are not evaluated yet.</source>
-        <translation>Die Antastungen sind noch nicht ausgewertet.</translation>
-    </message>
-    <message>
-        <source>This page shows %1. The other artefacts are evaluated too: their deviations stand in the observations and in the report.</source>
-        <translation>Diese Seite zeigt %1. Die anderen Prüfkörper werden ebenfalls ausgewertet: ihre Abweichungen stehen in den Beobachtungen und im Bericht.</translation>
-    </message>
-    <message>
-        <source>Time / %1</source>
-        <translation>Zeit / %1</translation>
-    </message>
-    <message>
-        <source>Time / h</source>
-        <translation>Zeit / h</translation>
-    </message>
-    <message>
-        <source>Trends will appear here</source>
-        <translation>Hier erscheinen die Verläufe</translation>
-    </message>
-    <message>
-        <source>Value</source>
-        <translation>Wert</translation>
-    </message>
-    <message>
-        <source>Volumetric error</source>
-        <translation>Volumetrische Abweichung</translation>
-    </message>
-    <message>
-        <source>Volumetric error values</source>
-        <translation>Werte der volumetrischen Abweichung</translation>
-    </message>
-    <message>
-        <source>Weak combinations</source>
-        <translation>Schwach bestimmte Kombinationen</translation>
-    </message>
-    <message>
-        <source>Which combinations of parameters the touches hardly tell apart appears after the fit.</source>
-        <translation>Welche Kombinationen von Parametern die Antastungen kaum trennen, erscheint nach der Anpassung.</translation>
-    </message>
-    <message>
-        <source>linear expansion of axis %1</source>
-        <translation>Längenausdehnung der Achse %1</translation>
-    </message>
-    <message>
-        <source>thermal expansion of the bar</source>
-        <translation>Wärmeausdehnung der Lochleiste</translation>
-    </message>
-    <message>
-        <source>column tilt about %1</source>
-        <translation>Neigung des Ständers um %1</translation>
-    </message>
-    <message>
-        <source>head tilt about %1</source>
-        <translation>Neigung des Spindelkopfs um %1</translation>
-    </message>
-    <message>
-        <source>none</source>
-        <translation>keine</translation>
-    </message>
-    <message>
-        <source>not determined</source>
-        <translation>nicht bestimmt</translation>
-    </message>
-    <message>
-        <source>thermal expansion of the %1 ball screw</source>
-        <translation>Wärmeausdehnung des Kugelgewindetriebs %1</translation>
-    </message>
-    <message>
-        <source>displacement of the spindle along %1</source>
-        <translation>Verlagerung der Spindel entlang %1</translation>
-    </message>
-    <message>
-        <source>displacement of the table along %1</source>
-        <translation>Verlagerung des Tisches entlang %1</translation>
-    </message>
-    <message>
-        <source>radial expansion of the table</source>
-        <translation>radiale Ausdehnung des Tisches</translation>
-    </message>
-    <message>
-        <source>rotation of the table, %1</source>
-        <translation>Verdrehung des Tisches, %1</translation>
-    </message>
-    <message>
-        <source>Value / u</source>
-        <translation>Wert / u</translation>
-    </message>
-</context>
-<context>
     <name>Demo</name>
     <message>
         <source>A hole bar on a turning table separates the errors of axis, table and artefact.</source>
@@ -277,7 +62,7 @@
     </message>
     <message>
         <source>Fiducials under the microscope</source>
-        <translation>Marken unter dem Mikroskop</translation>
+        <translation>Messmarken unter dem Mikroskop</translation>
     </message>
     <message>
         <source>Find where simulation and measurement disagree, name the missing effect, see the gap shrink.</source>
@@ -309,7 +94,7 @@
     </message>
     <message>
         <source>Fiducials of your own artwork</source>
-        <translation>Marken nach eigener Vorlage</translation>
+        <translation>Messmarken nach eigener Vorlage</translation>
     </message>
 </context>
 <context>
@@ -689,24 +474,12 @@
 <context>
     <name>core</name>
     <message>
-        <source> at {}</source>
-        <translation> bei {}</translation>
-    </message>
-    <message>
         <source> with status {}</source>
         <translation> mit Status {}</translation>
     </message>
     <message>
         <source> with {}</source>
         <translation> mit {}</translation>
-    </message>
-    <message>
-        <source> {} unfinished campaigns are in the folder removed.</source>
-        <translation> {} unfertige Kampagnen liegen im Ordner removed.</translation>
-    </message>
-    <message>
-        <source> {} unfinished files were removed.</source>
-        <translation> {} unfertige Dateien wurden entfernt.</translation>
     </message>
     <message>
         <source>$AA_ENC_COMP in mm: the deviation itself, {}, zero at the reference position; a positive value moves the axis in the negative direction. Add the values of a table that the control has. Measured from {:g} to {:g} mm; beyond that it is extrapolated.</source>
@@ -898,15 +671,15 @@
     </message>
     <message>
         <source>: another fiducial, or not at its position.</source>
-        <translation>: eine andere Marke oder nicht an ihrer Position.</translation>
+        <translation>: eine andere Messmarke oder nicht an ihrer Position.</translation>
     </message>
     <message>
         <source>; 1 is taken over when its feature is complete</source>
         <translation>; 1 wird übernommen, wenn ihr Merkmal vollständig ist</translation>
     </message>
     <message>
-        <source>; all styli see the sphere move alike, as warming does</source>
-        <translation>; alle Tastereinsätze sehen die Kugel gleich wandern, wie bei Erwärmung</translation>
+        <source>; all styli see the sphere move alike, as thermal drift does</source>
+        <translation>; alle Tastereinsätze sehen die Kugel gleich wandern, wie bei thermischer Drift</translation>
     </message>
     <message>
         <source>; it lies on {} (wrong or swapped feature?)</source>
@@ -921,12 +694,12 @@
         <translation>; zu Beginn und nach {1} (h:min) {0} messen</translation>
     </message>
     <message>
-        <source>; the sphere moves smoothly from pass to pass, as warming does</source>
-        <translation>; die Kugel wandert stetig von Durchgang zu Durchgang, wie bei Erwärmung</translation>
+        <source>; the sphere moves smoothly from pass to pass, as thermal drift does</source>
+        <translation>; die Kugel wandert stetig von Durchgang zu Durchgang, wie bei thermischer Drift</translation>
     </message>
     <message>
-        <source>; these data cannot tell at least one of them from its rivals</source>
-        <translation>; diese Daten können mindestens einen davon nicht von seinen Rivalen unterscheiden</translation>
+        <source>; these data do not distinguish at least one of them from its rivals</source>
+        <translation>; diese Daten unterscheiden mindestens einen davon nicht von konkurrierenden Erklärungen</translation>
     </message>
     <message>
         <source>; without it the error in runs left out changes by {:+.0f} %</source>
@@ -961,11 +734,11 @@
         <translation>Eine Kampagne von Scans braucht mindestens einen Prüfkörper und einen Zyklus.</translation>
     </message>
     <message>
-        <source>A certificate with {:g} µm says hardly anything. Is it in um?</source>
-        <translation>Ein Zertifikat mit {:g} µm sagt kaum etwas aus. Ist es in um?</translation>
+        <source>A certificate uncertainty of {:g} µm is implausibly large; check the unit.</source>
+        <translation>Eine Zertifikatsunsicherheit von {:g} µm ist unplausibel groß; Einheit prüfen.</translation>
     </message>
     <message>
-        <source>A compensation that is no number is not written.</source>
+        <source>A compensation that is not a number is not written.</source>
         <translation>Eine Kompensation, die keine Zahl ist, wird nicht geschrieben.</translation>
     </message>
     <message>
@@ -997,7 +770,7 @@
         <translation>Eine eigene Steuerung lässt sich nicht anlegen: {}: {}.</translation>
     </message>
     <message>
-        <source>A programme is running.</source>
+        <source>A program is running.</source>
         <translation>Ein Programm läuft.</translation>
     </message>
     <message>
@@ -1041,7 +814,7 @@
         <translation>Ein EWMA-Gewicht von</translation>
     </message>
     <message>
-        <source>An amplitude or wave number of the surface is no number; allowed: finite numbers (mm, rad/mm).</source>
+        <source>An amplitude or wave number of the surface is not a number; allowed: finite numbers (mm, rad/mm).</source>
         <translation>Eine Amplitude oder Wellenzahl der Fläche ist keine Zahl; zulässig: endliche Zahlen (mm, rad/mm).</translation>
     </message>
     <message>
@@ -1086,7 +859,7 @@
     </message>
     <message>
         <source>Batch {} was started with program version {}, this worker has {}; allowed: workers of the same version, for results of two versions do not mix.</source>
-        <translation>Stapel {} wurde mit Programmversion {} begonnen, dieser Arbeitsprozess hat {}; zulässig: Arbeitsprozesse derselben Version, denn Ergebnisse zweier Versionen werden nicht gemischt.</translation>
+        <translation>Batch-Auftrag {} wurde mit Programmversion {} begonnen, dieser Arbeitsprozess hat {}; zulässig: Arbeitsprozesse derselben Version, denn Ergebnisse zweier Versionen werden nicht gemischt.</translation>
     </message>
     <message>
         <source>Before and after are compared.</source>
@@ -1349,8 +1122,8 @@
         <translation>Eingang {} hat den Faktor {} und die Potenz {}; zulässig: endlich und positiv.</translation>
     </message>
     <message>
-        <source>It cannot be decided whether the goal of {:g} {} is met: {} {} is {}, and two uncertainties reach across the goal; measure more often or more precisely.</source>
-        <translation>Ob das Ziel von {:g} {} erreicht ist, ist nicht entscheidbar: {} {} ist {}, und zwei Unsicherheiten reichen über das Ziel; öfter oder genauer messen.</translation>
+        <source>It cannot be decided whether the goal of {:g} {} is met: {}, and its expanded uncertainty (k = 2) reaches across the goal; measure more often or more precisely.</source>
+        <translation>Ob das Ziel von {:g} {} erreicht ist, ist nicht entscheidbar: {}, und die erweiterte Messunsicherheit (k = 2) reicht über das Ziel; öfter oder genauer messen.</translation>
     </message>
     <message>
         <source>It cannot be read yet; waiting for the rest. {}</source>
@@ -1369,8 +1142,8 @@
         <translation>Wird gerade geschrieben: bisher {} Bytes.</translation>
     </message>
     <message>
-        <source>It is no image, no cloud and no list of touches.</source>
-        <translation>Weder Bild noch Punktwolke noch Liste von Antastungen.</translation>
+        <source>Not an image, point cloud or touch list.</source>
+        <translation>Kein Bild, keine Punktwolke und keine Antastliste.</translation>
     </message>
     <message>
         <source>It is there already.</source>
@@ -1533,7 +1306,7 @@
         <translation>Es ist keine Struktur im Bild.</translation>
     </message>
     <message>
-        <source>No uncertainty is stated: the target is no height map.</source>
+        <source>No uncertainty is stated: the target is not a height map.</source>
         <translation>Es wird keine Unsicherheit angegeben: das Ziel ist keine Höhenkarte.</translation>
     </message>
     <message>
@@ -1597,7 +1370,7 @@
         <translation>Nur {} Punkte des Scans und {} der Referenz liegen auseinander; mindestens {} sind nötig.</translation>
     </message>
     <message>
-        <source>Only {} was observed: effects that differ in other components alone cannot be told apart.</source>
+        <source>Only {} was observed: effects that differ in other components alone cannot be distinguished.</source>
         <translation>Nur {} wurde beobachtet: Effekte, die sich allein in anderen Komponenten unterscheiden, sind nicht trennbar.</translation>
     </message>
     <message>
@@ -1613,12 +1386,12 @@
         <translation>Ausgang {} hat eine Verstärkung {} mit einer Zeitkonstante von {} s; zulässig: endliche Zahlen, keine negative Zeitkonstante (er wäre instabil).</translation>
     </message>
     <message>
-        <source>Output {} has no terms, only a constant (an ARX model with complex, negative or double poles has no equivalent in lags); allowed: a model identified with --method response or oe.</source>
-        <translation>Ausgang {} hat keine Terme, nur eine Konstante (ein ARX-Modell mit komplexen, negativen oder doppelten Polen hat keine Entsprechung in Verzögerungen); zulässig: ein mit --method response oder oe identifiziertes Modell.</translation>
+        <source>Output {} has no terms, only a constant (an ARX model with complex, negative or double poles has no equivalent in first-order time constants); allowed: a model identified with --method response or oe.</source>
+        <translation>Ausgang {} hat keine Terme, nur eine Konstante (ein ARX-Modell mit komplexen, negativen oder doppelten Polen hat keine Entsprechung in Zeitkonstanten erster Ordnung); zulässig: ein mit --method response oder oe identifiziertes Modell.</translation>
     </message>
     <message>
-        <source>Output {} is in &quot;{}&quot;; allowed: um or urad.</source>
-        <translation>Ausgang {} ist in „{}“; zulässig: um oder urad.</translation>
+        <source>Output {} has the unit &quot;{}&quot;; allowed: &quot;um&quot; or &quot;urad&quot;.</source>
+        <translation>Ausgang {} hat die Einheit „{}“; zulässig: &quot;um&quot; oder &quot;urad&quot;.</translation>
     </message>
     <message>
         <source>Output {} uses input {}, which the model does not have.</source>
@@ -1682,11 +1455,11 @@
     </message>
     <message>
         <source>Slurm did not take the batch: sbatch said nothing but an error; see above.</source>
-        <translation>Slurm nahm den Stapel nicht an: sbatch meldete nur einen Fehler; siehe oben.</translation>
+        <translation>Slurm nahm den Batch-Auftrag nicht an: sbatch meldete nur einen Fehler; siehe oben.</translation>
     </message>
     <message>
         <source>Slurm did not take the batch: {} Nothing is lost: start it again, or with --engine local.</source>
-        <translation>Slurm nahm den Stapel nicht an: {} Nichts ist verloren: erneut starten oder mit --engine local.</translation>
+        <translation>Slurm nahm den Batch-Auftrag nicht an: {} Nichts ist verloren: erneut starten oder mit --engine local.</translation>
     </message>
     <message>
         <source>Slurm has not answered for {:.0f} min (squeue). Nothing is lost: batch resume {} --engine slurm goes on.</source>
@@ -1921,12 +1694,12 @@
         <translation>Die Differenz {} wird nicht kleiner ({:.2f} µm vorher, {:.2f} µm nachher): nichts wurde eingesetzt.</translation>
     </message>
     <message>
-        <source>The goal of {:g} {} is met: {} {} is {}.</source>
-        <translation>Das Ziel von {:g} {} ist erreicht: {} {} ist {}.</translation>
+        <source>The goal of {:g} {} is met: {}.</source>
+        <translation>Das Ziel von {:g} {} ist erreicht: {}.</translation>
     </message>
     <message>
-        <source>The goal of {:g} {} is not met: {} {} is {}.</source>
-        <translation>Das Ziel von {:g} {} ist nicht erreicht: {} {} ist {}.</translation>
+        <source>The goal of {:g} {} is not met: {}.</source>
+        <translation>Das Ziel von {:g} {} ist nicht erreicht: {}.</translation>
     </message>
     <message>
         <source>The goal: {}</source>
@@ -1941,8 +1714,8 @@
         <translation>Die Identifikation beurteilte das Modell von {} als nicht gut genug ({}); zulässig: ein besseres Modell oder erzwungenes Laden.</translation>
     </message>
     <message>
-        <source>The image has hardly any contrast ({:.0f} grey levels): more light, or is something before the lens?</source>
-        <translation>Das Bild hat kaum Kontrast ({:.0f} Graustufen): mehr Licht, oder ist etwas vor dem Objektiv?</translation>
+        <source>The image has too little contrast ({:.0f} grey levels). Increase the illumination or check for an obstructed lens.</source>
+        <translation>Das Bild hat zu wenig Kontrast ({:.0f} Graustufen). Beleuchtung erhöhen oder prüfen, ob das Objektiv verdeckt ist.</translation>
     </message>
     <message>
         <source>The image is out of focus for its height of {:g} mm: sharpness {:.3f}, below it at {:g} mm {:.3f} and above it at {:g} mm {:.3f}.</source>
@@ -1957,7 +1730,7 @@
         <translation>Das Bild ist um {} deg gedreht, {} {} deg (gegen {} von {} in {}).</translation>
     </message>
     <message>
-        <source>The last line of {} was not whole and was taken off.</source>
+        <source>The last line of {} was incomplete and was removed.</source>
         <translation>Die letzte Zeile von {} war unvollständig und wurde entfernt.</translation>
     </message>
     <message>
@@ -2009,8 +1782,8 @@
         <translation>Das Messgerät erwärmt sich nach dem Einschalten und driftet in seinen Beharrungszustand; die Maschine ist daran nicht beteiligt.</translation>
     </message>
     <message>
-        <source>The model has more than 1024 lags.</source>
-        <translation>Das Modell hat mehr als 1024 Verzögerungen.</translation>
+        <source>The model has more than 1024 time constants.</source>
+        <translation>Das Modell hat mehr als 1024 Zeitkonstanten.</translation>
     </message>
     <message>
         <source>The model has more than 32 input signals.</source>
@@ -2041,8 +1814,8 @@
         <translation>Das Modell der Kampagne {} ({}) gilt nicht mehr: {}.</translation>
     </message>
     <message>
-        <source>The noise of the virtual profiler must not be negative (um).</source>
-        <translation>Das Rauschen des virtuellen Profilsensors darf nicht negativ sein (um).</translation>
+        <source>The noise of the virtual profiler must not be negative (µm).</source>
+        <translation>Das Rauschen des virtuellen Profilsensors darf nicht negativ sein (µm).</translation>
     </message>
     <message>
         <source>The normal distributions transform found no motion.</source>
@@ -2089,8 +1862,8 @@
         <translation>Der Plan hat nichts Offenes mehr für {}; die Datei wird beiseitegelegt.</translation>
     </message>
     <message>
-        <source>The plan is through; {} of {} complete.</source>
-        <translation>Der Plan ist durchlaufen; {} von {} vollständig.</translation>
+        <source>Plan completed: {} of {} complete.</source>
+        <translation>Plan abgeschlossen: {} von {} vollständig.</translation>
     </message>
     <message>
         <source>The plan of the loop: {}</source>
@@ -2133,19 +1906,19 @@
         <translation>Der Profilsensor ist nicht kalibriert ({}): er gilt als innerhalb von {} rad parallel zur Maschine und innerhalb von 10 mm am Ort des Werkzeugs; die Unsicherheiten enthalten das.</translation>
     </message>
     <message>
-        <source>The programme is not run: it was not confirmed ({}).</source>
+        <source>The program is not run: it was not confirmed ({}).</source>
         <translation>Das Programm wird nicht ausgeführt: es wurde nicht bestätigt ({}).</translation>
     </message>
     <message>
-        <source>The programme is not run: line {}: {}.</source>
+        <source>The program is not run: line {}: {}.</source>
         <translation>Das Programm wird nicht ausgeführt: Zeile {}: {}.</translation>
     </message>
     <message>
-        <source>The programme is not started: the machine stands {:.3f} mm from where it was foreseen to start.</source>
+        <source>The program is not started: the machine stands {:.3f} mm from where it was foreseen to start.</source>
         <translation>Das Programm wird nicht gestartet: die Maschine steht {:.3f} mm von der vorgesehenen Startposition entfernt.</translation>
     </message>
     <message>
-        <source>The programme is not started: {}</source>
+        <source>The program is not started: {}</source>
         <translation>Das Programm wird nicht gestartet: {}</translation>
     </message>
     <message>
@@ -2205,7 +1978,7 @@
         <translation>Der Drehtisch erwärmt sich und wächst von seinem Zentrum weg.</translation>
     </message>
     <message>
-        <source>The rotary table warms unevenly and turns about its centre.</source>
+        <source>The rotary table warms unevenly and rotates about its centre.</source>
         <translation>Der Drehtisch erwärmt sich ungleichmäßig und verdreht sich um sein Zentrum.</translation>
     </message>
     <message>
@@ -2245,8 +2018,8 @@
         <translation>Der Servozyklus steht still.</translation>
     </message>
     <message>
-        <source>The session was not closed the last time; it is as it was left: {} captures and {} results are there.</source>
-        <translation>Die Sitzung wurde beim letzten Mal nicht geschlossen; sie ist, wie sie verlassen wurde: {} Aufnahmen und {} Ergebnisse sind vorhanden.</translation>
+        <source>The session was not closed the last time; it is as it was left: {} and {} are there.</source>
+        <translation>Die Sitzung wurde zuletzt nicht geschlossen; sie ist unverändert: {} und {} sind vorhanden.</translation>
     </message>
     <message>
         <source>The simulation has {:.0f} ± {:.0f} % too {} of {}: no more than a rough simulation may be off by ({:.0f} %), so it is taken as its error and not as a missing effect.</source>
@@ -2285,12 +2058,12 @@
         <translation>Die Spindel dreht noch ({:.0f} rpm): warten, bis sie steht.</translation>
     </message>
     <message>
-        <source>The spindle shaft and housing grow along Z as the bearings heat them; the heat follows the speed and reaches the structure through one or two lags.</source>
-        <translation>Spindelwelle und Gehäuse wachsen entlang Z, wenn die Lager sie erwärmen; die Wärme folgt der Drehzahl und erreicht die Struktur mit einer oder zwei Zeitkonstanten.</translation>
+        <source>The spindle shaft and housing grow along Z as the bearings heat them; the heat follows the speed and reaches the structure with one or two first-order time constants.</source>
+        <translation>Spindelwelle und Gehäuse wachsen entlang Z, wenn die Lager sie erwärmen; die Wärme folgt der Drehzahl und erreicht die Struktur mit einer oder zwei Zeitkonstanten erster Ordnung.</translation>
     </message>
     <message>
-        <source>The spindle support warms unevenly and shifts the nose sideways, the same everywhere in the working space, following the spindle heat through one or two lags.</source>
-        <translation>Die Spindelaufnahme erwärmt sich ungleichmäßig und verschiebt die Spindelnase seitlich, im ganzen Arbeitsraum gleich; sie folgt der Spindelwärme mit einer oder zwei Zeitkonstanten.</translation>
+        <source>The spindle support warms unevenly and shifts the nose sideways, the same everywhere in the working space, following the spindle heat with one or two first-order time constants.</source>
+        <translation>Die Spindelaufnahme erwärmt sich ungleichmäßig und verschiebt die Spindelnase seitlich, im ganzen Arbeitsraum gleich; sie folgt der Spindelwärme mit einer oder zwei Zeitkonstanten erster Ordnung.</translation>
     </message>
     <message>
         <source>The start must be finite.</source>
@@ -2529,43 +2302,43 @@
         <translation>„{}“ hat keinen Wert bei {} s, wo {} = {:g} ist; zulässig: Potenzen, die jeder Wert der Spalte hat.</translation>
     </message>
     <message>
-        <source>&quot;{}&quot; is no address that can be listed; allowed: one that begins with {}.</source>
+        <source>&quot;{}&quot; is not an address that can be listed; allowed: one that begins with {}.</source>
         <translation>„{}“ ist keine Adresse, deren Angebot sich auflisten lässt; zulässig: eine, die mit {} beginnt.</translation>
     </message>
     <message>
-        <source>&quot;{}&quot; is no axis</source>
+        <source>&quot;{}&quot; is not an axis</source>
         <translation>„{}“ ist keine Achse</translation>
     </message>
     <message>
-        <source>&quot;{}&quot; is no data item of LinuxCNC; allowed: {}.</source>
+        <source>&quot;{}&quot; is not a data item of LinuxCNC; allowed: {}.</source>
         <translation>„{}“ ist kein Datenpunkt von LinuxCNC; zulässig: {}.</translation>
     </message>
     <message>
-        <source>&quot;{}&quot; is no kind of event; allowed: {}.</source>
+        <source>&quot;{}&quot; is not a kind of event; allowed: {}.</source>
         <translation>„{}“ ist keine Art von Ereignis; zulässig: {}.</translation>
     </message>
     <message>
-        <source>&quot;{}&quot; is no metric; allowed: spBv1.0/group/node[/device]#metric.</source>
+        <source>&quot;{}&quot; is not a metric; allowed: spBv1.0/group/node[/device]#metric.</source>
         <translation>„{}“ ist keine Metrik; zulässig: spBv1.0/Gruppe/Knoten[/Gerät]#Metrik.</translation>
     </message>
     <message>
-        <source>&quot;{}&quot; is no number; allowed: a number such as -12.345.</source>
+        <source>&quot;{}&quot; is not a number; allowed: a number such as -12.345.</source>
         <translation>„{}“ ist keine Zahl; zulässig: eine Zahl wie -12.345.</translation>
     </message>
     <message>
-        <source>&quot;{}&quot; is no parameter of {}; allowed: {}.</source>
+        <source>&quot;{}&quot; is not a parameter of {}; allowed: {}.</source>
         <translation>„{}“ ist kein Parameter von {}; zulässig: {}.</translation>
     </message>
     <message>
-        <source>&quot;{}&quot; is no register; allowed: {}.</source>
+        <source>&quot;{}&quot; is not a register; allowed: {}.</source>
         <translation>„{}“ ist kein Register; zulässig: {}.</translation>
     </message>
     <message>
-        <source>&quot;{}&quot; is no time; allowed: UTC such as 2026-01-31T08:00:00Z.</source>
+        <source>&quot;{}&quot; is not a time; allowed: UTC such as 2026-01-31T08:00:00Z.</source>
         <translation>„{}“ ist keine Zeit; zulässig: UTC wie 2026-01-31T08:00:00Z.</translation>
     </message>
     <message>
-        <source>&quot;{}&quot; is no topic; allowed: one topic without wildcards.</source>
+        <source>&quot;{}&quot; is not a topic; allowed: one topic without wildcards.</source>
         <translation>„{}“ ist kein Topic; zulässig: ein Topic ohne Platzhalter.</translation>
     </message>
     <message>
@@ -2627,12 +2400,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>eine Kette wie &quot;V [w-X&apos;-Y&apos;-b-Z-(C)-t]&quot;: von w über b nach t, Achsen X, Y, Z, A, B, C mit optionaler Nummer, &apos; an denen, die das Werkstück tragen, die Spindel in Klammern</translation>
     </message>
     <message>
-        <source>a circle looks the same after a turn about its axis</source>
-        <translation>ein Kreis sieht nach einer Drehung um seine Achse gleich aus</translation>
+        <source>a circle is invariant under rotation about its axis</source>
+        <translation>ein Kreis ist invariant gegen Drehung um seine Achse</translation>
     </message>
     <message>
-        <source>a circle of radius {} um at ({}, {}) um from an ellipse&apos;s centre touches the ellipse.</source>
-        <translation>ein Kreis mit Radius {} um bei ({}, {}) um vom Zentrum einer Ellipse berührt die Ellipse.</translation>
+        <source>a circle of radius {} µm at ({}, {}) µm from an ellipse&apos;s centre touches the ellipse.</source>
+        <translation>ein Kreis mit Radius {} µm bei ({}, {}) um vom Zentrum einer Ellipse berührt die Ellipse.</translation>
     </message>
     <message>
         <source>a column has no name; allowed: one name per column.</source>
@@ -2667,7 +2440,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>eine Antriebsgröße, die log.csv enthält</translation>
     </message>
     <message>
-        <source>a feed move that is no retract after a touch</source>
+        <source>a feed move that is not a retract after a touch</source>
         <translation>eine Vorschubbewegung, die kein Rückzug nach einer Antastung ist</translation>
     </message>
     <message>
@@ -2727,12 +2500,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ein Hochpass über {} Zyklen ist nicht zulässig; zulässig: eine ungerade Zahl ab 3.</translation>
     </message>
     <message>
-        <source>a lag has no effect on the output; use fewer lags or inputs.</source>
-        <translation>eine Verzögerung hat keine Wirkung auf den Ausgang; weniger Verzögerungen oder Eingänge verwenden.</translation>
+        <source>a time constant has no effect on the output; use fewer time constants or inputs.</source>
+        <translation>eine Zeitkonstante hat keine Wirkung auf den Ausgang; weniger Zeitkonstanten oder Eingänge verwenden.</translation>
     </message>
     <message>
-        <source>a lag together with its driver</source>
-        <translation>eine Verzögerung zusammen mit ihrer Antriebsgröße</translation>
+        <source>a time constant together with its driver</source>
+        <translation>eine Zeitkonstante zusammen mit ihrer Antriebsgröße</translation>
     </message>
     <message>
         <source>a lattice needs 2 to 100 positions a side.</source>
@@ -2751,7 +2524,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>eine Liste &quot;campaigns&quot; und kein &quot;seeds&quot; bei dieser Arbeit</translation>
     </message>
     <message>
-        <source>a list is no property of a point; allowed: numbers.</source>
+        <source>a list is not a property of a point; allowed: numbers.</source>
         <translation>eine Liste ist keine Eigenschaft eines Punkts; zulässig: Zahlen.</translation>
     </message>
     <message>
@@ -2767,8 +2540,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>eine Liste aus drei Zahlen</translation>
     </message>
     <message>
-        <source>a list of two numbers, x and y in um</source>
-        <translation>eine Liste aus zwei Zahlen, x und y in um</translation>
+        <source>a list of two numbers, x and y in µm</source>
+        <translation>eine Liste aus zwei Zahlen, x und y in µm</translation>
     </message>
     <message>
         <source>a list of two whole numbers, first and last</source>
@@ -2788,7 +2561,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>a machine with fiducials</source>
-        <translation>eine Maschine mit Marken</translation>
+        <translation>eine Maschine mit Messmarken</translation>
     </message>
     <message>
         <source>a machine with points</source>
@@ -2911,8 +2684,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>eine Pipe</translation>
     </message>
     <message>
-        <source>a pitch of {} um is not allowed; 20 ... 100000 um are.</source>
-        <translation>ein Raster von {} um ist nicht zulässig; zulässig: 20 ... 100000 um.</translation>
+        <source>a pitch of {} µm is not allowed; 20 ... 100000 µm are.</source>
+        <translation>ein Raster von {} µm ist nicht zulässig; zulässig: 20 ... 100000 µm.</translation>
     </message>
     <message>
         <source>a printed model needs at least one a, two b with b0 not zero, and a positive period.</source>
@@ -2927,7 +2700,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ein Programm und seine Argumente</translation>
     </message>
     <message>
-        <source>a programme that is not the loop&apos;s is running: the loop waits for its end</source>
+        <source>a program that is not the loop&apos;s is running: the loop waits for its end</source>
         <translation>ein fremdes Programm läuft: der Regelkreis wartet auf sein Ende</translation>
     </message>
     <message>
@@ -3044,7 +2817,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>a virtual campaign needs a fiducial and a thermal state.</source>
-        <translation>eine virtuelle Kampagne braucht eine Marke und einen thermischen Zustand.</translation>
+        <translation>eine virtuelle Kampagne braucht eine Messmarke und einen thermischen Zustand.</translation>
     </message>
     <message>
         <source>a whole number</source>
@@ -3128,7 +2901,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>all readings were taken at one position; allowed: two positions near the ends of travel.</source>
-        <translation>alle Ablesungen wurden an einer Position gemacht; zulässig: zwei Positionen nahe den Enden des Verfahrwegs.</translation>
+        <translation>alle Messwerte wurden an einer Position aufgenommen; zulässig: zwei Positionen nahe den Enden des Verfahrwegs.</translation>
     </message>
     <message>
         <source>all {} values are the same as before: it is the same measurement; allowed: the same plan measured again with the compensation on.</source>
@@ -3364,7 +3137,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>at the points held out</source>
-        <translation>an den zurückgehaltenen Punkten</translation>
+        <translation>an den Validierungspunkten</translation>
     </message>
     <message>
         <source>at {:g} deg</source>
@@ -3372,7 +3145,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>at {}, held out</source>
-        <translation>bei {}, zurückgehalten</translation>
+        <translation>bei {}, Validierungsdaten</translation>
     </message>
     <message>
         <source>axis &quot;{}&quot; appears twice</source>
@@ -3407,20 +3180,20 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Umkehrspanne von %1</translation>
     </message>
     <message>
-        <source>ball screw of X</source>
-        <translation>Kugelgewindetrieb von X</translation>
+        <source>X ball screw</source>
+        <translation>Kugelgewindetrieb X</translation>
     </message>
     <message>
-        <source>ball screw of Y</source>
-        <translation>Kugelgewindetrieb von Y</translation>
+        <source>Y ball screw</source>
+        <translation>Kugelgewindetrieb Y</translation>
     </message>
     <message>
-        <source>ball screw of Z</source>
-        <translation>Kugelgewindetrieb von Z</translation>
+        <source>Z ball screw</source>
+        <translation>Kugelgewindetrieb Z</translation>
     </message>
     <message>
         <source>batch {} &quot;{}&quot; ({}): {} of {}</source>
-        <translation>Stapel {} „{}“ ({}): {} von {}</translation>
+        <translation>Batch-Auftrag {} „{}“ ({}): {} von {}</translation>
     </message>
     <message>
         <source>before: {}</source>
@@ -3467,8 +3240,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Kamera „{}“ ist weder Gerätenummer noch Videodatei; zulässig: 0, 1, ..., eine Datei oder eine Adresse wie rtsp://host/stream.</translation>
     </message>
     <message>
-        <source>campaign {} of {} came out as &quot;{}&quot;</source>
-        <translation>Kampagne {} vom {} ergab „{}“</translation>
+        <source>campaign {} of {} has the verdict &quot;{}&quot;</source>
+        <translation>Kampagne {} vom {} hat das Urteil „{}“</translation>
     </message>
     <message>
         <source>campaign.json names the simulator {}, which was not run; --simulator {} runs it and looks among its parameters as well.</source>
@@ -3476,7 +3249,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>cancelling a batch</source>
-        <translation>Stapel wird abgebrochen</translation>
+        <translation>Batch-Auftrag wird abgebrochen</translation>
     </message>
     <message>
         <source>cannot be asked for a birth</source>
@@ -3663,8 +3436,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Kompensation = minus die vorhergesagte Abweichung, zum Sollwert zu addieren; Abweichung = Ist minus Soll, wie das Protokoll sie misst; rms_after ist von gemessener Abweichung plus Kompensation; reduction_percent ist positiv, wo der rms kleiner wurde</translation>
     </message>
     <message>
-        <source>compensation = minus the predicted deviation; what is left = recorded minus predicted, each in the sign of its column; a reduction is positive where the rms became smaller, negative where it became larger</source>
-        <translation>Kompensation = minus die vorhergesagte Abweichung; Rest = aufgezeichnet minus vorhergesagt, jeweils im Vorzeichen der Spalte; eine Minderung ist positiv, wo der rms kleiner wurde, negativ, wo er größer wurde</translation>
+        <source>compensation = minus the predicted deviation; residual = recorded minus predicted, each in the sign of its column; a reduction is positive where the rms became smaller, negative where it became larger</source>
+        <translation>Kompensation = minus die vorhergesagte Abweichung; Residuum = aufgezeichnet minus vorhergesagt, jeweils im Vorzeichen der Spalte; eine Minderung ist positiv, wo der rms kleiner wurde, negativ, wo er größer wurde</translation>
     </message>
     <message>
         <source>compensation: {}</source>
@@ -3739,11 +3512,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ziffer {} hat keine Striche.</translation>
     </message>
     <message>
-        <source>digit {} leaves its ellipse at ({}, {}) um.</source>
+        <source>digit {} leaves its ellipse at ({}, {}) µm.</source>
         <translation>Ziffer {} verlässt ihre Ellipse bei ({}, {}) um.</translation>
     </message>
     <message>
-        <source>digit {} touches its neighbour digit at ({}, {}) um.</source>
+        <source>digit {} touches its neighbour digit at ({}, {}) µm.</source>
         <translation>Ziffer {} berührt ihre Nachbarziffer bei ({}, {}) um.</translation>
     </message>
     <message>
@@ -3772,7 +3545,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>does not change in the setup, so no model can be found; allowed: a longer --setup, or an output that changes.</source>
-        <translation>ändert sich in der Einrichtung nicht, ein Modell ist daher nicht zu finden; zulässig: eine längere --setup oder ein Ausgang, der sich ändert.</translation>
+        <translation>ändert sich in der Anlernphase nicht, ein Modell ist daher nicht zu finden; zulässig: eine längere --setup oder ein Ausgang, der sich ändert.</translation>
     </message>
     <message>
         <source>dof {} is not allowed; allowed: 1, 2 or 3.</source>
@@ -3827,7 +3600,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>jeder Parameter einmal</translation>
     </message>
     <message>
-        <source>effect &quot;{}&quot; does nothing in this scenario, so its strength cannot be {}; give a size, or a programme and points that excite it.</source>
+        <source>effect &quot;{}&quot; does nothing in this scenario, so its strength cannot be {}; give a size, or a program and points that excite it.</source>
         <translation>Effekt „{}“ bewirkt in diesem Szenario nichts, seine Stärke kann also nicht {} sein; eine Größe angeben oder ein Programm und Punkte, die ihn anregen.</translation>
     </message>
     <message>
@@ -3839,7 +3612,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Effekt „{}“ ist keiner, den diese Maschine haben kann; zulässig: {}.</translation>
     </message>
     <message>
-        <source>effect &quot;{}&quot; needs the whole programme beforehand.</source>
+        <source>effect &quot;{}&quot; needs the whole program beforehand.</source>
         <translation>Effekt „{}“ braucht vorab das ganze Programm.</translation>
     </message>
     <message>
@@ -3987,11 +3760,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ausdruck „{}“ ist nicht lesbar ({}); zulässig: ein Ausdruck in {}.</translation>
     </message>
     <message>
-        <source>expression &quot;{}&quot; has {} values; allowed: one (a comma separates, it is no decimal point).</source>
+        <source>expression &quot;{}&quot; has {} values; allowed: one (a comma separates values, it is not a decimal point).</source>
         <translation>Ausdruck „{}“ hat {} Werte; zulässig: einer (ein Komma trennt, es ist kein Dezimalkomma).</translation>
     </message>
     <message>
-        <source>expression &quot;{}&quot; holds &quot;{}&quot; at character {}, which is no variable or function; allowed: {}.</source>
+        <source>expression &quot;{}&quot; holds &quot;{}&quot; at character {}, which is not a variable or function; allowed: {}.</source>
         <translation>Ausdruck „{}“ enthält „{}“ an Zeichen {}, das weder Variable noch Funktion ist; zulässig: {}.</translation>
     </message>
     <message>
@@ -4047,16 +3820,16 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Merkmal „{}“ ist nicht auf {}; zulässig: {}</translation>
     </message>
     <message>
-        <source>few lags</source>
-        <translation>wenige Verzögerungen</translation>
+        <source>few time constants</source>
+        <translation>wenige Zeitkonstanten</translation>
     </message>
     <message>
         <source>fewer than three marks</source>
-        <translation>weniger als drei Marken</translation>
+        <translation>weniger als drei Musterpunkte</translation>
     </message>
     <message>
         <source>fewer than three marks of the pattern could be located.</source>
-        <translation>es konnten weniger als drei Marken des Musters gefunden werden.</translation>
+        <translation>es konnten weniger als drei Musterpunkte gefunden werden.</translation>
     </message>
     <message>
         <source>field {} is a floating-point number of {} bytes; allowed: 4 or 8.</source>
@@ -4108,7 +3881,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>forward by held-out error</source>
-        <translation>vorwärts nach dem Fehler an zurückgehaltenen Daten</translation>
+        <translation>vorwärts nach dem Fehler der Validierungsdaten</translation>
     </message>
     <message>
         <source>found &apos;{}&apos; in the header; allowed: format, element, property, comment.</source>
@@ -4227,7 +4000,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Hälfte der Ellipsen liegt mehr als {:.1f} px neben ihrem Platz im Muster: es ist verbogen oder von der Seite gesehen, oder das Objektiv verzeichnet stärker als das eines Mikroskops</translation>
     </message>
     <message>
-        <source>has a power that is no number other than zero</source>
+        <source>has a power that is not a number other than zero</source>
         <translation>hat eine Potenz, die keine Zahl ungleich null ist</translation>
     </message>
     <message>
@@ -4248,7 +4021,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>has no fiducials to choose from; give a lattice instead.</source>
-        <translation>hat keine Marken zur Auswahl; stattdessen ein Raster angeben.</translation>
+        <translation>hat keine Messmarken zur Auswahl; stattdessen ein Raster angeben.</translation>
     </message>
     <message>
         <source>has no parameter &quot;{}&quot;; allowed: {}.</source>
@@ -4344,11 +4117,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>held-out error changes by {:+.0f} % without it; chosen in {:.0f} % of the resamples</source>
-        <translation>ohne ihn ändert sich der Fehler an zurückgehaltenen Daten um {:+.0f} %; in {:.0f} % der Stichproben gewählt</translation>
+        <translation>ohne ihn ändert sich der Fehler der Validierungsdaten um {:+.0f} %; in {:.0f} % der Stichproben gewählt</translation>
     </message>
     <message>
         <source>held-out error would change by {:+.0f} % with it; chosen in {:.0f} % of the resamples</source>
-        <translation>mit ihm würde sich der Fehler an zurückgehaltenen Daten um {:+.0f} % ändern; in {:.0f} % der Stichproben gewählt</translation>
+        <translation>mit ihm würde sich der Fehler der Validierungsdaten um {:+.0f} % ändern; in {:.0f} % der Stichproben gewählt</translation>
     </message>
     <message>
         <source>holds a user or a password; allowed: an address without, &quot;user&quot;, and &quot;password_env&quot; or &quot;password_file&quot;.</source>
@@ -4364,7 +4137,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>holds no batch {}.</source>
-        <translation>enthält keinen Stapel {}.</translation>
+        <translation>enthält keinen Batch-Auftrag {}.</translation>
     </message>
     <message>
         <source>holds no list of captures; allowed: fiducials.csv, touches.csv or scans.csv.</source>
@@ -4483,7 +4256,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Eingang {} ist konstant, seine Wirkung ist nicht lernbar; auslassen oder einen Bereich verwenden, in dem er sich ändert.</translation>
     </message>
     <message>
-        <source>inputs {} and {} are identical, their effects cannot be told apart; leave one of them out.</source>
+        <source>inputs {} and {} are identical, so their effects cannot be distinguished; leave one of them out.</source>
         <translation>die Eingänge {} und {} sind identisch, ihre Wirkungen nicht trennbar; einen auslassen.</translation>
     </message>
     <message>
@@ -4527,7 +4300,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ist im Trainingsbereich konstant, seine Wirkung daher nicht lernbar; auslassen oder in einem Bereich trainieren, in dem er sich ändert.</translation>
     </message>
     <message>
-        <source>is cut off inside its header: there is no end_header.</source>
+        <source>is truncated inside its header: end_header is missing.</source>
         <translation>ist im Kopf abgeschnitten: end_header fehlt.</translation>
     </message>
     <message>
@@ -4551,11 +4324,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ist leer; die erste Zeile muss x_mm, y_mm und z_mm nennen.</translation>
     </message>
     <message>
-        <source>is identical to {}, so their effects cannot be told apart; leave one of them out.</source>
+        <source>is identical to {}, so their effects cannot be distinguished; leave one of them out.</source>
         <translation>ist identisch mit {}, die Wirkungen sind nicht trennbar; einen von beiden auslassen.</translation>
     </message>
     <message>
-        <source>is measured at few rows only, and ARX and output error need a value at nearly every one; use the method response (all lags).</source>
+        <source>is measured at few rows only, and ARX and output error need a value at nearly every one; use the method response (all time constants).</source>
         <translation>ist nur in wenigen Zeilen gemessen, ARX und Ausgangsfehler brauchen fast in jeder einen Wert; das Verfahren response verwenden (alle Zeitkonstanten).</translation>
     </message>
     <message>
@@ -4583,7 +4356,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>fehlt; ohne sie sind Scans nicht auswertbar.</translation>
     </message>
     <message>
-        <source>is no PCD file or is cut off inside its header: there is no DATA line.</source>
+        <source>is not a PCD file, or is truncated inside its header: the DATA line is missing.</source>
         <translation>ist keine PCD-Datei oder im Kopf abgeschnitten: es fehlt die Zeile DATA.</translation>
     </message>
     <message>
@@ -4591,43 +4364,43 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>ist keine PLY-Datei: sie beginnt nicht mit &apos;ply&apos;.</translation>
     </message>
     <message>
-        <source>is no ball artefact; allowed here: kind &quot;balls&quot;.</source>
+        <source>is not a ball artefact; allowed here: kind &quot;balls&quot;.</source>
         <translation>ist kein Kugelnormal; hier zulässig: kind &quot;balls&quot;.</translation>
     </message>
     <message>
-        <source>is no bar of holes; allowed here: kind &quot;hole_bar&quot;.</source>
+        <source>is not a bar of holes; allowed here: kind &quot;hole_bar&quot;.</source>
         <translation>ist keine Lochleiste; hier zulässig: kind &quot;hole_bar&quot;.</translation>
     </message>
     <message>
-        <source>is no campaign: it has no campaign.json; allowed: a campaign folder with campaign.json and machine.json. For images, touches or clouds alone begin a new measurement that watches their folder.</source>
+        <source>is not a campaign: it has no campaign.json; allowed: a campaign folder with campaign.json and machine.json. For images, touches or clouds alone begin a new measurement that watches their folder.</source>
         <translation>ist keine Kampagne: campaign.json fehlt; zulässig: ein Kampagnenordner mit campaign.json und machine.json. Für Bilder, Antastungen oder Punktwolken allein eine neue Messung beginnen, die deren Ordner überwacht.</translation>
     </message>
     <message>
-        <source>is no column of log.csv</source>
+        <source>is not a column of log.csv</source>
         <translation>ist keine Spalte von log.csv</translation>
     </message>
     <message>
-        <source>is no component; allowed: EX, EY, EZ, EA, EB or EC.</source>
+        <source>is not a component; allowed: EX, EY, EZ, EA, EB or EC.</source>
         <translation>ist keine Komponente; zulässig: EX, EY, EZ, EA, EB oder EC.</translation>
     </message>
     <message>
-        <source>is no effect of the catalogue (EFFECTS.md) and none of {}</source>
+        <source>is not an effect of the catalogue (EFFECTS.md) and none of {}</source>
         <translation>ist kein Effekt des Katalogs (EFFECTS.md) und keiner von {}</translation>
     </message>
     <message>
-        <source>is no file name</source>
+        <source>is not a file name</source>
         <translation>ist kein Dateiname</translation>
     </message>
     <message>
-        <source>is no file; allowed: a file that can be appended to.</source>
+        <source>is not a file; allowed: a file that can be appended to.</source>
         <translation>ist keine Datei; zulässig: eine Datei, an die angehängt werden kann.</translation>
     </message>
     <message>
-        <source>is no folder; allowed: the folder into which the instrument writes.</source>
+        <source>is not a folder; allowed: the folder into which the instrument writes.</source>
         <translation>ist kein Ordner; zulässig: der Ordner, in den das Messgerät schreibt.</translation>
     </message>
     <message>
-        <source>is no plant store.</source>
+        <source>is not a plant store.</source>
         <translation>ist keine Werksdatenbank.</translation>
     </message>
     <message>
@@ -4656,7 +4429,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>is not on the computer {}; allowed: a folder that all computers of the batch see under the same name.</source>
-        <translation>ist auf dem Rechner {} nicht vorhanden; zulässig: ein Ordner, den alle Rechner des Stapels unter demselben Namen sehen.</translation>
+        <translation>ist auf dem Rechner {} nicht vorhanden; zulässig: ein Ordner, den alle Rechner des Batch-Auftrags unter demselben Namen sehen.</translation>
     </message>
     <message>
         <source>is not on this computer; HAL is read where the control runs (package linuxcnc-uspace)</source>
@@ -4775,8 +4548,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>sie verfehlt um {:.1f} µm, was alle anderen Antastungen sagen ({:.0f}-mal das Antastrauschen); ausgelassen</translation>
     </message>
     <message>
-        <source>it moved by {:.0f} µm since {}, more than warming does</source>
-        <translation>sie hat sich seit {1} um {0:.0f} µm verlagert, mehr als durch Erwärmung</translation>
+        <source>it moved by {:.0f} µm since {}, more than thermal drift explains</source>
+        <translation>sie hat sich seit {1} µm {0:.0f} µm verlagert, mehr als thermische Drift erklärt</translation>
     </message>
     <message>
         <source>it triggered {:.3g} mm from where {} should be touched</source>
@@ -4799,8 +4572,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>das Zentrum entlang {} ist offen</translation>
     </message>
     <message>
-        <source>its feature has no usable centre</source>
-        <translation>ihr Merkmal hat kein verwendbares Zentrum</translation>
+        <source>the centre of its feature cannot be determined</source>
+        <translation>das Zentrum seines Merkmals ist nicht bestimmbar</translation>
     </message>
     <message>
         <source>its height is {:.0f} µm off what the {} other surface touches of {} say; left out</source>
@@ -4835,7 +4608,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>sein Anteil an der Vorhersage ist {:.2g} rms; ohne ihn ändert sich der Fehler in ausgelassenen Blöcken um {:+.0f} %</translation>
     </message>
     <message>
-        <source>its part of the prediction is {:.2g} rms; without it the kept inputs leave {:.2g} % of the course of the model with all inputs, with it {:.2g} %; {}{}</source>
+        <source>its part of the prediction is {:.2g} rms; without it the kept inputs leave {:.2g} % of the time history of the model with all inputs unexplained, with it {:.2g} %; {}{}</source>
         <translation>sein Anteil an der Vorhersage ist {:.2g} rms; ohne ihn lassen die behaltenen Eingänge {:.2g} % des Verlaufs des Modells mit allen Eingängen übrig, mit ihm {:.2g} %; {}{}</translation>
     </message>
     <message>
@@ -5159,8 +4932,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>benachbarte Kreise berühren sich.</translation>
     </message>
     <message>
-        <source>neighbouring ellipses touch: semi-axis plus half the line is {} um, half the pitch {} um.</source>
-        <translation>benachbarte Ellipsen berühren sich: Halbachse plus halbe Linie ist {} um, halbes Raster {} um.</translation>
+        <source>neighbouring ellipses touch: semi-axis plus half the line is {} µm, half the pitch {} µm.</source>
+        <translation>benachbarte Ellipsen berühren sich: Halbachse plus halbe Linie ist {} µm, halbes Raster {} µm.</translation>
     </message>
     <message>
         <source>neither accepts nor refuses &quot;set {}&quot;</source>
@@ -5227,8 +5000,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>keine Verschiebung des Zustands {} ist anpassbar; zulässig: Zeilen EX, EY oder EZ mit use = fit{}.</translation>
     </message>
     <message>
-        <source>no displacement was given; allowed: at least one column in um or urad.</source>
-        <translation>es wurde keine Verschiebung angegeben; zulässig: mindestens eine Spalte in um oder urad.</translation>
+        <source>no displacement was given; allowed: at least one column whose name ends in _um or _urad.</source>
+        <translation>es wurde keine Verschiebung angegeben; zulässig: mindestens eine Spalte, deren Name auf _um oder _urad endet.</translation>
     </message>
     <message>
         <source>no effect of the model can be fitted to these observations; choose others.</source>
@@ -5252,11 +5025,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>no fiducial could be evaluated.</source>
-        <translation>es konnte keine Marke ausgewertet werden.</translation>
+        <translation>es konnte keine Messmarke ausgewertet werden.</translation>
     </message>
     <message>
         <source>no fiducial has a {} in {}: its change is relative to {}.</source>
-        <translation>keine Marke hat {} in {}: die Änderung bezieht sich auf {}.</translation>
+        <translation>keine Messmarke hat {} in {}: die Änderung bezieht sich auf {}.</translation>
     </message>
     <message>
         <source>no images along X or Y could be used: displacements in the plane cannot be turned into the machine&apos;s axes and are left out.</source>
@@ -5279,7 +5052,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>kein Intervall bekannt</translation>
     </message>
     <message>
-        <source>no line matches the pattern &quot;{}&quot;; allowed: text printed by the measuring programme, or another template.</source>
+        <source>no line matches the pattern &quot;{}&quot;; allowed: text printed by the measuring program, or another template.</source>
         <translation>keine Zeile entspricht dem Muster „{}“; zulässig: vom Messprogramm gedruckter Text oder eine andere Vorlage.</translation>
     </message>
     <message>
@@ -5304,7 +5077,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>no point was held out, and none can be left out: how the correction does elsewhere is not known</source>
-        <translation>kein Punkt wurde zurückgehalten, und keiner kann ausgelassen werden: wie die Korrektur anderswo wirkt, ist nicht bekannt</translation>
+        <translation>es gibt keine Validierungspunkte, und keiner kann ausgelassen werden: wie die Korrektur anderswo wirkt, ist nicht bekannt</translation>
     </message>
     <message>
         <source>no point was measured in more than one state.</source>
@@ -5464,7 +5237,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>nothing of this state was held out: how the correction does elsewhere is not known</source>
-        <translation>nichts von diesem Zustand wurde zurückgehalten: wie die Korrektur anderswo wirkt, ist nicht bekannt</translation>
+        <translation>von diesem Zustand gibt es keine Validierungsdaten: wie die Korrektur anderswo wirkt, ist nicht bekannt</translation>
     </message>
     <message>
         <source>nothing was measured along {}: no component error of that axis is stated, and there is no screw compensation for it.</source>
@@ -5496,11 +5269,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>on the held-out states</source>
-        <translation>an den zurückgehaltenen Zuständen</translation>
+        <translation>an den Validierungsdaten</translation>
     </message>
     <message>
         <source>on-machine measurements after the setup</source>
-        <translation>Messungen auf der Maschine nach der Einrichtung</translation>
+        <translation>Messungen auf der Maschine nach der Anlernphase</translation>
     </message>
     <message>
         <source>one centre for all</source>
@@ -5508,7 +5281,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>one centre per fiducial and state</source>
-        <translation>ein Zentrum je Marke und Zustand</translation>
+        <translation>ein Zentrum je Messmarke und Zustand</translation>
     </message>
     <message>
         <source>one centre per state</source>
@@ -5603,7 +5376,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Stelle ({}, {}, {}) mm</translation>
     </message>
     <message>
-        <source>place &quot;{}&quot; is no body of the virtual machine; allowed: room, coolant, front bearing, rear bearing, shaft, spindle housing, head top, head bottom, column front, column rear, column left, column right, table, screw x, nut x, screw bearing x, scale x (or y, z), crossbeam top, crossbeam bottom, pedestal, bed, rotary drive, artefact, each row also with @0 ... @1.</source>
+        <source>place &quot;{}&quot; is not a body of the virtual machine; allowed: room, coolant, front bearing, rear bearing, shaft, spindle housing, head top, head bottom, column front, column rear, column left, column right, table, screw x, nut x, screw bearing x, scale x (or y, z), crossbeam top, crossbeam bottom, pedestal, bed, rotary drive, artefact, each row also with @0 ... @1.</source>
         <translation>Ort „{}“ ist kein Körper der virtuellen Maschine; zulässig: room, coolant, front bearing, rear bearing, shaft, spindle housing, head top, head bottom, column front, column rear, column left, column right, table, screw x, nut x, screw bearing x, scale x (oder y, z), crossbeam top, crossbeam bottom, pedestal, bed, rotary drive, artefact, jede Reihe auch mit @0 ... @1.</translation>
     </message>
     <message>
@@ -5620,7 +5393,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>plan of the batch</source>
-        <translation>Plan des Stapels</translation>
+        <translation>Plan des Batch-Auftrags</translation>
     </message>
     <message>
         <source>point &quot;{}&quot; is not there; allowed: {}.</source>
@@ -5671,7 +5444,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>das Antasten einer Lochleiste braucht eine Maschine mit Drehachse (rotary).</translation>
     </message>
     <message>
-        <source>programmes need a table that turns about Z.</source>
+        <source>programs need a table that rotates about Z.</source>
         <translation>Programme brauchen einen Tisch, der um Z dreht.</translation>
     </message>
     <message>
@@ -5740,7 +5513,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>reduction of the rms (positive: smaller) against measurements spent after the setup (0: static)</source>
-        <translation>Minderung des rms (positiv: kleiner) gegen verbrauchte Messungen nach der Einrichtung (0: statisch)</translation>
+        <translation>Minderung des rms (positiv: kleiner) gegen verbrauchte Messungen nach der Anlernphase (0: statisch)</translation>
     </message>
     <message>
         <source>reference cycle: zero by definition</source>
@@ -5784,14 +5557,14 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>resuming a batch</source>
-        <translation>Stapel wird fortgesetzt</translation>
+        <translation>Batch-Auftrag wird fortgesetzt</translation>
     </message>
     <message>
         <source>retract_mm must not be smaller than clearance_mm.</source>
         <translation>retract_mm darf nicht kleiner als clearance_mm sein.</translation>
     </message>
     <message>
-        <source>ridge over lagged inputs, forward selection</source>
+        <source>ridge regression on delayed inputs, forward selection</source>
         <translation>Ridge-Regression über verzögerte Eingänge, Vorwärtsauswahl</translation>
     </message>
     <message>
@@ -5801,10 +5574,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>rms (reduction)</source>
         <translation>rms (Minderung)</translation>
-    </message>
-    <message>
-        <source>rms {:.3f} before, {:.3f} after ({:.0f} % {}) on rows that trained nothing,</source>
-        <translation>rms {:.3f} vorher, {:.3f} nachher ({:.0f} % {}) an Zeilen, die nichts trainierten,</translation>
     </message>
     <message>
         <source>role &quot;{}&quot; is not known; allowed: rotation, x_axis, y_axis or focus.</source>
@@ -6003,12 +5772,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>sslmode=verify-full</translation>
     </message>
     <message>
-        <source>stands after the end of the programme</source>
+        <source>stands after the end of the program</source>
         <translation>steht nach dem Ende des Programms</translation>
     </message>
     <message>
         <source>starting a batch</source>
-        <translation>Stapel wird gestartet</translation>
+        <translation>Batch-Auftrag wird gestartet</translation>
     </message>
     <message>
         <source>state &quot;{}&quot; is not there; allowed: {}.</source>
@@ -6032,7 +5801,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>state {} has {} deviations for {} fiducials; one for each is needed.</source>
-        <translation>Zustand {} hat {} Abweichungen für {} Marken; für jede ist eine nötig.</translation>
+        <translation>Zustand {} hat {} Abweichungen für {} Messmarken; für jede ist eine nötig.</translation>
     </message>
     <message>
         <source>states WIDTH {} times HEIGHT {} but POINTS {}.</source>
@@ -6083,16 +5852,16 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Tastereinsatz „{}“ steht nicht in der Maschinendatei.</translation>
     </message>
     <message>
-        <source>stylus {} is in order</source>
-        <translation>Tastereinsatz {} ist in Ordnung</translation>
+        <source>stylus {} is within specification</source>
+        <translation>Tastereinsatz {} liegt innerhalb der Spezifikation</translation>
     </message>
     <message>
-        <source>stylus {} is loose or bent: it jumped by {:.1f} µm {} after {}, which no smooth warming does</source>
-        <translation>Tastereinsatz {} ist locker oder verbogen: er sprang um {:.1f} µm {} nach {}, was keine stetige Erwärmung tut</translation>
+        <source>stylus {} is loose or bent: it jumped by {:.1f} µm {} after {}, unlike thermal drift</source>
+        <translation>Tastereinsatz {} ist locker oder verbogen: er sprang um {:.1f} µm {} nach {}, anders als bei thermischer Drift</translation>
     </message>
     <message>
-        <source>stylus {} is loose or bent: the sphere&apos;s centre scatters by {:.1f} µm from pass to pass, not as warming does</source>
-        <translation>Tastereinsatz {} ist locker oder verbogen: das Kugelzentrum streut von Durchgang zu Durchgang um {:.1f} µm, nicht wie bei Erwärmung</translation>
+        <source>stylus {} is loose or bent: the sphere&apos;s centre scatters by {:.1f} µm from pass to pass, unlike thermal drift</source>
+        <translation>Tastereinsatz {} ist locker oder verbogen: das Kugelzentrum streut von Durchgang zu Durchgang um {:.1f} µm, anders als bei thermischer Drift</translation>
     </message>
     <message>
         <source>stylus {} is loose or bent: touches scatter by {:.1f} µm {}</source>
@@ -6107,8 +5876,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Tastereinsatz {} wiederholt sich nur auf {:.2f} µm; ein intakter Messtaster hält {:.2f} µm</translation>
     </message>
     <message>
-        <source>stylus {} sees the sphere move by {:.1f} µm; {} passes cannot tell a loose stylus from warming: touch the sphere in more passes (five or more), or several times in one</source>
-        <translation>Tastereinsatz {} sieht die Kugel um {:.1f} µm wandern; {} Durchgänge können einen lockeren Tastereinsatz nicht von Erwärmung unterscheiden: die Kugel in mehr Durchgängen antasten (fünf oder mehr) oder mehrmals in einem</translation>
+        <source>stylus {} sees the sphere move by {:.1f} µm; {} passes do not distinguish a loose stylus from thermal drift: touch the sphere in more passes (five or more), or several times in one</source>
+        <translation>Tastereinsatz {} sieht die Kugel um {:.1f} µm wandern; {} Durchgänge unterscheiden einen lockeren Tastereinsatz nicht von thermischer Drift: die Kugel in mehr Durchgängen antasten (fünf oder mehr) oder mehrmals in einem</translation>
     </message>
     <message>
         <source>sum of the effects {}</source>
@@ -6160,7 +5929,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the axis test needs --observations with the readings at both ends.</source>
-        <translation>die Achsprüfung braucht --observations mit den Ablesungen an beiden Enden.</translation>
+        <translation>die Achsprüfung braucht --observations mit den Messwerten an beiden Enden.</translation>
     </message>
     <message>
         <source>the bed b appears twice</source>
@@ -6171,7 +5940,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>das Bett b fehlt</translation>
     </message>
     <message>
-        <source>the byte 0x{:02X} is no UTF-8 (Latin-1, perhaps); allowed: CSV in UTF-8.</source>
+        <source>the byte 0x{:02X} is not UTF-8 (Latin-1, perhaps); allowed: CSV in UTF-8.</source>
         <translation>das Byte 0x{:02X} ist kein UTF-8 (vielleicht Latin-1); zulässig: CSV in UTF-8.</translation>
     </message>
     <message>
@@ -6235,8 +6004,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Kühlschmierstoff allein</translation>
     </message>
     <message>
-        <source>the courses differ: a line leaves {:.3g} rms</source>
-        <translation>die Verläufe unterscheiden sich: eine Gerade lässt {:.3g} rms übrig</translation>
+        <source>the time histories differ: {:.3g} rms about a straight line</source>
+        <translation>die Zeitverläufe unterscheiden sich: {:.3g} rms um eine Gerade</translation>
     </message>
     <message>
         <source>the covariance of the observations is not positive definite</source>
@@ -6251,12 +6020,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>der Zyklus würde {} auf {:.3f} mm fahren ({}Tastereinsatz {} bei {} deg); zulässig: {} bis {} mm.</translation>
     </message>
     <message>
-        <source>the deviations move {:.0f} times as much as the simulation predicts, in the same way: one of them is not in um (the simulation in mm, or the observations in nm); allowed: um and urad.</source>
-        <translation>die Abweichungen ändern sich {:.0f}-mal so stark, wie die Simulation vorhersagt, im selben Verlauf: eine von beiden ist nicht in um (die Simulation in mm oder die Beobachtungen in nm); zulässig: um und urad.</translation>
+        <source>the deviations are {:.0f} times as large as the simulation predicts, with the same time history: one of them is not in µm (the simulation in mm, or the observations in nm); allowed: µm and µrad.</source>
+        <translation>die Abweichungen sind {:.0f}-mal so groß, wie die Simulation vorhersagt, bei gleichem Zeitverlauf: eine von beiden ist nicht in µm (die Simulation in mm oder die Beobachtungen in nm); zulässig: µm und µrad.</translation>
     </message>
     <message>
-        <source>the deviations move {:.0f} times less than the simulation predicts, in the same way: one of them is not in um (the observations in mm, or the simulation in nm); allowed: um and urad.</source>
-        <translation>die Abweichungen ändern sich {:.0f}-mal schwächer, als die Simulation vorhersagt, im selben Verlauf: eine von beiden ist nicht in um (die Beobachtungen in mm oder die Simulation in nm); zulässig: um und urad.</translation>
+        <source>the deviations are {:.0f} times smaller than the simulation predicts, with the same time history: one of them is not in µm (the observations in mm, or the simulation in nm); allowed: µm and µrad.</source>
+        <translation>die Abweichungen sind {:.0f}-mal kleiner, als die Simulation vorhersagt, bei gleichem Zeitverlauf: eine von beiden ist nicht in µm (die Beobachtungen in mm oder die Simulation in nm); zulässig: µm und µrad.</translation>
     </message>
     <message>
         <source>the direction of approach is missing or zero; allowed: a unit vector in {nx}, {ny}, {nz}.</source>
@@ -6264,7 +6033,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the direction of the camera differs between fiducials or states ({}): each fiducial is turned by its own axis images.</source>
-        <translation>die Richtung der Kamera unterscheidet sich zwischen Marken oder Zuständen ({}): jede Marke wird mit ihren eigenen Achsbildern gedreht.</translation>
+        <translation>die Richtung der Kamera unterscheidet sich zwischen Messmarken oder Zuständen ({}): jede Messmarke wird mit ihren eigenen Achsbildern gedreht.</translation>
     </message>
     <message>
         <source>the duration is not above zero.</source>
@@ -6295,8 +6064,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>das erwartete Rauschen eines Kontrasts muss größer als null und sein Gewicht nicht negativ sein.</translation>
     </message>
     <message>
-        <source>the expected repeatability of the spindle must be greater than 0 um and its weight not negative.</source>
-        <translation>die erwartete Wiederholpräzision der Spindel muss größer als 0 um und ihr Gewicht nicht negativ sein.</translation>
+        <source>the expected repeatability of the spindle must be greater than 0 µm and its weight not negative.</source>
+        <translation>die erwartete Wiederholpräzision der Spindel muss größer als 0 µm und ihr Gewicht nicht negativ sein.</translation>
     </message>
     <message>
         <source>the field is empty; allowed: a name.</source>
@@ -6348,7 +6117,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the id of a fiducial of the machine</source>
-        <translation>die Kennung einer Marke der Maschine</translation>
+        <translation>die Kennung einer Messmarke der Maschine</translation>
     </message>
     <message>
         <source>the id of a point of the machine</source>
@@ -6411,8 +6180,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Eingänge des Modells sind {:.0f} s alt; zulässig: {:.0f} s</translation>
     </message>
     <message>
-        <source>the inputs that all outputs share tell what it tells: they leave {:.2g} % of the course of the models with all inputs, with it {:.2g} %; {}</source>
-        <translation>die gemeinsamen Eingänge aller Ausgänge sagen dasselbe: sie lassen {:.2g} % des Verlaufs der Modelle mit allen Eingängen übrig, mit ihm {:.2g} %; {}</translation>
+        <source>redundant: the inputs kept for all outputs carry the same information; they leave {:.2g} % of the time history of the models with all inputs unexplained, with it {:.2g} %; {}</source>
+        <translation>redundant: die für alle Ausgänge behaltenen Eingänge tragen dieselbe Information; sie lassen {:.2g} % des Zeitverlaufs der Modelle mit allen Eingängen unerklärt, mit ihm {:.2g} %; {}</translation>
     </message>
     <message>
         <source>the interval between thermal states must be positive (s).</source>
@@ -6427,28 +6196,28 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Iteration konvergierte nicht</translation>
     </message>
     <message>
-        <source>the iteration did not settle; use fewer lags or a longer range.</source>
-        <translation>die Iteration konvergierte nicht; weniger Verzögerungen oder einen längeren Bereich verwenden.</translation>
+        <source>the iteration did not converge; use fewer time constants or a longer range.</source>
+        <translation>die Iteration konvergierte nicht; weniger Zeitkonstanten oder einen längeren Bereich verwenden.</translation>
     </message>
     <message>
-        <source>the kept inputs tell what it tells: they leave {:.2g} % of the course of the model with all inputs, with it {:.2g} %; {}</source>
-        <translation>die behaltenen Eingänge sagen dasselbe: sie lassen {:.2g} % des Verlaufs des Modells mit allen Eingängen übrig, mit ihm {:.2g} %; {}</translation>
+        <source>redundant: the kept inputs carry the same information; they leave {:.2g} % of the time history of the model with all inputs unexplained, with it {:.2g} %; {}</source>
+        <translation>redundant: die behaltenen Eingänge tragen dieselbe Information; sie lassen {:.2g} % des Zeitverlaufs des Modells mit allen Eingängen unerklärt, mit ihm {:.2g} %; {}</translation>
     </message>
     <message>
-        <source>the largest change since the first cycle must be positive (um).</source>
-        <translation>die größte Änderung seit dem ersten Zyklus muss positiv sein (um).</translation>
+        <source>the largest change since the first cycle must be positive (µm).</source>
+        <translation>die größte Änderung seit dem ersten Zyklus muss positiv sein (µm).</translation>
     </message>
     <message>
         <source>the largest distance from the nominal place must be positive (mm).</source>
         <translation>der größte Abstand von der Solllage muss positiv sein (mm).</translation>
     </message>
     <message>
-        <source>the largest distance from the plane of the surface must be positive (um).</source>
-        <translation>der größte Abstand von der Ebene der Fläche muss positiv sein (um).</translation>
+        <source>the largest distance from the plane of the surface must be positive (µm).</source>
+        <translation>der größte Abstand von der Ebene der Fläche muss positiv sein (µm).</translation>
     </message>
     <message>
-        <source>the largest spread within a feature must be positive (um).</source>
-        <translation>die größte Streuung innerhalb eines Merkmals muss positiv sein (um).</translation>
+        <source>the largest spread within a feature must be positive (µm).</source>
+        <translation>die größte Streuung innerhalb eines Merkmals muss positiv sein (µm).</translation>
     </message>
     <message>
         <source>the limit of {} is below three measuring uncertainties ({:.3g}): noise alone will exceed it.</source>
@@ -6508,31 +6277,31 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the marks do not fix the place of the image: {}.</source>
-        <translation>die Marken legen die Lage des Bildes nicht fest: {}.</translation>
+        <translation>die Musterpunkte legen die Lage des Bildes nicht fest: {}.</translation>
     </message>
     <message>
-        <source>the model gives no number</source>
+        <source>the model gives a value that is not a number</source>
         <translation>das Modell liefert keine Zahl</translation>
     </message>
     <message>
-        <source>the model has a double pole, so it has no equivalent in separate lags.</source>
-        <translation>das Modell hat einen doppelten Pol und daher keine Entsprechung in getrennten Verzögerungen.</translation>
+        <source>the model has a double pole, so it has no equivalent in separate time constants.</source>
+        <translation>das Modell hat einen doppelten Pol und daher keine Entsprechung in getrennten Zeitkonstanten.</translation>
     </message>
     <message>
-        <source>the model has a pole that is not real and between 0 and 1, so it has no equivalent in lags; use the response or output-error method for a compensator.</source>
-        <translation>das Modell hat einen Pol, der nicht reell zwischen 0 und 1 liegt, und daher keine Entsprechung in Verzögerungen; für einen Kompensator das Verfahren response oder Ausgangsfehler verwenden.</translation>
+        <source>the model has a pole that is not real and between 0 and 1, so it has no equivalent in first-order time constants; use the response or output-error method for a compensator.</source>
+        <translation>das Modell hat einen Pol, der nicht reell zwischen 0 und 1 liegt, und daher keine Entsprechung in Zeitkonstanten erster Ordnung; für einen Kompensator das Verfahren response oder Ausgangsfehler verwenden.</translation>
     </message>
     <message>
-        <source>the model has no lags (an ARX model with complex poles); identify with --method response or oe.</source>
-        <translation>das Modell hat keine Verzögerungen (ein ARX-Modell mit komplexen Polen); mit --method response oder oe identifizieren.</translation>
+        <source>the model has no time constants (an ARX model with complex poles); identify with --method response or oe.</source>
+        <translation>das Modell hat keine Zeitkonstanten (ein ARX-Modell mit komplexen Polen); mit --method response oder oe identifizieren.</translation>
     </message>
     <message>
         <source>the model has no output {}; found: {}.</source>
         <translation>das Modell hat keinen Ausgang {}; gefunden: {}.</translation>
     </message>
     <message>
-        <source>the model of {} is not written: it has no equivalent in lags (complex, negative or double poles), and a constant in its place would be run; use the method response or oe, or let the method be chosen.</source>
-        <translation>das Modell von {} wird nicht geschrieben: es hat keine Entsprechung in Verzögerungen (komplexe, negative oder doppelte Pole), und an seiner Stelle liefe eine Konstante; das Verfahren response oder oe verwenden oder das Verfahren wählen lassen.</translation>
+        <source>the model of {} is not written: it has no equivalent in first-order time constants (complex, negative or double poles), and a constant in its place would be run; use the method response or oe, or let the method be chosen.</source>
+        <translation>das Modell von {} wird nicht geschrieben: es hat keine Entsprechung in Zeitkonstanten erster Ordnung (komplexe, negative oder doppelte Pole), und an seiner Stelle liefe eine Konstante; das Verfahren response oder oe verwenden oder das Verfahren wählen lassen.</translation>
     </message>
     <message>
         <source>the model of {} was called not good enough when it was identified ({}); do not use this compensation on a machine.</source>
@@ -6611,12 +6380,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>das Muster ist von der Seite gesehen: die Hälfte seiner Ellipsen liegt mehr als {:.1f} px neben der Lage bei senkrechter Sicht; Längen wären falsch</translation>
     </message>
     <message>
-        <source>the pixel length must be greater than zero (um).</source>
-        <translation>die Pixelgröße muss größer als null sein (um).</translation>
+        <source>the pixel length must be greater than zero (µm).</source>
+        <translation>die Pixelgröße muss größer als null sein (µm).</translation>
     </message>
     <message>
-        <source>the pixel length of the virtual microscope must be greater than zero (um).</source>
-        <translation>die Pixelgröße des virtuellen Mikroskops muss größer als null sein (um).</translation>
+        <source>the pixel length of the virtual microscope must be greater than zero (µm).</source>
+        <translation>die Pixelgröße des virtuellen Mikroskops muss größer als null sein (µm).</translation>
     </message>
     <message>
         <source>the plan of the session</source>
@@ -6651,7 +6420,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Werksdatenbank enthält einen Wert anderer Art als seine Spalte.</translation>
     </message>
     <message>
-        <source>the plant store holds a value that is no JSON.</source>
+        <source>the plant store holds a value that is not JSON.</source>
         <translation>die Werksdatenbank enthält einen Wert, der kein JSON ist.</translation>
     </message>
     <message>
@@ -6659,7 +6428,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die angepassten Punkte und Komponenten bestimmen {} nicht; die anderen Parameter gelten</translation>
     </message>
     <message>
-        <source>the points are in no order: profiles cannot be told apart</source>
+        <source>the points are not ordered: profiles cannot be distinguished</source>
         <translation>die Punkte sind ungeordnet: Profile sind nicht unterscheidbar</translation>
     </message>
     <message>
@@ -6691,31 +6460,31 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die gedruckten Stellen bestimmen die Verstärkung nicht: die Summe des Nenners ist {:.2g}, eine halbe Einheit seiner letzten Stellen {:.2g}; Verstärkungen von {:.3g} bis {:.3g} runden auf denselben Druck. Mit einer zu den Zeitkonstanten passenden Periode identifizieren und alle Stellen behalten.</translation>
     </message>
     <message>
-        <source>the programme ends with the probe not above the artefact</source>
+        <source>the program ends with the probe not above the artefact</source>
         <translation>das Programm endet mit dem Messtaster nicht über dem Prüfkörper</translation>
     </message>
     <message>
-        <source>the programme has no end (M2 or M30)</source>
+        <source>the program has no end (M2 or M30)</source>
         <translation>das Programm hat kein Ende (M2 oder M30)</translation>
     </message>
     <message>
-        <source>the programme has no end (M30 or M2)</source>
+        <source>the program has no end (M30 or M2)</source>
         <translation>das Programm hat kein Ende (M30 oder M2)</translation>
     </message>
     <message>
-        <source>the programme of the log again</source>
+        <source>the program of the log again</source>
         <translation>das Programm des Protokolls erneut</translation>
     </message>
     <message>
-        <source>the programme runs into its own alarm; allowed: M30 before it</source>
+        <source>the program runs into its own alarm; allowed: M30 before it</source>
         <translation>das Programm läuft in seinen eigenen Alarm; zulässig: M30 davor</translation>
     </message>
     <message>
-        <source>the programme touches nothing</source>
+        <source>the program touches nothing</source>
         <translation>das Programm tastet nichts an</translation>
     </message>
     <message>
-        <source>the programme was ended at the control</source>
+        <source>the program was ended at the control</source>
         <translation>das Programm wurde an der Steuerung beendet</translation>
     </message>
     <message>
@@ -6724,7 +6493,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the record ends before the setup of {:.6g} s is over; allowed: a longer record or a shorter setup.</source>
-        <translation>die Aufzeichnung endet, bevor die Einrichtung von {:.6g} s vorüber ist; zulässig: eine längere Aufzeichnung oder eine kürzere Einrichtung.</translation>
+        <translation>die Aufzeichnung endet, bevor die Anlernphase von {:.6g} s vorüber ist; zulässig: eine längere Aufzeichnung oder eine kürzere Anlernphase.</translation>
     </message>
     <message>
         <source>the reference does not move: the gain cannot be compared</source>
@@ -6767,7 +6536,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Datenbank der Sitzung lässt sich nicht verwenden: {}.</translation>
     </message>
     <message>
-        <source>the session&apos;s database holds a key that is no number.</source>
+        <source>the session&apos;s database holds a key that is not a number.</source>
         <translation>die Datenbank der Sitzung enthält einen Schlüssel, der keine Zahl ist.</translation>
     </message>
     <message>
@@ -6779,7 +6548,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Datenbank der Sitzung enthält einen Wert anderer Art als seine Spalte.</translation>
     </message>
     <message>
-        <source>the session&apos;s database holds {} that is no JSON.</source>
+        <source>the session&apos;s database holds {} that is not JSON.</source>
         <translation>die Datenbank der Sitzung enthält {}, das kein JSON ist.</translation>
     </message>
     <message>
@@ -6796,7 +6565,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>the setup holds fewer than 20 measurements; allowed: a longer setup or a shorter interval.</source>
-        <translation>die Einrichtung enthält weniger als 20 Messungen; zulässig: eine längere Einrichtung oder ein kürzeres Intervall.</translation>
+        <translation>die Anlernphase enthält weniger als 20 Messungen; zulässig: eine längere Anlernphase oder ein kürzeres Intervall.</translation>
     </message>
     <message>
         <source>the simulation gives no value for {} observations that it predicts with its own parameters.</source>
@@ -6915,8 +6684,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Prüfung braucht ein Protokoll mit Verschiebungen über der Zeit.</translation>
     </message>
     <message>
-        <source>the time constants {:.4g} s and {:.4g} s of input {} may be one and the same: their gains say little, only the whole response counts; use one lag fewer or a longer range.</source>
-        <translation>die Zeitkonstanten {:.4g} s und {:.4g} s des Eingangs {} sind möglicherweise ein und dieselbe: ihre Verstärkungen sagen wenig, nur die gesamte Antwort zählt; eine Verzögerung weniger oder einen längeren Bereich verwenden.</translation>
+        <source>the time constants {:.4g} s and {:.4g} s of input {} may be identical: their separate gains are not determined, only the whole response is; use one time constant fewer or a longer range.</source>
+        <translation>die Zeitkonstanten {:.4g} s und {:.4g} s des Eingangs {} sind möglicherweise gleich: ihre einzelnen Verstärkungen sind nicht bestimmt, nur die gesamte Antwort; eine Zeitkonstante weniger oder einen längeren Bereich verwenden.</translation>
     </message>
     <message>
         <source>the time offset of {} has no number offset_s.</source>
@@ -6959,8 +6728,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>der Trainingsbereich enthält {} Abtastwerte des Ausgangs bei einer Periode von {:.6g} s; zulässig: mindestens {} (ein längerer Trainingsbereich oder eine kürzere --period).</translation>
     </message>
     <message>
-        <source>the uncertainties of a measured position must be greater than zero um.</source>
-        <translation>die Unsicherheiten einer gemessenen Position müssen größer als null um sein.</translation>
+        <source>the uncertainties of a measured position must be greater than 0 µm.</source>
+        <translation>die Unsicherheiten einer gemessenen Position müssen größer als 0 µm sein.</translation>
     </message>
     <message>
         <source>the version of the program</source>
@@ -7023,12 +6792,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>es gibt keine Achse {}; die Steuerung treibt X, Y und Z.</translation>
     </message>
     <message>
-        <source>there is no programme; allowed: at least one speed.</source>
+        <source>there is no program; allowed: at least one speed.</source>
         <translation>es gibt kein Programm; zulässig: mindestens eine Drehzahl.</translation>
     </message>
     <message>
         <source>there is no reading of E{}; allowed: readings of the axis at two positions.</source>
-        <translation>es gibt keine Ablesung von E{}; zulässig: Ablesungen der Achse an zwei Positionen.</translation>
+        <translation>es gibt keinen Messwert von E{}; zulässig: Messwerte der Achse an zwei Positionen.</translation>
     </message>
     <message>
         <source>there is no retract after a touch</source>
@@ -7115,8 +6884,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zeit, um die {} nacheilt</translation>
     </message>
     <message>
-        <source>time constants or inputs cannot be told apart with these data; use fewer lags or inputs.</source>
-        <translation>Zeitkonstanten oder Eingänge sind mit diesen Daten nicht trennbar; weniger Verzögerungen oder Eingänge verwenden.</translation>
+        <source>time constants or inputs cannot be distinguished with these data; use fewer time constants or inputs.</source>
+        <translation>Zeitkonstanten oder Eingänge sind mit diesen Daten nicht trennbar; weniger Zeitkonstanten oder Eingänge verwenden.</translation>
     </message>
     <message>
         <source>time of artefact {} runs backwards from {} s to {} s; allowed: touches of an artefact in order of time.</source>
@@ -7124,7 +6893,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>time of fiducial {} runs backwards from {} s to {} s; allowed: rows of a fiducial in order of time.</source>
-        <translation>die Zeit der Marke {} läuft von {} s auf {} s zurück; zulässig: Zeilen einer Marke in zeitlicher Reihenfolge.</translation>
+        <translation>die Zeit der Messmarke {} läuft von {} s auf {} s zurück; zulässig: Zeilen einer Messmarke in zeitlicher Reihenfolge.</translation>
     </message>
     <message>
         <source>time of point {} runs backwards from {} s to {} s; allowed: rows of a point in order of time.</source>
@@ -7203,7 +6972,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Antastung {} {} läuft nicht entlang ihrer Achse.</translation>
     </message>
     <message>
-        <source>train and test overlap: the test figures are no evidence for new data.</source>
+        <source>train and test overlap: the test figures are not evidence for new data.</source>
         <translation>Trainings- und Prüfbereich überlappen: die Prüfzahlen sind kein Beleg für neue Daten.</translation>
     </message>
     <message>
@@ -7215,7 +6984,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>true oder false</translation>
     </message>
     <message>
-        <source>turn about {} through ({:.1f}, {:.1f}, {:.1f}) mm</source>
+        <source>rotation about {} through ({:.1f}, {:.1f}, {:.1f}) mm</source>
         <translation>Drehung um {} durch ({:.1f}, {:.1f}, {:.1f}) mm</translation>
     </message>
     <message>
@@ -7312,7 +7081,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>virtual fiducials</source>
-        <translation>virtuelle Marken</translation>
+        <translation>virtuelle Messmarken</translation>
     </message>
     <message>
         <source>virtual three-axis gantry</source>
@@ -7391,12 +7160,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>was {} erklären würde, aber nicht benannt werden kann{}</translation>
     </message>
     <message>
-        <source>when nobody writes any more the control holds the compensation</source>
-        <translation>wenn niemand mehr schreibt, hält die Steuerung die Kompensation</translation>
+        <source>if updates stop, the control holds the compensation</source>
+        <translation>wenn keine Aktualisierungen mehr kommen, hält die Steuerung die Kompensation</translation>
     </message>
     <message>
-        <source>when nobody writes any more the control lets the compensation fade</source>
-        <translation>wenn niemand mehr schreibt, lässt die Steuerung die Kompensation abklingen</translation>
+        <source>if updates stop, the control lets the compensation fade</source>
+        <translation>wenn keine Aktualisierungen mehr kommen, lässt die Steuerung die Kompensation abklingen</translation>
     </message>
     <message>
         <source>with</source>
@@ -7408,7 +7177,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>with it the held-out states are predicted worse ({:.2f} µm rms, without it {:.2f})</source>
-        <translation>mit ihm werden die zurückgehaltenen Zustände schlechter vorhergesagt ({:.2f} µm rms, ohne ihn {:.2f})</translation>
+        <translation>mit ihm werden die Validierungsdaten schlechter vorhergesagt ({:.2f} µm rms, ohne ihn {:.2f})</translation>
     </message>
     <message>
         <source>with updates</source>
@@ -7436,7 +7205,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>working on a batch</source>
-        <translation>Stapel wird bearbeitet</translation>
+        <translation>Batch-Auftrag wird bearbeitet</translation>
     </message>
     <message>
         <source>writing the tables</source>
@@ -7447,12 +7216,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>null oder eine größere Zahl, in</translation>
     </message>
     <message>
-        <source>{:.0f} % of the pixels are overexposed: take less light.</source>
-        <translation>{:.0f} % der Pixel sind überbelichtet: weniger Licht verwenden.</translation>
+        <source>{:.0f} % of the pixels are overexposed: reduce the illumination.</source>
+        <translation>{:.0f} % der Pixel sind überbelichtet: Beleuchtung verringern.</translation>
     </message>
     <message>
-        <source>{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the rest: too many to be weighted away; look at how they were taken before you rely on a name.</source>
-        <translation>{:.0f} % der Ablesungen von {} liegen mehr als {:.0f}-mal so weit entfernt wie die übrigen: zu viele, um sie geringer zu gewichten; ihre Entstehung prüfen, bevor man sich auf eine Benennung verlässt.</translation>
+        <source>{:.0f} % of the readings of {} lie more than {:.0f} times as far off as the others: too many to be down-weighted; check how they were taken before you rely on a named effect.</source>
+        <translation>{:.0f} % der Messwerte von {} liegen mehr als {:.0f}-mal so weit entfernt wie die übrigen: zu viele, um sie geringer zu gewichten; ihre Entstehung prüfen, bevor man sich auf einen benannten Effekt verlässt.</translation>
     </message>
     <message>
         <source>{:.0f} % of the surface does not agree with the reference (something lay in the way?) and was left out.</source>
@@ -7491,11 +7260,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{:g} bis {:g}</translation>
     </message>
     <message>
-        <source>{{{{{}}}}} is no expression; allowed: one value from {} with the functions of muParser.</source>
+        <source>{{{{{}}}}} is not an expression; allowed: one value from {} with the functions of muParser.</source>
         <translation>{{{{{}}}}} ist kein Ausdruck; zulässig: ein Wert aus {} mit den Funktionen von muParser.</translation>
     </message>
     <message>
-        <source>{{{{{}}}}} names &quot;{}&quot;, which is no parameter of simulator.json; allowed: {}.</source>
+        <source>{{{{{}}}}} names &quot;{}&quot;, which is not a parameter of simulator.json; allowed: {}.</source>
         <translation>{{{{{}}}}} nennt „{}“, das kein Parameter von simulator.json ist; zulässig: {}.</translation>
     </message>
     <message>
@@ -7503,11 +7272,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{{{{{}}}}} nennt keine Tabelle von simulator.json; zulässig: {}.</translation>
     </message>
     <message>
-        <source>{} (lag {:.0f} s on, {:.0f} s off)</source>
+        <source>{} (time constant {:.0f} s on, {:.0f} s off)</source>
         <translation>{} (Zeitkonstante {:.0f} s an, {:.0f} s aus)</translation>
     </message>
     <message>
-        <source>{} (lag {:.0f} s)</source>
+        <source>{} (time constant {:.0f} s)</source>
         <translation>{} (Zeitkonstante {:.0f} s)</translation>
     </message>
     <message>
@@ -7531,20 +7300,20 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} allein mit {:g} m/min</translation>
     </message>
     <message>
-        <source>{} and {} cannot be told apart with these data (correlation {:.3f}): only what they do together is known.</source>
-        <translation>{} und {} sind mit diesen Daten nicht trennbar (Korrelation {:.3f}): nur ihre gemeinsame Wirkung ist bekannt.</translation>
+        <source>{} and {} cannot be distinguished with these data (correlation {:.3f}): only their joint effect is determined.</source>
+        <translation>{} und {} sind mit diesen Daten nicht trennbar (Korrelation {:.3f}): nur ihre gemeinsame Wirkung ist bestimmt.</translation>
     </message>
     <message>
-        <source>{} and {} do the same to these readings: together their sizes cannot be found; allowed: one of the two.</source>
-        <translation>{} und {} wirken gleich auf diese Ablesungen: ihre Größen sind zusammen nicht bestimmbar; zulässig: einer von beiden.</translation>
+        <source>{} and {} have the same effect on the observations: their magnitudes cannot be estimated jointly; allowed: one of the two.</source>
+        <translation>{} und {} wirken gleich auf die Beobachtungen: ihre Größen sind gemeinsam nicht schätzbar; zulässig: einer von beiden.</translation>
     </message>
     <message>
-        <source>{} and {} have the same shape at all points and the same drivers: no measurement of this kind can tell them apart.</source>
+        <source>{} and {} have the same shape at all points and the same drivers: no measurement of this kind can distinguish them.</source>
         <translation>{} und {} haben an allen Punkten dieselbe Form und dieselben Antriebsgrößen: keine Messung dieser Art kann sie unterscheiden.</translation>
     </message>
     <message>
-        <source>{} and {} of the simulation do the same to these readings: no measurement of this kind can tell them apart.</source>
-        <translation>{} und {} der Simulation wirken gleich auf diese Ablesungen: keine Messung dieser Art kann sie unterscheiden.</translation>
+        <source>{} and {} of the simulation have the same effect on the observations and cannot be distinguished.</source>
+        <translation>{} und {} der Simulation wirken gleich auf die Beobachtungen und sind nicht unterscheidbar.</translation>
     </message>
     <message>
         <source>{} are at points that {} lacks ({})</source>
@@ -7675,11 +7444,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} wird nicht innerhalb von {3:g} s zu „{1} {2}“{4}</translation>
     </message>
     <message>
-        <source>{} does not let itself be driven: wrong password of linuxcncrsh (--enablepw).</source>
-        <translation>{} lässt sich nicht steuern: falsches Passwort von linuxcncrsh (--enablepw).</translation>
+        <source>{} refuses remote control: wrong password of linuxcncrsh (--enablepw).</source>
+        <translation>{} verweigert die Fernsteuerung: falsches Passwort von linuxcncrsh (--enablepw).</translation>
     </message>
     <message>
-        <source>{} does not run the programme: {}</source>
+        <source>{} does not run the program: {}</source>
         <translation>{} führt das Programm nicht aus: {}</translation>
     </message>
     <message>
@@ -7784,7 +7553,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} has {} readings; allowed: at least {} over the test.</source>
-        <translation>{} hat {} Ablesungen; zulässig: mindestens {} über die Prüfung.</translation>
+        <translation>{} hat {} Messwerte; zulässig: mindestens {} über die Prüfung.</translation>
     </message>
     <message>
         <source>{} has {} usable focus heights; at least 5 are needed.</source>
@@ -7823,20 +7592,20 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} in Zustand {}</translation>
     </message>
     <message>
-        <source>{} in {} leave too little beyond the free constant of each of {} series: which effect is missing, its lag and whether it is one at all cannot be decided; measure {}.</source>
-        <translation>{} in {} lassen über die freie Konstante jeder von {} Reihen hinaus zu wenig: welcher Effekt fehlt, seine Verzögerung und ob es überhaupt einer ist, lässt sich nicht entscheiden; zu messen: {}.</translation>
+        <source>{} in {}: too few observations per series after removing the offset of each of {} series, so the missing effect, its time constant and whether it is one at all cannot be decided; measure {}.</source>
+        <translation>{} in {}: zu wenige Beobachtungen je Reihe nach Abzug des Versatzes jeder von {} Reihen, daher lassen sich der fehlende Effekt, seine Zeitkonstante und ob es überhaupt einer ist, nicht entscheiden; zu messen: {}.</translation>
     </message>
     <message>
         <source>{} inputs with {} gains each are not allowed; allowed: at most {} gains at a time.</source>
         <translation>{} Eingänge mit je {} Verstärkungen sind nicht zulässig; zulässig: höchstens {} Verstärkungen zugleich.</translation>
     </message>
     <message>
-        <source>{} inputs, {} lags</source>
-        <translation>{} Eingänge, {} Verzögerungen</translation>
+        <source>{} inputs, {} time constants</source>
+        <translation>{} Eingänge, {} Zeitkonstanten</translation>
     </message>
     <message>
-        <source>{} inputs, {} lags, {} bins of {:.6g} s</source>
-        <translation>{} Eingänge, {} Verzögerungen, {} Intervalle zu {:.6g} s</translation>
+        <source>{} inputs, {} time constants, {} bins of {:.6g} s</source>
+        <translation>{} Eingänge, {} Zeitkonstanten, {} Intervalle zu {:.6g} s</translation>
     </message>
     <message>
         <source>{} is a parameter of several kinds of results of {}; allowed: {}/{} or {}.</source>
@@ -7871,8 +7640,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} ist nötig (die neun Parameter allein: Wahrscheinlichkeit {:.2g}); es sagt ausgelassene Punkte auf {:.2f} µm vorher, die neun Parameter auf {:.2f} µm.</translation>
     </message>
     <message>
-        <source>{} is not allowed; a length in um greater than zero is needed.</source>
-        <translation>{} ist nicht zulässig; nötig ist eine Länge in um größer als null.</translation>
+        <source>{} is not allowed; a length in µm greater than zero is needed.</source>
+        <translation>{} ist nicht zulässig; nötig ist eine Länge in µm größer als null.</translation>
     </message>
     <message>
         <source>{} is not allowed; allowed: {}.</source>
@@ -7943,16 +7712,16 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} wird wieder geschrieben.</translation>
     </message>
     <message>
-        <source>{} is {:.0f} wide, which is no artefact in mm: its unit seems to be um; allowed: mm.</source>
-        <translation>{} ist {:.0f} breit, das ist kein Prüfkörper in mm: die Einheit ist anscheinend um; zulässig: mm.</translation>
+        <source>{} is {:.0f} wide, which is implausible in mm: the unit seems to be µm; allowed: mm.</source>
+        <translation>{} ist {:.0f} breit, was in mm unplausibel ist: die Einheit ist anscheinend µm; zulässig: mm.</translation>
     </message>
     <message>
-        <source>{} is {:.2g} wide, which is no artefact in mm: its unit seems to be m; allowed: mm.</source>
-        <translation>{} ist {:.2g} breit, das ist kein Prüfkörper in mm: die Einheit ist anscheinend m; zulässig: mm.</translation>
+        <source>{} is {:.2g} wide, which is implausible in mm: the unit seems to be m; allowed: mm.</source>
+        <translation>{} ist {:.2g} breit, was in mm unplausibel ist: die Einheit ist anscheinend m; zulässig: mm.</translation>
     </message>
     <message>
-        <source>{} is {:.3g} wide and {:.3g} high: its heights seem to be in um and its x, y in mm; allowed: mm everywhere.</source>
-        <translation>{} ist {:.3g} breit und {:.3g} hoch: die Höhen sind anscheinend in um, x und y in mm; zulässig: überall mm.</translation>
+        <source>{} is {:.3g} wide and {:.3g} high: its heights seem to be in µm and its x, y in mm; allowed: mm everywhere.</source>
+        <translation>{} ist {:.3g} breit und {:.3g} hoch: die Höhen sind anscheinend in µm, x und y in mm; zulässig: überall mm.</translation>
     </message>
     <message>
         <source>{} is {}; allowed: three numbers in mm.</source>
@@ -8147,16 +7916,16 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} Punkte</translation>
     </message>
     <message>
-        <source>{} points are too few for a line; allowed: at least 2</source>
-        <translation>{} Punkte sind zu wenige für eine Gerade; zulässig: mindestens 2</translation>
+        <source>{} too few for a line; allowed: at least 2</source>
+        <translation>{} zu wenig für eine Gerade; zulässig: mindestens 2</translation>
     </message>
     <message>
-        <source>{} points are too few for a plane; allowed: at least 3</source>
-        <translation>{} Punkte sind zu wenige für eine Ebene; zulässig: mindestens 3</translation>
+        <source>{} too few for a plane; allowed: at least 3</source>
+        <translation>{} zu wenig für eine Ebene; zulässig: mindestens 3</translation>
     </message>
     <message>
-        <source>{} points are too few for a {}{}; allowed: at least {}</source>
-        <translation>{} Punkte sind zu wenige für {}{}; zulässig: mindestens {}</translation>
+        <source>{} too few for a {}{}; allowed: at least {}</source>
+        <translation>{} zu wenig für die Form {}{}; zulässig: mindestens {}</translation>
     </message>
     <message>
         <source>{} points for the next measurement are not allowed; allowed: 1 to 50.</source>
@@ -8184,15 +7953,15 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>{} readings</source>
-        <translation>{} Ablesungen</translation>
+        <translation>{} Messwerte</translation>
     </message>
     <message>
-        <source>{} readings are held against the simulation</source>
-        <translation>{} Ablesungen werden mit der Simulation verglichen</translation>
+        <source>{} readings are compared with the simulation</source>
+        <translation>{} Messwerte werden mit der Simulation verglichen</translation>
     </message>
     <message>
         <source>{} readings of the axis; allowed: at least 4 at each of two positions.</source>
-        <translation>{} Ablesungen der Achse; zulässig: mindestens 4 an jeder von zwei Positionen.</translation>
+        <translation>{} Messwerte der Achse; zulässig: mindestens 4 an jeder von zwei Positionen.</translation>
     </message>
     <message>
         <source>{} refuses &quot;get {}&quot;.</source>
@@ -8247,11 +8016,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} ist anscheinend um {} in {} gewachsen, aber Ausdehnungskoeffizient und Temperatur ergeben {}: die messende Achse wächst ebenfalls, der Koeffizient ist ein anderer, oder der Sensor sitzt nicht darauf.</translation>
     </message>
     <message>
-        <source>{} sends a document that is no XML.</source>
+        <source>{} sends a document that is not XML.</source>
         <translation>{} sendet ein Dokument, das kein XML ist.</translation>
     </message>
     <message>
-        <source>{} sends a document that is no XML: {}.</source>
+        <source>{} sends a document that is not XML: {}.</source>
         <translation>{} sendet ein Dokument, das kein XML ist: {}.</translation>
     </message>
     <message>
@@ -8319,12 +8088,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} zu {} in der Simulation: dort {}, gemessen {}</translation>
     </message>
     <message>
-        <source>{} touches are too few to qualify a stylus; allowed: at least 5</source>
-        <translation>{} Antastungen sind zu wenige zum Einmessen eines Tastereinsatzes; zulässig: mindestens 5</translation>
+        <source>{} too few to qualify a stylus; allowed: at least 5</source>
+        <translation>{} zu wenig, um einen Tastereinsatz zu qualifizieren; zulässig: mindestens 5</translation>
     </message>
     <message>
         <source>{} values in the setup of {:.4g} h and {} after it; allowed: at least 20 and 2 (give another --setup).</source>
-        <translation>{} Werte in der Einrichtung von {:.4g} h und {} danach; zulässig: mindestens 20 und 2 (eine andere --setup angeben).</translation>
+        <translation>{} Werte in der Anlernphase von {:.4g} h und {} danach; zulässig: mindestens 20 und 2 (eine andere --setup angeben).</translation>
     </message>
     <message>
         <source>{} values of {} have no row within {} s and were left out.</source>
@@ -8399,8 +8168,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{} mit Tastereinsatz {}: die Antastungen liegen auf einem Radius von {:.4f} mm, die Maschinendatei gibt {:.4f} mm an; Durchmesser und Radius des Tastereinsatzes prüfen (Verschiebungen hängen nicht davon ab).</translation>
     </message>
     <message>
-        <source>{} without lag</source>
-        <translation>{} ohne Verzögerung</translation>
+        <source>{} without time constant</source>
+        <translation>{} ohne Zeitkonstante</translation>
     </message>
     <message>
         <source>{} workers vanished over items {} to {}</source>
@@ -8440,14 +8209,14 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>duplicate {} {} of fiducial {} in state {}, first in {}; allowed: one row each.</source>
-        <translation>{} {} der Marke {} in Zustand {} doppelt, zuerst in {}; zulässig: je eine Zeile.</translation>
+        <translation>{} {} der Messmarke {} in Zustand {} doppelt, zuerst in {}; zulässig: je eine Zeile.</translation>
     </message>
     <message>
         <source>{} {} read at one point only: whether the state was shifted or the point moved cannot be told there.</source>
         <translation>{} {} nur an einem Punkt abgelesen: ob der Zustand verschoben war oder der Punkt sich bewegte, lässt sich dort nicht sagen.</translation>
     </message>
     <message>
-        <source>{} {} says &quot;{}&quot;, which is no number and not among &quot;values&quot; of column {}.</source>
+        <source>{} {} says &quot;{}&quot;, which is neither a number nor among &quot;values&quot; of column {}.</source>
         <translation>{} {} liefert „{}“, das weder eine Zahl ist noch unter &quot;values&quot; der Spalte {} steht.</translation>
     </message>
     <message>
@@ -8571,7 +8340,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{}“ ist zweimal angegeben; zulässig: jede Spalte einmal.</translation>
     </message>
     <message>
-        <source>{}&quot; is no simulation by its ending; allowed: .csv, a model (.json), or a map of finite-element results (.json).</source>
+        <source>{}&quot; is not a simulation by its ending; allowed: .csv, a model (.json), or a map of finite-element results (.json).</source>
         <translation>{}“ ist nach der Endung keine Simulation; zulässig: .csv, ein Modell (.json) oder eine Zuordnung von Finite-Elemente-Ergebnissen (.json).</translation>
     </message>
     <message>
@@ -8579,8 +8348,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>{}“ ohne Antriebsgrößen (der Zeitpunkt ist unbekannt), oder &quot;none&quot; oder &quot;lag&quot; mit ihnen</translation>
     </message>
     <message>
-        <source>{}the model has no equivalent in lags</source>
-        <translation>{}das Modell hat keine Entsprechung in Verzögerungen</translation>
+        <source>{}the model has no equivalent in first-order time constants</source>
+        <translation>{}das Modell hat keine Entsprechung in Zeitkonstanten erster Ordnung</translation>
     </message>
     <message>
         <source>{}{:.3f} lies outside the travel {} to {} mm</source>
@@ -8859,7 +8628,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>„{}“ ist zweimal benannt; zulässig: einmal.</translation>
     </message>
     <message>
-        <source>&quot;{}&quot; is no parameter of machine &quot;{}&quot;; allowed: {}.</source>
+        <source>&quot;{}&quot; is not a parameter of machine &quot;{}&quot;; allowed: {}.</source>
         <translation>„{}“ ist kein Parameter der Maschine „{}“; zulässig: {}.</translation>
     </message>
     <message>
@@ -8906,7 +8675,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>fiducial plate</source>
-        <translation>Markenplatte</translation>
+        <translation>Messmarkenplatte</translation>
     </message>
     <message>
         <source>finite numbers</source>
@@ -9162,7 +8931,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Microscope and coded fiducials</source>
-        <translation>Mikroskop und codierte Marken</translation>
+        <translation>Mikroskop und codierte Messmarken</translation>
     </message>
     <message>
         <source>Model over time</source>
@@ -9242,7 +9011,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>column tilt about {}</source>
-        <translation>Neigung der Säule um {}</translation>
+        <translation>Neigung des Ständers um {}</translation>
     </message>
     <message>
         <source>crash</source>
@@ -9364,6 +9133,86 @@ endgültig fehlgeschlagen: {}</translation>
         <source>a row from 0 to {}</source>
         <translation>eine Zeile von 0 bis {}</translation>
     </message>
+    <message>
+        <source>positioning error of the {} axis per metre</source>
+        <translation>Positionierabweichung der {}-Achse je Meter</translation>
+    </message>
+    <message>
+        <source>rms {:.3f} before, {:.3f} after ({:.0f} % {}) on rows not used for fitting,</source>
+        <translation>rms {:.3f} vorher, {:.3f} nachher ({:.0f} % {}) auf nicht zur Anpassung verwendeten Zeilen,</translation>
+    </message>
+    <message>
+        <source> {} now in the folder &quot;removed&quot;.</source>
+        <translation> {} jetzt im Ordner „removed“.</translation>
+    </message>
+    <message>
+        <source> {} removed.</source>
+        <translation> {} entfernt.</translation>
+    </message>
+    <message>
+        <source>1 capture</source>
+        <translation>1 Aufnahme</translation>
+    </message>
+    <message>
+        <source>1 interruption</source>
+        <translation>1 Unterbrechung</translation>
+    </message>
+    <message>
+        <source>1 measuring cycle</source>
+        <translation>1 Messzyklus</translation>
+    </message>
+    <message>
+        <source>1 point is</source>
+        <translation>1 Punkt ist</translation>
+    </message>
+    <message>
+        <source>1 touch is</source>
+        <translation>1 Antastung ist</translation>
+    </message>
+    <message>
+        <source>1 unfinished campaign is</source>
+        <translation>1 unfertige Kampagne ist</translation>
+    </message>
+    <message>
+        <source>1 unfinished file was</source>
+        <translation>1 unfertige Datei wurde</translation>
+    </message>
+    <message>
+        <source>largest deviation {} is {} at {}</source>
+        <translation>größte Abweichung {} beträgt {} bei {}</translation>
+    </message>
+    <message>
+        <source>rms of {} is {}</source>
+        <translation>rms von {} beträgt {}</translation>
+    </message>
+    <message>
+        <source>{} captures</source>
+        <translation>{} Aufnahmen</translation>
+    </message>
+    <message>
+        <source>{} interruptions</source>
+        <translation>{} Unterbrechungen</translation>
+    </message>
+    <message>
+        <source>{} measuring cycles</source>
+        <translation>{} Messzyklen</translation>
+    </message>
+    <message>
+        <source>{} points are</source>
+        <translation>{} Punkte sind</translation>
+    </message>
+    <message>
+        <source>{} touches are</source>
+        <translation>{} Antastungen sind</translation>
+    </message>
+    <message>
+        <source>{} unfinished campaigns are</source>
+        <translation>{} unfertige Kampagnen sind</translation>
+    </message>
+    <message>
+        <source>{} unfinished files were</source>
+        <translation>{} unfertige Dateien wurden</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -9405,11 +9254,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>&lt;b&gt;Gap:&lt;/b&gt; rms, peak-to-peak and fit before and after, also on data that were held out of the fit. What was measured is known up to a constant of each point and component; the line of a model is drawn with the one that fits best.</source>
-        <translation>&lt;b&gt;Differenz:&lt;/b&gt; rms, Spitze-Spitze und Anpassungsgüte vorher und nachher, auch an Daten, die von der Anpassung zurückgehalten wurden. Messwerte sind bis auf eine Konstante je Punkt und Komponente bekannt; die Linie eines Modells ist mit der am besten passenden gezeichnet.</translation>
+        <translation>&lt;b&gt;Differenz:&lt;/b&gt; rms, Spitze-Spitze und Anpassungsgüte vorher und nachher, auch an Validierungsdaten. Messwerte sind bis auf eine Konstante je Punkt und Komponente bekannt; die Linie eines Modells ist mit der am besten passenden gezeichnet.</translation>
     </message>
     <message>
         <source>&lt;b&gt;Into the simulation:&lt;/b&gt; a simulation that can be run (&lt;i&gt;simulator.json&lt;/i&gt;) is searched as well: its mechanisms that are switched off, its uncertain parameters and the sensors that drive it. &lt;i&gt;Put it into the simulation&lt;/i&gt; fits the physical parameters on the simulation itself, runs it again and judges its own new prediction on data that were held out. The new version is written to a folder of its own; no program runs before you say so.</source>
-        <translation>&lt;b&gt;In die Simulation:&lt;/b&gt; Eine ausführbare Simulation (&lt;i&gt;simulator.json&lt;/i&gt;) wird ebenfalls durchsucht: ihre abgeschalteten Mechanismen, ihre unsicheren Parameter und die Sensoren, die sie antreiben. &lt;i&gt;In die Simulation einsetzen&lt;/i&gt; passt die physikalischen Parameter an der Simulation selbst an, führt sie erneut aus und beurteilt ihre neue Vorhersage an zurückgehaltenen Daten. Die neue Version wird in einen eigenen Ordner geschrieben; kein Programm läuft ohne Ihre Zustimmung.</translation>
+        <translation>&lt;b&gt;In die Simulation:&lt;/b&gt; Eine ausführbare Simulation (&lt;i&gt;simulator.json&lt;/i&gt;) wird ebenfalls durchsucht: ihre abgeschalteten Mechanismen, ihre unsicheren Parameter und die Sensoren, die sie antreiben. &lt;i&gt;In die Simulation einsetzen&lt;/i&gt; passt die physikalischen Parameter an der Simulation selbst an, führt sie erneut aus und beurteilt ihre neue Vorhersage an Validierungsdaten. Die neue Version wird in einen eigenen Ordner geschrieben; kein Programm läuft ohne Ihre Zustimmung.</translation>
     </message>
     <message>
         <source>&lt;b&gt;Laser profiler:&lt;/b&gt; the whole artefact in every scan, cold and warm with the same settings.</source>
@@ -9428,12 +9277,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>&lt;b&gt;Mikroskop:&lt;/b&gt; Der Drehmittelpunkt hängt nicht davon ab, wie die Kamera in der Spindel sitzt.</translation>
     </message>
     <message>
-        <source>&lt;b&gt;Next:&lt;/b&gt; what to measure to tell rivals apart, and how the search decided.</source>
-        <translation>&lt;b&gt;Nächste Messung:&lt;/b&gt; was zu messen ist, um Rivalen zu unterscheiden, und wie die Suche entschieden hat.</translation>
+        <source>&lt;b&gt;Next:&lt;/b&gt; what to measure to distinguish rivals, and how the search decided.</source>
+        <translation>&lt;b&gt;Nächste Messung:&lt;/b&gt; was zu messen ist, um konkurrierende Erklärungen zu unterscheiden, und wie die Suche entschieden hat.</translation>
     </message>
     <message>
         <source>&lt;b&gt;Noise:&lt;/b&gt; what was taken as noise: its scale (actual scatter over stated &amp;sigma;), the shift common to all points of a state, tails, the clock of the log, and outlying readings. Each reading can be looked at, excluded and brought back.</source>
-        <translation>&lt;b&gt;Rauschen:&lt;/b&gt; was als Rauschen galt: sein Maßstab (tatsächliche Streuung zu angegebenem &amp;sigma;), die allen Punkten eines Zustands gemeinsame Verschiebung, die Ausläufer der Verteilung, die Uhr des Protokolls und Ausreißer. Jede Ablesung lässt sich ansehen, ausschließen und zurückholen.</translation>
+        <translation>&lt;b&gt;Rauschen:&lt;/b&gt; was als Rauschen galt: sein Maßstab (tatsächliche Streuung zu angegebenem &amp;sigma;), die allen Punkten eines Zustands gemeinsame Verschiebung, die Ausläufer der Verteilung, die Uhr des Protokolls und Ausreißer. Jeder Messwert lässt sich ansehen, ausschließen und zurückholen.</translation>
     </message>
     <message>
         <source>&lt;b&gt;Remains:&lt;/b&gt; what is smooth in time and space and neither effect nor noise: its rms in every component, its time history beside what the effects explain, its pattern over the points.</source>
@@ -9448,8 +9297,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>&lt;b&gt;Messtaster:&lt;/b&gt; jedes Element von allen Seiten; Tastereinsatz fest, Messtaster trocken.</translation>
     </message>
     <message>
-        <source>&lt;b&gt;What:&lt;/b&gt; the effect, its parameters, and which rivals cannot be told from it with these data; the ten most probable effects with their probabilities, named or not.</source>
-        <translation>&lt;b&gt;Was:&lt;/b&gt; der Effekt, seine Parameter und die Rivalen, die diese Daten nicht von ihm unterscheiden; die zehn wahrscheinlichsten Effekte mit ihren Wahrscheinlichkeiten, benannt oder nicht.</translation>
+        <source>&lt;b&gt;What:&lt;/b&gt; the effect, its parameters, and which rivals these data do not distinguish from it; the ten most probable effects with their probabilities, named or not.</source>
+        <translation>&lt;b&gt;Was:&lt;/b&gt; der Effekt, seine Parameter und die konkurrierenden Erklärungen, die diese Daten nicht von ihm unterscheiden; die zehn wahrscheinlichsten Effekte mit ihren Wahrscheinlichkeiten, benannt oder nicht.</translation>
     </message>
     <message>
         <source>&lt;b&gt;Where:&lt;/b&gt; the points and times at which the residual is larger than noise explains.</source>
@@ -9472,10 +9321,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>&lt;b&gt;Tabelle&lt;/b&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;Connections&lt;/i&gt;: enter an address (http, mqtt, modbus, serial, linuxcnc, genicam &amp;hellip;), see what is there, tick what becomes a column of log.csv. &lt;i&gt;Look live&lt;/i&gt; writes nothing; &lt;i&gt;Record&lt;/i&gt; goes on while you leave the page. Machines are only read. Passwords stand in the environment or in a file of yours, never in the session.</source>
-        <translation>&lt;i&gt;Verbindungen&lt;/i&gt;: eine Adresse eingeben (http, mqtt, modbus, serial, linuxcnc, genicam &amp;hellip;), ansehen, was es dort gibt, und ankreuzen, was eine Spalte von log.csv wird. &lt;i&gt;Live ansehen&lt;/i&gt; schreibt nichts; &lt;i&gt;Aufzeichnen&lt;/i&gt; läuft weiter, wenn Sie die Seite verlassen. Maschinen werden nur gelesen. Passwörter stehen in der Umgebung oder in einer eigenen Datei, nie in der Sitzung.</translation>
-    </message>
-    <message>
         <source>&lt;i&gt;Live &amp;hellip;&lt;/i&gt; closes the loop at the control: open a plan, press Start, read what will move, and confirm it at the machine. The page says whether the compensation is active, what it adds per axis and how sure that is (one standard uncertainty of the model; no number before a measuring cycle has judged it).</source>
         <translation>&lt;i&gt;Live &amp;hellip;&lt;/i&gt; schließt den Regelkreis an der Steuerung: einen Plan öffnen, „Starten“ drücken, lesen, was sich bewegen wird, und es an der Maschine bestätigen. Die Seite zeigt, ob die Kompensation aktiv ist, was sie je Achse aufschaltet und wie sicher das ist (eine Standardunsicherheit des Modells; keine Zahl, bevor ein Messzyklus sie geprüft hat).</translation>
     </message>
@@ -9496,8 +9341,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>&lt;i&gt;c = mittlerer Mittelpunkt des Kreises, den ein Muster beim Drehen der Spindel beschreibt;&amp;nbsp; &amp;Delta;XY = c(Zustand) &amp;minus; c(erster),&amp;nbsp; &amp;Delta;Z aus dem Maximum der Schärfe über der Höhe&lt;/i&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;correction = &amp;minus; predicted deviation;&amp;nbsp; expected rest = sqrt(model uncertainty&amp;sup2; + residual&amp;sup2;)&lt;/i&gt;</source>
-        <translation>&lt;i&gt;Korrektur = &amp;minus; vorhergesagte Abweichung;&amp;nbsp; erwarteter Rest = sqrt(Modellunsicherheit&amp;sup2; + Residuum&amp;sup2;)&lt;/i&gt;</translation>
+        <source>&lt;i&gt;correction = &amp;minus; predicted deviation;&amp;nbsp; expected residual error = sqrt(model uncertainty&amp;sup2; + rms residual&amp;sup2;)&lt;/i&gt;</source>
+        <translation>&lt;i&gt;Korrektur = &amp;minus; vorhergesagte Abweichung;&amp;nbsp; erwartetes Residuum nach der Kompensation = sqrt(Modellunsicherheit&amp;sup2; + rms-Residuum&amp;sup2;)&lt;/i&gt;</translation>
     </message>
     <message>
         <source>&lt;i&gt;d(t) = a + b (1 &amp;minus; exp(&amp;minus;t / &amp;tau;)),&amp;nbsp; settled when |b| / &amp;tau; &amp;middot; exp(&amp;minus;t / &amp;tau;) &amp;lt; 1 &amp;micro;m/h&lt;/i&gt;</source>
@@ -9516,8 +9361,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>&lt;i&gt;ex = EX &amp;minus; EC y + EB z + &amp;alpha;&lt;sub&gt;X&lt;/sub&gt; x,&amp;nbsp; ey = EY + EC x &amp;minus; EA z &amp;minus; EC0Y &amp;hellip; + &amp;alpha;&lt;sub&gt;Y&lt;/sub&gt; y,&amp;nbsp; ez = EZ &amp;minus; EB x + EA y&lt;/i&gt;</translation>
     </message>
     <message>
-        <source>&lt;i&gt;met: |rest| + U &amp;le; goal;&amp;nbsp; not met: |rest| &amp;minus; U &amp;gt; goal;&amp;nbsp; U = 2 u&lt;/i&gt;</source>
-        <translation>&lt;i&gt;erreicht: |Rest| + U &amp;le; Ziel;&amp;nbsp; nicht erreicht: |Rest| &amp;minus; U &amp;gt; Ziel;&amp;nbsp; U = 2 u&lt;/i&gt;</translation>
+        <source>&lt;i&gt;met: |residual| + U &amp;le; goal;&amp;nbsp; not met: |residual| &amp;minus; U &amp;gt; goal;&amp;nbsp; U = 2 u&lt;/i&gt;</source>
+        <translation>&lt;i&gt;erreicht: |Residuum| + U &amp;le; Ziel;&amp;nbsp; nicht erreicht: |Residuum| &amp;minus; U &amp;gt; Ziel;&amp;nbsp; U = 2 u&lt;/i&gt;</translation>
     </message>
     <message>
         <source>&lt;i&gt;residual = observation &amp;minus; prediction;&amp;nbsp; &amp;Delta;BIC = &amp;Delta;&amp;chi;&amp;sup2; &amp;minus; k ln n,&amp;nbsp; above 10: strong evidence&lt;/i&gt;</source>
@@ -9561,7 +9406,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Batches</source>
-        <translation>Stapel</translation>
+        <translation>Batch-Aufträge</translation>
     </message>
     <message>
         <source>Below the trend, enter what was done to the machine: a new spindle, a re-levelling, a crash, a repair, a move, or a note; with its day (UTC) and a few words. All but a note let the limits begin anew.</source>
@@ -9581,7 +9426,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Choose a plan (a JSON file, format spindrift-batch) and press &lt;i&gt;Start&lt;/i&gt;: all processors of this computer work on its campaigns or seeds, beside whatever else you do. The table shows how far each batch of the store is and what it has cost. &lt;i&gt;Cancel the batch&lt;/i&gt; stops it wherever it runs, and &lt;i&gt;Resume&lt;/i&gt; goes on, here, after a cancellation, a crash or a failure; each item has its answer exactly once. A batch that you only stop in the job bar, or by closing the window, is not cancelled: other computers go on.</source>
-        <translation>Einen Plan wählen (JSON-Datei, Format spindrift-batch) und &lt;i&gt;Starten&lt;/i&gt; drücken: Alle Prozessoren dieses Rechners bearbeiten seine Kampagnen oder Startwerte, neben allem, was Sie sonst tun. Die Tabelle zeigt, wie weit jeder Stapel des Speichers ist und was er gekostet hat. &lt;i&gt;Stapel abbrechen&lt;/i&gt; hält ihn überall an, und &lt;i&gt;Auf diesem Rechner fortsetzen&lt;/i&gt; führt ihn nach Abbruch, Absturz oder Fehler hier weiter; jedes Element wird genau einmal bearbeitet. Ein Stapel, der nur in der Auftragsleiste oder durch Schließen des Fensters angehalten wird, ist nicht abgebrochen: Andere Rechner arbeiten weiter.</translation>
+        <translation>Einen Plan wählen (JSON-Datei, Format spindrift-batch) und &lt;i&gt;Starten&lt;/i&gt; drücken: Alle Prozessoren dieses Rechners bearbeiten seine Kampagnen oder Startwerte, neben allem, was Sie sonst tun. Die Tabelle zeigt, wie weit jeder Batch-Auftrag des Speichers ist und was er gekostet hat. &lt;i&gt;Batch-Auftrag abbrechen&lt;/i&gt; hält ihn überall an, und &lt;i&gt;Auf diesem Rechner fortsetzen&lt;/i&gt; führt ihn nach Abbruch, Absturz oder Fehler hier weiter; jedes Element wird genau einmal bearbeitet. Ein Batch-Auftrag, der nur in der Auftragsleiste oder durch Schließen des Fensters angehalten wird, ist nicht abgebrochen: Andere Rechner arbeiten weiter.</translation>
     </message>
     <message>
         <source>Cold repeatability: the same point again and again comes back within half a resolution.</source>
@@ -9664,10 +9509,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Maschinen stehen in der Reihenfolge ihrer Fälligkeit. Das Intervall ist das mit &lt;i&gt;plant event --every-days&lt;/i&gt; angegebene, sonst das bisher übliche.</translation>
     </message>
     <message>
-        <source>Measured with 14,000 campaigns on PostgreSQL 15, each with one fit of nine parameters, its covariance and one file: 2.2 kB a campaign (campaign 0.21, files 0.23, result 0.81, parameters 0.93 kB, indexes among them); SQLite 1.6 kB. What follows is worked out from that.</source>
-        <translation>Gemessen mit 14.000 Kampagnen auf PostgreSQL 15, jede mit einer Anpassung von neun Parametern, ihrer Kovarianz und einer Datei: 2,2 kB je Kampagne (Kampagne 0,21, Dateien 0,23, Ergebnis 0,81, Parameter 0,93 kB, einschließlich Indizes); SQLite 1,6 kB. Das Folgende ist daraus hochgerechnet.</translation>
-    </message>
-    <message>
         <source>Model</source>
         <translation>Modell</translation>
     </message>
@@ -9681,7 +9522,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>On a cluster: &lt;tt&gt;spindrift-cli batch PLAN.json --engine slurm --wait&lt;/tt&gt;. &lt;i&gt;Nobody&lt;/i&gt; under &lt;i&gt;Running&lt;/i&gt; means that the batch waits in Slurm or that Slurm has lost it; &lt;tt&gt;spindrift-cli batch status&lt;/tt&gt; says which, and &lt;tt&gt;batch resume --engine slurm&lt;/tt&gt; gives it what is missing.</source>
-        <translation>Auf einem Cluster: &lt;tt&gt;spindrift-cli batch PLAN.json --engine slurm --wait&lt;/tt&gt;. &lt;i&gt;Niemand&lt;/i&gt; unter &lt;i&gt;Laufend&lt;/i&gt; bedeutet, dass der Stapel in Slurm wartet oder dass Slurm ihn verloren hat; &lt;tt&gt;spindrift-cli batch status&lt;/tt&gt; sagt, was zutrifft, und &lt;tt&gt;batch resume --engine slurm&lt;/tt&gt; reicht das Fehlende nach.</translation>
+        <translation>Auf einem Cluster: &lt;tt&gt;spindrift-cli batch PLAN.json --engine slurm --wait&lt;/tt&gt;. &lt;i&gt;Niemand&lt;/i&gt; unter &lt;i&gt;Laufend&lt;/i&gt; bedeutet, dass der Batch-Auftrag in Slurm wartet oder dass Slurm ihn verloren hat; &lt;tt&gt;spindrift-cli batch status&lt;/tt&gt; sagt, was zutrifft, und &lt;tt&gt;batch resume --engine slurm&lt;/tt&gt; reicht das Fehlende nach.</translation>
     </message>
     <message>
         <source>On paper: 10,000 machines, daily, ten years</source>
@@ -9741,15 +9582,15 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>The log marks the time with compensation_on; such readings enter no fit of the machine&apos;s own errors.</source>
-        <translation>Das Protokoll kennzeichnet die Zeit mit compensation_on; solche Ablesungen gehen in keine Anpassung der Abweichungen der Maschine selbst ein.</translation>
+        <translation>Das Protokoll kennzeichnet die Zeit mit compensation_on; solche Messwerte gehen in keine Anpassung der Abweichungen der Maschine selbst ein.</translation>
     </message>
     <message>
         <source>The observations of one state become a model of the machine; the points you leave out of the fit say whether to believe it.</source>
-        <translation>Aus den Beobachtungen eines Zustands wird ein Modell der Maschine; die von der Anpassung zurückgehaltenen Punkte zeigen, ob man ihm glauben kann.</translation>
+        <translation>Aus den Beobachtungen eines Zustands wird ein Modell der Maschine; die nicht zur Anpassung verwendeten Punkte zeigen, ob man ihm glauben kann.</translation>
     </message>
     <message>
-        <source>The same plan, measured again while the control compensates: is what is left small enough?</source>
-        <translation>Derselbe Plan, erneut gemessen, während die Steuerung kompensiert: Ist der Rest klein genug?</translation>
+        <source>The same plan, measured again while the control compensates: is the residual within the goal?</source>
+        <translation>Derselbe Plan, erneut gemessen, während die Steuerung kompensiert: Liegt das Residuum innerhalb des Ziels?</translation>
     </message>
     <message>
         <source>The second is the list of files: a campaign of 100 images has 100 rows in it, 0.9 billion a year. Such plants publish one fingerprint a campaign.</source>
@@ -9789,7 +9630,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Where measurement and simulation disagree, the search tries every effect of the catalogue and names the one that explains the gap, with its rivals.</source>
-        <translation>Wo Messung und Simulation voneinander abweichen, erprobt die Suche jeden Effekt des Katalogs und benennt den, der die Differenz erklärt, mit seinen Rivalen.</translation>
+        <translation>Wo Messung und Simulation voneinander abweichen, erprobt die Suche jeden Effekt des Katalogs und benennt den, der die Differenz erklärt, mit seinen konkurrierenden Erklärungen.</translation>
     </message>
     <message>
         <source>Which machine is to be measured next, what has changed on it, and does its model still hold?</source>
@@ -9906,6 +9747,14 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>workpiece</source>
         <translation>Werkstück</translation>
+    </message>
+    <message>
+        <source>&lt;i&gt;Connections&lt;/i&gt;: enter an address (http, mqtt, modbus, serial, linuxcnc, genicam &amp;hellip;), see what is there, tick what becomes a column of log.csv. &lt;i&gt;Live view&lt;/i&gt; writes nothing; &lt;i&gt;Record&lt;/i&gt; goes on while you leave the page. Machines are only read. Passwords stand in the environment or in a file of yours, never in the session.</source>
+        <translation>&lt;i&gt;Verbindungen&lt;/i&gt;: eine Adresse eingeben (http, mqtt, modbus, serial, linuxcnc, genicam &amp;hellip;), ansehen, was es dort gibt, und ankreuzen, was eine Spalte von log.csv wird. &lt;i&gt;Live-Ansicht&lt;/i&gt; schreibt nichts; &lt;i&gt;Aufzeichnen&lt;/i&gt; läuft weiter, wenn Sie die Seite verlassen. Maschinen werden nur gelesen. Passwörter stehen in der Umgebung oder in einer eigenen Datei, nie in der Sitzung.</translation>
+    </message>
+    <message>
+        <source>Measured with 14,000 campaigns on PostgreSQL 15, each with one fit of nine parameters, its covariance and one file: 2.2 kB a campaign (campaign 0.21, files 0.23, result 0.81, parameters 0.93 kB, indexes among them); SQLite 1.6 kB. The following figures are calculated from that.</source>
+        <translation>Gemessen mit 14.000 Kampagnen auf PostgreSQL 15, jede mit einer Anpassung von neun Parametern, ihrer Kovarianz und einer Datei: 2,2 kB je Kampagne (Kampagne 0,21, Dateien 0,23, Ergebnis 0,81, Parameter 0,93 kB, einschließlich Indizes); SQLite 1,6 kB. Die folgenden Zahlen sind daraus berechnet.</translation>
     </message>
 </context>
 <context>
@@ -10147,42 +9996,6 @@ endgültig fehlgeschlagen: {}</translation>
         <source>none, even or odd</source>
         <translation>none, even oder odd</translation>
     </message>
-    <message>
-        <source>head tilt about %1</source>
-        <translation>Neigung des Spindelkopfs um %1</translation>
-    </message>
-    <message>
-        <source>column tilt about %1</source>
-        <translation>Neigung des Ständers um %1</translation>
-    </message>
-    <message>
-        <source>displacement of the spindle along %1</source>
-        <translation>Verlagerung der Spindel entlang %1</translation>
-    </message>
-    <message>
-        <source>thermal expansion of the %1 ball screw</source>
-        <translation>Wärmeausdehnung des Kugelgewindetriebs %1</translation>
-    </message>
-    <message>
-        <source>thermal expansion of the bar</source>
-        <translation>Wärmeausdehnung der Lochleiste</translation>
-    </message>
-    <message>
-        <source>radial expansion of the table</source>
-        <translation>radiale Ausdehnung des Tisches</translation>
-    </message>
-    <message>
-        <source>rotation of the table, %1</source>
-        <translation>Verdrehung des Tisches, %1</translation>
-    </message>
-    <message>
-        <source>displacement of the table along %1</source>
-        <translation>Verlagerung des Tisches entlang %1</translation>
-    </message>
-    <message>
-        <source>linear expansion of axis %1</source>
-        <translation>Längenausdehnung der Achse %1</translation>
-    </message>
 </context>
 <context>
     <name>spindrift::gui::ActivityDialog</name>
@@ -10342,10 +10155,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Maschine: %1</translation>
     </message>
     <message>
-        <source>Watching %1: %2 files, %3 accepted. You may leave this page; capturing goes on.</source>
-        <translation>%1 wird überwacht: %2 Dateien, %3 angenommen. Die Seite kann verlassen werden; die Aufnahme läuft weiter.</translation>
-    </message>
-    <message>
         <source>Not watching. The last folder was %1; what arrived meanwhile is found when it is watched again.</source>
         <translation>Keine Überwachung. Der letzte Ordner war %1; was inzwischen eingegangen ist, wird bei erneuter Überwachung gefunden.</translation>
     </message>
@@ -10356,6 +10165,13 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source> And %1 more.</source>
         <translation> Und %1 weitere.</translation>
+    </message>
+    <message numerus="yes">
+        <source>Watching %1: %n files, %2 accepted. You may leave this page; capturing goes on.</source>
+        <translation>
+            <numerusform>%1 wird überwacht: %n Datei, %2 angenommen. Sie können diese Seite verlassen; die Aufnahme läuft weiter.</numerusform>
+            <numerusform>%1 wird überwacht: %n Dateien, %2 angenommen. Sie können diese Seite verlassen; die Aufnahme läuft weiter.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -11001,7 +10817,7 @@ endgültig fehlgeschlagen: {}</translation>
     <name>spindrift::gui::BatchesPanel</name>
     <message>
         <source>Batch</source>
-        <translation>Stapel</translation>
+        <translation>Batch-Auftrag</translation>
     </message>
     <message>
         <source>Work</source>
@@ -11029,15 +10845,15 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Batches</source>
-        <translation>Stapel</translation>
+        <translation>Batch-Aufträge</translation>
     </message>
     <message>
         <source>Choose a plan to start a batch on this computer.</source>
-        <translation>Plan wählen, um einen Stapel auf diesem Rechner zu starten.</translation>
+        <translation>Plan wählen, um einen Batch-Auftrag auf diesem Rechner zu starten.</translation>
     </message>
     <message>
         <source>Plan of the batch</source>
-        <translation>Plan des Stapels</translation>
+        <translation>Plan des Batch-Auftrags</translation>
     </message>
     <message>
         <source>PLAN.json (format spindrift-batch)</source>
@@ -11053,11 +10869,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Cancel the batch</source>
-        <translation>Stapel abbrechen</translation>
+        <translation>Batch-Auftrag abbrechen</translation>
     </message>
     <message>
         <source>Stops the batch on every computer; finished items are kept</source>
-        <translation>Hält den Stapel auf allen Rechnern an; Erledigtes bleibt erhalten</translation>
+        <translation>Hält den Batch-Auftrag auf allen Rechnern an; Erledigtes bleibt erhalten</translation>
     </message>
     <message>
         <source>Resume on this computer</source>
@@ -11077,7 +10893,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Looking at batches</source>
-        <translation>Stapel werden abgefragt</translation>
+        <translation>Batch-Aufträge werden abgefragt</translation>
     </message>
     <message>
         <source>%1 s</source>
@@ -11097,7 +10913,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Not running: it waits in Slurm, or its processes have ended; Resume continues it.</source>
-        <translation>Läuft nicht: der Stapel wartet in Slurm, oder seine Prozesse sind beendet; „Fortsetzen“ führt ihn weiter.</translation>
+        <translation>Läuft nicht: der Batch-Auftrag wartet in Slurm, oder seine Prozesse sind beendet; „Fortsetzen“ führt ihn weiter.</translation>
     </message>
     <message>
         <source>finished</source>
@@ -11117,7 +10933,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Batch %1 %2</source>
-        <translation>Stapel %1 %2</translation>
+        <translation>Batch-Auftrag %1 %2</translation>
     </message>
     <message>
         <source>%1 is cancelled; what is done stays, and Resume goes on.</source>
@@ -11133,15 +10949,15 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>The batch has stopped; what is done stays, and Resume goes on.</source>
-        <translation>Der Stapel wurde angehalten; Erledigtes bleibt erhalten, „Fortsetzen“ führt ihn weiter.</translation>
+        <translation>Der Batch-Auftrag wurde angehalten; Erledigtes bleibt erhalten, „Fortsetzen“ führt ihn weiter.</translation>
     </message>
     <message>
         <source>Batch of %1</source>
-        <translation>Stapel von %1</translation>
+        <translation>Batch-Auftrag von %1</translation>
     </message>
     <message>
         <source>Cancelling a batch</source>
-        <translation>Stapel wird abgebrochen</translation>
+        <translation>Batch-Auftrag wird abgebrochen</translation>
     </message>
     <message>
         <source>Processes the campaigns or seeds of the plan on all processors of this computer; starting the same plan again continues it</source>
@@ -11242,9 +11058,12 @@ endgültig fehlgeschlagen: {}</translation>
         <source>camera</source>
         <translation>Kamera</translation>
     </message>
-    <message>
-        <source>The camera has sent no whole frame for %1 s, and %2 with packets missing.</source>
-        <translation>Die Kamera hat seit %1 s kein vollständiges Bild gesendet, und %2 mit fehlenden Paketen.</translation>
+    <message numerus="yes">
+        <source>The camera has sent no complete frame for %1 s and %n frames with missing packets.</source>
+        <translation>
+            <numerusform>Die Kamera hat %1 s lang kein vollständiges Bild gesendet und %n Bild mit fehlenden Paketen.</numerusform>
+            <numerusform>Die Kamera hat %1 s lang kein vollständiges Bild gesendet und %n Bilder mit fehlenden Paketen.</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -11449,7 +11268,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Nichts hinzufügen</translation>
     </message>
     <message>
-        <source>A plan (JSON, spindrift-loop-plan) says which control, what is touched, which programme runs and when.</source>
+        <source>A plan (JSON, spindrift-loop-plan) says which control, what is touched, which program runs and when.</source>
         <translation>Ein Plan (JSON, spindrift-loop-plan) legt Steuerung, Messobjekte, Programm und Zeitpunkte fest.</translation>
     </message>
     <message>
@@ -11461,7 +11280,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Fortsetzen …</translation>
     </message>
     <message>
-        <source>The machine will be switched on and homed. A measuring cycle moves: %1. Between cycles the spindle turns by the programme, %2 h in all. The compensation stays within ±%3 µm and changes by at most %4 µm/s. Keep clear of the machine.</source>
+        <source>The machine will be switched on and homed. A measuring cycle moves: %1. Between cycles the spindle turns by the program, %2 h in all. The compensation stays within ±%3 µm and changes by at most %4 µm/s. Keep clear of the machine.</source>
         <translation>Die Maschine wird eingeschaltet und referenziert. Ein Messzyklus bewegt: %1. Zwischen den Zyklen dreht die Spindel nach Programm, insgesamt %2 h. Die Kompensation bleibt innerhalb ±%3 µm und ändert sich um höchstens %4 µm/s. Abstand zur Maschine halten.</translation>
     </message>
     <message>
@@ -11582,14 +11401,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>%1: %2 µm rms without, %3 µm rms with, over %4 since the compensation began.</source>
         <translation>%1: %2 µm rms ohne, %3 µm rms mit Kompensation, über %4 seit ihrem Beginn.</translation>
-    </message>
-    <message>
-        <source>1 cycle</source>
-        <translation>1 Zyklus</translation>
-    </message>
-    <message>
-        <source>%1 cycles</source>
-        <translation>%1 Zyklen</translation>
     </message>
 </context>
 <context>
@@ -11983,8 +11794,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>%1 (vorher %2) %3</translation>
     </message>
     <message>
-        <source>On values that trained nothing: %1.</source>
-        <translation>An Werten, die nicht zum Anpassen dienten: %1.</translation>
+        <source>On data not used for fitting: %1.</source>
+        <translation>An nicht zur Anpassung verwendeten Werten: %1.</translation>
     </message>
     <message>
         <source>%1 where nothing was fitted</source>
@@ -12056,8 +11867,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Angebot anzeigen</translation>
     </message>
     <message>
-        <source>Look live</source>
-        <translation>Live ansehen</translation>
+        <source>Live view</source>
+        <translation>Live-Ansicht</translation>
     </message>
     <message>
         <source>Record</source>
@@ -12196,8 +12007,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>%1 übernehmen</translation>
     </message>
     <message>
-        <source>Stop looking</source>
-        <translation>Ansehen beenden</translation>
+        <source>Stop live view</source>
+        <translation>Live-Ansicht beenden</translation>
     </message>
     <message>
         <source>Stop recording</source>
@@ -12500,8 +12311,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Schwach bestimmte Kombinationen</translation>
     </message>
     <message>
-        <source>Which combinations of parameters the touches hardly tell apart appears after the fit.</source>
-        <translation>Welche Kombinationen von Parametern die Antastungen kaum trennen, erscheint nach der Anpassung.</translation>
+        <source>Most strongly correlated parameters are listed after the fit.</source>
+        <translation>Am stärksten korrelierte Parameter stehen hier nach der Anpassung.</translation>
     </message>
     <message>
         <source>Fitting all cycles</source>
@@ -12527,9 +12338,12 @@ endgültig fehlgeschlagen: {}</translation>
         <source>Press Fit all cycles. One least squares over all touches separates the errors; everything is relative to the first cycle.</source>
         <translation>„Alle Zyklen anpassen“ drücken. Ein gemeinsamer Ausgleich über alle Antastungen trennt die Abweichungen; alles ist auf den ersten Zyklus bezogen.</translation>
     </message>
-    <message>
-        <source>%1 parameters are determined in each of %2 cycles.</source>
-        <translation>%1 Parameter sind in jedem von %2 Zyklen bestimmt.</translation>
+    <message numerus="yes">
+        <source>%1 parameters are determined in each of %n cycles.</source>
+        <translation>
+            <numerusform>%1 Parameter sind im einzigen Zyklus bestimmt.</numerusform>
+            <numerusform>%1 Parameter sind in jedem von %n Zyklen bestimmt.</numerusform>
+        </translation>
     </message>
     <message>
         <source>This page shows %1. The other artefacts are evaluated too: their deviations stand in the observations and in the report.</source>
@@ -12839,8 +12653,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Was fehlt in der Simulation?</translation>
     </message>
     <message>
-        <source>Press Search: every effect of the catalogue is tried on what is left between measurement and simulation. It takes a few seconds, can be cancelled, and changes nothing.</source>
-        <translation>„Suchen“ drücken: jeder Effekt des Katalogs wird auf das angewandt, was zwischen Messung und Simulation übrig ist. Das dauert einige Sekunden, lässt sich abbrechen und ändert nichts.</translation>
+        <source>Press Search: every effect of the catalogue is fitted to the residual between measurement and simulation. It takes a few seconds, can be cancelled, and changes nothing.</source>
+        <translation>„Suchen“ drücken: jeder Effekt des Katalogs wird an das Residuum zwischen Messung und Simulation angepasst. Das dauert einige Sekunden, lässt sich abbrechen und ändert nichts.</translation>
     </message>
     <message>
         <source>What was found cannot be shown</source>
@@ -12904,11 +12718,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Exclude readings</source>
-        <translation>Ablesungen ausschließen</translation>
+        <translation>Messwerte ausschließen</translation>
     </message>
     <message>
         <source>Why are the readings %1 (state/point/component) left out? The report will say so.</source>
-        <translation>Warum werden die Ablesungen %1 (Zustand/Punkt/Komponente) ausgelassen? Der Grund steht im Bericht.</translation>
+        <translation>Warum werden die Messwerte %1 (Zustand/Punkt/Komponente) ausgelassen? Der Grund steht im Bericht.</translation>
     </message>
     <message>
         <source> and %1 more</source>
@@ -12986,8 +12800,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>keine: sofort</translation>
     </message>
     <message>
-        <source>lag of first order</source>
-        <translation>Verzögerung erster Ordnung</translation>
+        <source>first-order time constant</source>
+        <translation>Zeitkonstante erster Ordnung</translation>
     </message>
     <message>
         <source>step at an unknown time</source>
@@ -13152,12 +12966,12 @@ endgültig fehlgeschlagen: {}</translation>
 <context>
     <name>spindrift::gui::EffectsPanel</name>
     <message>
-        <source>lag of first order</source>
-        <translation>Verzögerung erster Ordnung</translation>
+        <source>first-order time constant</source>
+        <translation>Zeitkonstante erster Ordnung</translation>
     </message>
     <message>
-        <source>lag, another one while it cools</source>
-        <translation>Verzögerung, beim Abkühlen eine andere</translation>
+        <source>first-order time constant, another one while it cools</source>
+        <translation>Zeitkonstante erster Ordnung, beim Abkühlen eine andere</translation>
     </message>
     <message>
         <source>step at an unknown time</source>
@@ -13268,7 +13082,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Auch die eingebauten Effekte verwenden</translation>
     </message>
     <message>
-        <source>Off: the search tries your own effects alone, for a device that is no machine tool</source>
+        <source>Off: the search tries your own effects alone, for a device that is not a machine tool</source>
         <translation>Aus: die Suche prüft nur die eigenen Effekte, für ein Gerät, das keine Werkzeugmaschine ist</translation>
     </message>
     <message>
@@ -13348,10 +13162,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Eigene</translation>
     </message>
     <message>
-        <source>%1 of %2 effects</source>
-        <translation>%1 von %2 Effekten</translation>
-    </message>
-    <message>
         <source>switch effects on and off</source>
         <translation>Effekte an- und abschalten</translation>
     </message>
@@ -13362,14 +13172,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>consider %1 again</source>
         <translation>%1 wieder berücksichtigen</translation>
-    </message>
-    <message>
-        <source>leave out %1 effects</source>
-        <translation>%1 Effekte auslassen</translation>
-    </message>
-    <message>
-        <source>consider %1 effects again</source>
-        <translation>%1 Effekte wieder berücksichtigen</translation>
     </message>
     <message>
         <source>Effect</source>
@@ -13459,6 +13261,27 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>
             <numerusform>Lesbar, und am einzigen beobachteten Punkt hat er einen Wert.</numerusform>
             <numerusform>Lesbar, und an allen %n beobachteten Punkten hat er einen Wert.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 of %n effects</source>
+        <translation>
+            <numerusform>%1 von %n Effekt</numerusform>
+            <numerusform>%1 von %n Effekten</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>leave out %n effects</source>
+        <translation>
+            <numerusform>%n Effekt auslassen</numerusform>
+            <numerusform>%n Effekte auslassen</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>consider %n effects again</source>
+        <translation>
+            <numerusform>%n Effekt wieder berücksichtigen</numerusform>
+            <numerusform>%n Effekte wieder berücksichtigen</numerusform>
         </translation>
     </message>
 </context>
@@ -13772,7 +13595,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Fiducial</source>
-        <translation>Marke</translation>
+        <translation>Messmarke</translation>
     </message>
     <message>
         <source>State</source>
@@ -13796,7 +13619,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Deviations of each fiducial appear after the evaluation.</source>
-        <translation>Nach der Auswertung erscheinen hier die Abweichungen jeder Marke.</translation>
+        <translation>Nach der Auswertung erscheinen hier die Abweichungen jeder Messmarke.</translation>
     </message>
     <message>
         <source>Centre x / px</source>
@@ -13843,12 +13666,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Die Zustände sind thermische Zustände: nichts zu prüfen</translation>
     </message>
     <message>
-        <source>The states are jogs: within one resolution</source>
-        <translation>Die Zustände sind Verfahrschritte: innerhalb einer Auflösung</translation>
+        <source>Jogs within one resolution</source>
+        <translation>Schritte innerhalb einer Auflösung</translation>
     </message>
     <message>
-        <source>The states repeat the cold machine: within half a resolution</source>
-        <translation>Die Zustände wiederholen die kalte Maschine: innerhalb einer halben Auflösung</translation>
+        <source>Cold repeatability within half the resolution</source>
+        <translation>Wiederholpräzision kalt: innerhalb der halben Auflösung</translation>
     </message>
     <message>
         <source>Axis</source>
@@ -13892,7 +13715,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Fiducial whose contrast curves are shown</source>
-        <translation>Marke, deren Kontrastkurven gezeigt werden</translation>
+        <translation>Messmarke, deren Kontrastkurven gezeigt werden</translation>
     </message>
     <message>
         <source>Commanded height / µm</source>
@@ -13908,7 +13731,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Evaluate the captures: the peak of each curve is the height of its fiducial.</source>
-        <translation>Aufnahmen auswerten: das Maximum jeder Kurve ist die Höhe ihrer Marke.</translation>
+        <translation>Aufnahmen auswerten: das Maximum jeder Kurve ist die Höhe ihrer Messmarke.</translation>
     </message>
     <message>
         <source>Evaluating the captures</source>
@@ -13964,7 +13787,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>deviation from 90°, mean of all fiducials</source>
-        <translation>Abweichung von 90°, Mittel aller Marken</translation>
+        <translation>Abweichung von 90°, Mittel aller Messmarken</translation>
     </message>
     <message>
         <source>needs positions along both axes</source>
@@ -14012,11 +13835,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Algebraic circles through the tracks of the marks (P0 (6)–(9)) lie %1, %2 µm from the joint evaluation in the mean, scatter %3, %4 µm: short arcs pull them. They are shown for comparison and not used.</source>
-        <translation>Algebraische Kreise durch die Bahnen der Marken (P0 (6)–(9)) liegen im Mittel %1, %2 µm neben der gemeinsamen Auswertung, Streuung %3, %4 µm: kurze Bögen ziehen sie weg. Sie stehen zum Vergleich da und werden nicht verwendet.</translation>
+        <translation>Algebraische Kreise durch die Bahnen der Musterpunkte (P0 (6)–(9)) liegen im Mittel %1, %2 µm neben der gemeinsamen Auswertung, Streuung %3, %4 µm: kurze Bögen verfälschen sie. Sie stehen zum Vergleich da und werden nicht verwendet.</translation>
     </message>
     <message>
         <source>No mark was seen in enough spindle orientations for a circle through its track.</source>
-        <translation>Keine Messmarke wurde in genügend Spindelorientierungen gesehen, um einen Kreis durch ihre Bahn zu legen.</translation>
+        <translation>Kein Musterpunkt wurde in genügend Spindelorientierungen gesehen, um einen Kreis durch seine Bahn zu legen.</translation>
     </message>
     <message>
         <source>X to Y − 90° / µrad</source>
@@ -14107,7 +13930,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Fiducial</source>
-        <translation>Marke</translation>
+        <translation>Messmarke</translation>
     </message>
     <message>
         <source>Rotation</source>
@@ -14174,10 +13997,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Die Kampagne führt noch keine Aufnahmen auf.</translation>
     </message>
     <message>
-        <source>Of %1 captures %2 can be used, %3 excluded.</source>
-        <translation>Von %1 Aufnahmen sind %2 brauchbar, %3 ausgeschlossen.</translation>
-    </message>
-    <message>
         <source>%1 in state %2 has %3 for %4</source>
         <translation>%1 in Zustand %2 hat %3 für %4</translation>
     </message>
@@ -14192,10 +14011,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Show it</source>
         <translation>Anzeigen</translation>
-    </message>
-    <message>
-        <source>%1 of %2 captures cannot be used (%3). Take them again, or exclude them: the rest is evaluated without.</source>
-        <translation>%1 von %2 Aufnahmen sind unbrauchbar (%3). Wiederholen oder ausschließen: die übrigen werden ohne sie ausgewertet.</translation>
     </message>
     <message>
         <source>excluded</source>
@@ -14293,6 +14108,20 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>%n Aufnahmen werden geprüft</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Of %n captures %1 can be used, %2 excluded.</source>
+        <translation>
+            <numerusform>Von %n Aufnahme ist %1 brauchbar, %2 ausgeschlossen.</numerusform>
+            <numerusform>Von %n Aufnahmen sind %1 brauchbar, %2 ausgeschlossen.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n of %1 captures cannot be used (%2). Take them again, or exclude them: the others are evaluated without them.</source>
+        <translation>
+            <numerusform>%n von %1 Aufnahmen ist unbrauchbar (%2). Wiederholen oder ausschließen: die übrigen werden ohne sie ausgewertet.</numerusform>
+            <numerusform>%n von %1 Aufnahmen sind unbrauchbar (%2). Wiederholen oder ausschließen: die übrigen werden ohne sie ausgewertet.</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::FieldsDialog</name>
@@ -14341,7 +14170,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Held-out observations, rms</source>
-        <translation>Zurückgehaltene Beobachtungen, rms</translation>
+        <translation>Validierungsdaten, rms</translation>
     </message>
     <message>
         <source>Blocks left out in turn, rms</source>
@@ -14488,7 +14317,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>held out</source>
-        <translation>zurückgehalten</translation>
+        <translation>Validierungsdaten</translation>
     </message>
     <message>
         <source>Time / %1</source>
@@ -14581,8 +14410,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Hier erscheinen die eingehenden Werte</translation>
     </message>
     <message>
-        <source>Press Look live or Record.</source>
-        <translation>„Live ansehen“ oder „Aufzeichnen“ drücken.</translation>
+        <source>Press Live view or Record.</source>
+        <translation>„Live-Ansicht“ oder „Aufzeichnen“ drücken.</translation>
     </message>
     <message>
         <source>Temperature / °C</source>
@@ -14615,7 +14444,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Zuerst eine Sitzung oder eine neue Messung öffnen.</translation>
     </message>
     <message>
-        <source>&quot;%1&quot; is no folder; allowed: the folder into which the instrument writes.</source>
+        <source>&quot;%1&quot; is not a folder; allowed: the folder into which the instrument writes.</source>
         <translation>„%1“ ist kein Ordner; zulässig: der Ordner, in den das Messgerät schreibt.</translation>
     </message>
     <message>
@@ -15081,8 +14910,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Im Prüfbereich verbleiben %1 %3 rms von %2 %3. Das thermische Modell für die Steuerung exportieren.</translation>
     </message>
     <message>
-        <source>In the test range the compensator leaves %1 %3 rms of %2 %3: it would not help. Train on a longer range with more excitation (Model).</source>
-        <translation>Im Prüfbereich lässt der Kompensator %1 %3 rms von %2 %3 übrig: er würde nicht helfen. An einem längeren Bereich mit mehr Anregung trainieren (Modell).</translation>
+        <source>rms in the test range: %1 %3 with, %2 %3 without compensation: no improvement. Train on a longer range with more excitation (Model).</source>
+        <translation>rms im Prüfbereich: %1 %3 mit, %2 %3 ohne Kompensation: keine Verbesserung. An einem längeren Bereich mit mehr Anregung trainieren (Modell).</translation>
     </message>
     <message>
         <source>%1, about its mean</source>
@@ -15148,8 +14977,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Für %1 ist keine Auflösung angegeben: Urteile gegen die Auflösung entfallen.</translation>
     </message>
     <message>
-        <source>No fixed bearing is stated for the screw of %1: its expansion cannot be placed.</source>
-        <translation>Für den Kugelgewindetrieb von %1 ist kein Festlager angegeben: seine Ausdehnung lässt sich nicht verorten.</translation>
+        <source>No fixed bearing is stated for the %1 ball screw: its expansion has no reference.</source>
+        <translation>Für den Kugelgewindetrieb %1 ist kein Festlager angegeben: seine Ausdehnung hat keinen Bezugspunkt.</translation>
     </message>
     <message>
         <source>Point %1 lies outside the travel of axis %2 (%3 mm; travel %4 to %5 mm).</source>
@@ -15287,7 +15116,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Chooses, from a lattice over the table, where so many fiducials determine the nine parameters best: smallest mean variance of the heat map (I-optimal) or smallest confidence region of the parameters (D-optimal)</source>
-        <translation>Wählt aus einem Raster über dem Tisch die Stellen, an denen so viele Marken die neun Parameter am besten bestimmen: kleinste mittlere Varianz der Farbkarte (I-optimal) oder kleinster Konfidenzbereich der Parameter (D-optimal)</translation>
+        <translation>Wählt aus einem Raster über dem Tisch die Stellen, an denen so viele Messmarken die neun Parameter am besten bestimmen: kleinste mittlere Varianz der Farbkarte (I-optimal) oder kleinster Konfidenzbereich der Parameter (D-optimal)</translation>
     </message>
     <message>
         <source>How it is built</source>
@@ -15384,8 +15213,8 @@ endgültig fehlgeschlagen: {}</translation>
     <message numerus="yes">
         <source>%n points added below. With them the heat map would be uncertain by %1 µm on average and %2 µm at worst (0.5 µm in X and Y, 1 µm in Z per fiducial). Apply the changes, or discard them.</source>
         <translation>
-            <numerusform>%n Punkt unten hinzugefügt. Mit ihm wäre die Farbkarte im Mittel auf %1 µm und schlimmstenfalls auf %2 µm unsicher (0,5 µm in X und Y, 1 µm in Z je Marke). Die Änderungen übernehmen oder verwerfen.</numerusform>
-            <numerusform>%n Punkte unten hinzugefügt. Mit ihnen wäre die Farbkarte im Mittel auf %1 µm und schlimmstenfalls auf %2 µm unsicher (0,5 µm in X und Y, 1 µm in Z je Marke). Die Änderungen übernehmen oder verwerfen.</numerusform>
+            <numerusform>%n Punkt unten hinzugefügt. Mit ihm wäre die Farbkarte im Mittel auf %1 µm und schlimmstenfalls auf %2 µm unsicher (0,5 µm in X und Y, 1 µm in Z je Messmarke). Die Änderungen übernehmen oder verwerfen.</numerusform>
+            <numerusform>%n Punkte unten hinzugefügt. Mit ihnen wäre die Farbkarte im Mittel auf %1 µm und schlimmstenfalls auf %2 µm unsicher (0,5 µm in X und Y, 1 µm in Z je Messmarke). Die Änderungen übernehmen oder verwerfen.</numerusform>
         </translation>
     </message>
 </context>
@@ -15926,8 +15755,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Alle Schritte sind erledigt, und der Bericht ist geschrieben.</translation>
     </message>
     <message>
-        <source>The step %1 needs you: look at it, then go on.</source>
-        <translation>Der Schritt %1 braucht Sie: ansehen, dann weitergehen.</translation>
+        <source>Step %1 needs your review before you continue.</source>
+        <translation>Schritt %1 bitte prüfen, dann fortfahren.</translation>
     </message>
     <message>
         <source>Run &amp;all steps</source>
@@ -16051,11 +15880,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Three-axis mill, fiducials under a microscope</source>
-        <translation>Dreiachsige Fräsmaschine, Marken unter dem Mikroskop</translation>
+        <translation>Dreiachsige Fräsmaschine, Messmarken unter dem Mikroskop</translation>
     </message>
     <message>
         <source>Vertical spindle, table moves in X and Y; five fiducials.</source>
-        <translation>Senkrechte Spindel, Tisch bewegt sich in X und Y; fünf Marken.</translation>
+        <translation>Senkrechte Spindel, Tisch bewegt sich in X und Y; fünf Messmarken.</translation>
     </message>
     <message>
         <source>Five-axis machining centre, hole bar and touch probe</source>
@@ -16124,7 +15953,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Punkt</translation>
     </message>
     <message>
-        <source>Programme</source>
+        <source>Program</source>
         <translation>Programm</translation>
     </message>
     <message>
@@ -16180,8 +16009,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>nicht</translation>
     </message>
     <message>
-        <source>After the search this says which measurement tells rivals apart.</source>
-        <translation>Nach der Suche steht hier, welche Messung die Rivalen unterscheidet.</translation>
+        <source>After the search this says which measurement distinguishes the rivals.</source>
+        <translation>Nach der Suche steht hier, welche Messung die konkurrierenden Erklärungen unterscheidet.</translation>
     </message>
     <message>
         <source>After a night at rest:</source>
@@ -16212,7 +16041,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Wo</translation>
     </message>
     <message>
-        <source>When, from the start of the programme (h:min)</source>
+        <source>When, from the start of the program (h:min)</source>
         <translation>Zeitpunkt ab Beginn des Programms (h:min)</translation>
     </message>
     <message>
@@ -16224,8 +16053,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>zurzeit am wahrscheinlichsten: %1 %</translation>
     </message>
     <message>
-        <source>No effect of the catalogue fits, so there are no rivals to tell apart. Log what else happens at the machine (hydraulics, pumps, doors, neighbours) at the times of the disagreement, and measure again.</source>
-        <translation>Kein Effekt des Katalogs passt, daher gibt es keine Rivalen zu unterscheiden. Aufzeichnen, was sonst an der Maschine geschieht (Hydraulik, Pumpen, Türen, Nachbarn), wenn die Unterschiede auftreten, und erneut messen.</translation>
+        <source>No effect of the catalogue fits, so there are no rivals to distinguish. Log what else happens at the machine (hydraulics, pumps, doors, neighbours) at the times of the disagreement, and measure again.</source>
+        <translation>Kein Effekt des Katalogs passt, daher gibt es keine konkurrierenden Erklärungen zu unterscheiden. Aufzeichnen, was sonst an der Maschine geschieht (Hydraulik, Pumpen, Türen, Nachbarn), wenn die Unterschiede auftreten, und erneut messen.</translation>
     </message>
     <message>
         <source>Nothing: measured and simulated agree.</source>
@@ -16233,7 +16062,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Nothing: no rival fits as well as the named effect.</source>
-        <translation>Nichts: kein Rivale passt so gut wie der benannte Effekt.</translation>
+        <translation>Nichts: keine konkurrierende Erklärung passt so gut wie der benannte Effekt.</translation>
     </message>
 </context>
 <context>
@@ -16543,7 +16372,7 @@ endgültig fehlgeschlagen: {}</translation>
     <name>spindrift::gui::NoisePanel</name>
     <message>
         <source>Noise of a reading</source>
-        <translation>Rauschen einer Ablesung</translation>
+        <translation>Rauschen eines Messwerts</translation>
     </message>
     <message>
         <source>What</source>
@@ -16571,7 +16400,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Outlying readings</source>
-        <translation>Ausreißende Ablesungen</translation>
+        <translation>Ausreißer</translation>
     </message>
     <message>
         <source>What is shown</source>
@@ -16583,7 +16412,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Leave the marked readings out; they stay in the data and can be brought back</source>
-        <translation>Markierte Ablesungen auslassen; sie bleiben in den Daten und können zurückgeholt werden</translation>
+        <translation>Markierte Messwerte auslassen; sie bleiben in den Daten und können zurückgeholt werden</translation>
     </message>
     <message>
         <source>No common shift</source>
@@ -16627,19 +16456,19 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>No reading lies far from all others.</source>
-        <translation>Keine Ablesung liegt weit von allen anderen entfernt.</translation>
+        <translation>Kein Messwert liegt weit von allen anderen entfernt.</translation>
     </message>
     <message>
         <source>The series of the reading</source>
-        <translation>Reihe der Ablesung</translation>
+        <translation>Reihe des Messwerts</translation>
     </message>
     <message>
         <source>Choose a reading in the table.</source>
-        <translation>Ablesung in der Tabelle wählen.</translation>
+        <translation>Messwert in der Tabelle wählen.</translation>
     </message>
     <message>
         <source>Scatter of the readings over their stated σ</source>
-        <translation>Streuung der Ablesungen bezogen auf ihr angegebenes σ</translation>
+        <translation>Streuung der Messwerte bezogen auf ihr angegebenes σ</translation>
     </message>
     <message>
         <source>Standard deviation of the shift common to all points of a state</source>
@@ -16655,11 +16484,11 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Noise scale: how much the readings scatter, over their stated σ.</source>
-        <translation>Rauschfaktor: Streuung der Ablesungen bezogen auf ihr angegebenes σ.</translation>
+        <translation>Rauschfaktor: Streuung der Messwerte bezogen auf ihr angegebenes σ.</translation>
     </message>
     <message>
         <source>Tails: heavier than normal (Student t, %1 degrees of freedom); readings far out have little weight.</source>
-        <translation>Ausläufer: breiter als bei der Normalverteilung (Student-t, %1 Freiheitsgrade); weit außen liegende Ablesungen haben wenig Gewicht.</translation>
+        <translation>Ausläufer: breiter als bei der Normalverteilung (Student-t, %1 Freiheitsgrade); weit außen liegende Messwerte haben wenig Gewicht.</translation>
     </message>
     <message>
         <source>Tails: normal distribution.</source>
@@ -16715,7 +16544,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Outlying readings (%1)</source>
-        <translation>Ausreißende Ablesungen (%1)</translation>
+        <translation>Ausreißer (%1)</translation>
     </message>
     <message>
         <source>Bring back</source>
@@ -16752,8 +16581,8 @@ endgültig fehlgeschlagen: {}</translation>
     <message numerus="yes">
         <source>%n readings lie far from all others; they have little weight.</source>
         <translation>
-            <numerusform>Eine Ablesung liegt weit von allen anderen; sie hat wenig Gewicht.</numerusform>
-            <numerusform>%n Ablesungen liegen weit von allen anderen; sie haben wenig Gewicht.</numerusform>
+            <numerusform>Ein Messwert liegt weit von allen anderen; er hat wenig Gewicht.</numerusform>
+            <numerusform>%n Messwerte liegen weit von allen anderen; sie haben wenig Gewicht.</numerusform>
         </translation>
     </message>
 </context>
@@ -17200,7 +17029,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Batches</source>
-        <translation>Stapel</translation>
+        <translation>Batch-Aufträge</translation>
     </message>
     <message>
         <source>Help on the plant</source>
@@ -17275,8 +17104,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>%1 Standardunsicherheiten</translation>
     </message>
     <message>
-        <source>&quot;%1&quot; is no day on which something was done; allowed: UTC up to now, such as 2026-01-31 or 2026-01-31T08:00:00Z.</source>
-        <translation>„%1“ ist kein Tag, an dem etwas getan wurde; zulässig: UTC bis jetzt, etwa 2026-01-31 oder 2026-01-31T08:00:00Z.</translation>
+        <source>&quot;%1&quot; is not a date up to now; allowed: UTC such as 2026-01-31 or 2026-01-31T08:00:00Z.</source>
+        <translation>„%1“ ist kein Datum bis heute; zulässig: UTC, etwa 2026-01-31 oder 2026-01-31T08:00:00Z.</translation>
     </message>
     <message>
         <source>Entering an event</source>
@@ -18118,7 +17947,7 @@ endgültig fehlgeschlagen: {}</translation>
 <context>
     <name>spindrift::gui::ReportPages</name>
     <message>
-        <source>%1 is no PDF that can be read.</source>
+        <source>%1 is not a readable PDF file.</source>
         <translation>%1 ist keine lesbare PDF-Datei.</translation>
     </message>
 </context>
@@ -18562,10 +18391,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Anzeigen</translation>
     </message>
     <message>
-        <source>%1 of %2 scans are incomplete or cannot be used (%3). Scan again, or exclude them: the rest is evaluated without.</source>
-        <translation>%1 von %2 Scans sind unvollständig oder unbrauchbar (%3). Erneut scannen oder ausschließen: die übrigen werden ohne sie ausgewertet.</translation>
-    </message>
-    <message>
         <source>excluded</source>
         <translation>ausgeschlossen</translation>
     </message>
@@ -18592,10 +18417,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Excluded: %1.</source>
         <translation>Ausgeschlossen: %1.</translation>
-    </message>
-    <message>
-        <source>%1 profiles; %2 points near edges and %3 outliers are not used.</source>
-        <translation>%1 Profile; %2 Punkte nahe Kanten und %3 Ausreißer werden nicht verwendet.</translation>
     </message>
     <message>
         <source>A part is masked: %1.</source>
@@ -18642,7 +18463,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Art</translation>
     </message>
     <message>
-        <source>: edge %1, outlier %2, painted %3</source>
+        <source>: edge %1, outlier %2, masked %3</source>
         <translation>: Kante %1, Ausreißer %2, maskiert %3</translation>
     </message>
     <message>
@@ -18687,6 +18508,38 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>Alle %n Scans sind vollständig und verwendbar.</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>%n of %1 scans are incomplete or cannot be used (%2). Scan again, or exclude them: the others are evaluated without them.</source>
+        <translation>
+            <numerusform>%n von %1 Scans ist unvollständig oder unbrauchbar (%2). Erneut scannen oder ausschließen: die übrigen werden ohne ihn ausgewertet.</numerusform>
+            <numerusform>%n von %1 Scans sind unvollständig oder unbrauchbar (%2). Erneut scannen oder ausschließen: die übrigen werden ohne sie ausgewertet.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>%1; not used: %2 and %3.</source>
+        <translation>%1; nicht verwendet: %2 und %3.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n profiles</source>
+        <translation>
+            <numerusform>%n Profil</numerusform>
+            <numerusform>%n Profile</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n points near edges</source>
+        <translation>
+            <numerusform>%n Punkt nahe Kanten</numerusform>
+            <numerusform>%n Punkte nahe Kanten</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n outliers</source>
+        <translation>
+            <numerusform>%n Ausreißer</numerusform>
+            <numerusform>%n Ausreißer</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ScanMaskBar</name>
@@ -18711,8 +18564,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Werkzeug auf dem Scan</translation>
     </message>
     <message>
-        <source>Brush, rectangle and lasso look straight down on the scan</source>
-        <translation>Pinsel, Rechteck und Lasso blicken senkrecht auf den Scan</translation>
+        <source>Brush, rectangle and lasso select in the top view</source>
+        <translation>Pinsel, Rechteck und Lasso wählen in der Draufsicht</translation>
     </message>
     <message>
         <source>r </source>
@@ -18819,7 +18672,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>held out</source>
-        <translation>zurückgehalten</translation>
+        <translation>Validierungsdaten</translation>
     </message>
     <message>
         <source>Time / %1</source>
@@ -18857,12 +18710,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>%1, gemessen − Simulation bei %2 %3</translation>
     </message>
     <message>
-        <source>Simulation before over the table</source>
-        <translation>Simulation vorher über dem Tisch</translation>
+        <source>Initial simulation over the table</source>
+        <translation>Ursprüngliche Simulation über dem Tisch</translation>
     </message>
     <message>
-        <source>Simulation after over the table</source>
-        <translation>Simulation nachher über dem Tisch</translation>
+        <source>Updated simulation over the table</source>
+        <translation>Aktualisierte Simulation über dem Tisch</translation>
     </message>
 </context>
 <context>
@@ -19017,7 +18870,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>rms, held out</source>
-        <translation>rms, zurückgehalten</translation>
+        <translation>rms, Validierungsdaten</translation>
     </message>
     <message>
         <source>Peak to peak</source>
@@ -19056,8 +18909,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Simulation vorher und nachher</translation>
     </message>
     <message>
-        <source>Simulation before and after over time</source>
-        <translation>Simulation vorher und nachher über der Zeit</translation>
+        <source>Initial and updated simulation over time</source>
+        <translation>Ursprüngliche und aktualisierte Simulation über der Zeit</translation>
     </message>
 </context>
 <context>
@@ -19148,8 +19001,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Gefrästes Prüfwerkstück</translation>
     </message>
     <message>
-        <source>Deviations from bore C, drawn %1 times their size</source>
-        <translation>Abweichungen bezogen auf Bohrung C, %1-fach vergrößert gezeichnet</translation>
+        <source>Deviations from bore C, magnified %1 ×</source>
+        <translation>Abweichungen von Bohrung C, %1-fach vergrößert</translation>
     </message>
     <message>
         <source>No deviation: the part is as it should be</source>
@@ -19215,7 +19068,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Wie das Modell gefunden wird</translation>
     </message>
     <message>
-        <source>All lags</source>
+        <source>All time constants</source>
         <translation>Alle Zeitkonstanten</translation>
     </message>
     <message>
@@ -19349,10 +19202,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Poles as time constants with their gains appear after the identification.</source>
         <translation>Nach der Identifikation erscheinen hier die Pole als Zeitkonstanten mit ihren Verstärkungen.</translation>
-    </message>
-    <message>
-        <source>Lags</source>
-        <translation>Zeitkonstanten</translation>
     </message>
     <message>
         <source>Lag / min</source>
@@ -19586,7 +19435,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>, Tisch bei %1°</translation>
     </message>
     <message>
-        <source>The position of the first ball is not known. Probe it once by hand; then the programme can be planned.</source>
+        <source>The position of the first ball is not known. Probe it once by hand; then the program can be planned.</source>
         <translation>Die Position der ersten Kugel ist nicht bekannt. Sie einmal von Hand antasten; dann lässt sich das Programm planen.</translation>
     </message>
     <message>
@@ -19594,16 +19443,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Messzyklus wird geplant</translation>
     </message>
     <message>
-        <source>No programme: %1</source>
+        <source>No program: %1</source>
         <translation>Kein Programm: %1</translation>
     </message>
     <message>
-        <source>Programme not exported, issues found by the check: %1. Line %2: %3</source>
+        <source>Program not exported, issues found by the check: %1. Line %2: %3</source>
         <translation>Programm nicht ausgegeben, Beanstandungen der Prüfung: %1. Zeile %2: %3</translation>
-    </message>
-    <message>
-        <source>Programme checked: %1 touches in %2 moves inside the travel, none through the artefact, a retract after each, safe height %3 mm. Export writes it.</source>
-        <translation>Programm geprüft: %1 Antastungen in %2 Bewegungen innerhalb der Verfahrwege, keine durch den Prüfkörper, nach jeder ein Rückzug, sichere Höhe %3 mm. „Exportieren“ schreibt es.</translation>
     </message>
     <message>
         <source>Cycles</source>
@@ -19618,7 +19463,7 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Messzyklus</translation>
     </message>
     <message>
-        <source>Measuring programme</source>
+        <source>Measuring program</source>
         <translation>Messprogramm</translation>
     </message>
     <message>
@@ -19750,11 +19595,11 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Allgemein</translation>
     </message>
     <message>
-        <source>Programme</source>
+        <source>Program</source>
         <translation>Programm</translation>
     </message>
     <message>
-        <source>Write the measuring programme for this control, read it back and check it</source>
+        <source>Write the measuring program for this control, read it back and check it</source>
         <translation>Messprogramm für diese Steuerung schreiben, zurücklesen und prüfen</translation>
     </message>
     <message>
@@ -19794,8 +19639,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Anzeigen</translation>
     </message>
     <message>
-        <source>%1 touches are rejected and %2 are missing (%3). Take them again while the machine is in this state; the rest is evaluated without them.</source>
-        <translation>%1 Antastungen sind verworfen und %2 fehlen (%3). Wiederholen, solange die Maschine in diesem Zustand ist; die übrigen werden ohne sie ausgewertet.</translation>
+        <source>Rejected touches: %1, missing: %2 (%3). Take them again while the machine is in this state; the others are evaluated without them.</source>
+        <translation>Verworfene Antastungen: %1, fehlende: %2 (%3). Wiederholen, solange die Maschine in diesem Zustand ist; die übrigen werden ohne sie ausgewertet.</translation>
     </message>
     <message>
         <source>not checked</source>
@@ -19848,6 +19693,13 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>
             <numerusform>Die einzige Antastung ist plausibel. Ob eine fehlt, zeigt sich, wenn ein zweiter Zyklus zum Vergleich vorliegt.</numerusform>
             <numerusform>Alle %n Antastungen sind plausibel. Ob eine fehlt, zeigt sich, wenn ein zweiter Zyklus zum Vergleich vorliegt.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export writes it.</source>
+        <translation>
+            <numerusform>Programm geprüft: %n Antastung in %1 Bewegungen innerhalb der Verfahrwege, nicht durch den Prüfkörper, danach ein Rückzug, sichere Höhe %2 mm. „Exportieren“ schreibt es.</numerusform>
+            <numerusform>Programm geprüft: %n Antastungen in %1 Bewegungen innerhalb der Verfahrwege, keine durch den Prüfkörper, nach jeder ein Rückzug, sichere Höhe %2 mm. „Exportieren“ schreibt es.</numerusform>
         </translation>
     </message>
 </context>
@@ -19962,8 +19814,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Wiederholpräzision</translation>
     </message>
     <message>
-        <source>How well a cycle repeats appears with at least 18 cycles.</source>
-        <translation>Wie gut sich ein Zyklus wiederholt, erscheint ab 18 Zyklen.</translation>
+        <source>Repeatability requires at least 18 cycles.</source>
+        <translation>Die Wiederholpräzision erfordert mindestens 18 Zyklen.</translation>
     </message>
     <message>
         <source>Stylus</source>
@@ -20162,8 +20014,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>die Maschine weicht ab</translation>
     </message>
     <message>
-        <source>Drifts slower than nine cycles are taken out; what is left is how well one cycle repeats.</source>
-        <translation>Drift, die langsamer ist als neun Zyklen, ist herausgerechnet; was bleibt, ist die Wiederholpräzision eines Zyklus.</translation>
+        <source>Drift slower than nine cycles is removed; the residual scatter is the repeatability of one cycle.</source>
+        <translation>Drift, die langsamer ist als neun Zyklen, ist entfernt; die Reststreuung (Residuum) ist die Wiederholpräzision eines Zyklus.</translation>
     </message>
     <message>
         <source>loose</source>
@@ -20239,7 +20091,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Closed forms</source>
-        <translation>Geschlossene Formeln</translation>
+        <translation>Geschlossene Lösung</translation>
     </message>
     <message>
         <source>Ball</source>
@@ -20247,7 +20099,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Closed forms X, Y, Z / µrad</source>
-        <translation>Geschlossene Formeln X, Y, Z / µrad</translation>
+        <translation>Geschlossene Lösung X, Y, Z / µrad</translation>
     </message>
     <message>
         <source>Joint evaluation X, Y, Z / µrad</source>
@@ -20828,7 +20680,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Jog the table by known steps, five or more, and capture the same fiducial after each: what the microscope reads beside the commanded step must stay within one resolution of the axis.</source>
-        <translation>Den Tisch um bekannte Schritte verfahren, mindestens fünf, und nach jedem dieselbe Marke aufnehmen: die Ablesung des Mikroskops muss innerhalb einer Auflösung der Achse mit dem Sollschritt übereinstimmen.</translation>
+        <translation>Den Tisch um bekannte Schritte verfahren, mindestens fünf, und nach jedem dieselbe Messmarke aufnehmen: der Messwert des Mikroskops muss innerhalb einer Auflösung der Achse mit dem Sollschritt übereinstimmen.</translation>
     </message>
     <message>
         <source>Check the jogs</source>
@@ -20840,7 +20692,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Measure the same fiducials again and again on the cold machine, one state each time: the readings must come back within half a resolution of the axis.</source>
-        <translation>Dieselben Marken an der kalten Maschine immer wieder messen, jedes Mal als ein Zustand: die Ablesungen müssen innerhalb einer halben Auflösung der Achse wiederkehren.</translation>
+        <translation>Dieselben Messmarken an der kalten Maschine wiederholt messen, jedes Mal als ein Zustand: die Messwerte müssen innerhalb einer halben Auflösung der Achse wiederkehren.</translation>
     </message>
     <message>
         <source>Check the repeatability</source>
@@ -20903,16 +20755,16 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Abweichung von %1 / µm</translation>
     </message>
     <message>
-        <source>You stated that the instrument was warm. Reports written from now on say so.</source>
-        <translation>Erklärt wurde: das Messgerät war warm. Berichte, die ab jetzt geschrieben werden, sagen es.</translation>
+        <source>Operator&apos;s statement: the instrument was warm. Reports will state this.</source>
+        <translation>Angabe des Bedieners: Messgerät war warm. Wird in Berichten vermerkt.</translation>
     </message>
     <message>
         <source>This campaign has no warm-up measurement. Either measure one point every 5 minutes until it settles, or state that the instrument was warm.</source>
         <translation>Diese Kampagne hat keine Warmlaufmessung. Entweder alle 5 Minuten einen Punkt messen, bis das Messgerät eingelaufen ist, oder erklären, dass es warm war.</translation>
     </message>
     <message>
-        <source>Take the statement back</source>
-        <translation>Erklärung zurücknehmen</translation>
+        <source>Withdraw the statement</source>
+        <translation>Angabe zurücknehmen</translation>
     </message>
 </context>
 <context>
@@ -20943,7 +20795,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>All machines of a plant: due dates, trends, batches</source>
-        <translation>Alle Maschinen eines Werks: Fälligkeiten, Verläufe, Stapel</translation>
+        <translation>Alle Maschinen eines Werks: Fälligkeiten, Verläufe, Batch-Aufträge</translation>
     </message>
     <message>
         <source>Try it on the virtual machine</source>
@@ -21078,7 +20930,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Fiducial plate</source>
-        <translation>Markenplatte</translation>
+        <translation>Messmarkenplatte</translation>
     </message>
     <message>
         <source>as it lies</source>
@@ -21301,7 +21153,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Held-out rms</source>
-        <translation>rms der zurückgehaltenen</translation>
+        <translation>rms der Validierungsdaten</translation>
     </message>
     <message>
         <source>What happens</source>
@@ -21329,7 +21181,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>rival</source>
-        <translation>Rivale</translation>
+        <translation>konkurrierende Erklärung</translation>
     </message>
     <message>
         <source>No effect is missing.</source>
@@ -21349,7 +21201,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>Probability that it is among what is missing, before rivals and the remainder are weighed</source>
-        <translation>Wahrscheinlichkeit, dass er zum Fehlenden gehört, bevor Rivalen und Rest abgewogen sind</translation>
+        <translation>Wahrscheinlichkeit, dass er zum Fehlenden gehört, bevor konkurrierende Erklärungen und Rest abgewogen sind</translation>
     </message>
     <message>
         <source>named</source>
@@ -21405,7 +21257,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>observations held out</source>
-        <translation>zurückgehaltene Beobachtungen</translation>
+        <translation>Beobachtungen als Validierungsdaten</translation>
     </message>
     <message>
         <source>blocks left out in turn</source>
@@ -21620,7 +21472,7 @@ endgültig fehlgeschlagen: {}</translation>
     </message>
     <message>
         <source>held out</source>
-        <translation>zurückgehalten</translation>
+        <translation>Validierungsdaten</translation>
     </message>
     <message>
         <source>place chosen</source>
@@ -21690,8 +21542,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Prüfen, ob dies die Maschine ist, vor der man steht: Kette, Verfahrwege, Messpunkte.</translation>
     </message>
     <message>
-        <source>Wait until the instrument has settled; before that its drift would pass for the machine&apos;s.</source>
-        <translation>Warten, bis das Messgerät eingelaufen ist; vorher würde seine Drift als die der Maschine gelten.</translation>
+        <source>Wait until the instrument has settled; until then its drift would be mistaken for drift of the machine.</source>
+        <translation>Warten, bis das Messgerät eingelaufen ist; bis dahin würde seine Drift für Drift der Maschine gehalten.</translation>
     </message>
     <message>
         <source>Take every capture of the plan and take bad ones again while you stand at the machine.</source>

@@ -2,12 +2,32 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="en_GB" sourcelanguage="en">
 <context>
+    <name>spindrift::gui::ArrivingPanel</name>
+    <message numerus="yes">
+        <source>Watching %1: %n files, %2 accepted. You may leave this page; capturing goes on.</source>
+        <translation>
+            <numerusform>Watching %1: %n file, %2 accepted. You may leave this page; capturing goes on.</numerusform>
+            <numerusform>Watching %1: %n files, %2 accepted. You may leave this page; capturing goes on.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>spindrift::gui::AxisErrorsPage</name>
     <message numerus="yes">
         <source>%n scans, six errors each, relative to the first scan of their artefact.</source>
         <translation>
             <numerusform>%n scan, six errors, relative to the first scan of its artefact.</numerusform>
             <numerusform>%n scans, six errors each, relative to the first scan of their artefact.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>spindrift::gui::CameraPanel</name>
+    <message numerus="yes">
+        <source>The camera has sent no complete frame for %1 s and %n frames with missing packets.</source>
+        <translation>
+            <numerusform>The camera has sent no complete frame for %1 s and %n frame with missing packets.</numerusform>
+            <numerusform>The camera has sent no complete frame for %1 s and %n frames with missing packets.</numerusform>
         </translation>
     </message>
 </context>
@@ -39,6 +59,16 @@
     </message>
 </context>
 <context>
+    <name>spindrift::gui::CycleModelPage</name>
+    <message numerus="yes">
+        <source>%1 parameters are determined in each of %n cycles.</source>
+        <translation>
+            <numerusform>%1 parameters are determined in the only cycle.</numerusform>
+            <numerusform>%1 parameters are determined in each of %n cycles.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>spindrift::gui::EffectsPanel</name>
     <message numerus="yes">
         <source>%n effects</source>
@@ -52,6 +82,27 @@
         <translation>
             <numerusform>It can be read, and has a value at the only point observed.</numerusform>
             <numerusform>It can be read, and has a value at all %n points observed.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 of %n effects</source>
+        <translation>
+            <numerusform>%1 of %n effect</numerusform>
+            <numerusform>%1 of %n effects</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>leave out %n effects</source>
+        <translation>
+            <numerusform>leave out %n effect</numerusform>
+            <numerusform>leave out %n effects</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>consider %n effects again</source>
+        <translation>
+            <numerusform>consider %n effect again</numerusform>
+            <numerusform>consider %n effects again</numerusform>
         </translation>
     </message>
 </context>
@@ -83,6 +134,20 @@
         <translation>
             <numerusform>Checking %n capture</numerusform>
             <numerusform>Checking %n captures</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Of %n captures %1 can be used, %2 excluded.</source>
+        <translation>
+            <numerusform>Of %n capture %1 can be used, %2 excluded.</numerusform>
+            <numerusform>Of %n captures %1 can be used, %2 excluded.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n of %1 captures cannot be used (%2). Take them again, or exclude them: the others are evaluated without them.</source>
+        <translation>
+            <numerusform>%n of %1 captures cannot be used (%2). Take it again, or exclude it: the others are evaluated without it.</numerusform>
+            <numerusform>%n of %1 captures cannot be used (%2). Take them again, or exclude them: the others are evaluated without them.</numerusform>
         </translation>
     </message>
 </context>
@@ -176,6 +241,34 @@
             <numerusform>All %n scans are complete and can be used.</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>%n of %1 scans are incomplete or cannot be used (%2). Scan again, or exclude them: the others are evaluated without them.</source>
+        <translation>
+            <numerusform>%n of %1 scans is incomplete or cannot be used (%2). Scan again, or exclude it: the others are evaluated without it.</numerusform>
+            <numerusform>%n of %1 scans are incomplete or cannot be used (%2). Scan again, or exclude them: the others are evaluated without them.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n profiles</source>
+        <translation>
+            <numerusform>%n profile</numerusform>
+            <numerusform>%n profiles</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n points near edges</source>
+        <translation>
+            <numerusform>%n point near edges</numerusform>
+            <numerusform>%n points near edges</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n outliers</source>
+        <translation>
+            <numerusform>%n outlier</numerusform>
+            <numerusform>%n outliers</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::TouchCapturePage</name>
@@ -198,6 +291,13 @@
         <translation>
             <numerusform>The only touch is plausible. Whether one is missing shows when a second cycle is there to compare with.</numerusform>
             <numerusform>All %n touches are plausible. Whether one is missing shows when a second cycle is there to compare with.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export writes it.</source>
+        <translation>
+            <numerusform>Program checked: %n touch in %1 moves inside the travel, not through the artefact, a retract after it, safe height %2 mm. Export writes it.</numerusform>
+            <numerusform>Program checked: %n touches in %1 moves inside the travel, none through the artefact, a retract after each, safe height %2 mm. Export writes it.</numerusform>
         </translation>
     </message>
 </context>

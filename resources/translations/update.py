@@ -30,8 +30,7 @@ NOT_SHOWN = {"SPINDRIFT_ASSERT", "guarded", "writing", "prepare", "log", "demand
 TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\((?:.*?)\)\1"|"((?:[^"\\\n]|\\.)*)"|\'(?:[^\'\\\n]|\\.)+\''
                    r'|[A-Za-z_]\w*|\d[\w.\']*|::|->|<<|\S', re.S)
 # Sentences that core puts together in more than one place.
-COMPOSED = ("displacement along {} at the origin of the table", "rotation about {} at the origin of the table",
-            "thermal expansion along {} over the table", "squareness of {} to {}",
+COMPOSED = ("squareness of {} to {}",
             "{} of {} captures cannot be used. Take them again, or exclude them.")
 # Words that stand alone.
 ALONE = ("re-levelled", "crash", "repair", "moved", "note", "tilt", "rotation", "Signatures", "Where simulation and measurement disagree", "converged", "degenerate", "no convergence", "rejected", "artefact", "bed", "column", "coolant", "instrument", "room",

@@ -14,4 +14,17 @@ QString unitText(std::string_view unit) {
   return QString::fromStdString(printedUnit(unit));
 }
 
+QString printedTitle(const QString& title) {
+  const QString border = QStringLiteral(" / ");
+  const qsizetype at = title.lastIndexOf(border);
+  if (at < 0) return title;
+  const qsizetype unit = at + border.size();
+  return title.left(unit) + unitText(title.mid(unit).toStdString());
+}
+
+QStringList printedTitles(QStringList titles) {
+  for (QString& title : titles) title = printedTitle(title);
+  return titles;
+}
+
 }  // namespace spindrift::gui

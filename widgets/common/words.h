@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QString>
+#include <QStringList>
 #include <string_view>
 
 namespace spindrift::gui {
@@ -11,5 +12,8 @@ namespace spindrift::gui {
 [[nodiscard]] QString sentenceStart(QString text);
 /// A unit as people write it: "um" -> "µm".
 [[nodiscard]] QString unitText(std::string_view unit);
+/// The unit behind the last " / " of a title as people write it: "EX / um" -> "EX / µm".
+[[nodiscard]] QString printedTitle(const QString& title);
+[[nodiscard]] QStringList printedTitles(QStringList titles);
 
 }  // namespace spindrift::gui

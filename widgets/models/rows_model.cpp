@@ -3,15 +3,17 @@
 
 #include <QFont>
 
+#include "widgets/common/words.h"
 #include "widgets/theme/fonts.h"
 #include "widgets/theme/icons.h"
 
 namespace spindrift::gui {
 
 RowsModel::RowsModel(QStringList headers, QObject* parent)
-    : QAbstractTableModel(parent), headers_(std::move(headers)) {}
+    : QAbstractTableModel(parent), headers_(printedTitles(std::move(headers))) {}
 
-void RowsModel::setHeaders(const QStringList& headers) {
+void RowsModel::setHeaders(const QStringList& titles) {
+  const QStringList headers = printedTitles(titles);
   if (headers == headers_) return;
   beginResetModel();
   headers_ = headers;

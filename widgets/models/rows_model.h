@@ -35,7 +35,8 @@ class RowsModel : public QAbstractTableModel {
   Q_OBJECT
  public:
   explicit RowsModel(QStringList headers, QObject* parent = nullptr);
-  void setHeaders(const QStringList& headers);
+  /// Their units are printed as people write them: "EX / um" becomes "EX / µm".
+  void setHeaders(const QStringList& titles);
   void setRows(std::vector<Row> rows);
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
   [[nodiscard]] QString idAt(int row) const;

@@ -14,6 +14,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "widgets/common/words.h"
 #include "widgets/plots/marked_graph.h"
 #include "widgets/plots/qcustomplot_header.h"
 #include "widgets/theme/fonts.h"
@@ -73,10 +74,10 @@ Plot::Plot(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
 Plot::~Plot() = default;
 
 void Plot::setAxes(const QString& x_title, const QString& y_title) {
-  x_title_ = x_title;
-  y_title_ = y_title;
-  plot_->xAxis->setLabel(x_title);
-  plot_->yAxis->setLabel(y_title);
+  x_title_ = printedTitle(x_title);
+  y_title_ = printedTitle(y_title);
+  plot_->xAxis->setLabel(x_title_);
+  plot_->yAxis->setLabel(y_title_);
 }
 
 void Plot::setContent(std::vector<Series> series, std::vector<Span> spans) {

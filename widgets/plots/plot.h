@@ -6,6 +6,7 @@
 #include <QPointF>
 #include <QRectF>
 #include <QString>
+#include <QStringList>
 #include <QWidget>
 #include <optional>
 #include <utility>
@@ -52,7 +53,10 @@ class Plot : public QWidget {
   explicit Plot(QWidget* parent = nullptr);
   ~Plot() override;
 
+  /// Units of the titles are printed as people write them: "EX / um" becomes "EX / µm".
   void setAxes(const QString& x_title, const QString& y_title);
+  /// Of x and y, as they are drawn.
+  [[nodiscard]] QStringList axisTitles() const { return {x_title_, y_title_}; }
   /// Replaces all series, spans and marks, and shows everything.
   void setContent(std::vector<Series> series, std::vector<Span> spans = {});
   /// A vertical line with a name at x.

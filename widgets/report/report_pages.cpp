@@ -45,7 +45,7 @@ void ReportPages::read(const std::filesystem::path& file) {
   std::vector<Section> sections;
   if (document_ == nullptr || document_->isLocked() || document_->numPages() == 0) {
     document_.reset();
-    failure = tr("%1 is no PDF that can be read.").arg(QString::fromStdString(file.filename().string()));
+    failure = tr("%1 is not a readable PDF file.").arg(QString::fromStdString(file.filename().string()));
   } else {
     for (const Poppler::Document::RenderHint hint :
          {Poppler::Document::Antialiasing, Poppler::Document::TextAntialiasing, Poppler::Document::TextSlightHinting})

@@ -310,7 +310,7 @@ void MainWindow::goOnRunning() {
     const StepId step = workflow_.current();
     tell(step == StepId::Report && workflow_.status(step).state == StepState::Current
              ? tr("All steps are done and the report is written.")
-             : tr("The step %1 needs you: look at it, then go on.").arg(stepTitle(step)));
+             : tr("Step %1 needs your review before you continue.").arg(stepTitle(step)));
   }
 }
 

@@ -17,6 +17,7 @@
 #include "widgets/common/languages.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/session_model.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -72,7 +73,7 @@ PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
   QFormLayout* numbers = section(outer, tr("Numbers"));
   decimals_ = named(new QComboBox, "length_decimals", tr("Decimals of measured lengths in mm"));
   decimals_->addItem(tr("As each page finds fitting"), -1);
-  for (int n = 0; n <= most_length_decimals; ++n) decimals_->addItem(tr("%1 mm").arg(0.0, 0, 'f', n), n);
+  for (int n = 0; n <= most_length_decimals; ++n) decimals_->addItem(tr("%1 mm").arg(decimalText(0.0, 'f', n)), n);
   numbers->addRow(tr("Measured lengths"), decimals_);
 
   QFormLayout* folders = section(outer, tr("Folders"));

@@ -6,6 +6,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
 namespace {
@@ -42,11 +43,11 @@ QString distanceText(const MeasuredPlace& a, const MeasuredPlace& b) {
     return place.name.isEmpty() ? measurementText("surface") : place.name;
   };
   const QString ends = measurementText("%1 to %2").arg(name(a), name(b));
-  if (!d.change_um) return measurementText("%1: %2 mm").arg(ends).arg(d.nominal_mm, 0, 'f', 3);
+  if (!d.change_um) return measurementText("%1: %2 mm").arg(ends, decimalText(d.nominal_mm, 'f', 3));
   const double actual_mm = d.nominal_mm + *d.change_um / um_per_mm;
   return measurementText("%1: %2, %3 %4 than nominal")
-      .arg(ends, QString::fromStdString(withUncertainty(actual_mm, d.sigma_um / um_per_mm, "mm")),
-           QString::fromStdString(withUncertainty(std::abs(*d.change_um), d.sigma_um, "um")),
+      .arg(ends, shownNumbers(QString::fromStdString(withUncertainty(actual_mm, d.sigma_um / um_per_mm, "mm"))),
+           shownNumbers(QString::fromStdString(withUncertainty(std::abs(*d.change_um), d.sigma_um, "um"))),
            *d.change_um < 0 ? measurementText("less") : measurementText("more"));
 }
 

@@ -159,7 +159,7 @@ QString View3D::textAt(const QPointF& position) const {
     const ViewSurface& s = *surface_;
     const auto quantity = [](const QString& title, double value) {  // "Position / mm": "Position 550 mm"
       const QStringList parts = title.split(QStringLiteral(" / "));
-      return tr("%1 %2 %3").arg(parts.front()).arg(value, 0, 'g', 4).arg(parts.size() > 1 ? parts[1] : QString());
+      return tr("%1 %2 %3").arg(parts.front(), decimalText(value, 'g', 4), parts.size() > 1 ? parts[1] : QString());
     };
     return tr("%1, %2: %3")
         .arg(quantity(s.x_title, s.x[*i % s.x.size()]), quantity(s.y_title, s.y[*i / s.x.size()]),
@@ -167,19 +167,20 @@ QString View3D::textAt(const QPointF& position) const {
   }
   if (const auto probe = probeAt(position)) {
     const FieldGrid& grid = field_->grid;
-    const QString text =
-        tr("%1 %2 mm, %3 %4 mm: %5")
-            .arg(QLatin1Char("xyz"[grid.firstAxis()]))
-            .arg(probe->xy_mm.x(), 0, 'f', 1)
-            .arg(QLatin1Char("xyz"[grid.secondAxis()]))
-            .arg(probe->xy_mm.y(), 0, 'f', 1)
-            .arg(QString::fromStdString(withUncertainty(probe->value, probe->sigma, unitOf(field_->component))));
+    const QString text = tr("%1 %2 mm, %3 %4 mm: %5")
+                             .arg(QLatin1Char("xyz"[grid.firstAxis()]))
+                             .arg(decimalText(probe->xy_mm.x(), 'f', 1))
+                             .arg(QLatin1Char("xyz"[grid.secondAxis()]))
+                             .arg(decimalText(probe->xy_mm.y(), 'f', 1))
+                             .arg(shownNumbers(QString::fromStdString(
+                                 withUncertainty(probe->value, probe->sigma, unitOf(field_->component)))));
     return probe->extrapolated ? text + tr(" (extrapolated)") : text;
   }
   const auto i = cloudPointAt(position);
   if (!i) return {};
   const float* p = cloud_.xyz_mm->data() + 3 * *i;
-  const QString place = tr("x %1 mm, y %2 mm, z %3 mm").arg(p[0], 0, 'f', 2).arg(p[1], 0, 'f', 2).arg(p[2], 0, 'f', 3);
+  const QString place = tr("x %1 mm, y %2 mm, z %3 mm")
+                            .arg(decimalText(p[0], 'f', 2), decimalText(p[1], 'f', 2), decimalText(p[2], 'f', 3));
   if (cloud_.scalar == nullptr) return place;
   const double sigma = cloud_.sigma == nullptr ? std::nan("") : static_cast<double>((*cloud_.sigma)[*i]);
   return tr("%1: %2").arg(place, valueText(static_cast<double>((*cloud_.scalar)[*i]), &sigma));

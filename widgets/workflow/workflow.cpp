@@ -38,7 +38,8 @@ QString stepInstruction(StepId step) {
     case StepId::Machine:
       return Workflow::tr("Check that this is the machine in front of you: chain, travels, measuring points.");
     case StepId::WarmUp:
-      return Workflow::tr("Wait until the instrument has settled; before that its drift would pass for the machine's.");
+      return Workflow::tr(
+          "Wait until the instrument has settled; until then its drift would be mistaken for drift of the machine.");
     case StepId::Capture:
       return Workflow::tr("Take every capture of the plan and take bad ones again while you stand at the machine.");
     case StepId::Calibrate:

@@ -57,7 +57,7 @@ void rotary(const CatalogueContext& context, std::vector<Effect>& out) {
         tilt_ids[axis],
         fmt::format("{} of the rotary table about {}", axis == 2 ? "rotation" : "tilt", axis_names[axis]),
         "(ex, ey, ez) = -g q n x (p - C centre), n along the axis of the turn",
-        "The rotary table warms unevenly and turns about its centre.", "urad",
+        "The rotary table warms unevenly and rotates about its centre.", "urad",
         [u, v, turn, centre](const DeviationQuery& q, Component c) {
           if (c == turn) return -1.0;
           if (static_cast<int>(c) == u) return (q.position_mm[v] - centre[v]) * 1e-3;

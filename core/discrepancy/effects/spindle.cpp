@@ -19,8 +19,7 @@ void spindle(const CatalogueContext& context, std::vector<Effect>& out) {
   growth.references = {references::iso_230_3, references::abele, references::harris};
   growth.physics =
       "The spindle shaft and housing grow along Z as the bearings heat them; the heat follows the speed and reaches "
-      "the "
-      "structure through one or two lags.";
+      "the structure with one or two first-order time constants.";
   growth.shape = {constantShape(Component::EZ)};
   addLagVariants(growth, heat);
   growth.follows_room = true;
@@ -52,7 +51,7 @@ void spindle(const CatalogueContext& context, std::vector<Effect>& out) {
     drift.references = {references::iso_230_3, references::abele};
     drift.physics =
         "The spindle support warms unevenly and shifts the nose sideways, the same everywhere in the working space, "
-        "following the spindle heat through one or two lags.";
+        "following the spindle heat with one or two first-order time constants.";
     drift.shape = {constantShape(static_cast<Component>(axis))};
     addLagVariants(drift, heat);
     drift.follows_room = true;

@@ -79,8 +79,8 @@ TEST(Capture, APlannedCampaignIsTakenInFromAFolder) {
 TEST(Capture, WhatCannotBeWatchedIsOneSentence) {
   const TempFolder folder;
   std::filesystem::create_directories(folder / "in");
-  expectBadInput({"watch", (folder / "none").string(), "--session", (folder / "s").string()}, {"is no folder"});
-  expectBadInput({"watch", (folder / "in").string(), "--session", (folder / "s").string()}, {"is no session"});
+  expectBadInput({"watch", (folder / "none").string(), "--session", (folder / "s").string()}, {"is not a folder"});
+  expectBadInput({"watch", (folder / "in").string(), "--session", (folder / "s").string()}, {"is not a session"});
   EXPECT_FALSE(std::filesystem::exists(folder / "s")) << "nothing is left behind";
   expectBadInput({"watch", (folder / "in").string(), "--session", (folder / "in").string(), "--machine",
                   (folder / "none.json").string()},

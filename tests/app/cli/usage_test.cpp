@@ -2,6 +2,9 @@
 // Help, usage errors and what holds for every command.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <regex>
+
 #include "tests/app/cli/child_process.h"
 #include "tests/support/temp_folder.h"
 
@@ -48,6 +51,21 @@ TEST(Usage, HelpOnEveryLevel) {
   EXPECT_EQ(runCli({"--version"}).status, 0);
 }
 
+TEST(Usage, UnitsAreWrittenAsPeopleWriteThem) {
+  std::string help = runCli({"--reference", "markdown"}).output + runCli({"--help"}).output;
+  ASSERT_GT(help.size(), 50'000U);
+  const std::string of_files = "files write um and urad";
+  ASSERT_NE(help.find(of_files), std::string::npos);
+  for (auto at = help.find(of_files); at != std::string::npos; at = help.find(of_files))
+    help.erase(at, of_files.size());
+  // "--goal-urad" and "EX_um" are names.
+  const std::regex file_unit("(^|[^A-Za-z0-9_\"-])(um|urad)(?![A-Za-z0-9_\"])");
+  for (std::sregex_iterator i(help.begin(), help.end(), file_unit), none; i != none; ++i) {
+    const auto from = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, i->position() - 60));
+    ADD_FAILURE() << help.substr(from, 120);
+  }
+}
+
 TEST(Usage, WrongUseEndsWithTwo) {
   const std::vector<std::vector<std::string>> wrong = {
       {},
@@ -76,7 +94,7 @@ TEST(Usage, WrongUseEndsWithTwo) {
 
 TEST(Usage, WhatIsWrongIsSaidInASentenceOfOurs) {
   const TempFolder folder;
-  expectBadInput({"nonsense"}, {"\"nonsense\" is no command"});
+  expectBadInput({"nonsense"}, {"\"nonsense\" is not a command"});
   expectBadInput({"verify", "a", "b", "--goal", "-5"}, {"--goal", "-5 is not allowed", "greater than zero"});
   expectBadInput({"report", ".", "--out", (folder / "r.txt").string()}, {"r.txt", ".html", ".pdf"});
   expectBadInput({"simulate", "--c-frame", "rain", "--out", "nothing"}, {"rain", "sun, friction, coolant or room"});

@@ -62,7 +62,7 @@ TEST(Csv, RefusesWhatIsNoTable) {
 TEST(Csv, RefusesBytesThatAreNoUtf8) {
   for (const std::string bad : {"\xe4", "\xc3", "\xc0\xaf", "\xed\xa0\x80", "\xf5\x80\x80\x80", "\x80", "\xe2\x82"})
     for (const std::string& text : {"a,b\n1," + bad + "\n", "a,b" + bad + "\n1,2\n", "a,b\n# " + bad + "\n1,2\n"})
-      EXPECT_THAT(complaint(text), AllOf(HasSubstr("log.csv, line"), HasSubstr("no UTF-8"))) << text;
+      EXPECT_THAT(complaint(text), AllOf(HasSubstr("log.csv, line"), HasSubstr("not UTF-8"))) << text;
   EXPECT_EQ(complaint("a,b\n\xc3\xa4,\xf0\x9f\x98\x80\xe2\x82\xac\n"), "no complaint");
 }
 

@@ -195,7 +195,7 @@ TEST(LogRecorder, GoesOnWithItsLogAndRefusesAnother) {
     EXPECT_EQ(recorder.startUtc(), t0);
     recorder.take(value(0, 10.5, 2.0));
     recorder.finish(t0 + 11.0);
-    EXPECT_THAT(recorder.status().sentences, Contains(HasSubstr("not whole")));
+    EXPECT_THAT(recorder.status().sentences, Contains(HasSubstr("was incomplete")));
   }
   EXPECT_EQ(OperatingLog::read(folder / "log.csv").at("S", 11.0), 2.0);
   EXPECT_THAT(refusal([&] {

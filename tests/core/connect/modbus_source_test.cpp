@@ -129,7 +129,7 @@ TEST(Modbus, ARegisterThatIsRefusedLeavesTheOthers) {
   EXPECT_EQ(sink.values(0).back(), 7.0);
   EXPECT_TRUE(std::isnan(sink.values(1).back()));
   ASSERT_EQ(sink.notes.size(), 3U);
-  EXPECT_THAT(sink.notes[0], HasSubstr("\"nonsense\" is no register"));
+  EXPECT_THAT(sink.notes[0], HasSubstr("\"nonsense\" is not a register"));
 }
 
 TEST(Modbus, AServerThatGoesAndComesBackIsReadAgain) {

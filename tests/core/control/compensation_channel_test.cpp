@@ -62,7 +62,7 @@ TEST(Channel, OldInputsAndNoNumbersAreNotApplied) {
   EXPECT_THAT(channel.reason(), HasSubstr("61 s old; allowed: 60 s"));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(channel.next(wish(nan), ready(), 20.0).z(), 0.0);
-  EXPECT_THAT(channel.reason(), HasSubstr("no number"));
+  EXPECT_THAT(channel.reason(), HasSubstr("not a number"));
   EXPECT_EQ(channel.next(wish(50.0, nan), ready(), 30.0).z(), 0.0);
   EXPECT_FALSE(channel.active());
 }

@@ -137,7 +137,7 @@ class StandInControl final : public MachineControl {
     out.condition = m_.condition_;
     if (out.condition == Condition::Ready && (m_.running_ || m_.other_)) out.condition = Condition::Busy;
     out.sentence = out.condition == Condition::Ready           ? "Ready."
-                   : out.condition == Condition::Busy          ? "A programme is running."
+                   : out.condition == Condition::Busy          ? "A program is running."
                    : out.condition == Condition::EmergencyStop ? "The control is in emergency stop."
                    : out.condition == Condition::Unreachable   ? "nobody answers"
                                                                : "The machine is off: switch it on.";

@@ -333,10 +333,10 @@ TEST(BadInput, IsAnsweredAsFarAsPossible) {
   EXPECT_NE(of_one.verdict, DiscrepancyVerdict::None);
   EXPECT_TRUE(says(of_one, "Only EY was observed"));
   const DiscrepancyResult clean = run(one);
-  for (const char* words : {"was observed", "at one point only", "clock", "far off as the rest"})
+  for (const char* words : {"was observed", "at one point only", "clock", "far off as the others"})
     EXPECT_FALSE(says(clean, words)) << words;
   // Half of the values are outliers.
-  EXPECT_TRUE(says(run(inWorkshop(Hidden::SpindleDrift, 2, {.outliers = 0.5})), "far off as the rest"));
+  EXPECT_TRUE(says(run(inWorkshop(Hidden::SpindleDrift, 2, {.outliers = 0.5})), "far off as the others"));
   // A state that only one point saw.
   DiscrepancyInput lone = one;
   Observation o = lone.observations.rows.front();

@@ -302,7 +302,7 @@ TEST(MechanismChoice, SaysWhyParametersCannotBePutInTogether) {
   const std::vector<std::pair<std::string, std::string>> twins{{"friction", "h_air"}};
   EXPECT_EQ(whyNotTogether({"friction", "sun_front", "sun_on_s"}, parameters, windows, twins), "");
   EXPECT_THAT(whyNotTogether({"sun_on_s"}, parameters, windows, twins), HasSubstr("together with that load"));
-  EXPECT_THAT(whyNotTogether({"h_air", "friction"}, parameters, windows, twins), HasSubstr("do the same"));
+  EXPECT_THAT(whyNotTogether({"h_air", "friction"}, parameters, windows, twins), HasSubstr("have the same effect"));
   parameters.front().min = parameters.front().max = 9.0;
   EXPECT_THAT(whyNotTogether({"h_air"}, parameters, windows, {}), HasSubstr("are both 9 W/m2/K"));
 }
@@ -313,7 +313,7 @@ TEST(IntoSimulation, TellsTwoThatCannotBeToldApart) {
   Column column = columnCampaign({{"friction", 9.0}}, 31, 0.3, parameters);
   const Told told = tell(column, {{"friction", "seal"}});
   EXPECT_THAT(told.found.warnings, Contains(HasSubstr("friction and seal of the simulation do the same")));
-  EXPECT_THAT(told.update.warnings, Contains(HasSubstr("cannot be told apart")));
+  EXPECT_THAT(told.update.warnings, Contains(HasSubstr("cannot be distinguished")));
   // What they do together is known, and closes the gap.
   EXPECT_LT(trueGap(column, told.update.after), 0.15);
   EXPECT_NEAR(parameterOf(told.update, "friction").value + parameterOf(told.update, "seal").value, 9.0, 0.5);

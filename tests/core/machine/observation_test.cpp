@@ -152,7 +152,7 @@ TEST(Observation, BadRowsAreNamed) {
   EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,1,0,m,fit\n"), HasSubstr("sigma 0 is not allowed"));
   EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,1,-1,m,fit\n"), HasSubstr("sigma -1"));
   EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,inf,1,m,fit\n"), HasSubstr("\"inf\" is not a number"));
-  EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,1e300,1,m,fit\n"), HasSubstr("allowed: deviations up to 100000 um"));
+  EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,1e300,1,m,fit\n"), HasSubstr("allowed: deviations up to 100000 µm"));
   EXPECT_THAT(complaint("0,M0,F1,1,2,3,0,EX,1,1,m,maybe\n"), HasSubstr("\"maybe\""));
   EXPECT_THAT(complaint("5,M0,F1,1,2,3,0,EX,1,1,m,fit\n4,M1,F1,1,2,3,0,EX,1,1,m,fit\n"), HasSubstr("runs backwards"));
   EXPECT_EQ(complaint("5,M0,F1,1,2,3,0,EX,1,1,m,fit\n4,M0,F2,1,2,3,0,EX,1,1,m,fit\n"), "accepted");

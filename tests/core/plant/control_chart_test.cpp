@@ -200,7 +200,7 @@ TEST_P(PlantOverviewTest, ModelNoLongerHoldsAfterAnEventOrAVerdict) {
   PlantCampaign later = weeklyCampaign("mill", 20);
   later.results[0].verdict = "unknown";
   (void)store.publish(std::span(&later, 1));
-  EXPECT_THAT(modelState(store, "mill", {}).reasons, ::testing::Contains(HasSubstr("came out as \"unknown\"")));
+  EXPECT_THAT(modelState(store, "mill", {}).reasons, ::testing::Contains(HasSubstr("has the verdict \"unknown\"")));
   const std::string html = machineReport(store, "mill", onDay(0.0));
   EXPECT_THAT(html, HasSubstr("no longer holds"));
   EXPECT_THAT(html, HasSubstr("<svg"));

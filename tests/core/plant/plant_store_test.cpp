@@ -227,7 +227,7 @@ TEST(PlantStoreOnSqlite, SaysThatAFileIsNoPlantStore) {
   const TempFolder folder;
   const auto file = folder.write("plant.sqlite", std::string(5000, 'x'));
   EXPECT_THAT(refusal([&] { (void)PlantStore::open(PlantAddress::parse(file.string())); }),
-              HasSubstr("is no plant store"));
+              HasSubstr("is not a plant store"));
   const auto empty = folder.write("empty.sqlite", "");
   EXPECT_THAT(refusal([&] { (void)PlantStore::open(PlantAddress::parse(empty.string())); }),
               HasSubstr("holds no plant store"));

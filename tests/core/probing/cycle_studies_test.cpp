@@ -50,7 +50,7 @@ TEST(ReferenceComparison, GivesSlopeOffsetAndAVerdict) {
   EXPECT_THAT(gain.verdict, HasSubstr("the gain differs"));
   const ReferenceComparison course = compared(1.0, 60.0, 30.0, 3);
   EXPECT_TRUE(course.differs);
-  EXPECT_THAT(course.verdict, HasSubstr("courses differ"));
+  EXPECT_THAT(course.verdict, HasSubstr("time histories differ"));
   const ReferenceComparison still = compared(1.0, 1.0, 0.0, 4);
   EXPECT_FALSE(still.agrees);
   EXPECT_THAT(still.verdict, HasSubstr("moves too little"));

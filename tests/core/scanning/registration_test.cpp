@@ -242,7 +242,7 @@ TEST(Registration, NamesFreeDirections) {
       run([](double x, double y) { return std::sqrt(2500.0 - (x - 5.5) * (x - 5.5) - (y - 20.5) * (y - 20.5)); });
   EXPECT_EQ(sphere.status, FitStatus::Degenerate);
   EXPECT_EQ(sphere.free_directions.size(), 3U);
-  EXPECT_NE(sphere.message.find("turn about"), std::string::npos);
+  EXPECT_NE(sphere.message.find("rotation about"), std::string::npos);
 }
 
 TEST(Registration, RejectsWhatDoesNotFitAndSaysWhy) {

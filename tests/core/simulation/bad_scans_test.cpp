@@ -105,7 +105,7 @@ TEST_F(BadScan, Truncated) {
 }
 TEST_F(BadScan, CutInsideItsHeader) {
   changeBytes([](const std::string& b) { return b.substr(0, b.find("POINTS")); });
-  expectRejected("there is no DATA line");
+  expectRejected("the DATA line is missing");
 }
 TEST_F(BadScan, HeaderThatContradictsItself) {
   changeBytes([](std::string b) { return b.replace(b.find("HEIGHT 1"), 8, "HEIGHT 3"); });
@@ -136,19 +136,19 @@ TEST_F(BadScan, Micrometres) {
   change([](Points& points) {
     for (Eigen::Vector3d& p : points) p *= 1000.0;
   });
-  expectRejected("its unit seems to be um");
+  expectRejected("the unit seems to be µm");
 }
 TEST_F(BadScan, HeightsInMicrometres) {
   change([](Points& points) {
     for (Eigen::Vector3d& p : points) p.z() *= 1000.0;
   });
-  expectRejected("its heights seem to be in um");
+  expectRejected("its heights seem to be in µm");
 }
 TEST_F(BadScan, Metres) {
   change([](Points& points) {
     for (Eigen::Vector3d& p : points) p *= 0.001;
   });
-  expectRejected("its unit seems to be m");
+  expectRejected("the unit seems to be m");
 }
 TEST_F(BadScan, AnotherArtefact) {
   change([](Points& points) {

@@ -330,9 +330,9 @@ TEST_F(ProgramSimulatorTest, RefusesATemplateWithUnknownNames) {
   EXPECT_THAT(said("a\n{{h_ari*1e-3}}\n"), AllOf(HasSubstr("values.txt.in, line 2"), HasSubstr("names \"h_ari\"")));
   EXPECT_THAT(said("{{table:ROOM}}\n"), AllOf(HasSubstr("line 1"), HasSubstr("names no table")));
   EXPECT_THAT(said("{{a\n}}"), HasSubstr("is not closed on its line"));
-  EXPECT_THAT(said("{{a**2}}"), HasSubstr("is no expression"));
-  EXPECT_THAT(said("{{}}"), HasSubstr("is no expression"));
-  EXPECT_THAT(said("{{a, b}}"), HasSubstr("is no expression"));
+  EXPECT_THAT(said("{{a**2}}"), HasSubstr("is not an expression"));
+  EXPECT_THAT(said("{{}}"), HasSubstr("is not an expression"));
+  EXPECT_THAT(said("{{a, b}}"), HasSubstr("is not an expression"));
   EXPECT_EQ(said("{{ a }} {{sqrt(abs(b))*_pi}} {{1.5e-3*a}}"), "");
 }
 

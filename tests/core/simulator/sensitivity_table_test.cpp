@@ -72,7 +72,7 @@ TEST_F(SensitivityTableTest, AVersionPredictsWhatItWasWrittenFor) {
 
 TEST_F(SensitivityTableTest, RefusesParametersThatDoNotMatch) {
   const auto said = [&](const std::string& more) { return refusal([&] { (void)open(more); }); };
-  EXPECT_THAT(said("0,P1,EX,friction,1\n"), AllOf(HasSubstr("line 8"), HasSubstr("\"friction\" is no parameter")));
+  EXPECT_THAT(said("0,P1,EX,friction,1\n"), AllOf(HasSubstr("line 8"), HasSubstr("\"friction\" is not a parameter")));
   EXPECT_THAT(said("100,P1,EX,h,1\n"), HasSubstr("rising times"));
   EXPECT_THAT(said("200,P1,ED,h,1\n"), HasSubstr("\"ED\" is not known"));
   EXPECT_THAT(said("200,P1,EX,h,nan\n"), HasSubstr("not a number"));

@@ -143,7 +143,7 @@ TEST(Compensator, RefusesWhatMustNotRunOnAMachine) {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(complaint([](ThermalModel& m) { m.outputs[0].terms.clear(); }), HasSubstr("has no terms"));
-  EXPECT_THAT(complaint([](ThermalModel& m) { m.outputs[0].unit = "mm"; }), HasSubstr("allowed: um or urad"));
+  EXPECT_THAT(complaint([](ThermalModel& m) { m.outputs[0].unit = "mm"; }), HasSubstr("allowed: \"um\" or \"urad\""));
   EXPECT_THAT(complaint([](ThermalModel& m) { m.outputs[0].terms[0].tau_s = -5.0; }), HasSubstr("unstable"));
   EXPECT_THAT(complaint([&](ThermalModel& m) { m.outputs[0].terms[0].gain = nan; }), HasSubstr("finite"));
   EXPECT_THAT(complaint([](ThermalModel& m) { m.outputs[0].terms[0].input = 7; }), HasSubstr("input 7"));

@@ -264,7 +264,7 @@ TEST(LoopAtAStandIn, NeverAbortsAProgrammeOfTheOperator) {
         }
       });
   EXPECT_TRUE(ran);
-  EXPECT_TRUE(told(result, "a programme that is not the loop's"));
+  EXPECT_TRUE(told(result, "a program that is not the loop's"));
   EXPECT_EQ(machine.aborts(), aborts);
 }
 

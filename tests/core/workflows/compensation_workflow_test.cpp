@@ -103,7 +103,7 @@ TEST(CompensationPlan, StatesWhatItDoesOnValuesThatTrainedNothing) {
   const CompensationPlan all = planOf(campaignOf(6.0, false, 3), CompensationSource::NineParameters);
   EXPECT_EQ(all.unseen, "at every point, predicted without it");
   EXPECT_GT(*all.rms_after_unseen_um, all.rms_after_um) << "fitted values flatter";
-  EXPECT_THAT(all.summary(), HasSubstr("on values that trained nothing"));
+  EXPECT_THAT(all.summary(), HasSubstr("on data not used for fitting"));
   EXPECT_TRUE(all.json()["unseen"]["rms_after_um"].is_number());
 }
 

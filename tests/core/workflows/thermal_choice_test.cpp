@@ -370,14 +370,16 @@ TEST(ThermalChoice, AnArxModelWithComplexPolesIsNotShipped) {
   const IdentifyResult arx = identifyThermalModel(series, asked, {});
   ASSERT_TRUE(arx.model.outputs.front().terms.empty());
   EXPECT_FALSE(arx.good_enough);
-  EXPECT_THAT(arx.model.outputs.front().verdict->reason, ::testing::HasSubstr("no equivalent in lags"));
+  EXPECT_THAT(arx.model.outputs.front().verdict->reason,
+              ::testing::HasSubstr("no equivalent in first-order time constants"));
   const TempFolder folder;
   EXPECT_THROW(arx.model.write(folder / "model.json"), InputError);
   EXPECT_FALSE(std::filesystem::exists(folder / "model.json"));
   Compensator compensator;
   CompensatorLimits forced;
   forced.forced = true;
-  EXPECT_THAT(compensator.load(arx.model, 30.0, forced), ::testing::HasSubstr("no equivalent in lags"));
+  EXPECT_THAT(compensator.load(arx.model, 30.0, forced),
+              ::testing::HasSubstr("no equivalent in first-order time constants"));
 }
 
 TEST(ThermalChoice, AnArxModelWithRealPolesIsJudgedAsItIsShipped) {

@@ -158,7 +158,7 @@ TEST(WhatIf, CommandSetsAnswersAndDraws) {
   EXPECT_EQ(json.at("part").at("characteristics").size(), 33U);
   EXPECT_EQ(json.dump().find("NaN"), std::string::npos);
   EXPECT_THAT(whatIfText(what_if), HasSubstr("squareness of the square"));
-  EXPECT_THAT(readFile(request.svg), HasSubstr("times their size"));
+  EXPECT_THAT(readFile(request.svg), HasSubstr("magnified"));
   EXPECT_THAT(whatIfParametersText(what_if), HasSubstr("squareness of Y to X"));
 }
 

@@ -40,6 +40,8 @@
 #include "widgets/pages/scanning/artefact_designer.h"
 #include "widgets/pages/teaching/exercise_dialog.h"
 #include "widgets/pages/teaching/what_if_window.h"
+#include "widgets/plots/plot.h"
+#include "widgets/plots/surface_plot.h"
 #include "widgets/shell/command_palette.h"
 #include "widgets/shell/new_measurement_dialog.h"
 #include "widgets/shell/news_dialog.h"
@@ -93,10 +95,10 @@ QStringList wordsOf(const QString& text) {
   static const QRegularExpression word(QStringLiteral("\\b[A-Za-z]{3,}\\b"),
                                        QRegularExpression::UseUnicodePropertiesOption);
   static const std::set<QString> same_everywhere = {
-      QStringLiteral("Spindrift"), QStringLiteral("rms"),     QStringLiteral("urad"),     QStringLiteral("min"),
-      QStringLiteral("mrad"),      QStringLiteral("degC"),    QStringLiteral("µrad"),     QStringLiteral("English"),
-      QStringLiteral("Deutsch"),   QStringLiteral("ARX"),     QStringLiteral("CalculiX"), QStringLiteral("dir"),
-      QStringLiteral("Strg"),      QStringLiteral("Umschalt")};
+      QStringLiteral("Spindrift"), QStringLiteral("rms"),      QStringLiteral("min"),     QStringLiteral("mrad"),
+      QStringLiteral("degC"),      QStringLiteral("µrad"),     QStringLiteral("English"), QStringLiteral("Deutsch"),
+      QStringLiteral("ARX"),       QStringLiteral("CalculiX"), QStringLiteral("dir"),     QStringLiteral("Strg"),
+      QStringLiteral("Umschalt")};
   QString plain = text;
   plain.replace(name, QStringLiteral(" "));
   QStringList words;
@@ -122,6 +124,13 @@ void forEachText(QWidget& root, const std::function<void(const QString&)>& take)
   for (QWidget* w : all) {
     if (!w->isVisible()) continue;
     take(w->toolTip());
+    if (const auto* plot = qobject_cast<Plot*>(w)) {
+      for (const QString& title : plot->axisTitles()) take(title);
+    }
+    if (const auto* surface = qobject_cast<SurfacePlot*>(w)) {
+      for (const QString& title : {surface->data().x_title, surface->data().y_title, surface->data().value_title})
+        take(title);
+    }
     if (const auto* text = qobject_cast<HelpText*>(w)) {
       for (const QString& line : text->toPlainText().split(QLatin1Char('\n'))) take(line);
     }
@@ -173,7 +182,7 @@ class LanguagePagesTest : public StoryTest {
     QCoreApplication::removeTranslator(marks_.get());
     applyLanguage(QStringLiteral("en"));
   }
-  /// Nothing that `root` shows, and no action of its menus, is without marks.
+  /// Nothing that `root` shows, and no action of its menus, is without marks or has units as files write them.
   void expectTranslated(QWidget& root, const std::string& what) {
     std::set<QString> names = {QStringLiteral("log"), QStringLiteral("microscope"), QStringLiteral("fiducial"),
                                QStringLiteral("surface"), QStringLiteral("probe")};
@@ -181,11 +190,15 @@ class LanguagePagesTest : public StoryTest {
       names.insert(QString::fromStdString(campaign->name));
       names.merge(namesIn(nlohmann::json::parse(readFile(campaign->path("machine.json")))));
     }
+    // "EX_um" is the name of a column.
+    static const QRegularExpression file_unit(QStringLiteral("\\b(um|urad)\\b"));
     const auto take = [&](const QString& text) {
       if (names.contains(text)) return;
       QString plain = text.contains(QLatin1Char('<')) ? QTextDocumentFragment::fromHtml(text).toPlainText() : text;
       // Formulas are the same in every language.
       for (const QString& formula : formulas()) plain.remove(formula);
+      if (file_unit.match(plain).hasMatch() && told_.insert(plain).second)
+        ADD_FAILURE() << what << ": \"" << plain.toStdString() << "\" has a unit as files write it";
       const QStringList words = wordsOf(unmarked(plain));
       if (!words.isEmpty() && told_.insert(plain).second) {
         ADD_FAILURE() << what << ": \"" << plain.toStdString() << "\" (" << words.join(QLatin1Char(' ')).toStdString()

@@ -11,10 +11,12 @@
 #include <QSettings>
 #include <QTest>
 #include <QXmlStreamReader>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/machine/observation.h"
@@ -23,11 +25,13 @@
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/languages.h"
 #include "widgets/common/preferences.h"
+#include "widgets/common/words.h"
 #include "widgets/export/exportable.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/common/editor_table.h"
 #include "widgets/theme/numbers.h"
+#include "widgets/view3d/measurement.h"
 
 namespace spindrift::gui {
 namespace {
@@ -150,6 +154,75 @@ TEST(Glossary, TermsAreTranslatedAsItSays) {
   EXPECT_GT(sentences, 400);
 }
 
+/// All that a user can read: sources with their literals joined, help and manual. White space is one blank.
+QString everySentence() {
+  const std::filesystem::path top(SPINDRIFT_SOURCE_DIR);
+  static const QRegularExpression broken(QStringLiteral("\"\\s*\\n\\s*\""));
+  QString all;
+  for (const char* folder : {"core", "app", "widgets", "resources/help", "resources/manual"}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(top / folder)) {
+      const std::string ending = entry.path().extension().string();
+      if (!std::set<std::string>{".cpp", ".h", ".html", ".svg", ".md"}.contains(ending)) continue;
+      QString text = QString::fromStdString(readFile(entry.path()));
+      text.remove(broken).replace(QStringLiteral("\\\""), QStringLiteral("\""));
+      all += text.simplified() + QLatin1Char('\n');
+    }
+  }
+  return all;
+}
+
+/// resources/docs/sentences.md: what stands at the left is said nowhere, what stands at the right is said.
+TEST(Sentences, TheWorstAreNotSaidAgain) {
+  QFile file(QStringLiteral(SPINDRIFT_SOURCE_DIR "/resources/docs/sentences.md"));
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  const QString all = everySentence();
+  int sentences = 0;
+  for (const QString& line : QString::fromUtf8(file.readAll()).split(QLatin1Char('\n'))) {
+    const QStringList cells = line.split(QLatin1Char('|'));
+    if (cells.size() != 4 || cells[1].startsWith(QLatin1Char('-')) || cells[1].trimmed() == QLatin1String("Before"))
+      continue;
+    ++sentences;
+    EXPECT_FALSE(all.contains(cells[1].trimmed())) << cells[1].trimmed().toStdString() << " is said again";
+    EXPECT_TRUE(all.contains(cells[2].trimmed())) << cells[2].trimmed().toStdString() << " is not said";
+  }
+  EXPECT_GE(sentences, 50);
+}
+
+/// um and urad are for files: "EX_um" is the name of a column, "um" in quotes a value that a file may hold.
+TEST(Sentences, HaveUnitsAsPeopleWriteThem) {
+  static const QRegularExpression file_unit(QStringLiteral("(?<![\\w\"])(um|urad)(?![\\w\"])"));
+  const QString of_files = QStringLiteral("Of the gain alone, as it is written in results: um, urad, um_per_m");
+  int sentences = 0;
+  for (const Text& text : textsOf(QStringLiteral("spindrift_de.ts"))) {
+    ++sentences;
+    if (text.source != of_files) EXPECT_FALSE(file_unit.match(text.source).hasMatch()) << text.source.toStdString();
+  }
+  EXPECT_GT(sentences, 5000);
+}
+
+/// Counts have their singular: "1 profile", never "1 profiles"; a count that may be one is a plural of the catalogue.
+TEST(Sentences, CountsHaveTheirSingular) {
+  static const QRegularExpression one_of_many(QStringLiteral("(?<![%\\w])1 (?!has|was)\\w{3,}s\\b"));
+  static const QRegularExpression counted(QStringLiteral(
+      "(?<!of )%\\d (points|cycles|profiles|touches|files|captures|scans|effects|images|outliers|rows)\\b"));
+  int plurals = 0;
+  for (const Text& text : textsOf(QStringLiteral("spindrift_en.ts"))) {
+    ASSERT_EQ(text.translations.size(), 2) << text.source.toStdString();
+    ++plurals;
+    const QString one = QString(text.translations[0]).replace(QStringLiteral("%n"), QStringLiteral("1"));
+    EXPECT_FALSE(one_of_many.match(one).hasMatch()) << one.toStdString();
+  }
+  EXPECT_GT(plurals, 50);
+  for (const Text& text : textsOf(QStringLiteral("spindrift_de.ts"))) {
+    if (text.translations.size() == 1) EXPECT_FALSE(counted.match(text.source).hasMatch()) << text.source.toStdString();
+  }
+  applyLanguage(QStringLiteral("en"));
+  EXPECT_EQ(QCoreApplication::translate("spindrift::gui::ScanCapturePage", "%n profiles", nullptr, 1),
+            QStringLiteral("1 profile"));
+  EXPECT_EQ(QCoreApplication::translate("spindrift::gui::ScanCapturePage", "%n profiles", nullptr, 2),
+            QStringLiteral("2 profiles"));
+}
+
 class LanguageTest : public ::testing::Test {
  protected:
   void SetUp() override { QSettings().clear(); }
@@ -204,8 +277,8 @@ TEST_F(LanguageTest, ValuesOfASentenceAreTranslatedAndNumbersWrittenAsTheLanguag
   applyLanguage(QStringLiteral("de"));
   EXPECT_EQ(coreSentence("Sharpness 0.512, 14 ellipses and 3 circles decoded."),
             QStringLiteral("Schärfe 0,512, 14 Ellipsen und 3 Kreise decodiert."));
-  EXPECT_EQ(coreSentence("The goal of 2.5 um is met: largest EX is 1.2 ± 0.3 um."),
-            QStringLiteral("Das Ziel von 2,5 um ist erreicht: largest EX ist 1,2 ± 0,3 um."));
+  EXPECT_EQ(coreSentence("The goal of 2.5 µm is met: largest deviation EX is 1.2 ± 0.3 µm at F1, M2."),
+            QStringLiteral("Das Ziel von 2,5 µm ist erreicht: größte Abweichung EX beträgt 1,2 ± 0,3 µm bei F1, M2."));
   EXPECT_EQ(coreSentence("All captures are checked."), QStringLiteral("Alle Aufnahmen sind geprüft."));
   EXPECT_EQ(coreSentence("3 of 12 captures are checked."), QStringLiteral("3 von 12 Aufnahmen sind geprüft."));
   EXPECT_EQ(coreSentence("Not settled: X drifts faster than 0.5 µm/h."),
@@ -270,6 +343,28 @@ TEST_F(LanguageTest, NumbersOnScreenHaveTheCommaAndThoseTypedMayHaveEither) {
     box.interpretText();
     EXPECT_EQ(box.value(), 12.5) << keys;
   }
+}
+
+TEST_F(LanguageTest, DistancesOfTheViewHaveTheComma) {
+  MeasuredPlace a{QStringLiteral("F1"), {0, 0, 0}, {}};
+  MeasuredPlace b{QStringLiteral("F2"), {250.5, 0, 0}, {}};
+  EXPECT_EQ(distanceText(a, b), QStringLiteral("F1 to F2: 250.500 mm"));
+  applyLanguage(QStringLiteral("de"));
+  EXPECT_TRUE(distanceText(a, b).endsWith(QStringLiteral("250,500 mm"))) << distanceText(a, b).toStdString();
+  a.deviation = PointDeviation{{0, 0, 0}, {0.3, 0.3, 0.3}};
+  b.deviation = PointDeviation{{4.25, 0, 0}, {0.3, 0.3, 0.3}};
+  const QString text = distanceText(a, b);
+  EXPECT_TRUE(text.contains(QStringLiteral("250,5"))) << text.toStdString();
+  EXPECT_TRUE(text.contains(QStringLiteral("4,2"))) << text.toStdString();
+  EXPECT_FALSE(text.contains(QLatin1Char('.'))) << text.toStdString();
+}
+
+TEST_F(LanguageTest, TitlesHaveUnitsAsPeopleWriteThem) {
+  EXPECT_EQ(printedTitle(QStringLiteral("EX / um")), QStringLiteral("EX / µm"));
+  EXPECT_EQ(printedTitle(QStringLiteral("Sprung um 2 K / um/m")), QStringLiteral("Sprung um 2 K / µm/m"));
+  EXPECT_EQ(printedTitle(QStringLiteral("EX_um")), QStringLiteral("EX_um")) << "the name of a column";
+  EXPECT_EQ(RowsModel({QStringLiteral("1 / urad")}).headerData(0, Qt::Horizontal, Qt::DisplayRole).toString(),
+            QStringLiteral("1 / µrad"));
 }
 
 TEST_F(LanguageTest, ATableInGermanIsExportedWithPoints) {

@@ -204,7 +204,7 @@ TEST_F(EffectsPanelTest, AnEffectIsCheckedWhileItIsTypedAndTheSearchNamesIt) {
   type(editor->drivers(), QStringLiteral("spindel_rpm"));
   settle();
   EXPECT_TRUE(editor->problemAt("id").isEmpty());
-  EXPECT_TRUE(editor->problemAt("drivers").contains(QStringLiteral("\"spindel_rpm\" is no column of log.csv")))
+  EXPECT_TRUE(editor->problemAt("drivers").contains(QStringLiteral("\"spindel_rpm\" is not a column of log.csv")))
       << editor->problemAt("drivers").toStdString();
   type(editor->drivers(), QStringLiteral("spindle_rpm"));
   type(editor->expression(0, Component::EZ), QStringLiteral("1 + sinus(x)"));

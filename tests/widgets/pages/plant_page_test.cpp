@@ -301,7 +301,7 @@ TEST_F(PlantPageTest, EntersAnEventOfAMachine) {
   time->selectAll();
   QTest::keyClicks(time, QStringLiteral("yesterday"));
   QTest::keyClick(time, Qt::Key_Return);
-  EXPECT_NE(page->callout()->sentence().toStdString().find("\"yesterday\" is no day"), std::string::npos);
+  EXPECT_NE(page->callout()->sentence().toStdString().find("\"yesterday\" is not a date"), std::string::npos);
   const std::string day = QDateTime::fromSecsSinceEpoch(static_cast<qint64>(now() - week_s * 19.5), Qt::UTC)
                               .toString(QStringLiteral("yyyy-MM-dd"))
                               .toStdString();

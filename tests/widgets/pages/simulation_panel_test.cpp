@@ -377,12 +377,12 @@ TEST_F(SimulationPanelTest, TicksThatCannotBeCombinedSayWhy) {
   for (const char* name : {"spindle_growth", "seal"}) {
     if (!ticked(name)) tick(name);
   }
-  EXPECT_NE(sentence().find("do the same to these readings"), std::string::npos) << sentence();
+  EXPECT_NE(sentence().find("have the same effect on the observations"), std::string::npos) << sentence();
   EXPECT_EQ(panel_->callout()->tone(), Tone::Attention);
   EXPECT_FALSE(panel_->putButton()->isEnabled());
   tick("seal");
   EXPECT_TRUE(panel_->putButton()->isEnabled()) << sentence();
-  EXPECT_EQ(sentence().find("do the same to these readings"), std::string::npos) << sentence();
+  EXPECT_EQ(sentence().find("have the same effect on the observations"), std::string::npos) << sentence();
 }
 
 TEST_F(SimulationPanelTest, StaysWithTheSearchOfThePage) {

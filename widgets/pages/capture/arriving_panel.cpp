@@ -172,9 +172,9 @@ void ArrivingPanel::refresh() {
   if (!service_.problem().isEmpty()) {
     state_->show(Tone::Bad, service_.problem());
   } else if (service_.running()) {
-    state_->show(Tone::Good, tr("Watching %1: %2 files, %3 accepted. You may leave this page; capturing goes on.")
+    state_->show(Tone::Good, tr("Watching %1: %n files, %2 accepted. You may leave this page; capturing goes on.",
+                                nullptr, static_cast<int>(items.size()))
                                  .arg(QFileInfo(folder).fileName())
-                                 .arg(items.size())
                                  .arg(accepted));
   } else if (!folder.isEmpty()) {
     state_->show(Tone::Neutral, tr("Not watching. The last folder was %1; what arrived meanwhile is found when it is "

@@ -168,9 +168,9 @@ void CameraPanel::readFrames(std::stop_token stop, const std::string& source, co
         if (image) show(std::move(*image));
       }
       if (!stop.stop_requested())
-        throw ConnectionError(tr("The camera has sent no whole frame for %1 s, and %2 with packets missing.")
+        throw ConnectionError(tr("The camera has sent no complete frame for %1 s and %n frames with missing packets.",
+                                 nullptr, static_cast<int>(camera.counts().incomplete))
                                   .arg(decimalText(patience_s, 'f', 0))
-                                  .arg(camera.counts().incomplete)
                                   .toStdString());
     } else {
       CameraSource camera = CameraSource::open(source);

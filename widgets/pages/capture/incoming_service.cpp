@@ -86,7 +86,7 @@ QString IncomingService::start(const QString& folder, const QString& template_fi
   if (session_.campaign() == nullptr) return tr("Open a session or a new measurement first.");
   const QFileInfo info(folder);
   if (folder.isEmpty() || !info.isDir()) {
-    return tr("\"%1\" is no folder; allowed: the folder into which the instrument writes.").arg(folder);
+    return tr("\"%1\" is not a folder; allowed: the folder into which the instrument writes.").arg(folder);
   }
   if (CaptureIntake::liesInside(folder.toStdString(), session_.folder())) {
     return tr("This folder belongs to the session itself; allowed: the folder into which the instrument writes.");

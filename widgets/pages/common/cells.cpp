@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "core/reporting/parameter_meanings.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/theme/numbers.h"
 
 namespace spindrift::gui {
@@ -54,14 +56,21 @@ QString fromCore(const std::string& text) {
 }
 
 QString parameterTitle(const std::string& name) {
-  return QString::fromStdString(name.substr(0, name.find('_')));
+  const ErrorParameter* known = errorParameter(name);
+  return QString::fromStdString(known != nullptr ? known->symbol : name.substr(0, name.find('_')));
+}
+
+QString parameterLabel(const std::string& name) {
+  const ErrorParameter* known = errorParameter(name);
+  if (known == nullptr || known->iso_symbol.empty() || known->iso_symbol == known->symbol) return parameterTitle(name);
+  return QStringLiteral("%1 (%2)").arg(parameterTitle(name), QString::fromStdString(known->iso_symbol));
 }
 
 QString parameterUnit(const std::string& name) {
   const std::size_t at = name.find('_');
   if (at == std::string::npos) return {};
   QString unit = QString::fromStdString(name.substr(at + 1));
-  return unit.replace(QStringLiteral("_per_"), QStringLiteral("/"));
+  return unitText(unit.replace(QStringLiteral("_per_"), QStringLiteral("/")).toStdString());
 }
 
 QString firstOf(const QStringList& names, qsizetype most) {

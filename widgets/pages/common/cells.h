@@ -23,8 +23,10 @@ namespace spindrift::gui {
 [[nodiscard]] QString fromCore(const std::string& text);
 /// "F1, F2 and 3 more": the first few of many names.
 [[nodiscard]] QString firstOf(const QStringList& names, qsizetype most = 3);
-/// "EXX_um_per_m" -> "EXX" and "um/m".
+/// "EXX_um_per_m" -> "EXX" and "µm/m".
 [[nodiscard]] QString parameterTitle(const std::string& name);
+/// With the symbol of ISO 230-1 where the parameter has another one: "hX (EA0S)".
+[[nodiscard]] QString parameterLabel(const std::string& name);
 [[nodiscard]] QString parameterUnit(const std::string& name);
 /// "value ± uncertainty unit" with a dash for what is not finite.
 [[nodiscard]] QString quantityText(double value, double standard_uncertainty, const QString& unit);

@@ -208,8 +208,7 @@ void ClosedLoopPage::refresh() {
   const bool running = service_.running();
   if (plan == nullptr) {
     plan_->setText(
-        tr("A plan (JSON, spindrift-loop-plan) says which control, what is touched, which programme runs and "
-           "when."));
+        tr("A plan (JSON, spindrift-loop-plan) says which control, what is touched, which program runs and when."));
   } else {
     plan_->setText(tr("%1 at %2:%3 · plan %4 · campaign in %5")
                        .arg(fromCore(plan->machine.name), fromCore(plan->control.shell.peer.host))
@@ -224,14 +223,13 @@ void ClosedLoopPage::refresh() {
   folder_->setEnabled(plan != nullptr && !running);
   confirmation_->setVisible(asked_ && plan != nullptr);
   if (asked_ && plan != nullptr)
-    dry_run_->setText(
-        tr("The machine will be switched on and homed. A measuring cycle moves: %1. Between cycles the "
-           "spindle turns by the programme, %2 h in all. The compensation stays within ±%3 µm and changes "
-           "by at most %4 µm/s. Keep clear of the machine.")
-            .arg(coreSentence(run.summary()))
-            .arg(decimalText(plan->duration_s / 3600.0, 'g', 3))
-            .arg(plan->limits.limit_um)
-            .arg(plan->limits.rate_um_s));
+    dry_run_->setText(tr("The machine will be switched on and homed. A measuring cycle moves: %1. Between cycles the "
+                         "spindle turns by the program, %2 h in all. The compensation stays within ±%3 µm and changes "
+                         "by at most %4 µm/s. Keep clear of the machine.")
+                          .arg(coreSentence(run.summary()))
+                          .arg(decimalText(plan->duration_s / 3600.0, 'g', 3))
+                          .arg(plan->limits.limit_um)
+                          .arg(plan->limits.rate_um_s));
   if (plan != nullptr && !run.good() && notice_.isEmpty())
     notice_ = tr("The measuring cycle may not run: line %1: %2.")
                   .arg(run.issues.front().line)
@@ -389,7 +387,7 @@ void ClosedLoopPage::showCycles() {
                                     .arg(fromCore(std::string(toString(static_cast<Component>(axis)))))
                                     .arg(decimalText(std::sqrt(squares_without / count), 'f', 1))
                                     .arg(decimalText(std::sqrt(squares_with / count), 'f', 1))
-                                    .arg(count == 1 ? tr("1 cycle") : tr("%1 cycles").arg(count)));
+                                    .arg(tr("%n cycles", nullptr, static_cast<int>(count))));
 }
 
 void ClosedLoopPage::showEvent(QShowEvent* event) {

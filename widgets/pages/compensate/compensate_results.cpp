@@ -63,7 +63,7 @@ void CompensatePage::showPlan() {
                                    .arg(sizeText(*plan_->rms_after_unseen_um, um),
                                         sizeText(*plan_->rms_before_unseen_um, um), coreSentence(plan_->unseen))
                              : coreSentence(plan_->unseen);
-  after_->setToolTip(tr("On values that trained nothing: %1.").arg(unseen));
+  after_->setToolTip(tr("On data not used for fitting: %1.").arg(unseen));
   after_->set(sizeText(plan_->rms_after_um, um),
               plan_->rms_after_unseen_um
                   ? tr("%1 where nothing was fitted").arg(sizeText(*plan_->rms_after_unseen_um, um))

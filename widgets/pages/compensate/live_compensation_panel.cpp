@@ -13,6 +13,7 @@
 #include "core/workflows/live_compensation.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/models/session_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/machine/connections_service.h"
@@ -123,7 +124,7 @@ void LiveCompensationPanel::showValues() {
     if (!plot_->empty()) plot_->setContent({});
     return;
   }
-  const QString unit = fromCore(unitOfSignal(run->output()));
+  const QString unit = unitText(unitOfSignal(run->output()));
   const auto text = [&](double value) {
     return std::isfinite(value) ? decimalText(value, 'f', 2) + QLatin1Char(' ') + unit : QStringLiteral("–");
   };

@@ -12,6 +12,7 @@
 #include "core/workflows/campaign_series.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/compensate/closed_loop_service.h"
 #include "widgets/pages/compensate/live_compensation_panel.h"
@@ -174,7 +175,7 @@ void LogCompensatePage::refresh() {
   } else if (result_ == nullptr || !state.current) {
     callout()->show(state.there ? Tone::Outdated : Tone::Accent, status.sentence);
   } else {
-    const QString unit = fromCore(unitOfSignal(result_->output));
+    const QString unit = unitText(unitOfSignal(result_->output));
     const bool better = result_->after_rms < result_->before_rms;
     // What speaks against the model is said before what it achieves.
     QString against;
@@ -189,7 +190,7 @@ void LogCompensatePage::refresh() {
                                 .arg(decimalText(result_->after_rms, 'g', 3))
                                 .arg(decimalText(result_->before_rms, 'g', 3))
                                 .arg(unit)
-                          : tr("In the test range the compensator leaves %1 %3 rms of %2 %3: it would not help. Train "
+                          : tr("rms in the test range: %1 %3 with, %2 %3 without compensation: no improvement. Train "
                                "on a longer range with more excitation (Model).")
                                 .arg(decimalText(result_->after_rms, 'g', 3))
                                 .arg(decimalText(result_->before_rms, 'g', 3))
@@ -205,7 +206,7 @@ void LogCompensatePage::showResult() {
     return;
   }
   const CompensatorRun& r = *result_;
-  const QString unit = fromCore(unitOfSignal(r.output));
+  const QString unit = unitText(unitOfSignal(r.output));
   const auto text = [&](double value) { return QStringLiteral("%1 %2").arg(decimalText(value, 'g', 3)).arg(unit); };
   before_->set(text(r.before_rms), tr("%1, about its mean").arg(fromCore(r.output)));
   after_->set(text(r.after_rms),

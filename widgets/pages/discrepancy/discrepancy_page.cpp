@@ -252,7 +252,7 @@ void DiscrepancyPage::refresh() {
   const StoredResult* stored = session().latest(discrepancy_result);
   if (!stored) {
     showNothing(tr("What does the simulation lack?"),
-                tr("Press Search: every effect of the catalogue is tried on what is left between measurement and "
+                tr("Press Search: every effect of the catalogue is fitted to the residual between measurement and "
                    "simulation. It takes a few seconds, can be cancelled, and changes nothing."));
     return;
   }

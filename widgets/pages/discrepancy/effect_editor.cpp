@@ -130,7 +130,7 @@ EffectEditor::EffectEditor(QWidget* parent) : QWidget(parent) {
               "sign between spaces joins inputs that act together, each with a gain of its own."));
   dynamics_ = new QComboBox;
   dynamics_->addItem(tr("none: at once"), QStringLiteral("none"));
-  dynamics_->addItem(tr("lag of first order"), QStringLiteral("lag"));
+  dynamics_->addItem(tr("first-order time constant"), QStringLiteral("lag"));
   dynamics_->addItem(tr("step at an unknown time"), QStringLiteral("step"));
   dynamics_->addItem(tr("pulse at an unknown time"), QStringLiteral("pulse"));
   dynamics_->setAccessibleName(tr("Dynamics"));

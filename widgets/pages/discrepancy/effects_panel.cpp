@@ -90,8 +90,8 @@ QString titleOfEffect(const Effect& effect) {
 }
 
 QString dynamicsInWords(const std::string& dynamics) {
-  if (dynamics == "lag") return EffectsPanel::tr("lag of first order");
-  if (dynamics == "asymmetric_lag") return EffectsPanel::tr("lag, another one while it cools");
+  if (dynamics == "lag") return EffectsPanel::tr("first-order time constant");
+  if (dynamics == "asymmetric_lag") return EffectsPanel::tr("first-order time constant, another one while it cools");
   if (dynamics == "step") return EffectsPanel::tr("step at an unknown time");
   if (dynamics == "pulse") return EffectsPanel::tr("pulse at an unknown time");
   return EffectsPanel::tr("none: follows at once");
@@ -229,7 +229,7 @@ void EffectsPanel::makeBrowser() {
   tree_->setMinimumHeight(160);
   list_card->body()->addWidget(tree_, 1);
   built_in_ = new QCheckBox(tr("Use the built-in effects too"));
-  built_in_->setToolTip(tr("Off: the search tries your own effects alone, for a device that is no machine tool"));
+  built_in_->setToolTip(tr("Off: the search tries your own effects alone, for a device that is not a machine tool"));
   list_card->body()->addWidget(built_in_);
   auto* buttons = new WrapLayout;
   new_ = makeButton(tr("New effect …"), "plus");
@@ -471,7 +471,7 @@ void EffectsPanel::filter() {
   }
   filling_ = false;
   count_->setText(words.isEmpty() ? tr("%n effects", nullptr, static_cast<int>(all))
-                                  : tr("%1 of %2 effects").arg(shown).arg(all));
+                                  : tr("%1 of %n effects", nullptr, static_cast<int>(all)).arg(shown));
 }
 
 void EffectsPanel::switched() {
@@ -494,8 +494,8 @@ void EffectsPanel::switched() {
   const QString what = !off.isEmpty() && !on.isEmpty() ? tr("switch effects on and off")
                        : off.size() == 1               ? tr("leave out %1").arg(off.front())
                        : on.size() == 1                ? tr("consider %1 again").arg(on.front())
-                       : !off.isEmpty()                ? tr("leave out %1 effects").arg(off.size())
-                                                       : tr("consider %1 effects again").arg(on.size());
+                       : !off.isEmpty() ? tr("leave out %n effects", nullptr, static_cast<int>(off.size()))
+                                        : tr("consider %n effects again", nullptr, static_cast<int>(on.size()));
   Q_EMIT changeAsked(what, after);
 }
 

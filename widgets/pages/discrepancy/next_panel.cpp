@@ -39,7 +39,7 @@ NextPanel::NextPanel(QWidget* parent) : QWidget(parent) {
   left->body()->addWidget(suggestion_);
   gain_ = new NumberTile(tr("Right one alone afterwards"));
   left->body()->addWidget(gain_);
-  times_ = new RowsModel({tr("Time / s"), tr("Point"), tr("Programme")}, this);
+  times_ = new RowsModel({tr("Time / s"), tr("Point"), tr("Program")}, this);
   left->body()->addStretch(1);
   auto* right = new Card(tr("How it was found"));
   leftover_ = new Callout;
@@ -104,7 +104,7 @@ void NextPanel::showSuggestion() {
   std::vector<Row> rows;
   gain_->setVisible(story_ != nullptr && story_->suggestion.has_value());
   if (story_ == nullptr) {
-    suggestion_->setText(tr("After the search this says which measurement tells rivals apart."));
+    suggestion_->setText(tr("After the search this says which measurement distinguishes the rivals."));
   } else if (story_->suggestion) {
     const MeasurementSuggestion& s = *story_->suggestion;
     QStringList times;
@@ -139,15 +139,15 @@ void NextPanel::showSuggestion() {
     suggestion_->setText(item(tr("To tell"), {titledSentence(s.separates)}) +
                          item(tr("What the machine does (h:min)"), programme) +
                          item(tr("Where"), {places.join(QStringLiteral("; "))}) +
-                         item(tr("When, from the start of the programme (h:min)"), {times.join(QStringLiteral(", "))}));
+                         item(tr("When, from the start of the program (h:min)"), {times.join(QStringLiteral(", "))}));
     gain_->set(tr("%1 %").arg(decimalText(100.0 * s.probability_alone_expected, 'f', 0)),
                tr("most probable one now: %1 %").arg(decimalText(100.0 * s.probability_alone_now, 'f', 0)));
   } else if (!story_->decided) {
     suggestion_->setText(sentenceStart(titledSentence(story_->message)));
   } else if (story_->verdict == DiscrepancyVerdict::Unknown) {
-    suggestion_->setText(tr(
-        "No effect of the catalogue fits, so there are no rivals to tell apart. Log what else happens at the machine "
-        "(hydraulics, pumps, doors, neighbours) at the times of the disagreement, and measure again."));
+    suggestion_->setText(
+        tr("No effect of the catalogue fits, so there are no rivals to distinguish. Log what else happens at the "
+           "machine (hydraulics, pumps, doors, neighbours) at the times of the disagreement, and measure again."));
   } else if (story_->verdict == DiscrepancyVerdict::None) {
     suggestion_->setText(tr("Nothing: measured and simulated agree."));
   } else {

@@ -583,7 +583,7 @@ std::vector<Exportable> SimulationPanel::exportables() {
   if (story_ == nullptr) return items;
   if (figures_->rowCount() > 0) {
     items.push_back(exportableOf(tr("Simulation before and after"), figures_));
-    items.push_back(exportableOf(tr("Simulation before and after over time"), history_->plot()));
+    items.push_back(exportableOf(tr("Initial and updated simulation over time"), history_->plot()));
   }
   if (maps_ != nullptr && !maps_stale_) {
     for (const Exportable& item : maps_->exportables()) items.push_back(item);

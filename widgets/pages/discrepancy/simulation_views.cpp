@@ -162,8 +162,8 @@ void SimulationMaps::show(const std::vector<DiscrepancyReportRow>& rows, const M
 
 std::vector<Exportable> SimulationMaps::exportables() {
   if (!shown_) return {};
-  return {exportableOf(tr("Simulation before over the table"), views_[0]),
-          exportableOf(tr("Simulation after over the table"), views_[1])};
+  return {exportableOf(tr("Initial simulation over the table"), views_[0]),
+          exportableOf(tr("Updated simulation over the table"), views_[1])};
 }
 
 }  // namespace spindrift::gui

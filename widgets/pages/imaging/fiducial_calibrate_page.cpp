@@ -77,9 +77,8 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   checks_column->setContentsMargins(0, 8, 0, 0);
   check_kind_ = new QComboBox;
   check_kind_->setAccessibleName(tr("What the states are"));
-  check_kind_->addItems({tr("The states are thermal states: nothing to check"),
-                         tr("The states are jogs: within one resolution"),
-                         tr("The states repeat the cold machine: within half a resolution")});
+  check_kind_->addItems({tr("The states are thermal states: nothing to check"), tr("Jogs within one resolution"),
+                         tr("Cold repeatability within half the resolution")});
   checks_column->addWidget(check_kind_);
   check_verdict_ = new Callout;
   checks_column->addWidget(check_verdict_);

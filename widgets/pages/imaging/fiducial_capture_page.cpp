@@ -212,8 +212,7 @@ void FiducialCapturePage::showComplete() {
   });
   QString text = excluded == 0
                      ? tr("All %n captures are checked and can be used.", nullptr, static_cast<int>(captures_.size()))
-                     : tr("Of %1 captures %2 can be used, %3 excluded.")
-                           .arg(captures_.size())
+                     : tr("Of %n captures %1 can be used, %2 excluded.", nullptr, static_cast<int>(captures_.size()))
                            .arg(static_cast<std::ptrdiff_t>(captures_.size()) - excluded)
                            .arg(tr("%n are", nullptr, static_cast<int>(excluded)));
   QStringList lacking;
@@ -241,9 +240,9 @@ void FiducialCapturePage::showBad(const std::vector<const CaptureVerdict*>& bad)
     select(image);
   });
   callout()->show(Tone::Attention,
-                  tr("%1 of %2 captures cannot be used (%3). Take them again, or exclude them: the rest "
-                     "is evaluated without.")
-                      .arg(bad.size())
+                  tr("%n of %1 captures cannot be used (%2). Take them again, or exclude them: the others "
+                     "are evaluated without them.",
+                     nullptr, static_cast<int>(bad.size()))
                       .arg(captures_.size())
                       .arg(firstOf(names)));
 }

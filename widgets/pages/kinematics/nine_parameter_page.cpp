@@ -24,6 +24,7 @@
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
@@ -32,9 +33,7 @@ namespace spindrift::gui {
 namespace {
 
 QString parameterName(int i) {
-  static const std::array<const char*, nine_parameter_count> names{"EX", "EY",   "EZ", "EA", "EB",
-                                                                   "EC", "EC0Y", "αX", "αY"};
-  return QString::fromUtf8(names[static_cast<std::size_t>(i)]);
+  return parameterTitle(std::string(nine_parameter_names[static_cast<std::size_t>(i)]));
 }
 
 QString meaningOf(int i) {
@@ -347,7 +346,7 @@ void NineParameterPage::showFit() {
   for (int i = 0; i < nine_parameter_count; ++i) {
     Row row;
     row.id = parameterName(i);
-    Cell name{parameterName(i)};
+    Cell name{parameterLabel(std::string(nine_parameter_names[static_cast<std::size_t>(i)]))};
     name.bold = true;
     Cell value;
     if (f.determined(i)) {
@@ -435,7 +434,7 @@ void NineParameterPage::showComparison() {
     QStringList differing;
     for (int i = 0; i < nine_parameter_count; ++i) {
       Row row;
-      Cell name{parameterName(i)};
+      Cell name{parameterLabel(std::string(nine_parameter_names[static_cast<std::size_t>(i)]))};
       name.bold = true;
       const bool known = c.a.determined(i) && c.b.determined(i);
       row.cells = {

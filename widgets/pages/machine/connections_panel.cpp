@@ -62,7 +62,7 @@ ConnectionsPanel::ConnectionsPanel(PageContext page_context, QWidget* parent)
          "linuxcnc://… or genicam:…"));
   address_->setMinimumHeight(sizes::control_height);
   look_ = makeButton(tr("See what is there"), "eye");
-  live_ = makeButton(tr("Look live"), "play");
+  live_ = makeButton(tr("Live view"), "play");
   record_ = makeButton(tr("Record"), nullptr, "primary");
   record_->setToolTip(tr("Writes what comes into log.csv of this campaign, on its clock"));
   line->addWidget(address_, 1);
@@ -431,7 +431,7 @@ void ConnectionsPanel::showLive() {
   showSources();
   columns_->showLive(service_.snapshot(), service_.recording());
   const bool recording = service_.recording();
-  live_->setText(QChar(0x2009) + (service_.running() ? tr("Stop looking") : tr("Look live")));
+  live_->setText(QChar(0x2009) + (service_.running() ? tr("Stop live view") : tr("Live view")));
   live_->setVisible(!recording);
   live_->setEnabled(columns()->rowCount() > 0);
   record_->setText(recording ? tr("Stop recording") : tr("Record"));

@@ -15,7 +15,7 @@ namespace spindrift::gui {
 
 HistoryCard::HistoryCard(QWidget* parent) : Card(tr("The last hour"), parent) {
   plot_ = new Plot;
-  plot_->setEmptyText(tr("Values will appear here as they come"), tr("Press Look live or Record."));
+  plot_->setEmptyText(tr("Values will appear here as they come"), tr("Press Live view or Record."));
   plot_->setMinimumHeight(150);
   body()->addWidget(plot_, 1);
 }

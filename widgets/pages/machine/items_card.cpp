@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QTableView>
 
+#include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 
@@ -65,7 +66,7 @@ void ItemsCard::fill() {
     Cell name = nameCell(item.name.empty() ? row.id : fromCore(item.name));
     name.checked = ticked_.contains(item.address);
     name.tip = row.id;
-    row.cells = {name, Cell{fromCore(item.example)}, Cell{fromCore(item.unit)},
+    row.cells = {name, Cell{fromCore(item.example)}, Cell{unitText(item.unit)},
                  Cell{fromCore(item.type.empty() ? item.category : item.type)}, Cell{fromCore(item.component)}};
     rows.push_back(std::move(row));
   };

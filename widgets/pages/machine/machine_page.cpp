@@ -58,7 +58,7 @@ QStringList machineFindings(const MachineDescription& machine) {
                     .arg(listed(no_resolution));
   }
   if (!no_bearing.isEmpty()) {
-    findings << MachinePage::tr("No fixed bearing is stated for the screw of %1: its expansion cannot be placed.")
+    findings << MachinePage::tr("No fixed bearing is stated for the %1 ball screw: its expansion has no reference.")
                     .arg(listed(no_bearing));
   }
   for (const MachinePoint& point : machine.points) {

@@ -530,8 +530,7 @@ void PlantPage::enterEvent() {
   if (time.size() == 10) time += QStringLiteral("T00:00:00Z");
   const std::optional<double> time_s = parseUtc(time.toStdString());
   if (!time_s || *time_s > now() + day_s) {
-    fail(tr("\"%1\" is no day on which something was done; allowed: UTC up to now, such as 2026-01-31 or "
-            "2026-01-31T08:00:00Z.")
+    fail(tr("\"%1\" is not a date up to now; allowed: UTC such as 2026-01-31 or 2026-01-31T08:00:00Z.")
              .arg(event_time_->text()));
     event_time_->setFocus();
     return;

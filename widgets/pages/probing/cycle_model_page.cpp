@@ -3,7 +3,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QCoreApplication>
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -17,6 +16,7 @@
 #include <cmath>
 
 #include "core/base/atomic_file.h"
+#include "core/reporting/parameter_meanings.h"
 #include "core/tasks/task_options.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
@@ -31,30 +31,13 @@
 namespace spindrift::gui {
 namespace {
 
-const std::array<const char*, 3> group_units{"um", "urad", "um/m"};
+const std::array<const char*, 3> group_units{"µm", "µrad", "µm/m"};
 
 /// "gZ +0.64, aX −0.62": the names without their units.
 QString weakText(const Eigen::VectorXd& combination, const std::vector<std::string>& names) {
   std::vector<std::string> titles;
   for (const std::string& name : names) titles.push_back(parameterTitle(name).toStdString());
   return coreSentence(combinationText(combination, titles)).replace(QLatin1Char('-'), QChar(0x2212));
-}
-
-QString meaningOf(const std::string& name) {
-  const QString n = parameterTitle(name);
-  const QString axis = n.mid(1, 1);
-  const auto tr = [](const char* text) { return QCoreApplication::translate("CycleModelPage", text); };
-  if (n.startsWith(QLatin1Char('h'))) return tr("head tilt about %1").arg(axis);
-  if (n.startsWith(QLatin1Char('a'))) return tr("column tilt about %1").arg(axis);
-  if (n.startsWith(QLatin1Char('d'))) return tr("displacement of the spindle along %1").arg(axis);
-  if (n.startsWith(QLatin1Char('g'))) return tr("thermal expansion of the %1 ball screw").arg(axis);
-  if (n == QLatin1String("EME")) return tr("thermal expansion of the bar");
-  if (n.startsWith(QLatin1String("ER"))) return tr("radial expansion of the table");
-  if (n.contains(QLatin1Char('0'))) {
-    const bool turn = QStringLiteral("ABC").contains(axis);
-    return turn ? tr("rotation of the table, %1").arg(axis) : tr("displacement of the table along %1").arg(axis);
-  }
-  return tr("linear expansion of axis %1").arg(n.right(1));
 }
 
 }  // namespace
@@ -96,9 +79,8 @@ CycleModelPage::CycleModelPage(PageContext page_context, QWidget* parent)
                tr("Parameters"));
   combinations_ =
       new RowsModel({tr("Cycle"), tr("Condition number"), tr("Determined worst"), tr("Not determined")}, this);
-  auto* combinations =
-      makeTable(combinations_, tr("Weak combinations"),
-                tr("Which combinations of parameters the touches hardly tell apart appears after the fit."));
+  auto* combinations = makeTable(combinations_, tr("Weak combinations"),
+                                 tr("Most strongly correlated parameters are listed after the fit."));
   stretchColumn(combinations, 2);
   tabs->addTab(combinations, tr("Weak combinations"));
   left->body()->addWidget(tabs, 5);
@@ -210,9 +192,9 @@ void CycleModelPage::refresh() {
   if (!state.current) {
     callout()->show(Tone::Outdated, tr("Changed since: %1. Fit all cycles again.").arg(state.changed));
   } else if (cycles->status == FitStatus::Converged && cycles->warnings.empty()) {
-    callout()->show(
-        Tone::Good,
-        tr("%1 parameters are determined in each of %2 cycles.").arg(cycles->names.size()).arg(cycles->cycles.size()));
+    callout()->show(Tone::Good, tr("%1 parameters are determined in each of %n cycles.", nullptr,
+                                   static_cast<int>(cycles->cycles.size()))
+                                    .arg(cycles->names.size()));
   } else {
     QStringList sentences;
     for (const std::string& w : cycles->warnings) sentences << coreSentence(w);
@@ -237,7 +219,7 @@ void CycleModelPage::refresh() {
 void CycleModelPage::showTrends() {
   const CycleEvaluation* cycles = cyclesOf(evaluation_.get());
   if (cycles == nullptr || cycles->cycles.empty()) return;
-  const QString unit = QString::fromLatin1(group_units[static_cast<std::size_t>(group_->current())]);
+  const QString unit = QString::fromUtf8(group_units[static_cast<std::size_t>(group_->current())]);
   const TimeUnit time = timeUnit(cycles->cycle_time_s.back() - cycles->cycle_time_s.front());
   std::vector<Series> series;
   for (std::size_t p = 0; p < cycles->names.size(); ++p) {
@@ -273,7 +255,7 @@ void CycleModelPage::showCycle() {
     const CycleParameter& value = cycles->parameters[at][p];
     Row row;
     row.id = fromCore(cycles->names[p]);
-    row.cells = {nameCell(parameterTitle(cycles->names[p]))};
+    row.cells = {nameCell(parameterLabel(cycles->names[p]))};
     const bool reference = k == cycles->problem.reference_cycle;
     if (!value.determined && !reference) {
       row.cells.push_back(toneCell(tr("not determined"), Tone::Attention));
@@ -286,7 +268,7 @@ void CycleModelPage::showCycle() {
                               ? numberCell(std::abs(value.value) / value.standard_uncertainty, 1)
                               : dashCell());
     }
-    row.cells.push_back(Cell{meaningOf(cycles->names[p])});
+    row.cells.push_back(Cell{coreSentence(parameterMeaning(cycles->names[p]))});
     rows.push_back(std::move(row));
   }
   parameters_->setRows(std::move(rows));

@@ -63,7 +63,7 @@ void TouchCapturePage::makeProgram() {
     if (!ball) {
       program_verdict_->show(
           Tone::Attention,
-          tr("The position of the first ball is not known. Probe it once by hand; then the programme can be planned."));
+          tr("The position of the first ball is not known. Probe it once by hand; then the program can be planned."));
       return;
     }
     plan.first_ball_mm = *ball;
@@ -82,19 +82,19 @@ void TouchCapturePage::makeProgram() {
         return [this, made, failure] {
           program_ = std::move(*made);
           if (!program_) {
-            program_verdict_->show(Tone::Bad, tr("No programme: %1").arg(coreSentence(failure.c_str())));
+            program_verdict_->show(Tone::Bad, tr("No program: %1").arg(coreSentence(failure.c_str())));
           } else if (!program_->check.good()) {
             const ProgramIssue& first = program_->check.issues.front();
-            program_verdict_->show(Tone::Bad, tr("Programme not exported, issues found by the check: %1. Line %2: %3")
+            program_verdict_->show(Tone::Bad, tr("Program not exported, issues found by the check: %1. Line %2: %3")
                                                   .arg(program_->check.issues.size())
                                                   .arg(first.line)
                                                   .arg(fromCore(first.what)));
           } else {
             program_verdict_->show(
                 Tone::Good,
-                tr("Programme checked: %1 touches in %2 moves inside the travel, none through the artefact, a "
-                   "retract after each, safe height %3 mm. Export writes it.")
-                    .arg(program_->check.touches)
+                tr("Program checked: %n touches in %1 moves inside the travel, none through the artefact, a "
+                   "retract after each, safe height %2 mm. Export writes it.",
+                   nullptr, static_cast<int>(program_->check.touches))
                     .arg(program_->check.moves.size())
                     .arg(decimalText(program_->plan.safe_height_mm, 'f', 1)));
           }
@@ -108,7 +108,7 @@ std::vector<Exportable> TouchCapturePage::exportables() {
                                 exportableOf(tr("Measuring cycle"), view_)};
   const Artefact* a = session().campaign() == nullptr ? nullptr : artefact();
   if (program_ && program_->check.good() && a != nullptr) {
-    items.push_back({tr("Measuring programme"), {QStringLiteral("nc")}, [text = program_->text](const QString& file) {
+    items.push_back({tr("Measuring program"), {QStringLiteral("nc")}, [text = program_->text](const QString& file) {
                        writeFileAtomically(file.toStdString(), text);
                      }});
     ProgramOptions options;

@@ -100,8 +100,8 @@ TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
   control_->addItem(tr("Siemens"), QStringLiteral("siemens"));
   control_->addItem(tr("Heidenhain"), QStringLiteral("heidenhain"));
   control_->addItem(tr("Generic"), QStringLiteral("generic"));
-  make_program_ = makeButton(tr("Programme"), "check");
-  make_program_->setToolTip(tr("Write the measuring programme for this control, read it back and check it"));
+  make_program_ = makeButton(tr("Program"), "check");
+  make_program_->setToolTip(tr("Write the measuring program for this control, read it back and check it"));
   view_ = new View3D;
   view_->setEmptyText(tr("The measuring cycle will appear here"),
                       tr("It needs an artefact and a stylus in the machine description (step Machine)."));
@@ -237,11 +237,12 @@ void TouchCapturePage::refresh() {
                            fillTouches();
                            if (const int row = touches_->rowOf(id); row >= 0) touch_table_->selectRow(row);
                          });
-    callout()->show(Tone::Attention, tr("%1 touches are rejected and %2 are missing (%3). Take them again while the "
-                                        "machine is in this state; the rest is evaluated without them.")
-                                         .arg(count(TouchState::LeftOut))
-                                         .arg(count(TouchState::Missing))
-                                         .arg(firstOf(bad)));
+    callout()->show(Tone::Attention,
+                    tr("Rejected touches: %1, missing: %2 (%3). Take them again while the machine is in "
+                       "this state; the others are evaluated without them.")
+                        .arg(count(TouchState::LeftOut))
+                        .arg(count(TouchState::Missing))
+                        .arg(firstOf(bad)));
   } else {
     callout()->show(Tone::Good, cycles_->rowCount() > 1
                                     ? tr("All %n touches are plausible and none is missing.", nullptr,

@@ -85,10 +85,9 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
   repeatability_verdict_ = new Callout;
   repeatability_ =
       new RowsModel({tr("Parameter"), tr("Repeatability, k = 2"), tr("From touch noise"), tr("Unit")}, this);
-  tabs_->addTab(
-      withVerdict(repeatability_verdict_, makeTable(repeatability_, tr("Repeatability"),
-                                                    tr("How well a cycle repeats appears with at least 18 cycles."))),
-      tr("Repeatability"));
+  tabs_->addTab(withVerdict(repeatability_verdict_, makeTable(repeatability_, tr("Repeatability"),
+                                                              tr("Repeatability requires at least 18 cycles."))),
+                tr("Repeatability"));
   health_verdict_ = new Callout;
   health_ = new RowsModel({tr("Stylus"), tr("Sphere"), tr("Radius / mm"), tr("Pre-travel / µm"), tr("Repeats / µm"),
                            tr("Step / µm"), tr("Verdict")},
@@ -446,8 +445,9 @@ void TouchEvaluationPage::showRepeatability() {
   }
   repeatability_->setRows(std::move(rows));
   if (study.status == FitStatus::Converged) {
-    repeatability_verdict_->show(Tone::Neutral, tr("Drifts slower than nine cycles are taken out; what is left is how "
-                                                   "well one cycle repeats."));
+    repeatability_verdict_->show(
+        Tone::Neutral,
+        tr("Drift slower than nine cycles is removed; the residual scatter is the repeatability of one cycle."));
   } else {
     repeatability_verdict_->set(Tone::Attention, coreSentence(study.message));
   }

@@ -19,6 +19,7 @@
 #include "core/base/text.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
@@ -256,7 +257,7 @@ void ReviewPage::showTable() {
   QStringList headers{tr("Point")};
   std::vector<QString> order;
   const auto component = static_cast<Component>(component_->current());
-  const QString unit = fromCore(std::string(unitOf(component)));
+  const QString unit = unitText(unitOf(component));
   std::vector<const ReviewPane*> shown;
   for (std::size_t i = 0; i < panes_.size(); ++i) {
     const ReviewPane* pane = panes_[i];
@@ -341,9 +342,9 @@ void ReviewPage::showSection() {
     }
     if (!s.x.empty()) series.push_back(std::move(s));
   }
-  section_->setAxes(along_x ? tr("X / mm") : tr("Y / mm"),
-                    QStringLiteral("%1 / %2").arg(fromCore(std::string(toString(component))),
-                                                  fromCore(std::string(unitOf(component)))));
+  section_->setAxes(
+      along_x ? tr("X / mm") : tr("Y / mm"),
+      QStringLiteral("%1 / %2").arg(fromCore(std::string(toString(component))), unitText(unitOf(component))));
   section_->setContent(std::move(series));
 }
 

@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/review/review_sources.h"
@@ -183,7 +184,7 @@ void ReviewPane::show(const ReviewPicture& picture, const std::optional<double>&
     machine_of_ = folder;
   }
   view_->setMachineVisible(machine);
-  const QString unit = fromCore(std::string(unitOf(picture.component)));
+  const QString unit = unitText(unitOf(picture.component));
   if (limit)
     view_->setColourScale(ColourScale::symmetric(*limit, fromCore(std::string(toString(picture.component))), unit));
   view_->setField(picture.field ? std::make_shared<const Field>(*picture.field) : nullptr);

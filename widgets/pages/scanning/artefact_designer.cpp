@@ -16,6 +16,7 @@
 #include "core/machine/component.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/theme/numbers.h"
@@ -179,7 +180,7 @@ void ArtefactDesigner::showDesigns(const ArtefactDesign& rigid, const ArtefactDe
     const auto i = static_cast<std::size_t>(k);
     Row row;
     row.id = fromCore(std::string(toString(k)));
-    row.cells.push_back(nameCell(QStringLiteral("%1 / %2").arg(row.id, fromCore(std::string(unitOf(k))))));
+    row.cells.push_back(nameCell(QStringLiteral("%1 / %2").arg(row.id, unitText(unitOf(k)))));
     for (const ArtefactDesign* d : {&rigid, &push_broom}) {
       Cell cell = std::isfinite(d->sigma[i]) ? Cell{decimalText(d->sigma[i], 'g', 3)}
                                              : toneCell(tr("not determined"), Tone::Attention);

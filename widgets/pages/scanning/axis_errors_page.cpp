@@ -16,6 +16,7 @@
 #include "core/tasks/task_options.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/scanning/scan_results.h"
@@ -33,8 +34,8 @@ double factorOf(int component) {
   return component < 3 ? um_per_mm : urad_per_rad;
 }
 
-QString unitText(int component) {
-  return component < 3 ? QStringLiteral("um") : QStringLiteral("urad");
+QString unitOfError(int component) {
+  return unitText(unitOf(static_cast<Component>(component)));
 }
 
 /// Value at the slide's origin and its uncertainty, um or urad; NaN where it is not determined.
@@ -238,7 +239,7 @@ void AxisErrorsPage::show(const ScanEvaluation& evaluation) {
   std::vector<Series> series;
   for (const std::string& group : order) series.push_back(std::move(by_group[group]));
   series_->setAxes(over_time ? tr("Time / %1").arg(unit.name) : tr("Position of the carriage / mm"),
-                   tr("%1 / %2").arg(name, unitText(c)));
+                   tr("%1 / %2").arg(name, unitOfError(c)));
   series_->setContent(std::move(series));
 
   std::vector<AxisErrorSample> samples;
@@ -259,16 +260,16 @@ void AxisErrorsPage::show(const ScanEvaluation& evaluation) {
   }
   grid.x_title = tr("Position / mm");
   grid.y_title = tr("Time / %1").arg(unit.name);
-  grid.value_title = tr("%1 / %2").arg(name, unitText(c));
-  surface_->setData(std::move(grid), ColourScale::symmetric(std::max(largest, 0.1), name, unitText(c)));
+  grid.value_title = tr("%1 / %2").arg(name, unitOfError(c));
+  surface_->setData(std::move(grid), ColourScale::symmetric(std::max(largest, 0.1), name, unitOfError(c)));
   showValues(evaluation);
   showObservability(evaluation);
 }
 
 void AxisErrorsPage::showValues(const ScanEvaluation& evaluation) {
   const int c = component_->current();
-  values_->setHeaders({tr("Scan"), tr("At the origin / %1").arg(unitText(c)),
-                       tr("At the artefact / %1").arg(unitText(c)), tr("Observed")});
+  values_->setHeaders({tr("Scan"), tr("At the origin / %1").arg(unitOfError(c)),
+                       tr("At the artefact / %1").arg(unitOfError(c)), tr("Observed")});
   std::vector<Row> rows;
   for (const ScanResult& s : evaluation.scans) {
     if (s.reference) continue;
@@ -313,7 +314,7 @@ void AxisErrorsPage::showObservability(const ScanEvaluation& evaluation) {
     row.id = component_->button(c)->text();
     const auto text = [&](double v) {
       Cell cell = dashCell();
-      if (v > 0) cell.text = QStringLiteral("%1 %2").arg(decimalText(v, 'g', 2)).arg(unitText(c));
+      if (v > 0) cell.text = QStringLiteral("%1 %2").arg(decimalText(v, 'g', 2)).arg(unitOfError(c));
       return cell;
     };
     row.cells = {nameCell(row.id), text(origin), text(artefact),

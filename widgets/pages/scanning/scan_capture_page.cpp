@@ -101,7 +101,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
     loadCloud();
   });
   connect(mask_, &ScanMaskBar::restoring, this, [this] {
-    // What was painted away has to be seen to be taken back.
+    // What is masked has to be seen to be taken back.
     colouring_->setCurrent(static_cast<int>(ScanColouring::LeftOut));
     if (part_->current() == 1) part_->setCurrent(0);
     loadCloud();
@@ -183,9 +183,9 @@ void ScanCapturePage::refresh() {
                     tr("Changed since: %1. Check the scans again.").arg(session().state("check").changed));
   } else if (!bad.isEmpty()) {
     callout()->setAction(tr("Show it"), [this, first_bad] { select(first_bad); });
-    callout()->show(Tone::Attention, tr("%1 of %2 scans are incomplete or cannot be used (%3). Scan again, or exclude "
-                                        "them: the rest is evaluated without.")
-                                         .arg(bad.size())
+    callout()->show(Tone::Attention, tr("%n of %1 scans are incomplete or cannot be used (%2). Scan again, or exclude "
+                                        "them: the others are evaluated without them.",
+                                        nullptr, static_cast<int>(bad.size()))
                                          .arg(captures.size())
                                          .arg(firstOf(bad)));
   } else {
@@ -270,10 +270,10 @@ void ScanCapturePage::showVerdict() {
   } else if (!state.tip.isEmpty()) {
     verdict_->show(state.tone, state.tip);
   } else if (check != checks_.end()) {
-    QString sentence = tr("%1 profiles; %2 points near edges and %3 outliers are not used.")
-                           .arg(check->second.profiles)
-                           .arg(check->second.edge_points)
-                           .arg(check->second.outlier_points);
+    QString sentence = tr("%1; not used: %2 and %3.")
+                           .arg(tr("%n profiles", nullptr, static_cast<int>(check->second.profiles)),
+                                tr("%n points near edges", nullptr, static_cast<int>(check->second.edge_points)),
+                                tr("%n outliers", nullptr, static_cast<int>(check->second.outlier_points)));
     if (const auto [item, reason] = ScanMaskBar::maskOf(session(), id); !item.isEmpty())
       sentence += QLatin1Char(' ') + tr("A part is masked: %1.").arg(reason);
     verdict_->show(Tone::Good, sentence);
@@ -367,7 +367,7 @@ void ScanCapturePage::showIn(View3D* view, const ScanPicture& picture, const QSt
       scale.high = 3.0;
       const auto& n = picture.counts;
       scale.title = tr("kind");
-      caption += tr(": edge %1, outlier %2, painted %3").arg(n[1]).arg(n[2]).arg(n[3]);
+      caption += tr(": edge %1, outlier %2, masked %3").arg(n[1]).arg(n[2]).arg(n[3]);
       break;
     }
     default:

@@ -22,7 +22,7 @@ ScanMaskBar::ScanMaskBar(View3D* view, SessionModel& session, CampaignUndo& undo
   auto* line = new WrapLayout;
   rows->addLayout(line);
   tools_ = new Segments({tr("Look"), tr("Brush"), tr("Rectangle"), tr("Lasso")}, tr("Tool on the scan"));
-  tools_->setToolTip(tr("Brush, rectangle and lasso look straight down on the scan"));
+  tools_->setToolTip(tr("Brush, rectangle and lasso select in the top view"));
   line->addWidget(tools_);
   radius_ = new QDoubleSpinBox;
   radius_->setRange(0.1, 20.0);

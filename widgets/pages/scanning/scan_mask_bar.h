@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tools with which parts of a scan are painted away and taken back. Every stroke is a change that can be undone and
+// The tools with which parts of a scan are masked and taken back. Every stroke is a change that can be undone and
 // is kept in the session with its reason; results that used the scan turn outdated.
 #pragma once
 
@@ -36,7 +36,7 @@ class ScanMaskBar : public QWidget {
   [[nodiscard]] CloudPainter* painter() const { return painter_; }
 
  Q_SIGNALS:
-  /// Restoring needs to see what was painted away.
+  /// Restoring needs to see what is masked.
   void restoring();
 
  private:

@@ -27,6 +27,7 @@
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -141,7 +142,7 @@ void TestPartView::paintEvent(QPaintEvent*) {
   options.actual = pictureColour(t.accent);
   options.soft = pictureColour(t.text_secondary);
   options.ink = pictureColour(t.text);
-  options.legend = tr("Deviations from bore C, drawn %1 times their size").arg(QStringLiteral("{}")).toStdString();
+  options.legend = tr("Deviations from bore C, magnified %1 ×").arg(QStringLiteral("{}")).toStdString();
   options.no_deviation = tr("No deviation: the part is as it should be").toStdString();
   paintDrawing(painter, testPartDrawing(*part_, deviation_um_, options));
 }
@@ -266,7 +267,7 @@ void WhatIfWindow::addControl(std::size_t parameter, QLabel* heading, QVBoxLayou
   QString tip = name;
   if (!p.geometric) {
     const QString driver = tr("%1, %2 %3 per %4")
-                               .arg(sentenceStart(coreSentence(p.driver)), QString::number(p.sensitivity, 'g', 3),
+                               .arg(sentenceStart(coreSentence(p.driver)), decimalText(p.sensitivity, 'g', 3),
                                     gainUnitText(p.gain_unit), valueUnit(p));
     auto* note = makeLabel(driver, "secondaryText");
     note->setWordWrap(true);
@@ -408,7 +409,7 @@ void WhatIfWindow::refreshTable(const WhatIfAnswer& answer) {
       artefact_rows_->setRows(std::move(rows));
       QString note = tr("Relative to %1").arg(fromCore(artefact.reference));
       if (artefact.along_um_per_m)
-        note += tr("; deviation along the bar %1 µm/m").arg(QString::number(*artefact.along_um_per_m, 'f', 1));
+        note += tr("; deviation along the bar %1 µm/m").arg(decimalText(*artefact.along_um_per_m, 'f', 1));
       artefact_note_->setText(note);
       break;
     }

@@ -14,6 +14,7 @@
 #include "core/machine/sensor_role.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/plots/plot.h"
@@ -110,7 +111,7 @@ void IsoPanel::showEtve(const EtveResult& result) {
   for (const EtveComponent& c : result.components) {
     Row row;
     row.id = fromCore(c.name);
-    const QString unit = fromCore(c.unit);
+    const QString unit = unitText(c.unit);
     row.cells = {nameCell(row.id), Cell{tr("range %1").arg(quantityText(c.range, c.range_sigma, unit))},
                  Cell{std::isfinite(c.range_per_K) ? tr("%1 %2/K").arg(decimalText(c.range_per_K, 'g', 3)).arg(unit)
                                                    : QStringLiteral("–")},
@@ -130,7 +131,7 @@ void IsoPanel::showSpindle(const SpindleResult& result) {
   for (const SpindleComponent& c : result.components) {
     Row row;
     row.id = fromCore(c.name);
-    const QString unit = fromCore(c.unit);
+    const QString unit = unitText(c.unit);
     row.cells = {nameCell(row.id), Cell{tr("at the end %1").arg(quantityText(c.at_end, c.change_sigma, unit))},
                  Cell{tr("first hour %1").arg(quantityText(c.first_hour, c.change_sigma, unit))},
                  Cell{std::isfinite(c.time_to_fraction_s) ? tr("%1 % after %2 min")

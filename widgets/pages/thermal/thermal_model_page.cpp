@@ -21,6 +21,7 @@
 #include "core/workflows/campaign_series.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/thermal/iso_panel.h"
@@ -79,7 +80,7 @@ QWidget* ThermalModelPage::makeChoices() {
   line->addWidget(new QLabel(tr("Method")));
   method_ = new QComboBox;
   method_->setAccessibleName(tr("How the model is found"));
-  method_->addItems({tr("All lags"), tr("ARX"), tr("Output error")});
+  method_->addItems({tr("All time constants"), tr("ARX"), tr("Output error")});
   line->addWidget(method_);
   line->addStretch();
   const std::array<QString, 4> names{tr("Training from"), tr("Training to"), tr("Test from"), tr("Test to")};
@@ -138,7 +139,7 @@ QWidget* ThermalModelPage::makeDetails() {
   lags_ = new RowsModel({tr("Input"), tr("Time constant"), tr("Pole / 1/h"), tr("Gain"), tr("Unit")}, this);
   tabs_->addTab(makeTable(lags_, tr("Time constants"),
                           tr("Poles as time constants with their gains appear after the identification.")),
-                tr("Lags"));
+                tr("Time constants"));
   auto* residuals = new QWidget;
   auto* column = new QVBoxLayout(residuals);
   column->setContentsMargins(0, 8, 0, 0);
@@ -321,7 +322,7 @@ void ThermalModelPage::refresh() {
 }
 
 QString ThermalModelPage::outputUnit() const {
-  return fromCore(unitOfSignal(request().output));
+  return unitText(unitOfSignal(request().output));
 }
 
 void ThermalModelPage::fillChoices() {

@@ -12,6 +12,7 @@
 
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/plots/plot.h"
 #include "widgets/theme/numbers.h"
@@ -85,7 +86,7 @@ void UpdatePanel::show() {
     return;
   }
   const TrackResult& r = *result_;
-  const QString unit = fromCore(r.unit);
+  const QString unit = unitText(r.unit);
   QString text = tr("From %1 h on: rms %2 %3 with %4 measurements, %5 %3 without; fit %6 %, without %7 %.")
                      .arg(decimalText(r.from_s / 3600, 'f', 1))
                      .arg(decimalText(r.with.rmse, 'g', 3))

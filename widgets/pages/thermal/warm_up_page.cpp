@@ -257,7 +257,7 @@ void WarmUpPage::refresh() {
   const bool stated = session().warmStatement().has_value();
   const bool measured = judged && judged->status == FitStatus::Converged;
   if (stated) {
-    callout()->show(Tone::Good, tr("You stated that the instrument was warm. Reports written from now on say so."));
+    callout()->show(Tone::Good, tr("Operator's statement: the instrument was warm. Reports will state this."));
   } else if (measured) {
     QString sentence = coreSentence(judged->reason);
     if (!judged->cause_reason.empty()) sentence += QLatin1Char(' ') + coreSentence(judged->cause_reason);
@@ -268,7 +268,7 @@ void WarmUpPage::refresh() {
     callout()->show(Tone::Attention, tr("This campaign has no warm-up measurement. Either measure one point every 5 "
                                         "minutes until it settles, or state that the instrument was warm."));
   }
-  confirm_->setText(QChar(0x2009) + (stated ? tr("Take the statement back") : tr("The instrument was warm")));
+  confirm_->setText(QChar(0x2009) + (stated ? tr("Withdraw the statement") : tr("The instrument was warm")));
   jogs_->refresh();
   repeatability_->refresh();
   clocks_->refresh();

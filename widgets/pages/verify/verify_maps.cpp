@@ -13,6 +13,7 @@
 #include "core/machine/interpolated_field.h"
 #include "core/workflows/fit_campaign.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/pages/common/cells.h"
 #include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
@@ -103,7 +104,7 @@ void VerifyMaps::show(const VerifyMap& map, const MachineDescription& machine, d
   for (const auto& side : map.points)
     for (const Field::Marker& p : side) largest = std::max(largest, std::abs(p.value));
   const QString name = fromCore(std::string(toString(map.component)));
-  const QString unit = fromCore(std::string(unitOf(map.component)));
+  const QString unit = unitText(unitOf(map.component));
   for (std::size_t side = 0; side < 2; ++side) {
     View3D* view = views_[side];
     if (view->empty()) {

@@ -19,6 +19,7 @@
 #include "core/workflows/evaluate_campaign.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/common/cells.h"
@@ -299,7 +300,7 @@ void VerifyPage::showResult() {
   const VerifyComponent* worst = nullptr;
   for (const VerifyComponent& c : result_->components) {
     const QString name = fromCore(std::string(toString(c.component)));
-    const QString unit = fromCore(std::string(unitOf(c.component)));
+    const QString unit = unitText(unitOf(c.component));
     component_->addItem(name);
     Row row;
     row.id = name;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "widgets/common/parts.h"
+#include "widgets/common/words.h"
 #include "widgets/pages/common/cells.h"
 
 namespace spindrift::gui {
@@ -120,7 +121,7 @@ std::vector<Row> verifyPointRows(const VerifyResult& result, Component component
       found->push_back(p);
     }
   }
-  const QString unit = fromCore(std::string(unitOf(component)));
+  const QString unit = unitText(unitOf(component));
   const double goal = isRotation(component) ? result.request.goal_urad : result.request.goal_um;
   std::vector<Row> rows;
   for (const auto& of : points) {

@@ -460,9 +460,9 @@ TEST_F(ConnectionsTest, TheCompensatorRunsLiveBesideTheMeasurement) {
   EXPECT_TRUE(page->live()->state()->sentence().contains(QStringLiteral("Nothing is connected")));
   ASSERT_EQ(service().look(), QString());
   // At rest at 30 degC: 2 um/K over 20 degC, reached by the slew limit of a control.
-  ASSERT_TRUE(waitUntil([&] { return page->live()->prediction()->value() == QStringLiteral("20.00 um"); }, 30000))
+  ASSERT_TRUE(waitUntil([&] { return page->live()->prediction()->value() == QStringLiteral("20.00 µm"); }, 30000))
       << page->live()->prediction()->value().toStdString() << page->live()->state()->sentence().toStdString();
-  EXPECT_EQ(page->live()->measurement()->value(), QStringLiteral("21.50 um"));
+  EXPECT_EQ(page->live()->measurement()->value(), QStringLiteral("21.50 µm"));
   EXPECT_EQ(page->live()->plot()->series().size(), 2U);
   EXPECT_EQ(page->live()->state()->tone(), Tone::Good);
   picture(QStringLiteral("connections-compensator"));
