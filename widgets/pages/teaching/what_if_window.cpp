@@ -27,6 +27,7 @@
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/discrepancy/effect_titles.h"
 #include "widgets/theme/fonts.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -57,14 +58,6 @@ QString groupTitle(const WhatIfParameter& p) {
 QString parameterName(const WhatIfParameter& p) {
   if (!p.geometric) return sentenceStart(effectTitle(p.id));
   return QStringLiteral("%1  %2").arg(fromCore(p.id.substr(0, p.id.find('_'))), coreSentence(p.title));
-}
-
-/// 1, 2, 5 times a power of ten, at most `most`.
-double roundedDown(double most) {
-  const double power = std::pow(10.0, std::floor(std::log10(most)));
-  for (const double step : {5.0, 2.0})
-    if (step * power <= most) return step * power;
-  return power;
 }
 
 QString featureName(const std::string& id) {
