@@ -594,6 +594,9 @@ void MainWindow::addCampaign(const QString& folder) {
       try {
         const std::int64_t id = session_.session()->adoptCampaign(*staged);
         giveGoals(*session_.session(), id);
+        // Whoever adds it goes on with it.
+        const nlohmann::json name = session_.campaignSetting(option_keys::operator_name, nullptr);
+        if (!name.is_null()) session_.setSetting(campaignKey(option_keys::operator_name, id), name);
         session_.selectCampaign(id);
       } catch (const InputError& e) {
         tell(coreSentence(e.what()));
