@@ -45,6 +45,22 @@
         <source>restore %1</source>
         <translation>%1 wiederherstellen</translation>
     </message>
+    <message>
+        <source>discard what was typed</source>
+        <translation>Eingaben verwerfen</translation>
+    </message>
+    <message>
+        <source>show what was typed</source>
+        <translation>Eingaben zeigen</translation>
+    </message>
+    <message>
+        <source>add a note</source>
+        <translation>Notiz hinzufügen</translation>
+    </message>
+    <message>
+        <source>remove a note</source>
+        <translation>Notiz entfernen</translation>
+    </message>
 </context>
 <context>
     <name>CycleModelPage</name>
@@ -428,6 +444,35 @@
     <message>
         <source>Table</source>
         <translation>Tisch</translation>
+    </message>
+</context>
+<context>
+    <name>ExcludeItems</name>
+    <message numerus="yes">
+        <source>Bring back %n captures</source>
+        <translation>
+            <numerusform>%n Aufnahme zurückholen</numerusform>
+            <numerusform>%n Aufnahmen zurückholen</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Bring back</source>
+        <translation>Zurückholen</translation>
+    </message>
+    <message numerus="yes">
+        <source>Exclude %n captures …</source>
+        <translation>
+            <numerusform>%n Aufnahme ausschließen …</numerusform>
+            <numerusform>%n Aufnahmen ausschließen …</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Exclude …</source>
+        <translation>Ausschließen …</translation>
+    </message>
+    <message>
+        <source>Why is this left out? The report will say so.</source>
+        <translation>Warum wird das ausgelassen? Der Bericht nennt den Grund.</translation>
     </message>
 </context>
 <context>
@@ -9364,6 +9409,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>a row from 0 to {}</source>
         <translation>eine Zeile von 0 bis {}</translation>
     </message>
+    <message>
+        <source>the notes</source>
+        <translation>die Notizen</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -10651,6 +10700,34 @@ endgültig fehlgeschlagen: {}</translation>
         <source>As it was before the mistake</source>
         <translation>Wie vor dem Eingabefehler</translation>
     </message>
+    <message>
+        <source>remove an artefact</source>
+        <translation>Prüfkörper entfernen</translation>
+    </message>
+    <message>
+        <source>add a stylus</source>
+        <translation>Tastereinsatz hinzufügen</translation>
+    </message>
+    <message>
+        <source>remove a stylus</source>
+        <translation>Tastereinsatz entfernen</translation>
+    </message>
+    <message>
+        <source>add an artefact</source>
+        <translation>Prüfkörper hinzufügen</translation>
+    </message>
+    <message>
+        <source>change the artefacts</source>
+        <translation>Prüfkörper ändern</translation>
+    </message>
+    <message>
+        <source>Something was typed here for another state of the machine. Show it, or discard it.</source>
+        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Zeigen Sie es an oder verwerfen Sie es.</translation>
+    </message>
+    <message>
+        <source>Show it</source>
+        <translation>Anzeigen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ArtefactFields</name>
@@ -11245,6 +11322,13 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>The camera has sent no whole frame for %1 s, and %2 with packets missing.</source>
         <translation>Die Kamera hat seit %1 s kein vollständiges Bild gesendet, und %2 mit fehlenden Paketen.</translation>
+    </message>
+</context>
+<context>
+    <name>spindrift::gui::CampaignUndo</name>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1 (%2)</translation>
     </message>
 </context>
 <context>
@@ -13461,6 +13545,18 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>Lesbar, und an allen %n beobachteten Punkten hat er einen Wert.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>An effect was being edited while the effects were others. Show it: it can be applied to these, or cancelled.</source>
+        <translation>Ein Effekt wurde bearbeitet, als die Effekte andere waren. Zeigen Sie ihn an: Er kann auf diese angewendet oder abgebrochen werden.</translation>
+    </message>
+    <message>
+        <source>Show it</source>
+        <translation>Anzeigen</translation>
+    </message>
+    <message>
+        <source>change an effect</source>
+        <translation>Effekt ändern</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ExerciseDialog</name>
@@ -14150,10 +14246,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ausschließen …</translation>
     </message>
     <message>
-        <source>Leave this capture out of the evaluation; it stays on the disk and can be brought back</source>
-        <translation>Diese Aufnahme von der Auswertung ausnehmen; sie bleibt gespeichert und kann zurückgeholt werden</translation>
-    </message>
-    <message>
         <source>Overlay</source>
         <translation>Überlagerung</translation>
     </message>
@@ -14226,10 +14318,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>%1 von %2</translation>
     </message>
     <message>
-        <source>Bring back</source>
-        <translation>Zurückholen</translation>
-    </message>
-    <message>
         <source>Excluded: %1</source>
         <translation>Ausgeschlossen: %1</translation>
     </message>
@@ -14248,14 +14336,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>disturbed</source>
         <translation>gestört</translation>
-    </message>
-    <message>
-        <source>Exclude a capture</source>
-        <translation>Aufnahme ausschließen</translation>
-    </message>
-    <message>
-        <source>Why is it left out?</source>
-        <translation>Warum wird sie ausgelassen?</translation>
     </message>
     <message>
         <source>Capture plan</source>
@@ -14292,6 +14372,10 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>%n Aufnahme wird geprüft</numerusform>
             <numerusform>%n Aufnahmen werden geprüft</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Leave what is chosen in the list out of the evaluation; it stays on the disk and can be brought back</source>
+        <translation>Lässt das in der Liste Gewählte bei der Auswertung aus; es bleibt auf der Platte und kann zurückgeholt werden</translation>
     </message>
 </context>
 <context>
@@ -15388,6 +15472,34 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>%n Punkte unten hinzugefügt. Mit ihnen wäre die Farbkarte im Mittel auf %1 µm und schlimmstenfalls auf %2 µm unsicher (0,5 µm in X und Y, 1 µm in Z je Marke). Die Änderungen übernehmen oder verwerfen.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>add a point</source>
+        <translation>Punkt hinzufügen</translation>
+    </message>
+    <message>
+        <source>remove a point</source>
+        <translation>Punkt entfernen</translation>
+    </message>
+    <message>
+        <source>Something was typed here for another state of the machine. Show it, or discard it.</source>
+        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Zeigen Sie es an oder verwerfen Sie es.</translation>
+    </message>
+    <message>
+        <source>Show it</source>
+        <translation>Anzeigen</translation>
+    </message>
+    <message>
+        <source>confirm the roles of the sensors</source>
+        <translation>Rollen der Sensoren bestätigen</translation>
+    </message>
+    <message>
+        <source>change the description</source>
+        <translation>Beschreibung ändern</translation>
+    </message>
+    <message>
+        <source>suggest points</source>
+        <translation>Punkte vorschlagen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::MachineStateLine</name>
@@ -15936,6 +16048,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Ctrl+Shift+Return</source>
         <translation>Ctrl+Shift+Return</translation>
+    </message>
+    <message>
+        <source>Redo: %1</source>
+        <translation>Wiederholen: %1</translation>
     </message>
 </context>
 <context>
@@ -18114,6 +18230,10 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>%n Tabellen</numerusform>
         </translation>
     </message>
+    <message>
+        <source>change the name of the operator</source>
+        <translation>Namen des Bedieners ändern</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ReportPages</name>
@@ -18458,10 +18578,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ausschließen …</translation>
     </message>
     <message>
-        <source>Leave this scan out of the evaluation; it stays on the disk and can be brought back</source>
-        <translation>Diesen Scan von der Auswertung ausnehmen; er bleibt gespeichert und kann zurückgeholt werden</translation>
-    </message>
-    <message>
         <source>Height</source>
         <translation>Höhe</translation>
     </message>
@@ -18586,10 +18702,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>gut</translation>
     </message>
     <message>
-        <source>Bring back</source>
-        <translation>Zurückholen</translation>
-    </message>
-    <message>
         <source>Excluded: %1.</source>
         <translation>Ausgeschlossen: %1.</translation>
     </message>
@@ -18600,14 +18712,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>A part is masked: %1.</source>
         <translation>Ein Teil ist maskiert: %1.</translation>
-    </message>
-    <message>
-        <source>Exclude a scan</source>
-        <translation>Scan ausschließen</translation>
-    </message>
-    <message>
-        <source>Why is it left out? The report will say so.</source>
-        <translation>Warum wird er ausgelassen? Der Grund steht im Bericht.</translation>
     </message>
     <message>
         <source>bad scan</source>
@@ -18686,6 +18790,10 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>Der einzige Scan ist vollständig und verwendbar.</numerusform>
             <numerusform>Alle %n Scans sind vollständig und verwendbar.</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Leave what is chosen in the list out of the evaluation; it stays on the disk and can be brought back</source>
+        <translation>Lässt das in der Liste Gewählte bei der Auswertung aus; es bleibt auf der Platte und kann zurückgeholt werden</translation>
     </message>
 </context>
 <context>
@@ -19812,18 +19920,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Excluded: %1.</source>
         <translation>Ausgeschlossen: %1.</translation>
-    </message>
-    <message>
-        <source>Bring back</source>
-        <translation>Zurückholen</translation>
-    </message>
-    <message>
-        <source>Exclude touches</source>
-        <translation>Antastungen ausschließen</translation>
-    </message>
-    <message>
-        <source>Why are the chosen touches (%1) left out? The report will say so.</source>
-        <translation>Warum werden die gewählten Antastungen (%1) ausgelassen? Der Grund steht im Bericht.</translation>
     </message>
     <message>
         <source>bad touch</source>

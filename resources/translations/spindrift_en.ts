@@ -2,6 +2,23 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="en_GB" sourcelanguage="en">
 <context>
+    <name>ExcludeItems</name>
+    <message numerus="yes">
+        <source>Bring back %n captures</source>
+        <translation>
+            <numerusform>Bring back %n capture</numerusform>
+            <numerusform>Bring back %n captures</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Exclude %n captures …</source>
+        <translation>
+            <numerusform>Exclude %n capture …</numerusform>
+            <numerusform>Exclude %n captures …</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>spindrift::gui::AxisErrorsPage</name>
     <message numerus="yes">
         <source>%n scans, six errors each, relative to the first scan of their artefact.</source>

@@ -757,11 +757,6 @@ void MainWindow::restoreSplitters(Page& page) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  for (const auto& [entry, page] : pages_) {
-    if (page == nullptr || session_.campaign() == nullptr || page->mayBeLeft()) continue;
-    event->ignore();
-    return;
-  }
   const bool compensating = ClosedLoopService::of(session_).running();
   if (compensating || jobs_.working()) {
     const QString sentence =
