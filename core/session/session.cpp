@@ -389,10 +389,13 @@ bool Session::isCurrent(const StoredResult& result) const {
 }
 
 void Session::exclude(std::int64_t id, const std::string& item, const std::string& reason) {
-  database_->exclude(id, {item, reason, utcNow()});
+  exclude(id, std::vector<Exclusion>{{item, reason, {}}});
 }
 void Session::restore(std::int64_t id, const std::string& item) {
-  database_->restore(id, item);
+  exclude(id, std::vector<Exclusion>{{item, {}, {}}});
+}
+void Session::exclude(std::int64_t id, const std::vector<Exclusion>& items) {
+  database_->exclude(id, items, utcNow());
 }
 std::vector<Exclusion> Session::exclusions(std::int64_t id) const {
   return database_->exclusions(id);
@@ -400,7 +403,10 @@ std::vector<Exclusion> Session::exclusions(std::int64_t id) const {
 
 std::int64_t Session::addNote(std::int64_t id, const std::string& step, const std::string& text,
                               const std::string& item) {
-  return database_->addNote(id, {0, step, text, utcNow(), item});
+  return addNote(id, {0, step, text, utcNow(), item});
+}
+std::int64_t Session::addNote(std::int64_t id, const Note& note) {
+  return database_->addNote(id, note);
 }
 void Session::removeNote(std::int64_t note) {
   database_->removeNote(note);

@@ -190,9 +190,15 @@ class Session {
   // Exclusions, notes, settings -------------------------------------------------------------------------------------
   void exclude(std::int64_t campaign, const std::string& item, const std::string& reason);
   void restore(std::int64_t campaign, const std::string& item);
+  /// Takes items out, those without a reason back in: all of them, or none where that cannot be stored or the program
+  /// ends meanwhile. Their times are those of the call.
+  void exclude(std::int64_t campaign, const std::vector<Exclusion>& items);
   [[nodiscard]] std::vector<Exclusion> exclusions(std::int64_t campaign) const;
   std::int64_t addNote(std::int64_t campaign, const std::string& step, const std::string& text,
                        const std::string& item = {});
+  /// A note with the id and the time it had, so that one that was removed can come back; id 0: a new one, of which the
+  /// id is returned.
+  std::int64_t addNote(std::int64_t campaign, const Note& note);
   void removeNote(std::int64_t note);
   [[nodiscard]] std::vector<Note> notes(std::int64_t campaign) const;
   void setSetting(const std::string& key, const nlohmann::json& value);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <chrono>
 #include <stdexcept>
 #include <typeinfo>
 
@@ -357,20 +359,21 @@ void SessionDatabase::removeResult(std::int64_t id) {
   });
 }
 
-void SessionDatabase::exclude(std::int64_t campaign, const Exclusion& exclusion) {
+void SessionDatabase::exclude(std::int64_t campaign, const std::vector<Exclusion>& items, const std::string& now_utc) {
   writing([&] {
     const long long key = campaign;
-    connection_->sql
-        << "insert into exclusion (campaign, item, reason, created_utc) values (:c, :i, :r, :t) on conflict "
-           "(campaign, item) do update set reason = excluded.reason, created_utc = excluded.created_utc",
-        soci::use(key), soci::use(exclusion.item), soci::use(exclusion.reason), soci::use(exclusion.created_utc);
-  });
-}
-
-void SessionDatabase::restore(std::int64_t campaign, const std::string& item) {
-  writing([&] {
-    const long long key = campaign;
-    connection_->sql << "delete from exclusion where campaign = :c and item = :i", soci::use(key), soci::use(item);
+    soci::session& sql = connection_->sql;
+    soci::transaction transaction(sql);
+    for (const Exclusion& e : items) {
+      if (e.reason.empty()) {
+        sql << "delete from exclusion where campaign = :c and item = :i", soci::use(key), soci::use(e.item);
+        continue;
+      }
+      sql << "insert into exclusion (campaign, item, reason, created_utc) values (:c, :i, :r, :t) on conflict "
+             "(campaign, item) do update set reason = excluded.reason, created_utc = excluded.created_utc",
+          soci::use(key), soci::use(e.item), soci::use(e.reason), soci::use(now_utc);
+    }
+    transaction.commit();
   });
 }
 
@@ -394,10 +397,17 @@ std::int64_t SessionDatabase::addNote(std::int64_t campaign, const Note& note) {
   return writing([&] {
     const long long key = campaign;
     soci::session& sql = connection_->sql;
-    sql << "insert into note (campaign, step, text, created_utc, item) values (:c, :s, :x, :t, :i)", soci::use(key),
-        soci::use(note.step), soci::use(note.text), soci::use(note.created_utc), soci::use(note.item);
-    long long id = 0;
-    sql << "select last_insert_rowid()", soci::into(id);
+    long long id = note.id;
+    if (id == 0) {
+      // Above all there are, and above those that are gone: time does not come back.
+      const auto now = std::chrono::system_clock::now().time_since_epoch();
+      long long last = 0;
+      sql << "select coalesce(max(id), 0) from note", soci::into(last);
+      id = std::max<long long>(last + 1, std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+    }
+    sql << "insert into note (id, campaign, step, text, created_utc, item) values (:n, :c, :s, :x, :t, :i)",
+        soci::use(id), soci::use(key), soci::use(note.step), soci::use(note.text), soci::use(note.created_utc),
+        soci::use(note.item);
     return static_cast<std::int64_t>(id);
   });
 }

@@ -48,10 +48,12 @@ class SessionDatabase {
   [[nodiscard]] std::size_t countResults(std::int64_t campaign) const;
   void removeResult(std::int64_t id);
 
-  void exclude(std::int64_t campaign, const Exclusion& exclusion);
-  void restore(std::int64_t campaign, const std::string& item);
+  /// All of them or none; those without a reason are in again.
+  void exclude(std::int64_t campaign, const std::vector<Exclusion>& items, const std::string& now_utc);
   [[nodiscard]] std::vector<Exclusion> exclusions(std::int64_t campaign) const;
 
+  /// With its id, or with a new one in place of 0. No id is given twice, so that a note which was removed can come
+  /// back.
   std::int64_t addNote(std::int64_t campaign, const Note& note);
   void removeNote(std::int64_t id);
   [[nodiscard]] std::vector<Note> notes(std::int64_t campaign) const;

@@ -90,10 +90,7 @@ ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded)
       nineParameterOptions(campaignSetting(session, id, option_keys::nine_parameters, nlohmann::json::object()));
   task.options.fit.state.clear();
   task.options.exclusions.assign(excluded.begin(), excluded.end());
-  for (const Note& note : session.notes(id)) {
-    task.options.notes.push_back(note.created_utc + "  " + note.step + (note.item.empty() ? "" : ", " + note.item) +
-                                 ": " + note.text);
-  }
+  task.options.notes = asked.notes;
   return task;
 }
 

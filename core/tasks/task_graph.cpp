@@ -48,6 +48,7 @@ std::string described(const std::string& input, const nlohmann::json& then, cons
   if (input == "fit") return "the fitted model";
   if (input == "thermal") return "the model over time";
   if (input == "discrepancy") return "the effects in the model";
+  if (input == "notes") return "the notes";
   return input;
 }
 
@@ -155,6 +156,7 @@ nlohmann::json TaskGraph::options(const std::string& task) const {
     nlohmann::json warm = kept(option_keys::warm_statement);
     return {{"operator", report.operator_name},
             {"tells_discrepancy", report.tells_discrepancy},
+            {"notes", report.notes.empty() ? nlohmann::json() : nlohmann::json(report.notes)},
             {"discrepancy", effects},
             {"fit", fit},
             {"warm", warm.is_object() && warm.contains("by") ? warm : nlohmann::json()},
@@ -208,7 +210,7 @@ std::vector<std::string> TaskGraph::changes(const StoredResult& result) const {
   // Options beyond those that the session keeps belong to whoever added them.
   for (const auto& [name, value] : now.options.items()) {
     if (result.provenance.options.value(name, nlohmann::json()) == value) continue;
-    changed.push_back(name == "discrepancy" ? described(name, {}, {}) : "the options");
+    changed.push_back(name == "discrepancy" || name == "notes" ? described(name, {}, {}) : "the options");
   }
   for (const std::string& kind : madeFrom(result.kind)) {
     const StoredResult* from = latest_(kind);

@@ -109,9 +109,13 @@ nlohmann::json VerifyOptions::json() const {
 
 ReportTaskOptions ReportTaskOptions::of(const Session& session, std::int64_t campaign) {
   ReportTaskOptions options;
-  const nlohmann::json name = session.setting(option_keys::operator_name).value_or(nlohmann::json());
+  const nlohmann::json name = campaignSetting(session, campaign, option_keys::operator_name, nullptr);
   if (name.is_string()) options.operator_name = name.get<std::string>();
   options.tells_discrepancy = objectOf(session, campaign, option_keys::report).value("tells_discrepancy", true);
+  for (const Note& note : session.notes(campaign)) {
+    options.notes.push_back(note.created_utc + "  " + note.step + (note.item.empty() ? "" : ", " + note.item) + ": " +
+                            note.text);
+  }
   return options;
 }
 

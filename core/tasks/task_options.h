@@ -37,7 +37,7 @@ inline constexpr auto plan = "plan";
 inline constexpr auto warm_statement = "warm-statement";
 inline constexpr auto simulator = "discrepancy/simulator";
 inline constexpr auto connections = "connections";  ///< connections.json of the campaign
-inline constexpr auto operator_name = "operator";   ///< of the session, not of a campaign
+inline constexpr auto operator_name = "operator";   ///< sessions of earlier versions: one for all campaigns
 }  // namespace option_keys
 
 /// Effects that the user put into the model, left out, or edited.
@@ -69,6 +69,7 @@ struct VerifyOptions {
 struct ReportTaskOptions {
   std::string operator_name;
   bool tells_discrepancy = true;
+  std::vector<std::string> notes;  ///< as the report tells them
   [[nodiscard]] static ReportTaskOptions of(const Session& session, std::int64_t campaign);
 };
 

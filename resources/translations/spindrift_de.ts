@@ -45,6 +45,22 @@
         <source>restore %1</source>
         <translation>%1 wiederherstellen</translation>
     </message>
+    <message>
+        <source>discard what was typed</source>
+        <translation>Eingaben verwerfen</translation>
+    </message>
+    <message>
+        <source>show what was typed</source>
+        <translation>Eingaben zeigen</translation>
+    </message>
+    <message>
+        <source>add a note</source>
+        <translation>Notiz hinzufügen</translation>
+    </message>
+    <message>
+        <source>remove a note</source>
+        <translation>Notiz entfernen</translation>
+    </message>
 </context>
 <context>
     <name>Demo</name>
@@ -213,6 +229,35 @@
     <message>
         <source>Table</source>
         <translation>Tisch</translation>
+    </message>
+</context>
+<context>
+    <name>ExcludeItems</name>
+    <message numerus="yes">
+        <source>Bring back %n captures</source>
+        <translation>
+            <numerusform>%n Aufnahme zurückholen</numerusform>
+            <numerusform>%n Aufnahmen zurückholen</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Bring back</source>
+        <translation>Zurückholen</translation>
+    </message>
+    <message numerus="yes">
+        <source>Exclude %n captures …</source>
+        <translation>
+            <numerusform>%n Aufnahme ausschließen …</numerusform>
+            <numerusform>%n Aufnahmen ausschließen …</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Exclude …</source>
+        <translation>Ausschließen …</translation>
+    </message>
+    <message>
+        <source>Why is this left out? The report will say so.</source>
+        <translation>Warum wird das ausgelassen? Der Bericht nennt den Grund.</translation>
     </message>
 </context>
 <context>
@@ -9213,6 +9258,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>{} unfinished files were</source>
         <translation>{} unfertige Dateien wurden</translation>
     </message>
+    <message>
+        <source>the notes</source>
+        <translation>die Notizen</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -10467,6 +10516,34 @@ endgültig fehlgeschlagen: {}</translation>
         <source>As it was before the mistake</source>
         <translation>Wie vor dem Eingabefehler</translation>
     </message>
+    <message>
+        <source>remove an artefact</source>
+        <translation>Prüfkörper entfernen</translation>
+    </message>
+    <message>
+        <source>add a stylus</source>
+        <translation>Tastereinsatz hinzufügen</translation>
+    </message>
+    <message>
+        <source>remove a stylus</source>
+        <translation>Tastereinsatz entfernen</translation>
+    </message>
+    <message>
+        <source>add an artefact</source>
+        <translation>Prüfkörper hinzufügen</translation>
+    </message>
+    <message>
+        <source>change the artefacts</source>
+        <translation>Prüfkörper ändern</translation>
+    </message>
+    <message>
+        <source>Something was typed here for another state of the machine. Show it, or discard it.</source>
+        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Zeigen Sie es an oder verwerfen Sie es.</translation>
+    </message>
+    <message>
+        <source>Show it</source>
+        <translation>Anzeigen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ArtefactFields</name>
@@ -11064,6 +11141,13 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>Die Kamera hat %1 s lang kein vollständiges Bild gesendet und %n Bild mit fehlenden Paketen.</numerusform>
             <numerusform>Die Kamera hat %1 s lang kein vollständiges Bild gesendet und %n Bilder mit fehlenden Paketen.</numerusform>
         </translation>
+    </message>
+</context>
+<context>
+    <name>spindrift::gui::CampaignUndo</name>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1 (%2)</translation>
     </message>
 </context>
 <context>
@@ -13284,6 +13368,18 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>%n Effekte wieder berücksichtigen</numerusform>
         </translation>
     </message>
+    <message>
+        <source>An effect was being edited while the effects were others. Show it: it can be applied to these, or cancelled.</source>
+        <translation>Ein Effekt wurde bearbeitet, als die Effekte andere waren. Zeigen Sie ihn an: Er kann auf diese angewendet oder abgebrochen werden.</translation>
+    </message>
+    <message>
+        <source>Show it</source>
+        <translation>Anzeigen</translation>
+    </message>
+    <message>
+        <source>change an effect</source>
+        <translation>Effekt ändern</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ExerciseDialog</name>
@@ -13973,10 +14069,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ausschließen …</translation>
     </message>
     <message>
-        <source>Leave this capture out of the evaluation; it stays on the disk and can be brought back</source>
-        <translation>Diese Aufnahme von der Auswertung ausnehmen; sie bleibt gespeichert und kann zurückgeholt werden</translation>
-    </message>
-    <message>
         <source>Overlay</source>
         <translation>Überlagerung</translation>
     </message>
@@ -14041,10 +14133,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>%1 von %2</translation>
     </message>
     <message>
-        <source>Bring back</source>
-        <translation>Zurückholen</translation>
-    </message>
-    <message>
         <source>Excluded: %1</source>
         <translation>Ausgeschlossen: %1</translation>
     </message>
@@ -14063,14 +14151,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>disturbed</source>
         <translation>gestört</translation>
-    </message>
-    <message>
-        <source>Exclude a capture</source>
-        <translation>Aufnahme ausschließen</translation>
-    </message>
-    <message>
-        <source>Why is it left out?</source>
-        <translation>Warum wird sie ausgelassen?</translation>
     </message>
     <message>
         <source>Capture plan</source>
@@ -14121,6 +14201,10 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>%n von %1 Aufnahmen ist unbrauchbar (%2). Wiederholen oder ausschließen: die übrigen werden ohne sie ausgewertet.</numerusform>
             <numerusform>%n von %1 Aufnahmen sind unbrauchbar (%2). Wiederholen oder ausschließen: die übrigen werden ohne sie ausgewertet.</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Leave what is chosen in the list out of the evaluation; it stays on the disk and can be brought back</source>
+        <translation>Lässt das in der Liste Gewählte bei der Auswertung aus; es bleibt auf der Platte und kann zurückgeholt werden</translation>
     </message>
 </context>
 <context>
@@ -15217,6 +15301,34 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>%n Punkte unten hinzugefügt. Mit ihnen wäre die Farbkarte im Mittel auf %1 µm und schlimmstenfalls auf %2 µm unsicher (0,5 µm in X und Y, 1 µm in Z je Messmarke). Die Änderungen übernehmen oder verwerfen.</numerusform>
         </translation>
     </message>
+    <message>
+        <source>add a point</source>
+        <translation>Punkt hinzufügen</translation>
+    </message>
+    <message>
+        <source>remove a point</source>
+        <translation>Punkt entfernen</translation>
+    </message>
+    <message>
+        <source>Something was typed here for another state of the machine. Show it, or discard it.</source>
+        <translation>Hier wurde etwas für einen anderen Stand der Maschine eingegeben. Zeigen Sie es an oder verwerfen Sie es.</translation>
+    </message>
+    <message>
+        <source>Show it</source>
+        <translation>Anzeigen</translation>
+    </message>
+    <message>
+        <source>confirm the roles of the sensors</source>
+        <translation>Rollen der Sensoren bestätigen</translation>
+    </message>
+    <message>
+        <source>change the description</source>
+        <translation>Beschreibung ändern</translation>
+    </message>
+    <message>
+        <source>suggest points</source>
+        <translation>Punkte vorschlagen</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::MachineStateLine</name>
@@ -15765,6 +15877,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Ctrl+Shift+Return</source>
         <translation>Ctrl+Shift+Return</translation>
+    </message>
+    <message>
+        <source>Redo: %1</source>
+        <translation>Wiederholen: %1</translation>
     </message>
 </context>
 <context>
@@ -17943,6 +18059,10 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>%n Tabellen</numerusform>
         </translation>
     </message>
+    <message>
+        <source>change the name of the operator</source>
+        <translation>Namen des Bedieners ändern</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ReportPages</name>
@@ -18287,10 +18407,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Ausschließen …</translation>
     </message>
     <message>
-        <source>Leave this scan out of the evaluation; it stays on the disk and can be brought back</source>
-        <translation>Diesen Scan von der Auswertung ausnehmen; er bleibt gespeichert und kann zurückgeholt werden</translation>
-    </message>
-    <message>
         <source>Height</source>
         <translation>Höhe</translation>
     </message>
@@ -18411,24 +18527,12 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>gut</translation>
     </message>
     <message>
-        <source>Bring back</source>
-        <translation>Zurückholen</translation>
-    </message>
-    <message>
         <source>Excluded: %1.</source>
         <translation>Ausgeschlossen: %1.</translation>
     </message>
     <message>
         <source>A part is masked: %1.</source>
         <translation>Ein Teil ist maskiert: %1.</translation>
-    </message>
-    <message>
-        <source>Exclude a scan</source>
-        <translation>Scan ausschließen</translation>
-    </message>
-    <message>
-        <source>Why is it left out? The report will say so.</source>
-        <translation>Warum wird er ausgelassen? Der Grund steht im Bericht.</translation>
     </message>
     <message>
         <source>bad scan</source>
@@ -18539,6 +18643,10 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>%n Ausreißer</numerusform>
             <numerusform>%n Ausreißer</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>Leave what is chosen in the list out of the evaluation; it stays on the disk and can be brought back</source>
+        <translation>Lässt das in der Liste Gewählte bei der Auswertung aus; es bleibt auf der Platte und kann zurückgeholt werden</translation>
     </message>
 </context>
 <context>
@@ -19657,18 +19765,6 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Excluded: %1.</source>
         <translation>Ausgeschlossen: %1.</translation>
-    </message>
-    <message>
-        <source>Bring back</source>
-        <translation>Zurückholen</translation>
-    </message>
-    <message>
-        <source>Exclude touches</source>
-        <translation>Antastungen ausschließen</translation>
-    </message>
-    <message>
-        <source>Why are the chosen touches (%1) left out? The report will say so.</source>
-        <translation>Warum werden die gewählten Antastungen (%1) ausgelassen? Der Grund steht im Bericht.</translation>
     </message>
     <message>
         <source>bad touch</source>

@@ -2,6 +2,23 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="en_GB" sourcelanguage="en">
 <context>
+    <name>ExcludeItems</name>
+    <message numerus="yes">
+        <source>Bring back %n captures</source>
+        <translation>
+            <numerusform>Bring back %n capture</numerusform>
+            <numerusform>Bring back %n captures</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Exclude %n captures …</source>
+        <translation>
+            <numerusform>Exclude %n capture …</numerusform>
+            <numerusform>Exclude %n captures …</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
     <name>spindrift::gui::ArrivingPanel</name>
     <message numerus="yes">
         <source>Watching %1: %n files, %2 accepted. You may leave this page; capturing goes on.</source>

@@ -23,25 +23,53 @@ void CampaignUndo::follow() {
   group_.setActiveStack(&stack());
 }
 
-QUndoStack& CampaignUndo::stack() {
-  std::unique_ptr<QUndoStack>& own = stacks_[session_.campaignId()];
+CampaignUndo::Stack& CampaignUndo::own() {
+  std::unique_ptr<Stack>& own = stacks_[session_.campaignId()];
   if (own == nullptr) {
-    own = std::make_unique<QUndoStack>();
-    group_.addStack(own.get());
+    own = std::make_unique<Stack>();
+    group_.addStack(&own->commands);
   }
   return *own;
 }
 
+QUndoStack& CampaignUndo::stack() {
+  return own().commands;
+}
+
 void CampaignUndo::push(QUndoCommand* command) {
-  stack().push(command);
+  Stack& to = own();
+  // Before it is done: who is told of the change asks where it was.
+  if (here_) to.places[command] = here_();
+  to.commands.push(command);
+  // One that was merged into another, or came to nothing, is gone.
+  if (to.commands.index() == 0 || to.commands.command(to.commands.index() - 1) != command) to.places.erase(command);
+}
+
+const UndoPlace* CampaignUndo::placeAt(int index) {
+  const Stack& of = own();
+  if (index < 0 || index >= of.commands.count()) return nullptr;
+  const auto found = of.places.find(of.commands.command(index));
+  return found == of.places.end() || !found->second.go ? nullptr : &found->second;
 }
 
 void CampaignUndo::undo() {
+  if (const UndoPlace* place = placeAt(stack().index() - 1)) place->go();
   group_.undo();
 }
 
 void CampaignUndo::redo() {
+  if (const UndoPlace* place = placeAt(stack().index())) place->go();
   group_.redo();
+}
+
+QString CampaignUndo::undoText() {
+  const UndoPlace* place = placeAt(stack().index() - 1);
+  return place == nullptr ? stack().undoText() : tr("%1 (%2)").arg(stack().undoText(), place->name);
+}
+
+QString CampaignUndo::redoText() {
+  const UndoPlace* place = placeAt(stack().index());
+  return place == nullptr ? stack().redoText() : tr("%1 (%2)").arg(stack().redoText(), place->name);
 }
 
 }  // namespace spindrift::gui

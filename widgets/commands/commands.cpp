@@ -2,9 +2,12 @@
 #include "widgets/commands/commands.h"
 
 #include <QCoreApplication>
+#include <utility>
 
 namespace spindrift::gui {
 namespace {
+
+constexpr int draft_command = 1;  ///< commands of this id may be merged
 
 QString commandText(const char* text) {
   return QCoreApplication::translate("Commands", text);
@@ -23,11 +26,13 @@ ExcludeCommand::ExcludeCommand(SessionModel& session, const QStringList& items, 
 }
 
 void ExcludeCommand::redo() {
-  for (const auto& [item, reason] : before_) session_.setExcluded(item, reason_);
+  auto after = before_;
+  for (auto& [item, reason] : after) reason = reason_;
+  session_.setExcluded(after);
 }
 
 void ExcludeCommand::undo() {
-  for (const auto& [item, reason] : before_) session_.setExcluded(item, reason);
+  session_.setExcluded(before_);
 }
 
 ReplaceExclusionCommand::ReplaceExclusionCommand(SessionModel& session, Entry before, Entry after, const QString& text)
@@ -36,9 +41,10 @@ ReplaceExclusionCommand::ReplaceExclusionCommand(SessionModel& session, Entry be
 }
 
 void ReplaceExclusionCommand::replace(const Entry& from, const Entry& to) {
-  // The new one first: at no time is less left out than before or after.
-  if (!to.first.isEmpty()) session_.setExcluded(to.first, to.second);
-  if (!from.first.isEmpty() && from.first != to.first) session_.setExcluded(from.first, {});
+  std::vector<Entry> items;
+  if (!from.first.isEmpty() && from.first != to.first) items.emplace_back(from.first, QString());
+  if (!to.first.isEmpty()) items.push_back(to);
+  session_.setExcluded(items);
 }
 
 void ReplaceExclusionCommand::redo() {
@@ -67,6 +73,72 @@ void OptionsCommand::redo() {
 void OptionsCommand::undo() {
   session_.setSetting(key_, before_);
   if (changed_) changed_();
+}
+
+DraftCommand::DraftCommand(SessionModel& session, const QString& text, const std::string& name, nlohmann::json after,
+                           std::string place, std::function<void()> show)
+    : OptionsCommand(session, text, session.draftKey(name), std::move(after), std::move(show)),
+      place_(std::move(place)) {}
+
+void DraftCommand::redo() {
+  session_.setSetting(key_, after_);
+  if (std::exchange(done_, true) && changed_) changed_();
+}
+
+int DraftCommand::id() const {
+  return draft_command;
+}
+
+bool DraftCommand::mergeWith(const QUndoCommand* next) {
+  const auto& other = static_cast<const DraftCommand&>(*next);  // the stack asks those of the same id alone
+  const bool here = !place_.empty() && (other.place_ == place_ || other.place_.starts_with(place_ + "/"));
+  if (!here || other.key_ != key_) return false;
+  after_ = other.after_;
+  return true;
+}
+
+ApplyCommand::ApplyCommand(SessionModel& session, const std::string& draft, std::unique_ptr<QUndoCommand> command)
+    : session_(session),
+      key_(session.draftKey(draft)),
+      typed_(session.setting(key_, nullptr)),
+      command_(std::move(command)) {
+  setText(command_->text());
+}
+
+void ApplyCommand::redo() {
+  session_.setSetting(key_, nullptr);
+  command_->redo();
+}
+
+void ApplyCommand::undo() {
+  session_.setSetting(key_, typed_);
+  command_->undo();
+}
+
+NoteCommand::NoteCommand(SessionModel& session, Note note, bool add)
+    : session_(session), note_(std::move(note)), add_(add) {
+  setText(add ? commandText("add a note") : commandText("remove a note"));
+}
+
+void NoteCommand::put() {
+  note_.id = session_.addNote(note_);
+  if (note_.id == 0) setObsolete(true);
+}
+
+void NoteCommand::redo() {
+  if (add_) {
+    put();
+  } else {
+    session_.removeNote(note_.id);
+  }
+}
+
+void NoteCommand::undo() {
+  if (add_) {
+    session_.removeNote(note_.id);
+  } else {
+    put();
+  }
 }
 
 MachineCommand::MachineCommand(SessionModel& session, nlohmann::json after)

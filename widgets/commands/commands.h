@@ -5,6 +5,7 @@
 
 #include <QUndoCommand>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -40,7 +41,7 @@ class ReplaceExclusionCommand : public QUndoCommand {
   Entry before_, after_;
 };
 
-/// Changes the options of a step, kept in the session under `key`. `changed` tells the page.
+/// Changes what is kept in the session under `key`: the options of a step. `changed` tells the page.
 class OptionsCommand : public QUndoCommand {
  public:
   OptionsCommand(SessionModel& session, const QString& text, const std::string& key, nlohmann::json after,
@@ -48,11 +49,55 @@ class OptionsCommand : public QUndoCommand {
   void redo() override;
   void undo() override;
 
- private:
+ protected:
   SessionModel& session_;
   std::string key_;
   nlohmann::json before_, after_;
   std::function<void()> changed_;
+};
+
+/// Changes what is typed and not applied yet (SessionModel::draft): see Draft. What is typed into one place without a
+/// break is one step. `show` tells the page when it is taken back or done again; what is typed stands there already.
+class DraftCommand : public OptionsCommand {
+ public:
+  /// `place` is a JSON pointer into what is typed; empty: more than one place has changed.
+  DraftCommand(SessionModel& session, const QString& text, const std::string& name, nlohmann::json after,
+               std::string place, std::function<void()> show);
+  void redo() override;
+  [[nodiscard]] int id() const override;
+  bool mergeWith(const QUndoCommand* next) override;
+
+ private:
+  std::string place_;
+  bool done_ = false;
+};
+
+/// Does what was typed: the draft goes when the command is done, and stands there again when it is undone.
+class ApplyCommand : public QUndoCommand {
+ public:
+  ApplyCommand(SessionModel& session, const std::string& draft, std::unique_ptr<QUndoCommand> command);
+  void redo() override;
+  void undo() override;
+
+ private:
+  SessionModel& session_;
+  std::string key_;
+  nlohmann::json typed_;
+  std::unique_ptr<QUndoCommand> command_;
+};
+
+/// Adds a note, or removes one; either way it comes back as it was, in its place.
+class NoteCommand : public QUndoCommand {
+ public:
+  NoteCommand(SessionModel& session, Note note, bool add);
+  void redo() override;
+  void undo() override;
+
+ private:
+  void put();
+  SessionModel& session_;
+  Note note_;
+  bool add_;
 };
 
 /// Replaces the machine by an edited one (or back by the file's).

@@ -456,6 +456,21 @@ QTabWidget* makeTabs() {
   return tabs;
 }
 
+void drawEmptyText(QPainter& painter, const QRect& area, const QString& title, const QString& how) {
+  constexpr int flags = Qt::AlignHCenter | Qt::TextWordWrap;
+  constexpr int between = 8;
+  const QRect inner = area.adjusted(24, 16, -24, -16);
+  painter.setFont(textFont(sizes::font_body, QFont::DemiBold));
+  const int title_height = painter.fontMetrics().boundingRect(inner, flags, title).height();
+  const int how_height = QFontMetrics(textFont(sizes::font_body)).boundingRect(inner, flags, how).height();
+  const int top = inner.top() + (inner.height() - title_height - between - how_height) / 2;
+  painter.setPen(theme().text);
+  painter.drawText(QRect(inner.left(), top, inner.width(), title_height), flags, title);
+  painter.setFont(textFont(sizes::font_body));
+  painter.setPen(theme().text_secondary);
+  painter.drawText(QRect(inner.left(), top + title_height + between, inner.width(), how_height + 4), flags, how);
+}
+
 QFrame* makeLine(Qt::Orientation orientation) {
   auto* line = new QFrame;
   line->setProperty("role", QStringLiteral("line"));

@@ -12,6 +12,7 @@
 
 class QAbstractItemModel;
 class QComboBox;
+class QPainter;
 class QSplitter;
 class QTabWidget;
 class QTableView;
@@ -168,6 +169,9 @@ class Segments : public QWidget {
   std::vector<QPushButton*> buttons_;
   int current_ = 0;
 };
+
+/// What will appear in a view that is empty, and how, in the middle of `area`.
+void drawEmptyText(QPainter& painter, const QRect& area, const QString& title, const QString& how);
 
 /// A line between two areas.
 [[nodiscard]] QFrame* makeLine(Qt::Orientation orientation);

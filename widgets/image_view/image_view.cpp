@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "widgets/common/parts.h"
 #include "widgets/theme/fonts.h"
 
 namespace spindrift::gui {
@@ -98,19 +99,7 @@ void ImageView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), image_.isNull() ? theme().surface_alt : QColor(0x10, 0x13, 0x15));
   if (image_.isNull()) {
-    const QRect area = rect().adjusted(24, 16, -24, -16);
-    painter.setFont(textFont(sizes::font_body, QFont::DemiBold));
-    const QRect title = painter.fontMetrics().boundingRect(area, Qt::AlignHCenter | Qt::TextWordWrap, empty_title_);
-    const QRect how =
-        QFontMetrics(textFont(sizes::font_body)).boundingRect(area, Qt::AlignHCenter | Qt::TextWordWrap, empty_how_);
-    const int top = area.top() + (area.height() - title.height() - 8 - how.height()) / 2;
-    painter.setPen(theme().text);
-    painter.drawText(QRect(area.left(), top, area.width(), title.height()), Qt::AlignHCenter | Qt::TextWordWrap,
-                     empty_title_);
-    painter.setFont(textFont(sizes::font_body));
-    painter.setPen(theme().text_secondary);
-    painter.drawText(QRect(area.left(), top + title.height() + 8, area.width(), how.height() + 4),
-                     Qt::AlignHCenter | Qt::TextWordWrap, empty_how_);
+    drawEmptyText(painter, rect(), empty_title_, empty_how_);
     return;
   }
   painter.save();

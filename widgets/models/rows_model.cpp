@@ -2,6 +2,8 @@
 #include "widgets/models/rows_model.h"
 
 #include <QFont>
+#include <QTableView>
+#include <algorithm>
 
 #include "widgets/common/words.h"
 #include "widgets/theme/fonts.h"
@@ -114,6 +116,14 @@ bool RowsModel::setData(const QModelIndex& index, const QVariant& value, int rol
   Q_EMIT dataChanged(index, index, {Qt::CheckStateRole});
   Q_EMIT checkedChanged(idAt(index.row()), index.column(), *cell.checked);
   return true;
+}
+
+QStringList selectedIds(const QTableView& table, const RowsModel& rows) {
+  QModelIndexList chosen = table.selectionModel()->selectedRows();
+  std::sort(chosen.begin(), chosen.end());
+  QStringList ids;
+  for (const QModelIndex& index : chosen) ids << rows.idAt(index.row());
+  return ids;
 }
 
 }  // namespace spindrift::gui

@@ -12,6 +12,8 @@
 
 #include "widgets/theme/theme.h"
 
+class QTableView;
+
 namespace spindrift::gui {
 
 struct Cell {
@@ -57,5 +59,8 @@ class RowsModel : public QAbstractTableModel {
   QStringList headers_;
   std::vector<Row> rows_;
 };
+
+/// The ids of the rows that are selected in a table of this model, in the order of the rows.
+[[nodiscard]] QStringList selectedIds(const QTableView& table, const RowsModel& rows);
 
 }  // namespace spindrift::gui

@@ -119,12 +119,6 @@ bool SessionModel::modelOverTime() const {
   return state_.campaign != nullptr && tasks().overTime();
 }
 
-void SessionModel::setModelOverTime(bool over_time) {
-  if (modelOverTime() == over_time) return;
-  setSetting(campaignKey(option_keys::over_time), over_time);
-  Q_EMIT campaignChanged();
-}
-
 ClockOffsets SessionModel::clockOffsets() const {
   return session_ ? clockOffsetsOf(*session_, campaignId()) : ClockOffsets();
 }
@@ -286,22 +280,24 @@ void SessionModel::addCaptureRows(const std::string& list, const std::string& he
   capturesChanged(first);
 }
 
-void SessionModel::setExcluded(const QString& item, const QString& reason) {
+void SessionModel::setExcluded(const std::vector<std::pair<QString, QString>>& items) {
   if (session_ == nullptr || state_.campaign == nullptr) return;
+  std::vector<Exclusion> all;
+  for (const auto& [item, reason] : items) all.push_back({item.toStdString(), reason.toStdString(), {}});
   try {
-    if (reason.isEmpty()) {
-      session_->restore(state_.id, item.toStdString());
-      state_.excluded.erase(item.toStdString());
-      shown_excluded_.erase(item);
-    } else {
-      session_->exclude(state_.id, item.toStdString(), reason.toStdString());
-      state_.excluded[item.toStdString()] = reason.toStdString();
-      shown_excluded_[item] = reason;
-    }
+    session_->exclude(state_.id, all);
   } catch (const InputError& e) {
     Q_EMIT storingFailed(coreSentence(e.what()));
     return;
   }
+  for (const Exclusion& e : all) {
+    if (e.reason.empty()) {
+      state_.excluded.erase(e.item);
+    } else {
+      state_.excluded[e.item] = e.reason;
+    }
+  }
+  showExcluded();
   Q_EMIT inputsChanged();
 }
 
@@ -309,15 +305,17 @@ std::vector<Note> SessionModel::notes() const {
   return session_ != nullptr ? session_->notes(state_.id) : std::vector<Note>();
 }
 
-bool SessionModel::addNote(const QString& about, const QString& text, const QString& item) {
-  if (session_ == nullptr || state_.campaign == nullptr || text.isEmpty()) return false;
+std::int64_t SessionModel::addNote(const Note& note) {
+  if (session_ == nullptr || state_.campaign == nullptr || note.text.empty()) return 0;
+  std::int64_t id = 0;
   try {
-    session_->addNote(state_.id, about.toStdString(), text.toStdString(), item.toStdString());
-    return true;
+    id = session_->addNote(state_.id, note);
   } catch (const InputError& e) {
     Q_EMIT storingFailed(coreSentence(e.what()));
-    return false;
+    return 0;
   }
+  Q_EMIT inputsChanged();
+  return id;
 }
 
 void SessionModel::removeNote(std::int64_t note) {
@@ -326,7 +324,9 @@ void SessionModel::removeNote(std::int64_t note) {
     session_->removeNote(note);
   } catch (const InputError& e) {
     Q_EMIT storingFailed(coreSentence(e.what()));
+    return;
   }
+  Q_EMIT inputsChanged();
 }
 
 void SessionModel::setSetting(const std::string& key, const nlohmann::json& value) {
@@ -363,18 +363,13 @@ nlohmann::json SessionModel::campaignSetting(const std::string& key, const nlohm
   return session_ == nullptr ? otherwise : spindrift::campaignSetting(*session_, state_.id, key, otherwise);
 }
 
-nlohmann::json SessionModel::draft(const std::string& name, const nlohmann::json& base) const {
-  const nlohmann::json kept = setting(campaignKey("draft/" + name), nullptr);
-  if (!kept.is_object() || kept.value("base", nlohmann::json()) != base) return nullptr;
-  return kept.value("typed", nlohmann::json());
+std::string SessionModel::draftKey(const std::string& name) const {
+  return campaignKey("draft/" + name);
 }
 
-void SessionModel::keepDraft(const std::string& name, const nlohmann::json& base, const nlohmann::json& typed) {
-  setSetting(campaignKey("draft/" + name), {{"base", base}, {"typed", typed}});
-}
-
-void SessionModel::dropDraft(const std::string& name) {
-  if (!setting(campaignKey("draft/" + name), nullptr).is_null()) setSetting(campaignKey("draft/" + name), nullptr);
+nlohmann::json SessionModel::draft(const std::string& name) const {
+  nlohmann::json kept = setting(draftKey(name), nullptr);
+  return kept.is_object() && kept.contains("base") && kept.contains("typed") ? kept : nlohmann::json();
 }
 
 std::filesystem::path sessionsFolder() {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/machine/campaign.h"
@@ -91,7 +92,6 @@ class SessionModel : public QObject {
   [[nodiscard]] bool isLogOnly() const;
   /// Whether the step Model shows a model over time in place of that of the instrument (always for a log alone).
   [[nodiscard]] bool modelOverTime() const;
-  void setModelOverTime(bool over_time);
   /// Offsets between the clocks of logger and instruments; log and observations are given out on the campaign's clock,
   /// and every result depends on them.
   [[nodiscard]] ClockOffsets clockOffsets() const;
@@ -145,15 +145,17 @@ class SessionModel : public QObject {
   /// Counts up whenever a capture was added: lists read before are to be read again.
   [[nodiscard]] int captureGeneration() const { return capture_generation_; }
 
-  // Exclusions; `reason` empty takes an item back in. Undo commands call these.
-  void setExcluded(const QString& item, const QString& reason);
+  // Exclusions; items each with its reason, those without one are taken back in: all at once, or none where they cannot
+  // be stored. Undo commands call this.
+  void setExcluded(const std::vector<std::pair<QString, QString>>& items);
   [[nodiscard]] const std::map<QString, QString>& excluded() const { return shown_excluded_; }
   /// The same for core.
   [[nodiscard]] const ExcludedItems& excludedItems() const { return state_.excluded; }
 
   // Notes on the campaign at hand. A note that cannot be stored is told by storingFailed().
   [[nodiscard]] std::vector<Note> notes() const;
-  bool addNote(const QString& about, const QString& text, const QString& item = {});
+  /// Its id, as Session::addNote; 0: it could not be stored.
+  std::int64_t addNote(const Note& note);
   void removeNote(std::int64_t note);
 
   /// The operator's word that the instrument was warm ("settled", "by"), if it was given for the campaign at hand; the
@@ -169,11 +171,10 @@ class SessionModel : public QObject {
   [[nodiscard]] std::string campaignKey(const std::string& key) const;
   [[nodiscard]] nlohmann::json campaignSetting(const std::string& key, const nlohmann::json& otherwise) const;
   /// What was typed and is not applied yet, for the campaign at hand: on the disk with every change, so that no other
-  /// page, campaign or session and no crash loses it. It belongs to `base`, what was being edited: null where there is
-  /// none, or where that has become another.
-  [[nodiscard]] nlohmann::json draft(const std::string& name, const nlohmann::json& base) const;
-  void keepDraft(const std::string& name, const nlohmann::json& base, const nlohmann::json& typed);
-  void dropDraft(const std::string& name);
+  /// page, campaign or session and no crash loses it; see Draft (widgets/commands). {"base": what was being edited,
+  /// "typed": …}; null: nothing.
+  [[nodiscard]] nlohmann::json draft(const std::string& name) const;
+  [[nodiscard]] std::string draftKey(const std::string& name) const;
 
  Q_SIGNALS:
   void sessionChanged();

@@ -5,6 +5,8 @@
 #include <QTabWidget>
 #include <QVBoxLayout>
 
+#include "core/tasks/task_options.h"
+#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/task_job.h"
 
@@ -56,7 +58,10 @@ void Page::addModelSwitch(bool over_time) {
   addAction(button);  // first: shown without a parent it would be a window of its own, and take the focus away
   connect(&session(), &SessionModel::campaignChanged, button, update);
   update();
-  connect(button, &QPushButton::clicked, this, [this, over_time] { session().setModelOverTime(over_time); });
+  connect(button, &QPushButton::clicked, this, [this, button, over_time] {
+    context_.undo.push(new OptionsCommand(session(), button->text(), session().campaignKey(option_keys::over_time),
+                                          over_time, [this] { Q_EMIT session().campaignChanged(); }));
+  });
 }
 
 bool Page::noticeCampaign() {

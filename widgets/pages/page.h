@@ -44,8 +44,6 @@ class Page : public QWidget {
   [[nodiscard]] virtual QPushButton* primaryButton() const { return nullptr; }
   /// What is picked on the page, as exclusions and notes call it ("captures/images/a.jpg"); empty: nothing.
   [[nodiscard]] virtual QString pickedItem() const { return {}; }
-  /// Asks what is to become of changes that are not applied yet. False: the user wants to stay.
-  [[nodiscard]] virtual bool mayBeLeft() { return true; }
   /// Runs what the page would be asked to run first (the tour and the tests use it).
   virtual void runAll() {}
   [[nodiscard]] StepId step() const { return step_; }

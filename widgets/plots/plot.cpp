@@ -14,6 +14,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "widgets/common/parts.h"
 #include "widgets/common/words.h"
 #include "widgets/plots/marked_graph.h"
 #include "widgets/plots/qcustomplot_header.h"
@@ -469,20 +470,7 @@ void Plot::paintEvent(QPaintEvent*) {
   drawIfStale();
   QPainter painter(this);
   painter.fillRect(rect(), theme().surface);
-  if (!series_.empty()) return;
-  const QRect area = rect().adjusted(24, 16, -24, -16);
-  painter.setFont(textFont(sizes::font_body, QFont::DemiBold));
-  const QRect title = painter.fontMetrics().boundingRect(area, Qt::AlignHCenter | Qt::TextWordWrap, empty_title_);
-  const QRect how =
-      QFontMetrics(textFont(sizes::font_body)).boundingRect(area, Qt::AlignHCenter | Qt::TextWordWrap, empty_how_);
-  const int top = area.top() + (area.height() - title.height() - 8 - how.height()) / 2;
-  painter.setPen(theme().text);
-  painter.drawText(QRect(area.left(), top, area.width(), title.height()), Qt::AlignHCenter | Qt::TextWordWrap,
-                   empty_title_);
-  painter.setFont(textFont(sizes::font_body));
-  painter.setPen(theme().text_secondary);
-  painter.drawText(QRect(area.left(), top + title.height() + 8, area.width(), how.height() + 4),
-                   Qt::AlignHCenter | Qt::TextWordWrap, empty_how_);
+  if (series_.empty()) drawEmptyText(painter, rect(), empty_title_, empty_how_);
 }
 
 void Plot::resizeEvent(QResizeEvent*) {

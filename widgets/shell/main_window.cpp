@@ -594,6 +594,9 @@ void MainWindow::addCampaign(const QString& folder) {
       try {
         const std::int64_t id = session_.session()->adoptCampaign(*staged);
         giveGoals(*session_.session(), id);
+        // Whoever adds it goes on with it.
+        const nlohmann::json name = session_.campaignSetting(option_keys::operator_name, nullptr);
+        if (!name.is_null()) session_.setSetting(campaignKey(option_keys::operator_name, id), name);
         session_.selectCampaign(id);
       } catch (const InputError& e) {
         tell(coreSentence(e.what()));
@@ -754,11 +757,6 @@ void MainWindow::restoreSplitters(Page& page) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  for (const auto& [entry, page] : pages_) {
-    if (page == nullptr || session_.campaign() == nullptr || page->mayBeLeft()) continue;
-    event->ignore();
-    return;
-  }
   const bool compensating = ClosedLoopService::of(session_).running();
   if (compensating || jobs_.working()) {
     const QString sentence =

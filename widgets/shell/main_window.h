@@ -125,6 +125,8 @@ class MainWindow : public QMainWindow {
   /// The action is for what is there only: `why_not` says what is missing, empty: nothing.
   void need(QAction* action, std::function<QString()> why_not);
   [[nodiscard]] QString whyNot(const QAction* action) const;
+  /// The step and the tabs that are shown now, for what is done there.
+  [[nodiscard]] UndoPlace undoPlace();
   void addCommandsOf(const QMenu& menu, const QString& where, std::vector<Command>& commands);
   [[nodiscard]] static QStringList recentSessions();
   void fillRecentMenu();

@@ -8,9 +8,11 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QPointer>
 #include <QPushButton>
 #include <QSettings>
 #include <QStandardPaths>
+#include <QTabWidget>
 #include <QTemporaryDir>
 #include <QToolButton>
 
@@ -91,17 +93,13 @@ void MainWindow::buildMenu() {
   add(session_menu, tr("&Quit"), "x", QKeySequence::Quit, [this] { close(); });
 
   QMenu* edit = menuBar()->addMenu(tr("&Edit"));
-  QAction* undo = undo_.group().createUndoAction(this, tr("&Undo"));
-  undo->setShortcut(QKeySequence::Undo);
-  undo->setIcon(icon("undo"));
-  need(undo, [undo] { return undo->isEnabled() ? QString() : tr("There is nothing to undo."); });
-  edit->addAction(undo);
-  QAction* redo = undo_.group().createRedoAction(this, tr("&Redo"));
+  undo_.setPlace([this] { return undoPlace(); });
+  QAction* undo = add(edit, tr("&Undo"), "undo", QKeySequence::Undo, [this] { undo_.undo(); });
+  need(undo, [this] { return undo_.stack().canUndo() ? QString() : tr("There is nothing to undo."); });
+  QAction* redo = add(edit, tr("&Redo"), "redo", {}, [this] { undo_.redo(); });
   // Of the platform, and the other one that hands know.
   redo->setShortcuts({QKeySequence(QKeySequence::Redo), QKeySequence(Qt::CTRL | Qt::Key_Y)});
-  redo->setIcon(icon("redo"));
-  need(redo, [redo] { return redo->isEnabled() ? QString() : tr("There is nothing to redo."); });
-  edit->addAction(redo);
+  need(redo, [this] { return undo_.stack().canRedo() ? QString() : tr("There is nothing to redo."); });
   edit->addSeparator();
   need(add(edit, tr("&Notes …"), "note", QKeySequence(tr("Ctrl+M")), [this] { openNotes(); }), no_session);
   add(edit, tr("&Preferences …"), "settings", QKeySequence(tr("Ctrl+,")), [this] { openPreferences(); });
@@ -209,12 +207,19 @@ void MainWindow::buildMenu() {
   };
   auto* undo_button = tool("undo", tr("Undo"), [this] { undo_.undo(); });
   auto* redo_button = tool("redo", tr("Redo"), [this] { undo_.redo(); });
-  undo_button->setEnabled(false);
-  redo_button->setEnabled(false);
-  connect(&undo_.group(), &QUndoGroup::canUndoChanged, undo_button, &QToolButton::setEnabled);
-  connect(&undo_.group(), &QUndoGroup::canRedoChanged, redo_button, &QToolButton::setEnabled);
-  connect(&undo_.group(), &QUndoGroup::undoTextChanged, undo_button,
-          [undo_button](const QString& text) { undo_button->setToolTip(tr("Undo: %1").arg(text)); });
+  const auto say_what = [this, undo, redo, undo_button, redo_button] {
+    undo->setEnabled(undo_.stack().canUndo());
+    redo->setEnabled(undo_.stack().canRedo());
+    undo_button->setEnabled(undo->isEnabled());
+    redo_button->setEnabled(redo->isEnabled());
+    undo->setText((tr("&Undo") + QLatin1Char(' ') + undo_.undoText()).trimmed());
+    redo->setText((tr("&Redo") + QLatin1Char(' ') + undo_.redoText()).trimmed());
+    undo_button->setToolTip(undo->isEnabled() ? tr("Undo: %1").arg(undo_.undoText()) : tr("Undo"));
+    redo_button->setToolTip(redo->isEnabled() ? tr("Redo: %1").arg(undo_.redoText()) : tr("Redo"));
+  };
+  say_what();
+  connect(&undo_.group(), &QUndoGroup::indexChanged, this, say_what);
+  connect(&undo_.group(), &QUndoGroup::activeStackChanged, this, say_what);
   tool("export", tr("Export pictures and tables of this page"), [this] {
     exportTo(lastFolder(QStringLiteral("export"), QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)));
   });
@@ -289,12 +294,26 @@ void MainWindow::startExercise(const Exercise& exercise) {
           .arg(QString::fromStdString(std::string(toString(exercise.level)))));
 }
 
+UndoPlace MainWindow::undoPlace() {
+  const StepId step = workflow_.current();
+  std::vector<std::pair<QPointer<QTabWidget>, QPointer<QWidget>>> shown;
+  if (page_ != nullptr)
+    for (auto* tabs : page_->findChildren<QTabWidget*>()) shown.emplace_back(tabs, tabs->currentWidget());
+  return {stepTitle(step), [this, step, shown] {
+            workflow_.goTo(step);
+            showSessionOrWelcome();
+            (void)currentPage();
+            for (const auto& [tabs, tab] : shown)
+              if (tabs && tab && tabs->isTabVisible(tabs->indexOf(tab))) tabs->setCurrentWidget(tab);
+          }};
+}
+
 NotesDialog* MainWindow::openNotes() {
   if (session_.campaign() == nullptr) {
     tell(tr("Open a session first; notes belong to it."));
     return nullptr;
   }
-  auto* dialog = new NotesDialog(session_, stepTitle(workflow_.current()),
+  auto* dialog = new NotesDialog(session_, undo_, stepTitle(workflow_.current()),
                                  page_ != nullptr ? page_->pickedItem() : QString(), this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->open();

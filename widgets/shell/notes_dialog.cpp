@@ -9,7 +9,8 @@
 #include <QTableView>
 #include <QVBoxLayout>
 
-#include "core/base/error.h"
+#include "widgets/commands/campaign_undo.h"
+#include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/models/session_model.h"
@@ -17,8 +18,9 @@
 
 namespace spindrift::gui {
 
-NotesDialog::NotesDialog(SessionModel& session, const QString& about, const QString& item, QWidget* parent)
-    : QDialog(parent), session_(session) {
+NotesDialog::NotesDialog(SessionModel& session, CampaignUndo& undo, const QString& about, const QString& item,
+                         QWidget* parent)
+    : QDialog(parent), session_(session), undo_(undo) {
   setWindowTitle(tr("Notes"));
   resize(720, 520);
   auto* column = new QVBoxLayout(this);
@@ -61,19 +63,20 @@ NotesDialog::NotesDialog(SessionModel& session, const QString& about, const QStr
   line->addWidget(close);
   line->addWidget(add_);
   column->addLayout(line);
-  const auto buttons = [this] {
-    add_->setEnabled(!text_->toPlainText().trimmed().isEmpty());
-    remove_->setEnabled(table_->currentIndex().isValid());
-  };
-  connect(text_, &QPlainTextEdit::textChanged, this, buttons);
-  connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this, buttons);
+  connect(text_, &QPlainTextEdit::textChanged, this, &NotesDialog::updateButtons);
+  connect(table_->selectionModel(), &QItemSelectionModel::currentChanged, this, &NotesDialog::updateButtons);
   connect(add_, &QPushButton::clicked, this, &NotesDialog::add);
   connect(remove_, &QPushButton::clicked, this, &NotesDialog::removeSelected);
   connect(close, &QPushButton::clicked, this, &QDialog::accept);
   connect(&session_, &SessionModel::sessionChanged, this, &QDialog::reject);
+  connect(&session_, &SessionModel::inputsChanged, this, &NotesDialog::refresh);
   refresh();
-  buttons();
   text_->setFocus();
+}
+
+void NotesDialog::updateButtons() {
+  add_->setEnabled(!text_->toPlainText().trimmed().isEmpty());
+  remove_->setEnabled(table_->currentIndex().isValid());
 }
 
 void NotesDialog::refresh() {
@@ -89,21 +92,25 @@ void NotesDialog::refresh() {
     rows.push_back(std::move(row));
   }
   rows_->setRows(std::move(rows));
+  updateButtons();  // a list that is filled anew tells nobody what is chosen in it
 }
 
 void NotesDialog::add() {
-  if (!session_.addNote(about_->currentText().trimmed(), text_->toPlainText().trimmed(),
-                        item_->currentText().trimmed()))
-    return;
-  text_->clear();
-  refresh();
+  const std::size_t before = session_.notes().size();
+  undo_.push(
+      new NoteCommand(session_,
+                      {0, about_->currentText().trimmed().toStdString(), text_->toPlainText().trimmed().toStdString(),
+                       utcNow(), item_->currentText().trimmed().toStdString()},
+                      true));
+  if (session_.notes().size() > before) text_->clear();
 }
 
 void NotesDialog::removeSelected() {
   const QModelIndex index = table_->currentIndex();
   if (!index.isValid()) return;
-  session_.removeNote(rows_->idAt(index.row()).toLongLong());
-  refresh();
+  const std::int64_t id = rows_->idAt(index.row()).toLongLong();
+  for (const Note& note : session_.notes())
+    if (note.id == id) undo_.push(new NoteCommand(session_, note, false));
 }
 
 }  // namespace spindrift::gui

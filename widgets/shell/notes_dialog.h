@@ -11,6 +11,7 @@ class QTableView;
 
 namespace spindrift::gui {
 
+class CampaignUndo;
 class RowsModel;
 class SessionModel;
 
@@ -19,7 +20,8 @@ class NotesDialog : public QDialog {
  public:
   /// `about` is what a new note is about unless the user says otherwise: the step that is shown, and `item`, what is
   /// picked on its page (may be empty).
-  NotesDialog(SessionModel& session, const QString& about, const QString& item, QWidget* parent = nullptr);
+  NotesDialog(SessionModel& session, CampaignUndo& undo, const QString& about, const QString& item,
+              QWidget* parent = nullptr);
 
   [[nodiscard]] RowsModel* rows() const { return rows_; }
   [[nodiscard]] QComboBox* about() const { return about_; }
@@ -30,10 +32,12 @@ class NotesDialog : public QDialog {
 
  private:
   void refresh();
+  void updateButtons();
   void add();
   void removeSelected();
 
   SessionModel& session_;
+  CampaignUndo& undo_;
   RowsModel* rows_;
   QTableView* table_;
   QComboBox* about_;

@@ -277,9 +277,9 @@ std::vector<TourDetail> discrepancyTabs() {
 
 QWidget* showNotes(MainWindow& window) {
   if (window.session().notes().empty()) {
-    window.session().addNote(QStringLiteral("Model"), QStringLiteral("Coolant was off while M1 was measured."));
-    window.session().addNote(QStringLiteral("Capture"),
-                             QStringLiteral("Table washed before the first state; the probe was calibrated after it."));
+    window.session().addNote({0, "Model", "Coolant was off while M1 was measured.", utcNow(), {}});
+    window.session().addNote(
+        {0, "Capture", "Table washed before the first state; the probe was calibrated after it.", utcNow(), {}});
   }
   return window.openNotes();
 }

@@ -3,6 +3,7 @@
 
 #include <QLocale>
 #include <QRegularExpression>
+#include <cmath>
 
 #include "core/base/text.h"
 
@@ -59,6 +60,24 @@ QString plainNumbers(const QString& text) {
   if (!numbers.match(text).hasMatch()) return text;
   QString plain = text;
   return plain.replace(point, QLatin1String("."));
+}
+
+double roundedDown(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {5.0, 2.0})
+    if (step * power <= value) return step * power;
+  return power;
+}
+
+double roundStep(double at_least) {
+  const double power = std::pow(10.0, std::floor(std::log10(at_least)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (step * power >= at_least) return step * power;
+  return 10.0 * power;
+}
+
+double exaggerationFor(double shown_mm, double largest_um) {
+  return largest_um > 0.0 ? roundedDown(shown_mm / (largest_um * 1e-3)) : 1000.0;
 }
 
 }  // namespace spindrift::gui

@@ -22,4 +22,13 @@ namespace spindrift::gui {
 /// A cell of a table as a file holds it: where it is nothing but a number or "12,4 ± 0,3", with points.
 [[nodiscard]] QString plainNumbers(const QString& text);
 
+/// The largest of 1, 2 and 5 times a power of ten that is not above `value`, and the smallest that is not below it: for
+/// scales and exaggerations. Both are of positive numbers.
+[[nodiscard]] double roundedDown(double value);
+[[nodiscard]] double roundStep(double at_least);
+
+/// By how much to draw lengths in um so that the largest has the length `shown_mm` in the picture at most; 1000 where
+/// there is nothing to be drawn.
+[[nodiscard]] double exaggerationFor(double shown_mm, double largest_um);
+
 }  // namespace spindrift::gui

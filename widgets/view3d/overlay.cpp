@@ -222,12 +222,7 @@ void paintMotions(QPainter& painter, const Camera& camera, const QSizeF& size, c
 
 double gridSpacing_mm(const MachineBodies& bodies) {
   const Eigen::Vector3d extent = bodies.table_high_mm - bodies.table_low_mm;
-  const double raw = std::max(extent.maxCoeff(), 1e-6) / 10;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= raw) return factor * power;
-  }
-  return 10 * power;
+  return roundStep(std::max(extent.maxCoeff(), 1e-6) / 10);
 }
 
 std::vector<OverlayText> tableScale(const Camera& camera, const QSizeF& size, const MachineBodies& bodies) {

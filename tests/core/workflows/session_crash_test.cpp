@@ -223,5 +223,56 @@ TEST_F(KilledCampaign, LosesNothingThatWasAcknowledged) {
             evaluateCampaign(Campaign::read(folder_ / "source"), {}, job).observations.csv());
 }
 
+/// A batch of exclusions is in the session as a whole or not at all, and what is typed survives to the last letter that
+/// was acknowledged.
+TEST_F(KilledCampaign, LeavesABatchWholeAndWhatWasTyped) {
+  constexpr std::size_t batch = 400;
+  const auto items = [](bool out) {
+    std::vector<Exclusion> all;
+    for (std::size_t i = 0; i < batch; ++i) all.push_back({"M" + std::to_string(i) + "/P1/EX", out ? "loose" : "", {}});
+    return all;
+  };
+  std::mt19937 random(20260201);
+  std::uniform_int_distribution<int> delay_us(0, 4000);
+  std::size_t whole = 0;
+  std::size_t none = 0;
+  std::size_t typed = 0;
+  for (int kill = 0; kill < kills; ++kill) {
+    SCOPED_TRACE("kill " + std::to_string(kill));
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::close(ends[0]);
+      Session session = Session::open(place());
+      for (bool out = session.exclusions(touched_).empty();; out = !out) {
+        session.setSetting("draft/machine/1", {{"base", 0}, {"typed", ++typed}});
+        acknowledge(ends[1], 'd');
+        session.exclude(touched_, items(out));
+      }
+    }
+    ::close(ends[1]);
+    char letter = 0;
+    std::size_t acknowledged = typed;
+    for (int i = 0; i < 3 && ::read(ends[0], &letter, 1) == 1; ++i) ++acknowledged;
+    std::this_thread::sleep_for(std::chrono::microseconds(delay_us(random)));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    while (::read(ends[0], &letter, 1) == 1) ++acknowledged;
+    ::close(ends[0]);
+    const Session session = Session::open(place());
+    const std::size_t out = session.exclusions(touched_).size();
+    ASSERT_TRUE(out == 0 || out == batch) << out << " of " << batch << " are left out";
+    ++(out == 0 ? none : whole);
+    typed = session.setting("draft/machine/1")->at("typed");
+    EXPECT_GE(typed, acknowledged);
+    EXPECT_LE(typed, acknowledged + 1);
+  }
+  EXPECT_GT(whole, 5U);
+  EXPECT_GT(none, 5U);
+}
+
 }  // namespace
 }  // namespace spindrift

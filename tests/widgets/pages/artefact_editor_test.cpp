@@ -92,9 +92,18 @@ TEST_F(ArtefactEditorTest, WhatIsNotAppliedSurvivesPagesCampaignsAndSessions) {
   editor->fields()->features()->item(2, 1)->setText(QStringLiteral("110.5"));
   QTest::mouseClick(editor->applyButton(), Qt::LeftButton);
   EXPECT_DOUBLE_EQ(window_->session().campaign()->machine.artefacts.front().nominal_positions_mm[2], 110.5);
-  // Applied: no draft is left that would come back.
+  EXPECT_FALSE(editor->applyButton()->isEnabled()) << "applied: nothing is left to apply";
+  // Every step is taken back as it was done: applied, typed.
   window_->undoStack().undo();
-  EXPECT_EQ(typed(), QStringLiteral("101"));
+  EXPECT_DOUBLE_EQ(window_->session().campaign()->machine.artefacts.front().nominal_positions_mm[2], 101.0);
+  EXPECT_EQ(typed(), QStringLiteral("110.5"));
+  EXPECT_TRUE(editor->applyButton()->isEnabled());
+  window_->undoStack().undo();
+  EXPECT_EQ(typed(), QStringLiteral("not a number"));
+  window_->undoStack().redo();
+  window_->undoStack().redo();
+  EXPECT_DOUBLE_EQ(window_->session().campaign()->machine.artefacts.front().nominal_positions_mm[2], 110.5);
+  EXPECT_FALSE(editor->applyButton()->isEnabled());
 }
 
 TEST_F(ArtefactEditorTest, AWrongCellIsMarkedWithOneSentenceAndNothingIsApplied) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Capturing in the real window: a new measurement of each instrument from a watched folder, a camera, a plan.
+#include <QInputDialog>
 #include <QTabWidget>
 #include <QTableView>
+#include <QTimer>
 #include <filesystem>
 #include <map>
 
@@ -192,6 +194,62 @@ TEST_F(CapturePages, TheSentenceNamesABadCaptureAndItsButtonGoesThere) {
   EXPECT_EQ(page->pickedItem(), QStringLiteral("captures/r2.png"));
   QTest::mouseClick(page->callout()->findChild<QPushButton*>(), Qt::LeftButton);
   EXPECT_EQ(page->pickedItem(), QStringLiteral("captures/r1.png"));
+}
+
+TEST_F(CapturePages, SeveralCapturesAreLeftOutAndBroughtBackAtOnce) {
+  std::filesystem::create_directories(folder_ / "kept/captures");
+  folder_.write("kept/campaign.json",
+                R"({"format":"spindrift-campaign","version":1,"name":"kept","start_utc":"2026-01-31T08:00:00Z"})");
+  folder_.write("kept/machine.json", mill_text);
+  std::string list = "time_s,state,fiducial,role,index,x_mm,y_mm,z_mm,spindle_deg,image\n";
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = "captures/r" + std::to_string(i) + ".png";
+    folder_.write("kept/" + name, encodePng(picture(static_cast<std::uint64_t>(i), 1.0, 90.0 * i)));
+    list += std::to_string(10 * i) + ",M0,F1,rotation," + std::to_string(i) + ",20,30,0," + std::to_string(90 * i) +
+            "," + name + "\n";
+  }
+  folder_.write("kept/captures/fiducials.csv", list);
+  open(folder_ / "kept");
+  auto* page = go<FiducialCapturePage>(StepId::Capture);
+  ASSERT_NE(page, nullptr);
+  QTableView* captures = nullptr;
+  for (auto* table : page->findChildren<QTableView*>())
+    if (table->accessibleName() == QLatin1String("Captures")) captures = table;
+  ASSERT_NE(captures, nullptr);
+  const auto button = [&]() -> QPushButton* {
+    for (auto* b : page->findChildren<QPushButton*>())
+      if (b->text().contains(QStringLiteral("Exclude")) || b->text().contains(QStringLiteral("Bring back"))) return b;
+    return nullptr;
+  };
+  const auto choose = [&](int rows) {
+    captures->clearSelection();
+    for (int row = 0; row < rows; ++row)
+      captures->selectionModel()->select(captures->model()->index(row, 0),
+                                         QItemSelectionModel::Select | QItemSelectionModel::Rows);
+  };
+  choose(3);
+  ASSERT_NE(button(), nullptr);
+  EXPECT_TRUE(button()->text().endsWith(QStringLiteral("Exclude 3 captures …"))) << button()->text().toStdString();
+  QTimer::singleShot(50, window_.get(), [this] {
+    auto* asked = window_->findChild<QInputDialog*>();
+    ASSERT_NE(asked, nullptr);
+    asked->setTextValue(QStringLiteral("the lamp was off"));
+    asked->accept();
+  });
+  button()->click();
+  ASSERT_TRUE(waitForJobs(*window_, 20));
+  EXPECT_EQ(window_->session().excluded().size(), 3U);
+  EXPECT_EQ(window_->undoStack().count(), 1);
+  choose(3);
+  EXPECT_TRUE(button()->text().endsWith(QStringLiteral("Bring back 3 captures"))) << button()->text().toStdString();
+  button()->click();
+  ASSERT_TRUE(waitForJobs(*window_, 20));
+  EXPECT_TRUE(window_->session().excluded().empty());
+  window_->undoStack().undo();
+  ASSERT_TRUE(waitForJobs(*window_, 20));
+  EXPECT_EQ(window_->session().excluded().size(), 3U);
+  choose(4);
+  EXPECT_TRUE(button()->text().endsWith(QStringLiteral("Exclude 4 captures …"))) << "one of them is in";
 }
 
 TEST_F(CapturePages, NothingOfTheSessionBeforeIsSeenOrCanBeExcluded) {

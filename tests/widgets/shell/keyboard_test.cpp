@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every control of every page is reached with the Tab key alone, and nothing keeps the focus for itself.
+// Every control of every page of every demo, and of the windows beside them, is reached with the Tab key alone, and
+// nothing keeps the focus for itself.
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
@@ -14,10 +15,21 @@
 #include <QTabBar>
 #include <QTabWidget>
 #include <QTest>
+#include <algorithm>
 #include <set>
 
 #include "tests/widgets/pages/story_support.h"
 #include "widgets/common/parts.h"
+#include "widgets/jobs/activity_dialog.h"
+#include "widgets/pages/compensate/closed_loop_page.h"
+#include "widgets/pages/discrepancy/discrepancy_page.h"
+#include "widgets/pages/discrepancy/effects_panel.h"
+#include "widgets/pages/plant/plant_page.h"
+#include "widgets/pages/teaching/exercise_dialog.h"
+#include "widgets/pages/teaching/what_if_window.h"
+#include "widgets/shell/demo.h"
+#include "widgets/shell/notes_dialog.h"
+#include "widgets/shell/preferences_dialog.h"
 #include "widgets/shell/step_list.h"
 
 namespace spindrift::gui {
@@ -48,22 +60,22 @@ std::string nameOf(const QWidget* widget) {
 
 class KeyboardTest : public StoryTest {
  protected:
-  /// What gets the focus while Tab is pressed until it comes round.
-  std::set<const QWidget*> tabbed() {
-    // From the list of steps on.
-    window_->stepList()->button(StepId::Machine)->setFocus(Qt::TabFocusReason);
+  /// What gets the focus in a window while Tab is pressed, from `from` on, until it comes round.
+  static std::set<const QWidget*> tabbed(QWidget* from) {
+    const QWidget* window = from->window();
+    from->setFocus(Qt::TabFocusReason);
     std::set<const QWidget*> seen;
-    QWidget* first = window_->focusWidget();
+    QWidget* first = window->focusWidget();
     const QWidget* last = nullptr;
     for (int i = 0; i < 500; ++i) {
-      QWidget* now = window_->focusWidget();
+      QWidget* now = window->focusWidget();
       if (now == nullptr) break;
       EXPECT_NE(now, last) << nameOf(now) << " keeps the focus";
       if (now == last) break;
       last = now;
       seen.insert(now);
       QTest::keyClick(now, Qt::Key_Tab);
-      if (i > 0 && window_->focusWidget() == first) break;
+      if (i > 0 && window->focusWidget() == first) break;
     }
     return seen;
   }
@@ -83,15 +95,35 @@ class KeyboardTest : public StoryTest {
     return false;
   }
 
-  void expectAllReached(const std::string& where) {
-    const std::set<const QWidget*> seen = tabbed();
+  /// In the window of `from`, which is a control.
+  void expectAllReached(const std::string& where, QWidget* from) {
+    const QWidget* window = from->window();
+    const std::set<const QWidget*> seen = tabbed(from);
     ASSERT_FALSE(seen.empty()) << where;
-    for (const QWidget* control : window_->findChildren<QWidget*>()) {
+    for (const QWidget* control : window->findChildren<QWidget*>()) {
       if (!isControl(control) || !control->isVisible() || !control->isEnabled()) continue;
-      if (control->window() != window_.get() || isPart(control, window_.get())) continue;
+      if (control->window() != window || isPart(control, window)) continue;
       ++controls_;
       EXPECT_TRUE(reached(seen, control)) << where << ": " << nameOf(control);
     }
+  }
+  void expectAllReached(const std::string& where) {
+    expectAllReached(where, window_->stepList()->button(StepId::Machine));
+  }
+  /// A window of its own, or what is shown in place of the steps.
+  void expectAllReachedIn(const std::string& where, QWidget* shown) {
+    ASSERT_NE(shown, nullptr) << where;
+    QCoreApplication::processEvents();
+    shown->window()->activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(shown->window())) << where;
+    for (QWidget* control : shown->findChildren<QWidget*>()) {
+      if (!isControl(control) || !control->isVisible() || !control->isEnabled() || isPart(control, shown) ||
+          (control->focusPolicy() & Qt::TabFocus) == 0)
+        continue;
+      expectAllReached(where, control);
+      return;
+    }
+    FAIL() << where << " has no control";
   }
 
   int controls_ = 0;
@@ -119,13 +151,63 @@ TEST_F(KeyboardTest, ReachesEveryControlOfEveryPage) {
   EXPECT_GT(controls_, 200) << "the pages were there";
 }
 
+/// Each instrument has pages of its own.
+class KeyboardOfDemo : public KeyboardTest, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(KeyboardOfDemo, ReachesEveryControlOfItsPages) {
+  window_->activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(window_.get()));
+  walk(QString::fromStdString(GetParam()), [this](const std::string& what) { expectAllReached(what); });
+  EXPECT_GT(controls_, 200) << "the pages were there";
+}
+
+INSTANTIATE_TEST_SUITE_P(Demos, KeyboardOfDemo, ::testing::ValuesIn([] {
+                           std::vector<std::string> names;
+                           for (const Demo& demo : demos()) names.push_back(demo.name);
+                           return names;
+                         }()),
+                         [](const auto& demo) {
+                           std::string name = demo.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_F(KeyboardTest, ReachesEveryControlOfWindowsBesideTheSteps) {
+  open(writeStoryCampaign(folder_, Hidden::SpindleGrowth), StepId::Discrepancy);
+  const auto look = [this](const char* where, QWidget* window) {
+    expectAllReachedIn(where, window);
+    window->close();
+    QCoreApplication::processEvents();
+  };
+  window_->openEffects();
+  auto* discrepancy = page<DiscrepancyPage>();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !discrepancy->effects()->busy(); }, 10'000));
+  expectAllReachedIn("effects", discrepancy);
+  discrepancy->effects()->newEffect();
+  expectAllReachedIn("effect editor", discrepancy);
+  discrepancy->effects()->closeEditor();
+  look("notes", window_->openNotes());
+  look("jobs and messages", window_->openActivity());
+  window_->openPreferences();
+  look("preferences", window_->findChild<PreferencesDialog*>());
+  look("what if", window_->openWhatIf());
+  ExerciseDialog* exercise = window_->openExercise();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return exercise->ready(); }, 10'000));
+  look("exercise", exercise);
+  window_->openPlant();
+  expectAllReachedIn("plant", window_->plant());
+  window_->openLiveCompensation();
+  expectAllReachedIn("live loop", window_->liveCompensation());
+  EXPECT_GT(controls_, 100);
+}
+
 TEST_F(KeyboardTest, SeesAControlThatIsPassedOver) {
   open(writeStoryCampaign(folder_, Hidden::SpindleGrowth), StepId::Report);
   QPushButton* button = window_->currentPage()->primaryButton();
   ASSERT_TRUE(button != nullptr && button->isVisible());
-  EXPECT_TRUE(reached(tabbed(), button));
+  EXPECT_TRUE(reached(tabbed(window_->stepList()->button(StepId::Machine)), button));
   button->setFocusPolicy(Qt::ClickFocus);
-  EXPECT_FALSE(reached(tabbed(), button));
+  EXPECT_FALSE(reached(tabbed(window_->stepList()->button(StepId::Machine)), button));
 }
 
 }  // namespace

@@ -20,16 +20,6 @@ namespace {
 constexpr std::array<const char*, 3> axis_titles{"X", "Y", "Z"};
 constexpr int preview_lines = 200;
 
-double niceExaggeration(double size_mm, double largest_um) {
-  if (!(largest_um > 0)) return 1000;
-  const double raw = 0.3 * size_mm / (largest_um * 1e-3);
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double f : {5.0, 2.0, 1.0}) {
-    if (f * power <= raw) return f * power;
-  }
-  return power;
-}
-
 /// Correction, measured and what remains of one axis as cells with their uncertainty.
 QString valueText(double value, double sigma) {
   // Hundredths of a micrometre are the last that mean anything to a control.
@@ -178,7 +168,7 @@ void CompensatePage::showView() {
   // The same exaggeration for all three, so that they can be compared.
   const double size = plan_->points.empty() ? 100.0 : std::max(50.0, (high - low).norm());
   view_->setPoints(std::move(points));
-  view_->setArrows(std::move(arrows), niceExaggeration(size, largest));
+  view_->setArrows(std::move(arrows), exaggerationFor(0.3 * size, largest));
   const QString state = QString::fromStdString(plan_->state);
   view_->setCaption(what == 0   ? tr("Correction to add to the command, state %1").arg(state)
                     : what == 1 ? tr("Measured deviation of state %1").arg(state)

@@ -238,8 +238,8 @@ QString DiscrepancyPage::missing() const {
 void DiscrepancyPage::refresh() {
   if (session().campaign() == nullptr) return;
   if (noticeCampaign()) {
-    if (effects_ != nullptr) effects_->leaveEditor();
-    showEffects(false);
+    if (effects_ != nullptr) effects_->closeEditor();
+    showEffects(session().draft(EffectsPanel::draft_name).is_object());
   }
   knowTitles();
   if (effects_button_->isChecked()) effects_->refresh();
@@ -336,9 +336,11 @@ bool DiscrepancyPage::showStored() {
   return false;
 }
 
-void DiscrepancyPage::changeEffects(const QString& what, const DiscrepancyChoice& after) {
-  context().undo.push(new OptionsCommand(session(), what, DiscrepancyChoice::key(session()), after.json(),
-                                         [this] { effectsChanged(); }));
+void DiscrepancyPage::changeEffects(const QString& what, const DiscrepancyChoice& after, bool typed) {
+  std::unique_ptr<QUndoCommand> change = std::make_unique<OptionsCommand>(
+      session(), what, DiscrepancyChoice::key(session()), after.json(), [this] { effectsChanged(); });
+  if (typed) change = std::make_unique<ApplyCommand>(session(), EffectsPanel::draft_name, std::move(change));
+  context().undo.push(change.release());
 }
 
 void DiscrepancyPage::effectsChanged() {
@@ -356,9 +358,10 @@ void DiscrepancyPage::showEffects(bool shown) {
   if (!shown && !mayBeLeft()) shown = true;
   effects_button_->setChecked(shown);
   if (shown && effects_ == nullptr) {
-    effects_ = new EffectsPanel(session());
+    effects_ = new EffectsPanel(session(), context().undo);
     stack_->addWidget(effects_);
     connect(effects_, &EffectsPanel::changeAsked, this, &DiscrepancyPage::changeEffects);
+    connect(effects_, &EffectsPanel::editorWanted, this, [this] { showEffects(true); });
   }
   if (shown) effects_->refresh();
   showContent(content_index_);

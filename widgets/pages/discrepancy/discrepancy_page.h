@@ -38,7 +38,8 @@ class DiscrepancyPage : public Page {
   [[nodiscard]] std::vector<Exportable> exportables() override;
   [[nodiscard]] QPushButton* primaryButton() const override { return search_; }
   void runAll() override { search(); }
-  [[nodiscard]] bool mayBeLeft() override;
+  /// Asks what is to become of an effect that is being edited. False: the user wants to stay with it.
+  [[nodiscard]] bool mayBeLeft();
   /// The list of effects in place of the story, or the story again.
   void showEffects(bool shown);
 
@@ -68,7 +69,7 @@ class DiscrepancyPage : public Page {
   void change(const QString& what, const DiscrepancyChoice& after);
   /// After the list of effects has changed: nothing is searched before somebody asks for it.
   void effectsChanged();
-  void changeEffects(const QString& what, const DiscrepancyChoice& after);
+  void changeEffects(const QString& what, const DiscrepancyChoice& after, bool typed);
   void showContent(int index);
   void knowTitles();
   void add();

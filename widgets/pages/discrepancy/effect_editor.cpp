@@ -349,9 +349,12 @@ void EffectEditor::setEntry(const nlohmann::json& entry) {
   dynamics_->setCurrentIndex(std::max(0, dynamics_->findData(dynamics)));
   const nlohmann::json bounds = entry_.value("tau_s", nlohmann::json());
   for (std::size_t i = 0; i < 2; ++i) {
-    const bool there = bounds.is_array() && bounds.size() > i && bounds[i].is_number();
+    const nlohmann::json bound = bounds.is_array() && bounds.size() > i ? bounds[i] : nlohmann::json();
+    // What was typed and is no number comes back as it was typed.
     (i == 0 ? lag_from_ : lag_to_)
-        ->setText(there ? shownNumbers(QString::fromStdString(exactNumber(bounds[i].get<double>()))) : QString());
+        ->setText(bound.is_number()   ? shownNumbers(QString::fromStdString(exactNumber(bound.get<double>())))
+                  : bound.is_string() ? QString::fromStdString(bound.get<std::string>())
+                                      : QString());
   }
   const bool lag = dynamics_->currentData().toString() == QLatin1String("lag");
   for (QLineEdit* edit : {lag_from_, lag_to_}) edit->setEnabled(lag);

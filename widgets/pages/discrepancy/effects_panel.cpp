@@ -192,7 +192,11 @@ const Effect* EffectListing::find(const std::string& id) const {
   return found == effects.end() ? nullptr : &*found;
 }
 
-EffectsPanel::EffectsPanel(SessionModel& session, QWidget* parent) : QWidget(parent), session_(session) {
+EffectsPanel::EffectsPanel(SessionModel& session, CampaignUndo& undo, QWidget* parent)
+    : QWidget(parent), session_(session), draft_(session, undo, draft_name, [this] {
+        showDraft();
+        Q_EMIT editorWanted();
+      }) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   stack_ = new QStackedWidget;
@@ -309,7 +313,7 @@ void EffectsPanel::makeBrowser() {
   connect(original_, &QPushButton::clicked, this, [this] {
     DiscrepancyChoice after = DiscrepancyChoice::of(session_);
     after.effects = nullptr;
-    Q_EMIT changeAsked(tr("go back to the campaign's effects"), after);
+    Q_EMIT changeAsked(tr("go back to the campaign's effects"), after, false);
   });
   updateButtons();
 }
@@ -329,9 +333,10 @@ void EffectsPanel::refresh() {
   if (listed_ && campaign == campaign_ && session_.evaluation() == evaluation_ &&
       choice.effects == effects_of_choice_) {
     markStates();
+    showDraft();
     return;
   }
-  if (campaign != campaign_ && (campaign_ == nullptr || campaign->folder != campaign_->folder)) leaveEditor();
+  if (campaign != campaign_ && (campaign_ == nullptr || campaign->folder != campaign_->folder)) closeEditor();
   campaign_ = campaign;
   evaluation_ = session_.evaluation();
   effects_of_choice_ = choice.effects;
@@ -348,6 +353,8 @@ void EffectsPanel::list() {
           listing_ = std::move(*answer);
           knowOwnTitles(listing_.document);
           fillTree();
+          sayState();
+          showDraft();
         };
       });
 }
@@ -392,11 +399,6 @@ void EffectsPanel::fillTree() {
   {
     const QSignalBlocker quiet(built_in_);
     built_in_->setChecked(listing_.document.value("built_in", true));
-  }
-  if (listing_.problem.isEmpty()) {
-    callout_->set(Tone::Attention, listing_.warnings.join(QLatin1Char(' ')));
-  } else {
-    callout_->show(Tone::Bad, listing_.problem);
   }
   markStates();
   filter();
@@ -496,7 +498,7 @@ void EffectsPanel::switched() {
                        : on.size() == 1                ? tr("consider %1 again").arg(on.front())
                        : !off.isEmpty() ? tr("leave out %n effects", nullptr, static_cast<int>(off.size()))
                                         : tr("consider %n effects again", nullptr, static_cast<int>(on.size()));
-  Q_EMIT changeAsked(what, after);
+  Q_EMIT changeAsked(what, after, false);
 }
 
 std::string EffectsPanel::chosen() const {
@@ -559,7 +561,7 @@ void EffectsPanel::storeDocument(const QString& what, nlohmann::json document, c
   if (own.empty()) document["built_in"] = true;
   const bool nothing = own.empty() && campaign_ != nullptr && campaign_->effects.empty();
   after.effects = nothing ? nlohmann::json() : std::move(document);
-  Q_EMIT changeAsked(what, after);
+  Q_EMIT changeAsked(what, after, !renamed_to.empty());
 }
 
 void EffectsPanel::removeEffect(const std::string& id) {
@@ -652,6 +654,11 @@ void EffectsPanel::makeEditor() {
 }
 
 void EffectsPanel::leaveEditor() {
+  if (hasUnsavedEdit()) draft_.discard();
+  closeEditor();
+}
+
+void EffectsPanel::closeEditor() {
   debounce_.stop();
   check_work_.forget();
   edited_ = false;
@@ -660,12 +667,15 @@ void EffectsPanel::leaveEditor() {
 
 void EffectsPanel::newEffect() {
   openEditor({{"dynamics", "none"}, {"shape", nlohmann::json::array({{{"gain_unit", "um"}}})}}, {});
+  if (editing()) editor_->id()->setFocus();
 }
 
 void EffectsPanel::editEffect(const std::string& id) {
   for (const nlohmann::json& entry : listing_.document["effects"]) {
     if (entry.value("id", std::string()) == id) {
       openEditor(entry, id);
+      checkEdited();
+      editor_->id()->setFocus();
       return;
     }
   }
@@ -682,6 +692,7 @@ void EffectsPanel::openEditor(const nlohmann::json& entry, const std::string& or
   read_.reset();
   editor_->setColumns(columns);
   editor_->setEntry(entry);
+  draft_.shown(typed());
   editor_card_->setTitle(original.empty() ? tr("New effect") : tr("Effect %1").arg(QString::fromStdString(original)));
   editor_gain_->hide();
   editor_picture_->clear(tr("The shape appears here as soon as its expressions can be read."));
@@ -689,8 +700,42 @@ void EffectsPanel::openEditor(const nlohmann::json& entry, const std::string& or
                       tr("Give an id and at least one expression. Everything is checked while you type."));
   accept_->setEnabled(false);
   stack_->setCurrentIndex(1);
-  if (!original.empty()) checkEdited();
-  editor_->id()->setFocus();
+}
+
+nlohmann::json EffectsPanel::typed() const {
+  return {{"entry", editor_->entry()}, {"original_id", original_id_}};
+}
+
+void EffectsPanel::showDraft() {
+  const nlohmann::json draft = draft_.typed(listing_.document);
+  if (draft.is_object() && campaign_ != nullptr) {
+    if (editing() && edited_ && typed() == draft) return;
+    openEditor(draft.value("entry", nlohmann::json()), draft.value("original_id", std::string()));
+    edited_ = true;
+    checkEdited();
+    return;
+  }
+  if (hasUnsavedEdit()) closeEditor();
+  if (draft_.ofAnother(listing_.document) != of_another_) sayState();
+}
+
+void EffectsPanel::sayState() {
+  callout_->setAction({}, {});
+  of_another_ = draft_.ofAnother(listing_.document);
+  if (!of_another_) {
+    if (listing_.problem.isEmpty()) {
+      callout_->set(Tone::Attention, listing_.warnings.join(QLatin1Char(' ')));
+    } else {
+      callout_->show(Tone::Bad, listing_.problem);
+    }
+    return;
+  }
+  callout_->show(Tone::Attention, tr("An effect was being edited while the effects were others. Show it: it can be "
+                                     "applied to these, or cancelled."));
+  callout_->setAction(tr("Show it"), [this] {
+    draft_.takeOver(listing_.document);
+    showDraft();
+  });
 }
 
 std::size_t EffectsPanel::editedIndex() const {
@@ -724,6 +769,7 @@ nlohmann::json EffectsPanel::editedDocument() const {
 
 void EffectsPanel::editorChanged() {
   edited_ = true;
+  draft_.keep(tr("change an effect"), listing_.document, typed());
   accept_->setEnabled(false);
   check_work_.forget();
   debounce_.start();
@@ -808,7 +854,7 @@ void EffectsPanel::accept() {
   const nlohmann::json document = editedDocument();
   const std::string id = editor_->entry()["id"].get<std::string>();
   const std::string original = original_id_;
-  leaveEditor();
+  closeEditor();
   search_->clear();
   chosen_after_listing_ = id;
   storeDocument(original.empty() ? tr("add the effect %1").arg(QString::fromStdString(id))

@@ -2,7 +2,7 @@
 // All effects that the search can name on this machine, of the catalogue by family and the user's own: physics,
 // formula, drivers and the shape on the machine. Each can be switched off; the user's own can be written, loaded and
 // saved here, and are checked while they are typed. Nothing is changed by this widget itself: it asks for a new choice,
-// which the page keeps in the session.
+// which the page keeps in the session. An effect that is being typed is a draft of the campaign.
 #pragma once
 
 #include <QTimer>
@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/workflows/discrepancy_workflow.h"
+#include "widgets/commands/draft.h"
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/latest_work.h"
 #include "widgets/pages/discrepancy/discrepancy_choice.h"
@@ -48,7 +49,9 @@ struct EffectListing {
 class EffectsPanel : public QWidget {
   Q_OBJECT
  public:
-  explicit EffectsPanel(SessionModel& session, QWidget* parent = nullptr);
+  /// Under which the effect that is being edited is kept (SessionModel::draft).
+  static constexpr auto draft_name = "effect";
+  EffectsPanel(SessionModel& session, CampaignUndo& undo, QWidget* parent = nullptr);
   /// Shows what the session holds now; a list that must be made anew follows a little later.
   void refresh();
   /// While the list is being made or an effect checked.
@@ -56,7 +59,10 @@ class EffectsPanel : public QWidget {
   [[nodiscard]] bool editing() const;
   /// What is typed in the editor and not taken over.
   [[nodiscard]] bool hasUnsavedEdit() const { return editing() && edited_; }
+  /// Gives up what is typed in the editor.
   void leaveEditor();
+  /// Shows the list; what is typed stays a draft.
+  void closeEditor();
   void newEffect();
   void editEffect(const std::string& id);
   void removeEffect(const std::string& id);
@@ -82,8 +88,10 @@ class EffectsPanel : public QWidget {
   [[nodiscard]] Callout* callout() const { return callout_; }
 
  Q_SIGNALS:
-  /// `what` in words for undo.
-  void changeAsked(const QString& what, const spindrift::gui::DiscrepancyChoice& after);
+  /// `what` in words for undo; `typed`: what is in the editor is applied with it.
+  void changeAsked(const QString& what, const spindrift::gui::DiscrepancyChoice& after, bool typed);
+  /// What is typed in the editor was taken back or done again and should be seen.
+  void editorWanted();
 
  private:
   void makeBrowser();
@@ -100,6 +108,11 @@ class EffectsPanel : public QWidget {
                      const std::string& renamed_to = {});
   // the editor
   void openEditor(const nlohmann::json& entry, const std::string& original);
+  /// The editor as the draft has it, or closed where there is none.
+  void showDraft();
+  [[nodiscard]] nlohmann::json typed() const;
+  /// What is to be said of the list: its problem or warnings, or that an effect was typed for another.
+  void sayState();
   void editorChanged();
   void checkEdited();
   void showProblem(const InputError& wrong);
@@ -137,6 +150,8 @@ class EffectsPanel : public QWidget {
   QPushButton* accept_ = nullptr;
   std::string original_id_;  ///< of the effect that is edited; empty: a new one
   bool edited_ = false;
+  bool of_another_ = false;  ///< it is said that an effect was typed for other effects
+  Draft draft_;
   std::optional<Effect> read_;  ///< the edited one, as it could be read last
   QTimer debounce_;
 

@@ -4,7 +4,6 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
-#include <QInputDialog>
 #include <QSplitter>
 #include <QTableView>
 #include <QVBoxLayout>
@@ -16,13 +15,13 @@
 #include "core/imaging/evaluate_fiducials.h"
 #include "core/imaging/image.h"
 #include "core/workflows/capture_check.h"
-#include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/image_view/image_view.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/capture_tabs.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/common/exclude_items.h"
 #include "widgets/pages/imaging/decode_marks.h"
 #include "widgets/theme/numbers.h"
 
@@ -84,7 +83,8 @@ FiducialCapturePage::FiducialCapturePage(PageContext page_context, QWidget* pare
   picture->body()->addWidget(verdict_);
   auto* buttons = new QHBoxLayout;
   exclude_ = makeButton(tr("Exclude …"), "exclude");
-  exclude_->setToolTip(tr("Leave this capture out of the evaluation; it stays on the disk and can be brought back"));
+  exclude_->setToolTip(
+      tr("Leave what is chosen in the list out of the evaluation; it stays on the disk and can be brought back"));
   overlay_ = makeButton(tr("Overlay"), "eye");
   overlay_->setCheckable(true);
   overlay_->setChecked(true);
@@ -105,6 +105,7 @@ FiducialCapturePage::FiducialCapturePage(PageContext page_context, QWidget* pare
   connect(exclude_, &QPushButton::clicked, this, &FiducialCapturePage::toggleExcluded);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& now) { showImage(model_->idAt(now.row())); });
+  connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &FiducialCapturePage::offerExclusion);
 }
 
 void FiducialCapturePage::load() {
@@ -294,6 +295,7 @@ void FiducialCapturePage::fillTable() {
     rows.push_back(std::move(row));
   }
   model_->setRows(std::move(rows));
+  offerExclusion();
 }
 
 void FiducialCapturePage::fillPlan() {
@@ -354,10 +356,8 @@ void FiducialCapturePage::showImage(const QString& image) {
   if (capture == nullptr) return;
   const bool same = shown_ == image && !image_->empty();
   shown_ = image;
-  exclude_->setEnabled(true);
-  const bool excluded = session().excluded().contains(image);
-  exclude_->setText(excluded ? tr("Bring back") : tr("Exclude …"));
-  if (excluded) {
+  offerExclusion();
+  if (session().excluded().contains(image)) {
     badge_->set(QStringLiteral("exclude"), Tone::Neutral, tr("excluded"));
     verdict_->show(Tone::Neutral, tr("Excluded: %1").arg(session().excluded().at(image)));
   } else if (!capture->checked) {
@@ -408,24 +408,24 @@ void FiducialCapturePage::clearImage() {
   image_->setCaption({});
   badge_->set({}, Tone::Neutral, {});
   verdict_->set(Tone::Neutral, {});
-  exclude_->setText(tr("Exclude …"));
-  exclude_->setEnabled(false);
+  offerExclusion();
+}
+
+QStringList FiducialCapturePage::chosen() const {
+  // What is shown need not stand in the list, which is filtered.
+  const QStringList selected = selectedIds(*table_, *model_);
+  return selected.size() > 1 || shown_.isEmpty() ? selected : QStringList{shown_};
+}
+
+void FiducialCapturePage::offerExclusion() {
+  exclude_->setEnabled(!chosen().isEmpty());
+  exclude_->setText(QChar(0x2009) + excludeText(session(), chosen()));
 }
 
 void FiducialCapturePage::toggleExcluded() {
-  const QString image = pickedItem();
-  if (image.isEmpty()) return;
-  if (session().excluded().contains(image)) {
-    context().undo.push(new ExcludeCommand(session(), {image}, {}));
-    return;
-  }
-  const CaptureVerdict* capture = find(image);
-  bool ok = true;
-  const QString proposed =
-      capture != nullptr && capture->checked && !capture->good ? capture->sentence : tr("disturbed");
-  const QString reason =
-      QInputDialog::getText(this, tr("Exclude a capture"), tr("Why is it left out?"), QLineEdit::Normal, proposed, &ok);
-  if (ok && !reason.trimmed().isEmpty()) context().undo.push(new ExcludeCommand(session(), {image}, reason.trimmed()));
+  const CaptureVerdict* capture = chosen().size() == 1 ? find(chosen().front()) : nullptr;
+  excludeOrBringBack(context(), this, chosen(),
+                     capture != nullptr && capture->checked && !capture->good ? capture->sentence : tr("disturbed"));
 }
 
 void FiducialCapturePage::checkAll() {

@@ -55,6 +55,9 @@ class FiducialCapturePage : public Page {
   void showBad(const std::vector<const CaptureVerdict*>& bad);
   void checkAll();
   void showImage(const QString& image);
+  /// The captures that are selected in the list, else the one that is shown.
+  [[nodiscard]] QStringList chosen() const;
+  void offerExclusion();
   void toggleExcluded();
   [[nodiscard]] const CaptureVerdict* find(const QString& image) const;
 

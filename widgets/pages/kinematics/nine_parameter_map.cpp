@@ -18,16 +18,6 @@ namespace {
 
 constexpr int map_nodes = 120;
 
-double niceExaggeration(double table_mm, double largest_um) {
-  if (!(largest_um > 0)) return 1000;
-  const double raw = 0.12 * table_mm / (largest_um * 1e-3);
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double f : {5.0, 2.0, 1.0}) {
-    if (f * power <= raw) return f * power;
-  }
-  return power;
-}
-
 }  // namespace
 
 std::optional<FieldGrid> NineParameterPage::mapGrid() {
@@ -145,7 +135,7 @@ void NineParameterPage::showField() {
   const ColourScale scale = ColourScale::symmetric(largest, name, QStringLiteral("um"));
   FieldStyle style;
   const double table = std::max(grid.x_to_mm - grid.x_from_mm, grid.y_to_mm - grid.y_from_mm);
-  const double exaggeration = niceExaggeration(table, largest_arrow);
+  const double exaggeration = exaggerationFor(0.12 * table, largest_arrow);
   if (relief_->isChecked()) style.relief_exaggeration = exaggeration;
   view_->setMachine(session().campaign()->machine);
   view_->setColourScale(scale);

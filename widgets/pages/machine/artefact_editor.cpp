@@ -26,7 +26,6 @@
 namespace spindrift::gui {
 namespace {
 
-constexpr auto draft_name = "artefacts";
 constexpr std::array edited_keys{"artefacts", "styli"};
 
 QString valueText(const nlohmann::json& value) {
@@ -47,7 +46,9 @@ Eigen::Vector3d shownFirstBall(const MachineDescription& machine) {
 }  // namespace
 
 ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
-    : QWidget(parent), context_(std::move(page_context)) {
+    : QWidget(parent),
+      context_(std::move(page_context)),
+      draft_(context_.session, context_.undo, "artefacts", [this] { refresh(); }) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);
   verdict_ = new Callout;
@@ -100,7 +101,7 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
     if (index < 0) return;
     machine_["artefacts"].erase(static_cast<std::size_t>(index));
     showArtefact(std::max(0, index - 1));
-    changed();
+    changed(tr("remove an artefact"));
   });
   connect(fields_, &ArtefactFields::edited, this, [this] {
     if (filling_ || choice_->currentIndex() < 0) return;
@@ -119,12 +120,12 @@ ArtefactEditor::ArtefactEditor(PageContext page_context, QWidget* parent)
     for (int k = 1; k < 5; ++k) setText(styli_, row, k, row > 0 ? textAt(styli_, row - 1, k) : QString());
     filling_ = false;
     styli_->setCurrentCell(row, 1);
-    changed();
+    changed(tr("add a stylus"));
   });
   connect(remove_stylus, &QPushButton::clicked, this, [this] {
     if (styli_->currentRow() < 0) return;
     styli_->removeRow(styli_->currentRow());
-    changed();
+    changed(tr("remove a stylus"));
   });
   connect(discard_, &QPushButton::clicked, this, &ArtefactEditor::discard);
   connect(apply_, &QPushButton::clicked, this, &ArtefactEditor::apply);
@@ -148,18 +149,21 @@ void ArtefactEditor::refresh() {
   if (campaign == nullptr) return;
   machine_ = campaign->machine.source;
   machine_.update(partOf(machine_));
-  const nlohmann::json draft = context_.session.draft(draft_name, partOf(machine_));
+  const nlohmann::json base = partOf(machine_);
+  const nlohmann::json draft = draft_.typed(base);
   if (draft.is_object()) machine_.update(draft);
+  draft_.shown(partOf(machine_));
   view_->setMachine(campaign->machine);
   view_->setMachineVisible(false);
   showStyli();
   showArtefact(std::clamp(choice_->currentIndex(), 0, std::max(0, static_cast<int>(machine_["artefacts"].size()) - 1)));
-  discard_->setEnabled(draft.is_object());
+  edited_ = draft.is_object();
+  of_another_ = draft_.ofAnother(base);
   check();
 }
 
 void ArtefactEditor::discard() {
-  context_.session.dropDraft(draft_name);
+  draft_.discard();
   refresh();
 }
 
@@ -213,10 +217,14 @@ void ArtefactEditor::addArtefact(const std::string& kind) {
   }
   machine_["artefacts"].push_back(artefact);
   showArtefact(static_cast<int>(machine_["artefacts"].size()) - 1);
-  changed();
+  changed(tr("add an artefact"));
 }
 
 void ArtefactEditor::changed() {
+  changed(tr("change the artefacts"));
+}
+
+void ArtefactEditor::changed(const QString& what) {
   nlohmann::json styli = nlohmann::json::array();
   for (int row = 0; row < styli_->rowCount(); ++row) {
     nlohmann::json s = nlohmann::json::object();
@@ -228,8 +236,9 @@ void ArtefactEditor::changed() {
     styli.push_back(s);
   }
   machine_["styli"] = styli;
-  discard_->setEnabled(true);
-  context_.session.keepDraft(draft_name, partOf(context_.session.campaign()->machine.source), partOf(machine_));
+  draft_.keep(what, partOf(context_.session.campaign()->machine.source), partOf(machine_));
+  edited_ = true;
+  of_another_ = false;
   check();
   showPreview();
 }
@@ -243,7 +252,18 @@ void ArtefactEditor::check() {
     findings_.insert(findings_.begin(), own.begin(), own.end());
   }
   const auto wrong = std::count_if(findings_.begin(), findings_.end(), [](const auto& f) { return f.wrong; });
-  apply_->setEnabled(discard_->isEnabled() && wrong == 0);
+  apply_->setEnabled(edited_ && wrong == 0);
+  discard_->setEnabled(edited_ || of_another_);
+  verdict_->setAction({}, {});
+  if (of_another_) {
+    verdict_->show(Tone::Attention,
+                   tr("Something was typed here for another state of the machine. Show it, or discard it."));
+    verdict_->setAction(tr("Show it"), [this] {
+      draft_.takeOver(partOf(context_.session.campaign()->machine.source));
+      refresh();
+    });
+    return;
+  }
   if (findings_.empty()) {
     verdict_->set(Tone::Good, machine_["artefacts"].empty()
                                   ? tr("The machine has no artefact yet. A touch probe needs one and its styli.")
@@ -296,8 +316,8 @@ void ArtefactEditor::apply() {
   for (const char* key : edited_keys) {
     if (machine[key].empty()) machine.erase(key);
   }
-  context_.session.dropDraft(draft_name);
-  context_.undo.push(new MachineCommand(context_.session, std::move(machine)));
+  context_.undo.push(new ApplyCommand(context_.session, draft_.name(),
+                                      std::make_unique<MachineCommand>(context_.session, std::move(machine))));
 }
 
 }  // namespace spindrift::gui

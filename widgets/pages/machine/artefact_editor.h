@@ -7,6 +7,7 @@
 #include <QWidget>
 
 #include "core/probing/artefact_check.h"
+#include "widgets/commands/draft.h"
 #include "widgets/pages/page.h"
 
 class QComboBox;
@@ -34,6 +35,7 @@ class ArtefactEditor : public QWidget {
  private:
   void showArtefact(int index);
   void showStyli();
+  void changed(const QString& what);
   void changed();
   void check();
   void showPreview();
@@ -47,6 +49,9 @@ class ArtefactEditor : public QWidget {
   nlohmann::json machine_;  ///< as edited
   std::vector<ArtefactFinding> findings_;
   bool filling_ = false;
+  bool edited_ = false;      ///< something is typed and not applied yet
+  bool of_another_ = false;  ///< something was typed for artefacts that have become others
+  Draft draft_;
   QComboBox* choice_;
   QPushButton* remove_;
   QPushButton* apply_;

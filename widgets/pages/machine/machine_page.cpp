@@ -34,12 +34,6 @@
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
-namespace {
-
-constexpr auto draft_name = "machine";
-
-}  // namespace
-
 QStringList machineFindings(const MachineDescription& machine) {
   QStringList findings;
   QStringList no_resolution;
@@ -79,7 +73,8 @@ QStringList machineFindings(const MachineDescription& machine) {
 }
 
 MachinePage::MachinePage(PageContext page_context, QWidget* parent)
-    : Page(std::move(page_context), StepId::Machine, parent) {
+    : Page(std::move(page_context), StepId::Machine, parent),
+      draft_(context().session, context().undo, "machine", [this] { refresh(); }) {
   discard_ = makeButton(tr("Discard"), "undo");
   apply_ = makeButton(tr("Apply changes"), nullptr, "primary");
   original_ = makeButton(tr("Back to machine.json"), "restore");
@@ -157,10 +152,10 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
     discard_->setVisible(description);
   });
 
-  connect(name_, &QLineEdit::textEdited, this, &MachinePage::markEdited);
-  connect(chain_, &QLineEdit::textEdited, this, &MachinePage::markEdited);
-  connect(axes_, &QTableWidget::itemChanged, this, &MachinePage::markEdited);
-  connect(points_, &QTableWidget::itemChanged, this, &MachinePage::markEdited);
+  connect(name_, &QLineEdit::textEdited, this, &MachinePage::markTyped);
+  connect(chain_, &QLineEdit::textEdited, this, &MachinePage::markTyped);
+  connect(axes_, &QTableWidget::itemChanged, this, &MachinePage::markTyped);
+  connect(points_, &QTableWidget::itemChanged, this, &MachinePage::markTyped);
   connect(points_, &QTableWidget::currentCellChanged, this,
           [this](int row) { view_->setSelected(textAt(points_, row, 0)); });
   connect(view_, &View3D::pointPicked, this, [this](const QString& id) {
@@ -169,25 +164,27 @@ MachinePage::MachinePage(PageContext page_context, QWidget* parent)
     }
   });
   connect(add, &QPushButton::clicked, this, [this] {
+    filling_ = true;
     const int row = points_->rowCount();
     points_->insertRow(row);
     setText(points_, row, 0, QStringLiteral("F%1").arg(row + 1));
     setText(points_, row, 1, QStringLiteral("fiducial"));
     for (int c = 2; c < 5; ++c) setText(points_, row, c, QStringLiteral("0"));
+    filling_ = false;
     points_->setCurrentCell(row, 2);
-    markEdited();
+    markEdited(tr("add a point"));
   });
   connect(remove, &QPushButton::clicked, this, [this] {
     if (points_->currentRow() < 0) return;
     points_->removeRow(points_->currentRow());
-    markEdited();
+    markEdited(tr("remove a point"));
   });
   connect(suggest_, &QPushButton::clicked, this, &MachinePage::suggestPoints);
   connect(apply_, &QPushButton::clicked, this, &MachinePage::apply);
   connect(discard_, &QPushButton::clicked, this, &MachinePage::discard);
   connect(original_, &QPushButton::clicked, this, [this] {
-    session().dropDraft(draft_name);
-    context().undo.push(new MachineCommand(session(), nlohmann::json::object()));
+    context().undo.push(new ApplyCommand(session(), draft_.name(),
+                                         std::make_unique<MachineCommand>(session(), nlohmann::json::object())));
   });
 }
 
@@ -224,20 +221,29 @@ void MachinePage::refresh() {
     shown.push_back(v);
   }
   showSensors();
-  const nlohmann::json draft = session().draft(draft_name, base());
+  const nlohmann::json draft = draft_.typed(base());
+  const bool of_another = draft_.ofAnother(base());
   if (draft.is_object()) showTyped(draft);
   filling_ = false;
+  draft_.shown(typed());
   view_->setMachine(machine);
   view_->setPoints(std::move(shown));
   view_->setCaption(QString::fromStdString(machine.name));
   apply_->setEnabled(draft.is_object());
-  discard_->setEnabled(draft.is_object());
+  discard_->setEnabled(draft.is_object() || of_another);
   original_->setVisible(session().machineEdited());
   artefacts_->refresh();
   if (connections_ != nullptr) connections_->refresh();
+  callout()->setAction({}, {});
   if (draft.is_object()) {
-    callout()->setAction({}, {});
     callout()->show(Tone::Attention, tr("What was typed here is not applied yet: apply the changes, or discard them."));
+  } else if (of_another) {
+    callout()->show(Tone::Attention,
+                    tr("Something was typed here for another state of the machine. Show it, or discard it."));
+    callout()->setAction(tr("Show it"), [this] {
+      draft_.takeOver(base());
+      refresh();
+    });
   } else {
     showFindings();
   }
@@ -259,7 +265,8 @@ QWidget* MachinePage::makeSensorTab() {
   buttons->addWidget(confirm);
   card->body()->addLayout(buttons);
   connect(confirm, &QPushButton::clicked, this, [this] {
-    for (int row = 0; row < sensors_->rowCount(); ++row) stateRole(row);
+    for (int row = 0; row < sensors_->rowCount(); ++row) sayRoleIsStated(row);
+    markEdited(tr("confirm the roles of the sensors"));
   });
   return card;
 }
@@ -305,7 +312,7 @@ void MachinePage::showSensors() {
 
 void MachinePage::stateRole(int row) {
   sayRoleIsStated(row);
-  markEdited();
+  markTyped();
 }
 
 void MachinePage::sayRoleIsStated(int row) {
@@ -325,15 +332,19 @@ void MachinePage::showFindings() {
   }
 }
 
-void MachinePage::markEdited() {
+void MachinePage::markTyped() {
+  markEdited(tr("change the description"));
+}
+
+void MachinePage::markEdited(const QString& what) {
   if (filling_) return;
+  draft_.keep(what, base(), typed());
   apply_->setEnabled(true);
   discard_->setEnabled(true);
-  session().keepDraft(draft_name, base(), typed());
 }
 
 void MachinePage::discard() {
-  session().dropDraft(draft_name);
+  draft_.discard();
   refresh();
 }
 
@@ -465,6 +476,7 @@ void MachinePage::showSuggestion(const PlacementAnswer& answer) {
     }
     return false;
   };
+  filling_ = true;
   for (const std::size_t index : answer.result.chosen) {
     const Eigen::Vector3d& at = answer.candidates_mm[index];
     while (taken(QStringLiteral("P%1").arg(number))) ++number;
@@ -474,8 +486,9 @@ void MachinePage::showSuggestion(const PlacementAnswer& answer) {
     setText(points_, row, 1, QStringLiteral("fiducial"));
     for (int i = 0; i < 3; ++i) setText(points_, row, 2 + i, decimalText(at[i], 'f', 1));
   }
+  filling_ = false;
   points_->scrollToBottom();
-  markEdited();
+  markEdited(tr("suggest points"));
   callout()->show(
       Tone::Accent,
       tr("%n points added below. With them the heat map would be uncertain by %1 µm on average and %2 µm at "
@@ -493,8 +506,7 @@ void MachinePage::apply() {
     callout()->show(Tone::Bad, coreSentence(e.what()));
     return;
   }
-  session().dropDraft(draft_name);
-  context().undo.push(new MachineCommand(session(), machine));
+  context().undo.push(new ApplyCommand(session(), draft_.name(), std::make_unique<MachineCommand>(session(), machine)));
 }
 
 void MachinePage::makeConnections() {

@@ -2,6 +2,7 @@
 // Step Machine: the description, editable, with what is missing for what; the machine in 3D.
 #pragma once
 
+#include "widgets/commands/draft.h"
 #include "widgets/pages/page.h"
 
 class QComboBox;
@@ -33,7 +34,9 @@ class MachinePage : public Page {
   [[nodiscard]] ConnectionsPanel* connections() const { return connections_; }
 
  private:
-  void markEdited();
+  /// Keeps what is typed; `what` names the step for undo.
+  void markEdited(const QString& what);
+  void markTyped();
   void discard();
   /// Everything that stands in the fields, whether it can be read or not; and back.
   [[nodiscard]] nlohmann::json typed() const;
@@ -67,6 +70,7 @@ class MachinePage : public Page {
   QPushButton* discard_;
   QPushButton* original_;
   bool filling_ = false;
+  Draft draft_;
 };
 
 /// Sentences about what the description lacks for which use.

@@ -10,7 +10,6 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
@@ -18,23 +17,13 @@
 #include "widgets/pages/common/cells.h"
 #include "widgets/pages/probing/cycle_model_page.h"
 #include "widgets/plots/plot.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
 namespace {
 
 constexpr std::array<Component, 3> shown_components{Component::EX, Component::EY, Component::EZ};
-
-/// 1, 2 or 5 x 10^n, so that the largest arrow is about a tenth of the picture.
-double roundExaggeration(double extent_mm, double largest_um) {
-  if (!(largest_um > 0)) return 1000;
-  const double raw = 0.12 * extent_mm / (largest_um * 1e-3);
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double f : {5.0, 2.0, 1.0}) {
-    if (f * power <= raw) return f * power;
-  }
-  return power;
-}
 
 }  // namespace
 
@@ -182,7 +171,7 @@ void CycleModelPage::showVolume() {
   style.contours = true;
   view_->setField(field, style);
   if (!arrows_->isChecked()) arrows.clear();
-  view_->setArrows(std::move(arrows), roundExaggeration(extent, largest_arrow));
+  view_->setArrows(std::move(arrows), exaggerationFor(0.12 * extent, largest_arrow));
   view_->setCaption(
       tr("%1 at %2 = %3 mm in cycle %4 against %5, stylus %6")
           .arg(name)

@@ -5,7 +5,6 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
-#include <QInputDialog>
 #include <QSplitter>
 #include <QTableView>
 #include <QVBoxLayout>
@@ -13,7 +12,6 @@
 #include <cmath>
 #include <map>
 
-#include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/preferences.h"
@@ -21,6 +19,7 @@
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/capture_tabs.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/common/exclude_items.h"
 #include "widgets/pages/probing/probing_scene.h"
 #include "widgets/pages/probing/touch_results.h"
 #include "widgets/theme/numbers.h"
@@ -355,22 +354,18 @@ void TouchCapturePage::fillTouches() {
 }
 
 QStringList TouchCapturePage::selectedTouches() const {
-  QStringList ids;
-  for (const QModelIndex& index : touch_table_->selectionModel()->selectedRows()) ids << touches_->idAt(index.row());
-  return ids;
+  return selectedIds(*touch_table_, *touches_);
 }
 
 void TouchCapturePage::showVerdict() {
   const QStringList chosen = selectedTouches();
   bool any = false;
-  bool all_excluded = !chosen.isEmpty();
   QString sentence;
   Tone tone = Tone::Neutral;
   for (const TouchVerdict& v : verdicts_) {
     const QString id = fromCore(v.touch.id());
     if (!chosen.contains(id)) continue;
     if (v.state != TouchState::Missing) any = true;
-    if (!session().excluded().contains(id)) all_excluded = false;
     if (chosen.size() == 1) {
       const Eigen::Vector3d& p = v.touch.position_mm;
       sentence = tr("%1 · %2 at x %3, y %4, z %5 mm")
@@ -391,24 +386,11 @@ void TouchCapturePage::showVerdict() {
   }
   reason_->set(tone, sentence);
   exclude_->setEnabled(any);
-  exclude_->setText(QChar(0x2009) + (all_excluded && any ? tr("Bring back") : tr("Exclude …")));
+  exclude_->setText(QChar(0x2009) + excludeText(session(), any ? chosen : QStringList()));
 }
 
 void TouchCapturePage::toggleExcluded() {
-  const QStringList chosen = selectedTouches();
-  if (chosen.isEmpty()) return;
-  const bool all_excluded = std::all_of(chosen.begin(), chosen.end(),
-                                        [this](const QString& id) { return session().excluded().contains(id); });
-  QString reason;
-  if (!all_excluded) {
-    bool given = false;
-    reason = QInputDialog::getText(
-        this, tr("Exclude touches"),
-        tr("Why are the chosen touches (%1) left out? The report will say so.").arg(chosen.size()), QLineEdit::Normal,
-        tr("bad touch"), &given);
-    if (!given || reason.trimmed().isEmpty()) return;
-  }
-  context().undo.push(new ExcludeCommand(session(), chosen, reason));
+  excludeOrBringBack(context(), this, selectedTouches(), tr("bad touch"));
 }
 
 }  // namespace spindrift::gui

@@ -21,6 +21,7 @@
 #include "core/base/error.h"
 #include "core/tasks/report_task.h"
 #include "core/tasks/task_options.h"
+#include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/jobs/task_job.h"
@@ -66,11 +67,7 @@ ReportPage::ReportPage(PageContext page_context, QWidget* parent)
   operator_->setPlaceholderText(tr("Name, or empty to sign by hand"));
   operator_->setAccessibleName(tr("Name of the operator"));
   left->body()->addWidget(operator_);
-  connect(operator_, &QLineEdit::editingFinished, this, [this] {
-    if (!keepOperator()) return;
-    context().workflow.refresh();
-    refresh();
-  });
+  connect(operator_, &QLineEdit::editingFinished, this, &ReportPage::keepOperator);
   discrepancy_ = new QCheckBox(tr("Include the discrepancy analysis"));
   discrepancy_->setToolTip(
       tr("Search for what the simulation lacks, and report it together with the effects that were added"));
@@ -131,13 +128,13 @@ std::filesystem::path ReportPage::storedFile(const char* key) {
 
 void ReportPage::refresh() {
   if (session().campaign() == nullptr) return;
-  noticeCampaign();
+  const bool other = noticeCampaign();
   callout()->setAction({}, {});
   const bool possible = canReport(*session().campaign(), session().observations() != nullptr);
   write_->setEnabled(possible);
   discrepancy_->setVisible(!session().campaign()->simulation.empty());
   const ReportTaskOptions asked = ReportTaskOptions::of(*session().session(), session().campaignId());
-  if (!operator_->hasFocus()) operator_->setText(QString::fromStdString(asked.operator_name));
+  if (other || !operator_->hasFocus()) operator_->setText(QString::fromStdString(asked.operator_name));
   discrepancy_->setChecked(asked.tells_discrepancy);
   const auto stored = session().result(report_result);
   for (QPushButton* button : {browser_, save_pdf_, save_html_}) button->setEnabled(stored.has_value());
@@ -224,16 +221,25 @@ void ReportPage::showDocument(std::shared_ptr<ReportPages> document) {
   following_ = false;
 }
 
-bool ReportPage::keepOperator() {
-  if (session().campaign() == nullptr) return false;
-  const std::string name = operator_->text().trimmed().toStdString();
-  if (session().setting(option_keys::operator_name, "") == name) return false;
-  session().setSetting(option_keys::operator_name, name);
-  return true;
+void ReportPage::keepOperator() {
+  if (session().campaign() == nullptr) return;
+  const auto kept = [this] {
+    const ReportTaskOptions asked = ReportTaskOptions::of(*session().session(), session().campaignId());
+    return QString::fromStdString(asked.operator_name);
+  };
+  const QString name = operator_->text().trimmed();
+  if (kept() == name) return;
+  context().undo.push(new OptionsCommand(session(), tr("change the name of the operator"),
+                                         session().campaignKey(option_keys::operator_name), name.toStdString(),
+                                         [this, kept] {
+                                           operator_->setText(kept());
+                                           context().workflow.refresh();
+                                           refresh();
+                                         }));
 }
 
 void ReportPage::write() {
-  (void)keepOperator();
+  keepOperator();
   if (!canReport(*session().campaign(), session().observations() != nullptr)) return;
   const PendingResult pending = session().begin(report_result);
   Job job;

@@ -53,7 +53,7 @@ class ReportPage : public Page {
   void openDocument();
   void showFacts();
   /// Puts the name that was typed into the session; false if it is there.
-  bool keepOperator();
+  void keepOperator();
   [[nodiscard]] std::filesystem::path storedFile(const char* key);
 
   BoundOptions options_;

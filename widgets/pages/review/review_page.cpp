@@ -35,14 +35,6 @@ constexpr int playback_ms = 700;
 /// Points this near to a section (part of the table) are drawn in it.
 constexpr double section_reach = 0.1;
 
-/// 1, 2 or 5 times a power of ten, not above `value`.
-double roundedDown(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : {5.0, 2.0})
-    if (value >= step * power) return step * power;
-  return power;
-}
-
 }  // namespace
 
 ReviewPage::ReviewPage(PageContext page_context, QWidget* parent)

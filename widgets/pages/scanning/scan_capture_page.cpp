@@ -3,7 +3,6 @@
 
 #include <QFileInfo>
 #include <QHBoxLayout>
-#include <QInputDialog>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
@@ -14,13 +13,13 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "widgets/commands/commands.h"
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
 #include "widgets/common/wrap_layout.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/capture/capture_tabs.h"
 #include "widgets/pages/common/cells.h"
+#include "widgets/pages/common/exclude_items.h"
 #include "widgets/pages/scanning/cloud_painter.h"
 #include "widgets/pages/scanning/profile_series.h"
 #include "widgets/pages/scanning/scan_check_payload.h"
@@ -45,7 +44,8 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
   list->body()->addWidget(verdict_);
   auto* buttons = new QHBoxLayout;
   exclude_ = makeButton(tr("Exclude …"), "exclude");
-  exclude_->setToolTip(tr("Leave this scan out of the evaluation; it stays on the disk and can be brought back"));
+  exclude_->setToolTip(
+      tr("Leave what is chosen in the list out of the evaluation; it stays on the disk and can be brought back"));
   buttons->addWidget(exclude_);
   buttons->addStretch();
   list->body()->addLayout(buttons);
@@ -112,6 +112,7 @@ ScanCapturePage::ScanCapturePage(PageContext page_context, QWidget* parent)
     showVerdict();
     loadCloud();
   });
+  connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &ScanCapturePage::offerExclusion);
 }
 
 QString ScanCapturePage::selected() const {
@@ -258,9 +259,8 @@ void ScanCapturePage::setPart(int part) {
 
 void ScanCapturePage::showVerdict() {
   const QString id = selected();
-  exclude_->setEnabled(!id.isEmpty());
+  offerExclusion();
   const bool excluded = session().excluded().contains(id);
-  exclude_->setText(QChar(0x2009) + (excluded ? tr("Bring back") : tr("Exclude …")));
   const int row = rows_->rowOf(id);
   if (row < 0) return verdict_->set(Tone::Neutral, {});
   const Cell& state = rows_->rows()[static_cast<std::size_t>(row)].cells[2];
@@ -282,17 +282,14 @@ void ScanCapturePage::showVerdict() {
   }
 }
 
+void ScanCapturePage::offerExclusion() {
+  const QStringList chosen = selectedIds(*table_, *rows_);
+  exclude_->setEnabled(!chosen.isEmpty());
+  exclude_->setText(QChar(0x2009) + excludeText(session(), chosen));
+}
+
 void ScanCapturePage::toggleExcluded() {
-  const QString id = selected();
-  if (id.isEmpty()) return;
-  QString reason;
-  if (!session().excluded().contains(id)) {
-    bool given = false;
-    reason = QInputDialog::getText(this, tr("Exclude a scan"), tr("Why is it left out? The report will say so."),
-                                   QLineEdit::Normal, tr("bad scan"), &given);
-    if (!given || reason.trimmed().isEmpty()) return;
-  }
-  context().undo.push(new ExcludeCommand(session(), {id}, reason));
+  excludeOrBringBack(context(), this, selectedIds(*table_, *rows_), tr("bad scan"));
 }
 
 void ScanCapturePage::loadCloud() {

@@ -50,6 +50,7 @@ class ScanCapturePage : public Page {
   void showCloud();
   void showIn(View3D* view, const ScanPicture& picture, const QString& part);
   void showVerdict();
+  void offerExclusion();
   void toggleExcluded();
   [[nodiscard]] QString selected() const;
   [[nodiscard]] std::string referenceOf(const std::string& cloud) const;

@@ -60,14 +60,6 @@ QString parameterName(const WhatIfParameter& p) {
   return QStringLiteral("%1  %2").arg(fromCore(p.id.substr(0, p.id.find('_'))), coreSentence(p.title));
 }
 
-/// 1, 2, 5 times a power of ten, at most `most`.
-double roundedDown(double most) {
-  const double power = std::pow(10.0, std::floor(std::log10(most)));
-  for (const double step : {5.0, 2.0})
-    if (step * power <= most) return step * power;
-  return power;
-}
-
 QString featureName(const std::string& id) {
   const std::size_t dot = id.find('.');
   const std::string stem = id.substr(0, dot);
