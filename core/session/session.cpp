@@ -410,7 +410,8 @@ std::vector<Note> Session::notes(std::int64_t id) const {
 }
 
 void Session::setSetting(const std::string& key, const nlohmann::json& value) {
-  database_->setSetting(key, value.dump());
+  // A sentence may carry what is no UTF-8, a path of the system for example.
+  database_->setSetting(key, value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::optional<nlohmann::json> Session::setting(const std::string& key) const {

@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/sha256.h"
 #include "core/base/text.h"
+#include "core/base/untrusted_text.h"
 #include "core/imaging/capture_verdict.h"
 #include "core/imaging/evaluate_fiducials.h"
 #include "core/imaging/fiducial_captures.h"
@@ -433,7 +434,7 @@ bool IncomingFolder::look(double now_s) {
   bool changed = false;
   for (const WatchedFile& file : watch_.look(now_s)) {
     changed = true;
-    const std::string name = file.file.lexically_relative(watch_.folder()).generic_string();
+    const std::string name = nameAsText(file.file.lexically_relative(watch_.folder()).generic_string());
     IncomingItem& item = itemOf(name);
     // Lists of touches grow by design and are read as they do; what was read needs no second look when it settles.
     const bool list = kindOf(file.file, true) == IncomingKind::Touches;

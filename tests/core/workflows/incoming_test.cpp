@@ -342,6 +342,36 @@ TEST_F(Incoming, ACopyIsNeverTakenForAnother) {
   EXPECT_EQ(readFile(campaign().folder / examined().stored), "no image");
 }
 
+TEST_F(Incoming, NamesThatAreNoUtf8AreTakenInAndToldApart) {
+  plan(PlannedKind::Image);
+  // Latin-1, what stands for it, and a path of it.
+  put("Pr\xFC"
+      "fling.png",
+      imageBytes(30));
+  put("Pr\\xFC"
+      "fling.png",
+      imageBytes(31, 1.0, 200.0, 90.0));
+  put("Tag\xE4/notes.docx", "dear diary");
+  pass(3.0);
+  EXPECT_EQ(item("Pr\\xFC"
+                 "fling.png")
+                .state,
+            IncomingState::Accepted)
+      << item(
+             "Pr\\xFC"
+             "fling.png")
+             .sentence;
+  EXPECT_EQ(item("Pr\\x5CxFC"
+                 "fling.png")
+                .state,
+            IncomingState::Accepted);
+  EXPECT_EQ(item("Tag\\xE4/notes.docx").state, IncomingState::Ignored);
+  EXPECT_EQ(images().size(), 2U);
+  EXPECT_EQ(incomingJournal(session_, id_).size(), 3U);
+  session_.setSetting("note", "a sentence with \xE4");
+  EXPECT_EQ(session_.setting("note"), nlohmann::json("a sentence with \xEF\xBF\xBD"));
+}
+
 TEST_F(Incoming, WithoutAPlanNothingIsLost) {
   put("a.png", imageBytes(15));
   pass(3.0);
