@@ -9,6 +9,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/sha256.h"
 #include "core/base/units.h"
 #include "core/imaging/fiducial_captures.h"
 #include "core/imaging/image.h"
@@ -16,6 +17,7 @@
 #include "core/session/session.h"
 #include "core/simulation/virtual_microscope.h"
 #include "tests/core/probing/probing_machines.h"
+#include "tests/support/arrival_costs.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -66,7 +68,7 @@ class Incoming : public ::testing::Test {
       (void)incoming_.look(now_);
       while (const auto task = incoming_.next()) {
         ExaminedFile examined = examineArrival(task->file.file, task->name, task->file.written_ns,
-                                               intake_.context(campaign(), storedPlan(session_, id_)));
+                                               *intake_.context(campaign(), storedPlan(session_, id_)));
         ExaminedFile kept = examined;
         const IncomingItem& item = incoming_.finish(*task, std::move(examined), now_);
         if (item.state == IncomingState::Waiting) continue;
@@ -328,8 +330,8 @@ TEST_F(Incoming, TwoFilesAreTheSameOnlyIfAllOfTheirHashAgrees) {
   before.kind = IncomingKind::Image;
   const auto file = folder_.write("a.png", "no image");
   const auto examined = [&](const std::vector<IncomingItem>& journal) {
-    return examineArrival(file, "a.png", 0, incomingContext(campaign(), storedPlan(session_, id_), journal, false))
-        .item;
+    const IncomingContext context(campaign(), storedPlan(session_, id_), journal, false);
+    return examineArrival(file, "a.png", 0, context).item;
   };
   const IncomingItem first = examined({});
   EXPECT_EQ(first.hash.size(), 64U);
@@ -344,7 +346,8 @@ TEST_F(Incoming, ACopyIsNeverTakenForAnother) {
   plan(PlannedKind::Image);
   const auto file = folder_.write("a.png", "no image");
   const auto examined = [&] {
-    return examineArrival(file, "a.png", 0, incomingContext(campaign(), storedPlan(session_, id_), {}, false)).item;
+    const IncomingContext context(campaign(), storedPlan(session_, id_), {}, false);
+    return examineArrival(file, "a.png", 0, context).item;
   };
   const std::filesystem::path stored = campaign().folder / examined().stored;
   writeFileAtomically(stored, "on image");  // of the same length
@@ -381,6 +384,83 @@ TEST_F(Incoming, NamesThatAreNoUtf8AreTakenInAndToldApart) {
   EXPECT_EQ(session_.setting("note"), nlohmann::json("a sentence with \xEF\xBF\xBD"));
 }
 
+TEST_F(Incoming, ListsOfTouchesAreReadFromWhereTheyEnded) {
+  const std::string header = std::string(TouchFeed::header()) + "\n";
+  const auto row = [](int i) { return fmt::format("{},M0,bar,H1,p0,0,{},1,2,3,1,0,0\n", 10 + i, i); };
+  const auto context = [&] { return intake_.context(campaign(), {}); };
+  const auto read = [&] { return examineArrival(folder_ / "watched/t.csv", "t.csv", 0, *context()); };
+  intake_.expectTouches(campaign(), std::nullopt);
+  put("t.csv", header + row(0));
+  ExaminedFile examined = read();
+  EXPECT_EQ(examined.text, header + row(0));
+  EXPECT_EQ(intake_.takeTouches(examined), 1U);
+  std::ofstream(folder_ / "watched/t.csv", std::ios::app) << row(1);
+  examined = read();
+  EXPECT_EQ(examined.text, row(1));
+  EXPECT_EQ(examined.item.hash, sha256(header + row(0) + row(1)));
+  EXPECT_EQ(readFile(campaign().path(examined.item.stored)), header + row(0) + row(1));
+  // What was read and not taken in is read again; the copy is whole.
+  examined = read();
+  EXPECT_EQ(examined.text, row(1));
+  EXPECT_EQ(readFile(campaign().path(examined.item.stored)), header + row(0) + row(1));
+  EXPECT_EQ(intake_.takeTouches(examined), 1U);
+  EXPECT_EQ(intake_.takeTouches(examined), 0U) << "taken in twice";
+  // Another file of that name, and one that became shorter.
+  folder_.write("other.csv", header + row(0) + row(1) + row(2));
+  std::filesystem::rename(folder_ / "other.csv", folder_ / "watched/t.csv");
+  examined = read();
+  EXPECT_EQ(examined.from, 0U);
+  EXPECT_EQ(intake_.takeTouches(examined), 1U) << "two are known";
+  put("t.csv", header);
+  examined = read();
+  EXPECT_EQ(examined.from, 0U);
+  EXPECT_EQ(examined.text, header);
+  // The same name in two folders: two copies.
+  put("a/t.csv", header + row(5));
+  put("b/t.csv", header + row(6));
+  const ExaminedFile a = examineArrival(folder_ / "watched/a/t.csv", "a/t.csv", 0, *context());
+  const ExaminedFile b = examineArrival(folder_ / "watched/b/t.csv", "b/t.csv", 0, *context());
+  EXPECT_NE(a.item.stored, b.item.stored);
+  EXPECT_EQ(readFile(campaign().path(a.item.stored)), header + row(5));
+}
+
+TEST(ArrivalCosts, ACaptureCostsTheSameAfterThousands) {
+  const testing::FolderWithoutDisk folder;
+  const testing::ArrivalCosts costs = testing::costsOfCaptures(folder.path(), 5000, 50);
+  EXPECT_LT(costs.growth(), 1.5) << costs.cpu_us.at(1) << " us, then " << costs.cpu_us.back() << " us";
+}
+
+TEST(ArrivalCosts, ATouchCostsTheSameAfterThousands) {
+  const testing::FolderWithoutDisk folder;
+  const testing::ArrivalCosts costs = testing::costsOfTouches(folder.path(), 20000, 100);
+  EXPECT_LT(costs.growth(), 1.5) << costs.cpu_us.at(1) << " us, then " << costs.cpu_us.back() << " us";
+}
+
+TEST(PlanTally, CountsAsTheListsDo) {
+  using namespace probing_test;
+  testing::TempFolder folder;
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 3, {}, 45);
+  PlanOptions options;
+  options.kind = PlannedKind::Cycle;
+  const PlanIndex plan(makePlan(m, options));
+  Session session = Session::create(folder / "session");
+  const std::int64_t id = session.newCampaign("holes", "2026-01-31T08:00:00Z", holeMachineText());
+  const std::filesystem::path place = session.campaign(id).folder;
+  PlanTally tally(plan, Campaign::read(place));
+  TouchList list;
+  for (const Touch& t : run.list.touches) {
+    list.touches.push_back(t);
+    tally.add(t);
+    if (list.touches.size() % 40 != 0 && list.touches.size() % (run.list.touches.size() / 3) > 2) continue;
+    writeFileAtomically(place / "captures/touches.csv", list.csv());
+    const PlanCaptures whole = planCaptures(plan.plan(), Campaign::read(place));
+    EXPECT_EQ(tally.captures().done, whole.done) << list.touches.size();
+    EXPECT_EQ(tally.captures().begun, whole.begun) << list.touches.size();
+  }
+  EXPECT_EQ(tally.captures().done.size(), 3U);
+}
+
 TEST_F(Incoming, WithoutAPlanNothingIsLost) {
   put("a.png", imageBytes(15));
   pass(3.0);
@@ -399,21 +479,23 @@ TEST(TouchFeedTest, TouchesOfAGrowingFileReachTheCampaignFeatureByFeature) {
   const std::string text = run.list.csv();
   TouchFeed feed(m, nullptr);
   std::size_t before_end = 0;
-  for (std::size_t length = 0; length < text.size(); length += 400) {
-    feed.update("touches.csv", std::string_view(text).substr(0, length), 0.0);
-    session.addCaptureRows(id, "touches.csv", TouchFeed::header(), feed.takeRows(false));
+  const auto store = [&](bool all) {
+    session.addCaptureRows(id, "touches.csv", TouchFeed::header(), TouchFeed::rowsOf(feed.takeFinished(all)));
+  };
+  for (std::size_t at = 0; at < text.size(); at += 400) {
     before_end = feed.live().touches().size();
+    feed.update("touches.csv", std::string_view(text).substr(at, 400), at == 0, 0.0);
+    store(false);
   }
-  feed.update("touches.csv", text, 0.0);
-  session.addCaptureRows(id, "touches.csv", TouchFeed::header(), feed.takeRows(true));
+  store(true);
   EXPECT_GT(before_end, run.list.touches.size() - 6);
   const Campaign campaign = Campaign::read(session.campaign(id).folder);
   const TouchList there = TouchList::read(*campaign.captureList("touches.csv"));
   EXPECT_EQ(there.touches.size(), run.list.touches.size());
   // A second start with the same file brings nothing twice.
   TouchFeed second(m, &there);
-  EXPECT_EQ(second.update("touches.csv", text, 0.0), 0U);
-  EXPECT_TRUE(second.takeRows(true).empty());
+  EXPECT_EQ(second.update("touches.csv", text, true, 0.0), 0U);
+  EXPECT_TRUE(second.takeFinished(true).empty());
 }
 
 TEST(MeasurementPlan, ComesBackFromJsonAndCountsDown) {
@@ -424,8 +506,9 @@ TEST(MeasurementPlan, ComesBackFromJsonAndCountsDown) {
   EXPECT_EQ(plan.items.size(), 2U * 2U * (4U + 5U + 5U + 5U));
   const MeasurementPlan back = MeasurementPlan::parse(JsonNode::parse(plan.json().dump(), "plan.json"));
   EXPECT_EQ(back.json(), plan.json());
-  EXPECT_EQ(plan.ofName("x_M1_F2_FOCUS_3.png")->id, "M1_F2_focus_3");
-  EXPECT_EQ(plan.ofName("M1_F2_focus_33.png"), nullptr);
+  const PlanIndex index(plan);
+  EXPECT_EQ(index.ofName("x_M1_F2_FOCUS_3.png")->id, "M1_F2_focus_3");
+  EXPECT_EQ(index.ofName("M1_F2_focus_33.png"), nullptr);
   PlanProgress progress = progressOf(plan, {}, 10.0);
   EXPECT_NE(progress.sentence.find("Now M0: F1, rotation 0"), std::string::npos) << progress.sentence;
   std::set<std::string> done;
@@ -511,7 +594,7 @@ TEST(CaptureIntakeTest, CountsOfTouchesAddUp) {
   file.item.name = "touches.csv";
   file.text = list.csv();
   EXPECT_EQ(intake.takeTouches(file), 74U);
-  const std::size_t rows = intake.takeRows(false).size();
+  const std::size_t rows = intake.takeFinished(false).size();
   EXPECT_EQ(intake.touchSentence(),
             "74 touches so far; " + std::to_string(74 - rows) + " are taken over when their feature is complete.");
   list.touches.resize(1);
@@ -567,7 +650,7 @@ TEST(CaptureIntakeTest, RetakesVanishWhenTheyHaveBeenTakenAgain) {
   intake.show(stray);
   EXPECT_EQ(intake.items().size(), 2U) << "the same file has one line";
   EXPECT_TRUE(intake.retakes({"M0_F1"}).empty());
-  EXPECT_TRUE(intake.takeRows(true).empty()) << "no touches are expected";
+  EXPECT_TRUE(intake.takeFinished(true).empty()) << "no touches are expected";
   EXPECT_EQ(intake.touchCount(), 0U);
 }
 
