@@ -3,6 +3,7 @@
 #include "core/workflows/incoming.h"
 #include "core/workflows/capture_check.h"
 #include "core/workflows/capture_intake.h"
+#include "core/workflows/folder_watch.h"
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>
@@ -422,6 +423,35 @@ TEST_F(Incoming, ListsOfTouchesAreReadFromWhereTheyEnded) {
   const ExaminedFile b = examineArrival(folder_ / "watched/b/t.csv", "b/t.csv", 0, *context());
   EXPECT_NE(a.item.stored, b.item.stored);
   EXPECT_EQ(readFile(campaign().path(a.item.stored)), header + row(5));
+}
+
+TEST(FolderWatchTest, AmongManyFilesOneThatIsWrittenAgainIsNoticed) {
+  const testing::FolderWithoutDisk folder;
+  std::filesystem::create_directories(folder.path() / "day");
+  const auto file = [&](int i) {
+    return folder.path() / (i % 2 == 0 ? "day" : "") / ("f" + std::to_string(i) + ".png");
+  };
+  for (int i = 0; i < 2500; ++i) std::ofstream(file(i)) << "x";
+  FolderWatch watch(folder.path(), {1.0, true});
+  EXPECT_EQ(watch.look(0.0).size(), 2500U);
+  EXPECT_EQ(watch.unsettled(), 2500U);
+  EXPECT_EQ(watch.look(2.0).size(), 2500U);
+  EXPECT_EQ(watch.unsettled(), 0U);
+  for (double now_s = 3.0; now_s < 7.0; ++now_s) EXPECT_TRUE(watch.look(now_s).empty());
+  std::ofstream(file(1234)) << "longer";
+  std::size_t told = 0;
+  for (double now_s = 10.0; now_s < 13.0; ++now_s) {
+    for (const WatchedFile& changed : watch.look(now_s)) {
+      EXPECT_EQ(changed.file, file(1234));
+      ++told;
+    }
+  }
+  EXPECT_GE(told, 1U) << "after as many looks as there are thousands";
+  std::filesystem::remove(file(7));
+  std::ofstream(file(9)) << "longest";
+  std::filesystem::remove(file(1234));
+  for (double now_s = 20.0; now_s < 30.0; now_s += 2.0) (void)watch.look(now_s);
+  EXPECT_EQ(watch.look(30.0).size() + watch.unsettled(), 0U);
 }
 
 TEST(ArrivalCosts, ACaptureCostsTheSameAfterThousands) {
