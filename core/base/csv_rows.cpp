@@ -77,7 +77,7 @@ CsvRows::CsvRows(const std::filesystem::path& file) : file_(file) {
     reader_.emplace(file);
     checkBytes();
     // What another program appends from now on is not checked, and not read.
-    reader_->rewind();
+    reader_->seek(0);
     unread_ = bytes_;
     given_ = filled_ = 0;
     rest_ = block();

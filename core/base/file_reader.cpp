@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -36,8 +37,14 @@ std::size_t FileReader::read(std::span<char> into) {
   }
 }
 
-void FileReader::rewind() {
-  if (::lseek(handle_, 0, SEEK_SET) < 0) failReading(file_, errno);
+void FileReader::seek(std::uint64_t byte) {
+  if (::lseek(handle_, static_cast<off_t>(byte), SEEK_SET) < 0) failReading(file_, errno);
+}
+
+std::pair<std::uint64_t, std::uint64_t> FileReader::identity() const {
+  struct stat status {};
+  if (::fstat(handle_, &status) != 0) failReading(file_, errno);
+  return {status.st_dev, status.st_ino};
 }
 
 }  // namespace spindrift

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
+#include <utility>
 
 namespace spindrift {
 
@@ -18,8 +20,10 @@ class FileReader {
 
   /// The next bytes, at most as many as `into` takes; their count, 0 at the end of the file.
   [[nodiscard]] std::size_t read(std::span<char> into);
-  /// Back to the beginning; for regular files.
-  void rewind();
+  /// To a byte from the beginning; for regular files.
+  void seek(std::uint64_t byte);
+  /// Which file it is (device and number on it), whatever its name.
+  [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> identity() const;
 
  private:
   std::filesystem::path file_;

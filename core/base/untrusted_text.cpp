@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/untrusted_text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -51,6 +53,25 @@ std::string printable(std::string_view text) {
     text.remove_prefix(1);
   }
   return out;
+}
+
+std::string nameAsText(std::string_view name) {
+  std::string out;
+  const auto escape = [&](char c) { out += fmt::format("\\x{:02X}", static_cast<unsigned char>(c)); };
+  for (;;) {
+    const std::size_t good = std::min(firstInvalidUtf8(name), name.size());
+    for (std::size_t i = 0; i < good; ++i) {
+      if (name[i] == '\\' && i + 1 < name.size() && name[i + 1] == 'x') {
+        escape(name[i]);
+      } else {
+        out += name[i];
+      }
+    }
+    name.remove_prefix(good);
+    if (name.empty()) return out;
+    escape(name.front());
+    name.remove_prefix(1);
+  }
 }
 
 std::string_view beginning(std::string_view text, std::size_t bytes) noexcept {

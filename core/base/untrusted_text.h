@@ -16,6 +16,10 @@ namespace spindrift {
 /// blanks.
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// A name of a file, whatever its bytes, as UTF-8: bytes that are none are written as "\xE4", and the backslash of a
+/// name that says "\x" by itself as "\x5C", so that no two names become one. Any other name is itself.
+[[nodiscard]] std::string nameAsText(std::string_view name);
+
 /// The first `bytes` bytes or up to three less, so that no character is cut in two.
 [[nodiscard]] std::string_view beginning(std::string_view text, std::size_t bytes) noexcept;
 

@@ -10,7 +10,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/math/statistics.h"
 #include "core/probing/hole_cycle.h"
 #include "core/probing/surface_heights.h"
 
@@ -57,8 +56,31 @@ LiveTouches::Key LiveTouches::keyOf(const Touch& t) {
   return fmt::format("{}|{}|{}|{:g}|{}", t.artefact, t.feature, t.stylus, t.c_deg, t.touch);
 }
 
+std::string LiveTouches::placeKeyOf(const Touch& t) {
+  return fmt::format("{}|{}|{}|{:g}", t.artefact, t.feature, t.stylus, t.c_deg);
+}
+
 std::string LiveTouches::featureKeyOf(const Touch& t) {
-  return fmt::format("{}|{}|{}|{}|{:g}", t.cycle, t.artefact, t.feature, t.stylus, t.c_deg);
+  return t.cycle + "|" + placeKeyOf(t);
+}
+
+void LiveTouches::settle(std::size_t index) {
+  const LiveTouch& live = touches_[index];
+  if (!live.replaced && (!live.given_out || !live.plausible)) {
+    open_.insert(index);
+  } else {
+    open_.erase(index);
+  }
+}
+
+void LiveTouches::reject(std::size_t index, std::string reason) {
+  touches_[index].plausible = false;
+  touches_[index].reason = std::move(reason);
+  settle(index);
+}
+
+void LiveTouches::forgetFirst(const Touch& t) {
+  if (first_.erase(keyOf(t)) > 0) --first_in_feature_[placeKeyOf(t)];
 }
 
 void LiveTouches::seed(const TouchList& list) {
@@ -67,6 +89,7 @@ void LiveTouches::seed(const TouchList& list) {
     touches_.back().given_out = true;
     touches_.back().plausible = true;
     touches_.back().reason.clear();
+    settle(touches_.size() - 1);
   }
 }
 
@@ -89,13 +112,9 @@ std::optional<double> LiveTouches::distance(const Touch& t, const Artefact& arte
   const auto ball = std::find_if(artefact.balls.begin(), artefact.balls.end(),
                                  [&](const ArtefactBall& b) { return b.id == feature; });
   const auto known = first_ball_.find(artefact.id);
-  if (ball == artefact.balls.end() || known == first_ball_.end() || known->second.empty()) return std::nullopt;
-  Eigen::Vector3d place;
-  for (int k = 0; k < 3; ++k) {
-    std::vector<double> values;
-    for (const Eigen::Vector3d& p : known->second) values.push_back(p(k));
-    place(k) = median(values);
-  }
+  if (ball == artefact.balls.end() || known == first_ball_.end()) return std::nullopt;
+  const auto& median = known->second;
+  const Eigen::Vector3d place(median[0].value(), median[1].value(), median[2].value());
   const Eigen::Vector3d expected = place + ball->certified_mm - (0.5 * ball->diameter_mm + radius_mm) * t.approach;
   return (t.position_mm - expected).norm();
 }
@@ -146,8 +165,9 @@ void LiveTouches::judgePlace(LiveTouch& live) {
   if (artefact->kind == "balls") {
     for (const ArtefactBall& ball : artefact->balls) {
       if (ball.id != t.feature) continue;
-      first_ball_[artefact->id].emplace_back(t.position_mm + (0.5 * ball.diameter_mm + stylus->radius_mm) * t.approach -
-                                             ball.certified_mm);
+      const Eigen::Vector3d first =
+          t.position_mm + (0.5 * ball.diameter_mm + stylus->radius_mm) * t.approach - ball.certified_mm;
+      for (std::size_t k = 0; k < 3; ++k) first_ball_[artefact->id][k].add(first(static_cast<Eigen::Index>(k)));
     }
   }
 }
@@ -194,12 +214,7 @@ void LiveTouches::judgeFeature(std::size_t last) {
     for (std::size_t i = 0; i < group.size(); ++i) d.suspects.push_back(i);
   } else {
     std::vector<std::size_t> compared;
-    int expected = 0;
-    for (const auto& [key, touch] : first_) {
-      Touch here = touch;
-      here.cycle = t.cycle;
-      if (featureKeyOf(here) == featureKeyOf(t)) ++expected;
-    }
+    const int expected = first_in_feature_[placeKeyOf(t)];
     for (const std::size_t i : group) {
       if (std::isfinite(touches_[i].change_um)) compared.push_back(i);
     }
@@ -218,12 +233,10 @@ void LiveTouches::judgeFeature(std::size_t last) {
   std::vector<std::string> numbers;
   for (const std::size_t s : d.suspects) numbers.push_back(std::to_string(touches_[group[s]].touch.touch));
   for (const std::size_t s : d.suspects) {
-    LiveTouch& live = touches_[group[s]];
-    live.plausible = false;
-    live.reason = numbers.size() > 1
-                      ? fmt::format("they disagree by {:.0f} µm", first ? d.spread_um : 2.0 * d.spread_um)
-                      : fmt::format("it disagrees with the others by {:.0f} µm", d.spread_um);
-    if (first) first_.erase(keyOf(live.touch));
+    reject(group[s], numbers.size() > 1
+                         ? fmt::format("they disagree by {:.0f} µm", first ? d.spread_um : 2.0 * d.spread_um)
+                         : fmt::format("it disagrees with the others by {:.0f} µm", d.spread_um));
+    if (first) forgetFirst(touches_[group[s]].touch);
   }
 }
 
@@ -233,15 +246,14 @@ void LiveTouches::judgeSurface(const Touch& last) {
   const HoleBarSetup setup = HoleBarSetup::of(machine_, *artefact);
   if (!isSurfaceTouch(last, setup.rotary_direction)) return;
   const bool first = last.cycle == first_cycle_;
+  std::vector<std::size_t>& together = surfaces_[{last.cycle, last.artefact, last.stylus}];
+  together.push_back(touches_.size() - 1);
   std::vector<std::size_t> of;
   std::vector<PlacedHeight> heights;
-  for (std::size_t i = 0; i < touches_.size(); ++i) {
+  for (const std::size_t i : together) {
     const LiveTouch& live = touches_[i];
     const Touch& t = live.touch;
-    if (live.replaced || !live.plausible || t.cycle != last.cycle || t.artefact != last.artefact ||
-        t.stylus != last.stylus || !isSurfaceTouch(t, setup.rotary_direction)) {
-      continue;
-    }
+    if (live.replaced || !live.plausible) continue;
     if (!first && !std::isfinite(live.change_um)) continue;
     of.push_back(i);
     heights.push_back(
@@ -256,10 +268,9 @@ void LiveTouches::judgeSurface(const Touch& last) {
     live.surface_judged = live.surface_judged || verdicts[k].judged;
     // What is in the campaign already is judged by the check of all touches.
     if (!verdicts[k].suspect || live.given_out || live.confirmed) continue;
-    live.plausible = false;
-    live.reason = fmt::format("its height is {:.0f} µm off what the {} other surface touches say", verdicts[k].off_um,
-                              verdicts[k].others);
-    if (first) first_.erase(keyOf(live.touch));
+    reject(of[k], fmt::format("its height is {:.0f} µm off what the {} other surface touches say", verdicts[k].off_um,
+                              verdicts[k].others));
+    if (first) forgetFirst(live.touch);
   }
 }
 
@@ -293,18 +304,21 @@ bool LiveTouches::add(const Touch& touch) {
       live.replaced = true;  // nothing to take again
     } else {
       old.replaced = true;
+      settle(before->second);
       live.confirmed = old.surface_judged && (old.touch.position_mm - touch.position_mm).norm() < confirmed_mm;
     }
   }
   const bool first = touch.cycle == first_cycle_;
   if (first && live.plausible) {
     const Key key = keyOf(touch);
-    if (std::find(first_order_.begin(), first_order_.end(), key) == first_order_.end()) first_order_.push_back(key);
-    first_[key] = touch;
+    if (first_keys_.insert(key).second) first_order_.push_back(key);
+    if (first_.insert_or_assign(key, touch).second) ++first_in_feature_[placeKeyOf(touch)];
   }
   const bool kept_old = live.replaced;
   touches_.push_back(live);
+  settle(touches_.size() - 1);
   features_[featureKeyOf(touch)].push_back(touches_.size() - 1);
+  cycles_[touch.cycle].push_back(touches_.size() - 1);
   if (!kept_old) index_[id] = touches_.size() - 1;
   if (live.plausible) judgeFeature(touches_.size() - 1);
   judgeSurface(touch);
@@ -319,11 +333,12 @@ LiveProgress LiveTouches::progress() const {
   progress.feature = last.feature;
   progress.stylus = last.stylus;
   progress.c_deg = last.c_deg;
-  std::vector<Key> there;
-  for (const LiveTouch& live : touches_) {
-    if (live.touch.cycle != last.cycle || !live.plausible || live.replaced) continue;
+  std::set<Key> there;
+  for (const std::size_t i : cycles_.at(last.cycle)) {
+    const LiveTouch& live = touches_[i];
+    if (!live.plausible || live.replaced) continue;
     ++progress.done;
-    there.push_back(keyOf(live.touch));
+    there.insert(keyOf(live.touch));
   }
   if (last.cycle == first_cycle_) {
     progress.expected = planned_;
@@ -331,7 +346,7 @@ LiveProgress LiveTouches::progress() const {
   }
   progress.expected = static_cast<int>(first_order_.size());
   for (const Key& key : first_order_) {
-    if (std::find(there.begin(), there.end(), key) != there.end()) continue;
+    if (there.contains(key)) continue;
     const auto found = first_.find(key);
     if (found == first_.end()) continue;
     const Touch& t = found->second;
@@ -346,14 +361,13 @@ LiveProgress LiveTouches::progress() const {
 std::vector<std::string> LiveTouches::retakes() const {
   // Touches of one feature with one reason are one sentence.
   std::vector<std::pair<const LiveTouch*, std::vector<std::string>>> groups;
-  for (const LiveTouch& live : touches_) {
-    if (live.plausible || live.replaced) continue;
-    const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& g) {
-      return g.first->reason == live.reason && featureKeyOf(g.first->touch) == featureKeyOf(live.touch);
-    });
-    const bool fresh = same == groups.end();
+  std::map<std::pair<std::string, std::string>, std::size_t> known;  ///< feature and reason -> its group
+  for (const std::size_t i : open_) {
+    const LiveTouch& live = touches_[i];
+    if (live.plausible) continue;
+    const auto [group, fresh] = known.try_emplace({featureKeyOf(live.touch), live.reason}, groups.size());
     if (fresh) groups.push_back({&live, {}});
-    (fresh ? groups.back() : *same).second.push_back(std::to_string(live.touch.touch));
+    groups[group->second].second.push_back(std::to_string(live.touch.touch));
   }
   std::vector<std::string> sentences;
   for (const auto& [live, numbers] : groups) {
@@ -371,10 +385,13 @@ std::vector<Touch> LiveTouches::takeFinished(bool all) {
   std::vector<Touch> finished;
   if (touches_.empty()) return finished;
   const std::string open = featureKeyOf(touches_.back().touch);
-  for (LiveTouch& live : touches_) {
-    if (live.given_out || !live.plausible || live.replaced) continue;
+  const std::vector<std::size_t> waiting(open_.begin(), open_.end());
+  for (const std::size_t i : waiting) {
+    LiveTouch& live = touches_[i];
+    if (live.given_out || !live.plausible) continue;
     if (!all && (featureKeyOf(live.touch) == open || waitsForOthers(live))) continue;
     live.given_out = true;
+    settle(i);
     finished.push_back(live.touch);
   }
   std::stable_sort(finished.begin(), finished.end(),

@@ -15,12 +15,16 @@
 // A touch that was asked for again replaces the implausible one with the same number.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "core/math/running_median.h"
 #include "core/probing/feature.h"
 #include "core/probing/touch.h"
 
@@ -68,6 +72,8 @@ class LiveTouches {
   bool add(const Touch& touch);
 
   [[nodiscard]] const std::vector<LiveTouch>& touches() const { return touches_; }
+  /// Indices of touches that are not settled: not given out yet, or to be taken again.
+  [[nodiscard]] const std::set<std::size_t>& open() const { return open_; }
   [[nodiscard]] LiveProgress progress() const;
   /// What to touch again, one sentence each; empty if nothing is.
   [[nodiscard]] std::vector<std::string> retakes() const;
@@ -78,7 +84,12 @@ class LiveTouches {
  private:
   using Key = std::string;
   [[nodiscard]] static Key keyOf(const Touch& t);                 ///< within a cycle
-  [[nodiscard]] static std::string featureKeyOf(const Touch& t);  ///< cycle, artefact, feature, stylus, angle
+  [[nodiscard]] static std::string placeKeyOf(const Touch& t);    ///< artefact, feature, stylus, angle
+  [[nodiscard]] static std::string featureKeyOf(const Touch& t);  ///< the same with the cycle
+  void forgetFirst(const Touch& t);
+  /// What follows from the flags of a touch, which have changed.
+  void settle(std::size_t index);
+  void reject(std::size_t index, std::string reason);
   void judgePlace(LiveTouch& live);
   void judgeChange(LiveTouch& live);
   void judgeFeature(std::size_t last);
@@ -92,10 +103,16 @@ class LiveTouches {
   std::vector<LiveTouch> touches_;
   std::map<std::string, std::size_t> index_;                  ///< cycle and key -> last touch with it
   std::map<std::string, std::vector<std::size_t>> features_;  ///< feature key -> its touches
-  std::vector<Key> first_order_;                              ///< of the first cycle
-  std::map<Key, Touch> first_;                                ///< its plausible touches
+  std::map<std::string, std::vector<std::size_t>> cycles_;    ///< cycle -> its touches
+  std::map<std::tuple<std::string, std::string, std::string>, std::vector<std::size_t>>
+      surfaces_;  ///< cycle, artefact, stylus -> surface touches of a bar
+  std::set<std::size_t> open_;
+  std::vector<Key> first_order_;                 ///< of the first cycle
+  std::set<Key> first_keys_;                     ///< the same, to look up
+  std::map<Key, Touch> first_;                   ///< its plausible touches
+  std::map<std::string, int> first_in_feature_;  ///< feature key without cycle -> how many of `first_`
   std::string first_cycle_;
-  std::map<std::string, std::vector<Eigen::Vector3d>> first_ball_;  ///< artefact -> where touches put the first ball
+  std::map<std::string, std::array<RunningMedian, 3>> first_ball_;  ///< artefact -> where touches put the first ball
   std::map<std::string, double> last_time_;                         ///< per artefact
   int planned_ = 0;
 };

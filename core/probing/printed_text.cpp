@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
+#include <utility>
 
-#include "core/base/line_pattern.h"
 #include "core/base/text.h"
 
 namespace spindrift {
@@ -20,155 +19,175 @@ const std::set<std::string, std::less<>>& knownPlaces() {
   return places;
 }
 
+JsonNode touchLineOf(const JsonNode& pattern) {
+  pattern.requireFormat("spindrift-printed-text", 1);
+  return pattern.at("touch_line");
+}
+
 }  // namespace
+
+PrintedTextReader::PrintedTextReader(std::filesystem::path name, const JsonNode& pattern,
+                                     const MachineDescription& machine)
+    : name_(std::move(name)), touch_line_(touchLineOf(pattern), knownPlaces()) {
+  for (const char* axis : {"x", "y", "z"}) {
+    if (!touch_line_.has(axis))
+      throw InputError(pattern.at("touch_line").place(),
+                       "lacks one of {x}, {y}, {z}; allowed: a pattern with all three.");
+  }
+  if (pattern.has("cycle_line")) cycle_line_.emplace(pattern.at("cycle_line"), knownPlaces());
+  prefix_ = pattern.stringOr("cycle_prefix", "");
+  artefact_ = pattern.stringOr("artefact", "");
+  stylus_ = pattern.stringOr("stylus", "");
+  styli_ = machine.styli;
+  if (stylus_.empty() && styli_.size() == 1) stylus_ = styli_.front().id;
+  reference_ = pattern.has("position") &&
+               pattern.at("position").oneOf({"stylus_centre", "spindle_reference"}) == "spindle_reference";
+  const auto positive = [&](const char* key, double otherwise) {
+    return pattern.has(key) ? pattern.at(key).positiveNumber() : otherwise;
+  };
+  mm_per_unit_ = positive("mm_per_unit", 1.0);
+  s_per_unit_ = positive("s_per_unit", 1.0);
+  interval_s_ = positive("touch_interval_s", 3.0);
+  cycle_interval_s_ = positive("cycle_interval_s", 0.0);
+  c_sign_ = pattern.numberOr("c_sign", 1.0);
+  decimal_comma_ = pattern.booleanOr("decimal_comma", false);
+  if (const auto values = pattern.find("values")) {
+    for (const auto& [place, table] : values->members()) {
+      for (const auto& [from, to] : table.members()) translations_[place][from] = to.name();
+    }
+  }
+  cycle_ = prefix_ + "0";
+}
+
+SourcePlace PrintedTextReader::place(const std::string& what) const {
+  return SourcePlace::atLine(name_, line_, what);
+}
+
+std::string PrintedTextReader::translated(const std::string& place, const std::string& value) const {
+  const auto table = translations_.find(place);
+  if (table == translations_.end()) return value;
+  const auto direct = table->second.find(value);
+  if (direct != table->second.end()) return direct->second;
+  double number = 0.0;  // "1." and "001" mean 1
+  if (parseNumber(value, number)) {
+    const auto plain = table->second.find(exactNumber(number));
+    if (plain != table->second.end()) return plain->second;
+  }
+  return value;
+}
+
+std::string PrintedTextReader::word(const Values& values, const char* what, const std::string& otherwise) const {
+  const auto found = values.find(what);
+  return found == values.end() ? otherwise : translated(what, found->second);
+}
+
+double PrintedTextReader::number(const Values& values, const char* what, double otherwise) const {
+  const auto found = values.find(what);
+  if (found == values.end()) return otherwise;
+  std::string value = found->second;
+  if (decimal_comma_) std::replace(value.begin(), value.end(), ',', '.');
+  if (value.starts_with('+')) value.erase(0, 1);
+  if (value.ends_with('.')) value += '0';
+  double parsed = 0.0;
+  if (!parseNumber(value, parsed)) {
+    throw InputError(place(what),
+                     fmt::format("\"{}\" is not a number; allowed: a number such as -12.345.", found->second));
+  }
+  return parsed;
+}
+
+void PrintedTextReader::beginCycle(const Values& values) {
+  const auto named = values.find("cycle");
+  std::string label = named != values.end() ? named->second : std::to_string(cycles_);
+  double number = 0.0;
+  if (parseNumber(label, number)) label = exactNumber(number);
+  cycle_ = prefix_ + label;
+  if (cycles_ > 0) cycle_start_s_ += cycle_interval_s_;
+  if (cycle_interval_s_ > 0.0) clock_s_ = std::max(clock_s_, cycle_start_s_);
+  ++cycles_;
+  numbered_.clear();
+}
+
+/// What the reader remembers changes only when nothing can fail any more.
+Touch PrintedTextReader::touchOf(const Values& values) {
+  Touch t;
+  t.line = line_;
+  const auto named = values.find("cycle");
+  t.cycle = named != values.end() ? prefix_ + named->second : cycle_;
+  t.artefact = word(values, "artefact", artefact_);
+  t.feature = word(values, "feature", "");
+  t.stylus = word(values, "stylus", stylus_);
+  if (t.artefact.empty() || t.feature.empty() || t.stylus.empty()) {
+    throw InputError(place("touch"),
+                     "the line does not say artefact, feature and stylus; allowed: places in "
+                     "touch_line, or \"artefact\" and \"stylus\" in the template.");
+  }
+  t.c_deg = c_sign_ * number(values, "c_deg", 0.0);
+  if (t.c_deg == 0.0) t.c_deg = 0.0;
+  t.position_mm =
+      mm_per_unit_ * Eigen::Vector3d(number(values, "x", 0.0), number(values, "y", 0.0), number(values, "z", 0.0));
+  t.approach = Eigen::Vector3d(number(values, "nx", 0.0), number(values, "ny", 0.0), number(values, "nz", 0.0));
+  const double length = t.approach.norm();
+  if (length < 0.5) {
+    throw InputError(place("approach"),
+                     "the direction of approach is missing or zero; allowed: a unit vector in {nx}, "
+                     "{ny}, {nz}.");
+  }
+  t.approach /= length;
+  const std::string of = fmt::format("{}|{}|{}", t.feature, t.stylus, t.c_deg);
+  const auto counted = numbered_.find(of);
+  const int count = counted == numbered_.end() ? 0 : counted->second;
+  const double touch = number(values, "touch", count);
+  if (touch < 0.0 || touch > 1e6 || touch != std::floor(touch)) {
+    throw InputError(place("touch"), fmt::format("touch number {} is not allowed; allowed: 0, 1, 2, ...", touch));
+  }
+  t.touch = static_cast<int>(touch);
+  std::optional<double> time;
+  if (values.contains("time")) time = number(values, "time", 0.0) * s_per_unit_;
+  if (reference_) {
+    const auto stylus = std::find_if(styli_.begin(), styli_.end(), [&](const Stylus& s) { return s.id == t.stylus; });
+    if (stylus == styli_.end()) {
+      throw InputError(place("stylus"), fmt::format("stylus \"{}\" is not in the machine file.", t.stylus));
+    }
+    t.position_mm += stylus->offset_mm;
+  }
+  numbered_[of] = count + 1;
+  if (time) {
+    if (!first_time_s_) first_time_s_ = time;
+    t.time_s = *time - *first_time_s_;
+  } else {
+    t.time_s = clock_s_;
+    clock_s_ += interval_s_;
+  }
+  return t;
+}
+
+std::optional<Touch> PrintedTextReader::read(std::string_view whole) {
+  const std::string_view line = trimmed(whole);
+  ++line_;
+  if (line.empty()) return std::nullopt;
+  if (cycle_line_) {
+    if (const auto values = cycle_line_->match(line)) {
+      beginCycle(*values);
+      return std::nullopt;
+    }
+  }
+  if (const auto values = touch_line_.match(line)) return touchOf(*values);
+  ++ignored_lines_;
+  return std::nullopt;
+}
 
 PrintedText readPrintedText(std::string_view text, const std::filesystem::path& name, const JsonNode& pattern,
                             const MachineDescription& machine) {
-  pattern.requireFormat("spindrift-printed-text", 1);
-  const LinePattern touch_line(pattern.at("touch_line"), knownPlaces());
-  const std::optional<LinePattern> cycle_line =
-      pattern.has("cycle_line") ? std::optional(LinePattern(pattern.at("cycle_line"), knownPlaces())) : std::nullopt;
-  const std::string prefix = pattern.stringOr("cycle_prefix", "");
-  const std::string artefact = pattern.stringOr("artefact", "");
-  const std::string only_stylus = pattern.stringOr("stylus", "");
-  const bool reference = pattern.has("position") &&
-                         pattern.at("position").oneOf({"stylus_centre", "spindle_reference"}) == "spindle_reference";
-  const double mm_per_unit = pattern.has("mm_per_unit") ? pattern.at("mm_per_unit").positiveNumber() : 1.0;
-  const double s_per_unit = pattern.has("s_per_unit") ? pattern.at("s_per_unit").positiveNumber() : 1.0;
-  const double interval = pattern.has("touch_interval_s") ? pattern.at("touch_interval_s").positiveNumber() : 3.0;
-  const double cycle_interval = pattern.has("cycle_interval_s") ? pattern.at("cycle_interval_s").positiveNumber() : 0.0;
-  const double c_sign = pattern.numberOr("c_sign", 1.0);
-  const bool decimal_comma = pattern.booleanOr("decimal_comma", false);
-  std::map<std::string, std::map<std::string, std::string>> translations;
-  if (const auto values = pattern.find("values")) {
-    for (const auto& [place, table] : values->members()) {
-      for (const auto& [from, to] : table.members()) translations[place][from] = to.name();
-    }
-  }
-  const auto translated = [&](const std::string& place, const std::string& value) {
-    const auto table = translations.find(place);
-    if (table == translations.end()) return value;
-    const auto direct = table->second.find(value);
-    if (direct != table->second.end()) return direct->second;
-    double number = 0.0;  // "1." and "001" mean 1
-    if (parseNumber(value, number)) {
-      const auto plain = table->second.find(exactNumber(number));
-      if (plain != table->second.end()) return plain->second;
-    }
-    return value;
-  };
-
+  PrintedTextReader reader(name, pattern, machine);
   PrintedText result;
   result.touches.file = name;
-  std::string cycle = prefix + "0";
-  bool cycle_seen = false;
-  int cycles = 0;
-  double clock = 0.0;
-  double cycle_start = 0.0;
-  std::optional<double> first_time;
-  std::map<std::string, int> numbered;
-  std::size_t line_number = 0;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    std::size_t end = text.find('\n', begin);
-    if (end == std::string_view::npos) end = text.size();
-    const std::string_view line = trimmed(text.substr(begin, end - begin));
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (auto touch = reader.read(text.substr(begin, end - begin))) result.touches.touches.push_back(std::move(*touch));
     begin = end + 1;
-    ++line_number;
-    if (line.empty()) continue;
-    const auto place = [&](const std::string& what) { return SourcePlace::atLine(name, line_number, what); };
-    if (cycle_line) {
-      if (const auto values = cycle_line->match(line)) {
-        std::string label = values->contains("cycle") ? values->at("cycle") : std::to_string(cycles);
-        double number = 0.0;
-        if (parseNumber(label, number)) label = exactNumber(number);
-        cycle = prefix + label;
-        if (cycle_seen || cycles > 0) cycle_start += cycle_interval;
-        if (cycle_interval > 0.0) clock = std::max(clock, cycle_start);
-        ++cycles;
-        cycle_seen = true;
-        numbered.clear();
-        continue;
-      }
-    }
-    const auto values = touch_line.match(line);
-    if (!values) {
-      ++result.ignored_lines;
-      continue;
-    }
-    const auto number = [&](const char* what, double otherwise) {
-      const auto found = values->find(what);
-      if (found == values->end()) return otherwise;
-      std::string value = found->second;
-      if (decimal_comma) std::replace(value.begin(), value.end(), ',', '.');
-      if (value.starts_with('+')) value.erase(0, 1);
-      if (value.ends_with('.')) value += '0';
-      double parsed = 0.0;
-      if (!parseNumber(value, parsed)) {
-        throw InputError(place(what),
-                         fmt::format("\"{}\" is not a number; allowed: a number such as -12.345.", found->second));
-      }
-      return parsed;
-    };
-    const auto word = [&](const char* what, const std::string& otherwise) {
-      const auto found = values->find(what);
-      return found == values->end() ? otherwise : translated(what, found->second);
-    };
-    Touch t;
-    t.line = line_number;
-    if (values->contains("cycle")) {
-      t.cycle = prefix + values->at("cycle");
-    } else {
-      t.cycle = cycle;
-    }
-    t.artefact = word("artefact", artefact);
-    t.feature = word("feature", "");
-    t.stylus =
-        word("stylus", only_stylus.empty() && machine.styli.size() == 1 ? machine.styli.front().id : only_stylus);
-    if (t.artefact.empty() || t.feature.empty() || t.stylus.empty()) {
-      throw InputError(place("touch"),
-                       "the line does not say artefact, feature and stylus; allowed: places in "
-                       "touch_line, or \"artefact\" and \"stylus\" in the template.");
-    }
-    t.c_deg = c_sign * number("c_deg", 0.0);
-    if (t.c_deg == 0.0) t.c_deg = 0.0;
-    t.position_mm = Eigen::Vector3d(number("x", std::nan("")), number("y", std::nan("")), number("z", std::nan("")));
-    if (!t.position_mm.allFinite()) {
-      throw InputError(pattern.at("touch_line").place(),
-                       "lacks one of {x}, {y}, {z}; allowed: a pattern with all three.");
-    }
-    t.position_mm *= mm_per_unit;
-    t.approach = Eigen::Vector3d(number("nx", 0.0), number("ny", 0.0), number("nz", 0.0));
-    const double length = t.approach.norm();
-    if (length < 0.5) {
-      throw InputError(place("approach"),
-                       "the direction of approach is missing or zero; allowed: a unit vector in {nx}, "
-                       "{ny}, {nz}.");
-    }
-    t.approach /= length;
-    const int count = numbered[fmt::format("{}|{}|{}", t.feature, t.stylus, t.c_deg)]++;
-    const double touch = number("touch", count);
-    if (touch < 0.0 || touch > 1e6 || touch != std::floor(touch)) {
-      throw InputError(place("touch"), fmt::format("touch number {} is not allowed; allowed: 0, 1, 2, ...", touch));
-    }
-    t.touch = static_cast<int>(touch);
-    if (values->contains("time")) {
-      const double time = number("time", 0.0) * s_per_unit;
-      if (!first_time) first_time = time;
-      t.time_s = time - *first_time;
-    } else {
-      t.time_s = clock;
-      clock += interval;
-    }
-    if (reference) {
-      const Stylus* stylus = machine.findStylus(t.stylus);
-      if (stylus == nullptr) {
-        throw InputError(place("stylus"), fmt::format("stylus \"{}\" is not in the machine file.", t.stylus));
-      }
-      t.position_mm += stylus->offset_mm;
-    }
-    result.touches.touches.push_back(std::move(t));
   }
+  result.ignored_lines = reader.ignoredLines();
   if (result.touches.touches.empty()) {
     throw InputError(
         {name, ""},

@@ -14,20 +14,66 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/json_reader.h"
+#include "core/base/line_pattern.h"
 #include "core/probing/touch.h"
 
 namespace spindrift {
+
+/// Reads such a text line by line, as it grows.
+class PrintedTextReader {
+ public:
+  /// Throws InputError: a bad template (unknown place, missing key or place).
+  PrintedTextReader(std::filesystem::path name, const JsonNode& pattern, const MachineDescription& machine);
+  PrintedTextReader(const PrintedTextReader&) = delete;
+  PrintedTextReader& operator=(const PrintedTextReader&) = delete;
+
+  /// The touch of the next line, if it is one. Throws InputError: a matching line with a value that is none; the line
+  /// is left out then, as if it were empty.
+  [[nodiscard]] std::optional<Touch> read(std::string_view line);
+  [[nodiscard]] int ignoredLines() const { return ignored_lines_; }
+
+ private:
+  using Values = std::map<std::string, std::string>;
+  void beginCycle(const Values& values);
+  [[nodiscard]] Touch touchOf(const Values& values);
+  [[nodiscard]] std::string translated(const std::string& place, const std::string& value) const;
+  [[nodiscard]] std::string word(const Values& values, const char* what, const std::string& otherwise) const;
+  [[nodiscard]] double number(const Values& values, const char* what, double otherwise) const;
+  [[nodiscard]] SourcePlace place(const std::string& what) const;
+
+  std::filesystem::path name_;
+  LinePattern touch_line_;
+  std::optional<LinePattern> cycle_line_;
+  std::string prefix_, artefact_, stylus_;
+  std::vector<Stylus> styli_;  ///< of the machine
+  bool reference_ = false;     ///< positions are those of the spindle
+  bool decimal_comma_ = false;
+  double mm_per_unit_, s_per_unit_, interval_s_, cycle_interval_s_, c_sign_;
+  std::map<std::string, std::map<std::string, std::string>> translations_;
+
+  std::size_t line_ = 0;
+  int ignored_lines_ = 0;
+  std::string cycle_;
+  int cycles_ = 0;
+  double clock_s_ = 0.0;
+  double cycle_start_s_ = 0.0;
+  std::optional<double> first_time_s_;
+  std::map<std::string, int> numbered_;  ///< touches of the cycle, by feature, stylus and angle
+};
 
 struct PrintedText {
   TouchList touches;
   int ignored_lines = 0;
 };
 
-/// Throws InputError: a bad template (unknown place, missing key) or a matching line with a value that is none.
+/// A whole text. Throws InputError: a bad template, a matching line with a value that is none, no line that matches.
 [[nodiscard]] PrintedText readPrintedText(std::string_view text, const std::filesystem::path& name,
                                           const JsonNode& pattern, const MachineDescription& machine);
 

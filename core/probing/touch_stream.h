@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Touches from a file that is still being written: touches.csv that is appended to, or what a control prints.
 //
-// Each update gets the whole text as it is now. Only complete lines count: a last line without its end is waited for.
-// A line that cannot be read is a sentence, and the lines after it are read all the same.
+// Each update gets what the file grew by. Only complete lines count: a last line without its end is waited for. A line
+// that cannot be read is a sentence, and the lines after it are read all the same.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/base/json_reader.h"
+#include "core/probing/printed_text.h"
 #include "core/probing/touch.h"
 
 namespace spindrift {
@@ -27,28 +29,26 @@ class TouchStream {
   TouchStream(std::filesystem::path name, const MachineDescription& machine,
               std::optional<JsonNode> pattern = std::nullopt);
 
-  /// Touches of lines that have been completed since the last update. A text that no longer begins as before (the file
-  /// was written anew) is read from its start; the receiver knows which touches it has. Throws InputError only if the
-  /// header or the template is unusable.
-  [[nodiscard]] std::vector<Touch> update(std::string_view text);
+  /// Touches of lines that `more` completes. Throws InputError only if the template is unusable.
+  [[nodiscard]] std::vector<Touch> update(std::string_view more);
+  /// The file was written anew: the next update brings its beginning. The receiver knows which touches it has.
+  void restart();
   /// Lines that could not be read, in order.
   [[nodiscard]] const std::vector<StreamProblem>& problems() const { return problems_; }
   /// True if the last line is not complete yet.
-  [[nodiscard]] bool waiting() const { return waiting_; }
+  [[nodiscard]] bool waiting() const { return !rest_.empty(); }
 
  private:
-  [[nodiscard]] std::vector<Touch> readCsv(std::string_view complete);
-  [[nodiscard]] std::vector<Touch> readPrinted(std::string_view complete);
+  void readLine(std::string_view line, std::vector<Touch>& fresh);
 
   std::filesystem::path name_;
   MachineDescription machine_;
   std::optional<JsonNode> pattern_;
-  std::string done_;  ///< complete lines read so far
+  std::unique_ptr<PrintedTextReader> printed_;  ///< of printed text
+  std::string rest_;                            ///< of the last line, as far as it has come
   std::string header_;
-  std::size_t lines_ = 0;    ///< of done_
-  std::size_t printed_ = 0;  ///< touches given out so far
+  std::size_t lines_ = 0;  ///< read so far
   std::vector<StreamProblem> problems_;
-  bool waiting_ = false;
 };
 
 }  // namespace spindrift

@@ -44,22 +44,23 @@ std::string fingerprintOf(const KnownFiles& files) {
   return fingerprintOf(counted);
 }
 
-void recordFiles(SessionDatabase& database, const CampaignRecord& record, const std::vector<std::string>& names) {
-  KnownFiles all = database.files(record.id);
+void recordFiles(SessionDatabase& database, const CampaignRecord& record, const std::vector<std::string>& names,
+                 const FileFingerprints& contents) {
   KnownFiles changed;
+  const auto take = [&](const std::string& name, std::string content) {
+    const std::optional<KnownFile> known = database.file(record.id, name);
+    if (!known || !known->counts || known->content != content) changed[name] = {std::move(content), true};
+  };
+  for (const auto& [name, content] : contents) take(name, content);
   for (const std::string& name : names) {
     const fs::path file = record.folder / name;
-    KnownFile now{fs::is_regular_file(file) ? sha256OfFile(file) : std::string(), true};
-    const auto known = all.find(name);
-    if (known != all.end() && known->second.counts && known->second.content == now.content) continue;
-    all[name] = now;
-    changed[name] = std::move(now);
+    if (!contents.contains(name)) take(name, fs::is_regular_file(file) ? sha256OfFile(file) : std::string());
   }
-  if (!changed.empty()) database.setFiles(record.id, changed, fingerprintOf(all));
+  if (!changed.empty()) database.setFiles(record.id, changed);
 }
 
 FileCheck takeFiles(SessionDatabase& database, const CampaignRecord& record, const FileFingerprints& found) {
-  KnownFiles all = database.files(record.id);
+  const KnownFiles all = database.files(record.id);
   const bool first = all.empty();
   KnownFiles changed;
   FileCheck check;
@@ -79,9 +80,7 @@ FileCheck takeFiles(SessionDatabase& database, const CampaignRecord& record, con
     changed[name] = {"", file.counts};
     if (file.counts) check.missing.push_back(name);
   }
-  if (changed.empty()) return check;
-  for (const auto& [name, file] : changed) all[name] = file;
-  database.setFiles(record.id, changed, fingerprintOf(all));
+  if (!changed.empty()) database.setFiles(record.id, changed);
   return check;
 }
 

@@ -25,8 +25,9 @@ using KnownFiles = std::map<std::string, KnownFile>;
 [[nodiscard]] std::string fingerprintOf(const KnownFiles& files);
 
 /// Reads these files again (names relative to the campaign folder; one that is not there is missing) and stores what
-/// they are now, together with the campaign's fingerprint. They count from now on.
-void recordFiles(SessionDatabase& database, const CampaignRecord& record, const std::vector<std::string>& names);
+/// they are now; `contents` holds the fingerprints of files that need not be read. They count from now on.
+void recordFiles(SessionDatabase& database, const CampaignRecord& record, const std::vector<std::string>& names,
+                 const FileFingerprints& contents = {});
 
 /// Holds what was found on the disk against what is known, stores it and says what was other.
 FileCheck takeFiles(SessionDatabase& database, const CampaignRecord& record, const FileFingerprints& found);

@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <ctime>
-#include <set>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -15,6 +13,7 @@
 #include "core/base/json_reader.h"
 #include "core/base/log.h"
 #include "core/session/campaign_files.h"
+#include "core/session/capture_list.h"
 #include "core/session/fingerprint.h"
 #include "core/session/session_database.h"
 #include "core/session/session_lock.h"
@@ -37,32 +36,6 @@ void copyFolder(const std::filesystem::path& source, const std::filesystem::path
     std::filesystem::create_directories((target / files[i]).parent_path());
     std::filesystem::copy_file(source / files[i], target / files[i]);
   }
-}
-
-/// First number of a row: its time.
-double timeOf(const std::string& row) {
-  return std::strtod(row.c_str(), nullptr);
-}
-
-/// The text of a list with `rows` put where their time belongs; the first column is the time.
-std::string withRows(const std::string& text, const std::vector<std::string>& rows) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    lines.push_back(text.substr(begin, end - begin));
-    if (!lines.back().empty() && lines.back().back() == '\r') lines.back().pop_back();
-    begin = end + 1;
-  }
-  std::set<std::string> there(lines.begin(), lines.end());
-  for (const std::string& row : rows) {
-    if (!there.insert(row).second) continue;
-    auto at = lines.end();
-    while (at - lines.begin() > 1 && !std::prev(at)->starts_with('#') && timeOf(*std::prev(at)) > timeOf(row)) --at;
-    lines.insert(at, row);
-  }
-  std::string joined;
-  for (const std::string& line : lines) joined += line + "\n";
-  return joined;
 }
 
 }  // namespace
@@ -129,7 +102,7 @@ Session Session::open(const std::filesystem::path& wanted) {
                                                            SessionDatabase::newest_version));
   }
   const bool crashed = !lock->diedBefore().empty();
-  RecoveryReport found = putInOrder(folder, *database);
+  RecoveryReport found = putInOrder(folder, *database, crashed);
   Session session(folder, std::move(lock), std::move(database));
   session.migration_messages_ = std::move(messages);
   if (crashed) session.recovery_messages_.push_back(found.sentence());
@@ -228,20 +201,31 @@ std::int64_t Session::newCampaign(const std::string& name, const std::string& st
 
 std::vector<CampaignRecord> Session::campaigns() const {
   std::vector<CampaignRecord> list = database_->campaigns();
-  for (CampaignRecord& record : list) record.folder = folder_ / record.folder;
+  for (CampaignRecord& record : list) {
+    record.folder = folder_ / record.folder;
+    record.fingerprint = database_->fingerprint(record.id);
+  }
   return list;
 }
 
-CampaignRecord Session::campaign(std::int64_t id) const {
-  for (CampaignRecord& record : campaigns()) {
-    if (record.id == id) return record;
+CampaignRecord Session::place(std::int64_t id) const {
+  for (CampaignRecord& record : database_->campaigns()) {
+    if (record.id != id) continue;
+    record.folder = folder_ / record.folder;
+    return record;
   }
   SPINDRIFT_ASSERT(false, "unknown campaign id");
   return {};
 }
 
+CampaignRecord Session::campaign(std::int64_t id) const {
+  CampaignRecord record = place(id);
+  record.fingerprint = database_->fingerprint(id);
+  return record;
+}
+
 void Session::removeCampaign(std::int64_t id) {
-  const CampaignRecord record = campaign(id);
+  const CampaignRecord record = place(id);
   // The row goes first: a folder without a row is moved aside when the session is opened, a row without a folder would
   // be in the way.
   database_->removeCampaign(id);
@@ -252,58 +236,79 @@ void Session::removeCampaign(std::int64_t id) {
   if (error) throw InputError({record.folder, ""}, fmt::format("cannot be moved away: {}.", error.message()));
 }
 
+CaptureList& Session::listOf(const CampaignRecord& record, const std::string& list) {
+  const std::filesystem::path file = InsideFolder(record.folder).path("captures/" + list, {record.folder, ""});
+  std::unique_ptr<CaptureList>& known = lists_[file];
+  if (known == nullptr) known = std::make_unique<CaptureList>(file);
+  return *known;
+}
+
+void Session::addRows(const CampaignRecord& record, const std::string& list, const std::string& header,
+                      const std::vector<std::string>& rows, const std::vector<std::string>& files) {
+  CaptureList& known = listOf(record, list);
+  const std::string name = "captures/" + list;
+  if (const std::optional<ListChange> change = known.changeFor(header, rows)) {
+    // A row that is cut short is found when the session is opened, a list that is new is written atomically.
+    const bool keep = change->from > 0 && !change->one_row;
+    if (keep) database_->setPending(record.id, {name, *change});
+    try {
+      known.apply(*change);
+    } catch (const InputError&) {
+      if (keep) database_->dropPending(record.id, name);
+      throw;
+    }
+  }
+  recordFiles(*database_, record, files, {{name, known.hash()}});
+}
+
 void Session::addCapture(std::int64_t id, const std::string& list, const std::string& header, const std::string& row,
                          const std::filesystem::path& source, const std::string& relative_name) {
   database_->requireInPlace();
-  const CampaignRecord record = campaign(id);
-  InsideFolder inside(record.folder);
-  const std::filesystem::path list_file = inside.path("captures/" + list, {record.folder, ""});
-  const std::filesystem::path stored = inside.path("captures/" + relative_name, {record.folder, ""});
-  std::string text = std::filesystem::exists(list_file) ? readFile(list_file) : header + "\n";
-  if (!text.ends_with('\n')) text += '\n';
-  const bool there = text.find("\n" + row + "\n") != std::string::npos;
+  const CampaignRecord record = place(id);
+  std::vector<std::string> files;
   if (!source.empty()) {
+    const std::filesystem::path stored =
+        InsideFolder(record.folder).path("captures/" + relative_name, {record.folder, ""});
     const std::string content = readFile(source);
-    if (!there) {
+    if (!listOf(record, list).holds(row)) {
       writeFileAtomically(stored, content);
     } else if (readFile(stored) != content) {
       throw InputError({stored, ""}, "is there already with another content; allowed: a new name for a new capture.");
     }
+    files.push_back("captures/" + relative_name);
   }
-  if (!there) writeFileAtomically(list_file, text + row + "\n");
-  std::vector<std::string> written{"captures/" + list};
-  if (!source.empty()) written.push_back("captures/" + relative_name);
-  recordFiles(*database_, record, written);
+  addRows(record, list, header, {row}, files);
 }
 
 void Session::addCaptureRows(std::int64_t id, const std::string& list, const std::string& header,
                              const std::vector<std::string>& rows) {
   database_->requireInPlace();
-  const CampaignRecord record = campaign(id);
-  const std::filesystem::path list_file = InsideFolder(record.folder).path("captures/" + list, {record.folder, ""});
-  const std::string before = std::filesystem::exists(list_file) ? readFile(list_file) : std::string();
-  const std::string columns = before.substr(0, before.find_first_of("\r\n"));
-  if (!before.empty() && columns != header) {
-    throw InputError({list_file, "line 1"},
-                     fmt::format("has the columns \"{}\"; allowed for capturing into it: \"{}\".", columns, header));
-  }
-  const std::string after = withRows(before.empty() ? header + "\n" : before, rows);
-  if (after != before) writeFileAtomically(list_file, after);
-  std::vector<std::string> files = filesNamedIn(record.folder, rows);
-  files.push_back("captures/" + list);
-  recordFiles(*database_, record, files);
+  const CampaignRecord record = place(id);
+  addRows(record, list, header, rows, filesNamedIn(record.folder, rows));
+}
+
+void Session::setArrival(std::int64_t id, const std::string& name, const nlohmann::json& item) {
+  database_->setArrival(id, name, item.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+std::optional<nlohmann::json> Session::arrival(std::int64_t id, const std::string& name) const {
+  return database_->arrival(id, name);
+}
+
+std::vector<nlohmann::json> Session::arrivals(std::int64_t id) const {
+  return database_->arrivals(id);
 }
 
 std::filesystem::path Session::recordsLog(std::int64_t id) {
   database_->requireInPlace();
-  const CampaignRecord record = campaign(id);
+  const CampaignRecord record = place(id);
   database_->setSetting(recordedLogKey(id), nlohmann::json(true).dump());
   if (std::filesystem::exists(record.folder / "log.csv")) recordFiles(*database_, record, {"log.csv"});
   return record.folder / "log.csv";
 }
 
 FileCheck Session::takeFiles(std::int64_t id, const FileFingerprints& found) {
-  return spindrift::takeFiles(*database_, campaign(id), found);
+  return spindrift::takeFiles(*database_, place(id), found);
 }
 
 std::string Session::machineKey(std::int64_t id) {
@@ -320,7 +325,7 @@ nlohmann::json Session::inputs(std::int64_t id) const {
   // Nothing edited and edited back are the same.
   const nlohmann::json machine = setting(machineKey(id)).value_or(nlohmann::json());
   const nlohmann::json clocks = setting(clocksKey(id)).value_or(nlohmann::json());
-  return {{"files", campaign(id).fingerprint},
+  return {{"files", database_->fingerprint(id)},
           {"exclusions", items},
           {"machine", machine.empty() ? std::string() : Fingerprint().add(machine.dump()).text()},
           {"clocks", clocks.empty() ? nlohmann::json::object() : clocks},
@@ -340,7 +345,7 @@ ResultOrigin Session::originOf(std::int64_t id, const std::string& kind, const n
 }
 
 std::optional<StoredResult> Session::keepResult(const ResultOrigin& origin, nlohmann::json payload) {
-  const std::vector<CampaignRecord> all = campaigns();
+  const std::vector<CampaignRecord> all = database_->campaigns();
   if (std::none_of(all.begin(), all.end(), [&](const CampaignRecord& r) { return r.id == origin.campaign; })) return {};
   StoredResult result;
   result.campaign = origin.campaign;
@@ -416,7 +421,8 @@ std::vector<Note> Session::notes(std::int64_t id) const {
 }
 
 void Session::setSetting(const std::string& key, const nlohmann::json& value) {
-  database_->setSetting(key, value.dump());
+  // A sentence may carry what is no UTF-8, a path of the system for example.
+  database_->setSetting(key, value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::optional<nlohmann::json> Session::setting(const std::string& key) const {

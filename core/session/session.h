@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -100,6 +101,7 @@ class StagedCampaign {
   FileFingerprints files_;
 };
 
+class CaptureList;
 class SessionDatabase;
 class SessionLock;
 
@@ -142,18 +144,24 @@ class Session {
   /// Takes a campaign and its results out of the session. Its files are moved to `removed/` inside the session.
   void removeCampaign(std::int64_t id);
   /// Adds one captured item: copies `source` (may be empty: a row without a file) to `captures/<relative_name>`
-  /// (atomically) and appends `row` to `captures/<list>` (with `header` if the list is new). Either both are there
-  /// afterwards or the row is not. A row that is there already is not added again, so that a capture which was cut
-  /// short can be repeated. Throws InputError: disk full, folder gone, the row is there with another file.
+  /// (atomically) and `row` to `captures/<list>`, as `addCaptureRows` does. Either both are there afterwards or the row
+  /// is not. A row that is there already is not added again, so that a capture which was cut short can be repeated.
+  /// Throws InputError: disk full, folder gone, the row is there with another file, the list has other columns.
   void addCapture(std::int64_t campaign, const std::string& list, const std::string& header, const std::string& row,
                   const std::filesystem::path& source, const std::string& relative_name);
   /// Adds rows to `captures/<list>` for files that lie in the campaign folder already, or for lists without files
   /// (touches). Rows go where their time belongs, so that captures may arrive out of order; rows that are there
-  /// already are not added again. All of them are there afterwards, or none. Throws InputError: disk full, folder gone.
+  /// already are not added again. All of them are there afterwards, or none. What that costs does not depend on how
+  /// many rows there are (capture_list.h). Throws InputError: disk full, folder gone, the list has other columns.
   void addCaptureRows(std::int64_t campaign, const std::string& list, const std::string& header,
                       const std::vector<std::string>& rows);
   /// log.csv of the campaign grows, or has grown: what was made from it is outdated. Where to write it is returned.
   std::filesystem::path recordsLog(std::int64_t campaign);
+
+  /// What arrived in a watched folder, an object for each name of a file, in the order in which the names came first.
+  void setArrival(std::int64_t campaign, const std::string& name, const nlohmann::json& item);
+  [[nodiscard]] std::optional<nlohmann::json> arrival(std::int64_t campaign, const std::string& name) const;
+  [[nodiscard]] std::vector<nlohmann::json> arrivals(std::int64_t campaign) const;
 
   /// Holds what was found on the disk (`fingerprintsOfFiles` of the campaign folder, on any thread) against what the
   /// session knows. What is other becomes known: results made from it turn outdated.
@@ -209,10 +217,16 @@ class Session {
 
  private:
   Session(std::filesystem::path folder, std::unique_ptr<SessionLock> lock, std::unique_ptr<SessionDatabase> database);
+  /// Without its fingerprint, which may take a while to make.
+  [[nodiscard]] CampaignRecord place(std::int64_t id) const;
+  [[nodiscard]] CaptureList& listOf(const CampaignRecord& record, const std::string& list);
+  void addRows(const CampaignRecord& record, const std::string& list, const std::string& header,
+               const std::vector<std::string>& rows, const std::vector<std::string>& files);
 
   std::filesystem::path folder_;
   std::unique_ptr<SessionLock> lock_;
   std::unique_ptr<SessionDatabase> database_;
+  std::map<std::filesystem::path, std::unique_ptr<CaptureList>> lists_;
   std::vector<std::string> migration_messages_;
   std::vector<std::string> recovery_messages_;
 };

@@ -55,8 +55,36 @@ void makeVersion3(soci::session& sql) {
          "content text not null, counts integer not null, primary key (campaign, name))";
 }
 
+/// Version 4: what arrived has a row each; it stood in one setting a campaign ("incoming/<id>"). What is about to be
+/// written into a list.
+void makeVersion4(soci::session& sql) {
+  sql << "create table arrival (id integer primary key, campaign integer not null references campaign(id) on delete "
+         "cascade, name text not null, item text not null, unique (campaign, name))";
+  sql << "create table pending_list (campaign integer not null references campaign(id) on delete cascade, list text "
+         "not "
+         "null, from_byte integer not null, text text not null, primary key (campaign, list))";
+  std::vector<std::pair<long long, std::string>> journals;
+  const soci::rowset<soci::row> rows =
+      (sql.prepare
+       << "select cast(c.id as text), s.value from campaign c join setting s on s.name = 'incoming/' || c.id");
+  for (const soci::row& row : rows) journals.emplace_back(std::stoll(row.get<std::string>(0)), row.get<std::string>(1));
+  for (const auto& [campaign, text] : journals) {
+    if (deepestJson(text) > most_levels_of_json) continue;
+    const nlohmann::json journal = nlohmann::json::parse(text, nullptr, false);
+    if (!journal.is_array()) continue;
+    for (const nlohmann::json& entry : journal) {
+      if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string()) continue;
+      const std::string name = entry["name"].get<std::string>();
+      const std::string item = entry.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+      sql << "insert or replace into arrival (campaign, name, item) values (:c, :n, :i)", soci::use(campaign),
+          soci::use(name), soci::use(item);
+    }
+  }
+  sql << "delete from setting where name in (select 'incoming/' || id from campaign)";
+}
+
 using Migration = void (*)(soci::session&);
-constexpr Migration migrations[] = {makeVersion1, makeVersion2, makeVersion3};
+constexpr Migration migrations[] = {makeVersion1, makeVersion2, makeVersion3, makeVersion4};
 static_assert(std::size(migrations) == SessionDatabase::newest_version);
 
 /// What a user gets back to the older program with. Throws InputError if it cannot be written; an older copy of the
@@ -194,8 +222,9 @@ std::int64_t SessionDatabase::addCampaign(const std::string& name, const std::st
   });
 }
 
-void SessionDatabase::setFiles(std::int64_t id, const KnownFiles& files, const std::string& fingerprint) {
+void SessionDatabase::setFiles(std::int64_t id, const KnownFiles& files) {
   writing([&] {
+    fingerprints_.erase(id);
     const long long key = id;
     soci::session& sql = connection_->sql;
     soci::transaction transaction(sql);
@@ -211,8 +240,9 @@ void SessionDatabase::setFiles(std::int64_t id, const KnownFiles& files, const s
       content = file.content;
       counts = file.counts ? 1 : 0;
       insert.execute(true);
+      sql << "delete from pending_list where campaign = :c and list = :n", soci::use(key), soci::use(name);
     }
-    sql << "update campaign set fingerprint = :p where id = :i", soci::use(fingerprint), soci::use(key);
+    sql << "update campaign set fingerprint = '' where id = :i", soci::use(key);
     transaction.commit();
   });
 }
@@ -224,6 +254,104 @@ KnownFiles SessionDatabase::files(std::int64_t id) const {
     const soci::rowset<soci::row> rows =
         (connection_->sql.prepare << "select name, content, counts from file where campaign = :c", soci::use(key));
     for (const soci::row& row : rows) found[row.get<std::string>(0)] = {row.get<std::string>(1), row.get<int>(2) != 0};
+    return found;
+  });
+}
+
+std::optional<KnownFile> SessionDatabase::file(std::int64_t id, const std::string& name) const {
+  return guarded(file_, [&]() -> std::optional<KnownFile> {
+    const long long key = id;
+    std::string content;
+    int counts = 0;
+    soci::session& sql = connection_->sql;
+    sql << "select content, counts from file where campaign = :c and name = :n", soci::use(key), soci::use(name),
+        soci::into(content), soci::into(counts);
+    if (!sql.got_data()) return std::nullopt;
+    return KnownFile{content, counts != 0};
+  });
+}
+
+std::string SessionDatabase::fingerprint(std::int64_t id) const {
+  if (const auto made = fingerprints_.find(id); made != fingerprints_.end()) return made->second;
+  std::string& made = fingerprints_[id];
+  made = guarded(file_, [&] {
+    const long long key = id;
+    std::string kept;
+    connection_->sql << "select fingerprint from campaign where id = :i", soci::use(key), soci::into(kept);
+    return kept;
+  });
+  if (made.empty()) made = fingerprintOf(files(id));
+  return made;
+}
+
+void SessionDatabase::keepFingerprint(std::int64_t id) {
+  writing([&] {
+    const long long key = id;
+    const std::string made = fingerprint(id);
+    connection_->sql << "update campaign set fingerprint = :p where id = :i and fingerprint = ''", soci::use(made),
+        soci::use(key);
+  });
+}
+
+void SessionDatabase::setPending(std::int64_t id, const PendingList& pending) {
+  writing([&] {
+    const long long key = id;
+    const auto from = static_cast<long long>(pending.change.from);
+    connection_->sql << "insert or replace into pending_list (campaign, list, from_byte, text) values (:c, :l, :f, :t)",
+        soci::use(key), soci::use(pending.list), soci::use(from), soci::use(pending.change.text);
+  });
+}
+
+void SessionDatabase::dropPending(std::int64_t id, const std::string& list) {
+  writing([&] {
+    const long long key = id;
+    connection_->sql << "delete from pending_list where campaign = :c and list = :l", soci::use(key), soci::use(list);
+  });
+}
+
+std::vector<SessionDatabase::PendingList> SessionDatabase::pending(std::int64_t id) const {
+  return guarded(file_, [&] {
+    const long long key = id;
+    std::vector<PendingList> found;
+    const soci::rowset<soci::row> rows =
+        (connection_->sql.prepare << "select list, cast(from_byte as text), text from pending_list where campaign = :c",
+         soci::use(key));
+    for (const soci::row& row : rows)
+      found.push_back(
+          {row.get<std::string>(0), {std::stoull(row.get<std::string>(1)), row.get<std::string>(2), false}});
+    return found;
+  });
+}
+
+void SessionDatabase::setArrival(std::int64_t id, const std::string& name, const std::string& json) {
+  writing([&] {
+    const long long key = id;
+    connection_->sql
+        << "insert into arrival (campaign, name, item) values (:c, :n, :i) on conflict (campaign, name) do "
+           "update set item = excluded.item",
+        soci::use(key), soci::use(name), soci::use(json);
+  });
+}
+
+std::optional<nlohmann::json> SessionDatabase::arrival(std::int64_t id, const std::string& name) const {
+  return guarded(file_, [&]() -> std::optional<nlohmann::json> {
+    const long long key = id;
+    std::string item;
+    soci::session& sql = connection_->sql;
+    sql << "select item from arrival where campaign = :c and name = :n", soci::use(key), soci::use(name),
+        soci::into(item);
+    if (!sql.got_data()) return std::nullopt;
+    return parsed(file_, item, "an arrival");
+  });
+}
+
+std::vector<nlohmann::json> SessionDatabase::arrivals(std::int64_t id) const {
+  return guarded(file_, [&] {
+    const long long key = id;
+    std::vector<nlohmann::json> found;
+    const soci::rowset<soci::row> rows =
+        (connection_->sql.prepare << "select item from arrival where campaign = :c order by id", soci::use(key));
+    for (const soci::row& row : rows) found.push_back(parsed(file_, row.get<std::string>(0), "an arrival"));
     return found;
   });
 }

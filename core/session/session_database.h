@@ -4,11 +4,13 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/session/campaign_files.h"
+#include "core/session/capture_list.h"
 #include "core/session/session.h"
 
 namespace spindrift {
@@ -16,7 +18,7 @@ namespace spindrift {
 class SessionDatabase {
  public:
   /// Newest schema this program writes.
-  static constexpr int newest_version = 3;
+  static constexpr int newest_version = 4;
 
   /// Opens or makes the database file and brings it to `newest_version`; `messages` receives what a migration did. The
   /// old database is copied to `<file>.version-<n>` first; a migration that fails leaves it as it was.
@@ -31,9 +33,32 @@ class SessionDatabase {
 
   /// `folder` is stored relative to the session.
   std::int64_t addCampaign(const std::string& name, const std::string& folder, const std::string& fingerprint);
-  /// Stores these files of a campaign (others stay) and the fingerprint of all together, or nothing.
-  void setFiles(std::int64_t id, const KnownFiles& files, const std::string& fingerprint);
+  /// Stores these files of a campaign (others stay), or nothing. What was to be written into them (`setPending`) is
+  /// written.
+  void setFiles(std::int64_t id, const KnownFiles& files);
   [[nodiscard]] KnownFiles files(std::int64_t id) const;
+  [[nodiscard]] std::optional<KnownFile> file(std::int64_t id, const std::string& name) const;
+  /// Of all files that count together. Made when it is asked for after they changed, which takes as long as there are
+  /// files.
+  [[nodiscard]] std::string fingerprint(std::int64_t id) const;
+  /// Keeps it, so that the next program need not make it.
+  void keepFingerprint(std::int64_t id);
+
+  /// The end of a list that is about to be written: done again if the program dies meanwhile.
+  struct PendingList {
+    std::string list;  ///< relative to the campaign folder
+    ListChange change;
+  };
+  void setPending(std::int64_t id, const PendingList& pending);
+  void dropPending(std::int64_t id, const std::string& list);
+  [[nodiscard]] std::vector<PendingList> pending(std::int64_t id) const;
+
+  /// What arrived, one JSON object a name, in the order of first arrival.
+  void setArrival(std::int64_t id, const std::string& name, const std::string& json);
+  [[nodiscard]] std::optional<nlohmann::json> arrival(std::int64_t id, const std::string& name) const;
+  [[nodiscard]] std::vector<nlohmann::json> arrivals(std::int64_t id) const;
+
+  /// Their fingerprints are empty while they have to be made again.
   [[nodiscard]] std::vector<CampaignRecord> campaigns() const;
   void removeCampaign(std::int64_t id);
 
@@ -71,6 +96,7 @@ class SessionDatabase {
                                                         const char* order, bool with_payload = true) const;
 
   std::filesystem::path file_;
+  mutable std::map<std::int64_t, std::string> fingerprints_;  ///< made since the files changed
   std::unique_ptr<Connection> connection_;
 };
 

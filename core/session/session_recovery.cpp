@@ -8,8 +8,10 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/count_text.h"
+#include "core/base/file_end.h"
 #include "core/base/inside_folder.h"
 #include "core/session/campaign_files.h"
+#include "core/session/capture_list.h"
 #include "core/session/session_database.h"
 
 namespace spindrift {
@@ -62,6 +64,22 @@ std::size_t removeLeftovers(const fs::path& folder) {
   return count;
 }
 
+/// Ends of lists that were being written are written, a row that was being appended is taken back.
+void finishLists(const CampaignRecord& record, SessionDatabase& database, bool crashed) {
+  InsideFolder inside(record.folder);
+  for (const SessionDatabase::PendingList& pending : database.pending(record.id)) {
+    const fs::path list = inside.path(pending.list, {record.folder, ""});
+    std::error_code gone;
+    const std::uintmax_t size = fs::file_size(list, gone);
+    if (!gone && size >= pending.change.from) replaceEnd(list, pending.change.from, pending.change.text);
+    database.dropPending(record.id, pending.list);
+  }
+  if (!crashed) return;  // a last line without its end is what somebody wrote by hand
+  for (const std::string& list : captureLists(record.folder)) {
+    if (const auto known = database.file(record.id, list)) (void)cutTornRow(record.folder / list, known->content);
+  }
+}
+
 }  // namespace
 
 fs::path freshFolder(const fs::path& parent, const std::string& name) {
@@ -85,7 +103,7 @@ std::string recordedLogKey(std::int64_t campaign) {
   return fmt::format("recorded_log/{}", campaign);
 }
 
-RecoveryReport putInOrder(const fs::path& session_folder, SessionDatabase& database) {
+RecoveryReport putInOrder(const fs::path& session_folder, SessionDatabase& database, bool crashed) {
   RecoveryReport report;
   InsideFolder inside(session_folder);
   for (const char* folder : {"campaigns", "removed"}) (void)inside.path(folder, {session_folder, ""});
@@ -94,6 +112,7 @@ RecoveryReport putInOrder(const fs::path& session_folder, SessionDatabase& datab
   for (CampaignRecord& record : database.campaigns()) {
     record.folder = session_folder / record.folder;
     known.insert(record.folder.filename());
+    finishLists(record, database, crashed);
     std::vector<std::string> lists = captureLists(record.folder);
     for (const std::string& list : lists) report.captures += rowsOf(record.folder / list);
     if (database.setting(recordedLogKey(record.id)) && fs::exists(record.folder / "log.csv"))
@@ -105,6 +124,7 @@ RecoveryReport putInOrder(const fs::path& session_folder, SessionDatabase& datab
     } else {
       recordFiles(database, record, lists);
     }
+    database.keepFingerprint(record.id);
   }
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(session_folder / "campaigns", ignored)) {

@@ -7,6 +7,9 @@
 //   writing a file                              .<name>.<process>.<number>.part       removed (the old file is whole)
 //   making or removing a campaign               a folder without a row                moved to removed/
 //   a capture, between list and database        fingerprint of the list differs       fingerprint brought up to date
+//   a row of a list                             a last line without its end           taken back (nobody was told of
+//   it) several rows, or one that came late         the end of the list as it is to be,   written again
+//                                               kept in the database
 #pragma once
 
 #include <filesystem>
@@ -28,8 +31,9 @@ struct RecoveryReport {
   [[nodiscard]] std::string sentence() const;
 };
 
-/// To be called with the lock held. Failures to tidy up (a read-only file) are ignored: they hinder nothing.
-RecoveryReport putInOrder(const std::filesystem::path& session_folder, SessionDatabase& database);
+/// To be called with the lock held; `crashed`: the program that worked on it before did not end in order. Failures to
+/// tidy up (a read-only file) are ignored: they hinder nothing.
+RecoveryReport putInOrder(const std::filesystem::path& session_folder, SessionDatabase& database, bool crashed);
 
 /// Setting that says that log.csv of a campaign is recorded into: whatever a recording left there is the campaign's.
 [[nodiscard]] std::string recordedLogKey(std::int64_t campaign);

@@ -23,7 +23,10 @@ std::filesystem::path plainPath(const std::filesystem::path& path) {
 }  // namespace
 
 CaptureIntake::CaptureIntake(std::vector<IncomingItem> journal) : items_(std::move(journal)) {
-  for (const IncomingItem& item : items_) answered_[item.name] = item;
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    known_[items_[i].name] = {i, items_[i]};
+    if (items_[i].state == IncomingState::Retake) retakes_.insert(i);
+  }
 }
 
 bool CaptureIntake::liesInside(const std::filesystem::path& folder, const std::filesystem::path& session) {
@@ -39,15 +42,19 @@ void CaptureIntake::expectTouches(const Campaign& campaign, std::optional<JsonNo
   const bool printed = pattern.has_value();
   feed_ = std::make_unique<TouchFeed>(campaign.machine, there ? &*there : nullptr, std::move(pattern));
   printed_ = printed;
+  // Every file is read from its beginning, for the new feed.
+  taken_.clear();
+  if (context_ != nullptr) context_->forgetPositions();
+  forgetContext();
 }
 
 std::string CaptureIntake::touchSentence() const {
   std::size_t waiting = 0;
   std::size_t again = 0;
   if (feed_ != nullptr) {
-    for (const LiveTouch& live : feed_->live().touches()) {
-      if (live.given_out || live.replaced) continue;
-      ++(live.plausible ? waiting : again);
+    for (const std::size_t i : feed_->live().open()) {
+      const LiveTouch& live = feed_->live().touches()[i];
+      if (!live.given_out) ++(live.plausible ? waiting : again);
     }
   }
   std::string sentence = countOf(touchCount(), "touch", "touches") + " so far";
@@ -61,42 +68,63 @@ std::string CaptureIntake::touchSentence() const {
 
 std::size_t CaptureIntake::takeTouches(const ExaminedFile& examined) {
   SPINDRIFT_ASSERT(feed_ != nullptr, "touches come after expectTouches");
-  const auto [first, fresh] = first_seen_s_.try_emplace(examined.item.name, examined.item.time_s);
-  return feed_->update(examined.item.name, examined.text, first->second);
+  const std::string& name = examined.item.name;
+  std::uint64_t& taken = taken_[name];
+  if (examined.from > 0 && examined.from != taken) return 0;
+  const auto [first, fresh] = first_seen_s_.try_emplace(name, examined.item.time_s);
+  const std::size_t count = feed_->update(name, examined.text, examined.from == 0, first->second);
+  taken = examined.from + examined.text.size();
+  if (context_ != nullptr && examined.position != nullptr) context_->recordPosition(examined);
+  return count;
 }
 
-std::vector<std::string> CaptureIntake::takeRows(bool all) {
-  return feed_ == nullptr ? std::vector<std::string>() : feed_->takeRows(all);
+std::vector<Touch> CaptureIntake::takeFinished(bool all) {
+  return feed_ == nullptr ? std::vector<Touch>() : feed_->takeFinished(all);
 }
 
-IncomingContext CaptureIntake::context(const Campaign& campaign, const MeasurementPlan& plan) const {
-  IncomingContext context = incomingContext(campaign, plan, items_, printed_);
-  context.fullest = fullest_;
-  return context;
+std::shared_ptr<const IncomingContext> CaptureIntake::context(const Campaign& campaign, const MeasurementPlan& plan) {
+  if (context_ == nullptr || stale_ || context_->excluded() != campaign.excluded_captures) {
+    auto made = std::make_shared<IncomingContext>(campaign, plan, items_, printed_);
+    if (context_ != nullptr) made->goOnFrom(*context_);
+    context_ = std::move(made);
+    stale_ = false;
+  }
+  return context_;
 }
 
 const IncomingItem& CaptureIntake::show(const IncomingItem& item) {
-  const auto answer = answered_.find(item.name);
-  const bool again = item.state == IncomingState::Twice && answer != answered_.end() && !item.hash.empty() &&
-                     answer->second.hash == item.hash;
-  const IncomingItem now = again ? answer->second : item;
-  if (now.state != IncomingState::Waiting) answered_[now.name] = now;
-  const auto known =
-      std::find_if(items_.begin(), items_.end(), [&](const IncomingItem& other) { return other.name == now.name; });
-  if (known != items_.end()) return *known = now;
-  return items_.emplace_back(now);
+  const auto [at, fresh] = known_.try_emplace(item.name);
+  KnownItem& known = at->second;
+  const bool again =
+      item.state == IncomingState::Twice && known.answered && !item.hash.empty() && known.answered->hash == item.hash;
+  const IncomingItem now = again ? *known.answered : item;
+  if (now.state != IncomingState::Waiting) known.answered = now;
+  if (fresh) {
+    known.index = items_.size();
+    items_.push_back(now);
+  } else {
+    items_[known.index] = now;
+  }
+  if (now.state == IncomingState::Retake) {
+    retakes_.insert(known.index);
+  } else {
+    retakes_.erase(known.index);
+  }
+  return items_[known.index];
 }
 
 void CaptureIntake::remember(const ExaminedFile& answer) {
-  if (answer.points == 0 || answer.item.state != IncomingState::Accepted) return;
-  std::size_t& most = fullest_[answer.artefact];
-  most = std::max(most, answer.points);
+  if (context_ != nullptr) context_->record(answer);
+}
+
+void CaptureIntake::remember(const std::vector<Touch>& touches) {
+  if (context_ != nullptr) context_->record(touches);
 }
 
 std::vector<CaptureIntake::Retake> CaptureIntake::retakes(const std::set<std::string>& done) const {
   std::vector<Retake> out;
-  for (const IncomingItem& item : items_) {
-    if (item.state != IncomingState::Retake) continue;
+  for (const std::size_t i : retakes_) {
+    const IncomingItem& item = items_[i];
     if (!item.plan_item.empty() && done.contains(item.plan_item)) continue;
     out.push_back({item.plan_item.empty() ? item.name : item.plan_item, item.sentence});
   }

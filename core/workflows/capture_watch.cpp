@@ -22,27 +22,20 @@ CaptureWatch::CaptureWatch(Session& session, std::int64_t campaign, const std::f
                            std::optional<JsonNode> pattern, const FolderWatchOptions& watch, double patience_s)
     : session_(session),
       campaign_(campaign),
+      data_(Campaign::read(session.campaign(campaign).folder)),
       plan_(storedPlan(session, campaign)),
       intake_(incomingJournal(session, campaign)),
       folder_(allowedFolder(folder, session.folder()), watch, patience_s) {
-  intake_.expectTouches(campaignNow(), std::move(pattern));
-}
-
-Campaign CaptureWatch::campaignNow() const {
-  return Campaign::read(session_.campaign(campaign_).folder);
-}
-
-std::set<std::string> CaptureWatch::done() const {
-  return capturedItems(plan_, campaignNow());
+  intake_.expectTouches(data_, std::move(pattern));
+  context_ = intake_.context(data_, plan_);
 }
 
 std::vector<IncomingItem> CaptureWatch::turn(double now_s) {
   std::vector<IncomingItem> decided;
   folder_.look(now_s);
   while (const auto task = folder_.next()) {
-    ExaminedFile examined =
-        examineArrival(task->file.file, task->name, task->file.written_ns, intake_.context(campaignNow(), plan_));
-    if (examined.item.kind == IncomingKind::Touches && !examined.text.empty()) {
+    ExaminedFile examined = examineArrival(task->file.file, task->name, task->file.written_ns, *context_);
+    if (examined.item.kind == IncomingKind::Touches && !examined.unreadable) {
       intake_.takeTouches(examined);
       storeTouches(false);
       examined.item.sentence = intake_.touchSentence();
@@ -63,8 +56,10 @@ void CaptureWatch::finish() {
 }
 
 void CaptureWatch::storeTouches(bool all) {
-  const std::vector<std::string> rows = intake_.takeRows(all);
-  if (!rows.empty()) session_.addCaptureRows(campaign_, "touches.csv", TouchFeed::header(), rows);
+  const std::vector<Touch> touches = intake_.takeFinished(all);
+  if (touches.empty()) return;
+  session_.addCaptureRows(campaign_, "touches.csv", TouchFeed::header(), TouchFeed::rowsOf(touches));
+  intake_.remember(touches);
 }
 
 std::vector<std::string> CaptureWatch::retakes() const {

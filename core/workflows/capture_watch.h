@@ -4,7 +4,9 @@
 // backwards.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,17 +35,18 @@ class CaptureWatch {
   /// Sentences about captures to be taken again: those whose item of the plan is not there yet.
   [[nodiscard]] std::vector<std::string> retakes() const;
   [[nodiscard]] const MeasurementPlan& plan() const { return plan_; }
-  [[nodiscard]] std::set<std::string> done() const;
+  [[nodiscard]] const std::set<std::string>& done() const { return context_->captures().done; }
   [[nodiscard]] std::size_t touches() const { return intake_.touchCount(); }
 
  private:
   void storeTouches(bool all);
-  [[nodiscard]] Campaign campaignNow() const;
 
   Session& session_;
   std::int64_t campaign_;
+  Campaign data_;  ///< as it was at the beginning: captures change nothing in it
   MeasurementPlan plan_;
   CaptureIntake intake_;
+  std::shared_ptr<const IncomingContext> context_;
   IncomingFolder folder_;
 };
 

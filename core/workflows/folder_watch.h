@@ -4,14 +4,16 @@
 // Works by looking (polling): network folders and removable media tell nobody when they change. A file is settled when
 // its size and time of writing have stood still for `settle_s`, measured on the caller's clock, so that a wrong clock
 // of a camera does no harm. Names that programs use while they write (".part", ".tmp", ".crdownload", leading dot,
-// trailing ~) are left alone until they are renamed. Deterministic: files are told in order of their time of writing,
-// then of their name. No threads.
+// trailing ~) are left alone until they are renamed. Names are looked at every time; of many settled files a thousand
+// are looked at more closely each time, in turn, so one that is written again is noticed after as many looks as there
+// are thousands. Deterministic: files are told in order of their time of writing, then of their name. No threads.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
+#include <system_error>
+#include <unordered_map>
 #include <vector>
 
 namespace spindrift {
@@ -45,7 +47,7 @@ class FolderWatch {
   [[nodiscard]] const std::string& problem() const { return problem_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   /// Files seen that have not settled yet.
-  [[nodiscard]] std::size_t unsettled() const;
+  [[nodiscard]] std::size_t unsettled() const { return unsettled_; }
   /// True for names that programs use for files they are still writing.
   [[nodiscard]] static bool isWorkingName(const std::filesystem::path& file);
 
@@ -55,11 +57,19 @@ class FolderWatch {
     std::int64_t written_ns = 0;
     double since_s = 0.0;
     bool settled = false;
-    bool seen = false;
+    std::uint64_t number = 0;  ///< of the file, in order of arrival
+    std::uint64_t seen = 0;    ///< number of the last look that found it
   };
+  void lookAt(const std::string& file, double now_s, std::vector<WatchedFile>& changes);
+  void lookInto(const std::string& folder, double now_s, std::vector<WatchedFile>& changes, std::error_code& error);
+
   std::filesystem::path folder_;
   FolderWatchOptions options_;
-  std::map<std::filesystem::path, Known> known_;
+  std::unordered_map<std::string, Known> known_;  ///< by path
+  std::size_t unsettled_ = 0;
+  std::uint64_t looks_ = 0;
+  std::uint64_t groups_ = 1;  ///< of settled files, of which each look takes one
+  std::uint64_t files_ = 0;   ///< found so far
   std::string problem_;
 };
 

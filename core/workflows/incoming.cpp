@@ -4,14 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <ctime>
+#include <mutex>
 #include <new>
+#include <span>
 
 #include "core/base/atomic_file.h"
 #include "core/base/csv.h"
 #include "core/base/error.h"
+#include "core/base/file_end.h"
+#include "core/base/file_reader.h"
 #include "core/base/sha256.h"
 #include "core/base/text.h"
+#include "core/base/untrusted_text.h"
 #include "core/imaging/capture_verdict.h"
 #include "core/imaging/evaluate_fiducials.h"
 #include "core/imaging/fiducial_captures.h"
@@ -26,6 +32,7 @@ namespace {
 
 constexpr const char* fiducial_header = "time_s,state,fiducial,role,index,x_mm,y_mm,z_mm,spindle_deg,image";
 constexpr const char* scan_header = "time_s,cycle,artefact,y_mm,cloud";
+constexpr std::size_t longest_header = 100'000;
 
 std::string endingOf(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
@@ -33,20 +40,27 @@ std::string endingOf(const std::filesystem::path& file) {
   return ending;
 }
 
+/// The first line that is no comment; empty where it cannot be read.
 std::string firstLineOf(const std::filesystem::path& file) {
-  std::string text;
+  std::string line;
   try {
-    text = readFile(file);
+    FileReader reader(file);
+    std::array<char, 4096> buffer;
+    while (const std::size_t count = reader.read(buffer)) {
+      for (const char c : std::span(buffer).first(count)) {
+        if (c != '\n') {
+          if (line.size() < longest_header) line += c;
+        } else if (line.starts_with('#')) {
+          line.clear();
+        } else {
+          return line;
+        }
+      }
+    }
   } catch (const InputError&) {
     return {};
   }
-  std::size_t begin = 0;
-  while (begin < text.size() && text[begin] == '#') {
-    begin = text.find('\n', begin);
-    if (begin == std::string::npos) return {};
-    ++begin;
-  }
-  return text.substr(begin, text.find('\n', begin) - begin);
+  return line.starts_with('#') ? std::string() : line;
 }
 
 IncomingKind kindOf(const std::filesystem::path& file, bool printed) {
@@ -84,43 +98,6 @@ std::string hashInName(const std::filesystem::path& file) {
   return at != std::string::npos && stem.size() - at == 9 ? stem.substr(at + 1) : std::string();
 }
 
-ListedImage listedImage(const FiducialCapture& c, const std::vector<IncomingItem>& journal) {
-  ListedImage listed;
-  listed.seen = {c.fiducial, c.state, c.role, c.index, c.position_mm, c.spindle_deg, std::nullopt, 0.0};
-  listed.image = c.image;
-  const std::string hash = hashInName(c.image);
-  for (const IncomingItem& item : journal) {
-    if (hash.empty() || !(item.sharpness > 0.0) || shortHash(item.hash) != hash) continue;
-    listed.seen.pose = item.pose;
-    listed.seen.sharpness = item.sharpness;
-    listed.known = true;
-  }
-  return listed;
-}
-
-/// Files of the lists by the hash in their names: what a crash kept out of the journal is known all the same.
-void addListed(const Campaign& campaign, const std::vector<IncomingItem>& journal, IncomingContext& context) {
-  std::vector<std::string> files;
-  try {
-    if (const auto file = campaign.captureList("fiducials.csv")) {
-      for (const FiducialCapture& c : readFiducialCaptures(*file).captures) {
-        files.push_back(c.image);
-        if (!campaign.excluded_captures.contains(c.image)) context.images.push_back(listedImage(c, journal));
-      }
-    }
-    if (campaign.captureList("scans.csv")) {
-      for (const ScanCapture& c : readScanList(campaign)) files.push_back(c.cloud);
-    }
-  } catch (const InputError&) {
-    // The page of the captures says what is wrong with the list.
-  }
-  for (const std::string& name : files) {
-    const std::filesystem::path path(name);
-    const std::string hash = hashInName(path);
-    if (!hash.empty()) context.known[hash].push_back({path.filename().string(), name, ""});
-  }
-}
-
 std::string safeName(const std::string& name) {
   std::string safe;
   for (const char c : std::filesystem::path(name).filename().string()) {
@@ -136,7 +113,7 @@ void keep(const IncomingContext& context, IncomingItem& item, const std::string&
           const std::string& ending, const std::string& bytes) {
   for (const std::string& digits : {shortHash(item.hash), item.hash}) {
     item.stored = fmt::format("captures/{}/{}_{}{}", folder, stem, digits, ending);
-    const std::filesystem::path target = context.campaign_folder / item.stored;
+    const std::filesystem::path target = context.campaignFolder() / item.stored;
     std::error_code error;
     const bool there = std::filesystem::exists(target, error);
     if (!there) return writeFileAtomically(target, bytes);
@@ -144,29 +121,23 @@ void keep(const IncomingContext& context, IncomingItem& item, const std::string&
   }
 }
 
-const PlannedItem* itemOf(const IncomingContext& context, const std::string& name, PlannedKind kind, bool& by_name) {
-  const PlannedItem* named = context.plan.ofName(name);
-  by_name = named != nullptr && named->kind == kind;
-  if (by_name) return named;
-  for (const PlannedItem& item : context.plan.items) {
-    if (item.kind == kind && !context.done.contains(item.id)) return &item;
-  }
-  return nullptr;
+const PlannedItem* itemOf(const IncomingContext& context, const std::string& name, PlannedKind kind) {
+  const PlannedItem* named = context.plan().ofName(name);
+  return named != nullptr && named->kind == kind ? named : context.firstOpen(kind);
 }
 
 /// Finds the item of the plan, or says in `out` why there is none; true if it is open.
 const PlannedItem* openItem(const IncomingContext& context, PlannedKind kind, ExaminedFile& out) {
-  bool by_name = false;
-  const PlannedItem* planned = itemOf(context, out.item.name, kind, by_name);
+  const PlannedItem* planned = itemOf(context, out.item.name, kind);
   if (planned == nullptr) {
     out.item.state = IncomingState::Ignored;
-    out.item.sentence = context.plan.empty()
+    out.item.sentence = context.plan().plan().empty()
                             ? "There is no plan that says what it is; make one, it is kept meanwhile."
                             : fmt::format("The plan has no {} left to take; it is kept aside.", toString(kind));
     return nullptr;
   }
   out.item.plan_item = planned->id;
-  if (context.done.contains(planned->id)) {
+  if (context.isDone(planned->id)) {
     out.item.state = IncomingState::Twice;
     out.item.sentence = fmt::format("{} is there already; this one is kept aside.", planned->id);
     return nullptr;
@@ -175,18 +146,16 @@ const PlannedItem* openItem(const IncomingContext& context, PlannedKind kind, Ex
 }
 
 /// Whether a known file with the same first digits of its hash has the same content indeed.
-bool sameContent(const IncomingContext& context, const KnownFile& known, const IncomingItem& item, std::size_t size) {
+bool sameContent(const IncomingContext& context, const ArrivedFile& known, const IncomingItem& item, std::size_t size) {
   if (!known.hash.empty()) return known.hash == item.hash;
-  const std::filesystem::path copy = context.campaign_folder / known.stored;
+  const std::filesystem::path copy = context.campaignFolder() / known.stored;
   std::error_code error;
   if (std::filesystem::file_size(copy, error) != size || error) return false;
   return sha256OfFile(copy) == item.hash;
 }
 
 bool foundTwice(const IncomingContext& context, IncomingItem& item, std::size_t size) {
-  const auto known = context.known.find(shortHash(item.hash));
-  if (known == context.known.end()) return false;
-  for (const KnownFile& file : known->second) {
+  for (const ArrivedFile& file : context.alike(item.hash)) {
     if (!sameContent(context, file, item, size)) continue;
     item.state = IncomingState::Twice;
     item.sentence = file.name == item.name ? std::string("It is there already.")
@@ -196,7 +165,7 @@ bool foundTwice(const IncomingContext& context, IncomingItem& item, std::size_t 
   return false;
 }
 
-SeenCapture seenOf(const PlannedItem& planned, const CaptureVerdict& verdict, const FiducialPattern& pattern) {
+SeenCapture seenOf(const PlannedItem& planned, const std::optional<ImagePose>& pose, double sharpness) {
   SeenCapture seen;
   seen.fiducial = planned.fiducial;
   seen.state = planned.state;
@@ -204,22 +173,21 @@ SeenCapture seenOf(const PlannedItem& planned, const CaptureVerdict& verdict, co
   seen.index = planned.index;
   seen.position_mm = planned.position_mm;
   seen.spindle_deg = planned.spindle_deg;
-  seen.pose = poseOf(verdict.decoded, pattern);
-  seen.sharpness = verdict.focus.normalised;
+  seen.pose = pose;
+  seen.sharpness = sharpness;
   return seen;
 }
 
 /// The images of the same state; of the same fiducial they are read again where the journal does not know them.
 std::vector<SeenCapture> comparable(const IncomingContext& context, const SeenCapture& seen) {
   std::vector<SeenCapture> others;
-  for (const ListedImage& listed : context.images) {
-    if (listed.seen.state != seen.state) continue;
+  for (const ListedImage& listed : context.imagesOf(seen.state)) {
     SeenCapture other = listed.seen;
     if (!listed.known) {
       if (other.fiducial != seen.fiducial) continue;
       try {
-        const GrayImage image = readImage(context.campaign_folder / listed.image);
-        const auto pattern = campaignPattern(context.campaign_folder);
+        const GrayImage image = readImage(context.campaignFolder() / listed.image);
+        const auto pattern = campaignPattern(context.campaignFolder());
         other.pose = poseOf(decodeImage(image, *pattern), *pattern);
         other.sharpness = measureFocus(image).normalised;
       } catch (const InputError&) {
@@ -247,10 +215,10 @@ void examineImageBytes(const std::string& bytes, const std::string& ending, cons
   const std::string stem =
       planned != nullptr ? safeName(planned->id) : std::filesystem::path(safeName(out.item.name)).stem().string();
   if (planned == nullptr) return keep(context, out.item, "kept", stem, ending, bytes);
-  const auto pattern = campaignPattern(context.campaign_folder);
+  const auto pattern = campaignPattern(context.campaignFolder());
   CaptureVerdict verdict = judgeCapture(image, planned->role == "focus", {}, *pattern);
   if (verdict.good) {
-    const SeenCapture seen = seenOf(*planned, verdict, *pattern);
+    const SeenCapture seen = seenOf(*planned, poseOf(verdict.decoded, *pattern), verdict.focus.normalised);
     out.item.pose = seen.pose;
     out.item.sharpness = seen.sharpness;
     const std::string contradiction = contradictionOf(seen, comparable(context, seen));
@@ -290,9 +258,8 @@ void examineCloud(const std::filesystem::path& file, const std::string& bytes, c
   if (planned == nullptr) return keep(context, out.item, "kept", own, ending, bytes);
   out.artefact = planned->artefact;
   out.points = cloud.size();
-  const auto fullest = context.fullest.find(planned->artefact);
-  const double share =
-      fullest == context.fullest.end() ? 1.0 : static_cast<double>(out.points) / static_cast<double>(fullest->second);
+  const std::size_t fullest = context.fullest(planned->artefact);
+  const double share = fullest == 0 ? 1.0 : static_cast<double>(out.points) / static_cast<double>(fullest);
   if (share < complete_scan) {
     out.item.state = IncomingState::Retake;
     out.item.sentence = fmt::format("Only {:.0f} % of the points of the fullest scan of {}: cut short or hidden.",
@@ -308,13 +275,17 @@ void examineCloud(const std::filesystem::path& file, const std::string& bytes, c
                         csvField(planned->artefact), exactNumber(planned->y_mm), csvField(out.item.stored));
 }
 
+/// Milliseconds are enough, and a row stays readable.
+double secondsSinceStart(std::int64_t written_ns, const IncomingContext& context) {
+  return std::round((static_cast<double>(written_ns / 1'000'000) - 1e3 * context.startUnix_s())) * 1e-3;
+}
+
 ExaminedFile begin(const std::string& bytes, const std::string& name, std::int64_t written_ns,
                    const IncomingContext& context) {
   ExaminedFile out;
   out.item.name = name;
   out.item.hash = sha256(bytes);
-  // Milliseconds are enough, and a row stays readable.
-  out.item.time_s = std::round((static_cast<double>(written_ns / 1'000'000) - 1e3 * context.start_unix_s)) * 1e-3;
+  out.item.time_s = secondsSinceStart(written_ns, context);
   return out;
 }
 
@@ -336,23 +307,135 @@ std::string toString(IncomingState state) {
   return {};
 }
 
-IncomingContext incomingContext(const Campaign& campaign, const MeasurementPlan& plan,
-                                const std::vector<IncomingItem>& journal, bool printed) {
-  IncomingContext context;
-  context.campaign_folder = campaign.folder;
-  context.start_unix_s = unixSeconds(campaign.start_utc);
-  context.plan = plan;
-  context.done = capturedItems(plan, campaign);
-  context.printed = printed;
-  addListed(campaign, journal, context);
+IncomingContext::IncomingContext(const Campaign& campaign, MeasurementPlan plan,
+                                 const std::vector<IncomingItem>& journal, bool printed)
+    : campaign_folder_(campaign.folder),
+      start_unix_s_(unixSeconds(campaign.start_utc)),
+      printed_(printed),
+      excluded_(campaign.excluded_captures),
+      plan_(std::move(plan)),
+      tally_(plan_, campaign) {
+  addListed(campaign, journal);
   for (const IncomingItem& item : journal) {
     if (item.hash.empty() || item.kind == IncomingKind::Touches) continue;
-    std::vector<KnownFile>& known = context.known[shortHash(item.hash)];
+    std::vector<ArrivedFile>& known = files_[shortHash(item.hash)];
     // What the lists know by the name of its copy alone.
-    std::erase_if(known, [&](const KnownFile& file) { return file.stored == item.stored; });
+    std::erase_if(known, [&](const ArrivedFile& file) { return file.stored == item.stored; });
     known.push_back({item.name, item.stored, item.hash});
   }
-  return context;
+}
+
+/// Files of the lists by the hash in their names: what a crash kept out of the journal is known all the same.
+void IncomingContext::addListed(const Campaign& campaign, const std::vector<IncomingItem>& journal) {
+  std::unordered_map<std::string, const IncomingItem*> measured;
+  for (const IncomingItem& item : journal) {
+    if (item.sharpness > 0.0) measured[shortHash(item.hash)] = &item;
+  }
+  std::vector<std::string> files;
+  try {
+    if (const auto file = campaign.captureList("fiducials.csv")) {
+      for (const FiducialCapture& c : readFiducialCaptures(*file).captures) {
+        files.push_back(c.image);
+        if (excluded_.contains(c.image)) continue;
+        ListedImage listed;
+        listed.seen = {c.fiducial, c.state, c.role, c.index, c.position_mm, c.spindle_deg, std::nullopt, 0.0};
+        listed.image = c.image;
+        if (const auto found = measured.find(hashInName(c.image)); found != measured.end()) {
+          listed.seen.pose = found->second->pose;
+          listed.seen.sharpness = found->second->sharpness;
+          listed.known = true;
+        }
+        images_[c.state].push_back(std::move(listed));
+      }
+    }
+    if (campaign.captureList("scans.csv")) {
+      for (const ScanCapture& c : readScanList(campaign)) files.push_back(c.cloud);
+    }
+  } catch (const InputError&) {
+    // The page of the captures says what is wrong with the list.
+  }
+  for (const std::string& name : files) {
+    const std::filesystem::path path(name);
+    const std::string hash = hashInName(path);
+    if (!hash.empty()) files_[hash].push_back({path.filename().string(), name, ""});
+  }
+}
+
+bool IncomingContext::isDone(const std::string& plan_item) const {
+  const std::shared_lock lock(mutex_);
+  return tally_.captures().done.contains(plan_item);
+}
+
+const PlannedItem* IncomingContext::firstOpen(PlannedKind kind) const {
+  const std::shared_lock lock(mutex_);
+  return tally_.firstOpen(kind);
+}
+
+std::vector<ArrivedFile> IncomingContext::alike(const std::string& hash) const {
+  const std::shared_lock lock(mutex_);
+  const auto known = files_.find(shortHash(hash));
+  return known == files_.end() ? std::vector<ArrivedFile>() : known->second;
+}
+
+std::vector<ListedImage> IncomingContext::imagesOf(const std::string& state) const {
+  const std::shared_lock lock(mutex_);
+  const auto known = images_.find(state);
+  return known == images_.end() ? std::vector<ListedImage>() : known->second;
+}
+
+std::size_t IncomingContext::fullest(const std::string& artefact) const {
+  const std::shared_lock lock(mutex_);
+  const auto known = fullest_.find(artefact);
+  return known == fullest_.end() ? 0 : known->second;
+}
+
+std::shared_ptr<const ReadPosition> IncomingContext::positionOf(const std::string& name) const {
+  const std::shared_lock lock(mutex_);
+  const auto known = positions_.find(name);
+  return known == positions_.end() ? nullptr : known->second;
+}
+
+void IncomingContext::recordPosition(const ExaminedFile& examined) {
+  const std::unique_lock lock(mutex_);
+  positions_[examined.item.name] = examined.position;
+}
+
+void IncomingContext::record(const ExaminedFile& answer) {
+  const IncomingItem& item = answer.item;
+  if (item.hash.empty() || item.kind == IncomingKind::Touches) return;
+  const std::unique_lock lock(mutex_);
+  std::vector<ArrivedFile>& known = files_[shortHash(item.hash)];
+  const bool there = std::any_of(known.begin(), known.end(), [&](const ArrivedFile& file) {
+    return file.name == item.name && file.stored == item.stored && file.hash == item.hash;
+  });
+  if (!there) known.push_back({item.name, item.stored, item.hash});
+  if (answer.row.empty() || item.state != IncomingState::Accepted) return;
+  const std::optional<std::size_t> at = plan_.find(item.plan_item);
+  if (!at) return;
+  const PlannedItem& planned = plan_.plan().items[*at];
+  tally_.add(planned);
+  if (planned.kind == PlannedKind::Image)
+    images_[planned.state].push_back({seenOf(planned, item.pose, item.sharpness), item.stored, item.sharpness > 0.0});
+  if (answer.points > 0) {
+    std::size_t& most = fullest_[answer.artefact];
+    most = std::max(most, answer.points);
+  }
+}
+
+void IncomingContext::forgetPositions() {
+  const std::unique_lock lock(mutex_);
+  positions_.clear();
+}
+
+void IncomingContext::goOnFrom(const IncomingContext& before) {
+  const std::scoped_lock lock(mutex_, before.mutex_);
+  fullest_ = before.fullest_;
+  positions_ = before.positions_;
+}
+
+void IncomingContext::record(const std::vector<Touch>& touches) {
+  const std::unique_lock lock(mutex_);
+  for (const Touch& t : touches) tally_.add(t);
 }
 
 namespace {
@@ -366,8 +449,82 @@ ExaminedFile unreadable(const std::string& name, const std::string& sentence) {
   return out;
 }
 
+constexpr std::size_t most_of_end = 4096;
+
+/// Reads on, to the end of the file.
+std::string restOf(FileReader& reader) {
+  std::string text;
+  std::array<char, 1 << 16> buffer;
+  while (const std::size_t count = reader.read(buffer)) text.append(buffer.data(), count);
+  return text;
+}
+
+/// True if the file is the one that was read so far, and has not become shorter; the reader then stands behind that.
+bool goesOn(FileReader& reader, const ReadPosition& before) {
+  if (reader.identity() != before.file) return false;
+  reader.seek(before.size - before.end.size());
+  std::string end(before.end.size(), '\0');
+  for (std::size_t done = 0; done < end.size();) {
+    const std::size_t count = reader.read(std::span(end).subspan(done));
+    if (count == 0) return false;
+    done += count;
+  }
+  return end == before.end;
+}
+
+/// Where the copy of a list of touches lies. Lists of one name in two folders have two copies.
+std::string copyOfTouches(const std::string& name) {
+  const std::string safe = safeName(name);
+  if (safe == name) return "captures/kept/" + safe;
+  const std::filesystem::path file(safe);
+  return fmt::format("captures/kept/{}_{}{}", file.stem().string(), shortHash(sha256(name)), file.extension().string());
+}
+
+/// Reads what a list of touches grew by, and adds it to its copy.
+ExaminedFile examineTouches(const std::filesystem::path& file, const std::string& name, std::int64_t written_ns,
+                            const IncomingContext& context) {
+  ExaminedFile out;
+  auto position = std::make_shared<ReadPosition>();
+  try {
+    FileReader reader(file);
+    const std::shared_ptr<const ReadPosition> before = context.positionOf(name);
+    if (before != nullptr && goesOn(reader, *before)) {
+      *position = *before;
+    } else {
+      position->file = reader.identity();
+      reader.seek(0);
+    }
+    out.from = position->size;
+    out.text = restOf(reader);
+  } catch (const InputError& e) {
+    return unreadable(name, e.what());
+  }
+  position->size += out.text.size();
+  position->digest.add(out.text);
+  if (out.text.size() >= most_of_end) position->end.clear();
+  position->end += out.text;
+  if (position->end.size() > most_of_end) position->end.erase(0, position->end.size() - most_of_end);
+  out.item.name = name;
+  out.item.kind = IncomingKind::Touches;
+  out.item.hash = position->digest.text();
+  out.item.time_s = secondsSinceStart(written_ns, context);
+  out.item.state = IncomingState::Accepted;
+  out.item.stored = copyOfTouches(name);
+  const std::filesystem::path copy = context.campaignFolder() / out.item.stored;
+  std::error_code error;
+  if (out.from > 0 && std::filesystem::file_size(copy, error) == out.from && !error) {
+    if (!out.text.empty()) replaceEnd(copy, out.from, out.text);
+  } else {
+    writeFileAtomically(copy, out.from == 0 ? out.text : readFile(file).substr(0, position->size));
+  }
+  out.position = std::move(position);
+  return out;
+}
+
 ExaminedFile examine(const std::filesystem::path& file, const std::string& name, std::int64_t written_ns,
                      const IncomingContext& context) {
+  const IncomingKind kind = kindOf(file, context.printed());
+  if (kind == IncomingKind::Touches) return examineTouches(file, name, written_ns, context);
   std::string bytes;
   try {
     bytes = readFile(file);
@@ -375,8 +532,7 @@ ExaminedFile examine(const std::filesystem::path& file, const std::string& name,
     return unreadable(name, e.what());
   }
   ExaminedFile out = begin(bytes, name, written_ns, context);
-  out.item.kind = kindOf(file, context.printed);
-  const std::string stem = std::filesystem::path(safeName(name)).stem().string();
+  out.item.kind = kind;
   switch (out.item.kind) {
     case IncomingKind::Image:
       if (!foundTwice(context, out.item, bytes.size())) examineImageBytes(bytes, endingOf(file), context, out);
@@ -385,12 +541,6 @@ ExaminedFile examine(const std::filesystem::path& file, const std::string& name,
       if (!foundTwice(context, out.item, bytes.size())) examineCloud(file, bytes, context, out);
       break;
     case IncomingKind::Touches:
-      // One copy a file, replaced as it grows.
-      out.item.stored = "captures/kept/" + safeName(name);
-      writeFileAtomically(context.campaign_folder / out.item.stored, bytes);
-      out.item.state = IncomingState::Accepted;
-      out.text = std::move(bytes);
-      break;
     case IncomingKind::Other:
       out.item.state = IncomingState::Ignored;
       out.item.sentence = "Not an image, point cloud or touch list.";
@@ -421,45 +571,68 @@ ExaminedFile examineImage(const std::string& bytes, const std::string& name, std
 IncomingFolder::IncomingFolder(const std::filesystem::path& folder, const FolderWatchOptions& watch, double patience_s)
     : watch_(folder, watch), patience_s_(patience_s) {}
 
-IncomingItem& IncomingFolder::itemOf(const std::string& name) {
-  for (IncomingItem& item : items_) {
-    if (item.name == name) return item;
+std::size_t IncomingFolder::indexOf(const std::string& name) {
+  const auto [at, fresh] = index_.try_emplace(name, items_.size());
+  if (fresh) {
+    items_.emplace_back().name = name;
+    waiting_.insert(at->second);
   }
-  items_.emplace_back().name = name;
-  return items_.back();
+  return at->second;
+}
+
+void IncomingFolder::set(const std::string& name, IncomingState state, std::string sentence) {
+  const std::size_t index = indexOf(name);
+  items_[index].state = state;
+  items_[index].sentence = std::move(sentence);
+  if (state == IncomingState::Waiting) {
+    waiting_.insert(index);
+  } else {
+    waiting_.erase(index);
+  }
+}
+
+void IncomingFolder::plan(Task task) {
+  drop(task.name);
+  task_of_[task.name] = next_task_;
+  tasks_.emplace(next_task_++, std::move(task));
+}
+
+void IncomingFolder::drop(const std::string& name) {
+  const auto known = task_of_.find(name);
+  if (known == task_of_.end()) return;
+  tasks_.erase(known->second);
+  task_of_.erase(known);
 }
 
 bool IncomingFolder::look(double now_s) {
   bool changed = false;
   for (const WatchedFile& file : watch_.look(now_s)) {
     changed = true;
-    const std::string name = file.file.lexically_relative(watch_.folder()).generic_string();
-    IncomingItem& item = itemOf(name);
+    const std::string name = nameAsText(file.file.lexically_relative(watch_.folder()).generic_string());
+    const IncomingItem& item = items_[indexOf(name)];
     // Lists of touches grow by design and are read as they do; what was read needs no second look when it settles.
     const bool list = kindOf(file.file, true) == IncomingKind::Touches;
     if (list && file.state == FileState::Settled) continue;
-    std::erase_if(again_, [&](const auto& a) { return a.second.name == name; });
-    std::erase_if(tasks_, [&](const Task& t) { return t.name == name; });
+    again_.erase(name);
+    drop(name);
     if (file.state == FileState::Vanished) {
       if (item.state == IncomingState::Waiting) {
-        item.state = IncomingState::Ignored;
-        item.sentence = "It vanished or was renamed before it was complete.";
+        set(name, IncomingState::Ignored, "It vanished or was renamed before it was complete.");
       }
       continue;
     }
     if (file.state == FileState::Growing && !list) {
-      item.state = IncomingState::Waiting;
-      item.sentence = fmt::format("It is being written: {} bytes so far.", file.size);
+      set(name, IncomingState::Waiting, fmt::format("It is being written: {} bytes so far.", file.size));
       continue;
     }
-    tasks_.push_back({file, name, false});
+    plan({file, name, false});
   }
   for (auto at = again_.begin(); at != again_.end();) {
-    if (at->first > now_s) {
+    if (at->second.first > now_s) {
       ++at;
       continue;
     }
-    tasks_.push_back(at->second);
+    plan(at->second.second);
     at = again_.erase(at);
   }
   return changed;
@@ -467,21 +640,22 @@ bool IncomingFolder::look(double now_s) {
 
 std::optional<IncomingFolder::Task> IncomingFolder::next() {
   if (tasks_.empty()) return std::nullopt;
-  Task task = tasks_.front();
-  tasks_.pop_front();
+  Task task = std::move(tasks_.begin()->second);
+  drop(task.name);
   return task;
 }
 
 const IncomingItem& IncomingFolder::finish(const Task& task, ExaminedFile examined, double now_s) {
-  IncomingItem& item = itemOf(task.name);
+  IncomingItem& item = items_[indexOf(task.name)];
   item = std::move(examined.item);
-  if (examined.unreadable && !task.last_chance) {
-    item.state = IncomingState::Waiting;
-    item.sentence = fmt::format("It cannot be read yet; waiting for the rest. {}", item.sentence);
-    Task again = task;
-    again.last_chance = true;
-    again_.emplace_back(now_s + patience_s_, again);
+  const bool again = examined.unreadable && !task.last_chance;
+  if (again) {
+    Task once_more = task;
+    once_more.last_chance = true;
+    again_[task.name] = {now_s + patience_s_, once_more};
   }
+  set(task.name, again ? IncomingState::Waiting : item.state,
+      again ? fmt::format("It cannot be read yet; waiting for the rest. {}", item.sentence) : item.sentence);
   return item;
 }
 

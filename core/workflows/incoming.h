@@ -11,14 +11,19 @@
 // open item of its kind. Its time is when it was written, since the campaign start.
 #pragma once
 
-#include <deque>
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
+#include <shared_mutex>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "core/base/sha256.h"
 #include "core/imaging/capture_agreement.h"
 #include "core/machine/campaign.h"
 #include "core/probing/live_touches.h"
@@ -57,35 +62,89 @@ struct ListedImage {
   bool known = false;  ///< false: pose and sharpness are still to be read from the file
 };
 
-/// What a check needs to know, copied so that it can run anywhere.
 /// A file of which the campaign has a copy.
-struct KnownFile {
+struct ArrivedFile {
   std::string name;    ///< under which it arrived
   std::string stored;  ///< where its copy lies, relative to the campaign folder
   std::string hash;    ///< SHA-256 of its content; empty: only its first 8 digits are known, from the name of the copy
 };
 
-struct IncomingContext {
-  std::filesystem::path campaign_folder;
-  double start_unix_s = 0.0;
-  MeasurementPlan plan;
-  std::set<std::string> done;                           ///< items of the plan that are there
-  std::vector<ListedImage> images;                      ///< of the list of the campaign
-  std::map<std::string, std::vector<KnownFile>> known;  ///< by the first 8 digits of the hash
-  std::map<std::string, std::size_t> fullest;           ///< artefact -> points of its fullest scan so far
-  bool printed = false;  ///< a template for printed text is set: .txt and .log hold touches
+/// How far a file that grows was read. It is the same file, and only what it grew by is read, while it is the one of
+/// this number on its disk and the bytes before `size` are those of `end`.
+struct ReadPosition {
+  std::pair<std::uint64_t, std::uint64_t> file;  ///< FileReader::identity
+  std::uint64_t size = 0;
+  std::string end;  ///< at most the last 4 kB
+  Sha256 digest;    ///< of all that was read
 };
-/// Of a campaign with its plan and the journal of what arrived before.
-[[nodiscard]] IncomingContext incomingContext(const Campaign& campaign, const MeasurementPlan& plan,
-                                              const std::vector<IncomingItem>& journal, bool printed);
+
+struct ExaminedFile;
+
+/// What the checks need to know of a campaign, made once from its lists and kept up to date by each answer: what an
+/// arrival costs does not depend on how many came before. One thread makes it, calls `record` and reads `captures`; the
+/// checks may run on any threads meanwhile.
+class IncomingContext {
+ public:
+  /// `journal`: what arrived before. `printed`: a template for printed text is set: .txt and .log hold touches.
+  IncomingContext(const Campaign& campaign, MeasurementPlan plan, const std::vector<IncomingItem>& journal,
+                  bool printed);
+
+  [[nodiscard]] const std::filesystem::path& campaignFolder() const { return campaign_folder_; }
+  [[nodiscard]] double startUnix_s() const { return start_unix_s_; }
+  [[nodiscard]] bool printed() const { return printed_; }
+  [[nodiscard]] const PlanIndex& plan() const { return plan_; }
+  /// Captures that were taken out when it was made: of them nothing is compared.
+  [[nodiscard]] const std::set<std::string>& excluded() const { return excluded_; }
+
+  [[nodiscard]] bool isDone(const std::string& plan_item) const;
+  [[nodiscard]] const PlannedItem* firstOpen(PlannedKind kind) const;
+  /// Copies whose content may be that of this SHA-256.
+  [[nodiscard]] std::vector<ArrivedFile> alike(const std::string& hash) const;
+  /// Images of a thermal state.
+  [[nodiscard]] std::vector<ListedImage> imagesOf(const std::string& state) const;
+  /// Points of the fullest scan of an artefact so far; 0: none.
+  [[nodiscard]] std::size_t fullest(const std::string& artefact) const;
+
+  /// How far a file of touches was taken in; null: not at all.
+  [[nodiscard]] std::shared_ptr<const ReadPosition> positionOf(const std::string& name) const;
+
+  /// An answer that was stored.
+  void record(const ExaminedFile& answer);
+  /// The touches of a file were taken in as far as it was read.
+  void recordPosition(const ExaminedFile& examined);
+  /// Touches that were stored.
+  void record(const std::vector<Touch>& touches);
+  /// Files of touches are read from their beginning again.
+  void forgetPositions();
+  /// Takes over what is in no list: scans seen, files read.
+  void goOnFrom(const IncomingContext& before);
+  [[nodiscard]] const PlanCaptures& captures() const { return tally_.captures(); }
+
+ private:
+  void addListed(const Campaign& campaign, const std::vector<IncomingItem>& journal);
+
+  std::filesystem::path campaign_folder_;
+  double start_unix_s_ = 0.0;
+  bool printed_ = false;
+  std::set<std::string> excluded_;
+  PlanIndex plan_;
+  mutable std::shared_mutex mutex_;  ///< of all that follows
+  PlanTally tally_;
+  std::unordered_map<std::string, std::vector<ListedImage>> images_;  ///< by thermal state
+  std::unordered_map<std::string, std::vector<ArrivedFile>> files_;   ///< by the first 8 digits of the hash
+  std::map<std::string, std::size_t> fullest_;                        ///< by artefact
+  std::map<std::string, std::shared_ptr<const ReadPosition>> positions_;
+};
 
 /// What a check found.
 struct ExaminedFile {
   IncomingItem item;
   bool unreadable = false;        ///< cut short, perhaps: worth another look a moment later
   std::string list, header, row;  ///< of an accepted image or cloud
-  std::string text;               ///< of touches: the whole file as it is now
-  std::string artefact;           ///< of a cloud
+  std::string text;               ///< of touches: the file from byte `from` on
+  std::uint64_t from = 0;
+  std::shared_ptr<const ReadPosition> position;  ///< of touches: behind `text`
+  std::string artefact;                          ///< of a cloud
   std::size_t points = 0;
 };
 /// Checks one file and copies it into the campaign folder. A file that cannot be used is an answer, not an exception;
@@ -112,18 +171,27 @@ class IncomingFolder {
   /// The answer to a task. Returns the item as it now stands in the list.
   const IncomingItem& finish(const Task& task, ExaminedFile examined, double now_s);
   [[nodiscard]] const std::vector<IncomingItem>& items() const { return items_; }
+  /// Indices of the items that are not decided yet.
+  [[nodiscard]] const std::set<std::size_t>& waiting() const { return waiting_; }
   [[nodiscard]] const std::string& problem() const { return watch_.problem(); }
   [[nodiscard]] bool idle() const { return tasks_.empty() && again_.empty() && watch_.unsettled() == 0; }
   [[nodiscard]] const std::filesystem::path& folder() const { return watch_.folder(); }
 
  private:
-  IncomingItem& itemOf(const std::string& name);
+  void set(const std::string& name, IncomingState state, std::string sentence);
+  [[nodiscard]] std::size_t indexOf(const std::string& name);
+  void plan(Task task);
+  void drop(const std::string& name);
 
   FolderWatch watch_;
   double patience_s_;
   std::vector<IncomingItem> items_;
-  std::deque<Task> tasks_;
-  std::vector<std::pair<double, Task>> again_;  ///< when, what
+  std::unordered_map<std::string, std::size_t> index_;  ///< of items_, by name
+  std::set<std::size_t> waiting_;
+  std::map<std::uint64_t, Task> tasks_;  ///< in the order in which they are to be done
+  std::unordered_map<std::string, std::uint64_t> task_of_;
+  std::uint64_t next_task_ = 0;
+  std::map<std::string, std::pair<double, Task>> again_;  ///< by name: when, what
 };
 
 /// Touches of all files that arrive, judged live.
@@ -131,13 +199,16 @@ class TouchFeed {
  public:
   /// `there`: touches the campaign holds already. `pattern`: template of printed text.
   TouchFeed(const MachineDescription& machine, const TouchList* there, std::optional<JsonNode> pattern = std::nullopt);
-  /// The text of a file as it is now, `first_s` when it was first seen (s since the campaign start; times printed by a
-  /// control count from there). Returns how many touches are new. Throws InputError: unusable header or template.
-  std::size_t update(const std::string& name, std::string_view text, double first_s);
+  /// What a file grew by, or the whole of it (`anew`); `first_s` when it was first seen (s since the campaign start;
+  /// times printed by a control count from there). Returns how many touches are new. Throws InputError: unusable header
+  /// or template.
+  std::size_t update(const std::string& name, std::string_view text, bool anew, double first_s);
   [[nodiscard]] const LiveTouches& live() const { return live_; }
   [[nodiscard]] LiveTouches& live() { return live_; }
-  /// Rows of touches.csv that are ready for the campaign.
-  [[nodiscard]] std::vector<std::string> takeRows(bool all);
+  /// Touches that are ready for the campaign.
+  [[nodiscard]] std::vector<Touch> takeFinished(bool all) { return live_.takeFinished(all); }
+  /// Their rows in touches.csv.
+  [[nodiscard]] static std::vector<std::string> rowsOf(const std::vector<Touch>& touches);
   /// Lines that could not be read, as sentences.
   [[nodiscard]] std::vector<std::string> problems() const;
   [[nodiscard]] bool waiting() const;  ///< a file ends in the middle of a line

@@ -63,9 +63,7 @@ IncomingItem IncomingItem::parse(const nlohmann::json& json) {
 
 std::vector<IncomingItem> incomingJournal(const Session& session, std::int64_t campaign) {
   std::vector<IncomingItem> items;
-  const auto stored = session.setting(fmt::format("incoming/{}", campaign));
-  if (!stored || !stored->is_array()) return items;
-  for (const nlohmann::json& entry : *stored) {
+  for (const nlohmann::json& entry : session.arrivals(campaign)) {
     try {
       items.push_back(IncomingItem::parse(entry));
     } catch (const nlohmann::json::exception&) {
@@ -87,23 +85,16 @@ void storePlan(Session& session, std::int64_t campaign, const MeasurementPlan& p
 
 void recordArrival(Session& session, std::int64_t campaign, const ExaminedFile& examined) {
   if (!examined.row.empty()) session.addCaptureRows(campaign, examined.list, examined.header, {examined.row});
-  const std::string key = fmt::format("incoming/{}", campaign);
-  nlohmann::json journal = session.setting(key).value_or(nlohmann::json::array());
-  if (!journal.is_array()) journal = nlohmann::json::array();
+  const std::string& name = examined.item.name;
   nlohmann::json entry = examined.item.json();
-  for (nlohmann::json& known : journal) {
-    if (!known.is_object() || known.value("name", nlohmann::json()) != examined.item.name) continue;
+  if (const auto known = session.arrival(campaign, name); known && known->is_object()) {
     // The same file once more has no news: what was measured in it stays.
-    const bool same = known.value("hash", nlohmann::json()) == examined.item.hash && !entry.contains("sharpness");
+    const bool same = known->value("hash", nlohmann::json()) == examined.item.hash && !entry.contains("sharpness");
     for (const char* measured : {"pose", "sharpness"}) {
-      if (same && known.contains(measured)) entry[measured] = known[measured];
+      if (same && known->contains(measured)) entry[measured] = (*known)[measured];
     }
-    known = entry;
-    session.setSetting(key, journal);
-    return;
   }
-  journal.push_back(entry);
-  session.setSetting(key, journal);
+  session.setArrival(campaign, name, entry);
 }
 
 }  // namespace spindrift

@@ -157,24 +157,34 @@ MeasurementPlan MeasurementPlan::parse(const JsonNode& root) {
   return plan;
 }
 
-const PlannedItem* MeasurementPlan::find(const std::string& id) const {
-  const auto found = std::find_if(items.begin(), items.end(), [&](const PlannedItem& i) { return i.id == id; });
-  return found == items.end() ? nullptr : &*found;
+PlanIndex::PlanIndex(MeasurementPlan plan) : plan_(std::move(plan)) {
+  for (std::size_t i = 0; i < plan_.items.size(); ++i) {
+    const std::string& id = plan_.items[i].id;
+    ids_.try_emplace(id, i);
+    lower_.try_emplace(lowerCase(id), i);
+    lengths_.insert(id.size());
+  }
 }
 
-const PlannedItem* MeasurementPlan::ofName(const std::string& file_name) const {
+std::optional<std::size_t> PlanIndex::find(const std::string& id) const {
+  const auto found = ids_.find(id);
+  return found == ids_.end() ? std::nullopt : std::optional(found->second);
+}
+
+const PlannedItem* PlanIndex::ofName(const std::string& file_name) const {
   const std::string name = lowerCase(file_name);
-  const PlannedItem* best = nullptr;
-  for (const PlannedItem& item : items) {
-    const std::string id = lowerCase(item.id);
-    const std::size_t at = name.find(id);
-    if (at == std::string::npos) continue;
-    // "M1_F1_focus_1" must not be found in "M1_F1_focus_12".
-    const auto letter = [&](std::size_t i) { return std::isalnum(static_cast<unsigned char>(name[i])) != 0; };
-    if ((at > 0 && letter(at - 1)) || (at + id.size() < name.size() && letter(at + id.size()))) continue;
-    if (best == nullptr || item.id.size() > best->id.size()) best = &item;
+  const auto letter = [&](std::size_t i) { return std::isalnum(static_cast<unsigned char>(name[i])) != 0; };
+  for (const std::size_t length : lengths_) {
+    std::optional<std::size_t> first;
+    for (std::size_t at = 0; at + length <= name.size(); ++at) {
+      // "M1_F1_focus_1" must not be found in "M1_F1_focus_12".
+      if ((at > 0 && letter(at - 1)) || (at + length < name.size() && letter(at + length))) continue;
+      const auto found = lower_.find(name.substr(at, length));
+      if (found != lower_.end() && (!first || found->second < *first)) first = found->second;
+    }
+    if (first) return &plan_.items[*first];
   }
-  return best;
+  return nullptr;
 }
 
 void PlanOptions::validate() const {
@@ -225,70 +235,107 @@ MeasurementPlan makePlan(const MachineDescription& machine, const PlanOptions& o
 
 namespace {
 
-/// Touches of every cycle of an artefact, cycles in order of appearance.
-using CycleCounts = std::vector<std::pair<std::string, std::size_t>>;
-
-std::map<std::string, CycleCounts> cycleCounts(const TouchList& list) {
-  std::map<std::string, CycleCounts> counts;
-  for (const Touch& t : list.touches) {
-    CycleCounts& of = counts[t.artefact];
-    const auto found = std::find_if(of.begin(), of.end(), [&](const auto& c) { return c.first == t.cycle; });
-    if (found == of.end()) {
-      of.emplace_back(t.cycle, 1);
-    } else {
-      ++found->second;
-    }
-  }
-  return counts;
+std::string imageKey(const std::string& state, const std::string& fiducial, std::string_view role, int index) {
+  return fmt::format("image|{}|{}|{}|{}", state, fiducial, role, index);
 }
 
-void judgeCycle(const PlannedItem& item, const CycleCounts& cycles, PlanCaptures& captures) {
-  const auto own = std::find_if(cycles.begin(), cycles.end(), [&](const auto& c) { return c.first == item.state; });
-  if (own == cycles.end()) return;
-  const auto planned = static_cast<std::size_t>(item.touches);
-  // A programme of its own may have fewer touches than planned: then all cycles have.
-  const bool usual =
-      std::any_of(cycles.begin(), cycles.end(), [&](const auto& c) { return &c != &*own && c.second == own->second; });
-  const bool complete = own != cycles.begin() ? own->second >= cycles.front().second
-                        : planned > 0         ? own->second >= planned || usual
-                                              : cycles.size() > 1;
-  if (complete) {
-    captures.done.insert(item.id);
-  } else {
-    captures.begun[item.id] = own->second;
-  }
+/// Of a cycle or a scan.
+std::string artefactKey(PlannedKind kind, const std::string& state, const std::string& artefact) {
+  return fmt::format("{}|{}|{}", toString(kind), state, artefact);
+}
+
+std::string keyOf(const PlannedItem& i) {
+  return i.kind == PlannedKind::Image ? imageKey(i.state, i.fiducial, i.role, i.index)
+                                      : artefactKey(i.kind, i.state, i.artefact);
 }
 
 }  // namespace
 
-PlanCaptures planCaptures(const MeasurementPlan& plan, const Campaign& campaign) {
-  std::set<std::string> keys;
-  std::map<std::string, CycleCounts> cycles;
+PlanTally::PlanTally(const PlanIndex& plan, const Campaign& campaign) : plan_(plan) {
+  const std::vector<PlannedItem>& items = plan_.plan().items;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    by_key_[keyOf(items[i])].push_back(i);
+    open_[items[i].kind].insert(i);
+  }
   try {
     if (const auto file = campaign.captureList("fiducials.csv")) {
-      for (const FiducialCapture& c : readFiducialCaptures(*file).captures) {
-        keys.insert(fmt::format("{}|{}|{}|{}", c.state, c.fiducial, toString(c.role), c.index));
-      }
+      for (const FiducialCapture& c : readFiducialCaptures(*file).captures)
+        markKey(imageKey(c.state, c.fiducial, toString(c.role), c.index));
     }
-    if (const auto file = campaign.captureList("touches.csv")) cycles = cycleCounts(TouchList::read(*file));
+    if (const auto file = campaign.captureList("touches.csv")) {
+      for (const Touch& t : TouchList::read(*file).touches) add(t);
+    }
     if (campaign.captureList("scans.csv")) {
-      for (const ScanCapture& c : readScanList(campaign)) keys.insert(fmt::format("scan|{}|{}", c.cycle, c.artefact));
+      for (const ScanCapture& c : readScanList(campaign)) markKey(artefactKey(PlannedKind::Scan, c.cycle, c.artefact));
     }
   } catch (const InputError&) {
     // The page of the captures says what is wrong with the list.
   }
-  PlanCaptures captures;
-  for (const PlannedItem& i : plan.items) {
-    if (i.kind == PlannedKind::Cycle) {
-      judgeCycle(i, cycles[i.artefact], captures);
-      continue;
-    }
-    const std::string key = i.kind == PlannedKind::Image
-                                ? fmt::format("{}|{}|{}|{}", i.state, i.fiducial, i.role, i.index)
-                                : fmt::format("scan|{}|{}", i.state, i.artefact);
-    if (keys.contains(key)) captures.done.insert(i.id);
+}
+
+void PlanTally::markKey(const std::string& key) {
+  const auto items = by_key_.find(key);
+  if (items == by_key_.end()) return;
+  for (const std::size_t i : items->second) {
+    const PlannedItem& item = plan_.plan().items[i];
+    captures_.done.insert(item.id);
+    open_[item.kind].erase(i);
   }
-  return captures;
+}
+
+const PlannedItem* PlanTally::firstOpen(PlannedKind kind) const {
+  const auto open = open_.find(kind);
+  if (open == open_.end() || open->second.empty()) return nullptr;
+  return &plan_.plan().items[*open->second.begin()];
+}
+
+void PlanTally::add(const PlannedItem& item) {
+  markKey(keyOf(item));
+}
+
+void PlanTally::add(const Touch& touch) {
+  Cycles& cycles = cycles_[touch.artefact];
+  const auto [at, fresh] = cycles.index.try_emplace(touch.cycle, cycles.counts.size());
+  if (fresh) cycles.counts.emplace_back(touch.cycle, 0);
+  std::size_t& count = cycles.counts[at->second].second;
+  if (const auto before = cycles.with_count.find(count); !fresh && --before->second == 0)
+    cycles.with_count.erase(before);
+  ++cycles.with_count[++count];
+  judgeCycle(touch.artefact, cycles, at->second);
+  if (at->second > 0) {
+    judgeCycle(touch.artefact, cycles, 0);
+  } else {
+    for (std::size_t other = 1; other < cycles.counts.size(); ++other) judgeCycle(touch.artefact, cycles, other);
+  }
+}
+
+void PlanTally::judgeCycle(const std::string& artefact, const Cycles& cycles, std::size_t cycle) {
+  const auto& [name, own] = cycles.counts[cycle];
+  const auto items = by_key_.find(artefactKey(PlannedKind::Cycle, name, artefact));
+  if (items == by_key_.end()) return;
+  // A programme of its own may have fewer touches than planned: then all cycles have.
+  const bool usual = cycles.with_count.at(own) > 1;
+  for (const std::size_t i : items->second) {
+    const PlannedItem& item = plan_.plan().items[i];
+    const auto planned = static_cast<std::size_t>(item.touches);
+    const bool complete = cycle > 0     ? own >= cycles.counts.front().second
+                          : planned > 0 ? own >= planned || usual
+                                        : cycles.counts.size() > 1;
+    if (complete) {
+      captures_.done.insert(item.id);
+      captures_.begun.erase(item.id);
+      open_[item.kind].erase(i);
+    } else {
+      captures_.done.erase(item.id);
+      captures_.begun[item.id] = own;
+      open_[item.kind].insert(i);
+    }
+  }
+}
+
+PlanCaptures planCaptures(const MeasurementPlan& plan, const Campaign& campaign) {
+  const PlanIndex index(plan);
+  return PlanTally(index, campaign).captures();
 }
 
 std::set<std::string> capturedItems(const MeasurementPlan& plan, const Campaign& campaign) {

@@ -8,15 +8,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/base/json_reader.h"
 #include "core/machine/campaign.h"
+#include "core/probing/touch.h"
 
 namespace spindrift {
 
@@ -53,9 +57,6 @@ struct MeasurementPlan {
   [[nodiscard]] nlohmann::json json() const;
   /// Throws InputError: unknown kind or role, an id or a state twice, a state that is not listed, a time that is none.
   [[nodiscard]] static MeasurementPlan parse(const JsonNode& root);
-  [[nodiscard]] const PlannedItem* find(const std::string& id) const;
-  /// The item whose id stands in a file's name (letters in any case, longest id first); null if none does.
-  [[nodiscard]] const PlannedItem* ofName(const std::string& file_name) const;
 };
 
 struct PlanOptions {
@@ -73,6 +74,25 @@ struct PlanOptions {
 /// InputError if the machine has none.
 [[nodiscard]] MeasurementPlan makePlan(const MachineDescription& machine, const PlanOptions& options);
 
+/// A plan whose items are found without looking through all of them.
+class PlanIndex {
+ public:
+  explicit PlanIndex(MeasurementPlan plan);
+
+  [[nodiscard]] const MeasurementPlan& plan() const { return plan_; }
+  /// Index of an item.
+  [[nodiscard]] std::optional<std::size_t> find(const std::string& id) const;
+  /// The item whose id stands in a file's name (letters in any case, longest id first), nothing beside it that would
+  /// belong to it; null if none does.
+  [[nodiscard]] const PlannedItem* ofName(const std::string& file_name) const;
+
+ private:
+  MeasurementPlan plan_;
+  std::unordered_map<std::string, std::size_t> ids_;
+  std::unordered_map<std::string, std::size_t> lower_;  ///< ids in lower case
+  std::set<std::size_t, std::greater<>> lengths_;       ///< of the ids
+};
+
 /// What the capture lists of a campaign folder hold of a plan.
 struct PlanCaptures {
   std::set<std::string> done;
@@ -83,6 +103,37 @@ struct PlanCaptures {
 /// of its artefact; the first one itself when it has as many as planned, or as another cycle (a programme of its own
 /// may have fewer); where no number is planned, when another cycle has begun. Lists that cannot be read count as empty.
 [[nodiscard]] PlanCaptures planCaptures(const MeasurementPlan& plan, const Campaign& campaign);
+
+/// The same, kept up to date as captures arrive; what one more costs does not depend on how many there are.
+class PlanTally {
+ public:
+  /// `plan` must outlive it.
+  PlanTally(const PlanIndex& plan, const Campaign& campaign);
+
+  [[nodiscard]] const PlanCaptures& captures() const { return captures_; }
+  /// First item of a kind (image, scan) that is not captured; null if all are.
+  [[nodiscard]] const PlannedItem* firstOpen(PlannedKind kind) const;
+  /// An image or scan was listed.
+  void add(const PlannedItem& item);
+  /// A touch was listed.
+  void add(const Touch& touch);
+
+ private:
+  /// Touches of the cycles of an artefact, cycles in order of appearance.
+  struct Cycles {
+    std::vector<std::pair<std::string, std::size_t>> counts;
+    std::unordered_map<std::string, std::size_t> index;
+    std::unordered_map<std::size_t, std::size_t> with_count;  ///< number of touches -> cycles that have as many
+  };
+  void markKey(const std::string& key);
+  void judgeCycle(const std::string& artefact, const Cycles& cycles, std::size_t cycle);
+
+  const PlanIndex& plan_;
+  PlanCaptures captures_;
+  std::unordered_map<std::string, std::vector<std::size_t>> by_key_;  ///< what the lists say of an item -> items
+  std::map<PlannedKind, std::set<std::size_t>> open_;
+  std::unordered_map<std::string, Cycles> cycles_;  ///< by artefact
+};
 /// Only what is captured.
 [[nodiscard]] std::set<std::string> capturedItems(const MeasurementPlan& plan, const Campaign& campaign);
 

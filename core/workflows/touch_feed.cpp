@@ -15,12 +15,14 @@ const char* TouchFeed::header() {
   return "time_s,cycle,artefact,feature,stylus,c_deg,touch,x_mm,y_mm,z_mm,nx,ny,nz";
 }
 
-std::size_t TouchFeed::update(const std::string& name, std::string_view text, double first_s) {
+std::size_t TouchFeed::update(const std::string& name, std::string_view text, bool anew, double first_s) {
   const bool csv = lowerCase(std::filesystem::path(name).extension().string()) == ".csv";
   auto at = sources_.find(name);
   if (at == sources_.end()) {
     at = sources_.emplace(name, Source{TouchStream(name, machine_, csv ? std::nullopt : pattern_), csv ? 0.0 : first_s})
              .first;
+  } else if (anew) {
+    at->second.stream.restart();
   }
   std::size_t fresh = 0;
   for (Touch& t : at->second.stream.update(text)) {
@@ -30,9 +32,9 @@ std::size_t TouchFeed::update(const std::string& name, std::string_view text, do
   return fresh;
 }
 
-std::vector<std::string> TouchFeed::takeRows(bool all) {
+std::vector<std::string> TouchFeed::rowsOf(const std::vector<Touch>& touches) {
   TouchList list;
-  list.touches = live_.takeFinished(all);
+  list.touches = touches;
   std::vector<std::string> rows;
   const std::string text = list.csv();
   std::size_t begin = text.find('\n') + 1;

@@ -10,6 +10,7 @@ void readAll(const Session& session) {
   for (const CampaignRecord& record : session.campaigns()) {
     (void)session.exclusions(record.id);
     (void)session.notes(record.id);
+    (void)session.arrivals(record.id);
     (void)session.results(record.id);
     for (const std::string& kind : session.resultKinds(record.id)) {
       for (const StoredResult& result : session.resultHeads(record.id, kind)) (void)session.payload(result.id);

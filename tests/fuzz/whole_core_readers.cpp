@@ -36,9 +36,13 @@ void journal(std::string_view bytes) {
   static Session session = [] {
     const std::filesystem::path made = scratchFile("journal/new", "").parent_path() / "session";
     std::filesystem::remove_all(made);
-    return Session::create(made);
+    Session fresh = Session::create(made);
+    (void)fresh.newCampaign("cell", "2026-01-31T08:00:00Z",
+                            R"({"format":"spindrift-machine","version":1,"name":"mill","chain":"V [w-X'-Y'-b-Z-t]",
+                               "axes":[{"name":"X","travel_mm":[0,300]}]})");
+    return fresh;
   }();
-  session.setSetting("incoming/1", JsonNode::parse(bytes, "journal.json").value());
+  session.setArrival(1, "a.png", JsonNode::parse(bytes, "journal.json").value());
   for (const IncomingItem& item : incomingJournal(session, 1)) (void)item.json();
 }
 

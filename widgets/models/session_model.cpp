@@ -10,7 +10,18 @@
 #include "widgets/common/preferences.h"
 
 namespace spindrift::gui {
-SessionModel::SessionModel(QObject* parent) : QObject(parent) {}
+namespace {
+
+/// What takes less may come with every capture.
+constexpr qint64 least_to_wait_for_ms = 100;
+
+}  // namespace
+
+SessionModel::SessionModel(QObject* parent) : QObject(parent) {
+  since_told_.start();
+  tell_later_.setSingleShot(true);
+  connect(&tell_later_, &QTimer::timeout, this, &SessionModel::tellOfCaptures);
+}
 SessionModel::~SessionModel() = default;
 
 LoadedSession loadSession(std::unique_ptr<Session> session, std::int64_t campaign) {
@@ -262,7 +273,20 @@ void SessionModel::capturesChanged(bool first) {
   ++capture_generation_;
   // The first capture of an instrument changes which pages there are.
   if (first) Q_EMIT campaignChanged();
+  // Pages count and read the lists again, which takes the longer the more is in them: it gets a tenth of the time.
+  const qint64 wait_ms = 10 * telling_took_ms_ - since_told_.elapsed();
+  if (first || telling_took_ms_ < least_to_wait_for_ms || wait_ms <= 0) {
+    tellOfCaptures();
+  } else if (!tell_later_.isActive()) {
+    tell_later_.start(static_cast<int>(wait_ms));
+  }
+}
+
+void SessionModel::tellOfCaptures() {
+  tell_later_.stop();
+  since_told_.start();
   Q_EMIT inputsChanged();
+  telling_took_ms_ = since_told_.restart();
 }
 
 void SessionModel::recordArrival(const ExaminedFile& examined) {

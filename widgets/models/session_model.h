@@ -3,8 +3,10 @@
 // Lives on the GUI thread; jobs get copies (`snapshot()`).
 #pragma once
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QString>
+#include <QTimer>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -182,7 +184,8 @@ class SessionModel : public QObject {
   void resultChanged(const QString& kind);
   /// Work on a result has begun, or ended without one.
   void workChanged();
-  /// Something results depend on changed: exclusions, machine, options.
+  /// Something results depend on changed: exclusions, machine, options. Of captures it is told as often as those who
+  /// hear it can follow.
   void inputsChanged();
   /// Something could not be stored (disk full, folder gone): the sentence for the user. What is shown stays as it was.
   void storingFailed(const QString& sentence);
@@ -194,6 +197,7 @@ class SessionModel : public QObject {
   void forget();
   void showExcluded();
   void capturesChanged(bool first);
+  void tellOfCaptures();
 
   std::unique_ptr<Session> session_;
   TaskLedger ledger_;
@@ -212,6 +216,9 @@ class SessionModel : public QObject {
   std::int64_t visit_ = 0;
   std::int64_t opened_ = 0;  ///< sessions so far
   int capture_generation_ = 0;
+  QTimer tell_later_;  ///< runs while captures are there that the pages have not been told of
+  QElapsedTimer since_told_;
+  qint64 telling_took_ms_ = 0;
 };
 
 /// Folder in which new sessions are made: <documents>/Spindrift, or the application's data folder.

@@ -76,6 +76,25 @@ TEST(Capture, APlannedCampaignIsTakenInFromAFolder) {
   EXPECT_EQ(linesOf(session.campaigns()[0].folder / "captures/fiducials.csv").size(), 4U);
 }
 
+TEST(Capture, ANameThatIsNoUtf8IsWrittenWithItsBytes) {
+  const TempFolder folder;
+  const std::string machine = folder
+                                  .write("machine.json", R"({"format":"spindrift-machine","version":1,"name":"mill",
+"chain":"V [w-X'-Y'-b-Z-t]","axes":[{"name":"X","travel_mm":[0,300]}]})")
+                                  .string();
+  folder.write(
+      "in/Pr\xFC"
+      "fling.docx",
+      "no capture");
+  const nlohmann::json taken = jsonOf({"watch", (folder / "in").string(), "--session", (folder / "s").string(),
+                                       "--machine", machine, "--settle", "0.1", "--until-idle", "0.5"});
+  ASSERT_EQ(taken["items"].size(), 1U);
+  EXPECT_EQ(taken["items"][0]["name"],
+            "Pr\\xFC"
+            "fling.docx");
+  EXPECT_EQ(taken["items"][0]["state"], "left aside");
+}
+
 TEST(Capture, WhatCannotBeWatchedIsOneSentence) {
   const TempFolder folder;
   std::filesystem::create_directories(folder / "in");

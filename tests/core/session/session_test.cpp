@@ -234,7 +234,7 @@ TEST(Session, OneOfAnOlderVersionIsMigratedAndLosesNothing) {
   {
     Session session = Session::open(folder / "old");
     ASSERT_EQ(session.migrationMessages().size(), 1U);
-    EXPECT_THAT(session.migrationMessages()[0], HasSubstr("version 1 to 3"));
+    EXPECT_THAT(session.migrationMessages()[0], HasSubstr("version 1 to 4"));
     ASSERT_EQ(session.campaigns().size(), 1U);
     EXPECT_EQ(Campaign::read(session.campaigns()[0].folder).machine.name, "mill");
     EXPECT_EQ(session.latestResult(1, "fit")->payload.at("rms_um"), 1.5);
@@ -251,6 +251,98 @@ TEST(Session, OneOfAnOlderVersionIsMigratedAndLosesNothing) {
   const Session again = Session::open(folder / "old");
   EXPECT_TRUE(again.migrationMessages().empty());
   EXPECT_EQ(again.notes(1).at(1).item, "captures/images/a.jpg");
+}
+
+void execute(const std::filesystem::path& database, const std::string& sql) {
+  sqlite3* handle = nullptr;
+  ASSERT_EQ(sqlite3_open(database.c_str(), &handle), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(handle);
+  sqlite3_close(handle);
+}
+
+TEST(Session, TheJournalOfAnOlderVersionGetsARowAnArrival) {
+  const TempFolder folder;
+  writeVersion1(folder, "old");
+  execute(folder / "old/session.sqlite",
+          R"(insert into setting values ('incoming/1', '[{"name":"b.png","hash":"1"},{"name":"a.png","hash":"2"},7,
+             {"hash":"of no name"},{"name":"c.png","hash":"3"}]');
+             insert into setting values ('incoming/9', '[{"name":"of no campaign"}]'))");
+  const Session session = Session::open(folder / "old");
+  const std::vector<nlohmann::json> arrivals = session.arrivals(1);
+  ASSERT_EQ(arrivals.size(), 3U);
+  EXPECT_EQ(arrivals[0], nlohmann::json::parse(R"({"name":"b.png","hash":"1"})"));
+  EXPECT_EQ(arrivals[1].at("name"), "a.png");
+  EXPECT_EQ(session.arrival(1, "c.png")->at("hash"), "3");
+  EXPECT_FALSE(session.setting("incoming/1"));
+}
+
+TEST(Session, AJournalThatIsNoJsonHindersNoMigration) {
+  const TempFolder folder;
+  writeVersion1(folder, "old");
+  execute(folder / "old/session.sqlite", "insert into setting values ('incoming/1', '[{')");
+  EXPECT_TRUE(Session::open(folder / "old").arrivals(1).empty());
+}
+
+TEST(Session, RowsThatComeLateGoWhereTheyBelong) {
+  const TempFolder folder;
+  Session session = Session::create(folder / "s");
+  const auto id = session.newCampaign("c", "2026-01-31T08:00:00Z", machine_json);
+  const std::filesystem::path list = session.campaign(id).folder / "captures/touches.csv";
+  const auto row = [](int i) { return std::to_string(i) + "," + std::string(90, 'x'); };
+  // Enough for several pieces of what is read of the end.
+  std::vector<std::string> even;
+  std::string expected = "time_s,what\n";
+  for (int i = 0; i < 6000; ++i) {
+    if (i % 2 == 0) even.push_back(row(i));
+    expected += row(i) + "\n";
+  }
+  session.addCaptureRows(id, "touches.csv", "time_s,what", even);
+  for (int i = 5999; i > 5990; i -= 2) session.addCaptureRows(id, "touches.csv", "time_s,what", {row(i)});
+  session.addCaptureRows(id, "touches.csv", "time_s,what", {row(1), row(3), row(5), row(1)});
+  std::vector<std::string> rest;
+  for (int i = 7; i < 5990; i += 2) rest.push_back(row(i));
+  session.addCaptureRows(id, "touches.csv", "time_s,what", rest);
+  EXPECT_EQ(readFile(list), expected);
+  session.addCaptureRows(id, "touches.csv", "time_s,what", rest);
+  EXPECT_EQ(readFile(list), expected) << "twice";
+  EXPECT_EQ(session.campaign(id).fingerprint, fingerprintOfFolder(session.campaign(id).folder));
+  // Another program ends the list in its own way, and writes a remark that nothing goes before.
+  writeFileAtomically(list, "time_s,what\r\n1,a\r\n# a pause\r\n5,b");
+  session.addCaptureRows(id, "touches.csv", "time_s,what", {"0,c", "4,d", "6,e"});
+  EXPECT_EQ(readFile(list), "time_s,what\n1,a\n# a pause\n0,c\n4,d\n5,b\n6,e\n");
+  EXPECT_EQ(session.campaign(id).fingerprint, fingerprintOfFolder(session.campaign(id).folder));
+  EXPECT_THROW(session.addCaptureRows(id, "touches.csv", "time_s", {"7"}), InputError);
+}
+
+TEST(Session, ARowThatACrashCutShortIsTakenBackAndOneThatSomebodyWroteIsNot) {
+  const TempFolder folder;
+  std::filesystem::path list;
+  {
+    Session session = Session::create(folder / "s");
+    const auto id = session.newCampaign("c", "2026-01-31T08:00:00Z", machine_json);
+    session.addCaptureRows(id, "touches.csv", "time_s,what", {"1,a"});
+    list = session.campaign(id).folder / "captures/touches.csv";
+  }
+  folder.write("s/campaigns/c/captures/touches.csv", "time_s,what\n1,a\n2,b");
+  { (void)Session::open(folder / "s"); }
+  EXPECT_EQ(readFile(list), "time_s,what\n1,a\n2,b") << "nobody crashed";
+  folder.write("s/campaigns/c/captures/touches.csv", "time_s,what\n1,a\n");
+  { (void)Session::open(folder / "s"); }
+  folder.write("s/campaigns/c/captures/touches.csv", "time_s,what\n1,a\n2,");
+  folder.write("s/lock", "process 1 on a machine without power");
+  { (void)Session::open(folder / "s"); }
+  EXPECT_EQ(readFile(list), "time_s,what\n1,a\n");
+  // The end of a list that was being written is written.
+  execute(folder / "s/session.sqlite",
+          "insert into pending_list values (1, 'captures/touches.csv', 12, '0,z\n1,a\n'),"
+          "(1, '../../../outside.csv', 0, 'x')");
+  folder.write("outside.csv", "mine");
+  EXPECT_THROW((void)Session::open(folder / "s"), InputError);
+  EXPECT_EQ(readFile(folder / "outside.csv"), "mine");
+  execute(folder / "s/session.sqlite", "delete from pending_list where list like '..%'");
+  folder.write("s/campaigns/c/captures/touches.csv", "time_s,what\n0,z\n");
+  { (void)Session::open(folder / "s"); }
+  EXPECT_EQ(readFile(list), "time_s,what\n0,z\n1,a\n");
 }
 
 TEST(Session, AMigrationThatCannotKeepACopyChangesNothing) {

@@ -3,11 +3,14 @@
 #include "core/workflows/incoming.h"
 #include "core/workflows/capture_check.h"
 #include "core/workflows/capture_intake.h"
+#include "core/workflows/folder_watch.h"
 
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/base/sha256.h"
 #include "core/base/units.h"
 #include "core/imaging/fiducial_captures.h"
 #include "core/imaging/image.h"
@@ -15,6 +18,7 @@
 #include "core/session/session.h"
 #include "core/simulation/virtual_microscope.h"
 #include "tests/core/probing/probing_machines.h"
+#include "tests/support/arrival_costs.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -65,7 +69,7 @@ class Incoming : public ::testing::Test {
       (void)incoming_.look(now_);
       while (const auto task = incoming_.next()) {
         ExaminedFile examined = examineArrival(task->file.file, task->name, task->file.written_ns,
-                                               intake_.context(campaign(), storedPlan(session_, id_)));
+                                               *intake_.context(campaign(), storedPlan(session_, id_)));
         ExaminedFile kept = examined;
         const IncomingItem& item = incoming_.finish(*task, std::move(examined), now_);
         if (item.state == IncomingState::Waiting) continue;
@@ -86,6 +90,14 @@ class Incoming : public ::testing::Test {
   [[nodiscard]] std::vector<FiducialCapture> images() const {
     const auto file = campaign().captureList("fiducials.csv");
     return file ? readFiducialCaptures(*file).captures : std::vector<FiducialCapture>();
+  }
+
+  /// As a crash between the row of a list and the journal leaves it.
+  void forgetJournal() {
+    sqlite3* handle = nullptr;
+    ASSERT_EQ(sqlite3_open((folder_ / "session/session.sqlite").c_str(), &handle), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(handle, "delete from arrival", nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(handle);
   }
 
   testing::TempFolder folder_;
@@ -215,7 +227,7 @@ TEST_F(Incoming, ImagesThatContradictThePlanAreAskedForAgain) {
   EXPECT_NE(item("M0_F1_rotation_1.png").sentence.find("turned by 8 deg, the plan says 90 deg"), std::string::npos)
       << item("M0_F1_rotation_1.png").sentence;
   // A session opened again knows what it has seen, also without its journal.
-  session_.setSetting("incoming/" + std::to_string(id_), nlohmann::json::array());
+  forgetJournal();
   intake_ = CaptureIntake();
   put("again/M0_F1_rotation_1.png", imageBytes(22, 1.0, 200.0, -90.0));
   pass(3.0);
@@ -268,7 +280,7 @@ TEST_F(Incoming, ReopenedSessionsKnowWhatArrived) {
   EXPECT_EQ(item("a.png").state, IncomingState::Twice);
   EXPECT_EQ(images().size(), 1U);
   // A crash between the row and the journal: the row is not added twice.
-  session_.setSetting("incoming/" + std::to_string(id_), nlohmann::json::array());
+  forgetJournal();
   incoming_ = IncomingFolder(folder_ / "watched", {1.0, true}, 4.0);
   pass(3.0);
   EXPECT_EQ(item("a.png").state, IncomingState::Twice);
@@ -319,8 +331,8 @@ TEST_F(Incoming, TwoFilesAreTheSameOnlyIfAllOfTheirHashAgrees) {
   before.kind = IncomingKind::Image;
   const auto file = folder_.write("a.png", "no image");
   const auto examined = [&](const std::vector<IncomingItem>& journal) {
-    return examineArrival(file, "a.png", 0, incomingContext(campaign(), storedPlan(session_, id_), journal, false))
-        .item;
+    const IncomingContext context(campaign(), storedPlan(session_, id_), journal, false);
+    return examineArrival(file, "a.png", 0, context).item;
   };
   const IncomingItem first = examined({});
   EXPECT_EQ(first.hash.size(), 64U);
@@ -335,11 +347,148 @@ TEST_F(Incoming, ACopyIsNeverTakenForAnother) {
   plan(PlannedKind::Image);
   const auto file = folder_.write("a.png", "no image");
   const auto examined = [&] {
-    return examineArrival(file, "a.png", 0, incomingContext(campaign(), storedPlan(session_, id_), {}, false)).item;
+    const IncomingContext context(campaign(), storedPlan(session_, id_), {}, false);
+    return examineArrival(file, "a.png", 0, context).item;
   };
   const std::filesystem::path stored = campaign().folder / examined().stored;
   writeFileAtomically(stored, "on image");  // of the same length
   EXPECT_EQ(readFile(campaign().folder / examined().stored), "no image");
+}
+
+TEST_F(Incoming, NamesThatAreNoUtf8AreTakenInAndToldApart) {
+  plan(PlannedKind::Image);
+  // Latin-1, what stands for it, and a path of it.
+  put("Pr\xFC"
+      "fling.png",
+      imageBytes(30));
+  put("Pr\\xFC"
+      "fling.png",
+      imageBytes(31, 1.0, 200.0, 90.0));
+  put("Tag\xE4/notes.docx", "dear diary");
+  pass(3.0);
+  EXPECT_EQ(item("Pr\\xFC"
+                 "fling.png")
+                .state,
+            IncomingState::Accepted)
+      << item(
+             "Pr\\xFC"
+             "fling.png")
+             .sentence;
+  EXPECT_EQ(item("Pr\\x5CxFC"
+                 "fling.png")
+                .state,
+            IncomingState::Accepted);
+  EXPECT_EQ(item("Tag\\xE4/notes.docx").state, IncomingState::Ignored);
+  EXPECT_EQ(images().size(), 2U);
+  EXPECT_EQ(incomingJournal(session_, id_).size(), 3U);
+  session_.setSetting("note", "a sentence with \xE4");
+  EXPECT_EQ(session_.setting("note"), nlohmann::json("a sentence with \xEF\xBF\xBD"));
+}
+
+TEST_F(Incoming, ListsOfTouchesAreReadFromWhereTheyEnded) {
+  const std::string header = std::string(TouchFeed::header()) + "\n";
+  const auto row = [](int i) { return fmt::format("{},M0,bar,H1,p0,0,{},1,2,3,1,0,0\n", 10 + i, i); };
+  const auto context = [&] { return intake_.context(campaign(), {}); };
+  const auto read = [&] { return examineArrival(folder_ / "watched/t.csv", "t.csv", 0, *context()); };
+  intake_.expectTouches(campaign(), std::nullopt);
+  put("t.csv", header + row(0));
+  ExaminedFile examined = read();
+  EXPECT_EQ(examined.text, header + row(0));
+  EXPECT_EQ(intake_.takeTouches(examined), 1U);
+  std::ofstream(folder_ / "watched/t.csv", std::ios::app) << row(1);
+  examined = read();
+  EXPECT_EQ(examined.text, row(1));
+  EXPECT_EQ(examined.item.hash, sha256(header + row(0) + row(1)));
+  EXPECT_EQ(readFile(campaign().path(examined.item.stored)), header + row(0) + row(1));
+  // What was read and not taken in is read again; the copy is whole.
+  examined = read();
+  EXPECT_EQ(examined.text, row(1));
+  EXPECT_EQ(readFile(campaign().path(examined.item.stored)), header + row(0) + row(1));
+  EXPECT_EQ(intake_.takeTouches(examined), 1U);
+  EXPECT_EQ(intake_.takeTouches(examined), 0U) << "taken in twice";
+  // Another file of that name, and one that became shorter.
+  folder_.write("other.csv", header + row(0) + row(1) + row(2));
+  std::filesystem::rename(folder_ / "other.csv", folder_ / "watched/t.csv");
+  examined = read();
+  EXPECT_EQ(examined.from, 0U);
+  EXPECT_EQ(intake_.takeTouches(examined), 1U) << "two are known";
+  put("t.csv", header);
+  examined = read();
+  EXPECT_EQ(examined.from, 0U);
+  EXPECT_EQ(examined.text, header);
+  // The same name in two folders: two copies.
+  put("a/t.csv", header + row(5));
+  put("b/t.csv", header + row(6));
+  const ExaminedFile a = examineArrival(folder_ / "watched/a/t.csv", "a/t.csv", 0, *context());
+  const ExaminedFile b = examineArrival(folder_ / "watched/b/t.csv", "b/t.csv", 0, *context());
+  EXPECT_NE(a.item.stored, b.item.stored);
+  EXPECT_EQ(readFile(campaign().path(a.item.stored)), header + row(5));
+}
+
+TEST(FolderWatchTest, AmongManyFilesOneThatIsWrittenAgainIsNoticed) {
+  const testing::FolderWithoutDisk folder;
+  std::filesystem::create_directories(folder.path() / "day");
+  const auto file = [&](int i) {
+    return folder.path() / (i % 2 == 0 ? "day" : "") / ("f" + std::to_string(i) + ".png");
+  };
+  for (int i = 0; i < 2500; ++i) std::ofstream(file(i)) << "x";
+  FolderWatch watch(folder.path(), {1.0, true});
+  EXPECT_EQ(watch.look(0.0).size(), 2500U);
+  EXPECT_EQ(watch.unsettled(), 2500U);
+  EXPECT_EQ(watch.look(2.0).size(), 2500U);
+  EXPECT_EQ(watch.unsettled(), 0U);
+  for (double now_s = 3.0; now_s < 7.0; ++now_s) EXPECT_TRUE(watch.look(now_s).empty());
+  std::ofstream(file(1234)) << "longer";
+  std::size_t told = 0;
+  for (double now_s = 10.0; now_s < 13.0; ++now_s) {
+    for (const WatchedFile& changed : watch.look(now_s)) {
+      EXPECT_EQ(changed.file, file(1234));
+      ++told;
+    }
+  }
+  EXPECT_GE(told, 1U) << "after as many looks as there are thousands";
+  std::filesystem::remove(file(7));
+  std::ofstream(file(9)) << "longest";
+  std::filesystem::remove(file(1234));
+  for (double now_s = 20.0; now_s < 30.0; now_s += 2.0) (void)watch.look(now_s);
+  EXPECT_EQ(watch.look(30.0).size() + watch.unsettled(), 0U);
+}
+
+TEST(ArrivalCosts, ACaptureCostsTheSameAfterThousands) {
+  const testing::FolderWithoutDisk folder;
+  const testing::ArrivalCosts costs = testing::costsOfCaptures(folder.path(), 5000, 50);
+  EXPECT_LT(costs.growth(), 1.5) << costs.cpu_us.at(1) << " us, then " << costs.cpu_us.back() << " us";
+}
+
+TEST(ArrivalCosts, ATouchCostsTheSameAfterThousands) {
+  const testing::FolderWithoutDisk folder;
+  const testing::ArrivalCosts costs = testing::costsOfTouches(folder.path(), 20000, 100);
+  EXPECT_LT(costs.growth(), 1.5) << costs.cpu_us.at(1) << " us, then " << costs.cpu_us.back() << " us";
+}
+
+TEST(PlanTally, CountsAsTheListsDo) {
+  using namespace probing_test;
+  testing::TempFolder folder;
+  const MachineDescription m = machineFrom(holeMachineText());
+  const VirtualRun run = runCycles(m, 3, {}, 45);
+  PlanOptions options;
+  options.kind = PlannedKind::Cycle;
+  const PlanIndex plan(makePlan(m, options));
+  Session session = Session::create(folder / "session");
+  const std::int64_t id = session.newCampaign("holes", "2026-01-31T08:00:00Z", holeMachineText());
+  const std::filesystem::path place = session.campaign(id).folder;
+  PlanTally tally(plan, Campaign::read(place));
+  TouchList list;
+  for (const Touch& t : run.list.touches) {
+    list.touches.push_back(t);
+    tally.add(t);
+    if (list.touches.size() % 40 != 0 && list.touches.size() % (run.list.touches.size() / 3) > 2) continue;
+    writeFileAtomically(place / "captures/touches.csv", list.csv());
+    const PlanCaptures whole = planCaptures(plan.plan(), Campaign::read(place));
+    EXPECT_EQ(tally.captures().done, whole.done) << list.touches.size();
+    EXPECT_EQ(tally.captures().begun, whole.begun) << list.touches.size();
+  }
+  EXPECT_EQ(tally.captures().done.size(), 3U);
 }
 
 TEST_F(Incoming, WithoutAPlanNothingIsLost) {
@@ -360,21 +509,23 @@ TEST(TouchFeedTest, TouchesOfAGrowingFileReachTheCampaignFeatureByFeature) {
   const std::string text = run.list.csv();
   TouchFeed feed(m, nullptr);
   std::size_t before_end = 0;
-  for (std::size_t length = 0; length < text.size(); length += 400) {
-    feed.update("touches.csv", std::string_view(text).substr(0, length), 0.0);
-    session.addCaptureRows(id, "touches.csv", TouchFeed::header(), feed.takeRows(false));
+  const auto store = [&](bool all) {
+    session.addCaptureRows(id, "touches.csv", TouchFeed::header(), TouchFeed::rowsOf(feed.takeFinished(all)));
+  };
+  for (std::size_t at = 0; at < text.size(); at += 400) {
     before_end = feed.live().touches().size();
+    feed.update("touches.csv", std::string_view(text).substr(at, 400), at == 0, 0.0);
+    store(false);
   }
-  feed.update("touches.csv", text, 0.0);
-  session.addCaptureRows(id, "touches.csv", TouchFeed::header(), feed.takeRows(true));
+  store(true);
   EXPECT_GT(before_end, run.list.touches.size() - 6);
   const Campaign campaign = Campaign::read(session.campaign(id).folder);
   const TouchList there = TouchList::read(*campaign.captureList("touches.csv"));
   EXPECT_EQ(there.touches.size(), run.list.touches.size());
   // A second start with the same file brings nothing twice.
   TouchFeed second(m, &there);
-  EXPECT_EQ(second.update("touches.csv", text, 0.0), 0U);
-  EXPECT_TRUE(second.takeRows(true).empty());
+  EXPECT_EQ(second.update("touches.csv", text, true, 0.0), 0U);
+  EXPECT_TRUE(second.takeFinished(true).empty());
 }
 
 TEST(MeasurementPlan, ComesBackFromJsonAndCountsDown) {
@@ -385,8 +536,9 @@ TEST(MeasurementPlan, ComesBackFromJsonAndCountsDown) {
   EXPECT_EQ(plan.items.size(), 2U * 2U * (4U + 5U + 5U + 5U));
   const MeasurementPlan back = MeasurementPlan::parse(JsonNode::parse(plan.json().dump(), "plan.json"));
   EXPECT_EQ(back.json(), plan.json());
-  EXPECT_EQ(plan.ofName("x_M1_F2_FOCUS_3.png")->id, "M1_F2_focus_3");
-  EXPECT_EQ(plan.ofName("M1_F2_focus_33.png"), nullptr);
+  const PlanIndex index(plan);
+  EXPECT_EQ(index.ofName("x_M1_F2_FOCUS_3.png")->id, "M1_F2_focus_3");
+  EXPECT_EQ(index.ofName("M1_F2_focus_33.png"), nullptr);
   PlanProgress progress = progressOf(plan, {}, 10.0);
   EXPECT_NE(progress.sentence.find("Now M0: F1, rotation 0"), std::string::npos) << progress.sentence;
   std::set<std::string> done;
@@ -472,7 +624,7 @@ TEST(CaptureIntakeTest, CountsOfTouchesAddUp) {
   file.item.name = "touches.csv";
   file.text = list.csv();
   EXPECT_EQ(intake.takeTouches(file), 74U);
-  const std::size_t rows = intake.takeRows(false).size();
+  const std::size_t rows = intake.takeFinished(false).size();
   EXPECT_EQ(intake.touchSentence(),
             "74 touches so far; " + std::to_string(74 - rows) + " are taken over when their feature is complete.");
   list.touches.resize(1);
@@ -528,7 +680,7 @@ TEST(CaptureIntakeTest, RetakesVanishWhenTheyHaveBeenTakenAgain) {
   intake.show(stray);
   EXPECT_EQ(intake.items().size(), 2U) << "the same file has one line";
   EXPECT_TRUE(intake.retakes({"M0_F1"}).empty());
-  EXPECT_TRUE(intake.takeRows(true).empty()) << "no touches are expected";
+  EXPECT_TRUE(intake.takeFinished(true).empty()) << "no touches are expected";
   EXPECT_EQ(intake.touchCount(), 0U);
 }
 

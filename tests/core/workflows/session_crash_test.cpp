@@ -12,6 +12,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
+#include "core/session/fingerprint.h"
 #include "core/session/session.h"
 #include "core/simulation/scenario.h"
 #include "core/simulation/virtual_campaign.h"
@@ -98,11 +99,45 @@ void operate(const std::filesystem::path& place, const Material& material, int p
   }
 }
 
+/// Index of the next touch where every second one comes before the one that was taken before it.
+std::size_t nextOfLate(std::size_t rows) {
+  return rows % 2 == 0 ? rows + 1 : rows - 1;
+}
+
+std::size_t rowsOf(const CampaignRecord& record) {
+  const std::size_t lines = linesOf(record.folder / "captures/touches.csv").size();
+  return lines > 0 ? lines - 1 : 0;
+}
+
+/// The program beside a control that prints late and several touches at once: 'l' a late or an early touch, 'b' three
+/// together, 'a' an arrival.
+void takeLateAndTogether(const std::filesystem::path& place, const Material& material, int pipe) {
+  Session session = Session::open(place);
+  const std::int64_t late = session.campaigns().at(0).id;
+  const std::int64_t together = session.campaigns().at(1).id;
+  acknowledge(pipe, 'o');
+  for (;;) {
+    const std::size_t next = nextOfLate(rowsOf(session.campaign(late)));
+    session.addCaptureRows(late, "touches.csv", material.header, {material.touches.at(next)});
+    acknowledge(pipe, 'l');
+    const auto three = material.touches.begin() + static_cast<std::ptrdiff_t>(rowsOf(session.campaign(together)));
+    session.addCaptureRows(together, "touches.csv", material.header, {three, three + 3});
+    acknowledge(pipe, 'b');
+    session.setArrival(late, "file " + std::to_string(session.arrivals(late).size()), {{"next", next}});
+    acknowledge(pipe, 'a');
+  }
+}
+
 struct Acknowledged {
   std::size_t touches = 0;
   std::size_t pictures = 0;
   std::size_t results = 0;
+  std::size_t late = 0;
+  std::size_t together = 0;
+  std::size_t arrivals = 0;
 };
+
+using Operator = void (*)(const std::filesystem::path& place, const Material& material, int pipe);
 
 class KilledCampaign : public ::testing::Test {
  protected:
@@ -115,14 +150,14 @@ class KilledCampaign : public ::testing::Test {
   [[nodiscard]] std::filesystem::path place() const { return folder_ / "session"; }
 
   /// Starts the program, kills it after `letters` acknowledgements and `delay`, and counts what it acknowledged.
-  void runAndKill(int letters, std::chrono::microseconds delay) {
+  void runAndKill(int letters, std::chrono::microseconds delay, Operator work = operate) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
     const pid_t child = ::fork();
     if (child == 0) {
       ::close(ends[0]);
       try {
-        operate(place(), material_, ends[1]);
+        work(place(), material_, ends[1]);
       } catch (const std::exception& e) {
         std::fprintf(stderr, "%s\n", e.what());
       }
@@ -144,6 +179,9 @@ class KilledCampaign : public ::testing::Test {
     acknowledged_.touches += letter == 'c' ? 1 : 0;
     acknowledged_.pictures += letter == 'p' ? 1 : 0;
     acknowledged_.results += letter == 'r' ? 1 : 0;
+    acknowledged_.late += letter == 'l' ? 1 : 0;
+    acknowledged_.together += letter == 'b' ? 1 : 0;
+    acknowledged_.arrivals += letter == 'a' ? 1 : 0;
   }
 
   /// Everything acknowledged is there and whole; beyond it at most the one item that was in work.
@@ -272,6 +310,45 @@ TEST_F(KilledCampaign, LeavesABatchWholeAndWhatWasTyped) {
   }
   EXPECT_GT(whole, 5U);
   EXPECT_GT(none, 5U);
+}
+
+TEST_F(KilledCampaign, LosesNothingThatCameLateOrTogether) {
+  std::mt19937 random(20260201);
+  std::uniform_int_distribution<int> letters(1, 9);
+  std::uniform_int_distribution<int> delay_us(0, 4000);
+  for (int kill = 0; kill < kills; ++kill) {
+    SCOPED_TRACE("kill " + std::to_string(kill));
+    ASSERT_NO_FATAL_FAILURE(
+        runAndKill(letters(random), std::chrono::microseconds(delay_us(random)), takeLateAndTogether));
+    const Session session = Session::open(place());
+    const CampaignRecord late = session.campaign(touched_);
+    std::size_t rows = rowsOf(late);
+    EXPECT_GE(rows, acknowledged_.late) << "an acknowledged touch was lost";
+    EXPECT_LE(rows, acknowledged_.late + 1);
+    acknowledged_.late = rows;
+    std::vector<std::string> lines = linesOf(late.folder / "captures/touches.csv");
+    for (std::size_t i = 0; i < rows; ++i) {
+      // The last one of an odd number waits for the one before it.
+      EXPECT_EQ(lines[i + 1], material_.touches[rows % 2 == 1 && i + 1 == rows ? rows : i]) << i << " of " << rows;
+    }
+    const CampaignRecord together = session.campaign(seen_);
+    rows = rowsOf(together);
+    EXPECT_EQ(rows % 3, 0U) << "a part of what came together";
+    EXPECT_GE(rows, 3 * acknowledged_.together);
+    EXPECT_LE(rows, 3 * (acknowledged_.together + 1));
+    acknowledged_.together = rows / 3;
+    lines = linesOf(together.folder / "captures/touches.csv");
+    for (std::size_t i = 0; i < rows; ++i) EXPECT_EQ(lines[i + 1], material_.touches[i]);
+    const std::size_t arrivals = session.arrivals(touched_).size();
+    EXPECT_GE(arrivals, acknowledged_.arrivals);
+    EXPECT_LE(arrivals, acknowledged_.arrivals + 1);
+    acknowledged_.arrivals = arrivals;
+    // What the session knows of the lists is what they are.
+    EXPECT_EQ(session.campaign(touched_).fingerprint, fingerprintOfFolder(late.folder));
+    EXPECT_EQ(session.campaign(seen_).fingerprint, fingerprintOfFolder(together.folder));
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(acknowledged_.late, 50U);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <QSplitter>
 #include <QTableView>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "widgets/common/core_sentence.h"
 #include "widgets/common/parts.h"
@@ -25,6 +26,8 @@ namespace spindrift::gui {
 namespace {
 
 constexpr QSize thumbnail_size(64, 36);
+/// The newest files; what is to be taken again is told beside the list whatever its age.
+constexpr int shown_items = 1000;
 /// From this width on the table has room for which capture a file is; the tip of its name says it too.
 constexpr int width_for_capture = 640;
 
@@ -139,10 +142,11 @@ void ArrivingPanel::refresh() {
   if (!isVisible()) return;
   std::vector<Row> rows;
   const std::vector<IncomingItem>& items = service_.items();
-  int accepted = 0;
-  for (std::size_t i = items.size(); i-- > 0;) {  // the newest on top
+  const auto accepted = std::count_if(items.begin(), items.end(),
+                                      [](const IncomingItem& item) { return item.state == IncomingState::Accepted; });
+  const std::size_t from = std::max<std::size_t>(items.size(), shown_items) - shown_items;
+  for (std::size_t i = items.size(); i-- > from;) {  // the newest on top
     const IncomingItem& item = items[i];
-    if (item.state == IncomingState::Accepted) ++accepted;
     Row row;
     row.id = fromCore(item.name);
     row.cells = {nameCell(row.id), stateCell(item.state),

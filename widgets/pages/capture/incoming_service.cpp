@@ -4,7 +4,6 @@
 #include <QDateTime>
 #include <QDir>
 #include <QFileInfo>
-#include <algorithm>
 
 #include "core/base/error.h"
 #include "core/imaging/image.h"
@@ -14,6 +13,9 @@
 
 namespace spindrift::gui {
 namespace {
+
+/// As many as the list of what arrives shows.
+constexpr std::size_t most_pictures = 1000;
 
 /// A small picture for the list; empty for what is no image.
 QImage smallPicture(const std::filesystem::path& file, IncomingKind kind) {
@@ -61,9 +63,9 @@ void IncomingService::follow() {
   examining_ = false;
   folder_.reset();
   thumbnails_.clear();
+  pictured_.clear();
   failure_.clear();
   plan_.reset();
-  done_.reset();
   const bool there = session_.session() != nullptr && session_.campaign() != nullptr;
   intake_ = there ? CaptureIntake(incomingJournal(*session_.session(), campaign_)) : CaptureIntake();
   Q_EMIT changed();
@@ -146,7 +148,12 @@ QStringList IncomingService::retakes() const {
   return sentences;
 }
 
-IncomingContext IncomingService::contextNow() {
+std::shared_ptr<const IncomingContext> IncomingService::contextNow() {
+  if (generation_ != session_.captureGeneration()) {
+    // Others added captures.
+    generation_ = session_.captureGeneration();
+    intake_.forgetContext();
+  }
   return intake_.context(*session_.campaign(), plan());
 }
 
@@ -154,9 +161,7 @@ void IncomingService::look() {
   if (folder_ == nullptr || session_.session() == nullptr) return;
   const QString before = problem();
   const bool news = folder_->look(now());
-  for (const IncomingItem& item : folder_->items()) {
-    if (item.state == IncomingState::Waiting) intake_.show(item);
-  }
+  for (const std::size_t i : folder_->waiting()) intake_.show(folder_->items()[i]);
   if (news || before != problem()) Q_EMIT changed();
   examineNext();
 }
@@ -171,7 +176,7 @@ void IncomingService::examineNext() {
   job.quiet = true;
   job.work = [this, task = *task, context = contextNow(), folder = campaign_folder_](JobContext&) {
     auto examined =
-        std::make_shared<ExaminedFile>(examineArrival(task.file.file, task.name, task.file.written_ns, context));
+        std::make_shared<ExaminedFile>(examineArrival(task.file.file, task.name, task.file.written_ns, *context));
     const QImage picture = smallPicture(task.file.file, examined->item.kind);
     return std::function<void()>([this, task, examined, picture, folder] {
       if (folder == campaign_folder_) finished(task, std::move(*examined), picture);
@@ -189,7 +194,7 @@ void IncomingService::examineNext() {
 void IncomingService::finished(const IncomingFolder::Task& task, ExaminedFile examined, const QImage& picture) {
   examining_ = false;
   if (folder_ == nullptr) return;
-  if (!picture.isNull()) thumbnails_[task.name] = picture;
+  keepPicture(task.name, picture);
   const ExaminedFile kept = examined;
   if (kept.item.kind == IncomingKind::Touches) {
     feed(kept);
@@ -206,6 +211,15 @@ void IncomingService::finished(const IncomingFolder::Task& task, ExaminedFile ex
   examineNext();
 }
 
+void IncomingService::keepPicture(const std::string& name, const QImage& picture) {
+  if (picture.isNull()) return;
+  if (!thumbnails_.insert_or_assign(name, picture).second) return;
+  pictured_.push_back(name);
+  if (pictured_.size() <= most_pictures) return;
+  thumbnails_.erase(pictured_.front());
+  pictured_.pop_front();
+}
+
 void IncomingService::record(const ExaminedFile& found) {
   ExaminedFile examined = found;
   if (!examined.row.empty() && done().contains(examined.item.plan_item)) {
@@ -217,6 +231,8 @@ void IncomingService::record(const ExaminedFile& found) {
     intake_.show(examined.item);
   }
   try {
+    // What is told of it in between must not take this capture for one of others.
+    if (!examined.row.empty()) ++generation_;
     session_.recordArrival(examined);
     failure_.clear();
   } catch (const InputError& e) {
@@ -224,10 +240,7 @@ void IncomingService::record(const ExaminedFile& found) {
     return;
   }
   intake_.remember(examined);
-  if (!examined.row.empty()) {
-    done_.reset();
-    Q_EMIT planProgressed();
-  }
+  if (!examined.row.empty()) Q_EMIT planProgressed();
 }
 
 void IncomingService::feed(const ExaminedFile& examined) {
@@ -243,10 +256,11 @@ void IncomingService::feed(const ExaminedFile& examined) {
 
 void IncomingService::flushTouches(bool all) {
   try {
-    const std::vector<std::string> rows = intake_.takeRows(all);
-    if (rows.empty()) return;
-    session_.addCaptureRows("touches.csv", TouchFeed::header(), rows);
-    done_.reset();
+    const std::vector<Touch> touches = intake_.takeFinished(all);
+    if (touches.empty()) return;
+    ++generation_;
+    session_.addCaptureRows("touches.csv", TouchFeed::header(), TouchFeed::rowsOf(touches));
+    intake_.remember(touches);
     Q_EMIT planProgressed();
   } catch (const InputError& e) {
     failure_ = coreSentence(e.what());
@@ -260,17 +274,17 @@ void IncomingService::take(const QString& name, std::shared_ptr<const GrayImage>
   std::string id;
   do {
     id = QStringLiteral("%1 %2").arg(name).arg(++pictures_).toStdString();
-  } while (std::any_of(items().begin(), items().end(), [&](const IncomingItem& item) { return item.name == id; }));
+  } while (intake_.knows(id));
   const std::int64_t written_ns = QDateTime::currentMSecsSinceEpoch() * 1'000'000;
   Job job;
   job.title = tr("Checking the picture");
   job.quiet = true;
   job.work = [this, id, image, written_ns, context = contextNow(), folder = campaign_folder_](JobContext&) {
-    auto examined = std::make_shared<ExaminedFile>(examineImage(encodePng(*image), id, written_ns, context));
+    auto examined = std::make_shared<ExaminedFile>(examineImage(encodePng(*image), id, written_ns, *context));
     const QImage picture = toImage(*image).scaled(128, 72, Qt::KeepAspectRatio, Qt::SmoothTransformation);
     return std::function<void()>([this, id, examined, picture, folder] {
       if (folder != campaign_folder_) return;
-      thumbnails_[id] = picture;
+      keepPicture(id, picture);
       intake_.show(examined->item);
       record(*examined);
       Q_EMIT changed();
@@ -305,11 +319,11 @@ void IncomingService::takeNext(QStringList files, std::vector<IncomingItem> take
   job.work = [this, next, taken, path = std::filesystem::path(file.absoluteFilePath().toStdString()),
               name = file.fileName().toStdString(), written_ns = file.lastModified().toMSecsSinceEpoch() * 1'000'000,
               context = contextNow(), folder = campaign_folder_](JobContext&) {
-    auto examined = std::make_shared<ExaminedFile>(examineArrival(path, name, written_ns, context));
+    auto examined = std::make_shared<ExaminedFile>(examineArrival(path, name, written_ns, *context));
     const QImage picture = smallPicture(path, examined->item.kind);
     return std::function<void()>([this, next, taken, examined, picture, folder] {
       if (folder != campaign_folder_) return;
-      if (!picture.isNull()) thumbnails_[examined->item.name] = picture;
+      keepPicture(examined->item.name, picture);
       ExaminedFile answer = *examined;
       answer.item = intake_.show(examined->item);
       record(answer);
@@ -343,15 +357,13 @@ const MeasurementPlan& IncomingService::plan() {
   return *plan_;
 }
 
+const PlanCaptures& IncomingService::captures() {
+  static const PlanCaptures none;
+  return session_.campaign() == nullptr ? none : contextNow()->captures();
+}
+
 const std::set<std::string>& IncomingService::done() {
-  if (!done_ || generation_ != session_.captureGeneration()) {
-    generation_ = session_.captureGeneration();
-    PlanCaptures captures;
-    if (session_.campaign() != nullptr) captures = planCaptures(plan(), *session_.campaign());
-    done_ = std::move(captures.done);
-    begun_ = std::move(captures.begun);
-  }
-  return *done_;
+  return captures().done;
 }
 
 double IncomingService::campaignTime() const {
@@ -361,13 +373,13 @@ double IncomingService::campaignTime() const {
 }
 
 PlanProgress IncomingService::progress() {
-  const std::set<std::string>& there = done();
-  return progressOf(plan(), there, campaignTime(), begun_);
+  const PlanCaptures& there = captures();
+  return progressOf(plan(), there.done, campaignTime(), there.begun);
 }
 
 void IncomingService::planChanged() {
   plan_.reset();
-  done_.reset();
+  intake_.forgetContext();
   Q_EMIT planProgressed();
 }
 

@@ -7,6 +7,7 @@
 #include <QImage>
 #include <QObject>
 #include <QTimer>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -74,9 +75,11 @@ class IncomingService : public QObject {
   void takeNext(QStringList files, std::vector<IncomingItem> taken,
                 std::function<void(const std::vector<IncomingItem>&)> done);
   void record(const ExaminedFile& found);
+  void keepPicture(const std::string& name, const QImage& picture);
   void feed(const ExaminedFile& examined);
   void flushTouches(bool all);
-  [[nodiscard]] IncomingContext contextNow();
+  [[nodiscard]] std::shared_ptr<const IncomingContext> contextNow();
+  [[nodiscard]] const PlanCaptures& captures();
   [[nodiscard]] std::string key(const char* what) const;
   [[nodiscard]] double now() const { return 1e-3 * static_cast<double>(clock_.elapsed()); }
 
@@ -94,10 +97,9 @@ class IncomingService : public QObject {
   std::unique_ptr<IncomingFolder> folder_;
   CaptureIntake intake_;
   std::map<std::string, QImage> thumbnails_;
+  std::deque<std::string> pictured_;  ///< names of thumbnails_, oldest first
   QString failure_;
   std::optional<MeasurementPlan> plan_;
-  std::optional<std::set<std::string>> done_;
-  std::map<std::string, std::size_t> begun_;  ///< as in PlanCaptures, with done_
 };
 
 }  // namespace spindrift::gui
