@@ -8,6 +8,7 @@
 
 #include "core/base/count_text.h"
 #include "core/base/error.h"
+#include "core/session/fingerprint.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/report_workflow.h"
 
@@ -48,6 +49,9 @@ std::string described(const std::string& input, const nlohmann::json& then, cons
   if (input == "fit") return "the fitted model";
   if (input == "thermal") return "the model over time";
   if (input == "discrepancy") return "the effects in the model";
+  if (input == "notes") return "the notes";
+  if (input == "plan") return "the measurement plan";
+  if (input == "reasons") return "reasons of exclusions";
   return input;
 }
 
@@ -180,6 +184,15 @@ nlohmann::json TaskGraph::inputsOfResults(const std::string& task) const {
   for (const std::string& kind : madeFrom(task)) add(kind);
   if (isReport(task)) {
     for (const char* kind : told) add(kind);
+    // What is printed word by word.
+    Fingerprint notes, reasons;
+    for (const Note& note : session_.notes(campaign_))
+      notes.add(note.created_utc).add(note.step).add(note.item).add(note.text);
+    for (const Exclusion& exclusion : session_.exclusions(campaign_)) reasons.add(exclusion.item).add(exclusion.reason);
+    const auto plan = session_.setting(campaignKey(option_keys::plan, campaign_)).value_or(nlohmann::json());
+    inputs["notes"] = notes.text();
+    inputs["reasons"] = reasons.text();
+    inputs["plan"] = Fingerprint().add(plan.dump()).text();
   }
   if (task == "verify") {
     const std::string folder = VerifyOptions::of(session_, campaign_).after;
