@@ -260,6 +260,10 @@
         <source>Value / u</source>
         <translation>Wert / u</translation>
     </message>
+    <message>
+        <source>The touches make up no whole cycle.</source>
+        <translation>Die Antastungen ergeben keinen vollständigen Zyklus.</translation>
+    </message>
 </context>
 <context>
     <name>Demo</name>
@@ -1551,10 +1555,6 @@
     <message>
         <source>Not all values could be tried; what is found keeps to those that could. {}</source>
         <translation>Nicht alle Werte konnten geprüft werden; das Ergebnis beschränkt sich auf die prüfbaren. {}</translation>
-    </message>
-    <message>
-        <source>Not checked: a drift of the instrument would appear in every deviation as a motion of the machine.</source>
-        <translation>Nicht geprüft: eine Drift des Messgeräts erschiene in jeder Abweichung als Bewegung der Maschine.</translation>
     </message>
     <message>
         <source>Not to be decided, because the log lacks what drives {}: {}.</source>
@@ -9364,6 +9364,18 @@ endgültig fehlgeschlagen: {}</translation>
         <source>a row from 0 to {}</source>
         <translation>eine Zeile von 0 bis {}</translation>
     </message>
+    <message>
+        <source>reasons of exclusions</source>
+        <translation>Gründe von Ausschlüssen</translation>
+    </message>
+    <message>
+        <source>the measurement plan</source>
+        <translation>der Messplan</translation>
+    </message>
+    <message>
+        <source>the notes</source>
+        <translation>die Notizen</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -11301,6 +11313,14 @@ endgültig fehlgeschlagen: {}</translation>
         <source>s</source>
         <translation>s</translation>
     </message>
+    <message>
+        <source>There are no observations yet to compare the log with. Evaluate the captures first (Calibrate).</source>
+        <translation>Es gibt noch keine Beobachtungen, mit denen das Protokoll verglichen werden kann. Zuerst die Aufnahmen auswerten (Kalibrieren).</translation>
+    </message>
+    <message>
+        <source>Estimating the offset of a clock</source>
+        <translation>Versatz einer Uhr wird geschätzt</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ClosedLoopPage</name>
@@ -12694,6 +12714,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Value / u</source>
         <translation>Wert / u</translation>
+    </message>
+    <message>
+        <source>The touches make up no whole cycle.</source>
+        <translation>Die Antastungen ergeben keinen vollständigen Zyklus.</translation>
     </message>
 </context>
 <context>
@@ -15387,6 +15411,10 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>%n Punkt unten hinzugefügt. Mit ihm wäre die Farbkarte im Mittel auf %1 µm und schlimmstenfalls auf %2 µm unsicher (0,5 µm in X und Y, 1 µm in Z je Marke). Die Änderungen übernehmen oder verwerfen.</numerusform>
             <numerusform>%n Punkte unten hinzugefügt. Mit ihnen wäre die Farbkarte im Mittel auf %1 µm und schlimmstenfalls auf %2 µm unsicher (0,5 µm in X und Y, 1 µm in Z je Marke). Die Änderungen übernehmen oder verwerfen.</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>The machine was changed meanwhile. Suggest the points again.</source>
+        <translation>Die Maschine wurde inzwischen geändert. Die Punkte erneut vorschlagen lassen.</translation>
     </message>
 </context>
 <context>
@@ -19849,6 +19877,10 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>Die einzige Antastung ist plausibel. Ob eine fehlt, zeigt sich, wenn ein zweiter Zyklus zum Vergleich vorliegt.</numerusform>
             <numerusform>Alle %n Antastungen sind plausibel. Ob eine fehlt, zeigt sich, wenn ein zweiter Zyklus zum Vergleich vorliegt.</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>The machine has changed since the programme was planned. Plan it again.</source>
+        <translation>Die Maschine hat sich geändert, seit das Programm geplant wurde. Es neu planen.</translation>
     </message>
 </context>
 <context>

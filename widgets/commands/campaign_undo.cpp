@@ -24,7 +24,11 @@ void CampaignUndo::follow() {
 }
 
 QUndoStack& CampaignUndo::stack() {
-  std::unique_ptr<QUndoStack>& own = stacks_[session_.campaignId()];
+  return stackOf(session_.campaignId());
+}
+
+QUndoStack& CampaignUndo::stackOf(std::int64_t campaign) {
+  std::unique_ptr<QUndoStack>& own = stacks_[campaign];
   if (own == nullptr) {
     own = std::make_unique<QUndoStack>();
     group_.addStack(own.get());
@@ -34,6 +38,10 @@ QUndoStack& CampaignUndo::stack() {
 
 void CampaignUndo::push(QUndoCommand* command) {
   stack().push(command);
+}
+
+void CampaignUndo::push(QUndoCommand* command, std::int64_t campaign) {
+  stackOf(campaign).push(command);
 }
 
 void CampaignUndo::undo() {

@@ -22,6 +22,8 @@ class CampaignUndo : public QObject {
 
   /// Does the command and keeps it for the campaign at hand. Takes ownership.
   void push(QUndoCommand* command);
+  /// The same for a campaign of the session that may not be at hand any more: what was started on it has ended.
+  void push(QUndoCommand* command, std::int64_t campaign);
   /// Nothing happens where there is nothing to take back.
   void undo();
   void redo();
@@ -32,6 +34,7 @@ class CampaignUndo : public QObject {
 
  private:
   void follow();
+  [[nodiscard]] QUndoStack& stackOf(std::int64_t campaign);
 
   const SessionModel& session_;
   QUndoGroup group_;

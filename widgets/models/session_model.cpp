@@ -224,6 +224,13 @@ bool SessionModel::atHand(const PendingResult& pending) const {
          pending.origin.campaign == state_.id;
 }
 
+bool SessionModel::has(const PendingResult& pending) const {
+  if (session_ == nullptr || pending.session != opened_) return false;
+  const std::vector<CampaignRecord> all = session_->campaigns();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const CampaignRecord& record) { return record.id == pending.origin.campaign; });
+}
+
 bool SessionModel::finish(const PendingResult& pending, const nlohmann::json& payload) {
   if (session_ == nullptr || pending.session != opened_) return false;
   auto kept = session_->keepResult(pending.origin, payload);
@@ -313,6 +320,7 @@ bool SessionModel::addNote(const QString& about, const QString& text, const QStr
   if (session_ == nullptr || state_.campaign == nullptr || text.isEmpty()) return false;
   try {
     session_->addNote(state_.id, about.toStdString(), text.toStdString(), item.toStdString());
+    Q_EMIT inputsChanged();  // a report prints it
     return true;
   } catch (const InputError& e) {
     Q_EMIT storingFailed(coreSentence(e.what()));
@@ -324,6 +332,7 @@ void SessionModel::removeNote(std::int64_t note) {
   if (session_ == nullptr) return;
   try {
     session_->removeNote(note);
+    Q_EMIT inputsChanged();
   } catch (const InputError& e) {
     Q_EMIT storingFailed(coreSentence(e.what()));
   }
