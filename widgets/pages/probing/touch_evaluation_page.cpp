@@ -203,8 +203,9 @@ void TouchEvaluationPage::refresh() {
     callout()->show(Tone::Good, tr("Deviations found: %1, no warnings.").arg(stored->observations.rows.size()));
   }
   const CycleEvaluation* cycles = cyclesOf(details_.evaluation.get());
-  if (cycles == nullptr || (state.current && details_.key != results_.key())) {
-    if (state.current) restore();
+  const bool other_inputs = state.current && details_.key != results_.key();
+  if (other_inputs) restore();
+  if (other_inputs || cycles == nullptr) {
     showDeviations();
     return;
   }
