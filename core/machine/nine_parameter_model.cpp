@@ -35,102 +35,6 @@ std::vector<std::string> namesOf(const std::vector<int>& parameters) {
   return names;
 }
 
-/// Rows of one state as changes from the reference, with their covariance.
-struct StateChange {
-  std::string state;
-  std::string reference;
-  std::vector<std::size_t> rows;  ///< of the set
-  Eigen::VectorXd value;
-  Eigen::MatrixXd covariance;
-  std::vector<std::string> warnings;
-};
-
-StateChange changeOf(const ObservationSet& set, const NineParameterOptions& options) {
-  const std::vector<std::string> states = set.states();
-  if (states.empty()) throw InputError({set.file, ""}, "holds no observation; allowed: at least one row per point.");
-  StateChange change;
-  change.state = options.state.empty() ? lastStateToFit(set) : options.state;
-  const bool named = std::find(states.begin(), states.end(), change.state) != states.end();
-  const bool all = set.absolute && !named && change.state == every_state;
-  const auto inState = [&](const Observation& o) { return all || o.state == change.state; };
-  if (!named && !all) {
-    throw InputError({set.file, ""},
-                     fmt::format("state \"{}\" is not there; allowed: {}.", change.state, joinedList(states, "or")));
-  }
-  const bool deviations = options.relative_to_reference && !set.absolute;
-  const bool relative = deviations && change.state != states.front();
-  if (relative) change.reference = states.front();
-  if (!relative && deviations && states.size() > 1) {
-    change.warnings.push_back(fmt::format(
-        "{} is the reference state: its values are zero up to an unknown constant, not deviations.", change.state));
-  }
-  using Key = std::tuple<std::string, Component, double>;
-  const auto keyOf = [](const Observation& o) { return Key(o.point, o.component, o.c_deg); };
-  std::map<Key, std::vector<std::size_t>> reference_rows;
-  std::vector<std::size_t> in_state;
-  bool rotations = false;
-  for (std::size_t i = 0; i < set.rows.size(); ++i) {
-    const Observation& o = set.rows[i];
-    if (o.use == ObservationUse::Exclude) continue;
-    if (isRotation(o.component)) {
-      rotations = rotations || inState(o);
-      continue;
-    }
-    if (relative && o.state == change.reference) reference_rows[keyOf(o)].push_back(i);
-    if (inState(o)) in_state.push_back(i);
-  }
-  if (rotations) {
-    change.warnings.emplace_back("observed rotations are left out: the nine parameters are fitted to displacements.");
-  }
-  std::vector<std::string> without_reference;
-  for (const std::size_t i : in_state) {
-    if (relative && !reference_rows.contains(keyOf(set.rows[i]))) {
-      without_reference.push_back(fmt::format("{} of {}", toString(set.rows[i].component), set.rows[i].point));
-    } else {
-      change.rows.push_back(i);
-    }
-  }
-  if (!without_reference.empty()) {
-    change.warnings.push_back(fmt::format("{} was not measured in the reference state {} and is left out.",
-                                          joinedList(without_reference), change.reference));
-  }
-  // v = B y over the rows involved, cov(v) = B cov(y) B^T.
-  std::map<std::size_t, Eigen::Index> column;
-  const auto columnOf = [&column](std::size_t row) {
-    return column.try_emplace(row, static_cast<Eigen::Index>(column.size())).first->second;
-  };
-  for (const std::size_t i : change.rows) {
-    columnOf(i);
-    if (relative) {
-      for (const std::size_t r : reference_rows[keyOf(set.rows[i])]) columnOf(r);
-    }
-  }
-  const auto size = static_cast<Eigen::Index>(column.size());
-  Eigen::VectorXd y(size);
-  std::vector<std::size_t> involved(column.size());
-  for (const auto& [row, c] : column) involved[static_cast<std::size_t>(c)] = row;
-  // Variances are the stated ones also where a file states covariances that are none: the fit then says so.
-  const Eigen::SparseMatrix<double> loads = set.shared.loads(involved);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd(loads * loads.transpose());
-  for (const auto& [row, c] : column) {
-    y(c) = set.rows[row].value;
-    covariance(c, c) = set.rows[row].sigma * set.rows[row].sigma;
-  }
-  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(change.rows.size()), size);
-  for (std::size_t k = 0; k < change.rows.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    B(row, column[change.rows[k]]) = 1.0;
-    if (!relative) continue;
-    const std::vector<std::size_t>& references = reference_rows[keyOf(set.rows[change.rows[k]])];
-    double total = 0.0;
-    for (const std::size_t r : references) total += 1.0 / (set.rows[r].sigma * set.rows[r].sigma);
-    for (const std::size_t r : references) B(row, column[r]) -= 1.0 / (set.rows[r].sigma * set.rows[r].sigma) / total;
-  }
-  change.value = B * y;
-  change.covariance = B * covariance * B.transpose();
-  return change;
-}
-
 /// Gain of the weighted fit: x = G v. Weights act on the whitened rows through an inflated covariance.
 Eigen::MatrixXd gainOf(const Eigen::MatrixXd& A, const Eigen::MatrixXd& covariance, double rank_tolerance) {
   const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance);
@@ -390,9 +294,102 @@ std::string lastStateToFit(const ObservationSet& observations) {
   return states.back();
 }
 
+double StateDifferences::sigma_um(std::size_t k) const {
+  const auto i = static_cast<Eigen::Index>(k);
+  return std::sqrt(covariance_um2(i, i));
+}
+
+StateDifferences differencesFromReference(const ObservationSet& set, const std::string& state, bool relative_asked) {
+  const std::vector<std::string> states = set.states();
+  if (states.empty()) throw InputError({set.file, ""}, "holds no observation; allowed: at least one row per point.");
+  StateDifferences change;
+  change.state = state;
+  const bool named = std::find(states.begin(), states.end(), change.state) != states.end();
+  const bool all = set.absolute && !named && change.state == every_state;
+  const auto inState = [&](const Observation& o) { return all || o.state == change.state; };
+  if (!named && !all) {
+    throw InputError({set.file, ""},
+                     fmt::format("state \"{}\" is not there; allowed: {}.", change.state, joinedList(states, "or")));
+  }
+  const bool deviations = relative_asked && !set.absolute;
+  const bool relative = deviations && change.state != states.front();
+  if (relative) change.reference = states.front();
+  if (!relative && deviations && states.size() > 1) {
+    change.warnings.push_back(fmt::format(
+        "{} is the reference state: its values are zero up to an unknown constant, not deviations.", change.state));
+  }
+  using Key = std::tuple<std::string, Component, double>;
+  const auto keyOf = [](const Observation& o) { return Key(o.point, o.component, o.c_deg); };
+  std::map<Key, std::vector<std::size_t>> reference_rows;
+  std::vector<std::size_t> in_state;
+  bool rotations = false;
+  for (std::size_t i = 0; i < set.rows.size(); ++i) {
+    const Observation& o = set.rows[i];
+    if (o.use == ObservationUse::Exclude) continue;
+    if (isRotation(o.component)) {
+      rotations = rotations || inState(o);
+      continue;
+    }
+    if (relative && o.state == change.reference) reference_rows[keyOf(o)].push_back(i);
+    if (inState(o)) in_state.push_back(i);
+  }
+  if (rotations) {
+    change.warnings.emplace_back("observed rotations are left out: the nine parameters are fitted to displacements.");
+  }
+  std::vector<std::string> without_reference;
+  for (const std::size_t i : in_state) {
+    if (relative && !reference_rows.contains(keyOf(set.rows[i]))) {
+      without_reference.push_back(fmt::format("{} of {}", toString(set.rows[i].component), set.rows[i].point));
+    } else {
+      change.rows.push_back(i);
+    }
+  }
+  if (!without_reference.empty()) {
+    change.warnings.push_back(fmt::format("{} was not measured in the reference state {} and is left out.",
+                                          joinedList(without_reference), change.reference));
+  }
+  // v = B y over the rows involved, cov(v) = B cov(y) B^T.
+  std::map<std::size_t, Eigen::Index> column;
+  const auto columnOf = [&column](std::size_t row) {
+    return column.try_emplace(row, static_cast<Eigen::Index>(column.size())).first->second;
+  };
+  for (const std::size_t i : change.rows) {
+    columnOf(i);
+    if (relative) {
+      for (const std::size_t r : reference_rows[keyOf(set.rows[i])]) columnOf(r);
+    }
+  }
+  const auto size = static_cast<Eigen::Index>(column.size());
+  Eigen::VectorXd y(size);
+  std::vector<std::size_t> involved(column.size());
+  for (const auto& [row, c] : column) involved[static_cast<std::size_t>(c)] = row;
+  // Variances are the stated ones also where a file states covariances that are none: the fit then says so.
+  const Eigen::SparseMatrix<double> loads = set.shared.loads(involved);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd(loads * loads.transpose());
+  for (const auto& [row, c] : column) {
+    y(c) = set.rows[row].value;
+    covariance(c, c) = set.rows[row].sigma * set.rows[row].sigma;
+  }
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(change.rows.size()), size);
+  for (std::size_t k = 0; k < change.rows.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    B(row, column[change.rows[k]]) = 1.0;
+    if (!relative) continue;
+    const std::vector<std::size_t>& references = reference_rows[keyOf(set.rows[change.rows[k]])];
+    double total = 0.0;
+    for (const std::size_t r : references) total += 1.0 / (set.rows[r].sigma * set.rows[r].sigma);
+    for (const std::size_t r : references) B(row, column[r]) -= 1.0 / (set.rows[r].sigma * set.rows[r].sigma) / total;
+  }
+  change.value_um = B * y;
+  change.covariance_um2 = B * covariance * B.transpose();
+  return change;
+}
+
 NineParameterFit fitNineParameters(const ObservationSet& observations, const NineParameterOptions& options) {
   options.validate();
-  StateChange change = changeOf(observations, options);
+  StateDifferences change =
+      differencesFromReference(observations, options.state.empty() ? lastStateToFit(observations) : options.state,
+                               options.relative_to_reference);
   NineParameterFit fit;
   fit.state = change.state;
   fit.reference_state = change.reference;
@@ -421,8 +418,8 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
     residual.component = o.component;
     residual.position_mm = o.position_mm;
     residual.time_s = o.time_s;
-    residual.value_um = change.value(i);
-    residual.sigma_um = std::sqrt(change.covariance(i, i));
+    residual.value_um = change.value_um(i);
+    residual.sigma_um = change.sigma_um(static_cast<std::size_t>(i));
     residual.used = chosen && o.use == ObservationUse::Fit;
     if (residual.used) used.push_back(i);
     fit.residuals.push_back(residual);
@@ -442,7 +439,7 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
     A.row(k) = nineParameterRow(r.position_mm, r.component).transpose();
     v(k) = r.value_um;
     for (Eigen::Index l = 0; l < rows; ++l) {
-      covariance(k, l) = change.covariance(used[static_cast<std::size_t>(k)], used[static_cast<std::size_t>(l)]);
+      covariance(k, l) = change.covariance_um2(used[static_cast<std::size_t>(k)], used[static_cast<std::size_t>(l)]);
     }
   }
   const WeightedFit weighted = solveWeighted(A, v, covariance, options);
@@ -470,7 +467,7 @@ NineParameterFit fitNineParameters(const ObservationSet& observations, const Nin
     }
   }
   fit.lack_of_fit_um = lackOfFitOf(fit.residuals, used, A, v, covariance, weighted);
-  fit.value_covariance = change.covariance;
+  fit.value_covariance = change.covariance_um2;
   fit.gain = Eigen::MatrixXd::Zero(nine_parameter_count, count);
   for (Eigen::Index k = 0; k < rows; ++k) {
     const Eigen::Index i = used[static_cast<std::size_t>(k)];

@@ -137,6 +137,23 @@ inline constexpr std::string_view every_state = "all";
 /// none has one; empty without observations.
 [[nodiscard]] std::string lastStateToFit(const ObservationSet& observations);
 
+/// Displacements of one state as changes from the reference state: v = y(state) - y(reference), um. What is fitted, and
+/// what is shown of it.
+struct StateDifferences {
+  std::string state;
+  std::string reference;          ///< empty: the values are taken as they stand
+  std::vector<std::size_t> rows;  ///< of the set, one a value; rows of use `exclude` are not among them
+  Eigen::VectorXd value_um;
+  Eigen::MatrixXd covariance_um2;     ///< with the noise of the reference and all that rows share
+  std::vector<std::string> warnings;  ///< what was left out and why
+  [[nodiscard]] double sigma_um(std::size_t k) const;
+};
+
+/// `relative` false: values as they stand, as those of an absolute set always are. Throws InputError for a state that
+/// does not exist and for a set without rows.
+[[nodiscard]] StateDifferences differencesFromReference(const ObservationSet& observations, const std::string& state,
+                                                        bool relative = true);
+
 /// Fits one state. Throws InputError for a state or point that does not exist or a state without any row to fit.
 [[nodiscard]] NineParameterFit fitNineParameters(const ObservationSet& observations,
                                                  const NineParameterOptions& options = {});

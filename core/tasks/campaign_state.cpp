@@ -109,6 +109,24 @@ StoredEvaluation evaluationFrom(const StoredResult& result) {
   return evaluation;
 }
 
+std::optional<CampaignEvaluation> asWorkedOut(const StoredEvaluation& stored) {
+  const nlohmann::json names = stored.details.value("instruments", nlohmann::json::array());
+  if (names.size() != 1) return {};
+  InstrumentEvaluation instrument;
+  instrument.instrument = names.front().get<std::string>();
+  instrument.observations = stored.observations;
+  instrument.rejected = stored.rejected;
+  instrument.warnings = stored.warnings;
+  instrument.details = stored.details;
+  instrument.summary = stored.summary;
+  instrument.good_enough = stored.good_enough;
+  CampaignEvaluation evaluation;
+  evaluation.observations = stored.observations;
+  evaluation.good_enough = stored.good_enough;
+  evaluation.instruments.push_back(std::move(instrument));
+  return evaluation;
+}
+
 CampaignState CampaignState::read(const Session& session, std::int64_t wanted) {
   CampaignState state;
   const std::vector<CampaignRecord> all = session.campaigns();

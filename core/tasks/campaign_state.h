@@ -34,6 +34,9 @@ struct StoredEvaluation {
 /// Payload of a result of kind "evaluate" and back.
 [[nodiscard]] nlohmann::json payloadOf(const CampaignEvaluation& evaluation);
 [[nodiscard]] StoredEvaluation evaluationFrom(const StoredResult& result);
+/// As it was worked out, of one instrument; nothing where several were evaluated together: what is stored does not say
+/// which of them a detail, a warning or a rejected capture belongs to.
+[[nodiscard]] std::optional<CampaignEvaluation> asWorkedOut(const StoredEvaluation& stored);
 
 /// Items as in Exclusion, with their reasons.
 using ExcludedItems = std::map<std::string, std::string>;

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "core/base/atomic_file.h"
+#include "core/base/text.h"
 #include "core/tasks/task_options.h"
 
 namespace spindrift {
@@ -13,27 +16,33 @@ std::filesystem::path whole(const std::filesystem::path& path) {
   return std::filesystem::absolute(path).lexically_normal();
 }
 
-/// The payload of the result that made the simulator at hand; null if there is none.
-nlohmann::json simulationUpdateOf(const TaskGraph& graph) {
+/// The result that made the simulator at hand, without its payload; nothing if there is none.
+std::optional<StoredResult> simulationUpdateOf(const TaskGraph& graph) {
   const std::string simulator = currentSimulator(graph.session(), graph.campaign(), graph.data());
   if (simulator.empty()) return {};
   const std::vector<StoredResult> all = graph.session().resultHeads(graph.campaign(), simulation_result);
   for (auto it = all.rbegin(); it != all.rend(); ++it) {
-    if (it->provenance.options.value("version", "") == simulator) return graph.session().payload(it->id);
+    if (it->provenance.options.value("version", "") == simulator) return *it;
   }
   return {};
 }
 
 StoredResults storedOf(const TaskGraph& graph) {
+  StoredResults out;
+  const auto changed = [&](const StoredResult& result) {
+    if (const std::vector<std::string> what = graph.changes(result); !what.empty())
+      out.changed[result.kind] = joinedList(what);
+  };
   const auto payload = [&](const char* kind) {
     const StoredResult* result = graph.latest(kind);
-    return result == nullptr ? nlohmann::json() : result->payload;
+    if (result == nullptr) return nlohmann::json();
+    changed(*result);
+    return result->payload;
   };
   const auto kept = [&](const char* key) {
     return graph.session().setting(campaignKey(key, graph.campaign())).value_or(nlohmann::json());
   };
   const nlohmann::json warm = kept(option_keys::warm_statement);
-  StoredResults out;
   out.plan = kept(option_keys::plan);
   // Sessions of earlier versions keep the operator's word as a result; an empty object takes that back.
   out.warm_up = warm.is_object() && warm.contains("by") ? warm : warm.is_null() ? payload("warm-up") : nlohmann::json();
@@ -43,7 +52,10 @@ StoredResults storedOf(const TaskGraph& graph) {
   out.compensation = payload("compensation");
   out.log_compensation = payload("log-compensation");
   out.verification = payload("verify");
-  out.simulation = simulationUpdateOf(graph);
+  if (const auto update = simulationUpdateOf(graph)) {
+    changed(*update);
+    out.simulation = graph.session().payload(update->id);
+  }
   return out;
 }
 
@@ -80,6 +92,14 @@ ReportTask ReportTask::of(const TaskGraph& graph, const ExcludedItems& excluded)
   task.options.operator_name = asked.operator_name;
   task.options.discrepancy = asked.tells_discrepancy;
   task.options.stored = storedOf(graph);
+  // Captures whose evaluation still holds are not evaluated again.
+  if (const StoredResult* result = graph.latest("evaluate"); result != nullptr && graph.holds(*result)) {
+    const StoredEvaluation stored = evaluationFrom(*result);
+    task.options.evaluated = asWorkedOut(stored);
+    if (task.options.evaluated)
+      task.options.evaluated->observations =
+          *observationsToFit(graph.data(), &stored, excluded, clockOffsetsOf(session, id));
+  }
   // A search that still holds is told, not made again.
   const StoredResult* searched = graph.latest("discrepancy");
   if (searched != nullptr && graph.status("discrepancy").current)

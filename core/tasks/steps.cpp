@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/measurement_plan.h"
+#include "core/workflows/report_sections.h"
 
 namespace spindrift {
 namespace {
@@ -204,11 +205,8 @@ StepReport warmUp(const TaskGraph& graph) {
   // Versions before kept the statement as a result; an empty object takes it back.
   if (given.is_null() && graph.latest("warm-up") != nullptr)
     return report(StepState::Current, "You stated that the instrument was warm.");
-  return report(
-      StepState::NotStarted,
-      graph.hasObservations()
-          ? "Not checked: a drift of the instrument would appear in every deviation as a motion of the machine."
-          : "Check whether the instrument had settled.");
+  return report(StepState::NotStarted, graph.hasObservations() ? std::string(warm_up_not_checked)
+                                                               : "Check whether the instrument had settled.");
 }
 
 StepReport review(const TaskGraph& graph) {

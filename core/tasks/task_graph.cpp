@@ -8,6 +8,7 @@
 
 #include "core/base/count_text.h"
 #include "core/base/error.h"
+#include "core/session/fingerprint.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/report_workflow.h"
 
@@ -49,6 +50,8 @@ std::string described(const std::string& input, const nlohmann::json& then, cons
   if (input == "thermal") return "the model over time";
   if (input == "discrepancy") return "the effects in the model";
   if (input == "notes") return "the notes";
+  if (input == "plan") return "the measurement plan";
+  if (input == "reasons") return "reasons of exclusions";
   return input;
 }
 
@@ -182,6 +185,12 @@ nlohmann::json TaskGraph::inputsOfResults(const std::string& task) const {
   for (const std::string& kind : madeFrom(task)) add(kind);
   if (isReport(task)) {
     for (const char* kind : told) add(kind);
+    // What is printed word by word, beside the notes (an option).
+    Fingerprint reasons;
+    for (const Exclusion& exclusion : session_.exclusions(campaign_)) reasons.add(exclusion.item).add(exclusion.reason);
+    const auto plan = session_.setting(campaignKey(option_keys::plan, campaign_)).value_or(nlohmann::json());
+    inputs["reasons"] = reasons.text();
+    inputs["plan"] = Fingerprint().add(plan.dump()).text();
   }
   if (task == "verify") {
     const std::string folder = VerifyOptions::of(session_, campaign_).after;

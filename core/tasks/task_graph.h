@@ -81,6 +81,8 @@ class TaskGraph {
   [[nodiscard]] TaskStatus status(const std::string& task) const;
   /// Whether a result, the latest or an earlier one, is what the task would give now.
   [[nodiscard]] bool holds(const StoredResult& result) const;
+  /// What a result was made from and is other now: "1 exclusion more", "the options". Nothing: it holds.
+  [[nodiscard]] std::vector<std::string> changes(const StoredResult& result) const;
   /// What the task would be run on now; to be called when its work starts. `options` are added to those that the
   /// session keeps for the task.
   [[nodiscard]] ResultOrigin origin(const std::string& task,
@@ -102,7 +104,6 @@ class TaskGraph {
   [[nodiscard]] std::vector<std::string> madeFrom(const std::string& task) const;
   [[nodiscard]] nlohmann::json inputsOfResults(const std::string& task) const;
   [[nodiscard]] std::string blockedBecause(const std::string& task) const;
-  [[nodiscard]] std::vector<std::string> changes(const StoredResult& result) const;
 
   const Session& session_;
   std::int64_t campaign_;

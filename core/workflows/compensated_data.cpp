@@ -26,7 +26,7 @@ std::string leaveOutCompensated(ObservationSet& observations, const std::optiona
   if (!log || !log->has(compensation_signal)) return {};
   std::size_t out = 0;
   for (Observation& o : observations.rows) {
-    if (o.use == ObservationUse::Exclude || !wasCompensating(*log, o.time_s)) continue;
+    if (!wasCompensating(*log, o.time_s)) continue;
     o.use = ObservationUse::Exclude;
     ++out;
   }

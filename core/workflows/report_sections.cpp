@@ -173,11 +173,14 @@ void addScans(Report& document, const Campaign& campaign, const JobContext& job)
   document.figure(contactSheet(thumbnails), "The first scan of every artefact from above, coloured by height");
 }
 
-void addCheck(std::vector<ReportRow>& rows, const char* name, const nlohmann::json& check) {
+void addCheck(std::vector<ReportRow>& rows, const char* name, const nlohmann::json& check, const StoredResults& stored,
+              const char* kind) {
   if (!check.is_object()) return;
   const bool passed = check.value("passed", check.value("settled", false));
   std::string reason = textOf(check, "reason");
   if (reason.empty() && textOf(check, "by") == "operator") reason = "stated by the operator, not measured";
+  if (const auto changed = stored.changed.find(kind); changed != stored.changed.end())
+    reason = fmt::format("outdated, changed since: {}. {}", changed->second, reason);
   rows.push_back({name, passed ? "passed" : "not passed", reason});
 }
 
@@ -267,19 +270,29 @@ void addCaptures(Report& document, const Campaign& campaign, const JobContext& j
   if (scans) addScans(document, campaign, job);
 }
 
-void addInstrumentState(Report& document, const StoredResults& stored) {
-  std::vector<ReportRow> rows;
-  addCheck(rows, "Warm-up", stored.warm_up);
-  addCheck(rows, "Jogs", stored.jogs);
-  addCheck(rows, "Cold repeatability", stored.repeatability);
-  if (rows.empty()) return;
-  document.section("State of the instrument");
-  document.table({"Check", "Verdict", "Reason"}, rows);
+void addOutdated(Report& document, const StoredResults& stored, const std::string& kind) {
+  if (const auto changed = stored.changed.find(kind); changed != stored.changed.end())
+    document.callout(CalloutKind::Attention,
+                     fmt::format("This is outdated. Changed since it was worked out: {}.", changed->second));
 }
 
-void addThermalModel(Report& document, const nlohmann::json& thermal) {
+void addInstrumentState(Report& document, const StoredResults& stored, bool has_observations) {
+  std::vector<ReportRow> rows;
+  addCheck(rows, "Warm-up", stored.warm_up, stored, "warm-up");
+  addCheck(rows, "Jogs", stored.jogs, stored, "check-jogs");
+  addCheck(rows, "Cold repeatability", stored.repeatability, stored, "check-repeatability");
+  const bool unchecked = has_observations && !stored.warm_up.is_object();
+  if (rows.empty() && !unchecked) return;
+  document.section("State of the instrument");
+  if (unchecked) document.callout(CalloutKind::Attention, std::string("Warm-up: ") + std::string(warm_up_not_checked));
+  if (!rows.empty()) document.table({"Check", "Verdict", "Reason"}, rows);
+}
+
+void addThermalModel(Report& document, const StoredResults& stored) {
+  const nlohmann::json& thermal = stored.thermal;
   if (!thermal.is_object() || !thermal.contains("train")) return;
   document.section("Model over time");
+  addOutdated(document, stored, "thermal");
   std::vector<std::string> inputs;
   for (const nlohmann::json& in : thermal.value("inputs", nlohmann::json::array()))
     inputs.push_back(signalTitle(in.get<std::string>()).name);
@@ -360,9 +373,11 @@ std::string unseenText(const nlohmann::json& plan) {
                      numberText(numberOf(unseen, "rms_before_um"), "um", 2), what);
 }
 
-void addCompensation(Report& document, const nlohmann::json& plan) {
+void addCompensation(Report& document, const StoredResults& stored) {
+  const nlohmann::json& plan = stored.compensation;
   if (!plan.is_object() || !plan.contains("points")) return;
   document.section("Compensation");
+  addOutdated(document, stored, "compensation");
   document.paragraph(fmt::format("{}, relative to {}. Compensation = −deviation: what is added to the command.",
                                  textOf(plan, "model"), textOf(plan, "reference")));
   document.facts(
@@ -398,9 +413,11 @@ void addCompensation(Report& document, const nlohmann::json& plan) {
   if (!files.empty()) document.table({"File", "Sign and reference"}, files, "Tables for the control");
 }
 
-void addLogCompensation(Report& document, const nlohmann::json& run) {
+void addLogCompensation(Report& document, const StoredResults& stored) {
+  const nlohmann::json& run = stored.log_compensation;
   if (!run.is_object() || !run.contains("outputs")) return;
   document.section("Compensation over the log");
+  addOutdated(document, stored, "log-compensation");
   document.paragraph(fmt::format(
       "The control's compensator, run over the log in {:.0f} cycles of {:g} s: {:.0f} on held inputs, {:.0f} "
       "in fall-back. Compensation = −predicted deviation, added to the command.",
@@ -425,9 +442,11 @@ void addLogCompensation(Report& document, const nlohmann::json& run) {
     document.callout(CalloutKind::Attention, w.get<std::string>());
 }
 
-void addVerification(Report& document, const nlohmann::json& result) {
+void addVerification(Report& document, const StoredResults& stored) {
+  const nlohmann::json& result = stored.verification;
   if (!result.is_object() || !result.contains("components")) return;
   document.section("Verification");
+  addOutdated(document, stored, "verify");
   const std::string verdict = textOf(result, "verdict");
   document.callout(verdict == "met"       ? CalloutKind::Good
                    : verdict == "not met" ? CalloutKind::Bad

@@ -4,7 +4,10 @@
 // command worked out and computes nothing that is not said here. Units as in FORMATS.md.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 
 #include "core/base/job_context.h"
 #include "core/machine/campaign.h"
@@ -26,7 +29,16 @@ struct StoredResults {
   nlohmann::json log_compensation;
   nlohmann::json verification;  ///< VerifyResult::json
   nlohmann::json simulation;    ///< SimulationStory::json: what was put into the simulation itself
+  /// What has changed since a result was made, by its kind in the session ("thermal", "check-jogs"): "1 exclusion more,
+  /// the options". Those that hold are not in it.
+  std::map<std::string, std::string> changed;
 };
+
+/// What it means that nobody looked whether the instrument had settled.
+inline constexpr std::string_view warm_up_not_checked =
+    "Not checked: a drift of the instrument would appear in every deviation as a motion of the machine.";
+/// Says that what is told of a stored result does not hold any more; nothing where it does.
+void addOutdated(Report& document, const StoredResults& stored, const std::string& kind);
 
 /// States with what was to be captured and what was. Nothing without a plan.
 void addPlan(Report& document, const nlohmann::json& plan, const Campaign& campaign);
@@ -35,23 +47,23 @@ void addPlan(Report& document, const nlohmann::json& plan, const Campaign& campa
 /// artefact's first scan seen from above; 24 pictures at most, spread over the states. Nothing without captures.
 void addCaptures(Report& document, const Campaign& campaign, const JobContext& job);
 
-/// Warm-up, jogs, cold repeatability. Nothing if none was judged.
-void addInstrumentState(Report& document, const StoredResults& stored);
+/// Warm-up, jogs, cold repeatability; where there are observations it is said if the warm-up was not checked.
+void addInstrumentState(Report& document, const StoredResults& stored, bool has_observations);
 
 /// The model over time: inputs, quality in free run, time constants. Nothing without a model.
-void addThermalModel(Report& document, const nlohmann::json& thermal);
+void addThermalModel(Report& document, const StoredResults& stored);
 
 /// The test of ISO 230-3 that the log is a record of: rotating spindle if it runs once and long enough, environmental
 /// variation if nothing moves; on the displacements of the log. Nothing for a mixed programme.
 void addIso230(Report& document, const Campaign& campaign);
 
 /// What a control would be commanded, and what is expected to remain.
-void addCompensation(Report& document, const nlohmann::json& compensation);
+void addCompensation(Report& document, const StoredResults& stored);
 
 /// What the control's compensator would have achieved over the log. Nothing without such a run.
-void addLogCompensation(Report& document, const nlohmann::json& run);
+void addLogCompensation(Report& document, const StoredResults& stored);
 
 /// Before and after, judged against the goal.
-void addVerification(Report& document, const nlohmann::json& verification);
+void addVerification(Report& document, const StoredResults& stored);
 
 }  // namespace spindrift

@@ -74,12 +74,15 @@ void addState(Report& document, const Campaign& campaign, const ObservationSet& 
 
 /// Lines for the first page from what a session keeps.
 void addHeadlines(CampaignReportInput& input, const StoredResults& stored) {
+  const auto add = [&](const char* title, const char* kind, const std::string& text) {
+    input.headlines.emplace_back(title, stored.changed.contains(kind) ? fmt::format("outdated: {}", text) : text);
+  };
   if (stored.thermal.is_object() && stored.thermal.contains("good_enough"))
-    input.headlines.emplace_back("Model over time", stored.thermal.value("good_enough", true)
-                                                        ? "better than plain models on rows it had not seen"
-                                                        : "no better than a plain model: do not use for compensation");
+    add("Model over time", "thermal",
+        stored.thermal.value("good_enough", true) ? "better than plain models on rows it had not seen"
+                                                  : "no better than a plain model: do not use for compensation");
   if (stored.verification.is_object() && stored.verification.contains("reason"))
-    input.headlines.emplace_back("Compensation verified", stored.verification.value("reason", ""));
+    add("Compensation verified", "verify", stored.verification.value("reason", ""));
 }
 
 }  // namespace
@@ -99,7 +102,8 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
       campaign.captureList("fiducials.csv") || campaign.captureList("touches.csv") || campaign.captureList("scans.csv");
   JobContext evaluating = job.part(0.0, 0.6);
   if (has_captures) {
-    CampaignEvaluation evaluation = evaluateCampaign(campaign, options.evaluate, evaluating);
+    CampaignEvaluation evaluation =
+        options.evaluated ? *options.evaluated : evaluateCampaign(campaign, options.evaluate, evaluating);
     input.instruments = std::move(evaluation.instruments);
     input.observations = std::move(evaluation.observations);
   }
@@ -112,9 +116,10 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
   if (!left_out.empty()) input.notes.push_back(left_out);
   const StoredResults& stored = options.stored;
   addHeadlines(input, stored);
-  input.preparation = {[&](Report& document) { addPlan(document, stored.plan, campaign); },
-                       [&](Report& document) { addCaptures(document, campaign, job); },
-                       [&](Report& document) { addInstrumentState(document, stored); }};
+  input.preparation = {
+      [&](Report& document) { addPlan(document, stored.plan, campaign); },
+      [&](Report& document) { addCaptures(document, campaign, job); },
+      [&](Report& document) { addInstrumentState(document, stored, !input.observations.rows.empty()); }};
   if (campaign.captureList("fiducials.csv") && spreadsOverTheTable(input.observations)) {
     input.sections.push_back({"Thermal error of the table", [&](Report& document) {
                                 const std::vector<std::string> states = input.observations.states();
@@ -137,13 +142,14 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
         {"Where simulation and measurement disagree", [data, &campaign, &stored](Report& document) {
            addDiscrepancyStory(document, *data, mapTable(campaign.machine, 0.0, report_map_nodes));
            addStoredUpdate(document, stored.simulation, campaign);
+           if (!stored.simulation.is_null()) addOutdated(document, stored, "simulation");
          }});
   }
-  input.conclusions = {[&](Report& document) { addThermalModel(document, stored.thermal); },
+  input.conclusions = {[&](Report& document) { addThermalModel(document, stored); },
                        [&](Report& document) { addIso230(document, campaign); },
-                       [&](Report& document) { addCompensation(document, stored.compensation); },
-                       [&](Report& document) { addLogCompensation(document, stored.log_compensation); },
-                       [&](Report& document) { addVerification(document, stored.verification); }};
+                       [&](Report& document) { addCompensation(document, stored); },
+                       [&](Report& document) { addLogCompensation(document, stored); },
+                       [&](Report& document) { addVerification(document, stored); }};
   job.report(1.0, "writing the report");
   return campaignReport(input);
 }

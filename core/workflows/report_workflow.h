@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,9 +22,10 @@ namespace spindrift {
 struct ReportOptions {
   std::filesystem::path observations_file;  ///< in place of the campaign's own observations or captures
   EvaluateOptions evaluate;
-  bool discrepancy = true;    ///< search for a missing effect where the campaign names a simulation
-  DiscrepancyOptions search;  ///< of that search: effects put in or left out by the user
-  NineParameterOptions fit;   ///< of the model of each state; its state is set
+  std::optional<CampaignEvaluation> evaluated;  ///< of a session, with what the user excluded: not evaluated again
+  bool discrepancy = true;                      ///< search for a missing effect where the campaign names a simulation
+  DiscrepancyOptions search;                    ///< of that search: effects put in or left out by the user
+  NineParameterOptions fit;                     ///< of the model of each state; its state is set
   std::string operator_name;
   std::vector<std::pair<std::string, std::string>> exclusions;
   std::vector<std::string> notes;

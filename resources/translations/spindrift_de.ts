@@ -1371,10 +1371,6 @@
         <translation>Nicht alle Werte konnten geprüft werden; das Ergebnis beschränkt sich auf die prüfbaren. {}</translation>
     </message>
     <message>
-        <source>Not checked: a drift of the instrument would appear in every deviation as a motion of the machine.</source>
-        <translation>Nicht geprüft: eine Drift des Messgeräts erschiene in jeder Abweichung als Bewegung der Maschine.</translation>
-    </message>
-    <message>
         <source>Not to be decided, because the log lacks what drives {}: {}.</source>
         <translation>Nicht entscheidbar, weil dem Protokoll fehlt, was {} antreibt: {}.</translation>
     </message>
@@ -9262,6 +9258,14 @@ endgültig fehlgeschlagen: {}</translation>
         <source>the notes</source>
         <translation>die Notizen</translation>
     </message>
+    <message>
+        <source>reasons of exclusions</source>
+        <translation>Gründe von Ausschlüssen</translation>
+    </message>
+    <message>
+        <source>the measurement plan</source>
+        <translation>der Messplan</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -11204,6 +11208,14 @@ endgültig fehlgeschlagen: {}</translation>
         <source>s</source>
         <translation>s</translation>
     </message>
+    <message>
+        <source>There are no observations yet to compare the log with. Evaluate the captures first (Calibrate).</source>
+        <translation>Es gibt noch keine Beobachtungen, mit denen das Protokoll verglichen werden kann. Zuerst die Aufnahmen auswerten (Kalibrieren).</translation>
+    </message>
+    <message>
+        <source>Estimating the offset of a clock</source>
+        <translation>Versatz einer Uhr wird geschätzt</translation>
+    </message>
 </context>
 <context>
     <name>spindrift::gui::ClosedLoopPage</name>
@@ -12592,6 +12604,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Value / u</source>
         <translation>Wert / u</translation>
+    </message>
+    <message>
+        <source>The touches make up no whole cycle.</source>
+        <translation>Die Antastungen ergeben keinen vollständigen Zyklus.</translation>
     </message>
 </context>
 <context>
@@ -15328,6 +15344,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>suggest points</source>
         <translation>Punkte vorschlagen</translation>
+    </message>
+    <message>
+        <source>The machine was changed meanwhile. Suggest the points again.</source>
+        <translation>Die Maschine wurde inzwischen geändert. Die Punkte erneut vorschlagen lassen.</translation>
     </message>
 </context>
 <context>
@@ -19797,6 +19817,10 @@ endgültig fehlgeschlagen: {}</translation>
             <numerusform>Programm geprüft: %n Antastung in %1 Bewegungen innerhalb der Verfahrwege, nicht durch den Prüfkörper, danach ein Rückzug, sichere Höhe %2 mm. „Exportieren“ schreibt es.</numerusform>
             <numerusform>Programm geprüft: %n Antastungen in %1 Bewegungen innerhalb der Verfahrwege, keine durch den Prüfkörper, nach jeder ein Rückzug, sichere Höhe %2 mm. „Exportieren“ schreibt es.</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>The machine has changed since the programme was planned. Plan it again.</source>
+        <translation>Die Maschine hat sich geändert, seit das Programm geplant wurde. Es neu planen.</translation>
     </message>
 </context>
 <context>

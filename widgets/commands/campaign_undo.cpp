@@ -23,8 +23,8 @@ void CampaignUndo::follow() {
   group_.setActiveStack(&stack());
 }
 
-CampaignUndo::Stack& CampaignUndo::own() {
-  std::unique_ptr<Stack>& own = stacks_[session_.campaignId()];
+CampaignUndo::Stack& CampaignUndo::ownOf(std::int64_t campaign) {
+  std::unique_ptr<Stack>& own = stacks_[campaign];
   if (own == nullptr) {
     own = std::make_unique<Stack>();
     group_.addStack(&own->commands);
@@ -50,6 +50,11 @@ const UndoPlace* CampaignUndo::placeAt(int index) {
   if (index < 0 || index >= of.commands.count()) return nullptr;
   const auto found = of.places.find(of.commands.command(index));
   return found == of.places.end() || !found->second.go ? nullptr : &found->second;
+}
+
+void CampaignUndo::push(QUndoCommand* command, std::int64_t campaign) {
+  // Where it was begun is not the place at hand: nobody is led there.
+  ownOf(campaign).commands.push(command);
 }
 
 void CampaignUndo::undo() {

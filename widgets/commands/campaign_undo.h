@@ -31,6 +31,8 @@ class CampaignUndo : public QObject {
   void setPlace(std::function<UndoPlace()> here) { here_ = std::move(here); }
   /// Does the command and keeps it for the campaign at hand. Takes ownership.
   void push(QUndoCommand* command);
+  /// The same for a campaign of the session that may not be at hand any more: what was started on it has ended.
+  void push(QUndoCommand* command, std::int64_t campaign);
   /// First goes where the command was done. Nothing happens where there is nothing to take back.
   void undo();
   void redo();
@@ -48,7 +50,8 @@ class CampaignUndo : public QObject {
     std::map<const QUndoCommand*, UndoPlace> places;
   };
   void follow();
-  [[nodiscard]] Stack& own();
+  [[nodiscard]] Stack& own() { return ownOf(session_.campaignId()); }
+  [[nodiscard]] Stack& ownOf(std::int64_t campaign);
   /// Of the command that stands at `index` of the stack; null: there is none, or nobody knows.
   [[nodiscard]] const UndoPlace* placeAt(int index);
 

@@ -100,17 +100,21 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QFrame(parent), runner_(run
   });
   connect(&runner, &JobRunner::finished, this,
           [this](const QString& title, JobOutcome outcome, const QString& sentence) {
-            switch (outcome) {
-              case JobOutcome::Done:
-                showText(QStringLiteral("check-circle"), Tone::Good, tr("%1: done").arg(title));
-                break;
-              case JobOutcome::Failed:
-                showText(QStringLiteral("error"), Tone::Bad, sentence);
-                break;
-              case JobOutcome::Cancelled:
-                showText(QStringLiteral("info"), Tone::Neutral, tr("%1: cancelled, nothing was changed").arg(title));
-                break;
+            QString icon = QStringLiteral("check-circle");
+            Tone tone = Tone::Good;
+            QString text = tr("%1: done").arg(title);
+            if (outcome == JobOutcome::Failed) {
+              icon = QStringLiteral("error");
+              tone = Tone::Bad;
+              text = sentence;
+            } else if (outcome == JobOutcome::Cancelled) {
+              icon = QStringLiteral("info");
+              tone = Tone::Neutral;
+              text = tr("%1: cancelled, nothing was changed").arg(title);
             }
+            // Beside another job that is shown it is for the messages only.
+            if (!runner_.title().isEmpty()) return log_.add(tone, text);
+            showText(icon, tone, text);
             // The next one, if it is to be seen, shows them again.
             progress_->hide();
             cancel_->hide();

@@ -185,7 +185,8 @@ void JobRunner::complete(JobQueue queue) {
       if (done->job.cancelled) done->job.cancelled();
       break;
   }
-  if (was_shown) Q_EMIT finished(done->job.title, done->outcome, done->sentence);
+  const bool told = was_shown || queue == JobQueue::Batch || done->outcome == JobOutcome::Failed;
+  if (told && !done->job.quiet) Q_EMIT finished(done->job.title, done->outcome, done->sentence);
   if (own.current == nullptr) startNext(queue);
   // Another queue may have something to show again.
   if (const Running* other = shown(); was_shown && other != nullptr && &own != &lane(other->job.queue))

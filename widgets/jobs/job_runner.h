@@ -78,6 +78,7 @@ class JobRunner : public QObject {
  Q_SIGNALS:
   void started(const QString& title);
   void progressed(double fraction, const QString& stage);
+  /// A job that was shown has ended, or a batch, or one that failed while another was shown.
   void finished(const QString& title, spindrift::gui::JobOutcome outcome, const QString& sentence);
   /// `entries` is another: something runs, waits, got on or ended.
   void changed();

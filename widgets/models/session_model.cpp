@@ -229,6 +229,13 @@ bool SessionModel::atHand(const PendingResult& pending) const {
          pending.origin.campaign == state_.id;
 }
 
+bool SessionModel::has(const PendingResult& pending) const {
+  if (session_ == nullptr || pending.session != opened_) return false;
+  const std::vector<CampaignRecord> all = session_->campaigns();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const CampaignRecord& record) { return record.id == pending.origin.campaign; });
+}
+
 bool SessionModel::finish(const PendingResult& pending, const nlohmann::json& payload) {
   if (session_ == nullptr || pending.session != opened_) return false;
   auto kept = session_->keepResult(pending.origin, payload);

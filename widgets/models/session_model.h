@@ -73,6 +73,7 @@ class SessionModel : public QObject {
   void close();
   [[nodiscard]] bool isOpen() const { return session_ != nullptr; }
   [[nodiscard]] Session* session() { return session_.get(); }
+  [[nodiscard]] const Session* session() const { return session_.get(); }
   [[nodiscard]] std::filesystem::path folder() const;
   [[nodiscard]] QString name() const;
   /// Another number for every session that is opened or closed.
@@ -113,6 +114,8 @@ class SessionModel : public QObject {
                                     const nlohmann::json& options = nlohmann::json::object()) const;
   /// True if the page at hand shows the campaign of this result. A result whose session or campaign is gone is dropped.
   bool finish(const PendingResult& pending, const nlohmann::json& payload);
+  /// True while the session that a result was started in is open and holds its campaign.
+  [[nodiscard]] bool has(const PendingResult& pending) const;
   /// True while the campaign that a result was started for is at hand.
   [[nodiscard]] bool atHand(const PendingResult& pending) const;
   /// Both at once, for what is ready the moment it is asked for.

@@ -8,7 +8,6 @@
 #include "core/tasks/task_options.h"
 #include "widgets/commands/commands.h"
 #include "widgets/common/parts.h"
-#include "widgets/jobs/task_job.h"
 
 namespace spindrift::gui {
 
@@ -75,12 +74,19 @@ Job Page::jobOf(const QString& title, Work work) {
   Job job;
   job.title = title;
   job.work = std::move(work);
-  job.failed = [this](const QString& sentence) { callout_->show(Tone::Bad, sentence); };
-  return job;
+  job.failed = [this](const QString& sentence) { showFailure(sentence); };
+  return visitJob(context_.session, std::move(job));
 }
 
-void Page::run(const QString& title, const PendingResult& pending, Work work) {
-  context_.jobs.run(taskJob(context_.session, pending, jobOf(title, std::move(work))));
+void Page::showFailure(const QString& sentence) {
+  callout_->setAction({}, {});
+  callout_->show(Tone::Bad, sentence);
+}
+
+void Page::run(const QString& title, const PendingResult& pending, ResultWork work, WorkEnds ends) {
+  if (!ends.done) ends.done = [this] { refresh(); };
+  if (!ends.failed) ends.failed = [this](const QString& sentence) { showFailure(sentence); };
+  context_.jobs.run(taskJob(context_.session, pending, title, std::move(work), std::move(ends)));
 }
 
 void Page::run(const QString& title, Work work) {
@@ -92,6 +98,15 @@ void Page::display(const QString& title, Work work) {
   job.queue = JobQueue::Display;
   job.key = (stepTitle(step_) + QLatin1Char('/') + title).toStdString();
   context_.jobs.run(std::move(job));
+}
+
+void Page::display(const QString& title, ResultWork work) {
+  display(title, Work([this, work = std::move(work)](JobContext& context) -> std::function<void()> {
+            return [this, take = work(context).take] {
+              if (take) take();
+              refresh();
+            };
+          }));
 }
 
 void PageRegistry::add(StepId step, Applies applies, Factory factory, const char* key) {

@@ -12,6 +12,7 @@
 #include "widgets/commands/campaign_undo.h"
 #include "widgets/export/exportable.h"
 #include "widgets/jobs/job_runner.h"
+#include "widgets/jobs/task_job.h"
 #include "widgets/models/session_model.h"
 #include "widgets/workflow/workflow.h"
 
@@ -52,6 +53,7 @@ class Page : public QWidget {
  protected:
   [[nodiscard]] PageContext& context() { return context_; }
   [[nodiscard]] SessionModel& session() { return context_.session; }
+  [[nodiscard]] const SessionModel& session() const { return context_.session; }
   [[nodiscard]] QVBoxLayout* content() const { return content_; }
   /// Replaces the sentence under the title where the step's general one does not fit the instrument.
   void setInstruction(const QString& sentence);
@@ -63,12 +65,18 @@ class Page : public QWidget {
   /// number), tabs go back to the first and the answer is true, so that the page takes away what belongs to the other.
   bool noticeCampaign();
   using Work = std::function<std::function<void()>(JobContext&)>;
-  /// Works on a result, which `work` stores with session().finish(); a failure is shown in the page's callout.
-  void run(const QString& title, const PendingResult& pending, Work work);
+  // Jobs. What they give is shown, and their failure is told in the page's callout, only while the campaign that they
+  // were started for is at hand.
+  /// Works on a result: it is stored whatever is at hand then, and the page is refreshed. `ends` in place of that.
+  void run(const QString& title, const PendingResult& pending, ResultWork work, WorkEnds ends = {});
   /// Work that leaves no result of the campaign: a proposal, a programme, a file.
   void run(const QString& title, Work work);
   /// Reads or works out again what is only to be shown, in place of what was to be shown before.
   void display(const QString& title, Work work);
+  /// The same for work on a result that is stored already: the page takes it and is refreshed.
+  void display(const QString& title, ResultWork work);
+  /// In the callout.
+  void showFailure(const QString& sentence);
   /// Wires a hover signal to the hint line.
   template <class View>
   void showHints(View* view) {

@@ -12,8 +12,12 @@ std::filesystem::path whole(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::string simulatorKey(std::int64_t campaign) {
+  return "discrepancy/simulator/" + std::to_string(campaign);
+}
+
 std::string simulatorKey(const SessionModel& session) {
-  return "discrepancy/simulator/" + std::to_string(session.campaignId());
+  return simulatorKey(session.campaignId());
 }
 
 std::string simulatorName(const SessionModel& session, const std::filesystem::path& file) {

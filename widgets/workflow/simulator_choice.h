@@ -19,6 +19,7 @@ inline constexpr auto simulation_result = "simulation";
 
 /// Key of the option, whose value is a name.
 [[nodiscard]] std::string simulatorKey(const SessionModel& session);
+[[nodiscard]] std::string simulatorKey(std::int64_t campaign);
 /// What the session calls a simulator.json: relative to its folder, if it lies there.
 [[nodiscard]] std::string simulatorName(const SessionModel& session, const std::filesystem::path& file);
 [[nodiscard]] std::filesystem::path simulatorFile(const SessionModel& session, const std::string& name);

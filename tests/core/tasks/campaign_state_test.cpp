@@ -36,6 +36,31 @@ TEST(CampaignState, EvaluationsAreStoredWithTheFactorsOfTheirNoise) {
   }
 }
 
+TEST(CampaignState, AnEvaluationOfOneInstrumentComesBackAsItWasWorkedOut) {
+  CampaignEvaluation before = evaluation();
+  InstrumentEvaluation instrument;
+  instrument.instrument = "microscope";
+  instrument.rejected = {{"captures/images/0.jpg", "blurred"}};
+  instrument.warnings = {"one image could not be used."};
+  instrument.details = {{"pixel_um", 1.5}};
+  instrument.good_enough = false;
+  before.instruments = {instrument};
+  before.good_enough = false;
+  StoredResult stored;
+  stored.payload = payloadOf(before);
+  const auto after = asWorkedOut(evaluationFrom(stored));
+  ASSERT_TRUE(after.has_value());
+  ASSERT_EQ(after->instruments.size(), 1U);
+  EXPECT_EQ(after->json(), before.json());
+  EXPECT_EQ(after->instruments[0].instrument, "microscope");
+  EXPECT_EQ(after->instruments[0].rejected[0].reason, "blurred");
+  EXPECT_EQ(after->observations.rows.size(), 4U);
+  EXPECT_FALSE(after->good_enough);
+  before.instruments.push_back(instrument);
+  stored.payload = payloadOf(before);
+  EXPECT_FALSE(asWorkedOut(evaluationFrom(stored)).has_value()) << "of two, nobody knows what belongs to which";
+}
+
 TEST(CampaignState, EvaluationsOfEarlierVersionsHoldCovariancesOfPairs) {
   StoredResult stored;
   stored.payload = payloadOf(evaluation());

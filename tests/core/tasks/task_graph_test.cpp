@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.h"
+#include "core/tasks/report_task.h"
 #include "tests/core/tasks/tasks_support.h"
 
 namespace spindrift {
@@ -118,6 +119,55 @@ TEST(TaskGraph, AReportHasToBeWrittenAgainWhenItWouldTellAnotherResult) {
   EXPECT_TRUE(s.status("report").current);
   s.option(option_keys::warm_statement, {{"settled", true}, {"by", "operator"}});
   EXPECT_FALSE(s.status("report").current);
+}
+
+TEST(TaskGraph, AReportHasToBeWrittenAgainWhenWhatItPrintsIsOther) {
+  TaskSession s;
+  s.run("evaluate");
+  s.session_.exclude(s.id_, "captures/images/0.jpg", "blurred");
+  s.run("report");
+  ASSERT_TRUE(s.status("report").current);
+  s.session_.exclude(s.id_, "captures/images/0.jpg", "out of focus");
+  EXPECT_THAT(s.status("report").changed, ::testing::Contains("reasons of exclusions"));
+  s.session_.exclude(s.id_, "captures/images/0.jpg", "blurred");
+  const std::int64_t note = s.session_.addNote(s.id_, "Capture", "the door was open");
+  EXPECT_THAT(s.status("report").changed, ::testing::Contains("the notes"));
+  s.session_.removeNote(note);
+  s.option(option_keys::plan, {{"format", "spindrift-plan"}, {"version", 1}});
+  EXPECT_THAT(s.status("report").changed, ::testing::Contains("the measurement plan"));
+  s.option(option_keys::plan, nullptr);
+  EXPECT_THAT(s.status("report").changed, ElementsAre("the evaluation is outdated"));
+  s.run("evaluate");
+  s.run("report");
+  EXPECT_TRUE(s.status("report").current);
+  EXPECT_TRUE(s.status("evaluate").current) << "notes, plan and reasons are no business of an evaluation";
+}
+
+TEST(TaskGraph, AReportIsMadeFromWhatIsStoredAndSaysWhatDoesNotHold) {
+  TaskSession s;
+  CampaignEvaluation evaluation;
+  evaluation.instruments.emplace_back().instrument = "microscope";
+  for (const char* point : {"F1", "F2"}) {
+    Observation o;
+    o.state = "M0";
+    o.point = point;
+    o.sigma = 0.5;
+    evaluation.observations.rows.push_back(o);
+  }
+  s.run("evaluate", payloadOf(evaluation));
+  s.run("verify", {{"verdict", "met"}, {"reason", "all is well."}});
+  ReportTask task = ReportTask::of(s.graph(), {{"M0/F2/EX", "disturbed"}});
+  ASSERT_TRUE(task.options.evaluated.has_value()) << "not evaluated again";
+  EXPECT_EQ(task.options.evaluated->observations.rows[0].use, ObservationUse::Fit);
+  EXPECT_EQ(task.options.evaluated->observations.rows[1].use, ObservationUse::Exclude) << "as the pages take it";
+  EXPECT_THAT(task.options.stored.changed, IsEmpty());
+  s.option(option_keys::verify, {{"goal_um", 7}});
+  s.capture(1);
+  task = ReportTask::of(s.graph(), {});
+  EXPECT_FALSE(task.options.evaluated.has_value()) << "the captures are others";
+  EXPECT_EQ(task.options.stored.verification.at("verdict"), "met") << "told all the same";
+  EXPECT_EQ(task.options.stored.changed.at("verify"),
+            "files of the campaign, the options and the evaluation is outdated");
 }
 
 TEST(TaskGraph, TheSecondCampaignOfAVerificationIsAnInput) {

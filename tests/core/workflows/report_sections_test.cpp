@@ -148,6 +148,33 @@ TEST_F(ReportSections, TellsPlanChecksCompensationAndVerification) {
   EXPECT_THAT(text, HasSubstr("class=\"verdict bad\""));
 }
 
+TEST_F(ReportSections, WhatDoesNotHoldAnyMoreIsSaidToBeOutdated) {
+  ReportOptions options;
+  options.stored.jogs = {{"passed", true}, {"reason", "EX returns within 0.2 µm."}};
+  options.stored.verification = nlohmann::json::parse(
+      R"({"verdict":"met","reason":"EX is left with 1.0 µm; the goal is 5 µm.","goal_um":5,"goal_urad":null,
+          "criterion":"largest","components":[],"notes":[]})");
+  EXPECT_THAT(html(options), Not(HasSubstr("outdated")));
+  options.stored.changed = {{"verify", "1 exclusion more"}, {"check-jogs", "the machine"}};
+  const std::string text = html(options);
+  EXPECT_THAT(text, HasSubstr("This is outdated. Changed since it was worked out: 1 exclusion more."));
+  EXPECT_THAT(text, HasSubstr("outdated: EX is left with 1.0 µm")) << "also on the first page";
+  EXPECT_THAT(text, HasSubstr("outdated, changed since: the machine. EX returns within 0.2 µm."));
+}
+
+TEST_F(ReportSections, ASkippedWarmUpIsSaid) {
+  writeFileAtomically(folder_ / "observations.csv",
+                      "time_s,state,point,x_mm,y_mm,z_mm,component,value,sigma,instrument\n"
+                      "0,M0,F1,0,0,0,EX,0,0.5,microscope\n3600,M1,F1,0,0,0,EX,4,0.5,microscope\n");
+  const std::string sentence = "a drift of the instrument would appear in every deviation as a motion of the machine";
+  EXPECT_THAT(html(), HasSubstr(sentence));
+  ReportOptions options;
+  options.stored.jogs = {{"passed", true}, {"reason", "EX returns within 0.2 µm."}};
+  EXPECT_THAT(html(options), HasSubstr(sentence)) << "another check is not the warm-up";
+  options.stored.warm_up = {{"settled", true}, {"by", "operator"}};
+  EXPECT_THAT(html(options), Not(HasSubstr(sentence)));
+}
+
 TEST_F(ReportSections, OfALogAloneTellsConditionsStandardTestModelAndCompensation) {
   const auto log = folder_ / "spindle test.csv";
   writeLog(6000);

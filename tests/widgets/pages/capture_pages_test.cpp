@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Capturing in the real window: a new measurement of each instrument from a watched folder, a camera, a plan.
+#include <QElapsedTimer>
 #include <QInputDialog>
 #include <QTabWidget>
 #include <QTableView>
@@ -413,6 +414,18 @@ TEST_F(CapturePages, ACameraShowsFocusAndTakesPictures) {
   EXPECT_GT(camera->verdict().decoded.subpatterns.size(), 3U);
   camera->take();
   waitFor([&] { return service().done().size() == 1; }, "picture taken");
+  // One that waits for its next picture keeps nobody waiting who closes it, and can be opened again.
+  const std::string slow = (folder_ / "slow.avi").string();
+  writeVideo(slow, images, 1.0);
+  for (int time = 0; time < 2; ++time) {
+    camera->open(QString::fromStdString(slow));
+    waitFor([&] { return camera->frames() == 1; }, "first picture of a slow camera");
+    QElapsedTimer closing;
+    closing.start();
+    camera->close();
+    EXPECT_LT(closing.elapsed(), 300);
+    EXPECT_FALSE(camera->running());
+  }
   EXPECT_TRUE(service().done().contains("M0_F1_rotation_0"));
 }
 

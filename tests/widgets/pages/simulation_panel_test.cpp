@@ -319,6 +319,38 @@ TEST_F(SimulationPanelTest, ThePutButtonRunsWhatIsMissing) {
   EXPECT_EQ(page_->story(), nullptr);
 }
 
+TEST_F(SimulationPanelTest, AVersionThatIsReadyLaterIsThatOfItsCampaign) {
+  openPanel(writeCampaign());
+  SessionModel& session = window_->session();
+  const std::int64_t first = session.campaignId();
+  const std::filesystem::path other = folder_ / "other";
+  std::filesystem::copy(session.campaign()->folder, other, std::filesystem::copy_options::recursive);
+  (void)folder_.write("other/note.txt", "so that its content is another");
+  window_->addCampaign(QString::fromStdString(other.string()));
+  wait();
+  const std::int64_t second = session.campaignId();
+  session.selectCampaign(first);
+  window_->workflow().goTo(StepId::Discrepancy);
+  wait();
+  const std::string before = currentSimulator(session);
+  const QString folder = panel_->proposedFolder();
+  panel_->putInto(folder);
+  EXPECT_TRUE(session.tasks().status("simulation").state == TaskState::Running) << "the tasks know of it";
+  session.selectCampaign(second);
+  wait();
+  EXPECT_TRUE(session.session()->results(second).empty());
+  EXPECT_TRUE(currentSimulator(session).ends_with("sim/simulator.json"));
+  EXPECT_FALSE(window_->undoStack().canUndo()) << "nothing was done on this one";
+  session.selectCampaign(first);
+  wait();
+  EXPECT_NE(currentSimulator(session), before) << "written and chosen";
+  EXPECT_EQ(simulatorFile(session, currentSimulator(session)),
+            std::filesystem::path(folder.toStdString()) / "simulator.json");
+  ASSERT_TRUE(window_->undoStack().canUndo());
+  window_->undoStack().undo();
+  EXPECT_EQ(currentSimulator(session), before);
+}
+
 TEST_F(SimulationPanelTest, ACancelledPutChangesNothing) {
   openPanel(writeCampaign());
   const QString folder = panel_->proposedFolder();

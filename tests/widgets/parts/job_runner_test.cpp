@@ -178,6 +178,30 @@ TEST(JobRunner, TheLatestOfAKeyWins) {
   }
 }
 
+TEST(JobRunner, WhatFailsBesideLongWorkIsAmongTheMessages) {
+  JobRunner runner;
+  JobBar bar(runner);
+  std::atomic<bool> go_on{false};
+  std::vector<std::string> applied;
+  runner.run(lasting(go_on, applied, "long"));
+  for (const JobQueue queue : {JobQueue::Display, JobQueue::Batch}) {
+    Job job;
+    job.title = QStringLiteral("reading");
+    job.work = [](JobContext&) -> std::function<void()> { throw InputError({"a.csv", "line 3"}, "that cannot be."); };
+    job.queue = queue;
+    const std::size_t before = bar.log().messages().size();
+    runner.run(std::move(job));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return bar.log().messages().size() > before; }, 10000));
+    EXPECT_EQ(bar.log().messages().front().tone, Tone::Bad);
+    EXPECT_TRUE(bar.log().messages().front().text.contains(QStringLiteral("a.csv")));
+    EXPECT_EQ(bar.message(), QStringLiteral("long")) << "the bar goes on telling of the long work";
+    EXPECT_FALSE(bar.cancelButton()->isHidden());
+  }
+  go_on = true;
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !runner.busy(); }, 10000));
+  EXPECT_EQ(bar.log().messages().size(), 3U);
+}
+
 TEST(ActivityDialog, ListsWhatRunsAndWaitsAndCancelsOne) {
   JobRunner runner;
   JobBar bar(runner);

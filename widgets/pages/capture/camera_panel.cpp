@@ -78,7 +78,7 @@ CameraPanel::CameraPanel(PageContext page_context, QWidget* parent)
   poll_.setInterval(40);
   connect(&poll_, &QTimer::timeout, this, &CameraPanel::showLatest);
   connect(open_, &QPushButton::clicked, this, [this] {
-    if (reader_.joinable()) {
+    if (reading_ != nullptr) {
       close();
     } else {
       open(source_->text().trimmed());
@@ -98,14 +98,14 @@ void CameraPanel::open(const QString& source) {
   history_.clear();
   peak_ = 0.0;
   shown_frames_ = 0;
-  ended_ = false;
+  auto reading = std::make_unique<Reading>();
   state_->show(Tone::Neutral, tr("Opening %1 …").arg(source));
   open_->setText(QChar(0x2009) + tr("Close camera"));
   const auto campaign = context_.session.campaign();
   try {
-    pattern_ = campaign ? campaignPattern(campaign->folder) : campaignPattern({});
+    reading->pattern = campaign ? campaignPattern(campaign->folder) : campaignPattern({});
   } catch (const InputError& e) {
-    pattern_ = campaignPattern({});
+    reading->pattern = campaignPattern({});
     state_->show(Tone::Attention, coreSentence(e.what()));
   }
   GenicamSettings settings;
@@ -114,8 +114,12 @@ void CameraPanel::open(const QString& source) {
   } catch (const InputError& e) {
     state_->show(Tone::Attention, coreSentence(e.what()));
   }
-  reader_ = std::jthread(
-      [this, name = source.toStdString(), settings](std::stop_token stop) { readFrames(stop, name, settings); });
+  reading_ = std::move(reading);
+  reading_->thread = std::jthread([own = reading_.get(), before = std::move(closing_), name = source.toStdString(),
+                                   settings](std::stop_token stop) mutable {
+    before.reset();  // the same camera is not to be had twice
+    own->read(std::move(stop), name, settings);
+  });
   poll_.start();
 }
 
@@ -131,29 +135,26 @@ GenicamSettings CameraPanel::settingsOf(const std::string& source) const {
 
 void CameraPanel::close() {
   poll_.stop();
-  if (reader_.joinable()) {
-    reader_.request_stop();
-    reader_.join();
+  if (reading_ != nullptr) {
+    reading_->thread.request_stop();
+    closing_ = std::move(reading_);  // not waited for: a camera that gives no picture takes seconds to notice
   }
-  const std::lock_guard lock(mutex_);
-  latest_.reset();
-  failure_.clear();
   open_->setText(QChar(0x2009) + tr("Open camera"));
   take_->setEnabled(false);
 }
 
 /// On the reader's thread: the newest picture is decoded, those that come meanwhile are passed over.
-void CameraPanel::readFrames(std::stop_token stop, const std::string& source, const GenicamSettings& settings) {
+void CameraPanel::Reading::read(std::stop_token stop, const std::string& source, const GenicamSettings& settings) {
   const auto show = [this](GrayImage image) {
     Frame frame;
     frame.image = std::make_shared<GrayImage>(std::move(image));
-    frame.verdict = judgeCapture(*frame.image, false, {}, *pattern_);
-    const std::lock_guard lock(mutex_);
-    latest_ = std::move(frame);
+    frame.verdict = judgeCapture(*frame.image, false, {}, *pattern);
+    const std::lock_guard lock(mutex);
+    latest = std::move(frame);
   };
   const auto fail = [this](const char* sentence) {
-    const std::lock_guard lock(mutex_);
-    failure_ = coreSentence(sentence);
+    const std::lock_guard lock(mutex);
+    failure = coreSentence(sentence);
   };
   try {
     if (source.starts_with(genicam_prefix)) {
@@ -190,16 +191,17 @@ void CameraPanel::readFrames(std::stop_token stop, const std::string& source, co
   } catch (const ConnectionError& e) {
     fail(e.what());
   }
-  ended_ = true;
+  ended = true;
 }
 
 void CameraPanel::showLatest() {
+  if (reading_ == nullptr) return;
   std::optional<Frame> frame;
   QString failure;
   {
-    const std::lock_guard lock(mutex_);
-    frame.swap(latest_);
-    failure = failure_;
+    const std::lock_guard lock(reading_->mutex);
+    frame.swap(reading_->latest);
+    failure = reading_->failure;
   }
   if (!failure.isEmpty()) {
     close();
@@ -207,7 +209,7 @@ void CameraPanel::showLatest() {
     return;
   }
   if (!frame) {
-    if (ended_) {
+    if (reading_->ended) {
       const bool had_picture = image_ != nullptr;
       close();
       take_->setEnabled(had_picture);
@@ -223,7 +225,7 @@ void CameraPanel::showLatest() {
   history_.push_back(sharpness);
   if (history_.size() > history_length) history_.pop_front();
   view_->setImage(toImage(*image_));
-  view_->setMarks(marksOf(verdict_.decoded, *pattern_));
+  view_->setMarks(marksOf(verdict_.decoded, *reading_->pattern));
   sharp_->set(decimalText(sharpness, 'f', 3), tr("contrast over coarse contrast"),
               sharpness > 0.97 * peak_ ? Tone::Good : Tone::Neutral);
   best_->set(decimalText(peak_, 'f', 3),

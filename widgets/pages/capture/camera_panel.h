@@ -33,7 +33,7 @@ class CameraPanel : public QWidget {
   void close();
   /// Hands the picture shown to the capture: checked and taken over as a file is.
   void take();
-  [[nodiscard]] bool running() const { return reader_.joinable() && !ended_; }
+  [[nodiscard]] bool running() const { return reading_ != nullptr && !reading_->ended; }
   [[nodiscard]] int frames() const { return shown_frames_; }
   [[nodiscard]] const CaptureVerdict& verdict() const { return verdict_; }
   [[nodiscard]] Callout* state() const { return state_; }
@@ -51,12 +51,21 @@ class CameraPanel : public QWidget {
     std::shared_ptr<const GrayImage> image;
     CaptureVerdict verdict;
   };
+  /// One camera from opening to closing, with the thread that reads it and knows nothing else of the panel.
+  struct Reading {
+    std::shared_ptr<const FiducialPattern> pattern;  ///< of the campaign, when the camera was opened
+    std::mutex mutex;
+    std::optional<Frame> latest;  ///< guarded
+    QString failure;              ///< guarded
+    std::atomic<bool> ended = false;
+    std::jthread thread;  ///< last: joined before the rest goes
+
+    void read(std::stop_token stop, const std::string& source, const GenicamSettings& settings);
+  };
   [[nodiscard]] GenicamSettings settingsOf(const std::string& source) const;
-  void readFrames(std::stop_token stop, const std::string& source, const GenicamSettings& settings);
   void showLatest();
 
   PageContext context_;
-  std::shared_ptr<const FiducialPattern> pattern_;  ///< of the campaign, when the camera was opened
   IncomingService& service_;
   QLineEdit* source_;
   QPushButton* open_;
@@ -73,11 +82,9 @@ class CameraPanel : public QWidget {
   int shown_frames_ = 0;
   std::shared_ptr<const GrayImage> image_;
   CaptureVerdict verdict_;
-  std::mutex mutex_;
-  std::optional<Frame> latest_;  ///< guarded
-  QString failure_;              ///< guarded
-  std::atomic<bool> ended_ = false;
-  std::jthread reader_;
+  std::unique_ptr<Reading> reading_;
+  /// The one before, which may be waiting for a picture still: the next one to be opened waits for it.
+  std::unique_ptr<Reading> closing_;
 };
 
 }  // namespace spindrift::gui

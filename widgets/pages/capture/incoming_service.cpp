@@ -138,10 +138,9 @@ QImage IncomingService::thumbnail(const std::string& name) const {
   return found == thumbnails_.end() ? QImage() : found->second;
 }
 
-QStringList IncomingService::retakes() const {
+QStringList IncomingService::retakes() {
   QStringList sentences;
-  auto* self = const_cast<IncomingService*>(this);
-  for (const CaptureIntake::Retake& retake : intake_.retakes(self->done())) {
+  for (const CaptureIntake::Retake& retake : intake_.retakes(done())) {
     sentences << (retake.what.empty() ? coreSentence(retake.why)
                                       : tr("Take %1 again: %2").arg(fromCore(retake.what), coreSentence(retake.why)));
   }

@@ -39,7 +39,7 @@ class IncomingService : public QObject {
   [[nodiscard]] const std::vector<IncomingItem>& items() const { return intake_.items(); }
   [[nodiscard]] QImage thumbnail(const std::string& name) const;
   /// Sentences of what is to be taken again now; what has been taken again since is not among them.
-  [[nodiscard]] QStringList retakes() const;
+  [[nodiscard]] QStringList retakes();
   /// Touches as they come in; null while none came.
   [[nodiscard]] const TouchFeed* touches() const { return intake_.touches(); }
   /// A picture of a camera, checked and taken over like a file.

@@ -19,6 +19,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
@@ -29,7 +30,6 @@
 #include "widgets/common/scrolling.h"
 #include "widgets/common/words.h"
 #include "widgets/common/wrap_layout.h"
-#include "widgets/jobs/task_job.h"
 #include "widgets/models/rows_model.h"
 #include "widgets/pages/compensate/closed_loop_service.h"
 #include "widgets/pages/discrepancy/discrepancy_page.h"
@@ -202,14 +202,13 @@ CompensatePage::CompensatePage(PageContext page_context, QWidget* parent)
 }
 
 bool CompensatePage::hasSource(CompensationSource source) const {
-  auto& model = const_cast<CompensatePage*>(this)->session();
-  if (source != CompensationSource::CompletedModel) return model.state("fit").there;
-  return !DiscrepancyChoice::of(model).added.empty();
+  if (source != CompensationSource::CompletedModel) return session().state("fit").there;
+  return !DiscrepancyChoice::of(session()).added.empty();
 }
 
 CompensationRequest CompensatePage::request() const {
-  auto& model = const_cast<CompensatePage*>(this)->session();
-  return compensationRequest(*model.session(), model.campaignId(), hasSource(CompensationSource::NineParameters));
+  return compensationRequest(*session().session(), session().campaignId(),
+                             hasSource(CompensationSource::NineParameters));
 }
 
 void CompensatePage::fillChoices() {
@@ -289,10 +288,7 @@ void CompensatePage::refresh() {
       });
     }
     // The plan is worked out again from what is stored: it takes less time than reading it would.
-    if (!plan_ && stored->id != shown_result_) {
-      shown_result_ = stored->id;
-      runPlan(false);
-    }
+    if (std::exchange(shown_result_, stored->id) != stored->id && !plan_) runPlan(false);
   }
   showPlan();
 }
@@ -307,34 +303,19 @@ void CompensatePage::runPlan(bool store) {
       !(hasSource(CompensationSource::NineParameters) || hasSource(CompensationSource::CompletedModel)))
     return;
   const PendingResult pending = session().begin(compensation_result);
-  Job job;
-  job.title = tr("Calculating the compensation");
-  job.work = [this, store, set = *observations, asked = request(), pending, choice = DiscrepancyChoice::of(session()),
-              effects_file = DiscrepancyChoice::file(session()),
-              data = session().snapshot().campaign](JobContext& progress) -> std::function<void()> {
-    const CompensationPlan plan = planCompensation(*choice.applied(data, effects_file), set, asked, progress);
-    return [this, store, plan, pending] {
-      if (store) session().finish(pending, plan.json());
-      if (!session().atHand(pending)) return;
-      plan_ = plan;
-      if (const StoredResult* stored = session().latest(compensation_result); store && stored != nullptr)
-        shown_result_ = stored->id;
-      refresh();
-    };
+  const QString title = tr("Calculating the compensation");
+  const ResultWork work = [this, observations, asked = request(), choice = DiscrepancyChoice::of(session()),
+                           effects_file = DiscrepancyChoice::file(session()),
+                           data = session().snapshot().campaign](JobContext& progress) -> Worked {
+    const CompensationPlan plan = planCompensation(*choice.applied(data, effects_file), *observations, asked, progress);
+    return {plan.json(), [this, plan] { plan_ = plan; }};
   };
-  job.failed = [this](const QString& sentence) {
-    plan_.reset();
-    showPlan();
-    callout()->setAction({}, {});
-    callout()->show(Tone::Bad, sentence);
-  };
-  if (store) {
-    context().jobs.run(taskJob(session(), pending, std::move(job)));
-  } else {
-    job.queue = JobQueue::Display;
-    job.key = compensation_result;
-    context().jobs.run(std::move(job));
-  }
+  if (!store) return display(title, work);
+  run(title, pending, work, {.failed = [this](const QString& sentence) {
+        plan_.reset();
+        showPlan();
+        showFailure(sentence);
+      }});
 }
 
 void CompensatePage::exportFiles(const QString& folder) {

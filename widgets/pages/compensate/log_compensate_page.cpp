@@ -139,21 +139,19 @@ void LogCompensatePage::compensate(bool store) {
   const auto model = session().result("thermal");
   if (!model) return;
   const PendingResult pending = session().begin(log_result);
-  const Work work = [this, stored = *model, store, snapshot = session().snapshot(), pending,
-                     observations = session().observations()](JobContext& job) -> std::function<void()> {
+  const ResultWork work = [this, stored = *model, snapshot = session().snapshot(),
+                           observations = session().observations()](JobContext& job) -> Worked {
     const CampaignSeries all = campaignSeries(*snapshot.campaign, observations ? &*observations : nullptr, job);
     const auto thermal = std::make_shared<const ThermalModel>(
         ThermalModel::parse(JsonNode::parse(stored.payload.at("model").dump(), "model")));
     const auto result = std::make_shared<const CompensatorRun>(
         runCompensator(all.series, *thermal, testRange(stored, all.series), job));
-    return [this, result, thermal, store, pending, id = stored.id] {
-      if (store) session().finish(pending, result->result.json());
-      if (!session().atHand(pending) || id != modelId()) return;
-      result_ = result;
-      model_ = thermal;
-      result_model_ = id;
-      refresh();
-    };
+    return {result->result.json(), [this, result, thermal, id = stored.id] {
+              if (id != modelId()) return;
+              result_ = result;
+              model_ = thermal;
+              result_model_ = id;
+            }};
   };
   if (store) return run(tr("Running the compensator"), pending, work);
   display(tr("Reading the compensation"), work);

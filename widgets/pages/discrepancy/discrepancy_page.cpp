@@ -219,8 +219,7 @@ DiscrepancyPage::DiscrepancyPage(PageContext page_context, QWidget* parent)
 }
 
 QString DiscrepancyPage::missing() const {
-  auto& self = const_cast<DiscrepancyPage&>(*this);
-  const auto campaign = self.session().campaign();
+  const auto campaign = session().campaign();
   if (campaign == nullptr) return tr("Open a session or a campaign first.");
   const bool simulation = !campaign->simulation.empty() || std::filesystem::exists(campaign->path("simulation.csv")) ||
                           std::filesystem::exists(campaign->path("model.json"));
@@ -229,7 +228,7 @@ QString DiscrepancyPage::missing() const {
         "This campaign comes without a simulation to compare with. Put simulation.csv or model.json beside "
         "campaign.json, name it there (\"simulation\": \"simulation.csv\") and open the campaign again.");
   }
-  if (!self.session().observations()) {
+  if (!session().observations()) {
     return tr("There are no observations to compare with the simulation. Evaluate the captures first (Calibrate).");
   }
   return {};
@@ -293,27 +292,17 @@ void DiscrepancyPage::search() {
   options.accept = choice.added;
   options.reject = choice.rejected;
   const PendingResult pending = session().begin(discrepancy_result);
-  Job job;
-  job.title = tr("Searching for what the simulation lacks");
-  job.work = [this, options, choice, pending, data = session().snapshot().campaign,
-              file = DiscrepancyChoice::file(session()),
-              observations = *session().observations()](JobContext& progress) -> std::function<void()> {
-    const DiscrepancyStory story = tellDiscrepancy(*choice.applied(data, file), observations, options, progress);
-    return [this, pending, payload = story.json()] {
-      if (session().finish(pending, payload)) refresh();
-    };
-  };
-  job.failed = [this](const QString& sentence) {
-    refresh();
-    callout()->setAction({}, {});
-    callout()->show(Tone::Bad, sentence);
-    context().workflow.refresh();
-  };
-  job.cancelled = [this] {
-    context().workflow.refresh();
-    refresh();
-  };
-  context().jobs.run(taskJob(session(), pending, std::move(job)));
+  run(tr("Searching for what the simulation lacks"), pending,
+      [options, choice, data = session().snapshot().campaign, file = DiscrepancyChoice::file(session()),
+       observations = session().observations()](JobContext& progress) -> Worked {
+        return {tellDiscrepancy(*choice.applied(data, file), *observations, options, progress).json(), {}};
+      },
+      {.failed =
+           [this](const QString& sentence) {
+             refresh();
+             showFailure(sentence);
+           },
+       .cancelled = [this] { refresh(); }});
 }
 
 void DiscrepancyPage::change(const QString& what, const DiscrepancyChoice& after) {

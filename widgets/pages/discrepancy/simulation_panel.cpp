@@ -301,24 +301,25 @@ void SimulationPanel::fail(const QString& sentence) {
 void SimulationPanel::search() {
   if (context_.jobs.working() || simulator_.empty() || !context_.session.observations()) return;
   failure_.clear();
-  Job job;
-  job.title = tr("Searching with the simulator");
   const PendingResult pending = context_.session.begin(simulation_result, resultOptions({}));
-  job.work = [this, in = inputs(), pending](JobContext& progress) -> std::function<void()> {
+  const auto found = std::make_shared<std::shared_ptr<const DiscrepancyRun>>();
+  const ResultWork work = [in = inputs(), found](JobContext& progress) -> Worked {
     const auto campaign = in.choice.applied(in.campaign, in.effects);
     const auto run = withSentences([&] {
       const auto simulator = openSimulator(in.file, *campaign, in.observations);
       return std::make_shared<const DiscrepancyRun>(in.search(*campaign, *simulator, progress));
     });
-    return [this, run, pending, visit = in.visit, payload = SimulationStory::of(*run).json()] {
-      if (!context_.session.finish(pending, payload)) return;
-      searched_ = {visit, context_.session.latest(simulation_result)->id, run};
-      refresh();
-    };
+    return {SimulationStory::of(*run).json(), [found, run] { *found = run; }};
   };
-  job.failed = [this](const QString& sentence) { fail(sentence); };
-  job.cancelled = [this] { refresh(); };
-  context_.jobs.run(std::move(job));
+  context_.jobs.run(taskJob(context_.session, pending, tr("Searching with the simulator"), work,
+                            {.done =
+                                 [this, found] {
+                                   const SessionModel& session = context_.session;
+                                   searched_ = {session.visit(), session.latest(simulation_result)->id, *found};
+                                   refresh();
+                                 },
+                             .failed = [this](const QString& sentence) { fail(sentence); },
+                             .cancelled = [this] { refresh(); }}));
 }
 
 QString SimulationPanel::proposedFolder() const {
@@ -371,12 +372,9 @@ void SimulationPanel::putInto(const QString& folder) {
                     searched_.result == stored_.id && current();
   IntoSimulationOptions into;
   if (parameters_->ticksAreTheUsers()) into.mechanisms = parameters_->ticked();
-  Job job;
-  job.title = tr("Putting it into the simulation");
-  const PendingResult pending_written = context_.session.begin(simulation_result, resultOptions(version));
-  const PendingResult pending_refused = context_.session.begin(simulation_result, resultOptions({}));
-  job.work = [this, in = inputs(), pending_written, pending_refused, target, version, into,
-              before = kept ? searched_.run : nullptr](JobContext& progress) -> std::function<void()> {
+  const PendingResult pending = context_.session.begin(simulation_result, resultOptions({}));
+  const ResultWork work = [this, in = inputs(), campaign_id = pending.origin.campaign, target, version, into,
+                           before = kept ? searched_.run : nullptr](JobContext& progress) -> Worked {
     const auto campaign = in.choice.applied(in.campaign, in.effects);
     const auto run = withSentences([&] {
       const auto simulator = openSimulator(in.file, *campaign, in.observations);
@@ -388,25 +386,25 @@ void SimulationPanel::putInto(const QString& folder) {
       out->update = updateSimulation(*campaign, *out, *simulator, into, target, fitting);
       return out;
     });
-    const bool written = run->update->status == FitStatus::Converged;
-    return [this, pending = written ? pending_written : pending_refused, version = written ? version : std::string(),
-            mechanisms = run->update->mechanisms, payload = SimulationStory::of(*run).json()] {
-      SessionModel& session = context_.session;
-      if (!session.finish(pending, payload)) return;
-      if (version.empty()) {
-        refresh();
-        return;
-      }
-      context_.undo.push(new OptionsCommand(session,
-                                            tr("put %1 into the simulation").arg(fromCore(joinedList(mechanisms))),
-                                            simulatorKey(session), version, [panel = QPointer(this)] {
-                                              if (panel != nullptr) panel->simulatorChanged();
-                                            }));
+    Worked worked{SimulationStory::of(*run).json(), {}};
+    if (run->update->status != FitStatus::Converged) return worked;
+    worked.options = {{"version", version}};
+    // The version is that of the campaign it was made from, whichever is at hand by then.
+    worked.stored = [this, campaign_id, version, mechanisms = run->update->mechanisms] {
+      context_.undo.push(
+          new OptionsCommand(context_.session, tr("put %1 into the simulation").arg(fromCore(joinedList(mechanisms))),
+                             simulatorKey(campaign_id), version,
+                             [panel = QPointer(this)] {
+                               if (panel != nullptr) panel->simulatorChanged();
+                             }),
+          campaign_id);
     };
+    return worked;
   };
-  job.failed = [this](const QString& sentence) { fail(sentence); };
-  job.cancelled = [this] { refresh(); };
-  context_.jobs.run(std::move(job));
+  context_.jobs.run(taskJob(context_.session, pending, tr("Putting it into the simulation"), work,
+                            {.done = [this] { refresh(); },
+                             .failed = [this](const QString& sentence) { fail(sentence); },
+                             .cancelled = [this] { refresh(); }}));
 }
 
 QString SimulationPanel::titleOf(const FoundEffect& effect) const {

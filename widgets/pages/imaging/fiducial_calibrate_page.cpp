@@ -123,11 +123,8 @@ void FiducialCalibratePage::evaluate() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr) return;
   const PendingResult pending = session().begin("evaluate");
-  run(tr("Evaluating the captures"), pending, [this, snapshot, pending](JobContext& job) -> std::function<void()> {
-    const CampaignEvaluation evaluation = evaluateCampaign(*snapshot.campaign, {}, job);
-    return [this, pending, payload = payloadOf(evaluation)] {
-      if (session().finish(pending, payload)) refresh();
-    };
+  run(tr("Evaluating the captures"), pending, [snapshot](JobContext& job) -> Worked {
+    return {payloadOf(evaluateCampaign(*snapshot.campaign, {}, job)), {}};
   });
 }
 

@@ -397,7 +397,7 @@ void FiducialCapturePage::showImage(const QString& image) {
     image_->setImage({});
     image_->setEmptyText(tr("This image cannot be shown"), sentence);
   };
-  context().jobs.run(std::move(job));
+  context().jobs.run(visitJob(session(), std::move(job)));
 }
 
 void FiducialCapturePage::clearImage() {
@@ -433,14 +433,12 @@ void FiducialCapturePage::checkAll() {
   if (snapshot.campaign == nullptr || captures_.empty()) return;
   const PendingResult pending = session().begin("check");
   run(tr("Checking %n captures", nullptr, static_cast<int>(captures_.size())), pending,
-      [this, snapshot, pending](JobContext& job) -> std::function<void()> {
+      [snapshot](JobContext& job) -> Worked {
         Campaign campaign = *snapshot.campaign;
         campaign.excluded_captures = snapshot.excluded;
         nlohmann::json payload = nlohmann::json::array();
         for (const CheckedCapture& c : checkFiducialCaptures(campaign, job)) payload.push_back(c.json());
-        return [this, pending, payload] {
-          if (session().finish(pending, {{"captures", payload}})) refresh();
-        };
+        return {{{"captures", payload}}, {}};
       });
 }
 

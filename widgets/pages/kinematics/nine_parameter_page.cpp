@@ -224,29 +224,15 @@ void NineParameterPage::fillPoints() {
   std::vector<Row> rows;
   if (set) {
     const NineParameterOptions o = options();
-    const std::string state = state_->currentText().toStdString();
-    const std::string reference = set->states().empty() ? std::string() : set->states().front();
     std::map<std::string, std::map<Component, std::pair<double, double>>> values;
     std::map<std::string, Eigen::Vector3d> positions;
-    for (const Observation& row : set->rows) {
-      if (row.state == state) {
-        values[row.point][row.component] = {row.value, row.sigma};
+    if (!state_->currentText().isEmpty()) {
+      const StateDifferences change = differencesFromReference(*set, state_->currentText().toStdString());
+      for (std::size_t k = 0; k < change.rows.size(); ++k) {
+        const Observation& row = set->rows[change.rows[k]];
+        values[row.point][row.component] = {change.value_um(static_cast<Eigen::Index>(k)), change.sigma_um(k)};
         positions[row.point] = row.position_mm;
       }
-    }
-    std::set<std::pair<std::string, Component>> in_reference;
-    for (const Observation& row : set->rows) {
-      if (row.state == reference) in_reference.insert({row.point, row.component});
-      if (row.state == reference && reference != state && values.contains(row.point) &&
-          values[row.point].contains(row.component)) {
-        auto& v = values[row.point][row.component];
-        v = {v.first - row.value, std::hypot(v.second, row.sigma)};
-      }
-    }
-    // Without a value in the reference state there is no deviation from it.
-    for (auto& [point, of] : values) {
-      if (reference != state)
-        std::erase_if(of, [&](const auto& v) { return !in_reference.contains({point, v.first}); });
     }
     for (const std::string& point : set->points()) {
       if (!values.contains(point)) continue;
@@ -279,31 +265,28 @@ void NineParameterPage::fit() {
   if (!set) return;
   const NineParameterOptions o = options();
   const PendingResult pending = session().begin("fit");
-  run(tr("Fitting the nine-parameter model"), pending,
-      [this, set = *set, o, pending](JobContext&) -> std::function<void()> {
-        const NineParameterFit fitted = fitNineParameters(set, o);
-        const TableOrderChoice order = chooseTableOrder(fitted);
-        return [this, fitted, order, pending] {
-          nlohmann::json parameters = nlohmann::json::object();
-          for (int i = 0; i < nine_parameter_count; ++i) {
-            parameters[std::string(nine_parameter_names[static_cast<std::size_t>(i)])] = {
-                {"value", jsonNumber(fitted.determined(i) ? fitted.parameters[i] : std::nan(""))},
-                {"standard_uncertainty", jsonNumber(fitted.standardUncertainty(i))}};
-          }
-          const nlohmann::json full = toJson(fitted);
-          const bool shown = session().finish(pending, {{"parameters", parameters},
-                                                        {"state", fitted.state},
-                                                        {"status", std::string(toString(fitted.status))},
-                                                        {"message", fitted.message},
-                                                        {"parameter_order", full.at("parameter_order")},
-                                                        {"covariance", full.at("covariance")},
-                                                        {"higher_order", order.json()}});
-          if (!shown) return;
-          result_ = fitted;
-          order_ = order;
-          showFit();
-        };
-      });
+  run(tr("Fitting the nine-parameter model"), pending, [this, set, o](JobContext&) -> Worked {
+    const NineParameterFit fitted = fitNineParameters(*set, o);
+    const TableOrderChoice order = chooseTableOrder(fitted);
+    nlohmann::json parameters = nlohmann::json::object();
+    for (int i = 0; i < nine_parameter_count; ++i) {
+      parameters[std::string(nine_parameter_names[static_cast<std::size_t>(i)])] = {
+          {"value", jsonNumber(fitted.determined(i) ? fitted.parameters[i] : std::nan(""))},
+          {"standard_uncertainty", jsonNumber(fitted.standardUncertainty(i))}};
+    }
+    const nlohmann::json full = toJson(fitted);
+    nlohmann::json payload{{"parameters", parameters},
+                           {"state", fitted.state},
+                           {"status", std::string(toString(fitted.status))},
+                           {"message", fitted.message},
+                           {"parameter_order", full.at("parameter_order")},
+                           {"covariance", full.at("covariance")},
+                           {"higher_order", order.json()}};
+    return {std::move(payload), [this, fitted, order] {
+              result_ = fitted;
+              order_ = order;
+            }};
+  });
 }
 
 void NineParameterPage::showFit() {

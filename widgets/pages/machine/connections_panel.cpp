@@ -174,8 +174,7 @@ void ConnectionsPanel::list(const std::string& source) {
   job.title = tr("Listing %1").arg(fromCore(entry->value("url", std::string())));
   job.queue = JobQueue::Display;
   job.key = "connections";
-  job.work = [this, source, entry = *entry,
-              visit = context_.session.visit()](JobContext& progress) -> std::function<void()> {
+  job.work = [this, source, entry = *entry](JobContext& progress) -> std::function<void()> {
     const SourceDescription peer_description =
         sourceForAddress(entry.at("url").get<std::string>(), JsonNode::parse(entry.dump(), "the source"));
     // Sources wait on a token of their own; cancelling the job ends that, too.
@@ -201,10 +200,9 @@ void ConnectionsPanel::list(const std::string& source) {
       throw InputError(error.what());
     }
     progress.throwIfCancelled();
-    return [this, source, found, visit] {
-      if (visit != context_.session.visit()) return;
+    return [this, source, found] {
       found_[source] = std::move(*found);
-      found_visit_ = visit;
+      found_visit_ = context_.session.visit();
       say({});
       refresh();
       sources_->choose(source);
@@ -212,7 +210,7 @@ void ConnectionsPanel::list(const std::string& source) {
     };
   };
   job.failed = [this](const QString& sentence) { say(sentence); };
-  context_.jobs.run(std::move(job));
+  context_.jobs.run(visitJob(context_.session, std::move(job)));
 }
 
 void ConnectionsPanel::tick(const QString& item, bool on) {

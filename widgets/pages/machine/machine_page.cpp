@@ -349,7 +349,7 @@ void MachinePage::discard() {
 }
 
 nlohmann::json MachinePage::base() const {
-  nlohmann::json machine = const_cast<MachinePage*>(this)->session().campaign()->machine.source;
+  nlohmann::json machine = session().campaign()->machine.source;
   for (const char* key : {"artefacts", "styli"}) machine.erase(key);
   return machine;
 }
@@ -401,7 +401,7 @@ void MachinePage::showTyped(const nlohmann::json& typed) {
 }
 
 nlohmann::json MachinePage::edited() const {
-  nlohmann::json machine = const_cast<MachinePage*>(this)->session().campaign()->machine.source;
+  nlohmann::json machine = session().campaign()->machine.source;
   machine["name"] = name_->text().toStdString();
   machine["chain"] = chain_->text().toStdString();
   const auto setOrErase = [](nlohmann::json& object, const char* key, const QString& text, bool number) {
@@ -460,7 +460,10 @@ void MachinePage::suggestPoints() {
   run(tr("Choosing measuring points"),
       [this, machine = session().campaign()->machine, request](JobContext& job) -> std::function<void()> {
         const PlacementAnswer answer = placeFiducials(machine, request, job);
-        return [this, answer] { showSuggestion(answer); };
+        return [this, machine, answer] {
+          if (session().campaign()->machine.source == machine.source) return showSuggestion(answer);
+          callout()->show(Tone::Attention, tr("The machine was changed meanwhile. Suggest the points again."));
+        };
       });
 }
 

@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include "core/base/atomic_file.h"
+#include "core/base/error.h"
 #include "core/reporting/parameter_meanings.h"
 #include "core/tasks/task_options.h"
 #include "widgets/common/core_sentence.h"
@@ -120,15 +121,15 @@ void CycleModelPage::fit(bool store) {
   if (snapshot.campaign == nullptr || list == nullptr) return;
   const HoleCycleOptions options = holeOptions();
   const PendingResult pending = session().begin("fit");
-  const Work work = [this, snapshot, list, options, store, pending,
-                     key = results_.key()](JobContext& job) -> std::function<void()> {
+  const ResultWork work = [this, snapshot, list, options, key = results_.key()](JobContext& job) -> Worked {
     auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, options, {}, job));
-    return [this, evaluation, store, pending, key] {
-      const CycleEvaluation* cycles = cyclesOf(evaluation.get());
-      if (store && cycles != nullptr) session().finish(pending, cyclesJson(*cycles));
-      if (key == results_.key()) evaluation_ = evaluation;  // else of inputs that are no more
-      refresh();
-    };
+    const CycleEvaluation* cycles = cyclesOf(evaluation.get());
+    if (cycles == nullptr) throw InputError(tr("The touches make up no whole cycle.").toStdString());
+    return {cyclesJson(*cycles), [this, evaluation, key] {
+              if (key != results_.key()) return;  // of inputs that are no more
+              evaluation_ = evaluation;
+              evaluated_key_ = key;
+            }};
   };
   if (store) return run(tr("Fitting all cycles"), pending, work);
   display(tr("Reading the cycles"), work);
@@ -177,7 +178,7 @@ void CycleModelPage::refresh() {
   callout()->setAction({}, {});
   const ResultState state = session().state("fit");
   const CycleEvaluation* cycles = cyclesOf(evaluation_.get());
-  if (cycles == nullptr) {
+  if (cycles == nullptr || (state.current && evaluated_key_ != results_.key())) {
     if (state.current) {
       fit(false);
     } else if (state.there) {

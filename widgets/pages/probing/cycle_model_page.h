@@ -56,6 +56,7 @@ class CycleModelPage : public Page {
 
   TouchResults& results_;
   std::shared_ptr<const TouchEvaluation> evaluation_;
+  std::string evaluated_key_;  ///< names the inputs of evaluation_
   std::shared_ptr<const Field> field_;
   QPushButton* fit_;
   QComboBox* cycle_;

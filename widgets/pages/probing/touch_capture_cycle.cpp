@@ -79,8 +79,10 @@ void TouchCapturePage::makeProgram() {
         } catch (const InputError& e) {
           failure = e.what();
         }
-        return [this, made, failure] {
+        return [this, made, failure, machine = campaign->machine.source] {
           program_ = std::move(*made);
+          program_machine_ = machine;
+          if (forgetOldProgram()) return;
           if (!program_) {
             program_verdict_->show(Tone::Bad, tr("No program: %1").arg(coreSentence(failure.c_str())));
           } else if (!program_->check.good()) {
@@ -101,6 +103,13 @@ void TouchCapturePage::makeProgram() {
           showScene();
         };
       });
+}
+
+bool TouchCapturePage::forgetOldProgram() {
+  if (!program_ || program_machine_ == session().campaign()->machine.source) return false;
+  program_.reset();
+  program_verdict_->show(Tone::Outdated, tr("The machine has changed since the programme was planned. Plan it again."));
+  return true;
 }
 
 std::vector<Exportable> TouchCapturePage::exportables() {

@@ -141,8 +141,7 @@ TouchCapturePage::TouchCapturePage(PageContext page_context, QWidget* parent)
 }
 
 const Artefact* TouchCapturePage::artefact() const {
-  auto* self = const_cast<TouchCapturePage*>(this);
-  return artefactOf(*self->session().campaign(), self->results_.touches().get());
+  return artefactOf(*session().campaign(), results_.touches().get());
 }
 
 void TouchCapturePage::runAll() {
@@ -155,21 +154,14 @@ void TouchCapturePage::evaluate(bool store) {
   const auto list = results_.touches();
   if (snapshot.campaign == nullptr || list == nullptr) return;
   const PendingResult pending = session().begin("check");
-  const Work work = [this, snapshot, list, store, key = results_.key(),
-                     pending](JobContext& job) -> std::function<void()> {
+  const ResultWork work = [this, snapshot, list, key = results_.key()](JobContext& job) -> Worked {
     auto evaluation = std::make_shared<TouchEvaluation>(evaluateTouchList(*snapshot.campaign, *list, {}, {}, job));
-    return [this, evaluation, store, key, pending] {
-      if (key == results_.key()) results_.set(key, evaluation);  // else of inputs that are no more
-      if (store) {
-        nlohmann::json counts = nlohmann::json::object();
-        for (const TouchVerdict& v : allVerdicts(*evaluation)) {
-          const std::string name = stateName(v.state).toStdString();
-          counts[name] = counts.value(name, 0) + 1;
-        }
-        session().finish(pending, {{"touches", counts}});
-      }
-      refresh();
-    };
+    nlohmann::json counts = nlohmann::json::object();
+    for (const TouchVerdict& v : allVerdicts(*evaluation)) {
+      const std::string name = stateName(v.state).toStdString();
+      counts[name] = counts.value(name, 0) + 1;
+    }
+    return {{{"touches", counts}}, [this, evaluation, key] { results_.set(key, evaluation); }};
   };
   if (store) return run(tr("Checking the touches"), pending, work);
   display(tr("Reading the touches"), work);
@@ -195,8 +187,11 @@ void TouchCapturePage::refresh() {
     view_->clear();
     view_->setMachine(campaign->machine);
     view_->setMachineVisible(machine_->isChecked());
-    if (session().state("check").there && !results_.current()) evaluate(false);
   }
+  forgetOldProgram();
+  // What another page has evaluated since may be of other inputs.
+  if (const ResultState check = session().state("check"); (other ? check.there : check.current) && !results_.current())
+    evaluate(false);
   const auto evaluation = results_.last();
   judged_ = evaluation != nullptr;
   verdicts_.clear();

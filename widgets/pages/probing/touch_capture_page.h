@@ -52,7 +52,10 @@ class TouchCapturePage : public Page {
   std::vector<TouchVerdict> verdicts_;
   bool judged_ = false;  ///< verdicts come from an evaluation, not from the bare list
   QString cycle_;
+  /// Takes a programme away that was planned for another machine, and says so; false: there is none.
+  bool forgetOldProgram();
   std::optional<CheckedProgram> program_;
+  nlohmann::json program_machine_;  ///< what it was planned for
   QPushButton* check_;
   QComboBox* state_filter_;
   QComboBox* control_;

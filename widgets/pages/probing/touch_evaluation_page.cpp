@@ -134,37 +134,30 @@ void TouchEvaluationPage::evaluate() {
   const auto list = results_.touches();
   if (snapshot.campaign == nullptr || list == nullptr) return;
   const PendingResult pending = session().begin("evaluate");
-  run(tr("Evaluating the touches"), pending,
-      [this, snapshot, list, key = results_.key(), pending](JobContext& job) -> std::function<void()> {
-        JobContext first = job.part(0.0, 0.5);
-        JobContext second = job.part(0.5, 1.0);
-        const CampaignEvaluation evaluation = evaluateCampaign(*snapshot.campaign, {}, first);
-        auto details = std::make_shared<Details>(detailsOf(snapshot, *list, second));
-        return [this, payload = payloadOf(evaluation), details, key, pending] {
-          if (key == results_.key()) {  // else of inputs that are no more
-            details_ = *details;
-            results_.set(key, details_.evaluation);
-          }
-          session().finish(pending, payload);
-          refresh();
-        };
-      });
+  run(tr("Evaluating the touches"), pending, [this, snapshot, list, key = results_.key()](JobContext& job) -> Worked {
+    JobContext first = job.part(0.0, 0.5);
+    JobContext second = job.part(0.5, 1.0);
+    nlohmann::json payload = payloadOf(evaluateCampaign(*snapshot.campaign, {}, first));
+    return {std::move(payload), takeDetails(key, detailsOf(snapshot, *list, second))};
+  });
 }
 
 void TouchEvaluationPage::restore() {
   const CampaignSnapshot snapshot = session().snapshot();
   const auto list = results_.touches();
   if (snapshot.campaign == nullptr || list == nullptr) return;
-  display(tr("Reading the evaluation"),
-          [this, snapshot, list, key = results_.key()](JobContext& job) -> std::function<void()> {
-            auto details = std::make_shared<Details>(detailsOf(snapshot, *list, job));
-            return [this, details, key] {
-              if (key != results_.key()) return;
-              details_ = *details;
-              results_.set(key, details_.evaluation);
-              refresh();
-            };
-          });
+  display(tr("Reading the evaluation"), [this, snapshot, list, key = results_.key()](JobContext& job) -> Worked {
+    return {{}, takeDetails(key, detailsOf(snapshot, *list, job))};
+  });
+}
+
+std::function<void()> TouchEvaluationPage::takeDetails(const std::string& key, Details details) {
+  return [this, key, details = std::move(details)] {
+    if (key != results_.key()) return;  // of inputs that are no more
+    details_ = details;
+    details_.key = key;
+    results_.set(key, details_.evaluation);
+  };
 }
 
 void TouchEvaluationPage::clear() {
@@ -209,8 +202,9 @@ void TouchEvaluationPage::refresh() {
     callout()->show(Tone::Good, tr("Deviations found: %1, no warnings.").arg(stored->observations.rows.size()));
   }
   const CycleEvaluation* cycles = cyclesOf(details_.evaluation.get());
-  if (cycles == nullptr) {
-    if (state.current) restore();
+  const bool other_inputs = state.current && details_.key != results_.key();
+  if (other_inputs) restore();
+  if (other_inputs || cycles == nullptr) {
     showDeviations();
     return;
   }

@@ -38,6 +38,7 @@ class TouchEvaluationPage : public Page {
  private:
   /// What a job finds beside the stored result.
   struct Details {
+    std::string key;  ///< names its inputs (TouchResults::key)
     std::shared_ptr<const TouchEvaluation> evaluation;
     std::vector<StylusHealth> health;
     RepeatabilityStudy repeatability;
@@ -45,6 +46,8 @@ class TouchEvaluationPage : public Page {
   void evaluate();
   void restore();
   [[nodiscard]] static Details detailsOf(const CampaignSnapshot& snapshot, const TouchList& list, JobContext& job);
+  /// To take them over, unless they are of inputs that are no more.
+  [[nodiscard]] std::function<void()> takeDetails(const std::string& key, Details details);
   void clear();
   void showTiles(const CycleEvaluation& cycles);
   void showFeatures();

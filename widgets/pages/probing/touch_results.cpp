@@ -57,6 +57,7 @@ bool TouchResults::current() {
 
 void TouchResults::set(const std::string& key, std::shared_ptr<const TouchEvaluation> evaluation) {
   follow();
+  if (key != this->key()) return;
   evaluated_key_ = key;
   evaluation_ = std::move(evaluation);
 }

@@ -27,6 +27,7 @@ class TouchResults : public QObject {
   [[nodiscard]] std::shared_ptr<const TouchEvaluation> last();
   /// True if the last evaluation is that of the inputs as they are now.
   [[nodiscard]] bool current();
+  /// Keeps an evaluation of the inputs that `key` names; of inputs that are no more, nothing.
   void set(const std::string& key, std::shared_ptr<const TouchEvaluation> evaluation);
   /// Names the inputs as they are now: campaign, exclusions, machine.
   [[nodiscard]] std::string key() const;

@@ -242,19 +242,10 @@ void ReportPage::write() {
   keepOperator();
   if (!canReport(*session().campaign(), session().observations() != nullptr)) return;
   const PendingResult pending = session().begin(report_result);
-  Job job;
-  job.title = tr("Writing the report");
-  job.work = [this, pending, task = ReportTask::of(session().tasks(), session().excludedItems())](
-                 JobContext& progress) -> std::function<void()> {
-    return [this, pending, payload = task.run(progress)] {
-      if (session().finish(pending, payload)) refresh();
-    };
-  };
-  job.failed = [this](const QString& sentence) {
-    callout()->setAction({}, {});
-    callout()->show(Tone::Bad, sentence);
-  };
-  context().jobs.run(taskJob(session(), pending, std::move(job)));
+  run(tr("Writing the report"), pending,
+      [task = ReportTask::of(session().tasks(), session().excludedItems())](JobContext& progress) -> Worked {
+        return {task.run(progress), {}};
+      });
 }
 
 void ReportPage::openInBrowser() {

@@ -144,18 +144,14 @@ void AxisErrorsPage::fit(bool store) {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr || !session().state("evaluate").there) return;
   const PendingResult pending = session().begin("fit");
-  const Work work = [this, snapshot, store, key = results_.key(), model = chosenModel(),
-                     pending](JobContext& job) -> std::function<void()> {
+  const ResultWork work = [this, snapshot, store, key = results_.key(),
+                           model = chosenModel()](JobContext& job) -> Worked {
     JobContext first = job.part(0.0, store ? 0.5 : 1.0);
     JobContext second = job.part(0.5, 1.0);
     auto evaluation = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, model, first));
     nlohmann::json payload;
     if (store) payload = evaluateScans(*snapshot.campaign, model, second).details;
-    return [this, evaluation, payload, store, key, model, pending] {
-      if (key == results_.key()) results_.set(model, evaluation);  // else of inputs that are no more
-      if (store) session().finish(pending, payload);
-      refresh();
-    };
+    return {std::move(payload), [this, key, model, evaluation] { results_.set(key, model, evaluation); }};
   };
   if (store) return run(tr("Finding the six errors"), pending, work);
   display(tr("Reading the six errors"), work);
@@ -190,7 +186,7 @@ void AxisErrorsPage::refresh() {
     return;
   }
   const auto evaluation = results_.last(chosenModel());
-  if (evaluation == nullptr && state.current) {
+  if (state.current && !results_.current(chosenModel())) {
     fit(false);
     return;
   }

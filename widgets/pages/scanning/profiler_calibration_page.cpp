@@ -72,18 +72,14 @@ void ProfilerCalibrationPage::evaluate(bool store) {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr) return;
   const PendingResult pending = session().begin("evaluate");
-  const Work work = [this, snapshot, store, key = results_.key(), pending,
-                     model = results_.modelOfMachine()](JobContext& job) -> std::function<void()> {
+  const ResultWork work = [this, snapshot, store, key = results_.key(),
+                           model = results_.modelOfMachine()](JobContext& job) -> Worked {
     JobContext first = job.part(0.0, store ? 0.5 : 1.0);
     JobContext second = job.part(0.5, 1.0);
     auto details = std::make_shared<ScanEvaluation>(evaluateScanCampaign(*snapshot.campaign, "", first));
     nlohmann::json payload;
     if (store) payload = payloadOf(evaluateCampaign(*snapshot.campaign, {}, second));
-    return [this, details, payload, store, key, model, pending] {
-      if (key == results_.key()) results_.set(model, details);  // else of inputs that are no more
-      if (store) session().finish(pending, payload);
-      refresh();
-    };
+    return {std::move(payload), [this, key, model, details] { results_.set(key, model, details); }};
   };
   if (store) return run(tr("Evaluating the scans"), pending, work);
   display(tr("Reading the evaluation"), work);
@@ -130,10 +126,8 @@ void ProfilerCalibrationPage::refresh() {
                     tr("Deviations found: %1, no warnings.").arg(static_cast<int>(stored->observations.rows.size())));
   }
   const auto evaluation = results_.last(results_.modelOfMachine());
-  if (evaluation == nullptr) {
-    if (state.current) evaluate(false);
-    return;
-  }
+  if (state.current && !results_.current(results_.modelOfMachine())) return evaluate(false);
+  if (evaluation == nullptr) return;
   showCalibration(*evaluation);
   showScans(*evaluation);
 }

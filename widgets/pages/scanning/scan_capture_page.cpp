@@ -121,12 +121,11 @@ QString ScanCapturePage::selected() const {
 }
 
 std::string ScanCapturePage::referenceOf(const std::string& cloud) const {
-  auto* self = const_cast<ScanCapturePage*>(this);
-  const std::vector<ScanCapture>& all = self->results_.captures();
+  const std::vector<ScanCapture>& all = results_.captures();
   const auto own = std::find_if(all.begin(), all.end(), [&](const ScanCapture& c) { return c.cloud == cloud; });
   if (own == all.end()) return {};
   for (const ScanCapture& c : all) {
-    if (c.artefact == own->artefact && !self->session().excluded().contains(fromCore(c.cloud))) return c.cloud;
+    if (c.artefact == own->artefact && !session().excluded().contains(fromCore(c.cloud))) return c.cloud;
   }
   return {};
 }
@@ -135,11 +134,8 @@ void ScanCapturePage::check() {
   const CampaignSnapshot snapshot = session().snapshot();
   if (snapshot.campaign == nullptr) return;
   const PendingResult pending = session().begin("check");
-  run(tr("Checking the scans"), pending, [this, snapshot, pending](JobContext& job) -> std::function<void()> {
-    const nlohmann::json payload = payloadOfScanChecks(checkScans(*snapshot.campaign, job));
-    return [this, pending, payload] {
-      if (session().finish(pending, payload)) refresh();
-    };
+  run(tr("Checking the scans"), pending, [snapshot](JobContext& job) -> Worked {
+    return {payloadOfScanChecks(checkScans(*snapshot.campaign, job)), {}};
   });
 }
 
@@ -333,7 +329,7 @@ void ScanCapturePage::loadCloud() {
     profile_->setContent({});
     slider_->setEnabled(false);
   };
-  context().jobs.run(std::move(job));
+  context().jobs.run(visitJob(session(), std::move(job)));
 }
 
 void ScanCapturePage::showIn(View3D* view, const ScanPicture& picture, const QString& part) {

@@ -42,12 +42,19 @@ const std::vector<ScanCapture>& ScanResults::captures() {
 std::shared_ptr<const ScanEvaluation> ScanResults::last(const std::string& scan_model) {
   follow();
   const auto found = evaluations_.find(scan_model);
-  return found == evaluations_.end() ? nullptr : found->second;
+  return found == evaluations_.end() ? nullptr : found->second.evaluation;
 }
 
-void ScanResults::set(const std::string& scan_model, std::shared_ptr<const ScanEvaluation> evaluation) {
+bool ScanResults::current(const std::string& scan_model) {
   follow();
-  evaluations_[scan_model] = std::move(evaluation);
+  const auto found = evaluations_.find(scan_model);
+  return found != evaluations_.end() && found->second.key == key();
+}
+
+void ScanResults::set(const std::string& key, const std::string& scan_model,
+                      std::shared_ptr<const ScanEvaluation> evaluation) {
+  follow();
+  if (key == this->key()) evaluations_[scan_model] = {key, std::move(evaluation)};
 }
 
 std::string ScanResults::key() const {

@@ -23,7 +23,10 @@ class ScanResults : public QObject {
   [[nodiscard]] const QString& failure() const { return failure_; }
   /// The last evaluation under a scan model, whether inputs have changed since or not; null if there is none.
   [[nodiscard]] std::shared_ptr<const ScanEvaluation> last(const std::string& scan_model);
-  void set(const std::string& scan_model, std::shared_ptr<const ScanEvaluation> evaluation);
+  /// True if that evaluation is one of the inputs as they are now.
+  [[nodiscard]] bool current(const std::string& scan_model);
+  /// Keeps an evaluation of the inputs that `key` names; of inputs that are no more, nothing.
+  void set(const std::string& key, const std::string& scan_model, std::shared_ptr<const ScanEvaluation> evaluation);
   /// Names the inputs as they are now.
   [[nodiscard]] std::string key() const;
   /// The scan model of machine.json: "rigid" or "push_broom".
@@ -39,7 +42,11 @@ class ScanResults : public QObject {
   bool read_ = false;
   std::vector<ScanCapture> captures_;
   QString failure_;
-  std::map<std::string, std::shared_ptr<const ScanEvaluation>> evaluations_;
+  struct Evaluated {
+    std::string key;
+    std::shared_ptr<const ScanEvaluation> evaluation;
+  };
+  std::map<std::string, Evaluated> evaluations_;  ///< by scan model
 };
 
 }  // namespace spindrift::gui

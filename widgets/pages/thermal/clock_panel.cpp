@@ -42,8 +42,9 @@ class ClockCommand : public QUndoCommand {
 
 }  // namespace
 
-ClockPanel::ClockPanel(SessionModel& session, CampaignUndo& undo, QWidget* parent)
-    : QWidget(parent), session_(session), undo_(undo) {
+ClockPanel::ClockPanel(SessionModel& session, CampaignUndo& undo, std::function<void(const QString&, Work)> run,
+                       QWidget* parent)
+    : QWidget(parent), session_(session), undo_(undo), run_(std::move(run)) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 8, 0, 0);
   auto* text = makeLabel(tr("Clocks of logger and instruments differ. The offset is added to the times of a source; a "
@@ -75,39 +76,48 @@ ClockPanel::ClockPanel(SessionModel& session, CampaignUndo& undo, QWidget* paren
   column->addWidget(makeTable(rows_, tr("Offsets of the clocks"), tr("No clock offset is applied.")), 1);
   connect(source_, &QComboBox::activated, this, [this](int) { refresh(); });
   connect(offset_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
-    if (!filling_) change(value, 0.0, QStringLiteral("entered"));
+    if (!filling_) change(source_->currentText().toStdString(), value, 0.0, "entered");
   });
   connect(estimate_, &QPushButton::clicked, this, &ClockPanel::estimate);
 }
 
-void ClockPanel::change(double offset_s, double sigma_s, const QString& how) {
+void ClockPanel::change(const std::string& source, double offset_s, double sigma_s, const std::string& how) {
   ClockOffsets after = session_.clockOffsets();
-  const std::string source = source_->currentText().toStdString();
   if (source.empty()) return;
   if (offset_s == 0.0) {
     after.erase(source);
   } else {
-    after[source] = {offset_s, sigma_s, how.toStdString()};
+    after[source] = {offset_s, sigma_s, how};
   }
   undo_.push(new ClockCommand(session_, std::move(after)));
 }
 
 void ClockPanel::estimate() {
   const auto set = session_.observations();
-  if (!set || session_.campaign() == nullptr) return;
-  const std::string source = source_->currentText().toStdString();
-  try {
-    // Relative to what is applied already.
-    const ClockOffset found = estimateFromMotion(*session_.campaign(), *set, source, longest_search_s);
-    const ClockOffsets now = session_.clockOffsets();
-    const auto before = now.find(source);
-    change(found.offset_s + (before == now.end() ? 0.0 : before->second.offset_s), found.sigma_s,
-           coreSentence(found.how));
-    message_->set(Tone::Good,
-                  tr("Offset of %1: %2.").arg(fromCore(source), quantityText(found.offset_s, found.sigma_s, tr("s"))));
-  } catch (const InputError& e) {
-    message_->set(Tone::Attention, coreSentence(e.what()));
+  if (!set) {
+    message_->set(Tone::Attention, tr("There are no observations yet to compare the log with. Evaluate the captures "
+                                      "first (Calibrate)."));
+    return;
   }
+  const std::string source = source_->currentText().toStdString();
+  // What is found is relative to what is applied to log and observations already.
+  const ClockOffsets now = session_.clockOffsets();
+  const auto before = now.find(source);
+  const double applied_s = before == now.end() ? 0.0 : before->second.offset_s;
+  run_(tr("Estimating the offset of a clock"),
+       [this, set, source, applied_s, campaign = session_.campaign()](JobContext&) -> std::function<void()> {
+         try {
+           const ClockOffset found = estimateFromMotion(*campaign, *set, source, longest_search_s);
+           return [this, source, applied_s, found] {
+             change(source, applied_s + found.offset_s, found.sigma_s, found.how);
+             message_->set(
+                 Tone::Good,
+                 tr("Offset of %1: %2.").arg(fromCore(source), quantityText(found.offset_s, found.sigma_s, tr("s"))));
+           };
+         } catch (const InputError& e) {
+           return [this, sentence = coreSentence(e.what())] { message_->set(Tone::Attention, sentence); };
+         }
+       });
 }
 
 void ClockPanel::refresh() {

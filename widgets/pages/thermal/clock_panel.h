@@ -4,6 +4,9 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
+
+#include "core/base/job_context.h"
 
 class QComboBox;
 class QDoubleSpinBox;
@@ -19,7 +22,10 @@ class SessionModel;
 class ClockPanel : public QWidget {
   Q_OBJECT
  public:
-  ClockPanel(SessionModel& session, CampaignUndo& undo, QWidget* parent = nullptr);
+  using Work = std::function<std::function<void()>(JobContext&)>;
+  /// `run` does work of the page in the background.
+  ClockPanel(SessionModel& session, CampaignUndo& undo, std::function<void(const QString&, Work)> run,
+             QWidget* parent = nullptr);
   void refresh();
   void estimate();
   [[nodiscard]] RowsModel* rows() const { return rows_; }
@@ -28,10 +34,11 @@ class ClockPanel : public QWidget {
   [[nodiscard]] Callout* message() const { return message_; }
 
  private:
-  void change(double offset_s, double sigma_s, const QString& how);
+  void change(const std::string& source, double offset_s, double sigma_s, const std::string& how);
 
   SessionModel& session_;
   CampaignUndo& undo_;
+  std::function<void(const QString&, Work)> run_;
   bool filling_ = false;
   QComboBox* source_;
   QDoubleSpinBox* offset_;

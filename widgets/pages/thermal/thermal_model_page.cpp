@@ -243,13 +243,13 @@ void ThermalModelPage::load() {
               sigma_ = sigma;
               if (failure.empty()) series_ = series;
               refresh();
-              if (std::exchange(wanted_, false)) identify(true);
+              if (std::exchange(wanted_, -1) == session().visit()) identify(true);
             };
           });
 }
 
 void ThermalModelPage::runAll() {
-  wanted_ = series_ == nullptr;
+  wanted_ = series_ == nullptr ? session().visit() : -1;
   identify(true);
 }
 
@@ -257,16 +257,14 @@ void ThermalModelPage::identify(bool store) {
   if (series_ == nullptr) return;
   const IdentifyRequest asked = request();
   const PendingResult pending = session().begin("thermal");
-  const Work work = [this, series = series_, asked, store, json = options_.json(), folder = loaded_,
-                     pending](JobContext& job) -> std::function<void()> {
+  const ResultWork work = [this, series = series_, asked, json = options_.json(),
+                           loaded = loaded_](JobContext& job) -> Worked {
     auto result = std::make_shared<IdentifyResult>(identifyThermalModel(*series, asked, job));
-    return [this, result, store, json, folder, pending] {
-      if (store) session().finish(pending, result->json());
-      if (folder != loaded_) return;
-      result_ = result;
-      result_options_ = json;
-      refresh();
-    };
+    return {result->json(), [this, result, json, loaded] {
+              if (loaded != loaded_) return;
+              result_ = result;
+              result_options_ = json;
+            }};
   };
   if (store) return run(tr("Identifying the model"), pending, work);
   display(tr("Reading the model"), work);

@@ -68,7 +68,7 @@ class ThermalModelPage : public Page {
   std::string loaded_;                   ///< folder of the campaign whose log is in series_
   std::map<std::string, double> sigma_;  ///< of one value of a sparse output
   QString failure_;
-  bool wanted_ = false;  ///< identify as soon as the log is read
+  std::int64_t wanted_ = -1;  ///< visit for which a model is to be identified as soon as the log is read; -1: none
 
   QPushButton* identify_;
   QComboBox* output_;

@@ -63,7 +63,8 @@ WarmUpPage::WarmUpPage(PageContext page_context, QWidget* parent)
          "back within half a resolution of the axis."),
       tr("Check the repeatability"), 0.5, "check-repeatability");
   tabs_->addTab(repeatability_, tr("Cold repeatability"));
-  clocks_ = new ClockPanel(session(), context().undo);
+  clocks_ = new ClockPanel(session(), context().undo,
+                           [this](const QString& title, ClockPanel::Work work) { run(title, std::move(work)); });
   tabs_->addTab(clocks_, tr("Clocks"));
   auto* temperature = new Card(tr("Temperatures"));
   temperature_ = new Plot;
@@ -105,20 +106,20 @@ void WarmUpPage::readRecorded() {
   job.quiet = true;
   job.queue = JobQueue::Display;
   job.key = "recorded-log";
-  job.work = [this, file = campaign->path("log.csv"), visit = session().visit()](JobContext&) -> std::function<void()> {
+  job.work = [this, file = campaign->path("log.csv")](JobContext&) -> std::function<void()> {
     std::shared_ptr<const OperatingLog> log;
     try {
       log = std::make_shared<const OperatingLog>(OperatingLog::read(file));
     } catch (const InputError&) {
       return [] {};  // no row yet
     }
-    return [this, log, visit] {
+    return [this, log] {
       recorded_ = log;
-      recorded_visit_ = visit;
+      recorded_visit_ = session().visit();
       showTemperatures();
     };
   };
-  context().jobs.run(std::move(job));
+  context().jobs.run(visitJob(session(), std::move(job)));
 }
 
 void WarmUpPage::showTemperatures() {

@@ -197,8 +197,7 @@ QWidget* VerifyPage::makeChoices() {
 }
 
 nlohmann::json VerifyPage::optionsJson() const {
-  auto& model = const_cast<VerifyPage*>(this)->session();
-  return VerifyOptions::of(*model.session(), model.campaignId()).json();
+  return VerifyOptions::of(*session().session(), session().campaignId()).json();
 }
 
 void VerifyPage::setAfter(const QString& folder) {
@@ -234,18 +233,15 @@ void VerifyPage::compare(bool store) {
   // One campaign may hold both: then what was taken while compensating must not be left out of the second set.
   const bool same = folder == session().campaign()->folder;
   const PendingResult pending = session().begin("verify");
-  const Work work = [this, json, folder, request, store, same, first = *before, snapshot = session().snapshot(),
-                     pending](JobContext& job) -> std::function<void()> {
+  const ResultWork work = [this, json, folder, request, same, before,
+                           snapshot = session().snapshot()](JobContext& job) -> Worked {
     const Campaign second = same ? *snapshot.campaign : Campaign::read(folder);
     const ObservationSet after = allObservationsOf(second, {}, {}, job);
-    auto result = std::make_shared<VerifyResult>(verifyCampaigns(*snapshot.campaign, first, second, after, request));
-    return [this, result, json, store, pending] {
-      if (store) session().finish(pending, result->json());
-      if (!session().atHand(pending)) return;
-      result_ = result;
-      result_options_ = json;
-      refresh();
-    };
+    auto result = std::make_shared<VerifyResult>(verifyCampaigns(*snapshot.campaign, *before, second, after, request));
+    return {result->json(), [this, result, json] {
+              result_ = result;
+              result_options_ = json;
+            }};
   };
   if (store) return run(tr("Comparing before and after"), pending, work);
   display(tr("Reading the comparison"), work);

@@ -10,9 +10,13 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/base/text.h"
+#include "core/machine/nine_parameter_model.h"
 #include "core/machine/observation.h"
 #include "tests/widgets/pages/page_test.h"
 #include "widgets/models/rows_model.h"
+#include "widgets/pages/common/cells.h"
+#include "widgets/theme/numbers.h"
 #include "widgets/view3d/view3d.h"
 
 namespace spindrift::gui {
@@ -75,6 +79,41 @@ class NineParameterPageTest : public PageTest {
     return largest;
   }
 };
+
+TEST_F(NineParameterPageTest, ShowsTheDifferencesThatAreFitted) {
+  // Half of the noise of a component is shared by all readings of a session: it cancels in the change of a state.
+  const std::filesystem::path folder = campaign(0.0);
+  ObservationSet set = ObservationSet::read(folder / "observations.csv");
+  for (const Component c : {Component::EX, Component::EY, Component::EZ}) {
+    SharedNoise::Factor factor;
+    for (std::size_t i = 0; i < set.rows.size(); ++i)
+      if (set.rows[i].component == c) factor.push_back({i, 0.4});
+    set.shared.addFactor(std::move(factor));
+  }
+  set.write(folder / "observations.csv");
+  open(folder);
+  auto* page = go<NineParameterPage>(StepId::Model);
+  ASSERT_NE(page, nullptr);
+  press();
+  const QTableView* points = nullptr;
+  for (const QTableView* table : page->findChildren<QTableView*>())
+    if (table->accessibleName() == QStringLiteral("Points")) points = table;
+  ASSERT_NE(points, nullptr);
+  const NineParameterFit fit = fitNineParameters(*window_->session().observations());
+  ASSERT_EQ(points->model()->rowCount(), 20);
+  int compared = 0;
+  for (int row = 0; row < 20; ++row) {
+    for (const NineParameterResidual& r : fit.residuals) {
+      if (fromCore(r.point) != points->model()->index(row, 0).data().toString()) continue;
+      const int column = 3 + static_cast<int>(r.component) - static_cast<int>(Component::EX);
+      EXPECT_EQ(points->model()->index(row, column).data().toString(),
+                shownNumbers(fromCore(withUncertainty(r.value_um, r.sigma_um, ""))).trimmed());
+      EXPECT_NEAR(r.sigma_um, std::sqrt(2.0) * 0.3, 1e-3) << "not the root of the sum of both squares, 0.71";
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 60);
+}
 
 TEST_F(NineParameterPageTest, OffersTheHigherOrderWhereTheEvidenceAsksForIt) {
   open(campaign(12.0));

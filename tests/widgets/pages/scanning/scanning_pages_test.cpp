@@ -128,6 +128,22 @@ TEST_F(ScanningPages, ExcludingAScanIsUndoneByUndo) {
   EXPECT_EQ(calibrate->registrations()->rowCount(), 2 * 6);
 }
 
+/// Both pages keep what they show beside the stored result in one place.
+TEST_F(ScanningPages, WhatIsShownAsCurrentIsOfTheInputsAsTheyAre) {
+  openScans("rigid", false);
+  auto* calibrate = go<ProfilerCalibrationPage>(StepId::Calibrate);
+  press();
+  ASSERT_EQ(calibrate->registrations()->rowCount(), 2 * 6);
+  window_->undoStack().push(
+      new ExcludeCommand(window_->session(), {QString::fromLatin1(bad_scan)}, QStringLiteral("cut")));
+  go<AxisErrorsPage>(StepId::Model);
+  press();
+  window_->undoStack().undo();
+  calibrate = go<ProfilerCalibrationPage>(StepId::Calibrate);
+  ASSERT_TRUE(window_->session().state("evaluate").current);
+  EXPECT_EQ(calibrate->registrations()->rowCount(), 2 * 6) << "current again, with all scans";
+}
+
 TEST_F(ScanningPages, APartIsPaintedAwayAndTakenBack) {
   openScans("rigid", false);
   const QString scan = QStringLiteral("captures/clouds/A1_C2.pcd");

@@ -213,6 +213,8 @@ TEST_F(VerifyPages, ACampaignWithObservationsHasAModelOverTime) {
   // The log knows no positions, so nothing can be estimated: said, and nothing changed.
   warm_up->clocks()->source()->setCurrentText(QStringLiteral("probe"));
   warm_up->clocks()->estimate();
+  EXPECT_TRUE(window_->jobs().busy()) << "in the background";
+  ASSERT_TRUE(waitForJobs(*window_, 60));
   EXPECT_EQ(warm_up->clocks()->message()->tone(), Tone::Attention);
   window_->session().setClockOffsets({});
   EXPECT_EQ(window_->workflow().status(StepId::Model).state, StepState::Current);
