@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
@@ -36,11 +37,25 @@ unsigned threadCount() {
   return std::max(1U, std::thread::hardware_concurrency());
 }
 
-void parallelFor(std::size_t count, const JobContext& job, const std::function<void(std::size_t)>& body) {
+namespace {
+
+/// One call of parallelFor, on the stack of its caller.
+struct Loop {
+  Loop(std::size_t items, const JobContext& context, const std::function<void(std::size_t)>& of_item)
+      : count(items), job(context), body(of_item) {}
+
+  const std::size_t count;
+  const JobContext& job;
+  const std::function<void(std::size_t)>& body;
   std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
   std::mutex failure_mutex;
-  const auto work = [&] {
+  std::exception_ptr failure;
+  // Under the pool's mutex:
+  std::size_t places = 0;  ///< workers that may still join
+  std::size_t joined = 0;  ///< workers in it now
+  std::condition_variable left;
+
+  void work() {
     for (;;) {
       const std::size_t index = next.fetch_add(1);
       if (index >= count || job.cancelled()) return;
@@ -53,14 +68,76 @@ void parallelFor(std::size_t count, const JobContext& job, const std::function<v
         return;
       }
     }
-  };
-  const std::size_t threads = std::min<std::size_t>(threadCount(), count);
-  {
-    std::vector<std::jthread> pool;
-    for (std::size_t i = 1; i < threads; ++i) pool.emplace_back(work);
-    work();
   }
-  if (failure) std::rethrow_exception(failure);
+};
+
+/// The workers of all loops of the process. A worker joins the newest loop that has a place, so that an inner loop is
+/// over before more of the outer one begins. The caller of a loop works on it itself and then waits only for workers
+/// that are in it: what they wait for in turn is always further inside, so nesting cannot block.
+class Pool {
+ public:
+  /// Never destroyed: its threads sleep when the process ends.
+  static Pool& instance() {
+    static Pool& pool = *new Pool;
+    return pool;
+  }
+
+  void run(Loop& loop, std::size_t helpers) {
+    {
+      const std::scoped_lock lock(mutex_);
+      while (workers_.size() < helpers) workers_.emplace_back([this] { serve(); });
+      loop.places = helpers;
+      loops_.push_back(&loop);
+    }
+    if (helpers == 1) {
+      wanted_.notify_one();
+    } else {
+      wanted_.notify_all();
+    }
+    loop.work();
+    std::unique_lock lock(mutex_);
+    std::erase(loops_, &loop);
+    loop.left.wait(lock, [&] { return loop.joined == 0; });
+  }
+
+ private:
+  [[noreturn]] void serve() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      const auto open = std::find_if(loops_.rbegin(), loops_.rend(), [](const Loop* loop) {
+        return loop->places > 0 && loop->next.load() < loop->count;
+      });
+      if (open == loops_.rend()) {
+        wanted_.wait(lock);
+        continue;
+      }
+      Loop& loop = **open;
+      --loop.places;
+      ++loop.joined;
+      lock.unlock();
+      loop.work();
+      lock.lock();
+      if (--loop.joined == 0) loop.left.notify_one();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable wanted_;
+  std::vector<Loop*> loops_;  ///< that may have places, oldest first
+  std::vector<std::thread> workers_;
+};
+
+}  // namespace
+
+void parallelFor(std::size_t count, const JobContext& job, const std::function<void(std::size_t)>& body) {
+  Loop loop(count, job, body);
+  const std::size_t threads = std::min<std::size_t>(threadCount(), count);
+  if (threads > 1) {
+    Pool::instance().run(loop, threads - 1);
+  } else {
+    loop.work();
+  }
+  if (loop.failure) std::rethrow_exception(loop.failure);
   job.throwIfCancelled();
 }
 

@@ -46,8 +46,11 @@ class JobContext {
 /// Number of threads a parallel loop should use: SPINDRIFT_THREADS if set, else what the machine has, at least 1.
 [[nodiscard]] unsigned threadCount();
 
-/// Runs body(0..count-1) on `threadCount()` threads, in no order. Polls for cancel between items; the first exception
-/// thrown by a body is rethrown here after all threads have stopped.
+/// Runs body(0..count-1) in no order on up to `threadCount()` threads: the caller and the workers of one pool, which
+/// all loops of the process share and which starts at the first loop. Loops inside bodies take the workers that are
+/// free and never wait for one that is not. Polls for cancel between items; the first exception thrown by a body is
+/// rethrown here after all threads have left the loop. Threads that wait, for a job, a camera or a socket, are not of
+/// the pool.
 void parallelFor(std::size_t count, const JobContext& job, const std::function<void(std::size_t)>& body);
 
 }  // namespace spindrift
