@@ -9364,6 +9364,22 @@ endgültig fehlgeschlagen: {}</translation>
         <source>a row from 0 to {}</source>
         <translation>eine Zeile von 0 bis {}</translation>
     </message>
+    <message>
+        <source>No tables are written for Heidenhain (.COM, .CMA), Fanuc (pitch error data) and the sag compensation of Siemens (CEC): public documents do not state the sign of their values. The ISO 230-1 tables hold what the tools of the machine builder need for them.</source>
+        <translation>Für Heidenhain (.COM, .CMA), Fanuc (Steigungsfehlerdaten) und die Durchhangkompensation von Siemens (CEC) werden keine Tabellen geschrieben: Öffentliche Unterlagen nennen das Vorzeichen ihrer Werte nicht. Die Tabellen nach ISO 230-1 enthalten, was die Werkzeuge des Maschinenherstellers dafür brauchen.</translation>
+    </message>
+    <message>
+        <source>{} measured {:+.1f} µm beside the prediction, far beyond its uncertainty: used if the next cycle says so too</source>
+        <translation>{} {:+.1f} µm neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn der nächste Zyklus dasselbe sagt</translation>
+    </message>
+    <message>
+        <source>{} measured {:+.2f} beside the prediction, far beyond its uncertainty: used if the next measurement says so too</source>
+        <translation>{} {:+.2f} neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn die nächste Messung dasselbe sagt</translation>
+    </message>
+    <message>
+        <source>{} of {} measurements were more than {:.0f} standard uncertainties off the prediction and were not used, the first at {:.6g} s ({:.2f} off); a second one in a row on the same side would have been.</source>
+        <translation>{} von {} Messungen lagen mehr als {:.0f} Standardunsicherheiten neben der Vorhersage und wurden nicht verwendet, die erste bei {:.6g} s (um {:.2f}); eine zweite in Folge auf derselben Seite wäre verwendet worden.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -9906,6 +9922,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>workpiece</source>
         <translation>Werkstück</translation>
+    </message>
+    <message>
+        <source>No tables are written for Heidenhain (.COM, .CMA), Fanuc (pitch error data) and the sag compensation of Siemens (CEC): public documents do not state the sign of their values. The ISO 230-1 tables hold what the tools of the machine builder need for them.</source>
+        <translation>Für Heidenhain (.COM, .CMA), Fanuc (Steigungsfehlerdaten) und die Durchhangkompensation von Siemens (CEC) werden keine Tabellen geschrieben: Öffentliche Unterlagen nennen das Vorzeichen ihrer Werte nicht. Die Tabellen nach ISO 230-1 enthalten, was die Werkzeuge des Maschinenherstellers dafür brauchen.</translation>
     </message>
 </context>
 <context>
