@@ -12,10 +12,11 @@
 //   Siemens         measuring system error compensation (MSEC, $AA_ENC_COMP) of one axis, mm. The value is added to the
 //                   position that the control reads, so that a positive one moves the axis in the negative direction
 //                   (SINUMERIK 840D sl, Extended Functions, K3): it is the deviation itself, zero at the reference.
-// Not written: Heidenhain .COM/.CMA and Fanuc pitch error data. Of the former the columns are public, the sign of a
-// value is not; the latter are steps in detection units between points whose numbers, spacing and magnification
-// (parameters 3620 to 3624) the machine builder sets, and their sign is not in public documents either. The table of
-// components (ISO 230-1) holds what the builder's tools need for both.
+// Not written: Heidenhain .COM/.CMA, Siemens sag compensation (CEC, $AN_CEC) and Fanuc pitch error data. Of the first
+// two the columns are public, the sign of a value is not (K3 gives it for $AA_ENC_COMP alone); the last are steps in
+// detection units between points whose numbers, spacing and magnification (parameters 3620 to 3624) the machine builder
+// sets, and their sign is not in public documents either. The table of components (ISO 230-1) holds what the builder's
+// tools need for all three.
 #pragma once
 
 #include <array>

@@ -21,7 +21,7 @@ namespace {
 struct LiveModel {
   std::vector<double> run;
   std::vector<int> place;  ///< of each row of the series in `error`, -1 where nothing can be measured
-  Eigen::MatrixXf error;   ///< rows: the model's own error at two rows differs by |row - row| (standard uncertainty)
+  Eigen::MatrixXd error;   ///< rows: the model's own error at two rows differs by |row - row| (standard uncertainty)
   std::vector<char> outside;
   std::vector<std::string> inputs;
   double remainder = 1.0;
@@ -30,7 +30,7 @@ struct LiveModel {
   [[nodiscard]] double sigmaSince(std::size_t corrected, std::size_t row) const {
     const auto a = static_cast<Eigen::Index>(place[corrected]);
     const auto b = static_cast<Eigen::Index>(place[row]);
-    return static_cast<double>((error.row(b) - error.row(a)).norm());
+    return (error.row(b) - error.row(a)).norm();
   }
 };
 
@@ -69,6 +69,10 @@ class Replay {
           s.values[row] =
               truth_[e][row] + (options_.add_noise ? random_.normal(0.0, errors_[e].measurement_sigma) : 0.0);
     }
+  }
+  void forget(std::size_t error, std::size_t row) {
+    for (Signal& s : known_.signals)
+      if (s.name == errors_[error].name) s.values[row] = std::nan("");
   }
   [[nodiscard]] bool measurable(std::size_t row) const {
     return std::any_of(truth_.begin(), truth_.end(), [row](const auto& t) { return std::isfinite(t[row]); });
@@ -117,7 +121,7 @@ class Replay {
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(output.covariance);
     const Eigen::MatrixXd root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-    live.error = (x(measurable_rows, Eigen::all) * root).cast<float>();
+    live.error = x(measurable_rows, Eigen::all) * root;
     for (const ThermalInput& input : result.model.inputs)
       if (std::find(live.inputs.begin(), live.inputs.end(), input.name) == live.inputs.end())
         live.inputs.push_back(input.name);
@@ -237,6 +241,7 @@ AdaptiveResult Replay::run(std::vector<LiveModel> models) {
     measure(row);
     ++result.measurements;
     last_measurement = time[row];
+    const std::size_t corrected_row = measured_row;
     measured_row = row;
     demanded = -1.0;
     result.events.push_back({time[row], AdaptiveEventKind::Measurement, trigger});
@@ -245,7 +250,15 @@ AdaptiveResult Replay::run(std::vector<LiveModel> models) {
       const double value = measured(e, row);
       if (!std::isfinite(value)) continue;
       const double difference = value - filters[e].value(models[e].run[row]);
-      filters[e].measure(value, models[e].run[row]);
+      if (!filters[e].measure(value, models[e].run[row], {}, models[e].sigmaSince(corrected_row, row))) {
+        forget(e, row);
+        demanded = time[row] + options_.shortest_interval_s;
+        result.events.push_back({time[row], AdaptiveEventKind::Refused,
+                                 fmt::format("{} measured {:+.2f} beside the prediction, far beyond its uncertainty: "
+                                             "used if the next measurement says so too",
+                                             errors_[e].name, difference)});
+        continue;
+      }
       if (std::abs(difference) <= errors_[e].action_limit) continue;
       exceeded.push_back(e);
       result.events.push_back({time[row], AdaptiveEventKind::LimitExceeded,
@@ -258,7 +271,7 @@ AdaptiveResult Replay::run(std::vector<LiveModel> models) {
       if (static_cast<int>(result.reidentifications) >= options_.maximum_reidentifications) break;
       models[e] = identify(e, time[row] + 1e-6);
       filters[e] = freshFilter(e, models[e]);
-      filters[e].measure(measured(e, row), models[e].run[row]);
+      (void)filters[e].measure(measured(e, row), models[e].run[row]);  // the first of a new filter is never refused
       ++result.reidentifications;
       result.events.push_back({time[row], AdaptiveEventKind::Reidentified,
                                fmt::format("model of {} identified again with {} inputs: {}", errors_[e].name,
@@ -304,6 +317,8 @@ std::string_view toString(AdaptiveEventKind kind) noexcept {
       return "setup";
     case AdaptiveEventKind::Measurement:
       return "measurement";
+    case AdaptiveEventKind::Refused:
+      return "refused";
     case AdaptiveEventKind::LimitExceeded:
       return "limit exceeded";
     case AdaptiveEventKind::Reidentified:

@@ -8,7 +8,8 @@
 //   `trigger_sigma`, when an input leaves
 //                 the range of training (unseen pattern), or when `longest_interval_s` has passed; never sooner than
 //                 `shortest_interval_s`
-//   state update  every measurement corrects gain and offset of each error (Kalman, core/thermal/measurement_update.h)
+//   state update  every measurement corrects gain and offset of each error (Kalman, core/thermal/measurement_update.h);
+//                 a single one far beyond its uncertainty is refused and measured again after `shortest_interval_s`
 //   ACL           if a measurement differs from the prediction by more than the action control limit, the models are
 //   identified again with
 //                 newly chosen inputs (group LASSO over the lags of each input), and the next measurement comes after
@@ -53,7 +54,7 @@ struct AdaptiveOptions {
   void validate() const;
 };
 
-enum class AdaptiveEventKind { Setup, Measurement, LimitExceeded, Reidentified };
+enum class AdaptiveEventKind { Setup, Measurement, Refused, LimitExceeded, Reidentified };
 [[nodiscard]] std::string_view toString(AdaptiveEventKind kind) noexcept;
 
 struct AdaptiveEvent {

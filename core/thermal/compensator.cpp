@@ -278,6 +278,7 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
   const bool at_rest = !started_;
   started_ = true;
   const double largest_change = limits_.slew_per_s * cycle_s_;
+  std::array<double, maximum_outputs> value;
   bool broken = false;
   alignas(64) std::array<double, 3 * maximum_inputs> before;
   alignas(64) std::array<double, 3 * maximum_inputs> now;
@@ -308,23 +309,23 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
       }
     }
     addProducts(direct_[o].data(), now.data(), used, sums);
-    double value = offset_[o] + sums.total();
-    value = -(gain_factor_[o] * value + correction_[o]);
-    double target = fallback ? 0.0 : std::clamp(value, -limits_.limit, limits_.limit);
-    if (!std::isfinite(value)) {
-      broken = true;
-      target = fallback || broken_for_s_ > limits_.stale_after_s ? 0.0 : output_[o];
-    }
+    value[o] = -(gain_factor_[o] * (offset_[o] + sums.total()) + correction_[o]);
+    broken = broken || !std::isfinite(value[o]);
+  }
+  // One output that is no number restarts the lags of all: none of them is what the model says.
+  const bool fade = fallback || (broken && broken_for_s_ > limits_.stale_after_s);
+  for (int o = 0; o < outputs_; ++o) {
+    const double target = fade ? 0.0 : broken ? output_[o] : std::clamp(value[o], -limits_.limit, limits_.limit);
     output_[o] = std::clamp(target, output_[o] - largest_change, output_[o] + largest_change);
     outputs[o] = output_[o];
   }
   for (int t = 0; t < transforms_; ++t) before_[t] = now_[t];
   sweep();
   if (broken) {
-    broken_for_s_ = std::min(broken_for_s_ + cycle_s_, 1e9);
     started_ = false;  // a lag that is no number stays so: all begin at rest again
     if (state_ == CompensatorState::Running) state_ = CompensatorState::Holding;
-    if (broken_for_s_ > limits_.stale_after_s) state_ = CompensatorState::Fallback;
+    if (fade) state_ = CompensatorState::Fallback;
+    broken_for_s_ = std::min(broken_for_s_ + cycle_s_, 1e9);
   } else {
     broken_for_s_ = 0.0;
   }

@@ -8,9 +8,9 @@
 // checked in every step: not finite, outside the allowed range, or stale (no new value for longer than `stale_after_s`;
 // also a clock that does not run forwards). While an input is bad its last good value is used for `stale_after_s`;
 // after that the compensator is in fall-back: it fades its output to zero with the slew limit, until all inputs are
-// good again for `recover_after_s`. Should the model's own value ever not be finite, the output is held and faded in
-// the same way and the lags start again at rest. Configuration (load) happens outside the control loop and reports
-// problems as a sentence; everything else is noexcept.
+// good again for `recover_after_s`. Should the model's own value of an output ever not be finite, all outputs are
+// held and faded in the same way and the lags start again at rest. Configuration (load) happens outside the control
+// loop and reports problems as a sentence; everything else is noexcept.
 #pragma once
 
 #include <array>

@@ -2,7 +2,13 @@
 /* C interface of the thermal compensator (core/thermal/compensator.h).
  *
  * Loading happens outside the control loop and may allocate. spindrift_compensator_step neither allocates nor blocks.
- * Outputs are compensation values (minus the predicted deviation) in the unit of the model, um or urad. */
+ * Outputs are compensation values (minus the predicted deviation) in the unit of the model, um or urad.
+ *
+ * Time of a step: no loop in it depends on values. It is at most 1024 lags, 8 x 96 products and 96 powers, and numbers
+ * that decay are set to zero before they become subnormal. Measured (tests/benchmarks/thermal/thermal_speed.cpp, one
+ * core of a busy x86-64 machine, with the clock): 0.2 us for 8 inputs of order 3 in 6 outputs; for the largest model
+ * (32 signals with three powers, 8 outputs, 1024 lags) 1.7 us in the median and below 7 us in 99.9 % of the steps. What
+ * is longer was an interruption by the system: a controller with a real-time system measures its own worst case. */
 #ifndef SPINDRIFT_COMPENSATOR_C_H
 #define SPINDRIFT_COMPENSATOR_C_H
 

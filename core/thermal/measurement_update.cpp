@@ -13,7 +13,7 @@ void UpdateOptions::validate() const {
   if (!(interval_s > 0.0)) throw InputError("the interval of the on-machine measurements must be positive, in s.");
   if (!(measurement_sigma > 0.0) || !(gain_bound > 0.0) || !(slowest_tau_s > 0.0) || !(offset_tau_s > 0.0) ||
       !(offset_sigma > 0.0) || !(gain_sigma >= 0.0) || !(gain_drift_per_sqrt_h >= 0.0) ||
-      !(smallest_simulated >= 0.0) || !(context_sigma >= 0.0)) {
+      !(smallest_simulated >= 0.0) || !(context_sigma >= 0.0) || !(gate_sigma > 0.0)) {
     throw InputError(
         "an option of the update is negative or zero; allowed: positive sigmas, time constants and bounds.");
   }
@@ -52,12 +52,23 @@ void GainOffsetFilter::advance(double dt_s) {
   covariance_(1, 1) += (1.0 - keep * keep) * options_.offset_sigma * options_.offset_sigma;
 }
 
-void GainOffsetFilter::measure(double measured, double simulated, std::span<const double> context) {
+bool GainOffsetFilter::measure(double measured, double simulated, std::span<const double> context, double model_sigma) {
   const Eigen::VectorXd h = row(simulated, context);
+  const double known = h.dot(covariance_ * h) + options_.measurement_sigma * options_.measurement_sigma;
+  const double off = measured - h.dot(state_);
+  const bool wild = begun_ && std::abs(off) > options_.gate_sigma * std::sqrt(known + model_sigma * model_sigma);
+  if (wild && !(off * refused_by_ > 0.0)) {
+    refused_by_ = off;
+    return false;
+  }
+  begun_ = true;
+  refused_by_ = wild ? off : 0.0;  // until one is within the gate again, those on this side are believed
+  if (wild) covariance_(1, 1) += off * off - known;  // a jump of the offset, its size as likely as can be
   const Eigen::VectorXd ph = covariance_ * h;
   const double s = h.dot(ph) + options_.measurement_sigma * options_.measurement_sigma;
-  state_ += ph / s * (measured - h.dot(state_));
+  state_ += ph / s * off;
   covariance_ -= ph * ph.transpose() / s;
+  return true;
 }
 
 double GainOffsetFilter::value(double simulated, std::span<const double> context) const {
@@ -82,6 +93,8 @@ void GainOffsetFilter::restore(const Eigen::VectorXd& state, const Eigen::Matrix
     throw InputError("the state of a filter does not fit; allowed: finite numbers, as many as it has unknowns.");
   state_ = state;
   covariance_ = covariance;
+  begun_ = true;
+  refused_by_ = 0.0;
 }
 
 UpdateRun runWithUpdates(std::span<const double> time_s, std::span<const double> measured,
@@ -143,7 +156,7 @@ UpdateRun runWithUpdates(std::span<const double> time_s, std::span<const double>
       corrected_at = time_s[i];
       event.offset = correction;
     } else {
-      filter.measure(measured[i] - zero_simulated, simulated[i] - zero_simulated, context);
+      event.used = filter.measure(measured[i] - zero_simulated, simulated[i] - zero_simulated, context);
       event.gain = filter.gain();
       event.offset = filter.offset();
       event.gain_sigma = filter.gainSigma();

@@ -13,6 +13,10 @@
 //           model's remainder); Kalman filter with the measurement's uncertainty. Gives a standard uncertainty at every
 //           time. With `context` signals c_i (the height of the spindle, say) the gain is gain + sum g_i c_i with
 //           constant g_i learned from the measurements, so that what was learned at one height holds when it is left.
+//           A measurement further from the prediction than `gate_sigma` standard uncertainties of their difference is
+//           refused: a chip under the probe says nothing of the machine. A second one in a row on the same side is
+//           believed: then it is the machine, and the offset has jumped by what it is off. The first of all is taken as
+//           it is, it defines zero.
 // Units: those of the output; time s. A prediction between two measurements only uses measurements before it.
 // Source: P2 section 4, P1 section 4 (state update), Kalman 1960.
 #pragma once
@@ -42,6 +46,7 @@ struct UpdateOptions {
   /// kalman: signals that the gain may depend on, one value per row each, scaled to about -1 ... 1; may be empty.
   std::vector<std::vector<double>> context;
   double context_sigma = 0.5;  ///< kalman: of each g_i before the first measurement
+  double gate_sigma = 5.0;     ///< kalman: beyond it a single measurement is refused
 
   /// Throws InputError.
   void validate() const;
@@ -55,7 +60,7 @@ struct UpdateEvent {
   double offset = 0.0;
   double gain_sigma = 0.0;  ///< kalman only
   double offset_sigma = 0.0;
-  bool used = true;  ///< false: ratio refused
+  bool used = true;  ///< false: a ratio of next to nothing, or a single measurement beyond the gate
 };
 
 struct UpdateRun {
@@ -86,7 +91,10 @@ class GainOffsetFilter {
  public:
   explicit GainOffsetFilter(const UpdateOptions& options);
   void advance(double dt_s);
-  void measure(double measured, double simulated, std::span<const double> context = {});
+  /// False, and nothing changes, for a single measurement beyond the gate. `model_sigma`: how far the simulated value
+  /// may be off beside gain and offset; it only widens the gate.
+  [[nodiscard]] bool measure(double measured, double simulated, std::span<const double> context = {},
+                             double model_sigma = 0.0);
   [[nodiscard]] double value(double simulated, std::span<const double> context = {}) const;
   [[nodiscard]] double sigma(double simulated, std::span<const double> context = {}) const;
   [[nodiscard]] double gain() const { return state_[0]; }  ///< where every context signal is 0
@@ -107,6 +115,8 @@ class GainOffsetFilter {
   UpdateOptions options_;
   Eigen::VectorXd state_;
   Eigen::MatrixXd covariance_;
+  bool begun_ = false;       ///< something was measured
+  double refused_by_ = 0.0;  ///< what the last measurement was off if it was beyond the gate, else 0
 };
 
 }  // namespace spindrift

@@ -8,22 +8,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/thermal/interval_calibration.h"
+
 namespace spindrift {
 namespace choice {
 
 using Eigen::Index;
 using namespace response;
-
-namespace {
-
-/// Correlation of neighbours, as far as it tells how many independent samples there are.
-double neighbourCorrelation(const Eigen::VectorXd& e) {
-  const double zero = e.squaredNorm();
-  if (!(zero > 0.0) || e.size() < 3) return 0.0;
-  return std::clamp(e.head(e.size() - 1).dot(e.tail(e.size() - 1)) / zero, 0.0, 0.98);
-}
-
-}  // namespace
 
 std::vector<InputVerdict> explained(const ProjectionResult& few, const ProjectedModel& model,
                                     const std::vector<std::string>& usable) {

@@ -150,8 +150,8 @@ MethodChoiceResult chooseMethod(const TimeSeries& series, const std::string& out
   {
     ThermalOutput& o = response.model.outputs.front();
     o.covariance *= calibration(evidence, members, options, anything, evidence.innovationVariance(members),
-                                o.noise_sigma * o.noise_sigma);
-    o.uncertainty_factor = 1.0;
+                                o.noise_sigma * o.noise_sigma) /
+                    response.calibration;  // the runs of the choice, in place of those of the fit
   }
   const std::vector<double> plain_errors = averagedErrors(evidence, plain.all, options, anything);
   const std::vector<double> response_errors = averagedErrors(evidence, members, options, anything);

@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "core/math/distributions.h"
 #include "core/math/least_squares.h"
 #include "core/math/statistics.h"
+#include "core/thermal/interval_calibration.h"
 
 namespace spindrift::choice {
 
@@ -262,7 +262,7 @@ double logOdds(const std::vector<double>& of_a, const std::vector<double>& of_b)
 double calibration(const Evidence& evidence, const std::vector<Candidate>& candidates,
                    const MethodChoiceOptions& options, const Keep& keep, double of_gains, double of_noise) {
   const Eigen::MatrixXd& rows = evidence.rows();
-  std::vector<std::pair<Eigen::ArrayXd, Eigen::ArrayXd>> judged;  // squared errors, variance stated for them
+  std::vector<JudgedRun> judged;
   for (std::size_t r = 0; r < evidence.runs().size(); ++r) {
     const Run& run = evidence.runs()[r];
     const std::vector<Weighted> there = weightsOf(evidence, candidates, static_cast<std::ptrdiff_t>(r), options, keep);
@@ -282,22 +282,9 @@ double calibration(const Evidence& evidence, const std::vector<Candidate>& candi
     }
     for (std::size_t m = 0; m < there.size(); ++m)
       variance += there[m].weight * (predicted.col(static_cast<Index>(m)) - mean).array().square().matrix();
-    judged.emplace_back((held.col(held.cols() - 1) - mean).array().square(), variance.array());
+    judged.push_back({(held.col(held.cols() - 1) - mean).array().square(), variance.array()});
   }
-  if (judged.empty()) return 1.0;
-  // By bisection of ln(factor). Few independent runs: Student's factor over the normal one at 95 %.
-  const double noise = of_noise + evidence.floor();
-  double low = std::log(1e-3);
-  double high = std::log(1e2);
-  for (int step = 0; step < 40; ++step) {
-    const double middle = 0.5 * (low + high);
-    double sum = 0.0;
-    for (const auto& [error, variance] : judged) sum += (error / (std::exp(middle) * variance + noise)).mean();
-    (sum > static_cast<double>(judged.size()) ? low : high) = middle;
-  }
-  const double independent = std::max(2.0, independentRuns(judged.size()));
-  const double widening = studentQuantile(0.975, independent) / normalQuantile(0.975);
-  return std::exp(high) * widening * widening;
+  return calibratedFactor(judged, of_noise + evidence.floor(), independentRuns(judged.size()));
 }
 
 }  // namespace spindrift::choice

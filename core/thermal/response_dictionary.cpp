@@ -102,6 +102,14 @@ Dictionary buildDictionary(const TimeSeries& series, const std::vector<double>& 
   }
   if (used.empty()) return d;
   d.y_mean = d.y.mean();
+  std::vector<double> squares;
+  for (const double v : y) squares.push_back((v - d.y_mean) * (v - d.y_mean));
+  const std::vector<double> square_all = bins.mean(squares);
+  d.scatter.resize(d.y.size());
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    const double off = d.y[static_cast<Index>(k)] - d.y_mean;
+    d.scatter[static_cast<Index>(k)] = std::max(0.0, square_all[static_cast<std::size_t>(used[k])] - off * off);
+  }
   std::vector<Eigen::VectorXd> columns;
   std::vector<double> temperature_spreads;
   std::vector<double> spreads;

@@ -25,6 +25,7 @@ struct Dictionary {
   std::vector<Feature> features;
   Eigen::MatrixXd X;  ///< bins x features, centred
   Eigen::VectorXd y;
+  Eigen::VectorXd scatter;  ///< mean square of the rows about the mean of their bin
   double y_mean = 0.0;
   double typical_spread = 1.0;         ///< median over the temperatures' features
   double typical_driven_spread = 1.0;  ///< median over the features of speeds and feeds

@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/math/least_squares.h"
 #include "core/math/statistics.h"
+#include "core/thermal/interval_calibration.h"
 #include "core/thermal/response_dictionary.h"
 
 namespace spindrift {
@@ -27,7 +28,12 @@ struct Member {
   double slow = 0.0;
   double left_out = 0.0;  ///< mean squared error of left-out blocks
   double weight = 0.0;
+  double innovation_variance = 0.0;
 };
+
+/// Parts of the training range after which the rest is predicted from the past, when intervals are calibrated.
+constexpr double origins[] = {0.4, 0.55, 0.7, 0.85};
+constexpr double slip_weight = 0.2;  ///< rows that the innovations call a slip judge no interval
 
 /// Columns of a member: all features of linear inputs and of speeds with its power.
 std::vector<Index> columnsOf(const Dictionary& d, double power, const std::string& without = {}) {
@@ -46,13 +52,14 @@ struct Gram {
   Eigen::VectorXd b;
 };
 
-Gram gramOf(const Whitened& w, const Eigen::VectorXd& weights, const std::vector<int>& block, int which) {
+template <typename Wanted>
+Gram gramOf(const Whitened& w, const Eigen::VectorXd& weights, const Wanted& wanted) {
   const Index p = w.X.cols();
   Eigen::MatrixXd rows(w.X.rows(), p);
   Eigen::VectorXd y(w.X.rows());
   Index count = 0;
   for (Index i = 0; i < w.X.rows(); ++i) {
-    if (which >= 0 && block[i] != which) continue;
+    if (!wanted(i)) continue;
     const double s = std::sqrt(weights[i]);
     rows.row(count) = s * w.X.row(i);
     y[count++] = s * w.y[i];
@@ -106,6 +113,103 @@ double leftOutError(const Dictionary& d, const std::vector<Gram>& by_block, cons
     }
   }
   return sum / static_cast<double>(std::max<Index>(1, count));
+}
+
+/// Means over the correlation time of the noise: what the noise leaves of them is small, and wrong gains show.
+struct Segments {
+  Eigen::MatrixXd X;
+  Eigen::VectorXd y;  ///< about the mean of the output
+};
+
+Segments segmentsOf(const Dictionary& d, const std::vector<Index>& rows, double length_s) {
+  std::vector<Index> first;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto place = [&](std::size_t r) {
+      return std::floor(d.time_s[static_cast<std::size_t>(rows[r])] / length_s);
+    };
+    if (k == 0 || place(k) != place(k - 1)) first.push_back(static_cast<Index>(k));
+  }
+  first.push_back(std::ssize(rows));
+  Segments out;
+  out.X = Eigen::MatrixXd::Zero(std::ssize(first) - 1, d.X.cols());
+  out.y = Eigen::VectorXd::Zero(std::ssize(first) - 1);
+  for (Index s = 0; s < out.y.size(); ++s) {
+    const Index from = first[static_cast<std::size_t>(s)];
+    const Index to = first[static_cast<std::size_t>(s) + 1];
+    for (Index k = from; k < to; ++k) {
+      out.X.row(s) += d.X.row(rows[static_cast<std::size_t>(k)]);
+      out.y[s] += d.y[rows[static_cast<std::size_t>(k)]] - d.y_mean;
+    }
+    out.X.row(s) /= static_cast<double>(to - from);
+    out.y[s] /= static_cast<double>(to - from);
+  }
+  return out;
+}
+
+/// The factor of the covariance with which errors and intervals agree over rows left out: every block, and what follows
+/// each origin, predicted from the rest by the average of the members. `average`: their coefficients, `unseen`: the
+/// variance of what a model leaves of new data over that of what it left in training.
+double calibration(const Dictionary& d, const Whitened& w, const Eigen::VectorXd& weights,
+                   const std::vector<Gram>& by_block, const Gram& all, const std::vector<Member>& members,
+                   const Eigen::VectorXd& average, double unseen, const ResponseFitOptions& options,
+                   const JobContext& job) {
+  const auto rowsWhere = [&](const auto& held) {
+    std::vector<Index> rows;
+    for (Index i = 0; i < d.y.size(); ++i)
+      if (held(i) && weights[i] >= slip_weight) rows.push_back(i);
+    return rows;
+  };
+  struct Run {
+    Gram rest;
+    std::vector<Index> held;
+  };
+  std::vector<Run> runs;
+  const auto add = [&](Gram rest, const auto& held) {
+    Run run{std::move(rest), rowsWhere(held)};
+    if (!run.held.empty()) runs.push_back(std::move(run));
+  };
+  for (int b = 0; b < d.blocks; ++b)
+    add({all.A - by_block[static_cast<std::size_t>(b)].A, all.b - by_block[static_cast<std::size_t>(b)].b},
+        [&](Index i) { return d.block[static_cast<std::size_t>(i)] == b; });
+  const double first = d.time_s.front();
+  for (const double part : origins) {
+    const double until = first + part * (d.time_s.back() - first);
+    const auto held = [&](Index i) { return d.time_s[static_cast<std::size_t>(i)] >= until; };
+    add(gramOf(w, weights, [&](Index i) { return !held(i); }), held);
+  }
+  std::vector<JudgedRun> judged(runs.size());
+  std::vector<double> independent(runs.size(), 0.0);
+  parallelFor(runs.size(), job, [&](std::size_t r) {
+    const Run& run = runs[r];
+    const Segments held = segmentsOf(d, run.held, options.noise_tau_s);
+    Eigen::MatrixXd predicted(held.y.size(), std::ssize(members));
+    Eigen::VectorXd variance = Eigen::VectorXd::Zero(held.y.size());
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(held.y.size());
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      const Member& member = members[m];
+      const std::vector<Index> columns = columnsOf(d, member.power);
+      const Solution s =
+          solve(run.rest, columns, priorPrecision(d, columns, member.strength, member.slow, options), true);
+      Eigen::MatrixXd x(held.y.size(), static_cast<Index>(columns.size()) + 1);
+      x.col(0).setOnes();
+      x.rightCols(static_cast<Index>(columns.size())) = held.X(Eigen::all, columns);
+      predicted.col(static_cast<Index>(m)) = x * s.w;
+      mean += member.weight * predicted.col(static_cast<Index>(m));
+      variance += member.weight * member.innovation_variance * (x * s.inverse).cwiseProduct(x).rowwise().sum();
+    }
+    for (std::size_t m = 0; m < members.size(); ++m)
+      variance += members[m].weight * (predicted.col(static_cast<Index>(m)) - mean).array().square().matrix();
+    const Eigen::VectorXd error = held.y - mean;
+    judged[r] = {error.array().square(), variance.array()};
+    // Blocks do not overlap. Segments of one block that follow each other tell the same in part, never less than one.
+    const double correlation = neighbourCorrelation(error);
+    if (r < static_cast<std::size_t>(d.blocks))
+      independent[r] = std::max(1.0, static_cast<double>(error.size()) * (1.0 - correlation) / (1.0 + correlation));
+  });
+  const Segments trained = segmentsOf(d, rowsWhere([](Index /*row*/) { return true; }), options.noise_tau_s);
+  const double noise =
+      unseen * (trained.y.array() - average[0] - (trained.X * average.tail(d.X.cols())).array()).square().mean();
+  return calibratedFactor(judged, noise, std::accumulate(independent.begin(), independent.end(), 0.0));
 }
 
 }  // namespace
@@ -174,13 +278,14 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
       for (const double slow : options.slow_preferences) members.push_back({power, strength, slow, 0.0, 0.0});
 
   // Huber weights of the innovations from the middle member, twice.
+  const auto every = [](Index /*row*/) { return true; };
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(d.y.size());
   const Member middle = members[members.size() / 2];
   {
     const std::vector<Index> columns = columnsOf(d, middle.power);
     const Eigen::VectorXd precision = priorPrecision(d, columns, middle.strength, middle.slow, options);
     for (int round = 0; round < 2; ++round) {
-      const Eigen::VectorXd solution = solve(gramOf(w, weights, d.block, -1), columns, precision, false).w;
+      const Eigen::VectorXd solution = solve(gramOf(w, weights, every), columns, precision, false).w;
       std::vector<double> innovation(d.y.size());
       for (Index i = 0; i < d.y.size(); ++i) {
         innovation[i] = w.y[i] - solution[0] * w.X(i, 0);
@@ -191,9 +296,10 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
       for (Index i = 0; i < d.y.size(); ++i) weights[i] = huberWeight(innovation[i] / sigma, 3.0);
     }
   }
-  const Gram all = gramOf(w, weights, d.block, -1);
+  const Gram all = gramOf(w, weights, every);
   std::vector<Gram> by_block;
-  for (int b = 0; b < d.blocks; ++b) by_block.push_back(gramOf(w, weights, d.block, b));
+  for (int b = 0; b < d.blocks; ++b)
+    by_block.push_back(gramOf(w, weights, [&](Index i) { return d.block[static_cast<std::size_t>(i)] == b; }));
   job.report(0.3, "comparing priors on blocks left out");
   parallelFor(members.size(), job, [&](std::size_t m) {
     const std::vector<Index> columns = columnsOf(d, members[m].power);
@@ -212,18 +318,21 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
   Eigen::VectorXd average = Eigen::VectorXd::Zero(p + 1);
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(p + 1, p + 1);
   std::vector<Eigen::VectorXd> solutions;
-  double innovation_variance = 0.0;
   double left_out = 0.0;
+  double coefficients = 0.0;  // that the data determine
   for (Member& m : members) {
     m.weight /= total;
     const std::vector<Index> columns = columnsOf(d, m.power);
-    const Solution s = solve(all, columns, priorPrecision(d, columns, m.strength, m.slow, options), true);
+    const Eigen::VectorXd precision = priorPrecision(d, columns, m.strength, m.slow, options);
+    const Solution s = solve(all, columns, precision, true);
+    coefficients +=
+        m.weight * (static_cast<double>(s.w.size()) - precision.dot(s.inverse.diagonal().tail(precision.size())));
     Eigen::VectorXd full = Eigen::VectorXd::Zero(p + 1);
     full[0] = s.w[0];
     for (std::size_t k = 0; k < columns.size(); ++k) full[columns[k] + 1] = s.w[static_cast<Index>(k) + 1];
     const Eigen::VectorXd e = (w.y - w.X * full).cwiseProduct(weights.cwiseSqrt());
     const double variance = e.squaredNorm() / std::max(1.0, weights.sum() - 1.0);
-    innovation_variance += m.weight * variance;
+    m.innovation_variance = variance;
     left_out += m.weight * m.left_out;
     const auto at = [&](Index k) { return k == 0 ? Index{0} : columns[k - 1] + 1; };
     for (Index r = 0; r < s.inverse.rows(); ++r)
@@ -319,12 +428,17 @@ ResponseFitResult fitResponse(const TimeSeries& series, const std::string& outpu
     T(0, columns[k] + 1) = shift;
     T(static_cast<Index>(k) + 1, columns[k] + 1) = 1.0;
   }
+  const Eigen::ArrayXd left = d.y.array() - d.y_mean - average[0] - (d.X * average.tail(p)).array();
+  const double noise = (weights.array() * left.square()).sum() / weights.sum();
+  // As many rows as are independent of each other lost what the coefficients took of them.
+  const double correlation = neighbourCorrelation(left.matrix());
+  const double independent = weights.sum() * (1.0 - correlation) / (1.0 + correlation);
+  const double unseen = independent / std::max(independent - coefficients, 0.25 * independent);
+  out.noise_sigma = std::sqrt(unseen * noise + (weights.array() * d.scatter.array()).sum() / weights.sum());
+  result.calibration = calibration(d, w, weights, by_block, all, members, average, unseen, options, job.part(0.8, 1.0));
+  covariance *= result.calibration;
   out.covariance = T * covariance * T.transpose();
-  out.noise_sigma = std::sqrt(innovation_variance / (1.0 - w.phi * w.phi));
   out.noise_tau_s = options.noise_tau_s;
-  // Held-out error over what the model expects of itself on its own training rows.
-  const double expected = innovation_variance / (1.0 - w.phi * w.phi);
-  out.uncertainty_factor = std::clamp(std::sqrt(left_out / std::max(expected, 1e-30)) / 2.0, 1.0, 3.0);
   result.left_out_rms = std::sqrt(left_out);
   model.outputs.push_back(std::move(out));
   model.learnPattern(series, 0, from_s, to_s);

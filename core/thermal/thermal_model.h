@@ -63,7 +63,7 @@ struct ThermalOutput {
   double degrees_of_freedom = 0.0;         ///< of that covariance; 0: many
   double noise_sigma = 0.0;                ///< stationary standard deviation of what the model leaves in training
   double noise_tau_s = 0.0;                ///< correlation time of that remainder
-  double uncertainty_factor = 1.0;         ///< held-out error over predicted error in blocks left out, >= 1
+  double uncertainty_factor = 1.0;         ///< of the standard uncertainty; 1 where the covariance itself is calibrated
   std::optional<ThermalVerdict> verdict;   ///< none: nobody has judged it
   std::optional<TrainingPattern> pattern;  ///< of the inputs of this output; none: only the range of each is known
   /// Half width of an interval of this probability in standard uncertainties (Student's where the degrees are known).

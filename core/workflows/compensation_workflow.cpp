@@ -362,6 +362,10 @@ void makeFiles(const MachineDescription& machine, const PreparedModel& prepared,
                      relative, measured.low_mm[axis[0] - 'X'], measured.high_mm[axis[0] - 'X']),
          siemensCompensation(model, machine, axis, plan.reference_mm, request.positions, prepared.conditions)});
   }
+  plan.not_written =
+      "No tables are written for Heidenhain (.COM, .CMA), Fanuc (pitch error data) and the sag compensation of Siemens "
+      "(CEC): public documents do not state the sign of their values. The ISO 230-1 tables hold what the tools of the "
+      "machine builder need for them.";
 }
 
 void addNumbers(CompensationPlan& plan) {
@@ -526,6 +530,7 @@ nlohmann::json CompensationPlan::json() const {
           {"limitation", limitation.empty() ? nlohmann::json() : nlohmann::json(limitation)},
           {"points", list},
           {"files", written},
+          {"not_written", not_written.empty() ? nlohmann::json() : nlohmann::json(not_written)},
           {"warnings", warnings}};
 }
 
@@ -544,6 +549,7 @@ std::string CompensationPlan::summary() const {
   if (!limitation.empty()) text += fmt::format("  note: {}\n", limitation);
   for (const std::string& w : warnings) text += fmt::format("  note: {}\n", w);
   for (const CompensationFile& f : files) text += fmt::format("  {}: {} {}\n", f.name, f.title, f.convention);
+  if (!not_written.empty()) text += "  " + not_written + "\n";
   return text;
 }
 

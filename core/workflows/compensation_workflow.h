@@ -79,6 +79,7 @@ struct CompensationPlan {
   Eigen::Vector3d reference_mm = Eigen::Vector3d::Zero();
   std::array<int, 3> nodes{};  ///< of the grid
   std::vector<CompensationFile> files;
+  std::string not_written;  ///< which controls get no table, and why; empty if nothing was written at all
   std::vector<std::string> warnings;
 
   [[nodiscard]] nlohmann::json json() const;  ///< without the content of the files

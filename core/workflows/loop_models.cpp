@@ -156,7 +156,14 @@ void LoopModels::judge(int axis, const LoopReading& told, double measured_um) {
                      std::sqrt(better ? trust.model_um2 : trust.simulation_um2),
                      std::sqrt(better ? trust.simulation_um2 : trust.model_um2)));
   }
-  each.filter.measure(measured_um, told.by_model_um);
+  const double off_um = measured_um - each.filter.value(told.by_model_um);
+  if (!each.filter.measure(measured_um, told.by_model_um, {}, modelSigma(each))) {
+    say_(
+        fmt::format("{} measured {:+.1f} µm beside the prediction, far beyond its uncertainty: used if the next cycle "
+                    "says so too",
+                    "XYZ"[axis], off_um));
+    return;
+  }
   each.told = each.features;
 }
 
@@ -258,12 +265,15 @@ Eigen::Vector3d LoopModels::sigma(LoopStage stage) const {
 }
 
 double LoopModels::identifiedSigma(const Identified& each) const {
+  return std::hypot(each.filter.sigma(each.run), modelSigma(each));
+}
+
+double LoopModels::modelSigma(const Identified& each) {
   const ThermalOutput& output = each.model.outputs.front();
-  double variance = std::pow(each.filter.sigma(each.run), 2);
   const Eigen::VectorXd change = each.features - each.told;
-  if (output.covariance.rows() == change.size())
-    variance += std::pow(each.filter.gain() * output.uncertainty_factor, 2) * change.dot(output.covariance * change);
-  return std::sqrt(std::max(0.0, variance));
+  if (output.covariance.rows() != change.size()) return 0.0;
+  return std::abs(each.filter.gain()) * output.uncertainty_factor *
+         std::sqrt(std::max(0.0, change.dot(output.covariance * change)));
 }
 
 Eigen::Vector3d LoopModels::simulatedNow() const {

@@ -118,6 +118,8 @@ class LoopModels {
   [[nodiscard]] Eigen::Vector3d simulatedNow() const;
   [[nodiscard]] double effectAt(double time_s, int axis) const;
   [[nodiscard]] double identifiedSigma(const Identified& model) const;
+  /// How far the model's own error may have moved since a cycle told it last.
+  [[nodiscard]] static double modelSigma(const Identified& model);
   [[nodiscard]] Identified identifiedFrom(ThermalModel model, double left_um) const;
   void judge(int axis, const LoopReading& told, double measured_um);
   void refresh();

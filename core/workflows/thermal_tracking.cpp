@@ -104,6 +104,17 @@ TrackResult trackThermalModel(const TimeSeries& all, const ThermalModel& model, 
       std::max(2.0 * output->uncertainty_factor * output->noise_sigma, 4.0 * request.measurement_sigma);
   options.context = contextOf(series, request);
   result.run = runWithUpdates(result.time_s, result.measured, result.simulated, options);
+  if (request.update == UpdateKind::Kalman) {
+    const auto refused = [](const UpdateEvent& e) { return !e.used; };
+    const auto first = std::find_if(result.run.events.begin(), result.run.events.end(), refused);
+    if (first != result.run.events.end())
+      result.notes.push_back(
+          fmt::format("{} of {} measurements were more than {:.0f} standard uncertainties off the prediction and were "
+                      "not used, the "
+                      "first at {:.6g} s ({:.2f} off); a second one in a row on the same side would have been.",
+                      std::count_if(first, result.run.events.end(), refused), result.run.events.size(),
+                      options.gate_sigma, first->time_s, first->measured - first->predicted_before));
+  }
   const TimeRange judged{result.from_s, 1e300};
   result.without = runQuality(result.time_s, result.measured, result.simulated, judged);
   result.with = runQuality(result.time_s, result.measured, result.run.predicted, judged);

@@ -9266,6 +9266,22 @@ endgültig fehlgeschlagen: {}</translation>
         <source>the measurement plan</source>
         <translation>der Messplan</translation>
     </message>
+    <message>
+        <source>No tables are written for Heidenhain (.COM, .CMA), Fanuc (pitch error data) and the sag compensation of Siemens (CEC): public documents do not state the sign of their values. The ISO 230-1 tables hold what the tools of the machine builder need for them.</source>
+        <translation>Für Heidenhain (.COM, .CMA), Fanuc (Steigungsfehlerdaten) und die Durchhangkompensation von Siemens (CEC) werden keine Tabellen geschrieben: Öffentliche Unterlagen nennen das Vorzeichen ihrer Werte nicht. Die Tabellen nach ISO 230-1 enthalten, was die Werkzeuge des Maschinenherstellers dafür brauchen.</translation>
+    </message>
+    <message>
+        <source>{} measured {:+.1f} µm beside the prediction, far beyond its uncertainty: used if the next cycle says so too</source>
+        <translation>{} {:+.1f} µm neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn der nächste Zyklus dasselbe sagt</translation>
+    </message>
+    <message>
+        <source>{} measured {:+.2f} beside the prediction, far beyond its uncertainty: used if the next measurement says so too</source>
+        <translation>{} {:+.2f} neben der Vorhersage gemessen, weit außerhalb ihrer Unsicherheit: wird verwendet, wenn die nächste Messung dasselbe sagt</translation>
+    </message>
+    <message>
+        <source>{} of {} measurements were more than {:.0f} standard uncertainties off the prediction and were not used, the first at {:.6g} s ({:.2f} off); a second one in a row on the same side would have been.</source>
+        <translation>{} von {} Messungen lagen mehr als {:.0f} Standardunsicherheiten neben der Vorhersage und wurden nicht verwendet, die erste bei {:.6g} s (um {:.2f}); eine zweite in Folge auf derselben Seite wäre verwendet worden.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -9808,6 +9824,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Measured with 14,000 campaigns on PostgreSQL 15, each with one fit of nine parameters, its covariance and one file: 2.2 kB a campaign (campaign 0.21, files 0.23, result 0.81, parameters 0.93 kB, indexes among them); SQLite 1.6 kB. The following figures are calculated from that.</source>
         <translation>Gemessen mit 14.000 Kampagnen auf PostgreSQL 15, jede mit einer Anpassung von neun Parametern, ihrer Kovarianz und einer Datei: 2,2 kB je Kampagne (Kampagne 0,21, Dateien 0,23, Ergebnis 0,81, Parameter 0,93 kB, einschließlich Indizes); SQLite 1,6 kB. Die folgenden Zahlen sind daraus berechnet.</translation>
+    </message>
+    <message>
+        <source>No tables are written for Heidenhain (.COM, .CMA), Fanuc (pitch error data) and the sag compensation of Siemens (CEC): public documents do not state the sign of their values. The ISO 230-1 tables hold what the tools of the machine builder need for them.</source>
+        <translation>Für Heidenhain (.COM, .CMA), Fanuc (Steigungsfehlerdaten) und die Durchhangkompensation von Siemens (CEC) werden keine Tabellen geschrieben: Öffentliche Unterlagen nennen das Vorzeichen ihrer Werte nicht. Die Tabellen nach ISO 230-1 enthalten, was die Werkzeuge des Maschinenherstellers dafür brauchen.</translation>
     </message>
 </context>
 <context>

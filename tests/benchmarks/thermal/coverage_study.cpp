@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How often the truth lies inside the stated 95 % intervals of identified models: coefficients, static gain, time
 // constants and step response of known ARX and output-error systems under white and coloured noise; and the bias of ARX
-// under noise at the output, of which output error is free. `coverage_study [RUNS]`, default 1000.
-// `coverage_study RUNS --seed FIRST` gives what RUNS runs from this one on say, as JSON: an item of a batch
+// under noise at the output, of which output error is free; and how often those of `response` hold what is measured,
+// what is true and the true step response. `coverage_study [RUNS]`, default 1000. `coverage_study RUNS --seed FIRST`
+// gives what RUNS runs from this one on say, as JSON: an item of a batch
 // ("work":"command","run":["coverage_study","1","--seed","{seed}"]). `coverage_study --gather FILE` reads what `batch
 // status BATCH --results FILE` wrote and prints the table: that of one study with the same runs.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -21,6 +23,7 @@
 #include "core/math/statistics.h"
 #include "core/thermal/arx.h"
 #include "core/thermal/output_error.h"
+#include "tests/support/response_run.h"
 
 namespace {
 
@@ -232,6 +235,32 @@ void outputError(const char* name, const OutputErrorSystem& system, int runs) {
               gain_sum / converged, converged, all, factor_sum / converged);
 }
 
+/// Records of tests/support/response_run.h: `response` trained on the first 60 %, asked about the rest and about a
+/// step.
+void response(const char* name, const testing::ResponseRun& kind, int runs) {
+  std::vector<Count> counts(3);
+  counts[0].name = "measured values";
+  counts[1].name = "true values";
+  counts[2].name = "step response";
+  double factor_sum = 0.0;
+  for (int run = 0; run < runs; ++run) {
+    const testing::ResponseRecord record =
+        testing::responseRun(11000 + first_run + static_cast<std::uint64_t>(run), kind);
+    const testing::ResponseCoverage coverage = testing::responseCoverage(record);
+    factor_sum += coverage.calibration;
+    const auto take = [](Count& count, const std::vector<char>& inside) {
+      count.total += inside.size();
+      count.inside += static_cast<std::size_t>(std::count(inside.begin(), inside.end(), char{1}));
+    };
+    take(counts[0], coverage.measured);
+    take(counts[1], coverage.truth);
+    take(counts[2], coverage.step);
+  }
+  double all = runs;
+  if (!print(name, counts, {{"calibration", &factor_sum}, {"runs", &all}})) return;
+  std::printf("  mean calibration of the covariance %.3f\n", factor_sum / all);
+}
+
 /// Answers of a batch, in the order of its items.
 std::vector<nlohmann::json> read(const char* file) {
   std::vector<nlohmann::json> found;
@@ -267,6 +296,9 @@ int study(int argc, char** argv) {
   outputError("output error, AR(1) noise 0.9, 4000 samples", {0.9, 0.0, false, 4000}, runs);
   outputError("output error, AR(2) noise 1.5, -0.6", {1.5, -0.6}, runs);
   outputError("output error, two inputs, AR(1) noise 0.8", {0.8, 0.0, true}, runs);
+  response("response, speed alone, white noise", {false, 0.3, 0.0}, runs);
+  response("response, speed and three sensors, white noise", {true, 0.3, 0.0}, runs);
+  response("response, speed and three sensors, drifting zero", {true, 0.2, 0.6}, runs);
   if (counted != nullptr) std::printf("%s\n", answer.dump().c_str());
   return 0;
 }

@@ -136,6 +136,46 @@ TEST(MeasurementUpdate, AGainThatDependsOnAKnownSignalIsLearnedOnce) {
   EXPECT_LT(late(run), 1.5);
 }
 
+/// A drifting gain with one wild measurement, or with a jump that stays.
+TEST(MeasurementUpdate, OneWildMeasurementIsRefusedAndAJumpThatStaysIsBelieved) {
+  const Record r = updateRecord(5, 0.8);
+  UpdateOptions options;
+  options.interval_s = 3600.0;
+  const UpdateRun quiet = runWithUpdates(r.time, r.truth, r.simulated, options);
+  for (const UpdateEvent& e : quiet.events) EXPECT_TRUE(e.used) << e.time_s;
+  const std::size_t third = quiet.events.size() / 3;
+  const double at_s = quiet.events[third].time_s;
+  Record wild = r;
+  Record jump = r;
+  for (std::size_t k = 0; k < r.time.size(); ++k) {
+    if (r.time[k] == at_s) wild.truth[k] += 500.0;
+    if (r.time[k] >= at_s) jump.truth[k] += 200.0;
+  }
+  const UpdateRun one = runWithUpdates(wild.time, wild.truth, wild.simulated, options);
+  ASSERT_EQ(one.events.size(), quiet.events.size());
+  for (std::size_t e = 0; e < one.events.size(); ++e) EXPECT_EQ(one.events[e].used, e != third) << e;
+  // What it was off is not in the model: the next prediction is as uncertain as without this measurement.
+  EXPECT_NEAR(one.events[third + 1].predicted_before, quiet.events[third + 1].predicted_before,
+              5.0 * options.offset_sigma);
+  const UpdateRun stays = runWithUpdates(jump.time, jump.truth, jump.simulated, options);
+  EXPECT_FALSE(stays.events[third].used);
+  for (std::size_t e = third + 1; e < stays.events.size(); ++e) EXPECT_TRUE(stays.events[e].used) << e;
+  EXPECT_NEAR(stays.events[third + 1].offset, 200.0, 10.0);
+}
+
+TEST(MeasurementUpdate, WildMeasurementsOnBothSidesAreNeverBelieved) {
+  UpdateOptions options;
+  GainOffsetFilter filter(options);
+  ASSERT_TRUE(filter.measure(1.0, 1.0));
+  for (int k = 0; k < 4; ++k) {
+    filter.advance(600.0);
+    EXPECT_FALSE(filter.measure(k % 2 == 0 ? 1e6 : -1e6, 1.0)) << k;
+  }
+  EXPECT_NEAR(filter.value(1.0), 1.0, 1.0);
+  filter.advance(600.0);
+  EXPECT_TRUE(filter.measure(2.0, 1.0));
+}
+
 TEST(MeasurementUpdate, NothingIsPredictedWithItsOwnMeasurement) {
   Record r = updateRecord(3, 0.7);
   for (const UpdateKind kind : {UpdateKind::Gain, UpdateKind::Arx, UpdateKind::Kalman}) {

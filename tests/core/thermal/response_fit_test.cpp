@@ -4,11 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/json_reader.h"
 #include "core/base/random.h"
 #include "core/thermal/baselines.h"
+#include "tests/support/response_run.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -114,6 +116,43 @@ TEST(ResponseFit, UncertaintyGrowsOutsideTheTrainingRange) {
   EXPECT_EQ(outside.outside[1000], 1);
   EXPECT_FALSE(outside.notes.empty());
   EXPECT_GT(outside.sigma[1000], 3.0 * inside.sigma[1000]);
+}
+
+/// Part of the 95 % intervals that hold what they are about, and how well so many records tell it.
+struct Rate {
+  double mean = 0.0;
+  double sigma = 0.0;
+};
+
+Rate rateOf(const std::vector<double>& of_records) {
+  Rate rate;
+  for (const double part : of_records) rate.mean += part / static_cast<double>(of_records.size());
+  for (const double part : of_records) rate.sigma += std::pow(part - rate.mean, 2);
+  rate.sigma = std::sqrt(rate.sigma) / static_cast<double>(of_records.size());
+  return rate;
+}
+
+TEST(ResponseFit, IntervalsHoldAsOftenAsStated) {
+  for (const testing::ResponseRun& kind : {testing::ResponseRun{false, 0.3, 0.0}, testing::ResponseRun{true, 0.3, 0.0},
+                                           testing::ResponseRun{true, 0.2, 0.6}}) {
+    std::vector<double> measured;
+    std::vector<double> step;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+      const testing::ResponseCoverage coverage = testing::responseCoverage(testing::responseRun(300 + seed, kind));
+      const auto part = [](const std::vector<char>& inside) {
+        return static_cast<double>(std::count(inside.begin(), inside.end(), char{1})) /
+               static_cast<double>(inside.size());
+      };
+      if (!coverage.measured.empty()) measured.push_back(part(coverage.measured));
+      if (!coverage.step.empty()) step.push_back(part(coverage.step));
+    }
+    const Rate of_measured = rateOf(measured);
+    EXPECT_NEAR(of_measured.mean, 0.95, 0.015 + 2.0 * of_measured.sigma) << kind.sensors << kind.drift_um;
+    EXPECT_LT(of_measured.sigma, 0.01);
+    if (step.empty()) continue;
+    const Rate of_step = rateOf(step);
+    EXPECT_NEAR(of_step.mean, 0.95, 0.015 + 2.0 * of_step.sigma);
+  }
 }
 
 TEST(ResponseFit, SaysWhyAnInputIsDropped) {

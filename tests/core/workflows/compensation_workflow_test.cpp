@@ -107,6 +107,14 @@ TEST(CompensationPlan, StatesWhatItDoesOnValuesThatTrainedNothing) {
   EXPECT_TRUE(all.json()["unseen"]["rms_after_um"].is_number());
 }
 
+TEST(CompensationPlan, SaysWhichControlsGetNoTable) {
+  const CompensationPlan plan = planOf(campaignOf(0.0, false, 4), CompensationSource::NineParameters);
+  for (const char* control : {"Heidenhain", "Fanuc", "CEC"}) {
+    EXPECT_THAT(plan.summary(), HasSubstr(control));
+    EXPECT_THAT(plan.json()["not_written"].get<std::string>(), HasSubstr(control));
+  }
+}
+
 TEST(CompensationPlan, StatesNothingOfAnAxisThatWasNotMeasured) {
   const CompensationPlan plan = planOf(campaignOf(0.0, false, 4), CompensationSource::NineParameters);
   std::vector<std::string> names;
