@@ -21,7 +21,7 @@ CheckedCapture judged(const Campaign& campaign, const FiducialCapture& c, const 
   checked.image = c.image;
   try {
     const CaptureVerdict verdict =
-        judgeCapture(readImage(campaign.path(c.image)), c.role == CaptureRole::Focus, {}, pattern);
+        judgeCapture(readImage(campaign.path(c.image)), c.role == CaptureRole::Focus, pattern);
     checked.good = verdict.good;
     checked.sentence = verdict.sentence;
     checked.ellipses = static_cast<int>(verdict.decoded.subpatterns.size());

@@ -248,7 +248,7 @@ void examineImageBytes(const std::string& bytes, const std::string& ending, cons
       planned != nullptr ? safeName(planned->id) : std::filesystem::path(safeName(out.item.name)).stem().string();
   if (planned == nullptr) return keep(context, out.item, "kept", stem, ending, bytes);
   const auto pattern = campaignPattern(context.campaign_folder);
-  CaptureVerdict verdict = judgeCapture(image, planned->role == "focus", {}, *pattern);
+  CaptureVerdict verdict = judgeCapture(image, planned->role == "focus", *pattern);
   if (verdict.good) {
     const SeenCapture seen = seenOf(*planned, verdict, *pattern);
     out.item.pose = seen.pose;

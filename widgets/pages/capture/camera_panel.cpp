@@ -147,7 +147,7 @@ void CameraPanel::readFrames(std::stop_token stop, const std::string& source, co
   const auto show = [this](GrayImage image) {
     Frame frame;
     frame.image = std::make_shared<GrayImage>(std::move(image));
-    frame.verdict = judgeCapture(*frame.image, false, {}, *pattern_);
+    frame.verdict = judgeCapture(*frame.image, false, *pattern_);
     const std::lock_guard lock(mutex_);
     latest_ = std::move(frame);
   };
