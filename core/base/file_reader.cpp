@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -26,6 +27,12 @@ FileReader::FileReader(const std::filesystem::path& file)
 
 FileReader::~FileReader() {
   ::close(handle_);
+}
+
+std::size_t FileReader::size() const {
+  struct stat found {};
+  if (::fstat(handle_, &found) != 0) failReading(file_, errno);
+  return S_ISREG(found.st_mode) ? static_cast<std::size_t>(found.st_size) : 0;
 }
 
 std::size_t FileReader::read(std::span<char> into) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <new>
 
 #include "core/base/error.h"
 #include "core/imaging/capture_agreement.h"
@@ -32,6 +33,8 @@ CheckedCapture judged(const Campaign& campaign, const FiducialCapture& c, const 
     }
   } catch (const InputError& e) {
     checked.sentence = e.what();
+  } catch (const std::bad_alloc&) {
+    checked.sentence = "There is not enough memory to read it.";
   }
   return checked;
 }

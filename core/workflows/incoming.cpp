@@ -36,7 +36,7 @@ std::string endingOf(const std::filesystem::path& file) {
 std::string firstLineOf(const std::filesystem::path& file) {
   std::string text;
   try {
-    text = readFile(file);
+    text = readFile(file, largest_cloud_file);
   } catch (const InputError&) {
     return {};
   }
@@ -370,7 +370,7 @@ ExaminedFile examine(const std::filesystem::path& file, const std::string& name,
                      const IncomingContext& context) {
   std::string bytes;
   try {
-    bytes = readFile(file);
+    bytes = readFile(file, largest_cloud_file);
   } catch (const InputError& e) {
     return unreadable(name, e.what());
   }
@@ -414,8 +414,12 @@ ExaminedFile examineImage(const std::string& bytes, const std::string& name, std
                           const IncomingContext& context) {
   ExaminedFile out = begin(bytes, name, written_ns, context);
   out.item.kind = IncomingKind::Image;
-  if (!foundTwice(context, out.item, bytes.size())) examineImageBytes(bytes, ".png", context, out);
-  return out;
+  try {
+    if (!foundTwice(context, out.item, bytes.size())) examineImageBytes(bytes, ".png", context, out);
+    return out;
+  } catch (const std::bad_alloc&) {
+    return unreadable(name, "There is not enough memory to read it.");
+  }
 }
 
 IncomingFolder::IncomingFolder(const std::filesystem::path& folder, const FolderWatchOptions& watch, double patience_s)
