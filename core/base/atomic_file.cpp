@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 
 #include "core/base/error.h"
 #include "core/base/file_reader.h"
@@ -22,10 +23,22 @@ namespace {
 }  // namespace
 
 std::string readFile(const std::filesystem::path& file) {
+  return readFile(file, std::numeric_limits<std::size_t>::max());
+}
+
+std::string readFile(const std::filesystem::path& file, std::size_t at_most) {
   FileReader reader(file);
+  const std::size_t stated = reader.size();
+  if (stated > at_most)
+    throw InputError({file, ""}, fmt::format("the file has {} bytes; at most {} are allowed.", stated, at_most));
   std::string content;
+  content.reserve(stated);
   char buffer[1 << 16];
-  while (const std::size_t count = reader.read(buffer)) content.append(buffer, count);
+  while (const std::size_t count = reader.read(buffer)) {
+    if (count > at_most - content.size())
+      throw InputError({file, ""}, fmt::format("gives more bytes than are allowed; allowed: at most {}.", at_most));
+    content.append(buffer, count);
+  }
   return content;
 }
 

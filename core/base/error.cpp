@@ -26,6 +26,8 @@ std::string SourcePlace::prefix() const {
   return file.string() + ", " + within + ": ";
 }
 
+InputError::InputError(std::string_view sentence) : InputError(SourcePlace(), sentence) {}
+
 InputError::InputError(const SourcePlace& where, std::string_view sentence)
     : std::runtime_error(printable(where.prefix() + std::string(sentence))),
       where_(where),

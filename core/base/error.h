@@ -28,10 +28,11 @@ struct SourcePlace {
   [[nodiscard]] std::string prefix() const;
 };
 
-/// The user's data or options cannot be used. `what()` is one whole sentence for the user.
+/// The user's data or options cannot be used. `what()` is one whole sentence for the user: what it quotes of the data
+/// is made printable (untrusted_text.h).
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& sentence) : std::runtime_error(sentence), sentence_(sentence) {}
+  explicit InputError(std::string_view sentence);
   InputError(const SourcePlace& where, std::string_view sentence);
 
   [[nodiscard]] const SourcePlace& where() const noexcept { return where_; }

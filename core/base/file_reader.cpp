@@ -29,6 +29,12 @@ FileReader::~FileReader() {
   ::close(handle_);
 }
 
+std::size_t FileReader::size() const {
+  struct stat found {};
+  if (::fstat(handle_, &found) != 0) failReading(file_, errno);
+  return S_ISREG(found.st_mode) ? static_cast<std::size_t>(found.st_size) : 0;
+}
+
 std::size_t FileReader::read(std::span<char> into) {
   for (;;) {
     const ssize_t count = ::read(handle_, into.data(), into.size());

@@ -18,6 +18,8 @@ class FileReader {
   FileReader(const FileReader&) = delete;
   FileReader& operator=(const FileReader&) = delete;
 
+  /// Bytes of a regular file, as it says now; 0 of anything else.
+  [[nodiscard]] std::size_t size() const;
   /// The next bytes, at most as many as `into` takes; their count, 0 at the end of the file.
   [[nodiscard]] std::size_t read(std::span<char> into);
   /// To a byte from the beginning; for regular files.

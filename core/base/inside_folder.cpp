@@ -10,10 +10,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a path leads once all links are followed; as it stands where that cannot be found out (a ring of links).
+/// Where a path leads once all links are followed; as it stands where that cannot be found out (a ring of links). The
+/// empty path is the working folder, as for a file that is named alone.
 fs::path real(const fs::path& path) {
   std::error_code error;
-  fs::path out = fs::weakly_canonical(fs::absolute(path), error);
+  fs::path out = fs::weakly_canonical(fs::absolute(path.empty() ? fs::path(".") : path), error);
   return error ? fs::path() : out;
 }
 

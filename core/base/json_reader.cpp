@@ -34,10 +34,13 @@ std::string shortDump(const nlohmann::json& value) {
   return text;
 }
 
+/// Bytes of a file that is read as JSON.
+constexpr std::size_t largest_json_file = 500'000'000;
+
 }  // namespace
 
 JsonNode JsonNode::read(const std::filesystem::path& file) {
-  return parse(readFile(file), file);
+  return parse(readFile(file, largest_json_file), file);
 }
 
 JsonNode JsonNode::parse(std::string_view text, const std::filesystem::path& name) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/inside_folder.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/discrepancy/own_effects.h"
@@ -329,7 +330,8 @@ std::shared_ptr<const EffectModel> EffectModel::read(const std::filesystem::path
   const std::string table = root.stringOr("table", "");
   if (!table.empty()) {
     std::vector<std::string> told_before;  // when the table was compared with observations
-    base = std::make_shared<TableModel>(readSimulation(file.parent_path() / table, told_before));
+    base = std::make_shared<TableModel>(
+        readSimulation(InsideFolder(file.parent_path()).path(table, root.at("table").place()), told_before));
   }
   return std::make_shared<EffectModel>(drivers, std::move(effects), base, table);
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/base/error.h"
+#include "core/base/inside_folder.h"
 #include "core/base/text.h"
 #include "core/finite_elements/fe_result.h"
 
@@ -31,9 +32,9 @@ class MeshReader {
         if (keyword_ == "*INCLUDE") {
           const auto input = options_.find("INPUT");
           if (input == options_.end()) reject("names no file; allowed: *INCLUDE, INPUT=mesh.inp");
-          std::filesystem::path inner(std::string(trimmed(input->second)));
           const std::string outer = keyword_;
-          read(inner.is_absolute() ? inner : file.parent_path() / inner, depth + 1);
+          read(InsideFolder(file.parent_path()).path(trimmed(input->second), SourcePlace::atLine(file, line)),
+               depth + 1);
           keyword_ = outer;
         }
         if (keyword_ == "*NSET" && !options_.contains("NSET")) reject("names no set; allowed: *NSET, NSET=NAME");

@@ -285,6 +285,11 @@ class Import {
         throw InputError(table.place(i, dof), fmt::format("dof {} is not allowed; allowed: 1, 2 or 3.", direction));
       }
       const double id = table.number(i, node);
+      if (id < 1.0 || id > largest_node || id != std::floor(id)) {
+        throw InputError(
+            table.place(i, node),
+            fmt::format("\"{}\" is no number of a node; allowed: a whole number from 1.", table.text(i, node)));
+      }
       if (!mesh_.nodes.empty() && !mesh_.nodes.contains(static_cast<NodeId>(id))) {
         throw InputError(table.place(i, node), fmt::format("there is no node {} in {}; allowed: the {} nodes it has.",
                                                            id, fileName(map_.result), mesh_.nodes.size()));

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "core/base/inside_folder.h"
 #include "core/base/text.h"
 
 namespace spindrift {
@@ -107,9 +108,10 @@ FeMap FeMap::read(const std::filesystem::path& file) {
   root.requireFormat(fe_map_format, 1);
   FeMap map;
   map.file = file;
+  InsideFolder inside(file.parent_path());
   const auto path = [&](std::string_view key) -> std::filesystem::path {
     const auto node = root.find(key);
-    return node ? file.parent_path() / node->name() : std::filesystem::path();
+    return node ? inside.path(node->name(), node->place()) : std::filesystem::path();
   };
   map.result = path("result");
   map.mesh = path("mesh");

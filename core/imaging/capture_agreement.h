@@ -40,8 +40,7 @@ struct SeenCapture {
 };
 
 /// Pose of a decoded image, or none.
-[[nodiscard]] std::optional<ImagePose> poseOf(const DecodeResult& decoded,
-                                              const FiducialPattern& pattern = standardPattern());
+[[nodiscard]] std::optional<ImagePose> poseOf(const DecodeResult& decoded, const FiducialPattern& pattern);
 
 struct AgreementOptions {
   double turn_deg = 2.0;                    ///< beyond it the spindle stood elsewhere

@@ -7,8 +7,8 @@
 
 namespace spindrift {
 
-CaptureVerdict judgeCapture(const GrayImage& image, bool focus_series, const CaptureVerdictOptions& options,
-                            const FiducialPattern& pattern) {
+CaptureVerdict judgeCapture(const GrayImage& image, bool focus_series, const FiducialPattern& pattern,
+                            const CaptureVerdictOptions& options) {
   CaptureVerdict verdict;
   verdict.focus = measureFocus(image);
   verdict.decoded = decodeImage(image, pattern);

@@ -26,8 +26,7 @@ struct CaptureVerdict {
 };
 
 /// `focus_series`: the image belongs to one. Never throws for what is in the image.
-[[nodiscard]] CaptureVerdict judgeCapture(const GrayImage& image, bool focus_series,
-                                          const CaptureVerdictOptions& options = {},
-                                          const FiducialPattern& pattern = standardPattern());
+[[nodiscard]] CaptureVerdict judgeCapture(const GrayImage& image, bool focus_series, const FiducialPattern& pattern,
+                                          const CaptureVerdictOptions& options = {});
 
 }  // namespace spindrift

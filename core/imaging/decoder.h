@@ -118,7 +118,7 @@ struct DecodeResult {
 };
 
 /// Decodes one image on the calling thread; thread-safe. Never throws for what is in the image.
-[[nodiscard]] DecodeResult decodeImage(const GrayImage& image, const FiducialPattern& pattern = standardPattern(),
+[[nodiscard]] DecodeResult decodeImage(const GrayImage& image, const FiducialPattern& pattern,
                                        const DecodeOptions& options = {});
 
 /// The image with what was decoded drawn over it: ellipses green (yellow: numbered by their neighbours), circles blue,

@@ -25,7 +25,7 @@ FiducialImage measureOne(const std::filesystem::path& folder, const FiducialCapt
       result.reason = "the file is not there.";
       return result;
     }
-    const std::string bytes = readFile(file);
+    const std::string bytes = readFile(file, largest_image_file);
     result.content = sha256(bytes);
     image = decodeImageBytes(bytes, capture.image);
   } catch (const InputError& error) {

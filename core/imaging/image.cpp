@@ -55,9 +55,6 @@ bool pngIsComplete(std::string_view bytes) {
   return false;
 }
 
-/// 16 bits and four channels for each of the pixels that are allowed.
-constexpr std::size_t largest_file = 800'000'000;
-
 struct StatedSize {
   double width = 0.0;
   double height = 0.0;
@@ -151,7 +148,7 @@ GrayImage::GrayImage(int width, int height, std::uint8_t level) : width_(width),
 }
 
 GrayImage readImage(const std::filesystem::path& file) {
-  return decodeImageBytes(readFile(file), file);
+  return decodeImageBytes(readFile(file, largest_image_file), file);
 }
 
 GrayImage decodeImageBytes(std::string_view bytes, const std::filesystem::path& name) {
@@ -164,9 +161,9 @@ GrayImage decodeImageBytes(std::string_view bytes, const std::filesystem::path& 
                      fmt::format("the {} is cut short: it ends after {} bytes without its end marker; copy it again.",
                                  jpeg ? "JPEG" : "PNG", bytes.size()));
   }
-  if (bytes.size() > largest_file)
-    throw InputError({name, ""}, fmt::format("the file has {} bytes; at most {} are allowed for an image.",
-                                             bytes.size(), largest_file));
+  if (bytes.size() > largest_image_file)
+    throw InputError({name, ""},
+                     fmt::format("the file has {} bytes; at most {} are allowed.", bytes.size(), largest_image_file));
   const StatedSize stated = statedSize(bytes);
   requireSize(name, stated.width, stated.height);
   cv::Mat mat;

@@ -44,9 +44,13 @@ struct ColourImage {
   std::vector<std::uint8_t> bgr;
 };
 
+/// Bytes of an image file: 16 bits and four channels for each of the 100 million pixels that are allowed.
+inline constexpr std::size_t largest_image_file = 800'000'000;
+
 /// Reads any picture OpenCV can read (JPEG, PNG, TIFF, BMP, PGM ...) as grey levels; colour is averaged as luma, an
 /// orientation tag is ignored (pixels stay as the sensor had them). Throws InputError with one sentence: missing file,
-/// not an image, cut short (JPEG without its end marker, PNG without its last chunk), larger than 100 megapixels.
+/// not an image, cut short (JPEG without its end marker, PNG without its last chunk), larger than 100 megapixels or
+/// than largest_image_file.
 [[nodiscard]] GrayImage readImage(const std::filesystem::path& file);
 
 /// The same from bytes in memory; `name` stands for the file in errors.

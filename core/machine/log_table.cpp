@@ -62,12 +62,14 @@ void take(LogColumn& column, const CsvRows& rows, std::size_t index, bool nan_is
     ++column.missing;
   } else if (parseNumber(field, value)) {
     ++column.numbers;
-  } else if (!column.words_at) {
-    column.words_at = rows.place(index);
-    column.words = field;
-    column.values = std::vector<double>();  // gives the memory back
+  } else {
+    value = not_there;  // what was read of "1e999" is no number
+    if (column.word_count++ == 0) {
+      column.words_at = rows.place(index);
+      column.words = field;
+    }
   }
-  if (!column.words_at) column.values.push_back(value);
+  column.values.push_back(value);
 }
 
 }  // namespace
@@ -104,6 +106,8 @@ LogTable LogTable::read(CsvRows& rows, std::span<const TimeColumn> time_names, b
   }
   if (count == 0) throw InputError({table.file, ""}, "holds no rows; allowed: at least one row.");
   if (clock.error) throw InputError(*clock.error);
+  for (LogColumn& column : columns)
+    if (column.word_count > column.numbers) column.values = std::vector<double>();
   columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(*clock.column));
   table.columns = std::move(columns);
   return table;

@@ -2,7 +2,8 @@
 // The one reader of logs (log.csv of a campaign, records of signals over time): columns of numbers beside one of time.
 //
 // Read row by row: beside the numbers no more than a block of lines of the file is in memory. What a column without
-// numbers means is for its reader to say; here it is kept with its name and the place of its first words.
+// numbers means is for its reader to say; here it is kept with its name and the place of its first words. A word among
+// numbers (a sensor that says "fail", an overflow written as inf) is a value that is not known.
 #pragma once
 
 #include <cstddef>
@@ -27,11 +28,14 @@ struct TimeColumn {
 /// A column beside the time.
 struct LogColumn {
   std::string name;
-  std::vector<double> values;  ///< as many as rows, NaN where the field is empty; none if words stand in the column
-  std::size_t numbers = 0;     ///< fields that are finite numbers, also beside words
-  std::size_t missing = 0;     ///< fields that are empty, or say so where that is taken for missing
+  /// As many as rows, NaN where the field is no number; none if fewer than half of the fields that hold something are
+  /// numbers.
+  std::vector<double> values;
+  std::size_t numbers = 0;              ///< fields that are finite numbers, also beside words
+  std::size_t missing = 0;              ///< fields that are empty, or say so where that is taken for missing
   std::optional<SourcePlace> words_at;  ///< the first field that is neither
   std::string words;                    ///< what stands there
+  std::size_t word_count = 0;           ///< fields that are neither
 };
 
 struct LogTable {

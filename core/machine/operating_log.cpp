@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/machine/operating_log.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -11,6 +13,8 @@
 
 namespace spindrift {
 namespace {
+
+constexpr TimeColumn time_names[] = {{"time_s", 1.0}};
 
 /// True for the signals that FORMATS.md gives a meaning: they hold numbers.
 bool hasMeaning(std::string_view name) {
@@ -36,7 +40,6 @@ void OperatingLog::setSignal(const std::string& name, std::vector<double> values
 }
 
 OperatingLog OperatingLog::read(const std::filesystem::path& file) {
-  constexpr TimeColumn time_names[] = {{"time_s", 1.0}};
   CsvRows rows(file);
   LogTable table = LogTable::read(rows, time_names);
   OperatingLog log;
@@ -44,10 +47,26 @@ OperatingLog OperatingLog::read(const std::filesystem::path& file) {
   log.time_s_ = std::move(table.time_s);
   for (LogColumn& column : table.columns) {
     if (column.words_at && hasMeaning(column.name)) throw notANumber(*column.words_at, column.words);
-    // Words in a column that means nothing to us (a remark, a programme name) leave it out.
-    if (!column.words_at) log.setSignal(column.name, std::move(column.values));
+    if (column.values.empty()) continue;  // most fields are words, such as remarks
+    log.setSignal(column.name, std::move(column.values));
   }
   return log;
+}
+
+std::vector<std::string> OperatingLog::columnsLeftOut(const std::filesystem::path& file) {
+  CsvRows rows(file);
+  std::vector<std::string> sentences;
+  for (const LogColumn& column : LogTable::read(rows, time_names).columns) {
+    if (!column.values.empty()) continue;
+    sentences.push_back(fmt::format(
+        "The column {} of the log was left out: \"{}\" in line {} and {} more of its fields are no numbers.",
+        column.name, column.words, column.words_at->line, column.word_count - 1));
+  }
+  return sentences;
+}
+
+void OperatingLog::moveClock(double offset_s) {
+  for (double& time : time_s_) time += offset_s;
 }
 
 bool OperatingLog::has(std::string_view name) const noexcept {

@@ -3,7 +3,8 @@
 //
 // States (everything that is not a temperature) hold until the next row, temperatures (`T_..._degC`) are interpolated
 // linearly (FORMATS.md). Outside the log the first resp. last value holds. A field may be empty: the signal is unknown
-// there; states then keep the last known value, temperatures are interpolated over the gap.
+// there; states then keep the last known value, temperatures are interpolated over the gap. In a column without a
+// meaning of its own a field that is no number is the same; a column in which most fields are words is no signal.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +24,8 @@ class OperatingLog {
   explicit OperatingLog(std::vector<double> time_s);
   /// Replaces or adds a signal; `values` as long as `time_s()`, NaN where unknown.
   void setSignal(const std::string& name, std::vector<double> values);
+  /// Adds to every time.
+  void moveClock(double offset_s);
 
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
   [[nodiscard]] const std::vector<double>& time_s() const noexcept { return time_s_; }
@@ -36,6 +39,8 @@ class OperatingLog {
   [[nodiscard]] static bool isTemperature(std::string_view name) noexcept;
   /// Names of all temperatures.
   [[nodiscard]] std::vector<std::string> temperatureNames() const;
+  /// Sentences about columns of a log that `read` leaves out, as most of their fields are words. Throws as `read`.
+  [[nodiscard]] static std::vector<std::string> columnsLeftOut(const std::filesystem::path& file);
   [[nodiscard]] bool empty() const noexcept { return time_s_.empty(); }
 
  private:

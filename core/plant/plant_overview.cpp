@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/base/count_text.h"
+#include "core/base/csv.h"
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
@@ -25,14 +26,6 @@ constexpr double day_s = 86'400.0;
 
 std::string number(double value) {
   return exactNumber(value);
-}
-
-/// A field of a CSV file.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
 }
 
 nlohmann::json timeOrNull(double time_s) {
@@ -154,10 +147,10 @@ std::string MachineTrend::csv() const {
       "time_utc,campaign,value,standard_uncertainty,centre,lower,upper,ewma,ewma_lower,ewma_upper,outside,"
       "ewma_outside\n";
   for (const ChartPoint& p : chart.points) {
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", utcText(p.point.time_s), field(p.point.campaign_name),
-                       number(p.point.value), number(p.point.standard_uncertainty), number(p.centre), number(p.lower),
-                       number(p.upper), number(p.ewma), number(p.ewma_lower), number(p.ewma_upper), p.outside ? 1 : 0,
-                       p.ewma_outside ? 1 : 0);
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", utcText(p.point.time_s),
+                       csvField(p.point.campaign_name), number(p.point.value), number(p.point.standard_uncertainty),
+                       number(p.centre), number(p.lower), number(p.upper), number(p.ewma), number(p.ewma_lower),
+                       number(p.ewma_upper), p.outside ? 1 : 0, p.ewma_outside ? 1 : 0);
   }
   return out;
 }

@@ -114,7 +114,7 @@ PointCloud readCloud(const std::filesystem::path& file) {
   const std::string extension = extensionOf(file);
   if (extension != ".pcd" && extension != ".ply" && extension != ".csv")
     fail(file, "", fmt::format("found extension '{}'; allowed: .pcd, .ply, .csv.", extension));
-  const std::string text = readFile(file);
+  const std::string text = readFile(file, largest_cloud_file);
   if (text.empty()) fail(file, "", "is empty.");
   if (extension == ".pcd") return readPcd(file, text);
   if (extension == ".ply") return readPly(file, text);

@@ -7,6 +7,7 @@
 // (Turk 1994), LZF (liblzf's stream format).
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 
 #include "core/scanning/cloud.h"
@@ -15,8 +16,12 @@ namespace spindrift {
 
 enum class CloudEncoding { Ascii, Binary, BinaryCompressed };
 
+/// Bytes of a file that is read as a cloud.
+inline constexpr std::size_t largest_cloud_file = 4'000'000'000;
+
 /// Reads by the file's extension (.pcd, .ply, .csv) and finds the profiles (from WIDTH x HEIGHT or from the jumps in
-/// x). Throws InputError: missing, truncated or lying header, no x, y, z, zero points, all points missing, mixed units.
+/// x). Throws InputError: missing, truncated or lying header, no x, y, z, zero points, all points missing, mixed
+/// units, a file of more than largest_cloud_file bytes.
 [[nodiscard]] PointCloud readCloud(const std::filesystem::path& file);
 
 /// Writes by extension, atomically; `single_precision` false keeps doubles. CSV and PLY have no compressed form

@@ -73,9 +73,9 @@ bool isTemperatureColumn(std::string_view column) {
   return OperatingLog::isTemperature(column) || column.ends_with("_degC");
 }
 
-LogTable tableAt(const std::string& name, const JsonNode& node, const std::optional<OperatingLog>& log,
-                 const std::vector<SimulatorParameter>& own) {
-  LogTable table;
+TimeTable tableAt(const std::string& name, const JsonNode& node, const std::optional<OperatingLog>& log,
+                  const std::vector<SimulatorParameter>& own) {
+  TimeTable table;
   table.name = name;
   const auto column = node.find("column");
   const auto window = node.find("window");
@@ -120,13 +120,13 @@ LogTables::LogTables(const JsonNode& tables, const std::optional<OperatingLog>& 
 
 std::vector<std::string> LogTables::names() const {
   std::vector<std::string> out;
-  for (const LogTable& table : tables_) out.push_back(table.name);
+  for (const TimeTable& table : tables_) out.push_back(table.name);
   return out;
 }
 
 std::vector<SimulatorWindow> LogTables::windows() const {
   std::vector<SimulatorWindow> out;
-  for (const LogTable& table : tables_) {
+  for (const TimeTable& table : tables_) {
     if (!table.column.empty()) continue;
     const bool known = std::any_of(out.begin(), out.end(), [&](const SimulatorWindow& w) {
       return w.begin_s == table.window.begin_s && w.end_s == table.window.end_s;
@@ -139,7 +139,7 @@ std::vector<SimulatorWindow> LogTables::windows() const {
 std::vector<SimulatorParameter> LogTables::sensors() const {
   std::vector<SimulatorParameter> out;
   std::set<std::string> done;
-  for (const LogTable& table : tables_) {
+  for (const TimeTable& table : tables_) {
     if (!isTemperatureColumn(table.column) || !done.insert(table.column).second) continue;
     SimulatorParameter p;
     p.of_sensor = true;
@@ -150,7 +150,7 @@ std::vector<SimulatorParameter> LogTables::sensors() const {
     p.max = 0.5;
     p.what = fmt::format("relative error of the changes that {} reads", table.column);
     out.push_back(p);
-    const bool absolute = std::any_of(tables_.begin(), tables_.end(), [&](const LogTable& other) {
+    const bool absolute = std::any_of(tables_.begin(), tables_.end(), [&](const TimeTable& other) {
       return other.column == table.column && !other.minus_first;
     });
     if (absolute) {
@@ -191,7 +191,7 @@ std::vector<double> trueReadings(std::span<const double> time_s, std::span<const
   return out;
 }
 
-std::vector<double> LogTables::values(const LogTable& table, const TableTimes& times,
+std::vector<double> LogTables::values(const TimeTable& table, const TableTimes& times,
                                       const ParameterValues& parameters) const {
   const auto f = [&](double v) {
     const double divided = v / table.divide_by;
@@ -239,7 +239,7 @@ std::vector<double> LogTables::values(const LogTable& table, const TableTimes& t
 
 std::map<std::string, std::string> LogTables::text(const TableTimes& times, const ParameterValues& parameters) const {
   std::map<std::string, std::string> out;
-  for (const LogTable& table : tables_) {
+  for (const TimeTable& table : tables_) {
     const std::vector<double> all = values(table, times, parameters);
     std::string& lines = out[table.name];
     auto end = std::back_inserter(lines);

@@ -27,7 +27,7 @@
 namespace spindrift {
 
 /// One table.
-struct LogTable {
+struct TimeTable {
   std::string name;
   std::string column;  ///< of the log; empty: a window
   SimulatorWindow window;
@@ -58,14 +58,14 @@ class LogTables {
   /// Gain, offset and lag of every temperature among the columns; no offset where only changes count.
   [[nodiscard]] std::vector<SimulatorParameter> sensors() const;
   /// Values of one table. Not finite where a power has no value.
-  [[nodiscard]] std::vector<double> values(const LogTable& table, const TableTimes& times,
+  [[nodiscard]] std::vector<double> values(const TimeTable& table, const TableTimes& times,
                                            const ParameterValues& parameters) const;
   /// The lines "time, value" of all tables, by name. Throws SimulatorFailed for a value that does not exist.
   [[nodiscard]] std::map<std::string, std::string> text(const TableTimes& times,
                                                         const ParameterValues& parameters) const;
 
  private:
-  std::vector<LogTable> tables_;
+  std::vector<TimeTable> tables_;
   OperatingLog log_;
 };
 

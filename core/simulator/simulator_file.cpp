@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "core/base/atomic_file.h"
+#include "core/base/inside_folder.h"
 #include "core/base/text.h"
 
 namespace spindrift {
@@ -96,7 +97,7 @@ std::string pathWithin(const JsonNode& node) {
 std::string SimulatorFile::relativeFile(const JsonNode& node) const {
   std::string relative = pathWithin(node);
   std::error_code ignored;
-  if (!fs::is_regular_file(folder() / relative, ignored)) {
+  if (!fs::is_regular_file(InsideFolder(folder()).path(relative, node.place()), ignored)) {
     node.reject(fmt::format("a file in {}", fs::absolute(folder()).lexically_normal().string()));
   }
   return relative;

@@ -91,7 +91,7 @@ nlohmann::json payloadOf(const CampaignEvaluation& evaluation) {
           {"shared_noise", sharedJson(evaluation.observations.shared)}};
 }
 
-StoredEvaluation evaluationFrom(const StoredResult& result) {
+StoredEvaluation evaluationFrom(const StoredResult& result) try {
   StoredEvaluation evaluation;
   evaluation.id = result.id;
   const nlohmann::json& p = result.payload;
@@ -107,6 +107,8 @@ StoredEvaluation evaluationFrom(const StoredResult& result) {
     evaluation.warnings.push_back(w.get<std::string>());
   }
   return evaluation;
+} catch (const nlohmann::json::exception& e) {
+  throw InputError(fmt::format("the stored evaluation cannot be read ({}); evaluate again.", e.what()));
 }
 
 std::optional<CampaignEvaluation> asWorkedOut(const StoredEvaluation& stored) {

@@ -31,7 +31,7 @@ struct StoredEvaluation {
   bool good_enough = true;
 };
 
-/// Payload of a result of kind "evaluate" and back.
+/// Payload of a result of kind "evaluate" and back. Throws InputError: the session is damaged or another's.
 [[nodiscard]] nlohmann::json payloadOf(const CampaignEvaluation& evaluation);
 [[nodiscard]] StoredEvaluation evaluationFrom(const StoredResult& result);
 /// As it was worked out, of one instrument; nothing where several were evaluated together: what is stored does not say

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -231,6 +232,12 @@ CompensatorState Compensator::step(const double* inputs, const double* age_s, do
     refused_ = -1;
     return state_;
   }
+  static constexpr auto none = [] {
+    std::array<double, maximum_inputs> values{};
+    values.fill(std::numeric_limits<double>::quiet_NaN());
+    return values;
+  }();
+  if (inputs == nullptr) inputs = none.data();
   // Inputs: a bad one keeps its last good value for a while.
   refused_ = -1;
   bool lost = false;

@@ -68,8 +68,9 @@ class Compensator {
   [[nodiscard]] const char* inputName(int index) const noexcept;
   [[nodiscard]] const char* outputName(int index) const noexcept;
 
-  /// One cycle. `inputs`: inputCount() values; `age_s`: age of each value, or null if all are fresh; `outputs`:
-  /// outputCount() compensation values. The first good step puts every lag at rest at its input.
+  /// One cycle. `inputs`: inputCount() values, or null if none has come: all are refused; `age_s`: age of each value,
+  /// or null if all are fresh; `outputs`: outputCount() compensation values. The first good step puts every lag at rest
+  /// at its input.
   CompensatorState step(const double* inputs, const double* age_s, double* outputs) noexcept;
 
   [[nodiscard]] CompensatorState state() const noexcept { return state_; }

@@ -52,13 +52,19 @@ spindrift_compensator* spindrift_compensator_load_with(const char* model_file,
     const auto take = [](double value, double& limit) {
       if (value != 0.0) limit = value;
     };
+    const auto take_or_zero = [&](double value, double& limit) {
+      take(value, limit);
+      if (value == SPINDRIFT_COMPENSATOR_ZERO) limit = 0.0;
+    };
     take(given.limit, limits.limit);
     take(given.slew_per_s, limits.slew_per_s);
-    take(given.stale_after_s, limits.stale_after_s);
-    take(given.recover_after_s, limits.recover_after_s);
-    take(given.range_margin, limits.range_margin);
-    take(given.minimum_margin, limits.minimum_margin);
-    take(given.update_limit, limits.update_limit);
+    take_or_zero(given.stale_after_s, limits.stale_after_s);
+    take_or_zero(given.recover_after_s, limits.recover_after_s);
+    take_or_zero(given.range_margin, limits.range_margin);
+    take_or_zero(given.minimum_margin, limits.minimum_margin);
+    take_or_zero(given.update_limit, limits.update_limit);
+    take_or_zero(given.least_gain, limits.least_gain);
+    take(given.most_gain, limits.most_gain);
     limits.forced = given.force != 0;
     const std::string problem =
         model_file == nullptr
@@ -105,15 +111,16 @@ const char* spindrift_compensator_output_name(const spindrift_compensator* compe
 
 int spindrift_compensator_step(spindrift_compensator* compensator, const double* inputs, const double* age_s,
                                double* outputs) {
-  if (compensator == nullptr || inputs == nullptr || outputs == nullptr) return SPINDRIFT_COMPENSATOR_EMPTY;
+  if (compensator == nullptr || outputs == nullptr) return SPINDRIFT_COMPENSATOR_EMPTY;
   return static_cast<int>(compensator->object.step(inputs, age_s, outputs));
 }
 
 int spindrift_compensator_step_sized(spindrift_compensator* compensator, const double* inputs, size_t input_count,
                                      const double* age_s, size_t age_count, double* outputs, size_t output_count) {
-  if (compensator == nullptr || inputs == nullptr || outputs == nullptr) return -1;
+  if (compensator == nullptr || outputs == nullptr) return -1;
   const auto inputs_wanted = static_cast<std::size_t>(compensator->object.inputCount());
-  if (input_count != inputs_wanted || output_count != static_cast<std::size_t>(compensator->object.outputCount()) ||
+  if (input_count != (inputs == nullptr ? 0 : inputs_wanted) ||
+      output_count != static_cast<std::size_t>(compensator->object.outputCount()) ||
       age_count != (age_s == nullptr ? 0 : inputs_wanted))
     return -1;
   return static_cast<int>(compensator->object.step(inputs, age_s, outputs));

@@ -35,6 +35,9 @@ spindrift_compensator* spindrift_compensator_load(const char* model_file, double
                                                   double slew_per_s, char* message, int message_size);
 void spindrift_compensator_free(spindrift_compensator* compensator);
 
+/* Asks for 0 where 0 stands for the default; limit, slew_per_s and most_gain cannot be 0. */
+#define SPINDRIFT_COMPENSATOR_ZERO (-1.0)
+
 /* Options of a load. Set `struct_size` to sizeof and leave 0 what shall have its default; a later version of the
  * library only adds members at the end and takes a shorter struct as it is. Units: um or urad, s. */
 typedef struct spindrift_compensator_options {
@@ -48,6 +51,8 @@ typedef struct spindrift_compensator_options {
   double minimum_margin;  /* but never less than this, in the input's unit */
   double update_limit;    /* of the sum of measured offsets */
   int32_t force;          /* 1: take a model that its identification called not good enough */
+  double least_gain;      /* a measured gain factor below is refused */
+  double most_gain;       /* and one above */
 } spindrift_compensator_options;
 
 /* As spindrift_compensator_load, with options. */
@@ -76,7 +81,9 @@ size_t spindrift_compensator_copy_output_name(const spindrift_compensator* compe
                                               size_t size);
 
 /* One cycle with the lengths of all arrays. Returns the state, or -1 without touching anything if a length is not that
- * of the model; age_s may be NULL (then age_count is 0). */
+ * of the model, or compensator or outputs is NULL. age_s may be NULL (then age_count is 0); inputs may be NULL (then
+ * input_count is 0) in a cycle for which none has come: the outputs are held, and faded to zero as for any bad input.
+ */
 int spindrift_compensator_step_sized(spindrift_compensator* compensator, const double* inputs, size_t input_count,
                                      const double* age_s, size_t age_count, double* outputs, size_t output_count);
 
@@ -85,7 +92,8 @@ int spindrift_compensator_outputs(const spindrift_compensator* compensator);
 const char* spindrift_compensator_input_name(const spindrift_compensator* compensator, int index);
 const char* spindrift_compensator_output_name(const spindrift_compensator* compensator, int index);
 
-/* One cycle; age_s may be NULL. Returns the state. */
+/* One cycle; age_s and inputs may be NULL as above. Returns the state; SPINDRIFT_COMPENSATOR_EMPTY without touching
+ * anything if compensator or outputs is NULL. */
 int spindrift_compensator_step(spindrift_compensator* compensator, const double* inputs, const double* age_s,
                                double* outputs);
 /* After an on-machine measurement: deviation = gain_factor * model + corrections. Returns 1, or 0 if the values are

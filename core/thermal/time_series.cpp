@@ -183,13 +183,13 @@ TimeSeries seriesOf(CsvRows& rows, const TimeSeriesOptions& options) {
   for (LogColumn& column : table.columns) {
     Signal signal;
     signal.name = column.name;
-    // Words among the numbers of a column that means nothing to us (alarms, programme names) leave it out as well.
-    if (column.words_at && (column.numbers == 0 || signalKind(signal.name, {}) == SignalKind::Other) &&
-        !saysMissing(column.words)) {
+    const bool other = signalKind(signal.name, {}) == SignalKind::Other && !saysMissing(column.words);
+    if (column.words_at && (column.numbers == 0 || (other && column.values.empty())) && !saysMissing(column.words)) {
       series.notes.push_back(fmt::format("column {} holds text and was left out.", signal.name));
       continue;
     }
-    if (column.words_at) {
+    // Words among the numbers of a column that means nothing to us (alarms) are values that are not known.
+    if (column.words_at && !other) {
       throw InputError(
           *column.words_at,
           fmt::format("\"{}\" is not a number; allowed: a finite number with a decimal point{}.", column.words,
@@ -199,9 +199,9 @@ TimeSeries seriesOf(CsvRows& rows, const TimeSeriesOptions& options) {
       series.notes.push_back(fmt::format("column {} is empty and was left out.", signal.name));
       continue;
     }
-    if (column.missing > 0)
+    if (const std::size_t missing = column.missing + column.word_count; missing > 0)
       series.notes.push_back(
-          fmt::format("{} of {} values of {} are missing.", column.missing, series.time_s.size(), signal.name));
+          fmt::format("{} of {} values of {} are missing.", missing, series.time_s.size(), signal.name));
     signal.values = std::move(column.values);
     signal.kind = signalKind(signal.name, signal.values);
     series.signals.push_back(std::move(signal));

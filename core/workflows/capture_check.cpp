@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <new>
 
 #include "core/base/error.h"
 #include "core/imaging/capture_agreement.h"
@@ -21,7 +22,7 @@ CheckedCapture judged(const Campaign& campaign, const FiducialCapture& c, const 
   checked.image = c.image;
   try {
     const CaptureVerdict verdict =
-        judgeCapture(readImage(campaign.path(c.image)), c.role == CaptureRole::Focus, {}, pattern);
+        judgeCapture(readImage(campaign.path(c.image)), c.role == CaptureRole::Focus, pattern);
     checked.good = verdict.good;
     checked.sentence = verdict.sentence;
     checked.ellipses = static_cast<int>(verdict.decoded.subpatterns.size());
@@ -32,6 +33,8 @@ CheckedCapture judged(const Campaign& campaign, const FiducialCapture& c, const 
     }
   } catch (const InputError& e) {
     checked.sentence = e.what();
+  } catch (const std::bad_alloc&) {
+    checked.sentence = "There is not enough memory to read it.";
   }
   return checked;
 }

@@ -82,7 +82,11 @@ ClockOffsets clockOffsetsFrom(const nlohmann::json& json) {
     if (!std::isfinite(offset) || std::abs(offset) > 1e6)
       throw InputError(
           fmt::format("a time offset of {:g} s for {} cannot be; allowed: -1e6 to 1e6 s.", offset, source));
-    out[source] = {offset, value.value("standard_uncertainty_s", 0.0), value.value("how", std::string("entered"))};
+    try {
+      out[source] = {offset, value.value("standard_uncertainty_s", 0.0), value.value("how", std::string("entered"))};
+    } catch (const nlohmann::json::exception& e) {
+      throw InputError(fmt::format("the time offset of {} cannot be read ({}).", source, e.what()));
+    }
   }
   return out;
 }
@@ -191,13 +195,7 @@ void applyClockOffsets(ObservationSet& observations, const ClockOffsets& offsets
 
 void applyClockOffsets(Campaign& campaign, const ClockOffsets& offsets) {
   const auto log = offsets.find("log");
-  if (log != offsets.end() && campaign.log && log->second.offset_s != 0.0) {
-    std::vector<double> time = campaign.log->time_s();
-    for (double& t : time) t += log->second.offset_s;
-    OperatingLog moved(std::move(time));
-    for (const std::string& name : campaign.log->names()) moved.setSignal(name, *campaign.log->signal(name));
-    campaign.log = std::move(moved);
-  }
+  if (log != offsets.end() && campaign.log) campaign.log->moveClock(log->second.offset_s);
   if (campaign.observations) applyClockOffsets(*campaign.observations, offsets);
 }
 

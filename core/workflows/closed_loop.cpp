@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/atomic_file.h"
+#include "core/base/csv.h"
 #include "core/base/error.h"
 #include "core/base/no_number.h"
 #include "core/base/text.h"
@@ -430,7 +431,7 @@ class ClosedLoop {
     writeFileAtomically(folder_ / "campaign.json", campaign.dump(1));
     writeFileAtomically(folder_ / "machine.json", plan_.machine.source.dump(1));
     std::string header = "time_s,spindle_rpm";
-    for (const std::string& column : plan_.temperatures) header += "," + column;
+    for (const std::string& column : plan_.temperatures) header += "," + csvField(column);
     if (log_file_.size() == 0) (void)log_file_.append(header + "\n");
     save();
   }

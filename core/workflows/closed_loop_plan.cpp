@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "core/base/error.h"
 #include "core/workflows/closed_loop.h"
 
@@ -92,6 +95,14 @@ void LoopPlan::validate() const {
   if (touches.empty()) refuse("there are no touches; allowed: at least one.");
   if (programme.empty()) refuse("there is no program; allowed: at least one speed.");
   for (const LoopTouch& touch : touches) {
+    // It stands in a comment of the measuring programme, and comes back in what that prints.
+    const auto plain = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.';
+    };
+    if (touch.point.empty() || !std::all_of(touch.point.begin(), touch.point.end(), plain))
+      refuse(
+          fmt::format("the name of the point \"{}\" cannot stand in a programme; allowed: letters, digits, _, - and .",
+                      touch.point));
     const Eigen::Vector3d way = touch.target_mm - touch.before_mm;
     const int axis = axisIndex(touch.component);
     if (isRotation(touch.component) || std::abs(std::abs(way[axis]) - way.norm()) > 1e-9 || way.norm() < 1e-3)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/csv.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/discrepancy/effect_model.h"
@@ -297,7 +298,7 @@ void makeFiles(const MachineDescription& machine, const PreparedModel& prepared,
       "measured_x_um,measured_y_um,measured_z_um,remains_x_um,remains_y_um,remains_z_um\n",
       relative);
   for (const CompensationPoint& p : plan.points) {
-    csv += p.point;
+    csv += csvField(p.point);
     // A nanometre is more than a place is known to.
     for (int i = 0; i < 3; ++i) csv += fmt::format(",{}", std::round(1e6 * p.position_mm[i]) / 1e6);
     for (int i = 0; i < 3; ++i) csv += fmt::format(",{:.4f}", p.correction_um[i]);

@@ -174,8 +174,11 @@ DiscrepancySeries seriesOf(const nlohmann::json& json) {
   DiscrepancySeries s;
   s.point = json.at("point").get<std::string>();
   s.component = componentOf(json.at("component"));
-  const std::vector<double> position = storedNumbers(json.at("position_mm"));
-  s.position_mm = {position.at(0), position.at(1), position.at(2)};
+  const auto number = [&](const char* key, std::size_t index) {
+    const nlohmann::json& value = json.at(key).at(index);
+    return value.is_number() ? value.get<double>() : no_number;
+  };
+  s.position_mm = {number("position_mm", 0), number("position_mm", 1), number("position_mm", 2)};
   s.time_s = storedNumbers(json.at("time_s"));
   s.value = storedNumbers(json.at("value"));
   s.simulated = storedNumbers(json.at("simulated"));
@@ -186,16 +189,22 @@ DiscrepancySeries seriesOf(const nlohmann::json& json) {
   s.explained = storedNumbers(json.at("explained"));
   if (json.contains("remaining")) s.remaining = storedNumbers(json.at("remaining"));
   s.held_out = json.at("held_out").get<std::vector<bool>>();
-  const std::vector<double> constants = storedNumbers(json.at("constants"));
-  s.constant_before = constants.at(0);
-  s.constant_after = constants.at(1);
+  s.constant_before = number("constants", 0);
+  s.constant_after = number("constants", 1);
   s.noise = storedNumber(json, "noise");
   s.significant = json.at("significant").get<bool>();
-  const std::vector<double> rms = storedNumbers(json.at("rms"));
-  s.rms_before = rms.at(0);
-  s.rms_after = rms.at(1);
+  s.rms_before = number("rms", 0);
+  s.rms_after = number("rms", 1);
   s.excess_before = excess(s.rms_before, s.noise);
   s.excess_after = excess(s.rms_after, s.noise);
+  const std::size_t rows = s.time_s.size();
+  bool whole = rows > 0 && s.value.size() == rows && s.simulated.size() == rows && s.held_out.size() == rows &&
+               s.completed_sigma.size() == s.completed.size();
+  for (const std::vector<double>* part : {&s.completed, &s.explained, &s.remaining})
+    whole = whole && (part->empty() || part->size() == rows);
+  if (!whole)
+    throw InputError(fmt::format("the stored discrepancy holds lists of unequal length for {} of {}; search again.",
+                                 toString(s.component), s.point));
   return s;
 }
 

@@ -216,7 +216,7 @@ void examineImageBytes(const std::string& bytes, const std::string& ending, cons
       planned != nullptr ? safeName(planned->id) : std::filesystem::path(safeName(out.item.name)).stem().string();
   if (planned == nullptr) return keep(context, out.item, "kept", stem, ending, bytes);
   const auto pattern = campaignPattern(context.campaignFolder());
-  CaptureVerdict verdict = judgeCapture(image, planned->role == "focus", {}, *pattern);
+  CaptureVerdict verdict = judgeCapture(image, planned->role == "focus", *pattern);
   if (verdict.good) {
     const SeenCapture seen = seenOf(*planned, poseOf(verdict.decoded, *pattern), verdict.focus.normalised);
     out.item.pose = seen.pose;
@@ -527,7 +527,7 @@ ExaminedFile examine(const std::filesystem::path& file, const std::string& name,
   if (kind == IncomingKind::Touches) return examineTouches(file, name, written_ns, context);
   std::string bytes;
   try {
-    bytes = readFile(file);
+    bytes = readFile(file, largest_cloud_file);
   } catch (const InputError& e) {
     return unreadable(name, e.what());
   }
@@ -564,8 +564,12 @@ ExaminedFile examineImage(const std::string& bytes, const std::string& name, std
                           const IncomingContext& context) {
   ExaminedFile out = begin(bytes, name, written_ns, context);
   out.item.kind = IncomingKind::Image;
-  if (!foundTwice(context, out.item, bytes.size())) examineImageBytes(bytes, ".png", context, out);
-  return out;
+  try {
+    if (!foundTwice(context, out.item, bytes.size())) examineImageBytes(bytes, ".png", context, out);
+    return out;
+  } catch (const std::bad_alloc&) {
+    return unreadable(name, "There is not enough memory to read it.");
+  }
 }
 
 IncomingFolder::IncomingFolder(const std::filesystem::path& folder, const FolderWatchOptions& watch, double patience_s)

@@ -332,7 +332,7 @@ std::string LoopModels::simulationTable() const {
   std::string table = "time_s,point,component,predicted\n";
   for (std::size_t i = 0; i < simulated_.size(); ++i) {
     const Observation& o = observations_.rows[i];
-    table += fmt::format("{:.1f},{},{},{:.4f}\n", o.time_s, o.point, toString(o.component), simulated_[i]);
+    table += fmt::format("{:.1f},{},{},{:.4f}\n", o.time_s, csvField(o.point), toString(o.component), simulated_[i]);
   }
   return table;
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/csv.h"
 #include "core/base/error.h"
+#include "core/base/inside_folder.h"
 #include "core/base/sha256.h"
 #include "core/workflows/loop_models.h"
 
@@ -125,7 +126,9 @@ LoopState LoopState::read(const std::filesystem::path& file, const LoopPlan& pla
   out.next_cycle_s = root.at("next_cycle_s").number();
   out.why = root.at("why").string();
   out.searched = root.at("searched").boolean();
-  out.tried = static_cast<std::size_t>(root.at("tried").nonNegativeNumber());
+  const JsonNode tried = root.at("tried");
+  if (tried.integer() < 0) tried.reject("a number of cycles");
+  out.tried = static_cast<std::size_t>(tried.integer());
   out.ours = root.at("ours").boolean();
   out.rehomed = root.at("rehomed").boolean();
   if (const auto tool = root.find("tool")) out.tool = tool->integer();
@@ -217,15 +220,20 @@ void LoopModels::restore(const JsonNode& state, const std::filesystem::path& log
   }
   for (const JsonNode& each : state.at("identified").items()) {
     ThermalModel model = ThermalModel::parse(each.at("model"));
+    const JsonNode axis = each.at("axis");
+    if (axis.integer() < 0 || axis.integer() > 2) axis.reject("0, 1 or 2");
+    if (model.outputs.size() != 1) each.at("model").reject("a model of one output");
+    if (times_.empty()) each.reject("no model before the log has a row");
     const double left_um = model.outputs.front().noise_sigma;
     Identified found = identifiedFrom(std::move(model), left_um);
     const Eigen::VectorXd filter = vectorOf(each.at("filter"));
     found.filter.restore(filter, matrixOf(each.at("covariance"), filter.size()));
     const Eigen::VectorXd told = vectorOf(each.at("told"));
     if (told.size() == found.features.size()) found.told = told;
-    identified_.insert_or_assign(each.at("axis").integer(), std::move(found));
+    identified_.insert_or_assign(axis.integer(), std::move(found));
   }
-  if (const auto effects = state.find("effects")) effect_file_ = folder / effects->name();
+  if (const auto effects = state.find("effects"))
+    effect_file_ = InsideFolder(folder).path(effects->name(), effects->place());
   if (!times_.empty()) refresh();
 }
 

@@ -114,6 +114,9 @@ Report reportOfCampaign(const Campaign& campaign, const ReportOptions& options, 
   }
   const std::string left_out = leaveOutCompensated(input.observations, campaign.log);
   if (!left_out.empty()) input.notes.push_back(left_out);
+  if (campaign.log && !campaign.log->file().empty()) {
+    for (std::string& note : OperatingLog::columnsLeftOut(campaign.log->file())) input.notes.push_back(std::move(note));
+  }
   const StoredResults& stored = options.stored;
   addHeadlines(input, stored);
   input.preparation = {

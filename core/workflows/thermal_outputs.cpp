@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/base/atomic_file.h"
+#include "core/base/csv.h"
 #include "core/base/error.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
@@ -167,7 +168,8 @@ std::string SeveralOutputs::summary() const {
 
 void SeveralOutputs::writePrediction(const std::filesystem::path& file) const {
   std::string text = "time_s";
-  for (const std::string& name : names) text += ",measured_" + name + ",predicted_" + name;
+  for (const std::string& name : names)
+    text += "," + csvField("measured_" + name) + "," + csvField("predicted_" + name);
   text += '\n';
   for (std::size_t r = 0; r < results.front().time_s.size(); ++r) {
     text += exactNumber(results.front().time_s[r]);

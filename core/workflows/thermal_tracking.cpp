@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/base/atomic_file.h"
+#include "core/base/csv.h"
 #include "core/base/json_reader.h"
 #include "core/base/text.h"
 #include "core/base/unit_text.h"
@@ -393,7 +394,7 @@ std::string CompensateResult::summary() const {
 
 void CompensateResult::write(const std::filesystem::path& file) const {
   std::string text = "time_s";
-  for (const Output& o : outputs) text += ",compensation_" + o.name;
+  for (const Output& o : outputs) text += "," + csvField("compensation_" + o.name);
   text += '\n';
   for (std::size_t k = 0; k < time_s.size(); ++k) {
     text += exactNumber(time_s[k]);

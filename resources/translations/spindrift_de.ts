@@ -6113,10 +6113,6 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>das Feld ist leer; zulässig: ein Name.</translation>
     </message>
     <message>
-        <source>the file has {} bytes; at most {} are allowed for an image.</source>
-        <translation>die Datei hat {} Bytes; für ein Bild sind höchstens {} zulässig.</translation>
-    </message>
-    <message>
         <source>the file is empty; an image is needed (JPEG, PNG, TIFF, BMP or PGM).</source>
         <translation>die Datei ist leer; nötig ist ein Bild (JPEG, PNG, TIFF, BMP oder PGM).</translation>
     </message>
@@ -9281,6 +9277,50 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>{} of {} measurements were more than {:.0f} standard uncertainties off the prediction and were not used, the first at {:.6g} s ({:.2f} off); a second one in a row on the same side would have been.</source>
         <translation>{} von {} Messungen lagen mehr als {:.0f} Standardunsicherheiten neben der Vorhersage und wurden nicht verwendet, die erste bei {:.6g} s (um {:.2f}); eine zweite in Folge auf derselben Seite wäre verwendet worden.</translation>
+    </message>
+    <message>
+        <source>0, 1 or 2</source>
+        <translation>0, 1 oder 2</translation>
+    </message>
+    <message>
+        <source>The column {} of the log was left out: &quot;{}&quot; in line {} and {} more of its fields are no numbers.</source>
+        <translation>Die Spalte {} des Protokolls wurde weggelassen: „{}“ in Zeile {} und {} weitere ihrer Felder sind keine Zahlen.</translation>
+    </message>
+    <message>
+        <source>a model of one output</source>
+        <translation>ein Modell eines Ausgangs</translation>
+    </message>
+    <message>
+        <source>a number of cycles</source>
+        <translation>eine Anzahl von Zyklen</translation>
+    </message>
+    <message>
+        <source>no model before the log has a row</source>
+        <translation>kein Modell, bevor das Protokoll eine Zeile hat</translation>
+    </message>
+    <message>
+        <source>the file has {} bytes; at most {} are allowed.</source>
+        <translation>die Datei hat {} Bytes; höchstens {} sind zulässig.</translation>
+    </message>
+    <message>
+        <source>the name of the point &quot;{}&quot; cannot stand in a programme; allowed: letters, digits, _, - and .</source>
+        <translation>der Name des Punkts „{}“ kann nicht in einem Programm stehen; zulässig: Buchstaben, Ziffern, _, - und .</translation>
+    </message>
+    <message>
+        <source>the stored discrepancy holds lists of unequal length for {} of {}; search again.</source>
+        <translation>die gespeicherte Diskrepanz enthält für {} von {} Listen ungleicher Länge; erneut suchen.</translation>
+    </message>
+    <message>
+        <source>the stored evaluation cannot be read ({}); evaluate again.</source>
+        <translation>die gespeicherte Auswertung kann nicht gelesen werden ({}); erneut auswerten.</translation>
+    </message>
+    <message>
+        <source>the time offset of {} cannot be read ({}).</source>
+        <translation>der Zeitversatz von {} kann nicht gelesen werden ({}).</translation>
+    </message>
+    <message>
+        <source>gives more bytes than are allowed; allowed: at most {}.</source>
+        <translation>liefert mehr Bytes, als zulässig sind; zulässig: höchstens {}.</translation>
     </message>
 </context>
 <context>

@@ -1,12 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Feeds every reader with mutated files until one breaks:
-#   fuzz.sh [SECONDS for each reader | --in-all SECONDS | --runs RUNS for each reader] [READER ...]
+#   fuzz.sh [--whole-core] [SECONDS for each reader | --in-all SECONDS | --runs RUNS for each reader] [READER ...]
+# --whole-core: the readers that need most of core, whose program takes long to build.
 # --runs is for nights: 1,000,000 runs of one reader take minutes to hours. A reader that has had its runs (counted in
 # build-fuzz/runs/READER since the program was last built) is passed by, so that what was stopped goes on where it was.
 # What broke one lies in build-fuzz/crashes; put it into tests/fuzz/corpus/READER, where the normal test suite reads it too.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+target=fuzz_readers
+if [ "${1:-}" = --whole-core ]; then
+  target=fuzz_whole_core
+  shift
+fi
 in_all=
 runs=
 case "${1:-}" in
@@ -26,8 +32,8 @@ if ! [[ $amount =~ ^[1-9][0-9]*$ ]]; then
 fi
 shift || true
 cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target fuzz_readers
-program=build-fuzz/bin/fuzz_readers
+cmake --build --preset fuzz --target "$target"
+program=build-fuzz/bin/$target
 readers=("$@")
 if [ "${#readers[@]}" -eq 0 ]; then mapfile -t readers < <("$program" 2>&1 | tail -n +2); fi
 if [ "${#readers[@]}" -eq 0 ]; then

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// libFuzzer program: fuzz_readers --reader=NAME [libFuzzer's options] FOLDER...
+// libFuzzer programs: fuzz_readers --reader=NAME [libFuzzer's options] FOLDER..., and fuzz_whole_core of the readers
+// that need most of core.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -17,8 +18,12 @@ const Reader* chosen = nullptr;
 
 const Reader* find(std::string_view name) {
   using namespace spindrift::testing;
+#ifdef SPINDRIFT_WHOLE_CORE
+  for (const auto& list : {wholeCoreReaders()}) {
+#else
   for (const auto& list : {machineReaders(), imagingReaders(), probingReaders(), scanningReaders(), thermalReaders(),
                            finiteElementReaders(), simulatorReaders(), sessionReaders(), plantReaders()}) {
+#endif
     for (const Reader& reader : list) {
       if (name.empty()) std::fprintf(stderr, "%s\n", reader.name);
       if (name == reader.name) return &reader;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/error.h"
 #include "core/machine/machine_description.h"
 #include "core/probing/printed_text.h"
+#include "core/probing/program_block.h"
 #include "core/probing/touch.h"
 #include "core/probing/touch_stream.h"
 #include "tests/fuzz/readers.h"
@@ -41,7 +43,14 @@ void printed(std::string_view bytes) {
   (void)readPrintedText(text, "printed.txt", pattern, machine());
 }
 
-constexpr Reader readers[] = {{"touches", touches}, {"touch_stream", touchStream}, {"printed", printed}};
+/// Blocks of a measuring programme; the language is told by the text.
+void programBlocks(std::string_view bytes) {
+  for (const ProgramBlock& block : readProgramBlocks(bytes))
+    SPINDRIFT_ASSERT(block.line > 0, "a block says where it stands");
+}
+
+constexpr Reader readers[] = {
+    {"touches", touches}, {"touch_stream", touchStream}, {"printed", printed}, {"nc_program", programBlocks}};
 
 }  // namespace
 

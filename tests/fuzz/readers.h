@@ -27,7 +27,7 @@ struct Reader {
 [[nodiscard]] std::span<const Reader> simulatorReaders();
 [[nodiscard]] std::span<const Reader> sessionReaders();
 [[nodiscard]] std::span<const Reader> plantReaders();
-/// What needs most of core to be read, and is left to the normal test suite.
+/// What needs most of core to be read: a libFuzzer program of its own.
 [[nodiscard]] std::span<const Reader> wholeCoreReaders();
 
 /// Runs the reader. Returns its sentence, empty if it took the bytes; throws std::logic_error if the sentence is none

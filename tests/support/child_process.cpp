@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/child_process.h"
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <exception>
+#include <fstream>
 #include <stdexcept>
 
 namespace spindrift::testing {
@@ -34,6 +36,18 @@ std::string inChildProcess(const std::function<std::string()>& body) {
   ::waitpid(child, &status, 0);
   if (WIFSIGNALED(status)) return "ended by signal " + std::to_string(WTERMSIG(status));
   return answer;
+}
+
+bool limitMemory([[maybe_unused]] std::size_t bytes) {
+#if defined(__SANITIZE_ADDRESS__)
+  return false;
+#else
+  long pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlim_t most = static_cast<rlim_t>(pages) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + bytes;
+  const rlimit limit{most, most};
+  return ::setrlimit(RLIMIT_AS, &limit) == 0;
+#endif
 }
 
 }  // namespace spindrift::testing

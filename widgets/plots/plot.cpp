@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "core/base/atomic_file.h"
+#include "core/base/csv.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "widgets/common/parts.h"
@@ -480,8 +481,7 @@ void Plot::resizeEvent(QResizeEvent*) {
 QString Plot::csv() const {
   QString text = QStringLiteral("series,x,y,sigma\n");
   for (const Series& s : series_) {
-    const QString name = QString::fromStdString(s.name.contains(QLatin1Char(',')) ? "\"" + s.name.toStdString() + "\""
-                                                                                  : s.name.toStdString());
+    const QString name = QString::fromStdString(csvField(s.name.toStdString()));
     for (std::size_t i = 0; i < s.x.size(); ++i) {
       text += name + QLatin1Char(',') + QString::fromStdString(exactNumber(s.x[i])) + QLatin1Char(',') +
               QString::fromStdString(exactNumber(s.y[i])) + QLatin1Char(',') +

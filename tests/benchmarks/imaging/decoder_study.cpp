@@ -75,7 +75,7 @@ bool each_image = false;
 void addImage(Tally& tally, const MicroscopeScene& scene, std::uint64_t seed, const char* keep) {
   const FiducialPattern& pattern = standardPattern();
   const GrayImage image = renderFiducial(pattern, scene, seed);
-  const DecodeResult result = decodeImage(image);
+  const DecodeResult result = decodeImage(image, standardPattern());
   const SceneTruth truth = sceneTruth(pattern, scene, 2.0);
   const SceneTruth any = sceneTruth(pattern, scene, -40.0);
   const Tally before = tally;
@@ -207,7 +207,7 @@ void speed() {
       double components = 0.0;
       for (int round = 0; round < 5; ++round) {
         aruco = medianMilliseconds(9, [&] { cv::aruco::detectMarkers(frame, dictionary, corners, ids, parameters); });
-        own = medianMilliseconds(9, [&] { result = decodeImage(image); });
+        own = medianMilliseconds(9, [&] { result = decodeImage(image, standardPattern()); });
         components = medianMilliseconds(9, [&] {
           cv::adaptiveThreshold(seen, bright, 255, cv::ADAPTIVE_THRESH_MEAN_C, cv::THRESH_BINARY, 65, -12);
           cv::connectedComponents(bright, labels, 8, CV_32S);
@@ -249,7 +249,7 @@ int main(int argc, char** argv) {
     } else {
       files = true;
       const GrayImage image = readImage(argv[k]);
-      const DecodeResult r = decodeImage(image);
+      const DecodeResult r = decodeImage(image, standardPattern());
       int doubtful = 0;
       double sigma = 0.0;
       for (const Subpattern& s : r.subpatterns) {

@@ -5,11 +5,13 @@
 
 #include "core/base/error.h"
 #include "core/base/sha256.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::size_t entries(const std::filesystem::path& folder) {
@@ -55,6 +57,18 @@ TEST(AtomicFile, FailureNamesTheFileAndKeepsTheOldContent) {
 TEST(AtomicFile, FullDeviceIsAnErrorNotALoss) {
   if (!std::filesystem::exists("/dev/full")) return;
   EXPECT_THROW(writeFileAtomically("/dev/full", std::string(100000, 'x')), InputError);
+}
+
+TEST(ReadFile, WhatIsLargerThanAllowedIsRefusedUnread) {
+  const testing::TempFolder folder;
+  const std::filesystem::path file = folder.write("file.bin", "12345678");
+  EXPECT_EQ(readFile(file, 8), "12345678");
+  const std::string said = testing::refusal([&] { (void)readFile(file, 7); });
+  EXPECT_THAT(said, AllOf(HasSubstr("file.bin"), HasSubstr("8 bytes"), HasSubstr("at most 7 ")));
+  std::filesystem::resize_file(file, 1'000'000'000'000);  // without a byte of them on the disk
+  EXPECT_THAT(testing::refusal([&] { (void)readFile(file, 1000); }), HasSubstr("1000000000000 bytes"));
+  // What does not say how long it is.
+  EXPECT_THAT(testing::refusal([&] { (void)readFile("/dev/zero", 1'000'000); }), HasSubstr("at most 1000000."));
 }
 
 }  // namespace

@@ -30,6 +30,14 @@ TEST(InputError, SaysWhereWithANumberAndWhatWithoutThePlace) {
   EXPECT_EQ(InputError("No campaign is open.").sentence(), "No campaign is open.");
 }
 
+TEST(InputError, WhatItQuotesOfTheDataIsPrintable) {
+  for (const InputError& error :
+       {InputError("\"a\nb\xE4\" is not known."), InputError({}, "\"a\nb\xE4\" is not known.")}) {
+    EXPECT_STREQ(error.what(), "\"a b\xEF\xBF\xBD\" is not known.");
+    EXPECT_EQ(error.sentence(), error.what());
+  }
+}
+
 TEST(InputError, ReadersStateTheLine) {
   try {
     const CsvTable table = CsvTable::parse("# a comment\ntime_s,x\n0,1\n1,b\n", "log.csv");

@@ -139,7 +139,7 @@ TEST(Genicam, FiducialsAreDecodedFromWholeFramesWhilePacketsAreLost) {
   scene.height_px = height;
   scene.map = poseAt(width, height, 2.2, 0.4, {1230, 1310}, {256, 256});
   const GrayImage picture = renderFiducial(standardPattern(), scene, 7);
-  const DecodeResult expected = decodeImage(picture);
+  const DecodeResult expected = decodeImage(picture, standardPattern());
   ASSERT_TRUE(expected.usable()) << expected.message;
   FakeGigeCamera peer("GVS02", 0.005);
   ASSERT_TRUE(peer.running());
@@ -152,7 +152,7 @@ TEST(Genicam, FiducialsAreDecodedFromWholeFramesWhilePacketsAreLost) {
   ASSERT_TRUE(waitUntil(
       [&] {
         if (const auto image = camera->read(0.5)) {
-          const DecodeResult seen = decodeImage(*image);
+          const DecodeResult seen = decodeImage(*image, standardPattern());
           EXPECT_TRUE(seen.usable()) << seen.message;
           EXPECT_EQ(seen.subpatterns.size(), expected.subpatterns.size());
           EXPECT_NEAR(seen.map.tilt_rad, scene.map.tilt_rad, 1e-3);

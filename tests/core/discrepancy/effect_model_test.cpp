@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/discrepancy/effect_model.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,10 +10,14 @@
 
 #include "core/base/random.h"
 #include "core/discrepancy/catalogue.h"
+#include "tests/support/outside_folder.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
+
+using ::testing::HasSubstr;
 
 /// A machine that can have every effect of the catalogue.
 MachineDescription everyMachine() {
@@ -187,6 +192,21 @@ TEST(EffectModel, HeatWhereTheHeadStoodMovesTheToolAlongZ) {
     ASSERT_FALSE(effect.variants.empty());
     EXPECT_TRUE(effect.variants[0].inputs[0].driver.ends_with(std::string("pos_") + effect.id.back()));
   }
+}
+
+TEST(EffectModel, TheTableLiesInTheFolderOfTheModel) {
+  const std::string table = "time_s,point,component,predicted\n0,F1,EX,1\n10,F1,EX,2\n";
+  const testing::OutsideFolder outside("simulation.csv", table);
+  const MachineDescription machine = everyMachine();
+  const auto said = [&](const std::string& name) {
+    const nlohmann::json model = {
+        {"format", "spindrift-error-model"}, {"version", 1}, {"effects", nlohmann::json::array()}, {"table", name}};
+    return testing::refusal(
+        [&] { (void)EffectModel::read(outside.write("model.json", model.dump()), machine, nullptr, {"F1"}); });
+  };
+  for (const std::string& name : outside.names()) EXPECT_THAT(said(name), HasSubstr("inside the folder")) << name;
+  (void)outside.write("sub/simulation.csv", table);
+  EXPECT_EQ(said("sub/simulation.csv"), "");
 }
 
 }  // namespace

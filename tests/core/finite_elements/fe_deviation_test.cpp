@@ -11,12 +11,14 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "tests/support/outside_folder.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -333,6 +335,20 @@ TEST(FeMap, RefusesWhatIsWrong) {
   EXPECT_THAT(with(R"("unit_of_displacement":"mm","components":["EW"],)" + points), HasSubstr("EW"));
   EXPECT_THAT(with(R"("unit_of_displacement":"mm","state_interval_s":0,)" + points), HasSubstr("state_interval_s"));
   EXPECT_THAT(mapRefusal(R"({"format":"spindrift-finite-elements","version":9})"), HasSubstr("version"));
+}
+
+TEST(FeMap, NamesFilesInItsFolder) {
+  const testing::OutsideFolder outside("mech.frd", "");
+  const auto said = [&](const std::string& key, const std::string& name) {
+    nlohmann::json map = {{"format", "spindrift-finite-elements"}, {"version", 1}, {"result", "own.frd"}};
+    map[key] = name;
+    return testing::refusal([&] { (void)FeMap::read(outside.write("fe.json", map.dump())); });
+  };
+  for (const char* key : {"result", "mesh", "observe"}) {
+    for (const std::string& name : outside.names())
+      EXPECT_THAT(said(key, name), AllOf(HasSubstr("inside the folder"), HasSubstr(key))) << key << " " << name;
+    EXPECT_EQ(said(key, "sub/own.frd"), "");
+  }
 }
 
 }  // namespace

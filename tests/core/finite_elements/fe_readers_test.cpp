@@ -7,12 +7,14 @@
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/finite_elements/fe_result.h"
+#include "tests/support/outside_folder.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::refusal;
@@ -153,6 +155,16 @@ TEST(AbaqusMesh, ReadsNodesSetsRangesAndIncludes) {
   EXPECT_THAT(said("*NSET\n1, 2\n"), HasSubstr("names no set"));
   EXPECT_THAT(said("*INCLUDE, INPUT=none.inp\n"), HasSubstr("none.inp"));
   EXPECT_THAT(said("*INCLUDE, INPUT=bad.inp\n"), HasSubstr("at most 8 files"));
+}
+
+TEST(AbaqusMesh, IncludesFilesOfItsFolder) {
+  const testing::OutsideFolder outside("nodes.inp", "*NODE\n1, 0, 0, 5\n");
+  for (const std::string& name : outside.names()) {
+    const std::filesystem::path mesh = outside.write("mesh.inp", "*HEADING\n*INCLUDE, INPUT=" + name + "\n");
+    EXPECT_THAT(refusal([&] { (void)readAbaqusMesh(mesh); }),
+                AllOf(HasSubstr("mesh.inp, line 2"), HasSubstr("inside the folder")))
+        << name;
+  }
 }
 
 }  // namespace

@@ -34,13 +34,13 @@ TEST(DecoderSpeed, AFrameFullOfEllipsesTakesHardlyMoreThanThresholdAndComponents
   const cv::Mat seen(image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.data()));
   cv::Mat bright;
   cv::Mat labels;
-  DecodeResult result = decodeImage(image);  // what is made once is made
+  DecodeResult result = decodeImage(image, standardPattern());  // what is made once is made
   ASSERT_GE(result.subpatterns.size(), 60u) << result.message;
   // The least of many: whatever else the machine does only adds.
   double own = std::numeric_limits<double>::infinity();
   double components = own;
   for (int round = 0; round < 15; ++round) {
-    own = std::min(own, processorTime([&] { result = decodeImage(image); }));
+    own = std::min(own, processorTime([&] { result = decodeImage(image, standardPattern()); }));
     components =
         std::min(components, processorTime([&] {
                    cv::adaptiveThreshold(seen, bright, 255, cv::ADAPTIVE_THRESH_MEAN_C, cv::THRESH_BINARY, 65, -12);

@@ -53,7 +53,7 @@ TEST(Decoder, FindsEveryEllipseAtAnyTurnAndPixelLength) {
   for (const double tilt_deg : {0.0, 47.0, 91.0, 135.0, 180.0, 226.0, 271.0, 333.0}) {
     const double pixel = 1.2 + 0.18 * k;
     MicroscopeScene scene = smallScene(pixel, tilt_deg * std::numbers::pi / 180.0, 2e-9);
-    const DecodeResult result = decodeImage(renderFiducial(standardPattern(), scene, 100 + k++));
+    const DecodeResult result = decodeImage(renderFiducial(standardPattern(), scene, 100 + k++), standardPattern());
     ASSERT_TRUE(result.usable()) << tilt_deg << ": " << result.message;
     score.add(result, scene, standardPattern());
     EXPECT_NEAR(std::remainder(result.map.tilt_rad - scene.map.tilt_rad, 2 * std::numbers::pi), 0.0, 5e-5);
@@ -81,7 +81,7 @@ TEST(Decoder, HardImagesKeepTheirNumbersAndTheirUncertainty) {
     for (const SceneTruth::Mark& mark : sceneTruth(standardPattern(), scene).ellipses) {
       if (random.uniform() < 0.2) scene.damaged_digits.emplace_back(mark.a, mark.b);
     }
-    const DecodeResult result = decodeImage(renderFiducial(standardPattern(), scene, 500 + k));
+    const DecodeResult result = decodeImage(renderFiducial(standardPattern(), scene, 500 + k), standardPattern());
     ASSERT_TRUE(result.usable()) << k << ": " << result.message;
     score.add(result, scene, standardPattern());
   }
@@ -95,7 +95,7 @@ TEST(Decoder, HardImagesKeepTheirNumbersAndTheirUncertainty) {
 TEST(Decoder, DamagedDigitsAreNumberedByTheirNeighbours) {
   MicroscopeScene scene = smallScene(1.5, 0.4);
   scene.damaged_digits = {{14, 14}, {15, 14}};
-  const DecodeResult result = decodeImage(renderFiducial(standardPattern(), scene, 3));
+  const DecodeResult result = decodeImage(renderFiducial(standardPattern(), scene, 3), standardPattern());
   ASSERT_TRUE(result.usable()) << result.message;
   Score score;
   score.add(result, scene, standardPattern());
@@ -106,7 +106,7 @@ TEST(Decoder, DamagedDigitsAreNumberedByTheirNeighbours) {
 TEST(Decoder, MirroredImageIsReadAndSaid) {
   MicroscopeScene scene = smallScene(1.5, 0.4);
   scene.map = poseAt(scene.width_px, scene.height_px, 1.5, 0.4, {1230, 1310}, {470, 330}, 0.0, true);
-  const DecodeResult result = decodeImage(renderFiducial(standardPattern(), scene, 3));
+  const DecodeResult result = decodeImage(renderFiducial(standardPattern(), scene, 3), standardPattern());
   ASSERT_TRUE(result.usable()) << result.message;
   EXPECT_TRUE(result.map.mirrored);
   Score score;
@@ -134,7 +134,7 @@ TEST(Decoder, OwnPatternIsDecoded) {
 }
 
 void expectRejected(const GrayImage& image, const std::string& word) {
-  const DecodeResult result = decodeImage(image);
+  const DecodeResult result = decodeImage(image, standardPattern());
   EXPECT_EQ(result.status, FitStatus::Rejected);
   EXPECT_NE(result.message.find(word), std::string::npos) << result.message;
 }
@@ -164,7 +164,7 @@ TEST(Decoder, NoiseAloneIsNoPattern) {
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) image.at(x, y) = static_cast<std::uint8_t>(random.index(256));
   }
-  const DecodeResult result = decodeImage(image);
+  const DecodeResult result = decodeImage(image, standardPattern());
   EXPECT_EQ(result.status, FitStatus::Rejected);
   EXPECT_TRUE(result.subpatterns.empty());
 }

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <cstdint>
 #include <cstdlib>
@@ -44,9 +43,6 @@ void writeEmptyImage(const std::filesystem::path& file, int width, int height) {
 }
 
 TEST(FiducialImagesTest, AnImageThatTheMemoryCannotHoldCostsItselfAndNotTheRun) {
-#if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "the sanitizer takes more address space than any limit";
-#endif
   const testing::TempFolder folder;
   GrayImage speckled(320, 240);
   Random random(19);
@@ -57,16 +53,13 @@ TEST(FiducialImagesTest, AnImageThatTheMemoryCannotHoldCostsItselfAndNotTheRun) 
   FiducialCaptureList list;
   list.captures = {focusOf("large.pgm", 0.0), focusOf("small.png", 1.0)};
   const std::string answer = testing::inChildProcess([&] {
-    long pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    const auto now = static_cast<rlim_t>(pages) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
-    const rlimit limit{now + 240'000'000, now + 240'000'000};
-    ::setrlimit(RLIMIT_AS, &limit);
+    if (!testing::limitMemory(240'000'000)) return std::string("no limit");
     const FiducialImages images = measureFiducialImages(folder.path(), list, standardPattern(), JobContext());
     std::string text = images.images[1].usable ? "small is there" : "small is lost";
     for (const RejectedCapture& rejected : images.rejected) text += "; " + rejected.capture + ": " + rejected.reason;
     return text;
   });
+  if (answer == "no limit") GTEST_SKIP() << "the sanitizer takes more address space than any limit";
   EXPECT_THAT(answer, AllOf(HasSubstr("small is there"), HasSubstr("large.pgm: "), HasSubstr("memory")));
 }
 
@@ -118,6 +111,17 @@ TEST(ReadImage, OnlyTheFormatsThatAreNamedAreRead) {
     EXPECT_THAT(testing::refusal([&] { (void)decodeImageBytes(bytes, "a.img"); }),
                 HasSubstr("JPEG, PNG, TIFF, BMP or PGM"));
   }
+}
+
+TEST(ReadImage, AFileThatIsTooLargeForAnImageIsNotRead) {
+  const testing::TempFolder folder;
+  const std::filesystem::path file = folder.write("large.png", "\x89PNG\r\n\x1a\n");
+  std::filesystem::resize_file(file, 900'000'000);
+  const std::string answer = testing::inChildProcess([&] {
+    (void)testing::limitMemory(100'000'000);
+    return testing::refusal([&] { (void)readImage(file); });
+  });
+  EXPECT_THAT(answer, AllOf(HasSubstr("large.png"), HasSubstr("900000000"), HasSubstr("800000000")));
 }
 
 }  // namespace

@@ -45,7 +45,17 @@ TEST(LogTable, ColumnsOfNumbersKeepTheirGapsAndColumnsOfWordsTheirPlace) {
   EXPECT_EQ(note.words_at->line, 3U);
   EXPECT_EQ(note.words, "stop");
   EXPECT_EQ(note.numbers, 1U);
+  EXPECT_EQ(note.word_count, 2U);
   EXPECT_TRUE(note.values.empty());
+}
+
+TEST(LogTable, AWordAmongNumbersIsNoNumberAndLosesNoOther) {
+  const LogTable table = read("time_s,a,b\n0,1,x\n1,inf,\n2,3,2\n");
+  EXPECT_EQ(table.columns[0].words, "inf");
+  ASSERT_EQ(table.columns[0].values.size(), 3U);
+  EXPECT_TRUE(std::isnan(table.columns[0].values[1]));
+  EXPECT_EQ(table.columns[0].values[2], 3.0);
+  EXPECT_EQ(table.columns[1].values.size(), 3U) << "half of the fields that hold something are numbers";
 }
 
 TEST(LogTable, NanIsMissingOnlyWhereItIsAskedFor) {

@@ -45,8 +45,23 @@ TEST(OperatingLog, ExtraColumnsOfAnyContentNeverMakeItUnreadable) {
   const auto log = OperatingLog::read(folder.write("log.csv",
                                                    "time_s,alarm,spindle_rpm,program,load\n0,0,1000,\"O1, a\",1\n"
                                                    "1,E-stop,2000,7,\n2,nan,0,inf,1e999\n3,,0,-,2\n"));
-  EXPECT_THAT(log.names(), ElementsAre("spindle_rpm"));
+  EXPECT_THAT(log.names(), ElementsAre("spindle_rpm", "load"));
   EXPECT_THAT(*log.signal("spindle_rpm"), ElementsAre(1000, 2000, 0, 0));
+  EXPECT_THAT(*log.signal("load"), ElementsAre(1, 1, 1, 2));
+}
+
+TEST(OperatingLog, AWordAmongNumbersIsAValueThatIsNotKnown) {
+  const testing::TempFolder folder;
+  const auto file =
+      folder.write("log.csv", "time_s,flow,load,state,power\n0,4,1,on,9\n1,fail,inf,,1e999\n2,,3,off,8\n3,6,4,5,7\n");
+  const auto log = OperatingLog::read(file);
+  EXPECT_THAT(log.names(), ElementsAre("flow", "load", "power"));
+  EXPECT_THAT(*log.signal("flow"), ElementsAre(4, 4, 4, 6));
+  EXPECT_THAT(*log.signal("load"), ElementsAre(1, 1, 3, 4));
+  EXPECT_THAT(*log.signal("power"), ElementsAre(9, 9, 8, 7));
+  EXPECT_THAT(OperatingLog::columnsLeftOut(file),
+              ElementsAre("The column state of the log was left out: \"on\" in line 2 and 1 more of its fields are no "
+                          "numbers."));
 }
 
 TEST(OperatingLog, BadInputIsNamed) {

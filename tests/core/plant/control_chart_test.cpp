@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/base/csv.h"
 #include "core/base/random.h"
 #include "core/plant/plant_overview.h"
 #include "tests/core/plant/both_stores.h"
@@ -216,6 +217,13 @@ TEST_P(PlantOverviewTest, TrendAsksForTheKindWhereTwoHaveTheParameter) {
   EXPECT_EQ(machineTrend(store, "mill", "fit/EZ_um", "", {}).chart.points.size(), 1U);
   EXPECT_THAT(refusal([&] { (void)machineTrend(store, "mill", "EQ", "", {}); }), HasSubstr("no parameter \"EQ\""));
   EXPECT_THAT(machineTrend(store, "mill", "fit/EZ_um", "", {}).csv(), HasSubstr("week 1,1,0.1,"));
+}
+
+TEST(MachineTrend, NamesOfCampaignsAreTextInTheTable) {
+  MachineTrend trend;
+  trend.chart.points.emplace_back().point.campaign_name = "=1+1,\"x\"";
+  const CsvTable table = CsvTable::parse(trend.csv(), "trend.csv");
+  EXPECT_EQ(table.text(0, table.column("campaign")), "=1+1,\"x\"");
 }
 
 }  // namespace

@@ -4,13 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "core/base/atomic_file.h"
 #include "core/scanning/cloud_file.h"
+#include "core/scanning/evaluate_scans.h"
 #include "core/scanning/painted_mask.h"
 #include "core/scanning/scan_picture.h"
 #include "core/scanning/scan_points.h"
 #include "core/simulation/virtual_profiler.h"
+#include "tests/support/child_process.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -128,6 +132,43 @@ TEST(ScanPicture, ShowsTheChangeAndWhatRegistrationLeaves) {
                           ScanModel::Rigid, JobContext())
                 .colouring,
             ScanColouring::Height);
+}
+
+TEST(ScanCheck, ACloudThatTheMemoryCannotHoldCostsItselfAndNotTheRun) {
+  const testing::TempFolder folder;
+  writeScans(folder / "c");
+  // All of its bytes are zero, and none of them is on the disk.
+  constexpr std::size_t points = 20'000'000;
+  const std::filesystem::path large = folder / "c/captures/clouds/A1_C1.pcd";
+  std::ofstream(large) << "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " << points
+                       << "\nHEIGHT 1\nPOINTS " << points << "\nDATA binary\n";
+  std::filesystem::resize_file(large, std::filesystem::file_size(large) + 12 * points);
+  const Campaign campaign = Campaign::read(folder / "c");
+  const std::string answer = testing::inChildProcess([&] {
+    if (!testing::limitMemory(400'000'000)) return std::string("no limit");
+    std::string text;
+    for (const ScanCheck& check : checkScans(campaign, JobContext()))
+      text += check.capture.cycle + (check.usable ? " usable; " : " lost: " + check.reason + "; ");
+    JobContext job;
+    for (const RejectedCapture& rejected : evaluateScans(campaign, "", job).rejected)
+      text += "rejected " + rejected.reason;
+    return text;
+  });
+  if (answer == "no limit") GTEST_SKIP() << "the sanitizer takes more address space than any limit";
+  EXPECT_EQ(answer,
+            "C0 usable; C1 lost: there is not enough memory for the cloud; C2 usable; "
+            "rejected captures/clouds/A1_C1.pcd: there is not enough memory for the cloud.");
+}
+
+TEST(ReadCloud, AFileThatIsTooLargeForACloudIsNotRead) {
+  const testing::TempFolder folder;
+  const std::filesystem::path file = folder.write("large.pcd", "VERSION 0.7\n");
+  std::filesystem::resize_file(file, 100'000'000'000);
+  const std::string answer = testing::inChildProcess([&] {
+    (void)testing::limitMemory(100'000'000);
+    return testing::refusal([&] { (void)readCloud(file); });
+  });
+  EXPECT_NE(answer.find("100000000000 bytes"), std::string::npos) << answer;
 }
 
 }  // namespace

@@ -345,6 +345,35 @@ TEST(Session, ARowThatACrashCutShortIsTakenBackAndOneThatSomebodyWroteIsNot) {
   EXPECT_EQ(readFile(list), "time_s,what\n0,z\n1,a\n");
 }
 
+TEST(Session, WhatACrashLeftHalfDoneIsTakenBackBeforeTheOldDatabaseIsCopied) {
+  const TempFolder folder;
+  writeVersion1(folder, "old");
+  const std::filesystem::path file = folder / "old/session.sqlite";
+  const std::string before = readFile(file);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    // Ends in the middle of a change of which the first pages are in the file.
+    sqlite3* handle = nullptr;
+    const bool begun = sqlite3_open(file.c_str(), &handle) == SQLITE_OK &&
+                       sqlite3_exec(handle,
+                                    "pragma cache_size = 1; begin immediate; update result set payload = '{}'; "
+                                    "insert into setting select 'half done', hex(zeroblob(200000))",
+                                    nullptr, nullptr, nullptr) == SQLITE_OK;
+    ::_exit(begun ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  ASSERT_GT(std::filesystem::file_size(file.string() + "-journal"), 0U);
+  ASSERT_NE(readFile(file), before);
+  const Session session = Session::open(folder / "old");
+  EXPECT_EQ(session.migrationMessages().size(), 1U);
+  EXPECT_EQ(session.latestResult(1, "fit")->payload.at("rms_um"), 1.5);
+  EXPECT_FALSE(session.setting("half done"));
+  EXPECT_EQ(readFile(file.string() + ".version-1"), before);
+}
+
 TEST(Session, AMigrationThatCannotKeepACopyChangesNothing) {
   const TempFolder folder;
   writeVersion1(folder, "old");

@@ -69,7 +69,8 @@ TEST(VirtualFiducials, WritesACampaignThatDecodesToItsDeviation) {
   const CsvTable table = CsvTable::read(folder.path() / "captures" / "fiducials.csv");
   ASSERT_EQ(table.rowCount(), 16U);
   const auto under = [&](std::size_t row) {
-    const DecodeResult r = decodeImage(readImage(folder.path() / std::string(table.text(row, table.column("image")))));
+    const DecodeResult r =
+        decodeImage(readImage(folder.path() / std::string(table.text(row, table.column("image")))), standardPattern());
     EXPECT_TRUE(r.usable()) << r.message;
     return r.map.patternOf(options.cor_px);
   };

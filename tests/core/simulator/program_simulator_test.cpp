@@ -322,6 +322,16 @@ TEST_F(ProgramSimulatorTest, RefusesASimulatorThatIsNotAsDescribed) {
   expect("/sensor_values", nlohmann::json::parse(R"({"sensor.T_room_degC.gain": 0.1})"), "a value of a sensor");
 }
 
+TEST_F(ProgramSimulatorTest, RefusesALinkOutOfItsFolder) {
+  temp.write("outside/values.txt.in", "a\n{{a}}\n");
+  std::filesystem::create_symlink(temp / "outside/values.txt.in", temp / "sim/link.in");
+  std::filesystem::create_directory_symlink(temp / "outside", temp / "sim/linked");
+  for (const char* pointer : {"/templates/0", "/include/0"}) {
+    for (const char* name : {"link.in", "linked/values.txt.in"})
+      EXPECT_THAT(refusalOf(pointer, name), AllOf(HasSubstr("simulator.json"), HasSubstr("by a link"))) << name;
+  }
+}
+
 TEST_F(ProgramSimulatorTest, RefusesATemplateWithUnknownNames) {
   const auto said = [&](const std::string& text) {
     temp.write("sim/values.txt.in", text);

@@ -330,6 +330,83 @@ TEST(Compensator, TheInterfaceForCChecksLengthsSizesAndNames) {
   spindrift_compensator_free(c);
 }
 
+/// Of a model that can be loaded.
+class CompensatorInC : public ::testing::Test {
+ protected:
+  CompensatorInC() {
+    model().write(folder_ / "model.json");
+    options_.struct_size = sizeof options_;
+    options_.cycle_s = 1.0;
+    options_.slew_per_s = 1e6;
+  }
+  ~CompensatorInC() override { spindrift_compensator_free(loaded_); }
+  /// The sentence why not, else empty.
+  std::string load() {
+    spindrift_compensator_free(loaded_);
+    char message[300] = "";
+    loaded_ = spindrift_compensator_load_with((folder_ / "model.json").c_str(), &options_, message, sizeof message);
+    return message;
+  }
+  int step(const double* inputs, const double* age_s = nullptr) {
+    return spindrift_compensator_step(loaded_, inputs, age_s, &out_);
+  }
+
+  static constexpr double good[2] = {3000.0, 24.0};
+  testing::TempFolder folder_;
+  spindrift_compensator_options options_{};
+  spindrift_compensator* loaded_ = nullptr;
+  double out_ = 7.0;
+};
+
+TEST_F(CompensatorInC, BoundsTheGainsThatAreTaken) {
+  options_.least_gain = 0.9;
+  options_.most_gain = 1.5;
+  ASSERT_EQ(load(), "");
+  EXPECT_EQ(spindrift_compensator_update(loaded_, 0, 0.5, 0.0), 0);
+  EXPECT_EQ(spindrift_compensator_update(loaded_, 0, 2.0, 0.0), 0);
+  EXPECT_EQ(spindrift_compensator_update(loaded_, 0, 1.4, 0.0), 1);
+  // A caller of the version without them: what stands behind its struct is not read.
+  options_.struct_size = offsetof(spindrift_compensator_options, least_gain);
+  ASSERT_EQ(load(), "");
+  EXPECT_EQ(spindrift_compensator_update(loaded_, 0, 0.5, 0.0), 1);
+  EXPECT_EQ(spindrift_compensator_update(loaded_, 0, 4.0, 0.0), 1);
+  options_.struct_size = sizeof options_;
+  options_.least_gain = SPINDRIFT_COMPENSATOR_ZERO;
+  options_.most_gain = SPINDRIFT_COMPENSATOR_ZERO;
+  EXPECT_NE(load(), "");
+}
+
+TEST_F(CompensatorInC, ZeroCanBeAskedFor) {
+  const double late[2] = {0.0, 0.5};
+  ASSERT_EQ(load(), "");
+  for (int i = 0; i < 20; ++i) (void)step(good);
+  EXPECT_EQ(step(good, late), SPINDRIFT_COMPENSATOR_RUNNING);
+  options_.stale_after_s = SPINDRIFT_COMPENSATOR_ZERO;
+  options_.recover_after_s = SPINDRIFT_COMPENSATOR_ZERO;
+  ASSERT_EQ(load(), "");
+  EXPECT_EQ(step(good), SPINDRIFT_COMPENSATOR_RUNNING);
+  EXPECT_EQ(step(good, late), SPINDRIFT_COMPENSATOR_HOLDING);
+  options_.stale_after_s = -2.0;
+  EXPECT_NE(load(), "");
+}
+
+TEST_F(CompensatorInC, WithoutInputsTheOutputsAreHeldAndFaded) {
+  options_.stale_after_s = 5.0;
+  ASSERT_EQ(load(), "");
+  for (int i = 0; i < 20; ++i) (void)step(good);
+  const double held = out_;
+  ASSERT_NE(held, 0.0);
+  for (int i = 0; i < 5; ++i) {
+    out_ = 7.0;
+    EXPECT_EQ(step(nullptr), SPINDRIFT_COMPENSATOR_HOLDING);
+    EXPECT_NEAR(out_, held, 0.05 * std::abs(held)) << i;
+  }
+  EXPECT_EQ(spindrift_compensator_step_sized(loaded_, nullptr, 0, nullptr, 0, &out_, 1),
+            SPINDRIFT_COMPENSATOR_FALLBACK);
+  EXPECT_EQ(out_, 0.0);
+  EXPECT_EQ(spindrift_compensator_step_sized(loaded_, nullptr, 2, nullptr, 0, &out_, 1), -1);
+}
+
 TEST(Compensator, WorksFromC) {
   const testing::TempFolder folder;
   model().write(folder / "model.json");

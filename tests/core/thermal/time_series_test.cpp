@@ -78,6 +78,18 @@ TEST(TimeSeries, RefusesWhatCannotBeMeant) {
   EXPECT_NEAR(parseTimeSeries("time_s,T_a_degC\n0,68\n", "log.csv", fahrenheit).at("T_a_degC").values[0], 20.0, 1e-9);
 }
 
+TEST(TimeSeries, AWordAmongNumbersOfAnotherSignalIsMissing) {
+  const TimeSeries s =
+      parseTimeSeries("time_s,ez_um,flow,alarm\n0,1,4,none\n10,2,fail,E7\n20,3,6,0\n30,4,1e999,0\n", "log.csv");
+  ASSERT_EQ(s.at("flow").values.size(), 4U);
+  EXPECT_TRUE(std::isnan(s.at("flow").values[1]));
+  EXPECT_EQ(s.at("flow").values[2], 6.0);
+  EXPECT_THAT(s.notes, ::testing::Contains(HasSubstr("2 of 4 values of flow are missing")));
+  const TimeSeries words = parseTimeSeries("time_s,ez_um,alarm\n0,1,none\n10,2,E7\n20,3,0\n", "log.csv");
+  EXPECT_EQ(words.signals.size(), 1U);
+  EXPECT_THAT(words.notes, ::testing::Contains(HasSubstr("column alarm holds text")));
+}
+
 TEST(TimeSeries, FindsOutliersStepsAndGaps) {
   std::string text = "time_s,a_um\n";
   for (int i = 0; i < 200; ++i) {

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/base/atomic_file.h"
+#include "core/base/csv.h"
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
@@ -130,6 +131,19 @@ TEST(LoopAtAStandIn, GoesOnWhereItWasKilledAndLosesNothing) {
   EXPECT_LT(left, 0.2 * std::abs(result.cycles.back().without_um.z()));
   // It has ended, and is not begun again over what it left.
   EXPECT_THAT(refusal([&] { (void)runClosedLoop(plan, control, who, campaign, job); }), HasSubstr("reached its end"));
+}
+
+TEST(LoopAtAStandIn, NamesOfColumnsAreTextInWhatItLeaves) {
+  LoopPlan plan = identifyingPlan(1.0);
+  plan.temperatures = {"=1+1,\"x\""};
+  StandInMachine machine(factor, growth_um);
+  StandInControl control(machine);
+  const TempFolder folder;
+  JobContext job;
+  EXPECT_THROW((void)runClosedLoop(plan, control, agreeing(), folder / "loop", job,
+                                   [](const LoopStatus&, const LoopResult&) { throw Killed{}; }),
+               Killed);
+  EXPECT_EQ(CsvTable::read(folder / "loop" / "log.csv").columnNames().back(), plan.temperatures.front());
 }
 
 TEST(LoopAtAStandIn, IsNotTakenUpWithAnotherPlanNorOverSomethingElse) {

@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/sha256.h"
 #include "core/base/units.h"
+#include "core/imaging/artwork.h"
 #include "core/imaging/fiducial_captures.h"
 #include "core/imaging/image.h"
 #include "core/scanning/scan_evaluation.h"
@@ -19,6 +20,7 @@
 #include "core/simulation/virtual_microscope.h"
 #include "tests/core/probing/probing_machines.h"
 #include "tests/support/arrival_costs.h"
+#include "tests/support/child_process.h"
 #include "tests/support/temp_folder.h"
 
 namespace spindrift {
@@ -26,14 +28,14 @@ namespace {
 
 /// Of a camera that is turned with the spindle by `turned_deg` and moved along X by `moved_um`.
 std::string imageBytes(std::uint64_t seed, double blur_px = 1.0, double mark_level = 200.0, double turned_deg = 0.0,
-                       double moved_um = 0.0) {
+                       double moved_um = 0.0, const FiducialPattern& pattern = standardPattern()) {
   MicroscopeScene scene;
   scene.width_px = 640;
   scene.height_px = 480;
   scene.map = poseAt(640, 480, 2.0, 0.1 + turned_deg * rad_per_deg, {moved_um, 0}, {319.5, 239.5});
   scene.blur_sigma_px = blur_px;
   scene.mark_level = mark_level;
-  return encodePng(renderFiducial(standardPattern(), scene, seed));
+  return encodePng(renderFiducial(pattern, scene, seed));
 }
 
 constexpr const char* machine_text =
@@ -268,6 +270,31 @@ TEST_F(Incoming, ImagesThatContradictThePlanAreAskedForAgain) {
         << c.sentence;
   }
   EXPECT_EQ(bad, 1U);
+}
+
+TEST_F(Incoming, ImagesOfTheCampaignsOwnPatternAreTakenAndNoOthers) {
+  const FiducialPattern own =
+      makePattern({.rows = 7, .columns = 7, .first_row = 31, .first_column = 51, .pitch_um = 455.0});
+  writeFileAtomically(campaign().path("pattern.json"), patternJson(own));
+  plan(PlannedKind::Image);
+  put("a.png", imageBytes(1));
+  pass(3.0);
+  EXPECT_EQ(item("a.png").state, IncomingState::Retake) << item("a.png").sentence;
+  put("b.png", imageBytes(2, 1.0, 200.0, 0.0, 0.0, own));
+  pass(3.0);
+  EXPECT_EQ(item("b.png").state, IncomingState::Accepted) << item("b.png").sentence;
+  // From a camera, turned as the plan says and not.
+  const IncomingContext context =
+      incomingContext(campaign(), storedPlan(session_, id_), incomingJournal(session_, id_), false);
+  const auto taken = [&](const std::string& bytes) { return examineImage(bytes, "camera 1", 0, context).item; };
+  EXPECT_EQ(taken(imageBytes(3, 1.0, 200.0, 90.0, 0.0, own)).state, IncomingState::Accepted);
+  EXPECT_EQ(taken(imageBytes(4, 1.0, 200.0, 20.0, 0.0, own)).state, IncomingState::Retake);
+  EXPECT_EQ(taken(imageBytes(5, 1.0, 200.0, 90.0)).state, IncomingState::Retake);
+  // The check of the list reads them with the same pattern.
+  JobContext job;
+  const std::vector<CheckedCapture> checked = checkFiducialCaptures(campaign(), job);
+  ASSERT_EQ(checked.size(), 1U);
+  EXPECT_TRUE(checked[0].good) << checked[0].sentence;
 }
 
 TEST_F(Incoming, ReopenedSessionsKnowWhatArrived) {
@@ -682,6 +709,45 @@ TEST(CaptureIntakeTest, RetakesVanishWhenTheyHaveBeenTakenAgain) {
   EXPECT_TRUE(intake.retakes({"M0_F1"}).empty());
   EXPECT_TRUE(intake.takeFinished(true).empty()) << "no touches are expected";
   EXPECT_EQ(intake.touchCount(), 0U);
+}
+
+/// A grey image of which the header is there and all pixels are zero.
+std::string largeImage() {
+  return "P5\n9000 11000\n255\n" + std::string(99'000'000, '\0');
+}
+
+TEST_F(Incoming, AnImageThatTheMemoryCannotHoldCostsItselfAndNotTheCheck) {
+  plan(PlannedKind::Image);
+  put("a.png", imageBytes(1));
+  pass(3.0);
+  put("b.png", imageBytes(2, 1.0, 200.0, 90.0));
+  pass(3.0);
+  const std::vector<FiducialCapture> there = images();
+  ASSERT_EQ(there.size(), 2U);
+  writeFileAtomically(campaign().path(there[0].image), largeImage());
+  const Campaign now = campaign();
+  const std::string answer = testing::inChildProcess([&] {
+    if (!testing::limitMemory(240'000'000)) return std::string("no limit");
+    std::string text;
+    JobContext job;
+    for (const CheckedCapture& c : checkFiducialCaptures(now, job)) text += c.good ? "good; " : c.sentence + "; ";
+    return text;
+  });
+  if (answer == "no limit") GTEST_SKIP() << "the sanitizer takes more address space than any limit";
+  EXPECT_EQ(answer, "There is not enough memory to read it.; good; ");
+}
+
+TEST_F(Incoming, APictureThatTheMemoryCannotHoldIsOneSentence) {
+  plan(PlannedKind::Image);
+  const std::string large = largeImage();
+  const IncomingContext context = incomingContext(campaign(), storedPlan(session_, id_), {}, false);
+  const std::string answer = testing::inChildProcess([&] {
+    if (!testing::limitMemory(120'000'000)) return std::string("no limit");
+    const ExaminedFile examined = examineImage(large, "camera 1", 0, context);
+    return toString(examined.item.state) + ": " + examined.item.sentence;
+  });
+  if (answer == "no limit") GTEST_SKIP() << "the sanitizer takes more address space than any limit";
+  EXPECT_EQ(answer, "take again: There is not enough memory to read it.");
 }
 
 }  // namespace

@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <map>
 
+#include "core/base/atomic_file.h"
 #include "core/base/units.h"
+#include "core/imaging/artwork.h"
 #include "core/imaging/camera.h"
 #include "core/imaging/image.h"
 #include "core/probing/touch.h"
@@ -42,13 +44,14 @@ constexpr const char* mill_text =
 {"id":"A1","kind":"surface","x_mm":0,"y_mm":50,"z_mm":0}]})";
 
 /// `turned_deg`: of the spindle, and the camera with it.
-GrayImage picture(std::uint64_t seed, double blur_px = 1.0, double turned_deg = 0.0) {
+GrayImage picture(std::uint64_t seed, double blur_px = 1.0, double turned_deg = 0.0,
+                  const FiducialPattern& pattern = standardPattern()) {
   MicroscopeScene scene;
   scene.width_px = 640;
   scene.height_px = 480;
   scene.map = poseAt(640, 480, 2.0, 0.1 + turned_deg * rad_per_deg, {0, 0}, {319.5, 239.5});
   scene.blur_sigma_px = blur_px;
-  return renderFiducial(standardPattern(), scene, seed);
+  return renderFiducial(pattern, scene, seed);
 }
 
 class CapturePages : public PageTest {
@@ -427,6 +430,33 @@ TEST_F(CapturePages, ACameraShowsFocusAndTakesPictures) {
     EXPECT_FALSE(camera->running());
   }
   EXPECT_TRUE(service().done().contains("M0_F1_rotation_0"));
+}
+
+TEST_F(CapturePages, TheCampaignsOwnPatternIsReadFromTheFolderAndTheCamera) {
+  newMeasurement(mill_text);
+  const FiducialPattern own =
+      makePattern({.rows = 7, .columns = 7, .first_row = 31, .first_column = 51, .pitch_um = 455.0});
+  writeFileAtomically(window_->session().campaign()->path("pattern.json"), patternJson(own));
+  auto* page = go<NewCapturePage>(StepId::Capture);
+  page->setInstrument(Instrument::Microscope);
+  page->arriving()->plan()->makePlan();
+  const std::string video = (folder_ / "own.avi").string();
+  const GrayImage image = picture(1, 1.0, 0.0, own);
+  writeVideo(video, std::vector<GrayImage>(6, image), 10.0);
+  page->findChild<QTabWidget*>()->setCurrentIndex(1);
+  CameraPanel* camera = page->camera();
+  camera->open(QString::fromStdString(video));
+  waitFor([&] { return camera->state()->sentence().contains(QStringLiteral("no more pictures")); }, "end of the video");
+  EXPECT_TRUE(camera->verdict().good) << camera->verdict().sentence;
+  ASSERT_FALSE(camera->verdict().decoded.subpatterns.empty());
+  EXPECT_GE(camera->verdict().decoded.subpatterns.front().row, 31);
+  camera->take();
+  waitFor([&] { return service().done().contains("M0_F1_rotation_0"); }, "picture taken");
+  ASSERT_TRUE(service().start(watched(), {}).isEmpty());
+  put("M0_F1_rotation_1.png", encodePng(picture(2, 1.0, 90.0, own)));
+  waitFor([&] { return stateOf("M0_F1_rotation_1.png") == IncomingState::Accepted; }, "an image of the own pattern");
+  put("M0_F1_rotation_2.png", encodePng(picture(3, 1.0, 180.0)));
+  waitFor([&] { return stateOf("M0_F1_rotation_2.png") == IncomingState::Retake; }, "one of the standard pattern");
 }
 
 }  // namespace

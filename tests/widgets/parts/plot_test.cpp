@@ -7,6 +7,7 @@
 #include <QImage>
 #include <cmath>
 
+#include "core/base/csv.h"
 #include "tests/support/temp_folder.h"
 #include "widgets/image_view/image_view.h"
 
@@ -41,6 +42,15 @@ TEST(Plot, ExportsPngSvgPdfAndCsv) {
   ASSERT_TRUE(svg.open(QIODevice::ReadOnly));
   EXPECT_TRUE(svg.readAll().contains("<svg"));
   EXPECT_EQ(plot.csv().count(QLatin1Char('\n')), 101);
+}
+
+TEST(Plot, NamesOfSeriesAreTextInTheTable) {
+  Plot plot;
+  Series series = ramp();
+  series.name = QStringLiteral("=1+1,\"x\"");
+  plot.setContent({series});
+  const CsvTable table = CsvTable::parse(plot.csv().toStdString(), "plot.csv");
+  EXPECT_EQ(table.text(0, table.column("series")), "=1+1,\"x\"");
 }
 
 TEST(Plot, ShowsSomethingAndEmptyStateSaysHow) {

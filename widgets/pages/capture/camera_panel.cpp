@@ -148,7 +148,7 @@ void CameraPanel::Reading::read(std::stop_token stop, const std::string& source,
   const auto show = [this](GrayImage image) {
     Frame frame;
     frame.image = std::make_shared<GrayImage>(std::move(image));
-    frame.verdict = judgeCapture(*frame.image, false, {}, *pattern);
+    frame.verdict = judgeCapture(*frame.image, false, *pattern);
     const std::lock_guard lock(mutex);
     latest = std::move(frame);
   };
