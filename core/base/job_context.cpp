@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/base/job_context.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -76,10 +78,19 @@ struct Loop {
 /// that are in it: what they wait for in turn is always further inside, so nesting cannot block.
 class Pool {
  public:
-  /// Never destroyed: its threads sleep when the process ends.
+  /// Never destroyed: its threads sleep when the process ends. A process that is forked off has none of them, and begins
+  /// with a pool of its own.
   static Pool& instance() {
-    static Pool& pool = *new Pool;
-    return pool;
+    static const bool made = [] {
+      current() = new Pool;
+      return ::pthread_atfork([] { current()->mutex_.lock(); }, [] { current()->mutex_.unlock(); },
+                              [] {
+                                current()->mutex_.unlock();
+                                current() = new Pool;
+                              }) == 0;
+    }();
+    SPINDRIFT_ASSERT(made, "the pool is told of forks");
+    return *current();
   }
 
   void run(Loop& loop, std::size_t helpers) {
@@ -101,6 +112,11 @@ class Pool {
   }
 
  private:
+  static Pool*& current() {
+    static Pool* pool = nullptr;
+    return pool;
+  }
+
   [[noreturn]] void serve() {
     std::unique_lock lock(mutex_);
     for (;;) {
