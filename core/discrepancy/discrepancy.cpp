@@ -138,12 +138,10 @@ double simulationError(const ResidualProblem& problem, const ResidualProblem::Nu
   return std::clamp(std::sqrt(sum / static_cast<double>(sizes.size())), 0.5 * stated, largest);
 }
 
-/// Noise and effects in turn, under the nuisances that the problem has, until neither changes. `off`: a part of the
-/// simulation that is taken to be of the wrong size; or null.
-void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
-           const DiscrepancyPriors& priors, bool exact, const ModelTerm* off, JobContext& job) {
-  const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);
-  problem.setNoise(estimateNoise(problem, problem.y - first.values, false));
+/// Noise and effects in turn, beginning with the noise that the problem has and under its nuisances, until neither
+/// changes. `off`: a part of the simulation that is taken to be of the wrong size; or null.
+void alternate(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
+               const DiscrepancyPriors& priors, bool exact, const ModelTerm* off, JobContext& job) {
   a.simulation_error = exact ? 0.0 : std::max(input.simulation_gain_uncertainty, usual_simulation_error);
   a.hypotheses.chooseWindows(a.catalogue, problem, [&](const std::string&) {
     return CandidateLibrary::Given{Eigen::MatrixXd(problem.projectedResidual().size(), 0), problem.projectedResidual()};
@@ -190,6 +188,54 @@ void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem,
     }
     problem.setNoise(again);
   }
+}
+
+/// Without what states or neighbours in time have in common.
+NoiseModel ownNoiseOf(NoiseModel noise) {
+  for (ComponentNoise& n : noise.component) {
+    n.common = 0.0;
+    n.correlated_part = 0.0;
+    n.correlation_time_s = 0.0;
+  }
+  return noise;
+}
+
+/// Evidence (2 ln of the odds) from which on effects are believed in place of noise that is common to a state or
+/// follows itself in time: "strong" (Kass and Raftery 1995).
+constexpr double instead_of_common_noise = 6.0;
+
+/// Noise and effects together. The first noise is estimated before any effect is known, and what moves all points of a
+/// state alike may have gone into it: where nothing is found beside such noise, the search begins once more with the
+/// own noise of the readings alone. Its answer stands if it is the more probable one with noise and a smooth remainder
+/// made as large as either answer needs.
+void weigh(Analysis& a, const DiscrepancyInput& input, ResidualProblem& problem, const DiscrepancyOptions& options,
+           const DiscrepancyPriors& priors, bool exact, const ModelTerm* off, JobContext& job) {
+  const ResidualProblem::NuisancePart first = problem.nuisancePart(problem.y);
+  const NoiseModel start = estimateNoise(problem, problem.y - first.values, false);
+  problem.setNoise(start);
+  alternate(a, input, problem, options, priors, exact, off, job);
+  const bool nothing = a.posterior.fit.terms.size() == (off == nullptr ? 0 : 1);
+  // A simulator's own hypotheses do not hide in the noise: each is fitted to what it predicts.
+  if (!nothing || options.max_effects == 0 || input.tangents || !differs(problem.noise, ownNoiseOf(problem.noise)))
+    return;
+  const NoiseModel noise = problem.noise;
+  const double clock_offset_s = a.clock_offset_s;
+  const double clock_uncertainty_s = a.clock_uncertainty_s;
+  const double simulation_error = a.simulation_error;
+  std::unique_ptr<EffectSearch> search = std::move(a.search);
+  EffectPosterior posterior = std::move(a.posterior);
+  Remainder remainder = std::move(a.remainder);
+  problem.setNoise(ownNoiseOf(start));
+  alternate(a, input, problem, options, priors, exact, off, job);
+  if (a.posterior.over_unknown > instead_of_common_noise) return;
+  a.drivers->shiftClock(clock_offset_s - a.clock_offset_s);
+  a.clock_offset_s = clock_offset_s;
+  a.clock_uncertainty_s = clock_uncertainty_s;
+  a.simulation_error = simulation_error;
+  a.search = std::move(search);
+  a.posterior = std::move(posterior);
+  a.remainder = std::move(remainder);
+  problem.setNoise(noise);
 }
 
 /// The part that is off by most; null where no part is.

@@ -530,6 +530,12 @@ void PosteriorSearch::weighAgainstUnknown(EffectPosterior& posterior) const {
         together.front() == t ? over(together) : posterior.slots[together.front()].together_over_unknown;
     slot.together = together.size();
   }
+  std::vector<std::size_t> found;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    if (!posterior.forced[t] && fit.terms[t].effect->id != off_) found.push_back(t);
+  }
+  if (found.size() == 1) posterior.over_unknown = posterior.slots[found.front()].over_unknown;
+  if (found.size() > 1) posterior.over_unknown = over(found);
 }
 
 EffectPosterior PosteriorSearch::run(const JobContext& job, const ModelTerm* off) {

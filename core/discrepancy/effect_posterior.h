@@ -101,6 +101,9 @@ struct EffectPosterior {
   std::vector<bool> forced;
   double evidence = 0.0;
   double evidence_of_nothing = 0.0;
+  /// 2 ln of the odds that these effects are there, all that were not put in by hand or by the simulation, and not
+  /// noise and a smooth remainder made as large as needed; 0 without any.
+  double over_unknown = 0.0;
   /// Probability that an effect is in the set, of all that were looked at, most probable first; what the user rejected
   /// is among them.
   std::vector<std::pair<std::string, double>> candidates;
@@ -115,7 +118,7 @@ class PosteriorSearch {
   /// `off`: a part of the simulation whose size is taken to be wrong, as the simulation has it; it is in the set from
   /// the start, and pays neither for the choice of its dynamics nor for errors that the simulation may have.
   [[nodiscard]] EffectPosterior run(const JobContext& job, const ModelTerm* off = nullptr);
-  /// Fills over_unknown of every effect.
+  /// Fills over_unknown of every effect and of all together.
   void weighAgainstUnknown(EffectPosterior& posterior) const;
   /// As above.
   [[nodiscard]] double evidenceOf(const JointFit& fit) const;
