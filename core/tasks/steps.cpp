@@ -11,7 +11,7 @@
 #include "core/base/error.h"
 #include "core/tasks/task_options.h"
 #include "core/workflows/measurement_plan.h"
-#include "core/workflows/report_sections.h"
+#include "core/workflows/instrument_checks.h"
 
 namespace spindrift {
 namespace {
@@ -205,7 +205,7 @@ StepReport warmUp(const TaskGraph& graph) {
   // Versions before kept the statement as a result; an empty object takes it back.
   if (given.is_null() && graph.latest("warm-up") != nullptr)
     return report(StepState::Current, "You stated that the instrument was warm.");
-  return report(StepState::NotStarted, graph.hasObservations() ? std::string(warm_up_not_checked)
+  return report(StepState::NotStarted, graph.hasObservations() ? warmUpNotChecked()
                                                                : "Check whether the instrument had settled.");
 }
 

@@ -35,6 +35,10 @@ CheckResult checkResultOf(const ResolutionCheck& check) {
 
 }  // namespace
 
+std::string warmUpNotChecked() {
+  return "Not checked: a drift of the instrument would appear in every deviation as a motion of the machine.";
+}
+
 CheckResult checkWarmUp(const ObservationSet& observations, const std::string& point, const WarmUpOptions& options,
                         const OperatingLog* log) {
   const WarmUpResult warm_up = judgeWarmUp(observations, point, options, log);

@@ -10,6 +10,9 @@
 
 namespace spindrift {
 
+/// What it means that nobody looked whether the instrument had settled.
+[[nodiscard]] std::string warmUpNotChecked();
+
 struct CheckResult {
   nlohmann::json json = nlohmann::json::object();
   std::string summary;

@@ -20,6 +20,7 @@
 #include "core/reporting/plot_picture.h"
 #include "core/reporting/report_wording.h"
 #include "core/scanning/scan_picture.h"
+#include "core/workflows/instrument_checks.h"
 #include "core/workflows/log_campaign.h"
 #include "core/workflows/thermal_tests.h"
 
@@ -284,7 +285,7 @@ void addInstrumentState(Report& document, const StoredResults& stored, bool has_
   const bool unchecked = has_observations && !stored.warm_up.is_object();
   if (rows.empty() && !unchecked) return;
   document.section("State of the instrument");
-  if (unchecked) document.callout(CalloutKind::Attention, std::string("Warm-up: ") + std::string(warm_up_not_checked));
+  if (unchecked) document.callout(CalloutKind::Attention, "Warm-up: " + warmUpNotChecked());
   if (!rows.empty()) document.table({"Check", "Verdict", "Reason"}, rows);
 }
 

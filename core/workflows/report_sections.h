@@ -34,9 +34,6 @@ struct StoredResults {
   std::map<std::string, std::string> changed;
 };
 
-/// What it means that nobody looked whether the instrument had settled.
-inline constexpr std::string_view warm_up_not_checked =
-    "Not checked: a drift of the instrument would appear in every deviation as a motion of the machine.";
 /// Says that what is told of a stored result does not hold any more; nothing where it does.
 void addOutdated(Report& document, const StoredResults& stored, const std::string& kind);
 
