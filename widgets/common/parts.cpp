@@ -392,6 +392,14 @@ QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
   return table;
 }
 
+QTableView* makeSentenceTable(QAbstractItemModel* model, const QString& accessible_name, const QString& empty_text) {
+  QTableView* table = makeTable(model, accessible_name, empty_text);
+  table->setWordWrap(true);
+  table->horizontalHeader()->setSectionResizeMode(model->columnCount() - 1, QHeaderView::Stretch);
+  table->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  return table;
+}
+
 Segments::Segments(const QStringList& texts, const QString& accessible_name, QWidget* parent) : QWidget(parent) {
   setAccessibleName(accessible_name);
   auto* line = new QHBoxLayout(this);

@@ -149,6 +149,9 @@ class EmptyState : public QWidget {
 /// `empty_text` stands in it while there are no rows.
 [[nodiscard]] QTableView* makeTable(QAbstractItemModel* model, const QString& accessible_name,
                                     const QString& empty_text = {});
+/// The same with sentences in its last column, which has the room that the others leave and as many lines as it needs.
+[[nodiscard]] QTableView* makeSentenceTable(QAbstractItemModel* model, const QString& accessible_name,
+                                            const QString& empty_text);
 /// Two areas with a movable border, their sizes in the given proportion.
 [[nodiscard]] QSplitter* makeSplitter(QWidget* first, QWidget* second, int first_part, int second_part,
                                       Qt::Orientation orientation = Qt::Horizontal);

@@ -46,10 +46,7 @@ ActivityDialog::ActivityDialog(JobRunner& jobs, const MessageLog& log, QWidget* 
   column->addLayout(line);
   column->addWidget(makeLabel(tr("Messages"), "sectionTitle"));
   messages_ = new RowsModel({tr("When"), tr("Message")}, this);
-  auto* table = makeTable(messages_, tr("Messages"), tr("Nothing has been said yet."));
-  table->setWordWrap(true);
-  table->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  column->addWidget(table, 3);
+  column->addWidget(makeSentenceTable(messages_, tr("Messages"), tr("Nothing has been said yet.")), 3);
   auto* close = makeButton(tr("Close"), nullptr);
   auto* last = new QHBoxLayout;
   last->addStretch(1);

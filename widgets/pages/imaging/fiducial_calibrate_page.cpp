@@ -71,7 +71,7 @@ FiducialCalibratePage::FiducialCalibratePage(PageContext page_context, QWidget* 
   tabs_->addTab(makeTable(sets_, tr("Sets"), tr("Centres, directions and heights appear after the evaluation.")),
                 tr("Sets"));
   rejected_ = new RowsModel({tr("Capture"), tr("Why it was left out")}, this);
-  tabs_->addTab(makeTable(rejected_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
+  tabs_->addTab(makeSentenceTable(rejected_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
   auto* checks = new QWidget;
   auto* checks_column = new QVBoxLayout(checks);
   checks_column->setContentsMargins(0, 8, 0, 0);

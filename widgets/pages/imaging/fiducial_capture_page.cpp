@@ -69,7 +69,6 @@ FiducialCapturePage::FiducialCapturePage(PageContext page_context, QWidget* pare
   plan_ = new RowsModel({tr("Fiducial"), tr("State"), tr("Rotation"), tr("X"), tr("Y"), tr("Focus")}, this);
   auto* plan_table = makeTable(plan_, tr("Plan"), tr("The plan appears with the first capture."));
   plan_table->setSelectionMode(QAbstractItemView::NoSelection);
-  plan_table->setFocusPolicy(Qt::NoFocus);
   list->body()->addWidget(plan_table, 2);
 
   auto* picture = new Card(tr("Image"));

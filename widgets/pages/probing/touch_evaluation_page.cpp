@@ -71,7 +71,7 @@ TouchEvaluationPage::TouchEvaluationPage(PageContext page_context, QWidget* pare
                           tr("Centre, diameter and form of every hole or ball appear after the evaluation.")),
                 tr("Features"));
   left_out_ = new RowsModel({tr("Touch"), tr("Why it was left out")}, this);
-  tabs_->addTab(makeTable(left_out_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
+  tabs_->addTab(makeSentenceTable(left_out_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
   lengths_ = new RowsModel({}, this);
   tabs_->addTab(makeTable(lengths_, tr("Lengths"), tr("Distances and straightness appear after the evaluation.")),
                 tr("Lengths"));

@@ -55,7 +55,7 @@ ProfilerCalibrationPage::ProfilerCalibrationPage(PageContext page_context, QWidg
                           tr("The deviation at every artefact appears after the evaluation.")),
                 tr("At the artefacts"));
   rejected_ = new RowsModel({tr("Scan"), tr("Why it was left out")}, this);
-  tabs_->addTab(makeTable(rejected_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
+  tabs_->addTab(makeSentenceTable(rejected_, tr("Left out"), tr("Nothing was left out.")), tr("Left out"));
   left->body()->addWidget(tabs_, 1);
   auto* right = new Card(tr("Residuals of the rim"));
   residuals_ = new Plot;
