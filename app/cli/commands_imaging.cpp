@@ -162,7 +162,7 @@ void addArtwork(CLI::App& app, CommandLine& line) {
   command->add_option("--pitch", o.pitch_um, "Pitch of the ellipses in µm")->capture_default_str();
   command->add_option("--pattern", arguments->pattern, "Draw this pattern.json instead")->type_name("FILE");
   command->add_option("--pattern-out", arguments->json_out, "Write the pattern (JSON)")->type_name("FILE");
-  command->add_option("--svg", arguments->svg, "Write the drawing as SVG (user unit um)")->type_name("FILE");
+  command->add_option("--svg", arguments->svg, "Write the drawing as SVG (user unit: 1 µm)")->type_name("FILE");
   command->add_option("--dxf", arguments->dxf, "Write the drawing as DXF release 12 (mm)")->type_name("FILE");
 }
 

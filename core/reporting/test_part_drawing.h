@@ -21,7 +21,7 @@ struct TestPartDrawingOptions {
   PictureColour ground{255, 255, 255}, ink = picture_ink, nominal{190, 198, 207}, actual{11, 114, 133},
                                        soft{82, 96, 109};
   /// Of the line below ("magnified {} ×"): "{}" is the factor.
-  std::string legend = "Deviations from bore C, drawn {} times their size";
+  std::string legend = "Deviations from bore C, magnified {} ×";
   std::string no_deviation = "No deviation: the part is as it should be";
 };
 

@@ -9322,6 +9322,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>gives more bytes than are allowed; allowed: at most {}.</source>
         <translation>liefert mehr Bytes, als zulässig sind; zulässig: höchstens {}.</translation>
     </message>
+    <message>
+        <source>Not checked: a drift of the instrument would appear in every deviation as a motion of the machine.</source>
+        <translation>Nicht geprüft: Eine Drift des Messgeräts würde in jeder Abweichung als Bewegung der Maschine erscheinen.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>

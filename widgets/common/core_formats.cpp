@@ -274,6 +274,7 @@ const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", "Nominal, forward, reverse in mm (COMP_FILE_TYPE = 1): minus the deviation, added to the motor's command. The same compensation in the control's other form; only one of the two files may be loaded."),
     QT_TRANSLATE_NOOP("core", "Not all values could be tried; what is found keeps to those that could. {}"),
     QT_TRANSLATE_NOOP("core", "Not an image, point cloud or touch list."),
+    QT_TRANSLATE_NOOP("core", "Not checked: a drift of the instrument would appear in every deviation as a motion of the machine."),
     QT_TRANSLATE_NOOP("core", "Not to be decided, because the log lacks what drives {}: {}."),
     QT_TRANSLATE_NOOP("core", "Notes"),
     QT_TRANSLATE_NOOP("core", "Nothing in the log drives it."),

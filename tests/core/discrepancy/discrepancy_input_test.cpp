@@ -197,7 +197,7 @@ TEST(DiscrepancyInput, SaysThatTenObservationsDecideNothing) {
   const DiscrepancyResult result = run(input);
   EXPECT_FALSE(result.decided);
   EXPECT_TRUE(result.effects.empty());
-  EXPECT_THAT(result.message, HasSubstr("10 observations in 1 state leave"));
+  EXPECT_THAT(result.message, HasSubstr("10 observations in 1 state: too few observations per series"));
   EXPECT_THAT(result.message, HasSubstr("cannot be decided"));
 }
 

@@ -312,7 +312,7 @@ TEST(IntoSimulation, TellsTwoThatCannotBeToldApart) {
   parameters.push_back({"seal", 0.0, "W/krpm", 1.0, 0.0, 60.0, "friction of the seal", {"spindle.growth.z"}});
   Column column = columnCampaign({{"friction", 9.0}}, 31, 0.3, parameters);
   const Told told = tell(column, {{"friction", "seal"}});
-  EXPECT_THAT(told.found.warnings, Contains(HasSubstr("friction and seal of the simulation do the same")));
+  EXPECT_THAT(told.found.warnings, Contains(HasSubstr("friction and seal of the simulation have the same effect")));
   EXPECT_THAT(told.update.warnings, Contains(HasSubstr("cannot be distinguished")));
   // What they do together is known, and closes the gap.
   EXPECT_LT(trueGap(column, told.update.after), 0.15);

@@ -370,7 +370,7 @@ TEST(OwnEffects, ADriverThroughALagIsFoundBesideTheCatalogue) {
   input.log = log;
   const DiscrepancyResult result = search(input);
   ASSERT_THAT(namesOf(result), ::testing::ElementsAre("heater.bend")) << result.summary();
-  EXPECT_THAT(result.effects.front().drivers, HasSubstr("heater_kW (lag"));
+  EXPECT_THAT(result.effects.front().drivers, HasSubstr("heater_kW (time constant"));
   EXPECT_NEAR(result.effects.front().parameters.front().value, 0.02, 0.002);
   // Saved and read again with the same file.
   const testing::TempFolder folder;

@@ -234,10 +234,12 @@ std::filesystem::path campaignFolder(const testing::TempFolder& folder, const st
 TEST(DiscrepancyInputOf, ComparesFiniteElementsThemselves) {
   const testing::TempFolder folder;
   const auto campaign_folder = campaignFolder(folder, "fe.json");
-  const std::string data = std::string(SPINDRIFT_TEST_DATA) + "/finite_elements/";
+  const std::filesystem::path data = std::filesystem::path(SPINDRIFT_TEST_DATA) / "finite_elements";
+  for (const char* file : {"frame.frd", "mesh.inp"})
+    std::filesystem::copy_file(data / file, campaign_folder / file);
   folder.write("fe.json",
-               R"({"format":"spindrift-finite-elements","version":1,"unit_of_displacement":"mm","result":")" + data +
-                   R"(frame.frd","mesh":")" + data + R"(mesh.inp","first_state_s":0,
+               R"({"format":"spindrift-finite-elements","version":1,"unit_of_displacement":"mm",
+    "result":"frame.frd","mesh":"mesh.inp","first_state_s":0,
     "points":[{"point":"P1","tool":{"set":"TOOL"},"table":{"set":"TABLE"}}]})");
   const Campaign campaign = Campaign::read(campaign_folder);
   const DiscrepancyInput input = discrepancyInput(campaign, *campaign.observations);

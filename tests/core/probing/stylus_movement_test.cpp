@@ -134,7 +134,7 @@ TEST(ProbeHealth, AWarmMachineIsNotCalledALooseStylusAndTheLooseOneIsNamed) {
   for (const StylusHealth& h : checkProbeHealth(run.list, m)) {
     if (h.movement.largest_um < 9.0) continue;
     EXPECT_FALSE(h.loose) << h.message;
-    EXPECT_NE(h.message.find("cannot tell"), std::string::npos) << h.message;
+    EXPECT_NE(h.message.find("do not distinguish"), std::string::npos) << h.message;
   }
 }
 

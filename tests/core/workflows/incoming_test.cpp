@@ -284,8 +284,7 @@ TEST_F(Incoming, ImagesOfTheCampaignsOwnPatternAreTakenAndNoOthers) {
   pass(3.0);
   EXPECT_EQ(item("b.png").state, IncomingState::Accepted) << item("b.png").sentence;
   // From a camera, turned as the plan says and not.
-  const IncomingContext context =
-      incomingContext(campaign(), storedPlan(session_, id_), incomingJournal(session_, id_), false);
+  const IncomingContext context(campaign(), storedPlan(session_, id_), incomingJournal(session_, id_), false);
   const auto taken = [&](const std::string& bytes) { return examineImage(bytes, "camera 1", 0, context).item; };
   EXPECT_EQ(taken(imageBytes(3, 1.0, 200.0, 90.0, 0.0, own)).state, IncomingState::Accepted);
   EXPECT_EQ(taken(imageBytes(4, 1.0, 200.0, 20.0, 0.0, own)).state, IncomingState::Retake);
@@ -740,7 +739,7 @@ TEST_F(Incoming, AnImageThatTheMemoryCannotHoldCostsItselfAndNotTheCheck) {
 TEST_F(Incoming, APictureThatTheMemoryCannotHoldIsOneSentence) {
   plan(PlannedKind::Image);
   const std::string large = largeImage();
-  const IncomingContext context = incomingContext(campaign(), storedPlan(session_, id_), {}, false);
+  const IncomingContext context(campaign(), storedPlan(session_, id_), {}, false);
   const std::string answer = testing::inChildProcess([&] {
     if (!testing::limitMemory(120'000'000)) return std::string("no limit");
     const ExaminedFile examined = examineImage(large, "camera 1", 0, context);

@@ -192,7 +192,8 @@ TEST_F(KeyboardTest, ReachesEveryControlOfWindowsBesideTheSteps) {
   look("preferences", window_->findChild<PreferencesDialog*>());
   look("what if", window_->openWhatIf());
   ExerciseDialog* exercise = window_->openExercise();
-  EXPECT_TRUE(QTest::qWaitFor([&] { return exercise->ready(); }, 10'000));
+  exercise->startButton()->click();
+  EXPECT_TRUE(QTest::qWaitFor([&] { return exercise->ready(); }, 60'000));
   look("exercise", exercise);
   window_->openPlant();
   expectAllReachedIn("plant", window_->plant());

@@ -176,7 +176,7 @@ TEST_F(MainWindowTest, TheWordThatTheInstrumentWasWarmCanBeTakenBack) {
   EXPECT_EQ(state(), StepState::NotStarted);
   EXPECT_FALSE(window_->session().warmStatement().has_value());
   window_->undoStack().redo();
-  ASSERT_TRUE(button->text().contains(QStringLiteral("back"))) << button->text().toStdString();
+  ASSERT_TRUE(button->text().contains(QStringLiteral("Withdraw"))) << button->text().toStdString();
   QTest::mouseClick(button, Qt::LeftButton);
   EXPECT_EQ(state(), StepState::NotStarted);
 }

@@ -245,7 +245,7 @@ TEST_F(ProbingPages, AReferenceInstrumentIsHeldBesideTheCycles) {
   EXPECT_LT(panel->comparison().rms, 3.0);
   EXPECT_EQ(panel->curves()->series().size(), 2U);
   EXPECT_EQ(panel->differences()->series().front().sigma.size(), 4U);
-  EXPECT_TRUE(panel->verdict()->sentence().contains(QStringLiteral("um/m")));
+  EXPECT_TRUE(panel->verdict()->sentence().contains(QStringLiteral("µm/m")));
   exportAll();
   // A record with a mistake changes nothing and says where it is.
   panel->load(QString::fromStdString(folder_.write("bad.csv", "time_s,value\n0,1\n0,2\n5,nan\n").string()));
