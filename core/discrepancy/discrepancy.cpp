@@ -201,8 +201,8 @@ NoiseModel ownNoiseOf(NoiseModel noise) {
 }
 
 /// Evidence (2 ln of the odds) from which on effects are believed in place of noise that is common to a state or
-/// follows itself in time: "strong" (Kass and Raftery 1995).
-constexpr double instead_of_common_noise = 6.0;
+/// follows itself in time: "very strong" (Kass and Raftery 1995, above 10), for it was looked for a second time.
+constexpr double instead_of_common_noise = 12.0;
 
 /// Noise and effects together. The first noise is estimated before any effect is known, and what moves all points of a
 /// state alike may have gone into it: where nothing is found beside such noise, the search begins once more with the

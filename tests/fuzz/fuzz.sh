@@ -57,7 +57,9 @@ for reader in "${readers[@]}"; do
     fi
     limit=-runs=$((runs - done_before))
   fi
-  if "$program" --reader="$reader" "$limit" -rss_limit_mb=2048 -malloc_limit_mb=1200 -timeout=20 -max_len=65536 \
+  # The same mutations each time, but where runs are counted: what went before is not done again.
+  seed=$((done_before + 1))
+  if "$program" --reader="$reader" "$limit" -seed="$seed" -rss_limit_mb=2048 -malloc_limit_mb=1200 -timeout=20 -max_len=65536 \
     -artifact_prefix="build-fuzz/crashes/$reader/" -print_final_stats=1 -print_funcs=0 "build-fuzz/found/$reader" "tests/fuzz/corpus/$reader" \
     >"build-fuzz/$reader.log" 2>&1; then
     executed=$(sed -n 's/^stat::number_of_executed_units: *//p' "build-fuzz/$reader.log")
