@@ -17,10 +17,12 @@ namespace spindrift::gui {
 namespace {
 
 constexpr int letter_found = 2;
-constexpr int follows_letter = 6;
+constexpr int follows_letter =
+    9;  ///< more than a new word: "pre" is the beginning of Preferences, not Print the REport
 constexpr int begins_word = 8;
 constexpr int begins_text = 4;
 constexpr int in_title = 12;
+constexpr int can_be_run = 3;
 
 /// The best of all ways to find the letters of `word` in `text` in their order. best[j]: the letters so far, the last
 /// of them at text[j].
@@ -61,6 +63,7 @@ std::optional<int> commandScore(const QString& letters, const Command& command) 
     if (!of_title && !of_place) return std::nullopt;
     sum += std::max(of_title ? *of_title + in_title : 0, of_place.value_or(0));
   }
+  if (command.why_not.isEmpty()) sum += can_be_run;
   // Of two that fit alike, the shorter title is meant.
   return 100 * sum - static_cast<int>(std::min<qsizetype>(title.size(), 99));
 }

@@ -28,7 +28,8 @@ struct Command {
 
 /// How well typed letters fit a command; larger is better, nothing: they do not. Every word has to occur in the title
 /// or in where it belongs, its letters in this order, upper and lower case alike. Letters at the beginning of a word,
-/// and such as follow one another, count more; the title counts more than the place.
+/// and such as follow one another, count more; the title counts more than the place, what can be run now a little more
+/// than what cannot.
 [[nodiscard]] std::optional<int> commandScore(const QString& letters, const Command& command);
 
 class CommandPalette : public QDialog {

@@ -89,6 +89,14 @@ TEST_F(CommandPaletteTest, WordsMayStandInAnyOrderAndTheBestIsFirst) {
   EXPECT_TRUE(palette_->isVisible());
 }
 
+TEST_F(CommandPaletteTest, TheBeginningOfAWordComesBeforeLettersOfSeveral) {
+  openPalette();
+  ASSERT_FALSE(HasFatalFailure());
+  QTest::keyClicks(field_, QStringLiteral("pre"));
+  EXPECT_EQ(cell(0, 0), QStringLiteral("Preferences …"));
+  EXPECT_TRUE(titles().contains(QStringLiteral("Print the report …")));
+}
+
 TEST_F(CommandPaletteTest, EscapeClosesAndRunsNothing) {
   openPalette();
   ASSERT_FALSE(HasFatalFailure());
