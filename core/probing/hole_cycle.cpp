@@ -9,6 +9,7 @@
 #include <map>
 
 #include "core/base/text.h"
+#include "core/base/unit_text.h"
 #include "core/base/units.h"
 #include "core/math/least_squares.h"
 #include "core/math/statistics.h"
@@ -266,13 +267,15 @@ constexpr Eigen::Index eme = 8;  ///< growth of the bar among the parameters
   }
   constexpr double many_sigma = 4.0;
   if (worst <= many_sigma) return true;
+  const double expected_sigma = worst_cycle->expected_sigma_um_per_m;
   result.warnings.push_back(fmt::format(
       "{} seems to have grown by {} in {}, but its expansion coefficient and temperature say {}: the axis that "
       "measures "
       "it grows as well, its coefficient is another, or the sensor is not on it.",
       artefact.id, withUncertainty(worst_cycle->measured_um_per_m, worst_cycle->measured_sigma_um_per_m, "um/m"),
       worst_cycle->cycle,
-      withUncertainty(worst_cycle->expected_um_per_m, worst_cycle->expected_sigma_um_per_m, "um/m")));
+      expected_sigma > 0.0 ? withUncertainty(worst_cycle->expected_um_per_m, expected_sigma, "um/m")
+                           : fmt::format("{:.1f} {}", worst_cycle->expected_um_per_m, printedUnit("um/m"))));
   return false;
 }
 
