@@ -159,6 +159,18 @@ TEST_F(WrongPictureTest, ASmallMissingPartIsNot) {
   EXPECT_FALSE(alike(empty));
 }
 
+TEST_F(WrongPictureTest, APartThatLostItsOrderIsNot) {
+  // The same colours in other places: a part of the plot upside down.
+  QImage other = good_;
+  QPainter painter(&other);
+  const QRect part(120, 160, 160, 80);
+  painter.drawImage(part.topLeft(), good_.copy(part).mirrored(true, true));
+  painter.end();
+  const PictureDifference difference = comparePictures(good_, other);
+  EXPECT_LT(difference.worst_structure, 0.4) << difference.text().toStdString();
+  EXPECT_FALSE(difference.alike());
+}
+
 TEST_F(WrongPictureTest, AnotherThemeIsNot) {
   QImage inverted = good_;
   inverted.invertPixels();

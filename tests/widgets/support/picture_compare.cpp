@@ -3,6 +3,7 @@
 
 #include <QList>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -13,16 +14,37 @@ namespace {
 constexpr double most_mean = 2.5;
 constexpr double most_tile = 12.0;
 constexpr int tile_px = 40;
+constexpr double least_structure = 0.97;
+constexpr double least_structure_of_tile = 0.4;
 constexpr int blur_px = 2;  ///< to each side
 constexpr std::size_t kept_colours = 128;
 
-QImage small(const QImage& picture) {
+QImage small(const QImage& picture, int width) {
   QImage flat = picture;
   flat.setDevicePixelRatio(1.0);
-  return flat.scaledToWidth(baseline_width, Qt::SmoothTransformation).convertToFormat(QImage::Format_RGB32);
+  return flat.scaledToWidth(width, Qt::SmoothTransformation).convertToFormat(QImage::Format_RGB32);
 }
 
 using Channel = std::vector<double>;
+
+/// Sums over one tile, of a pair of channels.
+struct Tile {
+  double difference = 0.0;
+  double a = 0.0, b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+  int count = 0;
+
+  [[nodiscard]] double structure() const {
+    constexpr double c1 = (0.01 * 255) * (0.01 * 255);
+    constexpr double c2 = (0.03 * 255) * (0.03 * 255);
+    const double mean_a = a / count;
+    const double mean_b = b / count;
+    const double variance_a = aa / count - mean_a * mean_a;
+    const double variance_b = bb / count - mean_b * mean_b;
+    const double covariance = ab / count - mean_a * mean_b;
+    return (2.0 * mean_a * mean_b + c1) * (2.0 * covariance + c2) /
+           ((mean_a * mean_a + mean_b * mean_b + c1) * (variance_a + variance_b + c2));
+  }
+};
 
 /// One channel, the mean of its neighbourhood.
 Channel blurred(const QImage& picture, int shift) {
@@ -55,20 +77,29 @@ Channel blurred(const QImage& picture, int shift) {
 }  // namespace
 
 bool PictureDifference::alike() const {
-  return same_size && mean <= most_mean && worst_tile <= most_tile;
+  return same_size && mean <= most_mean && worst_tile <= most_tile && structure >= least_structure &&
+         worst_structure >= least_structure_of_tile;
 }
 
 QString PictureDifference::text() const {
   if (!same_size) return QStringLiteral("another size");
-  return QStringLiteral("mean difference %1 (allowed %2), worst tile %3 (allowed %4)")
+  return QStringLiteral(
+             "mean difference %1 (at most %2), worst tile %3 (at most %4), structure %5 (at least %6), worst tile %7 "
+             "(at least %8)")
       .arg(mean, 0, 'f', 2)
       .arg(most_mean)
       .arg(worst_tile, 0, 'f', 1)
-      .arg(most_tile);
+      .arg(most_tile)
+      .arg(structure, 0, 'f', 3)
+      .arg(least_structure)
+      .arg(worst_structure, 0, 'f', 2)
+      .arg(least_structure_of_tile);
 }
 
 QImage asBaseline(const QImage& picture) {
-  const QImage reduced = small(picture);
+  // A small window, such as a menu, is reduced as much as a large one.
+  const int half = qRound(0.5 * picture.width() / picture.devicePixelRatio());
+  const QImage reduced = small(picture, std::min(baseline_width, half));
   // Colours that differ in their lowest three bits share a place, which has the most frequent of them.
   std::map<QRgb, std::map<QRgb, int>> places;
   for (int y = 0; y < reduced.height(); ++y) {
@@ -101,37 +132,55 @@ QImage asBaseline(const QImage& picture) {
 
 PictureDifference comparePictures(const QImage& baseline, const QImage& picture) {
   const QImage before = baseline.convertToFormat(QImage::Format_RGB32);
-  const QImage now = small(picture);
+  QImage now = small(picture, before.width());
   PictureDifference difference;
-  difference.same_size = before.size() == now.size();
+  // Rows of a small window, such as a menu, are whole pixels at every scale: its shape changes a little.
+  constexpr double rounding = 0.03;
+  difference.same_size = std::abs(before.height() - now.height()) <= 1.0 + rounding * before.height();
+  if (difference.same_size && before.size() != now.size())
+    now = now.scaled(before.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
   if (!difference.same_size) return difference;
   const int columns = (now.width() + tile_px - 1) / tile_px;
   const int rows = (now.height() + tile_px - 1) / tile_px;
-  struct Tile {
-    double sum = 0.0;
-    int count = 0;
-  };
   std::vector<Tile> tiles(static_cast<std::size_t>(columns * rows));
-  for (const int shift : {0, 8, 16}) {
-    const Channel a = blurred(before, shift);
-    const Channel b = blurred(now, shift);
-    for (int y = 0; y < now.height(); ++y) {
-      for (int x = 0; x < now.width(); ++x) {
-        const auto i = static_cast<std::size_t>(y * now.width() + x);
-        Tile& tile = tiles[static_cast<std::size_t>(y / tile_px * columns + x / tile_px)];
-        tile.sum += std::abs(a[i] - b[i]);
-        ++tile.count;
+  constexpr std::array<int, 3> shifts{0, 8, 16};
+  std::array<Channel, 3> all_a;
+  std::array<Channel, 3> all_b;
+  for (std::size_t c = 0; c < shifts.size(); ++c) {
+    all_a[c] = blurred(before, shifts[c]);
+    all_b[c] = blurred(now, shifts[c]);
+  }
+  for (int y = 0; y < now.height(); ++y) {
+    for (int x = 0; x < now.width(); ++x) {
+      const auto i = static_cast<std::size_t>(y * now.width() + x);
+      Tile& tile = tiles[static_cast<std::size_t>(y / tile_px * columns + x / tile_px)];
+      double a = 0.0;
+      double b = 0.0;
+      for (std::size_t c = 0; c < shifts.size(); ++c) {
+        tile.difference += std::abs(all_a[c][i] - all_b[c][i]) / 3.0;
+        a += all_a[c][i] / 3.0;
+        b += all_b[c][i] / 3.0;
       }
+      tile.a += a;
+      tile.b += b;
+      tile.aa += a * a;
+      tile.bb += b * b;
+      tile.ab += a * b;
+      ++tile.count;
     }
   }
   double sum = 0.0;
+  double structure = 0.0;
   int count = 0;
   for (const Tile& tile : tiles) {
-    sum += tile.sum;
+    sum += tile.difference;
     count += tile.count;
-    difference.worst_tile = std::max(difference.worst_tile, tile.sum / tile.count);
+    structure += tile.structure() / static_cast<double>(tiles.size());
+    difference.worst_tile = std::max(difference.worst_tile, tile.difference / tile.count);
+    difference.worst_structure = std::min(difference.worst_structure, tile.structure());
   }
   difference.mean = sum / count;
+  difference.structure = structure;
   return difference;
 }
 
