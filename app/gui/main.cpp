@@ -29,6 +29,7 @@
 #include "widgets/common/languages.h"
 #include "widgets/common/preferences.h"
 #include "widgets/jobs/job_bar.h"
+#include "widgets/recording/recording.h"
 #include "widgets/shell/demo.h"
 #include "widgets/shell/diagnostics.h"
 #include "widgets/shell/main_window.h"
@@ -132,6 +133,11 @@ std::string wrongUsage(const QCommandLineParser& parser) {
   const QString size = parser.value(QStringLiteral("size"));
   if (parser.isSet(QStringLiteral("size")) && (!parser.isSet(QStringLiteral("tour")) || !sizeOf(size))) {
     return "--size " + size.toStdString() + " is not allowed; allowed: 1024x700 to 7680x4320, together with --tour.";
+  }
+  const bool unattended = parser.isSet(QStringLiteral("tour")) || parser.isSet(QStringLiteral("self-test")) ||
+                          parser.isSet(QStringLiteral("startup-time"));
+  if (parser.isSet(QStringLiteral("record")) && unattended) {
+    return "--record is allowed only where somebody uses the window.";
   }
   if (!parser.isSet(QStringLiteral("demo")) || words.isEmpty()) return {};
   std::vector<std::string> known;
@@ -272,13 +278,19 @@ int run(int argc, char** argv) {
   const QCommandLineOption start_time(
       QStringLiteral("startup-time"),
       QCoreApplication::translate("main", "Print how long it takes to the first usable window, and end."));
+  const QCommandLineOption record(
+      QStringLiteral("record"),
+      QCoreApplication::translate("main",
+                                  "Write what is done at the window to FILE when it is closed, so that others can do "
+                                  "it again (JSON)."),
+      QStringLiteral("FILE"));
   const QCommandLineOption reference(
       QStringLiteral("reference"),
       QCoreApplication::translate(
           "main", "Print the reference of the options: a man page, the completion of bash, or Markdown."),
       QStringLiteral("man|bash|markdown"));
-  const QList<QCommandLineOption> options = {demo,  tour,      size, theme_option, language,
-                                             scale, self_test, json, start_time,   reference};
+  const QList<QCommandLineOption> options = {demo,      tour, size,       theme_option, language, scale,
+                                             self_test, json, start_time, record,       reference};
   parser.addOptions(options);
   if (!parser.parse(application.arguments())) {
     return refused(parser.errorText().toStdString());
@@ -341,8 +353,15 @@ int run(int argc, char** argv) {
   window.show();
   const QStringList folders = parser.positionalArguments();
   if (folders.isEmpty()) window.showNewsIfDue();
+  const QString asked_demo =
+      parser.isSet(demo) ? (folders.isEmpty() ? QStringLiteral("fiducials") : folders.front()) : QString();
+  std::optional<Recorder> recorder;
+  if (parser.isSet(record)) {
+    recorder.emplace(asked_demo, currentLanguage(), window.size());
+    recorder->keepIn(parser.value(record).toStdString());
+  }
   if (parser.isSet(demo)) {
-    window.startDemo(folders.isEmpty() ? QStringLiteral("fiducials") : folders.front());
+    window.startDemo(asked_demo);
   } else if (!folders.isEmpty()) {
     window.open(QDir(folders.front()).absolutePath());
   }

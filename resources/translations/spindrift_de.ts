@@ -9928,6 +9928,10 @@ endgültig fehlgeschlagen: {}</translation>
         <source>Open a demo session of the virtual machine; its name may follow: fiducials, holes, balls, scans, discrepancy, own_pattern.</source>
         <translation>Eine Demositzung der virtuellen Maschine öffnen; ihr Name kann folgen: fiducials, holes, balls, scans, discrepancy, own_pattern.</translation>
     </message>
+    <message>
+        <source>Write what is done at the window to FILE when it is closed, so that others can do it again (JSON).</source>
+        <translation>Beim Schließen nach FILE schreiben, was am Fenster getan wird, sodass andere es wiederholen können (JSON).</translation>
+    </message>
 </context>
 <context>
     <name>measurement</name>

@@ -97,11 +97,15 @@ void shootDesigner(const QString& file, TourResult& result) {
 
 }  // namespace
 
+bool settled(MainWindow& window) {
+  return !window.arriving() && !window.jobs().busy() && !viewsBusy(window);
+}
+
 bool waitForJobs(MainWindow& window, int seconds) {
   QElapsedTimer timer;
   timer.start();
   settle(20);
-  while (window.arriving() || window.jobs().busy() || viewsBusy(window)) {
+  while (!settled(window)) {
     if (timer.elapsed() > 1000LL * seconds) return false;
     settle(20);
   }

@@ -23,6 +23,8 @@ struct TourOptions {
 };
 
 [[nodiscard]] TourResult runTour(MainWindow& window, const QString& folder, const TourOptions& options = {});
+/// No job is left, the page stands there complete, and nothing is drawn anew in the background.
+[[nodiscard]] bool settled(MainWindow& window);
 /// Runs the event loop until no job is left (and 3D views are finished), at most `seconds`. False: time is over.
 bool waitForJobs(MainWindow& window, int seconds);
 

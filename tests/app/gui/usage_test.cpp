@@ -51,6 +51,8 @@ TEST(GuiUsage, WhatIsNotAllowedIsRefusedInOneSentence) {
   expectRefused("--theme pink", "pink", "light or dark");
   expectRefused("--language fr", "fr", "en or de");
   expectRefused("--json x.json", "--json", "--self-test");
+  expectRefused("--record x.json --self-test", "--record", "somebody uses the window");
+  expectRefused("--record /proc/x.json", "/proc/x.json", "written");
   expectRefused("one two", "two", "one session");
   EXPECT_EQ(start("--nonsense").status, 2);
 }
