@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/imaging/focus.h"
 
+#include <ceres/ceres.h>
 #include <fmt/format.h>
+#include <glog/logging.h>
 
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -87,6 +89,54 @@ struct CurveModel {
     return true;
   }
 };
+
+/// What the curves leave of ln(1/n).
+class CurveCost : public ceres::CostFunction {
+ public:
+  CurveCost(const CurveModel& model, const Eigen::VectorXd& y) : model_(&model), y_(&y) {
+    set_num_residuals(static_cast<int>(model.rows()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(model.size()));
+  }
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+    const Eigen::VectorXd p = Eigen::Map<const Eigen::VectorXd>(parameters[0], model_->size());
+    Eigen::VectorXd prediction(y_->size());
+    const bool with_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
+    Eigen::MatrixXd J(with_jacobian ? y_->size() : 0, model_->size());
+    if (!model_->evaluate(p, prediction, with_jacobian ? &J : nullptr)) return false;
+    Eigen::Map<Eigen::VectorXd>(residuals, y_->size()) = prediction - *y_;
+    if (with_jacobian)
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(jacobians[0], J.rows(),
+                                                                                         J.cols()) = J;
+    return true;
+  }
+
+ private:
+  const CurveModel* model_;
+  const Eigen::VectorXd* y_;
+};
+
+/// Least squares from p on; false if it does not end at a minimum.
+bool minimise(const CurveModel& model, const Eigen::VectorXd& y, Eigen::VectorXd& p) {
+  // What ends a fit is told in our own sentences.
+  FLAGS_minloglevel = google::GLOG_FATAL;
+  CurveCost cost(model, y);
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&cost, nullptr, p.data());
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = 200;
+  options.max_num_consecutive_invalid_steps = 50;  // a shape that is not positive somewhere
+  options.function_tolerance = 1e-16;
+  options.gradient_tolerance = 1e-16;
+  options.parameter_tolerance = 1e-10;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return summary.termination_type == ceres::CONVERGENCE;
+}
 
 /// Parabola through 1/n at the sharpest height and its neighbours: height of its minimum.
 double startingPeak(const std::vector<std::pair<double, double>>& curve, std::size_t sharpest) {
@@ -188,38 +238,18 @@ FocusResult fitFocus(const std::vector<FocusSet>& sets, const FocusOptions& opti
     p(n + k) = -std::log(largest);
   }
   p(2 * n) = 0.5;
-  // Levenberg-Marquardt.
   Eigen::VectorXd prediction(y.size());
   Eigen::MatrixXd J(y.size(), p.size());
-  double damping = 1e-3;
-  bool converged = false;
-  if (!model.evaluate(p, prediction, &J)) p(2 * n) = 0.0;
-  model.evaluate(p, prediction, &J);
-  double chi2 = (y - prediction).squaredNorm();
-  for (int iteration = 0; iteration < 200 && !converged; ++iteration) {
-    const Eigen::VectorXd gradient = J.transpose() * (y - prediction);
-    Eigen::MatrixXd normal = J.transpose() * J;
-    normal.diagonal() *= 1.0 + damping;
-    normal.diagonal().array() += 1e-14;
-    const Eigen::VectorXd step = normal.ldlt().solve(gradient);
-    Eigen::VectorXd trial(y.size());
-    if (model.evaluate(p + step, trial, nullptr) && (y - trial).squaredNorm() <= chi2 * (1.0 + 1e-14)) {
-      p += step;
-      model.evaluate(p, prediction, &J);
-      chi2 = (y - prediction).squaredNorm();
-      damping = std::max(damping * 0.2, 1e-12);
-      converged = step.cwiseAbs().maxCoeff() < 1e-9;
-    } else {
-      damping *= 8.0;
-      if (damping > 1e12) converged = true;  // no step improves: at the minimum within rounding
-    }
-  }
+  if (!model.evaluate(p, prediction, nullptr)) p(2 * n) = 0.0;
+  const bool converged = minimise(model, y, p);
   if (!converged) {
     result.status = FitStatus::NoConvergence;
     result.message = "the contrast curves do not settle on a common shape";
     for (const std::size_t i : used) result.peaks[i].status = FitStatus::NoConvergence;
     return result;
   }
+  model.evaluate(p, prediction, &J);
+  const double chi2 = (y - prediction).squaredNorm();
   result.degrees_of_freedom = static_cast<int>(y.size() - p.size());
   const double spread = options.expected_weight * options.expected_noise * options.expected_noise;
   const double variance =

@@ -240,7 +240,11 @@ ProjectedModel projectModel(const TimeSeries& series, const ThermalModel& model,
   Eigen::MatrixXd A = S.transpose() * S;
   const Eigen::VectorXd ridge = (options.shrinkage * A.diagonal()).cwiseMax(1e-12 * A.diagonal().maxCoeff());
   A.diagonal() += ridge;
-  const Eigen::MatrixXd M = A.ldlt().solve(S.transpose() * X);
+  // Shrunk is what the gains change by: a kept input goes on telling what it told, also where training did not lead.
+  Eigen::MatrixXd right = S.transpose() * X;
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    right(static_cast<Index>(k), columns[k]) += ridge[static_cast<Index>(k)];
+  const Eigen::MatrixXd M = A.ldlt().solve(right);
   const auto n = static_cast<Index>(columns.size());
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(n + 1, X.cols() + 1);
   T(0, 0) = 1.0;

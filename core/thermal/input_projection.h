@@ -7,7 +7,9 @@
 // which a ridge regression on the lags of all inputs so far leaves least of the reference's course,
 //   left^2 = sum_o |f_o - X w_o|^2 / |f_o|^2    (f_o centred prediction of output o over training),
 // until the root of its mean over the outputs is below `tolerance`, or there are `maximum_inputs`. Several outputs
-// share their inputs in this way. Stability: the same on random halves made of blocks of time; the frequency of an
+// share their inputs in this way. The kept inputs begin with the gains that they have in the reference, and the same
+// ridge shrinks what these change by to take over the rest: sensors that move together in training and part later do
+// not exchange their gains. Stability: the same on random halves made of blocks of time; the frequency of an
 // input is how often it was chosen. Source: Piironen, Paasiniemi and Vehtari 2020 (projective inference); Meinshausen
 // and Buehlmann 2010 (stability).
 #pragma once

@@ -114,7 +114,6 @@ void PlainCandidates::addWhole(const Set& set, double power) {
 }
 
 double PlainCandidates::visit(const Set& set, std::ptrdiff_t of) {
-  const std::vector<char> judges = of < 0 ? std::vector<char>() : evidence_.runs()[static_cast<std::size_t>(of)].judges;
   const auto place = static_cast<std::size_t>(of + 1);
   const bool fresh = !visited_.contains(set);
   std::vector<std::size_t>& known = visited_[set];
@@ -145,7 +144,7 @@ double PlainCandidates::visit(const Set& set, std::ptrdiff_t of) {
       for (const double shrinkage : options_.shrinkages) take(make(Method::Ridge, dense, set, shrinkage));
     }
     if (set.size() > all_sets_up_to) continue;
-    const Columns lags = fewLags(per_input, set, judges);
+    const Columns lags = fewLags(per_input, set, of);
     auto same = std::find_if(known.begin(), known.end(),
                              [&](std::size_t k) { return all[k].method == Method::FewLags && all[k].columns == lags; });
     if (same == known.end()) {
@@ -154,12 +153,12 @@ double PlainCandidates::visit(const Set& set, std::ptrdiff_t of) {
     }
     Candidate& kept = all[*same];
     kept.found[place] = 1;
-    best = std::min(best, scoreOf(kept, judges));
+    best = std::min(best, scoreOf(kept, evidence_.runs(), of));
   }
   for (const std::size_t k : known) {
     if (all[k].method == Method::FewLags) continue;  // chosen by other judges unless marked above
     all[k].found[place] = 1;
-    best = std::min(best, scoreOf(all[k], judges));
+    best = std::min(best, scoreOf(all[k], evidence_.runs(), of));
   }
   return best;
 }
@@ -202,11 +201,11 @@ const Candidate& PlainCandidates::lagsOf(const Columns& columns, const Set& set)
 }
 
 PlainCandidates::Columns PlainCandidates::fewLags(const std::vector<Columns>& per_input, const Set& set,
-                                                  const std::vector<char>& judges) {
+                                                  std::ptrdiff_t of) {
   Columns best;
   for (const Columns& columns : per_input)
     best.push_back(columns[std::min<std::size_t>(3, columns.size() - 1)]);  // some minutes
-  double score = scoreOf(lagsOf(best, set), judges);
+  double score = scoreOf(lagsOf(best, set), evidence_.runs(), of);
   for (int round = 0; round < 4; ++round) {
     bool changed = false;
     for (std::size_t i = 0; i < per_input.size(); ++i) {
@@ -214,7 +213,7 @@ PlainCandidates::Columns PlainCandidates::fewLags(const std::vector<Columns>& pe
         if (best[i] == column) continue;
         Columns trial = best;
         trial[i] = column;
-        const double here = scoreOf(lagsOf(trial, set), judges);
+        const double here = scoreOf(lagsOf(trial, set), evidence_.runs(), of);
         if (here >= score) continue;
         score = here;
         best = std::move(trial);

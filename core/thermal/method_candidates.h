@@ -28,7 +28,7 @@ class PlainCandidates {
 
   /// With the judges of run `of`; negative: with all runs.
   void searchFor(std::ptrdiff_t of, const JobContext& job);
-  /// Tries every method on this set; the best score of them in the eyes of the judges.
+  /// Tries every method on this set; the best score of them as run `of` may see it.
   double visit(const Set& set, std::ptrdiff_t of);
   /// Line and ridge on all temperatures and on all inputs: nothing was picked, so every run may take them.
   void takeWhole(std::ptrdiff_t of);
@@ -38,7 +38,7 @@ class PlainCandidates {
   void keep(Candidate c);
   const Candidate& lagsOf(const Columns& columns, const Set& set);
   /// One time constant per input, one input after the other until none changes.
-  Columns fewLags(const std::vector<Columns>& per_input, const Set& set, const std::vector<char>& judges);
+  Columns fewLags(const std::vector<Columns>& per_input, const Set& set, std::ptrdiff_t of);
 
   const response::Dictionary& d_;
   const Evidence& evidence_;

@@ -18,8 +18,11 @@
 // Evidence: every candidate is fitted to a part of the training range and runs free over the rest, for several rolling
 // origins (the past predicts the future) and for blocks left out (the rest predicts the block; the block of the first
 // warm-up is the one that leaves the range of the others). Each of these runs has its own scale: what counts is the
-// mean of ln(mean squared error) over them. Weights of candidates are a power of that geometric mean squared error,
-// times a prior that makes every further input less probable. The power is 1 (Bates and Granger 1969) where the errors
+// mean of ln(mean squared error) over them, and over what the rows of the fit themselves let expect of new ones once
+// every coefficient has had its price in independent rows: few runs tell simple candidates apart by chance, and few
+// hours have few independent rows, so that the simple ones win there (core/thermal/method_evidence.h). Weights of
+// candidates are a power of that geometric mean squared error, times a prior that makes every further input less
+// probable. The power is 1 (Bates and Granger 1969) where the errors
 // of the best candidate differ from run to run by factors of e and more, as in records that leave their range: there
 // sharper weights choose by chance; it rises to 4 as that scatter falls. Between that average and `response` the errors
 // of the averages themselves decide. A forward selection that tries a hundred sets of inputs is flattered by the runs
@@ -30,7 +33,10 @@
 // the others must be better by some evidence and not by much. Uncertainty: posterior of every candidate plus their
 // scatter, which grows where the inputs leave what was seen; scaled so that errors and intervals agree in the runs that
 // judged, for `response` as for the others. Source: Bates and Granger 1969; Yao et al. 2018 (stacking and pseudo-BMA);
-// Tashman 2000 (rolling origins); Varma and Simon 2006 (nested cross-validation). Failure: InputError as fitResponse;
+// Tashman 2000 (rolling origins); Varma and Simon 2006 (nested cross-validation); Akaike 1970 (final prediction error).
+// ARX and output error are no candidates: in records of hours most ARX models have no equivalent in lags and output
+// error has too few rows before the origins, and where both could be judged the average was not better with them
+// (tests/benchmarks/thermal/choice_study.cpp). Failure: InputError as fitResponse;
 // FitStatus Degenerate if nothing could be determined.
 #pragma once
 

@@ -18,7 +18,11 @@ using namespace response;
 
 namespace {
 
+constexpr double runs_of_training = 4.0;    ///< what is left of training counts as the rolling origins do
+constexpr Index batches = 20;               ///< of the residual, for the number of independent rows
 constexpr double negligible_weight = 0.01;  ///< of the largest: such candidates are left out of the average
+
+constexpr double unusable = 700.0;  ///< ln of a mean squared error that is no number
 
 /// Huber weights of the innovations of the middle member of the response, as core/thermal/response_fit.cpp takes them:
 /// a slip, or a state at the start that nobody knows, costs a few samples and not the gains.
@@ -49,15 +53,19 @@ double independentRuns(std::size_t runs) {
 
 }  // namespace
 
-double scoreOf(const Candidate& c, const std::vector<char>& judges) {
+double scoreOf(const Candidate& c, const std::vector<Run>& runs, std::ptrdiff_t of) {
   double sum = 0.0;
-  int count = 0;
+  double count = 0.0;
   for (std::size_t r = 0; r < c.log_error.size(); ++r) {
-    if (!judges.empty() && judges[r] == 0) continue;
+    if (of >= 0 && runs[static_cast<std::size_t>(of)].judges[r] == 0) continue;
     sum += c.log_error[r];
-    ++count;
+    count += 1.0;
   }
-  return sum / std::max(1, count);
+  if (!c.log_expected.empty()) {
+    sum += runs_of_training * c.log_expected[static_cast<std::size_t>(of + 1)];
+    count += runs_of_training;
+  }
+  return sum / std::max(1.0, count);
 }
 
 std::vector<Index> responseColumns(const Dictionary& d, double power, const std::vector<double>& taus) {
@@ -156,8 +164,14 @@ Eigen::VectorXd Evidence::spread(const Candidate& c, const Eigen::VectorXd& w) c
 
 void Evidence::judge(Candidate& c) const {
   c.log_error.clear();
+  c.log_expected.clear();
+  const bool expects = c.method != Method::Response;
+  const bool shrunk = c.method == Method::Ridge;  // else every coefficient counts in full
+  if (expects) c.log_expected.push_back(logExpected(c, solve(c, nullptr, shrunk), nullptr));
   for (const Run& run : runs_) {
-    const Eigen::VectorXd w = solve(c, &run, false).w;
+    const Solution s = solve(c, &run, expects && shrunk);
+    if (expects) c.log_expected.push_back(logExpected(c, s, &run));
+    const Eigen::VectorXd& w = s.w;
     const Index y = run.held.cols() - 1;
     double sum = run.held(y, y);
     const auto n = static_cast<Index>(c.columns.size()) + 1;
@@ -167,13 +181,42 @@ void Evidence::judge(Candidate& c) const {
       for (Index k = 0; k < n; ++k) sum += w[r] * w[k] * run.held(at(r), at(k));
     }
     const double mean_square = std::max(0.0, sum) / static_cast<double>(run.held_rows.size());
-    c.log_error.push_back(std::isfinite(mean_square) ? std::log(mean_square + floor_) : 700.0);
+    c.log_error.push_back(std::isfinite(mean_square) ? std::log(mean_square + floor_) : unusable);
   }
 }
 
+double Evidence::logExpected(const Candidate& c, const Solution& s, const Run* run) const {
+  Eigen::VectorXd left = rows_.col(rows_.cols() - 1).array() - s.w[0];
+  for (std::size_t k = 0; k < c.columns.size(); ++k)
+    left -= s.w[static_cast<Index>(k) + 1] * rows_.col(c.columns[k] + 1);
+  if (run != nullptr) {  // held rows are contiguous
+    const Index from = run->held_rows.front();
+    const Index after = left.size() - run->held_rows.back() - 1;
+    Eigen::VectorXd fitted(from + after);
+    fitted << left.head(from), left.tail(after);
+    left = std::move(fitted);
+  }
+  const auto rows = static_cast<double>(left.size());
+  const double mean_square = left.squaredNorm() / rows;
+  if (!std::isfinite(mean_square)) return unusable;
+  const Index length = std::max<Index>(1, left.size() / batches);
+  const Index count = left.size() / length;
+  double of_means = 0.0;
+  for (Index b = 0; b < count; ++b) of_means += std::pow(left.segment(b * length, length).mean(), 2);
+  const double independent = of_means > 0.0 ? std::clamp(static_cast<double>(count * count) * mean_square / of_means,
+                                                         static_cast<double>(count), rows)
+                                            : rows;
+  double coefficients = static_cast<double>(s.w.size());
+  for (Index k = 1; k < s.inverse.rows(); ++k) coefficients -= c.precision[k - 1] * s.inverse(k, k);
+  if (c.method == Method::FewLags) coefficients *= 2.0;  // each with a time constant
+  const double part = std::min(0.9, coefficients / independent);
+  return std::log(mean_square * (1.0 + part) / (1.0 - part) + floor_);
+}
+
 double Evidence::innovationVariance(const std::vector<Candidate>& candidates) const {
-  const auto best = std::min_element(candidates.begin(), candidates.end(),
-                                     [](const Candidate& a, const Candidate& b) { return scoreOf(a) < scoreOf(b); });
+  const auto best = std::min_element(candidates.begin(), candidates.end(), [&](const Candidate& a, const Candidate& b) {
+    return scoreOf(a, runs_) < scoreOf(b, runs_);
+  });
   if (best == candidates.end()) return 0.0;
   Eigen::VectorXd full(whitened_.cols());
   full.head(full.size() - 1) = spread(*best, solve(*best, nullptr, false).w);
@@ -191,14 +234,14 @@ std::vector<Weighted> weightsOf(const Evidence& evidence, const std::vector<Cand
   double score = std::numeric_limits<double>::infinity();
   for (const Candidate& c : candidates) {
     if (c.found[place] == 0 || !keep(c)) continue;
-    out.push_back({&c, scoreOf(c, judges)});
+    out.push_back({&c, scoreOf(c, evidence.runs(), of)});
     if (out.back().weight < score) {
       score = out.back().weight;
       best = &c;
     }
   }
   if (best == nullptr) return out;
-  double scatter = 0.0;
+  double scatter = 0.0;  // also of the runs about what training lets expect
   int runs = 0;
   for (std::size_t r = 0; r < best->log_error.size(); ++r) {
     if (judges[r] == 0) continue;

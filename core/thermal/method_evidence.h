@@ -6,7 +6,10 @@
 // left out. Every candidate carries ln(mean squared error) of each run. What an average of candidates is worth is
 // judged run by run, and nothing that a run judges may have been chosen by it: the candidates that take part in run r,
 // their weights and their time constants are chosen by those runs alone whose rows are disjoint from the rows of r
-// (nested cross-validation; Varma and Simon 2006).
+// (nested cross-validation; Varma and Simon 2006), and by what the candidate leaves of the rows fitted in run r.
+// The latter, corrected for the number of coefficients (Akaike 1970, with the number of independent rows from batch
+// means), counts as `runs_of_training` runs: few runs tell models of few coefficients apart by chance, all of training
+// does not, while with few independent rows each coefficient costs much there.
 #pragma once
 
 #include <Eigen/Core>
@@ -38,6 +41,9 @@ struct Candidate {
   /// Inputs that a search picked among others, which makes the candidate less probable; all of them are no pick.
   std::size_t picked = 0;
   std::vector<double> log_error;  ///< ln of the mean squared error of every run
+  /// ln of the mean squared error expected of new rows from what is left of those fitted: place 0 all of training,
+  /// place r + 1 those of run r. Empty for `response`.
+  std::vector<double> log_expected;
   /// Whether the search found it: place 0 with all runs as judges, place r + 1 with the judges of run r.
   std::vector<char> found;
 };
@@ -47,8 +53,9 @@ struct Solution {
   Eigen::MatrixXd inverse;  ///< of the regularised normal matrix
 };
 
-/// Mean of ln(mean squared error) over the runs that judge; an empty mask: all of them.
-[[nodiscard]] double scoreOf(const Candidate& c, const std::vector<char>& judges = {});
+/// Mean of ln(mean squared error) over the runs that judge run `of` and over what the rows fitted there let expect;
+/// negative: over all runs and all of training.
+[[nodiscard]] double scoreOf(const Candidate& c, const std::vector<Run>& runs, std::ptrdiff_t of = -1);
 
 /// Columns of the response dictionary with this exponent of speed.
 [[nodiscard]] std::vector<Eigen::Index> responseColumns(const response::Dictionary& d, double power,
@@ -70,10 +77,14 @@ class Evidence {
   [[nodiscard]] Eigen::VectorXd spread(const Candidate& c, const Eigen::VectorXd& w) const;
   /// Of the candidate with the best score, from the whitened rows.
   [[nodiscard]] double innovationVariance(const std::vector<Candidate>& candidates) const;
-  /// Fills `log_error`.
+  /// Fills `log_error` and `log_expected`.
   void judge(Candidate& c) const;
 
  private:
+  /// ln of the mean squared error to be expected of new rows, by the final prediction error with as many rows as are
+  /// independent: of what is left, means over a twentieth of the time scatter more than independent rows would let
+  /// them, and a model that misses something slow counts for as few rows as its residual has swings.
+  [[nodiscard]] double logExpected(const Candidate& c, const Solution& s, const Run* run) const;
   template <typename Held>
   void add(const response::Dictionary& d, const Held& held);
   void nameJudges();

@@ -164,6 +164,9 @@ class Problem {
   double longest_ = 0.0;
 };
 
+/// Levenberg and Marquardt, not Ceres: on 40 made records of 1000 rows that needed 1.8 (normal equations) to 2.3 times
+/// (QR) the processor time for the same minimum in the 31 in which both converged (in 3 more it alone did), and the
+/// library of the compensator, which this file is part of, would need it too.
 bool minimise(const Problem& problem, State& s, int maximum_iterations, int& iterations) {
   problem.evaluate(s, true);
   double damping = 1e-3;

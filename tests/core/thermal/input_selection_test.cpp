@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/random.h"
+#include "core/thermal/input_projection.h"
 #include "core/thermal/thermal_model.h"
 
 namespace spindrift {
@@ -64,6 +65,41 @@ TEST(InputSelection, BothWaysFindTheInputsThatMatterAndGiveReasons) {
       EXPECT_GT(needed, 2.0 * others) << r.method;
     }
   }
+}
+
+/// Two sensors that move together in training and part afterwards, a third that says little: what the two tell is the
+/// same on few inputs as on all, in the rows of training and where these did not lead.
+TEST(InputProjection, KeptInputsGoOnTellingWhatTheyToldOutsideTheRangeOfTraining) {
+  Random random(6);
+  TimeSeries s;
+  Signal a{"T_a_degC", SignalKind::Temperature, {}};
+  Signal b{"T_b_degC", SignalKind::Temperature, {}};
+  Signal c{"T_c_degC", SignalKind::Temperature, {}};
+  for (int k = 0; k < 900; ++k) {
+    s.time_s.push_back(60.0 * k);
+    const double wave = 4.0 * std::sin(k / 50.0);
+    a.values.push_back(25.0 + wave + random.normal(0.0, 0.02));
+    b.values.push_back(25.0 + (k < 600 ? wave : -2.0 * wave) + random.normal(0.0, 0.02));
+    c.values.push_back(25.0 + std::sin(k / 17.0) + random.normal(0.0, 0.02));
+  }
+  s.signals = {a, b, c};
+  ThermalModel model;
+  for (const Signal& signal : s.signals) model.inputs.push_back({signal.name, signal.kind, 1.0, 1.0, 25.0, 15.0, 35.0});
+  ThermalOutput output;
+  output.name = "ez_um";
+  output.unit = "um";
+  output.terms = {{0, 0.0, 3.0}, {1, 0.0, -1.0}, {2, 0.0, 0.1}};
+  model.outputs.push_back(output);
+  const ThermalModel few = projectModel(s, model, {"T_a_degC", "T_b_degC"}, 0.0, 36000.0, ProjectionOptions()).model;
+  ASSERT_EQ(few.inputs.size(), 2U);
+  const std::vector<double> whole = model.predict(s, 0).value;
+  const std::vector<double> projected = few.predict(s, 0).value;
+  double inside = 0.0;
+  double outside = 0.0;
+  for (std::size_t k = 0; k < whole.size(); ++k)
+    (k < 600 ? inside : outside) = std::max(k < 600 ? inside : outside, std::abs(projected[k] - whole[k]));
+  EXPECT_LT(inside, 0.3) << "a tenth of what the third sensor moves by, and its noise";
+  EXPECT_LT(outside, 1.0) << "of 20 um";
 }
 
 TEST(InputSelection, ConstantInputsAreNamed) {

@@ -19,6 +19,7 @@
 #include "core/workflows/thermal_outputs.h"
 #include "core/workflows/thermal_workflow.h"
 #include "tests/support/frame_run.h"
+#include "tests/support/printer_run.h"
 #include "tests/support/spindle_run.h"
 #include "tests/support/temp_folder.h"
 
@@ -82,6 +83,25 @@ TEST(ThermalChoice, ManySensorsAndAStraightLineNeedNoModelOfManyLags) {
     log_ratio += std::log(chosen.test.rmse / best) / runs;
   }
   EXPECT_LT(std::exp(log_ratio), 1.2) << "geometric mean of the ratio to the better of line and ridge";
+}
+
+/// A dozen sensors over some hours, and a line on two of them is the truth: the few inputs that are kept extrapolate as
+/// the line does, in cooling that training has hardly seen and in heat beyond it.
+TEST(ThermalChoice, FewHoursOfADozenSensorsAreNotOverfitted) {
+  double log_ratio = 0.0;
+  constexpr int runs = 10;
+  for (int seed = 0; seed < runs; ++seed) {
+    const TimeSeries series =
+        printerRun(static_cast<std::uint64_t>(seed), PrinterHeight::Sensors, static_cast<PrinterHeat>(seed % 3));
+    const IdentifyResult chosen = identifyThermalModel(series, request(series, ""), {});
+    double line = std::numeric_limits<double>::infinity();
+    for (const ModelComparison& plain : chosen.plain)
+      if (plain.name.starts_with("static")) line = plain.test.rmse;
+    EXPECT_LE(chosen.inputs.size(), 8U);
+    EXPECT_LT(chosen.test.rmse, 3.5 * line) << "seed " << seed;
+    log_ratio += std::log(chosen.test.rmse / line) / runs;
+  }
+  EXPECT_LT(std::exp(log_ratio), 1.1) << "geometric mean of the ratio to the line on all temperatures";
 }
 
 TEST(ThermalChoice, TheAverageIsOneModelThatIsStoredAndRunAsJudged) {
