@@ -282,7 +282,8 @@ void addChangesOfShape(Report& document, const nlohmann::json& cycles) {
                   fmt::format("{:.2f}", form.value("rms_um", std::nan("")))};
     for (const char* name : {"EX_um", "EY_um", "EZ_um", "EA_urad", "EB_urad", "EC_urad"}) {
       const nlohmann::json sigma = motion.value(name, nlohmann::json());
-      row.push_back(sigma.is_number() ? fmt::format("{:.2g}", sigma.get<double>()) : std::string("–"));
+      const double value = sigma.is_number() ? sigma.get<double>() : std::nan("");
+      row.push_back(!std::isfinite(value) ? std::string("–") : fmt::format("{:.{}f}", value, value < 10.0 ? 2 : 0));
     }
     rows.push_back(std::move(row));
     if (rows.size() == most_rows) break;

@@ -486,8 +486,8 @@ void warnChangesOfShape(ScanEvaluation& evaluation) {
   const Eigen::Matrix<double, 6, 1> sigma = um_per_mm * r.free_form->motion_covariance.diagonal().cwiseSqrt();
   evaluation.warnings.push_back(fmt::format(
       "No motion under the scan model {} explains {} of {} scans: the surface has changed its shape, by {:.2g} µm rms "
-      "in {} {}. The change is found as a free-form field beside the motion; what of it a motion would do as well is "
-      "in the uncertainty of the deviations (in that scan ± {:.2g} µm).",
+      "in {} {}. The change is found as a free-form field beside the motion; the part that a motion could explain as "
+      "well is in the uncertainty of the deviations (in that scan ± {:.2g} µm).",
       toString(evaluation.scan_model), changed, compared, um_per_mm * size_mm(*most), most->capture.artefact,
       most->capture.cycle, sigma.head<3>().maxCoeff()));
 }

@@ -9327,8 +9327,8 @@ endgültig fehlgeschlagen: {}</translation>
         <translation>Nicht geprüft: Eine Drift des Messgeräts würde in jeder Abweichung als Bewegung der Maschine erscheinen.</translation>
     </message>
     <message>
-        <source>No motion under the scan model {} explains {} of {} scans: the surface has changed its shape, by {:.2g} µm rms in {} {}. The change is found as a free-form field beside the motion; what of it a motion would do as well is in the uncertainty of the deviations (in that scan ± {:.2g} µm).</source>
-        <translation>Keine Bewegung nach dem Scanmodell {} erklärt {} von {} Scans: Die Oberfläche hat ihre Form geändert, um {:.2g} µm rms bei {} {}. Die Änderung wird als Freiformfeld neben der Bewegung bestimmt; was davon auch eine Bewegung sein könnte, steckt in der Unsicherheit der Abweichungen (bei diesem Scan ± {:.2g} µm).</translation>
+        <source>No motion under the scan model {} explains {} of {} scans: the surface has changed its shape, by {:.2g} µm rms in {} {}. The change is found as a free-form field beside the motion; the part that a motion could explain as well is in the uncertainty of the deviations (in that scan ± {:.2g} µm).</source>
+        <translation>Keine Bewegung nach dem Scanmodell {} erklärt {} von {} Scans: Die Oberfläche hat ihre Form geändert, um {:.2g} µm rms bei {} {}. Die Änderung wird als Freiformfeld neben der Bewegung bestimmt; der Teil, den auch eine Bewegung erklären könnte, steckt in der Unsicherheit der Abweichungen (bei diesem Scan ± {:.2g} µm).</translation>
     </message>
     <message>
         <source>the surface has changed its shape, which leaves it uncertain by {:.0f} {}.</source>

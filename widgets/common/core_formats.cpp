@@ -261,7 +261,7 @@ const char* const formats[] = {
     QT_TRANSLATE_NOOP("core", "No folder for a run can be made in {}: {}."),
     QT_TRANSLATE_NOOP("core", "No mechanism of the simulation causes what was named: {}"),
     QT_TRANSLATE_NOOP("core", "No model of {}: {}"),
-    QT_TRANSLATE_NOOP("core", "No motion under the scan model {} explains {} of {} scans: the surface has changed its shape, by {:.2g} µm rms in {} {}. The change is found as a free-form field beside the motion; what of it a motion would do as well is in the uncertainty of the deviations (in that scan ± {:.2g} µm)."),
+    QT_TRANSLATE_NOOP("core", "No motion under the scan model {} explains {} of {} scans: the surface has changed its shape, by {:.2g} µm rms in {} {}. The change is found as a free-form field beside the motion; the part that a motion could explain as well is in the uncertainty of the deviations (in that scan ± {:.2g} µm)."),
     QT_TRANSLATE_NOOP("core", "No options were given, or their struct_size is not set."),
     QT_TRANSLATE_NOOP("core", "No parameter of {} is said to cause {}: it stays a fitted term; allowed: a parameter with this id among its \"effects\"."),
     QT_TRANSLATE_NOOP("core", "No pattern of {} has a place {{{}}}."),
