@@ -163,6 +163,8 @@ class ArtefactEvaluator {
       : campaign_(campaign), mounting_(mounting), travel_(travel), captures_(std::move(captures)) {
     options_.scan_model = model;
     options_.free_form = true;
+    // Of many scans one shows by chance what is rare in one alone.
+    options_.clear_evidence += std::log(std::max(1.0, static_cast<double>(captures_.size())));
     options_.machine_from_profiler = mounting.calibration.rotation();
     // Errors of the axis make about one wave over its travel, no more.
     if (const LinearAxis* axis = campaign.machine.findAxis(campaign.machine.profiler->axis))
