@@ -271,6 +271,31 @@ void addCertificate(Report& document, const nlohmann::json& artefact) {
                        : "Growth of the artefact; EME rests on the touches alone");
 }
 
+/// Scans whose surface has changed its shape: how much, and what that leaves open of the motion.
+void addChangesOfShape(Report& document, const nlohmann::json& cycles) {
+  std::vector<ReportRow> rows;
+  for (const nlohmann::json& cycle : cycles) {
+    const nlohmann::json form = cycle.value("free_form", nlohmann::json());
+    if (!form.is_object()) continue;
+    const nlohmann::json motion = form.value("motion_standard_uncertainty", nlohmann::json::object());
+    ReportRow row{cycle.value("artefact", ""), cycle.value("cycle", ""),
+                  fmt::format("{:.2f}", form.value("rms_um", std::nan("")))};
+    for (const char* name : {"EX_um", "EY_um", "EZ_um", "EA_urad", "EB_urad", "EC_urad"}) {
+      const nlohmann::json sigma = motion.value(name, nlohmann::json());
+      const double value = sigma.is_number() ? sigma.get<double>() : std::nan("");
+      row.push_back(!std::isfinite(value) ? std::string("–") : fmt::format("{:.{}f}", value, value < 10.0 ? 2 : 0));
+    }
+    rows.push_back(std::move(row));
+    if (rows.size() == most_rows) break;
+  }
+  if (!rows.empty())
+    document.table({"Artefact", "Cycle", "Change / µm rms", "EX / µm", "EY / µm", "EZ / µm", "EA / µrad", "EB / µrad",
+                    "EC / µrad"},
+                   rows,
+                   "Changes of shape that no motion explains, and the standard uncertainty that each leaves in the "
+                   "deviation of its scan");
+}
+
 }  // namespace
 
 void addInstrument(Report& document, const InstrumentEvaluation& instrument) {
@@ -283,6 +308,7 @@ void addInstrument(Report& document, const InstrumentEvaluation& instrument) {
       addTrends(document, cycles);
       addTables(document, cycles);
     }
+    addChangesOfShape(document, instrument.details["cycles"]);
   }
   if (instrument.details.is_object()) {
     for (const nlohmann::json& artefact : instrument.details.value("artefacts", nlohmann::json::array())) {

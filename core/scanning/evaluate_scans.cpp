@@ -21,6 +21,35 @@ double unitFactor(Component k) {
   return isRotation(k) ? urad_per_rad : um_per_mm;
 }
 
+/// A change of shape: heights over a lattice of the surface, profiler's frame, rows along y.
+nlohmann::json freeFormJson(const FreeForm& form) {
+  constexpr int nodes = 9;
+  nlohmann::json out = {{"rms_um", jsonNumber(um_per_mm * form.rms_mm())},
+                        {"log_evidence", jsonNumber(form.log_evidence)},
+                        {"misfit_ratio_without", jsonNumber(form.misfit_ratio_without)}};
+  nlohmann::json& motion = out["motion_standard_uncertainty"];
+  for (const Component k : all_components) {
+    const int i = static_cast<int>(k);
+    motion[fmt::format("{}_{}", toString(k), unitOf(k))] =
+        jsonNumber(unitFactor(k) * std::sqrt(form.motion_covariance(i, i)));
+  }
+  const Eigen::Vector2d step = (form.high_mm - form.low_mm) / (nodes - 1);
+  for (int r = 0; r < nodes; ++r) {
+    const double y = form.low_mm.y() + r * step.y();
+    out["y_mm"].push_back(y);
+    out["x_mm"].push_back(form.low_mm.x() + r * step.x());
+    nlohmann::json heights, sigmas;
+    for (int c = 0; c < nodes; ++c) {
+      const FreeForm::Value v = form.shape(form.low_mm.x() + c * step.x(), y);
+      heights.push_back(jsonNumber(um_per_mm * v.mm));
+      sigmas.push_back(jsonNumber(um_per_mm * v.standard_uncertainty_mm));
+    }
+    out["height_um"].push_back(std::move(heights));
+    out["standard_uncertainty_um"].push_back(std::move(sigmas));
+  }
+  return out;
+}
+
 nlohmann::json scanJson(const ScanResult& s, const std::string& axis, const Eigen::Matrix<double, 6, 6>& calibration) {
   nlohmann::json parameters = nlohmann::json::object();
   nlohmann::json at_artefact = nlohmann::json::object();
@@ -52,6 +81,7 @@ nlohmann::json scanJson(const ScanResult& s, const std::string& axis, const Eige
           {"parameters", parameters},
           {"at_artefact", at_artefact},
           {"not_observed", not_observed},
+          {"free_form", s.registration.free_form ? freeFormJson(*s.registration.free_form) : nlohmann::json(nullptr)},
           {"rms_um", jsonNumber(um_per_mm * s.registration.rms_mm)},
           {"misfit_ratio", jsonNumber(s.registration.misfit_ratio)},
           {"noise_correlation", jsonNumber(s.registration.noise_correlation)},

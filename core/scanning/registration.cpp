@@ -179,6 +179,15 @@ RegistrationResult registerCells(const PointCloud& source, const CellGrid& grid,
   const RegistrationSolver solver(grid, target, options);
   RegistrationSolver::Outcome o = match(solver, target, grid, options);
   if (options.scan_model == ScanModel::PushBroom && options.drift_order > 1 && o.converged) o = solver.bend(o);
+  std::optional<FreeFormOutcome> changed;
+  if (options.free_form) {
+    changed = freeFormOutcome(solver, o, grid, target.grid(), options);
+    if (changed && fits(changed->outcome, target, options, grid.noise_mm)) {
+      o = std::move(changed->outcome);
+    } else {
+      changed.reset();
+    }
+  }
   fillTransform(o.motion, options.machine_from_profiler, result);
   result.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
   result.white_covariance = result.covariance;
@@ -262,17 +271,11 @@ RegistrationResult registerCells(const PointCloud& source, const CellGrid& grid,
                                     100.0 * std::min(agreement, result.overlap))
                       : fmt::format("The registration did not settle within {} iterations.", options.most_iterations));
 
-  // Inverse on the determined directions, in scaled parameters.
-  const VectorP scale = solver.scales(o.normal, o.prior);
-  const MatrixP scaled = scale.cwiseInverse().asDiagonal() * o.normal * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixP> eigen(scaled);
-  const int n = o.motion.parameters();
-  MatrixP inverse = MatrixP::Zero(n, n);
-  for (int i = 0; i < n; ++i)
-    if (eigen.eigenvalues()[i] > options.degenerate_ratio * eigen.eigenvalues()[n - 1])
-      inverse += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose() / eigen.eigenvalues()[i];
-  inverse = (scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal()).eval();
-  const RegistrationNoise noise = registrationNoise(o, grid, target.grid(), inverse);
+  RegistrationNoise noise = registrationNoise(o, grid, target.grid(), solver.inverseNormal(o));
+  if (changed) {
+    noise.covariance += changed->form.motion_covariance;
+    result.free_form = std::move(changed->form);
+  }
   result.covariance = noise.covariance;
   result.white_covariance = noise.white;
   result.misfit_ratio = noise.misfit_ratio;

@@ -26,6 +26,7 @@
 #include "core/base/error.h"
 #include "core/geometry/rigid_transform.h"
 #include "core/scanning/cloud.h"
+#include "core/scanning/free_form.h"
 #include "core/scanning/height_spline.h"
 
 namespace spindrift {
@@ -64,6 +65,11 @@ struct RegistrationOptions {
   double degenerate_ratio = 1e-5;
   /// Take a source that fits nowhere once more as an unordered free-form cloud (PCL) before rejecting it.
   bool fall_back = false;
+  /// Method Surface: where the evidence says that the surface has changed its shape (free_form.h), find the change
+  /// beside the motion. A scan that no motion explains is not rejected for it then.
+  bool free_form = false;
+  /// Natural logarithm of the evidence from which on there is a change of shape: a hundred to one.
+  double clear_evidence = 4.6;
 
   void validate() const;
 };
@@ -95,6 +101,8 @@ struct RegistrationResult {
   int iterations = 0;
   double elapsed_ms = 0.0;                   ///< without reading files
   std::vector<std::string> free_directions;  ///< named, where the surface leaves some
+  /// Change of the surface's shape beside the motion, where there is one; rms and misfit are of what is left.
+  std::optional<FreeForm> free_form;
 
   [[nodiscard]] bool usable() const noexcept { return status == FitStatus::Converged; }
   [[nodiscard]] double standardUncertainty(int i) const { return std::sqrt(covariance(i, i)); }

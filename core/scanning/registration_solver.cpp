@@ -77,7 +77,7 @@ ScanMotion RegistrationSolver::start() const {
 }
 
 void RegistrationSolver::residuals(const ScanMotion& motion, const std::vector<std::uint32_t>& cells,
-                                   std::vector<CellResidual>& out) const {
+                                   std::vector<CellResidual>& out, const FreeForm* change) const {
   out.clear();
   out.reserve(cells.size());
   const Eigen::Matrix3d turned = motion.to_cloud * (motion.rotation - Eigen::Matrix3d::Identity()) * motion.lever;
@@ -107,8 +107,10 @@ void RegistrationSolver::residuals(const ScanMotion& motion, const std::vector<s
     r.cell = k;
     r.tx = h.tx;
     r.ty = h.ty;
+    r.place = {p.x(), p.y(), h.z, h.zx, h.zy};
     r.drift_t = static_cast<float>(t);
     r.residual = p.z() - (h.z + 0.5 * (h.zxx * sxx + 2.0 * h.zxy * sxy + h.zyy * syy));
+    if (change != nullptr) r.residual -= change->height_mm(r.place);
     r.weight = cell.count * h.count / (cell.count + h.count);
     const Eigen::Vector3d n = normal_to_machine * Eigen::Vector3d(-h.zx, -h.zy, 1.0);
     const Eigen::Vector3d q = arm * (cell.mean - motion.centre);
@@ -119,7 +121,7 @@ void RegistrationSolver::residuals(const ScanMotion& motion, const std::vector<s
 }
 
 RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const std::vector<std::uint32_t>& cells,
-                                                      int iterations) const {
+                                                      int iterations, const FreeForm* change) const {
   Outcome out;
   const int n = motion.parameters();
   out.normal = MatrixP::Zero(n, n);
@@ -127,7 +129,7 @@ RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const s
   std::vector<double> values;
   bool last = false;
   for (out.iterations = 0;; ++out.iterations) {
-    residuals(motion, cells, out.cells);
+    residuals(motion, cells, out.cells, change);
     out.overlap = static_cast<double>(out.cells.size()) / static_cast<double>(std::max<std::size_t>(cells.size(), 1));
     if (out.cells.size() < 12) break;
     // Far from the answer the residuals have a common part; it belongs to the height, not to the scale.
@@ -197,6 +199,19 @@ RegistrationSolver::Outcome RegistrationSolver::solve(ScanMotion motion, const s
   for (const CellResidual& c : out.cells) values.push_back(std::abs(c.residual));
   out.median_residual = medianOf(values);
   return out;
+}
+
+MatrixP RegistrationSolver::inverseNormal(const Outcome& outcome) const {
+  // In scaled parameters.
+  const VectorP scale = scales(outcome.normal, outcome.prior);
+  const MatrixP scaled = scale.cwiseInverse().asDiagonal() * outcome.normal * scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixP> eigen(scaled);
+  const int n = outcome.motion.parameters();
+  MatrixP inverse = MatrixP::Zero(n, n);
+  for (int i = 0; i < n; ++i)
+    if (eigen.eigenvalues()[i] > options_.degenerate_ratio * eigen.eigenvalues()[n - 1])
+      inverse += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose() / eigen.eigenvalues()[i];
+  return scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal();
 }
 
 RegistrationSolver::Outcome RegistrationSolver::bend(const Outcome& outcome) const {
@@ -336,6 +351,7 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
   const double white = std::max(0.5 * (a + b), 1e-18);
   noise.correlation = long_run / white;
   noise.misfit_ratio = std::sqrt(variance * interpolated / white);
+  noise.unit_variance = long_run;
 
   // Sums of squared scores: rows of cells share the errors of their profiles (height, tilt, position along x).
   const int n = outcome.motion.parameters();
@@ -408,6 +424,8 @@ RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, 
     if (row_variance < 2.0 * error) continue;
     row_variance *= (a + b) / (a + ky * b);  // in the long run every profile of the target counts once
     const double share = i == 0 ? steepShare(by_steepness) : 0.0;
+    noise.row_variance[i] = row_variance;
+    if (i == 0) noise.steep_share = share;
     double mean_steepness = 0.0;
     for (const auto& [steepness, square] : by_steepness) mean_steepness += steepness / used;
     for (const Row& row : rows) {

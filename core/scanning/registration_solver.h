@@ -3,8 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <optional>
 #include <vector>
 
+#include "core/scanning/free_form.h"
 #include "core/scanning/height_spline.h"
 #include "core/scanning/registration.h"
 
@@ -37,6 +40,7 @@ struct ScanMotion {
 struct CellResidual {
   std::uint32_t cell = 0;  ///< index in the source's grid
   float tx = 0.0F, ty = 0.0F;
+  FreeForm::Place place;
   double residual = 0.0;  ///< mm
   double weight = 0.0;    ///< 1 / (1 / source points + 1 / target points)
   double robust = 0.0;    ///< Tukey's factor
@@ -51,9 +55,9 @@ class RegistrationSolver {
  public:
   RegistrationSolver(const CellGrid& source, const RegistrationTarget& target, const RegistrationOptions& options);
 
-  /// Residuals and Jacobians of every `stride`-th filled cell (or all) at a motion.
-  void residuals(const ScanMotion& motion, const std::vector<std::uint32_t>& cells,
-                 std::vector<CellResidual>& out) const;
+  /// Residuals and Jacobians of some of the filled cells at a motion; of the heights less a change of the surface.
+  void residuals(const ScanMotion& motion, const std::vector<std::uint32_t>& cells, std::vector<CellResidual>& out,
+                 const FreeForm* change = nullptr) const;
 
   struct Outcome {
     ScanMotion motion;
@@ -70,7 +74,8 @@ class RegistrationSolver {
     int free_count = 0;
     std::vector<CellResidual> cells;
   };
-  [[nodiscard]] Outcome solve(ScanMotion motion, const std::vector<std::uint32_t>& cells, int iterations) const;
+  [[nodiscard]] Outcome solve(ScanMotion motion, const std::vector<std::uint32_t>& cells, int iterations,
+                              const FreeForm* change = nullptr) const;
   /// The second order of the drift added to an outcome of the first (push_broom).
   [[nodiscard]] Outcome bend(const Outcome& outcome) const;
   /// Starts on a lattice of shifts and turns; the best three are refined. Returns the best.
@@ -79,6 +84,8 @@ class RegistrationSolver {
   [[nodiscard]] ScanMotion start() const;
   /// What makes the parameters comparable (mm); one that is held by what was known beforehand counts as held by data.
   [[nodiscard]] VectorP scales(const MatrixP& normal, const VectorP& prior) const;
+  /// Inverse of the normal matrix of an outcome on the directions that the surface determines.
+  [[nodiscard]] MatrixP inverseNormal(const Outcome& outcome) const;
   [[nodiscard]] const std::vector<std::uint32_t>& allCells() const noexcept { return filled_; }
   /// Length that makes rotations comparable with shifts (mm).
   [[nodiscard]] double length() const noexcept { return length_; }
@@ -100,8 +107,24 @@ struct RegistrationNoise {
   Matrix6 white = Matrix6::Zero();
   double misfit_ratio = 0.0;
   double correlation = 1.0;
+  double unit_variance = 0.0;  ///< long-run variance of residual * sqrt(weight) (mm^2)
+  /// Variance of errors that the cells of a row share: in height (mm^2), as a tilt about y, in their place along x.
+  std::array<double, 3> row_variance{};
+  double steep_share = 0.0;  ///< part of the first that goes with the square of the row's slope along y
 };
 [[nodiscard]] RegistrationNoise registrationNoise(const RegistrationSolver::Outcome& outcome, const CellGrid& source,
                                                   const CellGrid& target, const MatrixP& inverse_normal);
+
+/// The motion of an outcome with the change of the surface beside it.
+struct FreeFormOutcome {
+  RegistrationSolver::Outcome outcome;  ///< residuals less the change
+  FreeForm form;
+};
+/// The change of the surface that an outcome leaves, where the evidence for it is clear and it matters for the motion;
+/// nothing otherwise, and where the change is larger than any that heat makes: another surface.
+[[nodiscard]] std::optional<FreeFormOutcome> freeFormOutcome(const RegistrationSolver& solver,
+                                                             const RegistrationSolver::Outcome& outcome,
+                                                             const CellGrid& source, const CellGrid& target,
+                                                             const RegistrationOptions& options);
 
 }  // namespace spindrift

@@ -141,6 +141,7 @@ void ScanFrame::intoMachine(ScanResult& result) const {
   r.drift_mm = machine_from_scan * r.drift_mm;
   r.covariance = turned(r.covariance, true);
   r.white_covariance = turned(r.white_covariance, true);
+  if (r.free_form) r.free_form->motion_covariance = turned(r.free_form->motion_covariance, true);
   result.calibration_spread = turned(result.calibration_spread, false);
   result.axis.error.translation_mm = machine_from_scan * result.axis.error.translation_mm;
   result.axis.error.rotation_rad = machine_from_scan * result.axis.error.rotation_rad;
@@ -161,6 +162,9 @@ class ArtefactEvaluator {
                     std::vector<ScanCapture> captures)
       : campaign_(campaign), mounting_(mounting), travel_(travel), captures_(std::move(captures)) {
     options_.scan_model = model;
+    options_.free_form = true;
+    // Of many scans one shows by chance what is rare in one alone.
+    options_.clear_evidence += std::log(std::max(1.0, static_cast<double>(captures_.size())));
     options_.machine_from_profiler = mounting.calibration.rotation();
     // Errors of the axis make about one wave over its travel, no more.
     if (const LinearAxis* axis = campaign.machine.findAxis(campaign.machine.profiler->axis))
@@ -223,18 +227,32 @@ class ArtefactEvaluator {
         target = makeReference(cloud, capture, outcome);
       });
     }
+    std::vector<std::size_t> rest;
+    for (std::size_t k = next; k < captures_.size(); ++k) rest.push_back(k);
+    RegistrationOptions options = options_;
     const auto one = [&](std::size_t i) {
       job.throwIfCancelled();
-      const ScanCapture& capture = captures_[(first + next + i) % captures_.size()];
-      outcomes[next + i] = outcomeOf(capture, [&](Outcome& outcome) {
-        outcome = compare(readScanPoints(campaign_, capture.cloud).used(), capture, *target);
+      const ScanCapture& capture = captures_[(first + rest[i]) % captures_.size()];
+      outcomes[rest[i]] = outcomeOf(capture, [&](Outcome& outcome) {
+        outcome = compare(readScanPoints(campaign_, capture.cloud).used(), capture, *target, options);
       });
     };
-    const std::size_t rest = captures_.size() - next;
-    if (parallel_) {
-      parallelFor(rest, job, one);
-    } else {
-      for (std::size_t i = 0; i < rest; ++i) one(i);
+    const auto all = [&] {
+      if (parallel_) {
+        parallelFor(rest.size(), job, one);
+      } else {
+        for (std::size_t i = 0; i < rest.size(); ++i) one(i);
+      }
+    };
+    all();
+    // An artefact that has changed its shape in one state may have in all: where it is less clear, it counts as well.
+    const auto changed = [&](std::size_t k) {
+      return outcomes[k].result && outcomes[k].result->registration.free_form;
+    };
+    if (std::any_of(rest.begin(), rest.end(), changed)) {
+      std::erase_if(rest, [&](std::size_t k) { return changed(k) || !outcomes[k].result; });
+      options.clear_evidence = -std::numeric_limits<double>::infinity();
+      all();
     }
     for (Outcome& outcome : outcomes) {
       if (outcome.result) scans.push_back(std::move(*outcome.result));
@@ -252,7 +270,9 @@ class ArtefactEvaluator {
     reference_y_mm_ = capture.y_mm;
     placeAtPoint(capture);
     // A scan against itself says which directions the surface leaves free, and gives the noise of one scan.
-    const RegistrationResult self = registerToSurface(cloud, *target, options_);
+    RegistrationOptions of_itself = options_;
+    of_itself.free_form = false;
+    const RegistrationResult self = registerToSurface(cloud, *target, of_itself);
     ScanResult result;
     result.capture = capture;
     result.reference = true;
@@ -277,7 +297,8 @@ class ArtefactEvaluator {
     }
   }
 
-  [[nodiscard]] Outcome compare(PointCloud cloud, const ScanCapture& capture, const RegistrationTarget& target) const {
+  [[nodiscard]] Outcome compare(PointCloud cloud, const ScanCapture& capture, const RegistrationTarget& target,
+                                const RegistrationOptions& options) const {
     const auto reject = [&](std::string reason) {
       return Outcome{std::nullopt, RejectedCapture{capture.cloud, std::move(reason)}};
     };
@@ -286,12 +307,12 @@ class ArtefactEvaluator {
     // A scan that started elsewhere: its y counts from there.
     const Eigen::Vector3d commanded(0.0, capture.y_mm - reference_y_mm_, 0.0);
     if (commanded.y() != 0.0) {
-      const Eigen::Vector3d in_cloud = options_.scan_model == ScanModel::Rigid
-                                           ? Eigen::Vector3d(options_.machine_from_profiler.transpose() * commanded)
+      const Eigen::Vector3d in_cloud = options.scan_model == ScanModel::Rigid
+                                           ? Eigen::Vector3d(options.machine_from_profiler.transpose() * commanded)
                                            : commanded;
       for (Eigen::Vector3d& p : cloud.points_mm) p += in_cloud;
     }
-    result.registration = registerToSurface(cloud, target, options_);
+    result.registration = registerToSurface(cloud, target, options);
     RegistrationResult& r = result.registration;
     r.commanded_mm = commanded;
     const bool degenerate = r.status == FitStatus::Degenerate;
@@ -346,11 +367,16 @@ class ArtefactEvaluator {
             k, r.free_directions.empty() ? std::string("the surface does not determine it.")
                                          : fmt::format("the surface leaves it free ({}).", r.free_directions.front()));
       } else if (sigma > limit) {
+        const bool by_form = r.free_form && std::sqrt(r.free_form->motion_covariance(i, i)) > 0.5 * sigma;
         result.not_observed.emplace_back(
-            k, fmt::format("its standard uncertainty under the scan model {} is {:.0f} {}: the surface has too little "
-                           "slope or height to show it.",
-                           toString(r.scan_model), sigma * (isRotation(k) ? urad_per_rad : um_per_mm),
-                           printedUnit(unitOf(k))));
+            k, by_form
+                   ? fmt::format("the surface has changed its shape, which leaves it uncertain by {:.0f} {}.",
+                                 sigma * (isRotation(k) ? urad_per_rad : um_per_mm), printedUnit(unitOf(k)))
+                   : fmt::format(
+                         "its standard uncertainty under the scan model {} is {:.0f} {}: the surface has too little "
+                         "slope or height to show it.",
+                         toString(r.scan_model), sigma * (isRotation(k) ? urad_per_rad : um_per_mm),
+                         printedUnit(unitOf(k))));
         r.covariance.row(i).setZero();
         r.covariance.col(i).setZero();
         r.covariance(i, i) = std::numeric_limits<double>::infinity();
@@ -445,6 +471,29 @@ void warnUndetermined(ScanEvaluation& evaluation) {
       joinedList(calibration.undetermined), worst, where->capture.artefact, where->capture.cycle));
 }
 
+/// Scans that no motion explains, in one sentence.
+void warnChangesOfShape(ScanEvaluation& evaluation) {
+  std::size_t compared = 0, changed = 0;
+  const ScanResult* most = nullptr;
+  const auto size_mm = [](const ScanResult& s) { return s.registration.free_form->rms_mm(); };
+  for (const ScanResult& s : evaluation.scans) {
+    if (s.reference) continue;
+    ++compared;
+    if (!s.registration.free_form) continue;
+    ++changed;
+    if (most == nullptr || size_mm(s) > size_mm(*most)) most = &s;
+  }
+  if (most == nullptr) return;
+  const RegistrationResult& r = most->registration;
+  const Eigen::Matrix<double, 6, 1> sigma = um_per_mm * r.free_form->motion_covariance.diagonal().cwiseSqrt();
+  evaluation.warnings.push_back(fmt::format(
+      "No motion under the scan model {} explains {} of {} scans: the surface has changed its shape, by {:.2g} µm rms "
+      "in {} {}. The change is found as a free-form field beside the motion; the part that a motion could explain as "
+      "well is in the uncertainty of the deviations (in that scan ± {:.2g} µm).",
+      toString(evaluation.scan_model), changed, compared, um_per_mm * size_mm(*most), most->capture.artefact,
+      most->capture.cycle, sigma.head<3>().maxCoeff()));
+}
+
 }  // namespace
 
 ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string& scan_model, JobContext& job) {
@@ -499,6 +548,7 @@ ScanEvaluation evaluateScanCampaign(const Campaign& campaign, const std::string&
     s.calibration_spread = calibrationSpread(s.registration, evaluation.mounting.calibration);
     frame.intoMachine(s);
   }
+  warnChangesOfShape(evaluation);
   warnUndetermined(evaluation);
   for (const ScanResult& s : evaluation.scans)
     for (const std::string& w : s.warnings) evaluation.warnings.push_back(w);

@@ -24,15 +24,25 @@ const Vector6& unitFactors() {
   return factors;
 }
 
-/// Of a registration, um and urad; zero where a component is not observed.
-Matrix6 statedCovariance(const ScanResult& s) {
-  Matrix6 out = s.registration.covariance;
+/// In um and urad; zero where a component is not observed.
+Matrix6 ofObserved(const ScanResult& s, Matrix6 covariance) {
   for (int i = 0; i < 6; ++i) {
-    if (std::isfinite(out(i, i))) continue;
-    out.row(i).setZero();
-    out.col(i).setZero();
+    if (std::isfinite(s.registration.covariance(i, i))) continue;
+    covariance.row(i).setZero();
+    covariance.col(i).setZero();
   }
-  return unitFactors().asDiagonal() * out * unitFactors().asDiagonal();
+  return unitFactors().asDiagonal() * covariance * unitFactors().asDiagonal();
+}
+
+/// Of a change of shape.
+Matrix6 formCovariance(const ScanResult& s) {
+  return s.registration.free_form ? ofObserved(s, s.registration.free_form->motion_covariance)
+                                  : Matrix6(Matrix6::Zero());
+}
+
+/// Of a registration, without that of a change of shape.
+Matrix6 statedCovariance(const ScanResult& s) {
+  return ofObserved(s, s.registration.covariance) - formCovariance(s);
 }
 
 /// Largest c with c * part <= whole in all directions of the components that `whole` has.
@@ -80,6 +90,49 @@ std::map<std::string, Matrix6> referenceNoise(const std::vector<ScanResult>& sca
   return out;
 }
 
+/// Root of a covariance of lengths and angles: with the correlations' symmetric root, so that alike covariances have
+/// alike columns.
+Matrix6 symmetricRoot(const Matrix6& covariance) {
+  const Vector6 size = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Vector6 inverse = size.unaryExpr([](double v) { return v > 0.0 ? 1.0 / v : 0.0; });
+  const Eigen::SelfAdjointEigenSolver<Matrix6> modes(inverse.asDiagonal() * covariance * inverse.asDiagonal());
+  return size.asDiagonal() * modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+         modes.eigenvectors().transpose();
+}
+
+/// Changes of shape of the scans of one artefact.
+void addForms(const std::vector<ScanResult>& scans, const std::vector<ScanRow>& rows,
+              const std::vector<std::size_t>& members, SharedNoise& shared) {
+  std::map<std::size_t, std::vector<std::size_t>> rows_of;
+  for (const std::size_t r : members)
+    if (scans[rows[r].scan].registration.free_form) rows_of[rows[r].scan].push_back(r);
+  if (rows_of.empty()) return;
+  std::map<std::size_t, Eigen::VectorXd> shape;  // of length 1
+  Eigen::Index terms = 0;
+  for (const auto& [scan, unused] : rows_of) {
+    shape[scan] = scans[scan].registration.free_form->shapeVector_mm().normalized();
+    terms = std::max(terms, shape[scan].size());
+  }
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(terms, terms);
+  for (auto& [scan, of_scan] : shape) {
+    of_scan.conservativeResizeLike(Eigen::VectorXd::Zero(terms));
+    sum += of_scan * of_scan.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> directions(sum);
+  std::map<std::size_t, Matrix6> root;
+  for (const auto& [scan, unused] : rows_of) root[scan] = symmetricRoot(formCovariance(scans[scan]));
+  for (Eigen::Index d = 0; d < terms; ++d)
+    for (Eigen::Index q = 0; q < 6; ++q) {
+      SharedNoise::Factor factor;
+      for (const auto& [scan, of_scan] : rows_of) {
+        const double part = directions.eigenvectors().col(d).dot(shape[scan]);
+        if (part * part < 1e-6) continue;
+        for (const std::size_t r : of_scan) factor.push_back({r, part * root[scan](rows[r].component, q)});
+      }
+      shared.addFactor(std::move(factor));
+    }
+}
+
 }  // namespace
 
 ScanNoise noiseOfScans(const std::vector<ScanResult>& scans, const std::vector<ScanRow>& rows) {
@@ -103,6 +156,7 @@ ScanNoise noiseOfScans(const std::vector<ScanResult>& scans, const std::vector<S
       for (const std::size_t r : members) factor.push_back({r, root(rows[r].component, q)});
       out.shared.addFactor(std::move(factor));
     }
+    addForms(scans, rows, members, out.shared);
   }
   for (const auto& [scan, members] : rows_of) {
     const ScanResult& s = scans[scan];

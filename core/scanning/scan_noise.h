@@ -7,6 +7,10 @@
 // made smaller where a scan states less than that in any direction: the largest c <= 1 with c C_min / 2 <= C for all
 // scans. The row of the reference scan, 0 by definition, has h once more beside its own, so that its difference to any
 // other scan has the covariance that was stated for that scan.
+//
+// Where a scan has a change of shape (free_form.h) beside its motion, the part F of C that it makes is no noise of a
+// scan: C - F takes the place of C above. Two scans of an artefact have of F what their changes have in common, by the
+// correlation of their shapes: what cannot be told from a motion is as alike as what can.
 #pragma once
 
 #include <cstddef>

@@ -76,6 +76,16 @@ void addProfile(PointCloud& cloud, std::size_t before) {
   if (cloud.size() > before) cloud.profile_start.push_back(before);
 }
 
+/// Height of an artefact, bent or not, in its frame.
+double heightOf(const VirtualArtefact& artefact, double x, double y) {
+  const double flat = artefact.surface.height_mm(x, y);
+  if (!artefact.bending) return flat;
+  constexpr double step = 1e-3;
+  const double tilt_x = (artefact.bending(x + step, y) - artefact.bending(x - step, y)) / (2.0 * step);
+  const double tilt_y = (artefact.bending(x, y + step) - artefact.bending(x, y - step)) / (2.0 * step);
+  return artefact.surface.height_mm(x + flat * tilt_x, y + flat * tilt_y) + artefact.bending(x, y);
+}
+
 double profileX(const VirtualOptics& optics, int i) {
   return (i - optics.profile_points / 2) * optics.profile_interval_mm;
 }
@@ -132,7 +142,7 @@ PointCloud virtualScan(const VirtualArtefact& artefact, const VirtualProfilerMou
         const Eigen::Vector3d& dz = point_of.alongZ();
         const double slope =
             dz.z() - g.x() * (cos_yaw * dz.x() + sin_yaw * dz.y()) - g.y() * (-sin_yaw * dz.x() + cos_yaw * dz.y());
-        const double step = (p.z() - artefact.surface.height_mm(u, v)) / slope;
+        const double step = (p.z() - heightOf(artefact, u, v)) / slope;
         z -= step;
         if (std::abs(step) < 1e-10) break;
       }
@@ -227,7 +237,9 @@ std::string writeVirtualScans(const VirtualScanCampaign& campaign, const std::fi
       CarriageError carriage;
       if (campaign.error) carriage = [&campaign, time_s](double y_mm) { return campaign.error(time_s, y_mm); };
       Random own = random.split();
-      const PointCloud cloud = virtualScan(artefact, campaign.mounting, campaign.optics, carriage, own);
+      VirtualArtefact now = artefact;
+      if (campaign.bending) now.bending = campaign.bending(artefact, time_s);
+      const PointCloud cloud = virtualScan(now, campaign.mounting, campaign.optics, carriage, own);
       const std::string name = fmt::format("captures/clouds/{}_{}.pcd", artefact.id, cycle.name);
       write(cloud, name);
       list += fmt::format("{},{},{},{},{}\n", exactNumber(time_s), csvField(cycle.name), csvField(artefact.id),

@@ -66,6 +66,9 @@ struct VirtualArtefact {
   ArtefactSurface surface;
   Eigen::Vector3d centre_mm{0.0, 20.5, 0.0};
   double yaw_rad = 0.0;
+  /// What bends it: smooth and small height (mm) by place in the artefact's frame (mm). Where the height tilts the
+  /// surface, its relief shifts sideways (about z = 0): normals of the body stay normal.
+  std::function<double(double x_mm, double y_mm)> bending;
 };
 
 /// Error of the axis at the slide's origin as a function of the carriage position (mm).
@@ -102,6 +105,9 @@ struct VirtualScanCampaign {
   std::vector<VirtualScanCycle> cycles;
   /// Error of the axis at the slide's origin, by time (s) and carriage position (mm).
   std::function<SmallError(double time_s, double y_mm)> error;
+  /// VirtualArtefact::bending of an artefact by time (s); may be empty, or give nothing.
+  std::function<std::function<double(double x_mm, double y_mm)>(const VirtualArtefact& artefact, double time_s)>
+      bending;
 };
 
 /// Writes `captures/scans.csv` and the clouds (binary PCD), the calibration scan included, into an existing campaign

@@ -9326,6 +9326,14 @@ endgültig fehlgeschlagen: {}</translation>
         <source>Not checked: a drift of the instrument would appear in every deviation as a motion of the machine.</source>
         <translation>Nicht geprüft: Eine Drift des Messgeräts würde in jeder Abweichung als Bewegung der Maschine erscheinen.</translation>
     </message>
+    <message>
+        <source>No motion under the scan model {} explains {} of {} scans: the surface has changed its shape, by {:.2g} µm rms in {} {}. The change is found as a free-form field beside the motion; the part that a motion could explain as well is in the uncertainty of the deviations (in that scan ± {:.2g} µm).</source>
+        <translation>Keine Bewegung nach dem Scanmodell {} erklärt {} von {} Scans: Die Oberfläche hat ihre Form geändert, um {:.2g} µm rms bei {} {}. Die Änderung wird als Freiformfeld neben der Bewegung bestimmt; der Teil, den auch eine Bewegung erklären könnte, steckt in der Unsicherheit der Abweichungen (bei diesem Scan ± {:.2g} µm).</translation>
+    </message>
+    <message>
+        <source>the surface has changed its shape, which leaves it uncertain by {:.0f} {}.</source>
+        <translation>die Fläche hat ihre Form geändert; dadurch ist die Komponente nur auf {:.0f} {} bekannt.</translation>
+    </message>
 </context>
 <context>
     <name>help</name>
@@ -17716,6 +17724,10 @@ endgültig fehlgeschlagen: {}</translation>
     <message>
         <source>Deviations at the artefacts</source>
         <translation>Abweichungen an den Prüfkörpern</translation>
+    </message>
+    <message>
+        <source>the surface has changed its shape by %1 µm rms</source>
+        <translation>die Oberfläche hat ihre Form um %1 µm rms geändert</translation>
     </message>
 </context>
 <context>

@@ -114,11 +114,13 @@ void writeSimulator(const std::string& scenario_name, const std::filesystem::pat
 void makeSmall(Scenario& scenario) {
   if (scenario.microscope) {
     VirtualFiducialOptions& images = scenario.microscope->images;
-    images.width_px = 760;
-    images.height_px = 540;
-    images.pixel_length_um = 2.4;
-    images.cor_px = {377, 272};
-    images.defocus_px_per_um = 0.010;
+    if (images.width_px > 760) {  // else they are small already
+      images.width_px = 760;
+      images.height_px = 540;
+      images.pixel_length_um = 2.4;
+      images.cor_px = {377, 272};
+      images.defocus_px_per_um = 0.010;
+    }
     images.steps_mm = {-0.1016, 0.0, 0.1016};
     images.dust = 2;
     images.fiducials.resize(std::min<std::size_t>(images.fiducials.size(), 4));

@@ -227,7 +227,7 @@ TEST_P(LanguageOfPages, NoTextIsLeftOutOfTheTranslation) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Demos, LanguageOfPages,
-                         ::testing::Values("fiducials", "holes", "balls", "scans", "discrepancy"),
+                         ::testing::Values("fiducials", "holes", "balls", "scans", "discrepancy", "own_pattern"),
                          [](const auto& test) { return std::string(test.param); });
 
 class LanguageOfWindows : public LanguagePagesTest {

@@ -119,7 +119,7 @@ TEST_P(FirstReportTest, OneCommandRunsAllSteps) {
   EXPECT_EQ(clicks_ + keys_, 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Demos, FirstReportTest, ::testing::Values("holes"),
+INSTANTIATE_TEST_SUITE_P(Demos, FirstReportTest, ::testing::Values("holes", "own_pattern"),
                          [](const auto& test) { return std::string(test.param); });
 
 }  // namespace

@@ -127,12 +127,11 @@ TEST_P(LayoutTest, NothingIsPushedOutSidewaysOrCut) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Demos, LayoutTest,
-                         ::testing::Combine(::testing::Values("fiducials", "holes", "balls", "scans", "discrepancy"),
-                                            ::testing::Values("en", "de")),
-                         [](const auto& test) {
-                           return std::string(std::get<0>(test.param)) + "_" + std::get<1>(test.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Demos, LayoutTest,
+    ::testing::Combine(::testing::Values("fiducials", "holes", "balls", "scans", "discrepancy", "own_pattern"),
+                       ::testing::Values("en", "de")),
+    [](const auto& test) { return std::string(std::get<0>(test.param)) + "_" + std::get<1>(test.param); });
 
 class BordersTest : public StoryTest {};
 

@@ -195,6 +195,13 @@ void ProfilerCalibrationPage::showScans(const ScanEvaluation& evaluation) {
       const QString scan = QStringLiteral("%1 · %2").arg(fromCore(s.capture.artefact), fromCore(s.capture.cycle));
       row.cells = {first == 0 ? nameCell(tr("%1 / µm").arg(scan)) : Cell{s.reference ? tr("reference") : tr("µrad")}};
       row.cells[0].tip = tr("%1 % of the reference seen").arg(decimalText(100.0 * s.registration.overlap, 'f', 0));
+      if (const auto& form = s.registration.free_form; form && first == 0) {
+        const QString seen = row.cells[0].tip;
+        row.cells[0] = toneCell(row.cells[0].text, Tone::Attention);
+        row.cells[0].tip =
+            seen + QStringLiteral("; ") +
+            tr("the surface has changed its shape by %1 µm rms").arg(decimalText(um_per_mm * form->rms_mm(), 'g', 2));
+      }
       const double factor = first == 0 ? um_per_mm : urad_per_rad;
       for (int i = first; i < first + 3; ++i) {
         const double value = i < 3 ? s.registration.translation_mm(i) : s.registration.rotation_rad(i - 3);
