@@ -272,7 +272,9 @@ constexpr Eigen::Index eme = 8;  ///< growth of the bar among the parameters
       "it grows as well, its coefficient is another, or the sensor is not on it.",
       artefact.id, withUncertainty(worst_cycle->measured_um_per_m, worst_cycle->measured_sigma_um_per_m, "um/m"),
       worst_cycle->cycle,
-      withUncertainty(worst_cycle->expected_um_per_m, worst_cycle->expected_sigma_um_per_m, "um/m")));
+      worst_cycle->expected_sigma_um_per_m > 0.0
+          ? withUncertainty(worst_cycle->expected_um_per_m, worst_cycle->expected_sigma_um_per_m, "um/m")
+          : fmt::format("{:.1f} µm/m", worst_cycle->expected_um_per_m)));
   return false;
 }
 
